@@ -416,42 +416,53 @@ def masing(x):
     return np.roll(found, first)
 
 
+ORDERS = np.arange(1, 16, 2)
+WAVES = np.exp(1j * ORDERS[:, None] * 2 * np.pi * np.arange(2048) / 2048)
+
+
+def balanced(error, start):
+    """Values for which harmonic balance has no error."""
+    values, _, done, said = fsolve(error, start, xtol=1e-11, full_output=True)
+    assert done == 1, said
+    return values
+
+
+def resisting(x):
+    """Harmonics of Masing's force by those of the displacement."""
+    return 2 * np.conj(WAVES) @ masing(np.real(x @ WAVES)) / WAVES.shape[1]
+
+
 def harmonic(stiffness, mass, damp, force, omega, guess):
     """First and higher odd harmonics (orders, masses) of masses, the first of which is on a contact of stiffness and
-    limit 1, by harmonic balance of the displacements in a wide range; residual of the balance where omega is None."""
-    orders, angles = np.arange(1, 16, 2), 2 * np.pi * np.arange(2048) / 2048
-    waves = np.exp(1j * orders[:, None] * angles)
-    matrices = [stiffness - (h * omega) ** 2 * mass + 1j * h * omega * damp for h in orders]
+    limit 1, by harmonic balance of the displacements."""
+    matrices = [stiffness - (h * omega) ** 2 * mass + 1j * h * omega * damp for h in ORDERS]
+
+    def paired(x):
+        return np.column_stack([x.real.ravel(), x.imag.ravel()]).ravel()
 
     def error(values):
-        x = (values[::2] + 1j * values[1::2]).reshape(len(orders), -1)
+        x = (values[::2] + 1j * values[1::2]).reshape(len(ORDERS), -1)
         wrong = np.array([matrix @ one for matrix, one in zip(matrices, x)])
-        wrong[:, 0] += 2 * np.conj(waves) @ masing(np.real(x[:, 0] @ waves)) / angles.size
+        wrong[:, 0] += resisting(x[:, 0])
         wrong[0] -= force
-        return np.column_stack([wrong.real.ravel(), wrong.imag.ravel()]).ravel()
+        return paired(wrong)
 
-    start = np.zeros((len(orders), len(mass)), dtype=complex)
+    start = np.zeros((len(ORDERS), len(mass)), dtype=complex)
     start[0] = guess
-    values, _, done, said = fsolve(
-        error, np.column_stack([start.real.ravel(), start.imag.ravel()]).ravel(), xtol=1e-11, full_output=True
-    )
-    assert done == 1, said
-    return (values[::2] + 1j * values[1::2]).reshape(len(orders), -1)
+    values = balanced(error, paired(start))
+    return (values[::2] + 1j * values[1::2]).reshape(len(ORDERS), -1)
 
 
 def resonance(amplitude):
     """Squared frequency and damping of a unit mass on a contact of stiffness and limit 1 at an amplitude."""
-    orders, angles = np.arange(1, 16, 2), 2 * np.pi * np.arange(2048) / 2048
-    waves = np.exp(1j * orders[:, None] * angles)
 
     def error(values):
         x = np.concatenate([[amplitude], values[2::2] + 1j * values[3::2]])
-        wrong = 2 * np.conj(waves) @ masing(np.real(x @ waves)) / angles.size - orders**2 * values[0] * x
+        wrong = resisting(x) - ORDERS**2 * values[0] * x
         wrong[0] -= 1j * values[1]
         return np.concatenate([wrong.real, wrong.imag])
 
-    values, _, done, said = fsolve(error, [0.9, 0.01] + 14 * [0.0], xtol=1e-11, full_output=True)
-    assert done == 1, said
+    values = balanced(error, [0.9, 0.01] + 14 * [0.0])
     return values[0], values[1] / (2 * values[0] * amplitude)
 
 

@@ -15,13 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..contact import NoEquilibrium, NotConverged
 from ..errors import Error
-from .balance import Balance, write_csv
-from .structure import NoSolution
+from .balance import Balance
+from .numbers import Numbers, energies, solved
 from .sweep import CYCLES, STEPS, BackboneWarning, Sweep
 
-ENDS = (NoSolution, NoEquilibrium, NotConverged)  # of an amplitude, after which the larger ones are left out
 UNMOVED = 1e-6  # displacement of a sensor that is rounding, relative to those by the modes
 LISTED = 6  # modes in the table
 FEW = 100  # slipping cells below which the energy is inaccurate
@@ -43,7 +41,7 @@ COLUMNS = {
 
 
 @dataclass
-class Backbone:
+class Backbone(Numbers):
     """Numbers over amplitude, each an array: alpha, amplitude, frequency, damping ... (COLUMNS).
 
     linear    frequency (Hz) of the mode while all that touches sticks
@@ -59,6 +57,8 @@ class Backbone:
                   where there are fewer than four
     """
 
+    columns = COLUMNS
+
     linear: float
     shape: np.ndarray
     numbers: dict
@@ -70,11 +70,6 @@ class Backbone:
     pressure: list
     states: list
     axes: list
-
-    def __getattr__(self, name):
-        if name != "numbers" and name in self.numbers:
-            return self.numbers[name]
-        raise AttributeError(name)
 
     def table(self):
         """Lines of a printed table."""
@@ -94,15 +89,15 @@ class Backbone:
             )
         return lines
 
-    def to_csv(self, path):
-        """Writes all numbers, with names and units in the first line, and the energy of each patch."""
-        write_csv(path, self.numbers, COLUMNS, self.patches, self.names)
+    def more_columns(self):
+        """The energy of each patch."""
+        return energies(self.patches, self.names)
 
     def plot(self):
         """A figure of frequency and damping over the amplitude."""
-        from ..plot.style import COLORS, STYLE, logarithmic, plt
+        from ..plot.style import COLORS, WHOLE, logarithmic, plt
 
-        with plt.rc_context({**STYLE, "axes.formatter.useoffset": False}):
+        with plt.rc_context(WHOLE):
             figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
             reach = 1e6 * self.amplitude
             left.axhline(self.linear, color="0.4", linewidth=0.8, linestyle="--", label="all that touches sticks")
@@ -178,18 +173,8 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
     sweep = Balance(structure, mode, steps, harmonics) if harmonics else Sweep(structure, mode, steps)
     modal, factor = modal_amplitudes(sweep, amplitudes, sensor), _moved(sensor, sweep.shape)
     rows, patches = [], []
-    for k, wanted in enumerate(modal):
-        if report:
-            report(k + 1, len(modal))
-        try:
-            one = sweep.point(wanted)
-        except ENDS as error:
-            amplitude = factor * wanted
-            reason = str(error).partition("; for gross slip give")[0]
-            if not rows:
-                raise NoSolution(f"at an amplitude of {amplitude:.3g} m: {reason}") from error
-            warnings.warn(f"ended before an amplitude of {amplitude:.3g} m: {reason}", BackboneWarning, stacklevel=2)
-            break
+    place = lambda wanted: f"an amplitude of {factor * wanted:.3g} m"  # noqa: E731
+    for _, one in solved(modal, sweep.point, place, report):
         reach, energy = factor * one.modal, float(one.cycle.energies.sum())
         rows.append(
             [one.alpha, one.modal, reach, reach * one.omega2, np.sqrt(one.omega2) / (2.0 * np.pi), one.damping]

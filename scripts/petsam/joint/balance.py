@@ -14,15 +14,14 @@ Modes answer harmonics above H statically. Each cycle begins from the preload an
 Broyden's method begins with sticking contacts, for which eta_hs = G_hs/w_s^2.
 """
 
-import csv
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import Error
+from .numbers import Numbers, energies, solved
 from .structure import BEYOND, NoSolution
-from .sweep import STEPS, BackboneWarning, Point, Sweep
+from .sweep import STEPS, Point, Sweep
 
 TOLERANCE = 1e-5  # of the balance, relative to its forces
 NEAR = 0.01  # relative difference of amplitudes that are the same
@@ -231,7 +230,7 @@ RESPONSE = {
 
 
 @dataclass
-class Response:
+class Response(Numbers):
     """Numbers over frequency, each an array: frequency, amplitude, phase, ... (RESPONSE).
 
     motion   harmonics of the modal coordinates without contact, (frequencies, harmonics, modes), m kg^0.5
@@ -239,15 +238,12 @@ class Response:
     names    names of the patches
     """
 
+    columns = RESPONSE
+
     numbers: dict
     motion: np.ndarray
     patches: np.ndarray
     names: list
-
-    def __getattr__(self, name):
-        if name != "numbers" and name in self.numbers:
-            return self.numbers[name]
-        raise AttributeError(name)
 
     def table(self):
         """Lines of a printed table."""
@@ -259,15 +255,15 @@ class Response:
             )
         return lines
 
-    def to_csv(self, path):
-        """Writes all numbers, with names and units in the first line, and the energy of each patch."""
-        write_csv(path, self.numbers, RESPONSE, self.patches, self.names)
+    def more_columns(self):
+        """The energy of each patch."""
+        return energies(self.patches, self.names)
 
     def plot(self):
         """A figure of amplitude and phase over the frequency."""
-        from ..plot.style import COLORS, STYLE, logarithmic, plt
+        from ..plot.style import COLORS, WHOLE, logarithmic, plt
 
-        with plt.rc_context({**STYLE, "axes.formatter.useoffset": False}):
+        with plt.rc_context(WHOLE):
             figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
             left.plot(self.frequency, 1e6 * self.amplitude, "o-", color=COLORS[0], markersize=4.0)
             left.set(xlabel="frequency, Hz", ylabel="amplitude, µm")
@@ -275,17 +271,6 @@ class Response:
             right.plot(self.frequency, np.degrees(self.phase), "o-", color=COLORS[0], markersize=4.0)
             right.set(xlabel="frequency, Hz", ylabel="phase, degrees")
         return figure
-
-
-def write_csv(path, numbers, columns, patches, names):
-    """Writes numbers over amplitude or frequency, with names and units in the first line, and each patch's energy."""
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        rows = csv.writer(file)
-        head = [f"{name} ({unit})" for name, (unit, _) in columns.items()]
-        rows.writerow(head + [f"energy_{name} (J)" for name in names])
-        for k, energies in enumerate(patches):
-            values = [numbers[name][k] for name in columns] + list(energies)
-            rows.writerow([f"{value:.10g}" for value in values])
 
 
 def forced(structure, force, frequencies, sensor, steps=2 * STEPS, harmonics=3, report=None):
@@ -307,17 +292,9 @@ def forced(structure, force, frequencies, sensor, steps=2 * STEPS, harmonics=3, 
     if frequencies.ndim != 1 or not np.all((frequencies > 0.0) & np.isfinite(frequencies)):
         raise Error("frequencies: expected numbers above 0, Hz")
     rows, motions, patches = [], [], []
-    for k, frequency in enumerate(frequencies):
-        if report:
-            report(k + 1, len(frequencies))
-        try:
-            motion, cycle = balance.respond(force, 2.0 * np.pi * frequency)
-        except (NoSolution, *BEYOND) as error:
-            reason = str(error).partition("; for gross slip give")[0]
-            if not rows:
-                raise NoSolution(f"at {frequency:.6g} Hz: {reason}") from error
-            warnings.warn(f"ended before {frequency:.6g} Hz: {reason}", BackboneWarning, stacklevel=2)
-            break
+    respond = lambda frequency: balance.respond(force, 2.0 * np.pi * frequency)  # noqa: E731
+    place = lambda frequency: f"{frequency:.6g} Hz"  # noqa: E731
+    for frequency, (motion, cycle) in solved(frequencies, respond, place, report):
         modal = motion @ balance.shapes.T
         moved = modal @ sensor
         rows.append(

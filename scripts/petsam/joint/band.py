@@ -13,6 +13,7 @@ import numpy as np
 
 from ..errors import Error, short
 from .backbone import COLUMNS, Backbone, backbone, shake
+from .numbers import heads
 from .sweep import BackboneWarning
 
 ASSEMBLED, REVERSED, FRICTIONLESS, SHAKEN = "as given", "bolts reversed", "without friction", "after the largest"
@@ -77,7 +78,7 @@ class Band:
         """Writes the numbers of all backbones, a row for each assembly and amplitude."""
         with open(path, "w", newline="", encoding="utf-8") as file:
             rows = csv.writer(file)
-            rows.writerow(["assembly", *(f"{name} ({unit})" for name, (unit, _) in COLUMNS.items())])
+            rows.writerow(["assembly", *heads(COLUMNS)])
             named = dict(self.backbones)
             for parameter, (low, high) in self.scatter.items():
                 named.update({f"{parameter} lower": low, f"{parameter} higher": high})
@@ -87,9 +88,9 @@ class Band:
 
     def plot(self):
         """A figure of the bands of frequency and damping over the amplitude."""
-        from ..plot.style import COLORS, STYLE, logarithmic, plt
+        from ..plot.style import COLORS, WHOLE, logarithmic, plt
 
-        with plt.rc_context({**STYLE, "axes.formatter.useoffset": False}):
+        with plt.rc_context(WHOLE):
             figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
             reach = 1e6 * self.given.amplitude[: self.count]
             for ax, name, factor in zip(axes, NUMBERS, (1.0, 100.0)):
@@ -122,26 +123,24 @@ def band(make, preload, amplitudes, sensor, scatter=None, report=None, **given):
     """
     largest = float(np.max(amplitudes))
 
-    def one(name, preload=preload, **changes):
+    def one(name, preload=preload, shaken=False, **changes):
         if report:
             report(name)
-        with warnings.catch_warnings():
-            if name != ASSEMBLED:
-                warnings.simplefilter("ignore", BackboneWarning)  # those of the first one
-            pair = make(preload, **changes)
-            if name == SHAKEN:
-                shake(pair.structure, largest, given.get("mode", 1), sensor(pair))
-            return backbone(pair.structure, amplitudes, sensor=sensor(pair), **given)
+        pair = make(preload, **changes)
+        if shaken:
+            shake(pair.structure, largest, given.get("mode", 1), sensor(pair))
+        return backbone(pair.structure, amplitudes, sensor=sensor(pair), **given)
 
-    found = {ASSEMBLED: one(ASSEMBLED)}
-    if len(preload) > 1:
-        found[REVERSED] = one(REVERSED, dict(reversed(preload.items())))
-    found[FRICTIONLESS] = one(FRICTIONLESS, frictionless=True)
-    found[SHAKEN] = one(SHAKEN)
-    parts = {}
-    for name, value in (scatter or {}).items():
-        parts[name] = tuple(one(f"{name} {side}", **_scattered(name, value, sign, preload))
-                            for side, sign in (("lower", -1.0), ("higher", 1.0)))  # fmt: skip
+    found, parts = {ASSEMBLED: one(ASSEMBLED)}, {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", BackboneWarning)  # those of the first one
+        if len(preload) > 1:
+            found[REVERSED] = one(REVERSED, dict(reversed(preload.items())))
+        found[FRICTIONLESS] = one(FRICTIONLESS, frictionless=True)
+        found[SHAKEN] = one(SHAKEN, shaken=True)
+        for name, value in (scatter or {}).items():
+            sides = (("lower", -1.0), ("higher", 1.0))
+            parts[name] = tuple(one(f"{name} {side}", **_scattered(name, value, sign, preload)) for side, sign in sides)
     return Band(found, parts)
 
 

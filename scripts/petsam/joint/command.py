@@ -29,6 +29,7 @@ of the material and of friction. -o NAME writes NAME.csv and NAME.png.
 """
 
 import argparse
+import contextlib
 import re
 import sys
 import warnings
@@ -42,9 +43,10 @@ from ..files import need_regular, need_replaceable
 from ..plot.saving import DPI, add_resolution, write
 from ..surface.lengths import lengths
 from . import interface
-from .backbone import ENDS, backbone
+from .backbone import backbone
 from .balance import forced
 from .band import band
+from .numbers import ENDS
 from .pair import Pair, Unreadable
 from .sweep import BackboneWarning
 from .wear import wear
@@ -114,13 +116,18 @@ def read_separation(path):
         raise Unreadable(f"{path}: no surface of petsam-surface: {reason}") from error
 
 
-def frictions(text):
-    """Reader of NAME=NUMBER for argparse."""
+def named_number(text):
+    """Name and number of NAME=NUMBER; NaN where it is none, which no range contains."""
     name, _, number = text.partition("=")
     try:
-        value = float(number)
+        return name, float(number)
     except ValueError:
-        value = -1.0
+        return name, float("nan")
+
+
+def frictions(text):
+    """Reader of NAME=NUMBER for argparse."""
+    name, value = named_number(text)
     if not name or not 0.0 <= value < float("inf"):
         raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=FORCE in N, such as B1=12e3")
     return name, value
@@ -143,11 +150,7 @@ def amplitude_range(text):
 
 def scatter(text):
     """Reader of NAME=NUMBER of --scatter for argparse."""
-    name, _, number = text.partition("=")
-    try:
-        value = float(number)
-    except ValueError:
-        value = -1.0
+    name, value = named_number(text)
     if name not in ("friction", "preload") or not 0.0 <= value < 1.0:
         what = "expected friction=S or preload=S, a standard deviation as a part of it: friction=0.1"
         raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
@@ -167,11 +170,7 @@ def cycle_counts(text):
 
 def force(text):
     """Reader of SENSOR:D=N for argparse: the place and direction, and the force's amplitude."""
-    place, _, number = text.rpartition("=")
-    try:
-        value = float(number)
-    except ValueError:
-        value = 0.0
+    place, value = named_number(text)
     if not place or not 0.0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected SENSOR:D=FORCE in N, such as TIP:z=0.5")
     return place, value
@@ -299,9 +298,8 @@ def _stiffness(args):
         options["pressure_limit"] = args.hardness
     compute = interface.of_interface if args.periodic else interface.of_windows
     if not args.periodic:
-        options["report"] = lambda k, count: _tell(f"window {k} of {count}")
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always", AdviceWarning)
+        options["report"] = _teller("window")
+    with _recorded(AdviceWarning) as found:
         result = compute(separation, spacing, args.pressure, **options)
     _print(result, found)
     if args.output:
@@ -314,6 +312,19 @@ def _stiffness(args):
 
 def _tell(text):
     print(text, file=sys.stderr, flush=True)
+
+
+def _teller(what):
+    """What tells the progress of work in parts."""
+    return lambda k, count: _tell(f"{what} {k} of {count}")
+
+
+@contextlib.contextmanager
+def _recorded(kind):
+    """Collects warnings, all of this kind, for _print()."""
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", kind)
+        yield found
 
 
 def _print(result, found):
@@ -372,11 +383,8 @@ def _backbone(args):
         pair = _pair(args, preload, lower=lower)
         return pair, backbone(pair.structure, amplitudes, sensor=_sensor(args.sensor, pair), **given, **more)
 
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always", BackboneWarning)
-        count = len(args.amplitudes)
-        tell = lambda k, _: _tell(f"amplitude {k} of {count}")  # noqa: E731
-        pair, result = compute(0, args.amplitudes, report=tell)
+    with _recorded(BackboneWarning) as found:
+        pair, result = compute(0, args.amplitudes, report=_teller("amplitude"))
     _tell_tensions(pair, preload)
     _print(result, found)
     if args.degree_check:
@@ -391,8 +399,7 @@ def _band(args):
     preload = _checked_preload(args)
     given = dict(mode=args.mode, steps=args.steps, harmonics=args.harmonics)
     make = lambda preload, **changes: _pair(args, preload, **changes)  # noqa: E731
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always", BackboneWarning)
+    with _recorded(BackboneWarning) as found:
         sensor = lambda pair: _sensor(args.sensor, pair)  # noqa: E731
         spread = dict(args.scatter or [])
         result = band(make, preload, args.amplitudes, sensor, spread, lambda name: _tell(f"assembly: {name}"), **given)
@@ -408,8 +415,7 @@ def _wear(args):
     pair = _pair(args, preload)
     sensor = _sensor(args.sensor, pair)
     tension = lambda structure: {f"{name}/N": left for name, left in pair.left(structure).items()}  # noqa: E731
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always", BackboneWarning)
+    with _recorded(BackboneWarning) as found:
         given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension)
         result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)
     _print(result, found)
@@ -423,12 +429,9 @@ def _response(args):
     pair = _pair(args, preload)
     driven = _sensor(place, pair, "--force")
     sensor = _sensor(args.sensor, pair) if args.sensor else driven
-    given = dict(steps=args.steps, harmonics=args.harmonics)
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always", BackboneWarning)
-        count = len(args.frequencies)
-        tell = lambda k, _: _tell(f"frequency {k} of {count}")  # noqa: E731
-        result = forced(pair.structure, amplitude * driven, args.frequencies, sensor, report=tell, **given)
+    given = dict(steps=args.steps, harmonics=args.harmonics, report=_teller("frequency"))
+    with _recorded(BackboneWarning) as found:
+        result = forced(pair.structure, amplitude * driven, args.frequencies, sensor, **given)
     _tell_tensions(pair, preload)
     _print(result, found)
     _write(args, result)

@@ -58,9 +58,12 @@ class Pair:
         # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
         contact = Contact(**{**self.defaults, **options, "body2_compliance": own})
         self.structure = self._structure(contact, rigid, DISPLACEMENTS, damping)
-        self.structure.patches[0].held["friction_scale"] = friction_scale
-        pressed = self._structure(contact, rigid, PRESSING, damping) if frictionless else self.structure
-        self._tighten(pressed, preload, press, frictionless)
+        if frictionless:
+            pressed = self._structure(contact, rigid, PRESSING, damping)
+            self._tighten(pressed, preload, press, 0.0)
+            self._continue(pressed, friction_scale)
+        else:
+            self._tighten(self.structure, preload, press, friction_scale)
         self.tensions = self.left()
 
     def _structure(self, contact, rigid, by_load, damping):
@@ -102,21 +105,21 @@ class Pair:
         if not preload:
             raise Error(f"preload: give the tension of {', '.join(self.bolts)}, in N")
 
-    def _tighten(self, structure, preload, press, frictionless):
+    def _tighten(self, structure, preload, press, friction_scale):
         """Tightens the bolts one after the other, in the order given, each in `press` steps."""
         (patch,), force = structure.patches, np.zeros(self.omega.size)
         structure.loads[0] = -next(iter(preload.values()), 0.0) / press  # a first guess: all of the first tension
-        if frictionless:
-            patch.held["friction_scale"] = 0.0
+        patch.held["friction_scale"] = friction_scale
         for name, whole in preload.items():
             for part in np.linspace(0.0, 1.0, press + 1)[1:]:
                 patch.held[f"body2_case_bolt_{name}"] = part * whole
                 structure.step(force)
-        if frictionless:
-            patch = self.structure.patches[0]
-            patch.held.update({name: value for name, value in structure.patches[0].held.items() if "bolt" in name})
-            self.structure.z, self.structure.loads = structure.z, structure.loads
-            self.structure.step(force)
+
+    def _continue(self, pressed, friction_scale):
+        """Goes on from a structure whose contact was pressed without friction."""
+        self.structure.patches[0].held = {**pressed.patches[0].held, "friction_scale": friction_scale}
+        self.structure.z, self.structure.loads = pressed.z, pressed.loads
+        self.structure.step(np.zeros(self.omega.size))
 
     def left(self, structure=None):
         """{bolt: tension in N} that is left in the last step of the structure, or of a copy of it."""

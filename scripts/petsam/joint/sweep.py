@@ -7,9 +7,9 @@ import numpy as np
 from numpy.linalg import norm
 
 from ..errors import Error
+from ..results import SLIP
 
 STEPS = 8  # load steps of a half cycle
-SLIP = 2  # in the field state
 SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
 CYCLES = 12  # largest number of cycles of an amplitude
 FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
@@ -107,14 +107,14 @@ class Sweep:
 
     def follow(self, forces, scale):
         """Steps under these modal forces, beside those of the preload; returns modal coordinates and energies of each
-        step, and leaves in self.given what they prescribed."""
-        found, energies, response, self.given = [], [], self.reversed, []
+        step, and what it prescribed."""
+        found, energies, given, response = [], [], [], self.reversed
         for force in forces:
             response = self.work.step(self.preload.force + force, response=response, scale=scale)
             found.append(self.work.modal(self.work.force, self.work.loads, self.work.a))
             energies.append([patch.number("dissipated_energy") for patch in self.work.patches])
-            self.given.append([patch.given for patch in self.work.patches])
-        return np.array(found), np.array(energies)
+            given.append([patch.given for patch in self.work.patches])
+        return np.array(found), np.array(energies), given
 
     def scale_of(self, alpha):
         """Changes of coordinates, loads and motions by a modal force, to which the tolerance of steps is relative."""
@@ -127,17 +127,16 @@ class Sweep:
         last, before = self.follow(rise, scale)[0][-1], None
         forces = np.concatenate([rise[-1:], *halves])
         for count in range(1, CYCLES + 1):
-            down, lost = self.follow(halves[0], scale)
-            states, given = [patch.contact.field("state") for patch in self.work.patches], self.given
-            back, more = self.follow(halves[1], scale)
+            down, lost, given = self.follow(halves[0], scale)
+            states = [patch.contact.field("state") for patch in self.work.patches]
+            back, more, rest = self.follow(halves[1], scale)
             path = np.concatenate([[last], down, back])
             loop = -0.5 * float(np.sum((path[1:] + path[:-1]) * np.diff(forces, axis=0)))
-            one = Cycle(path[1:], back[-1] - down[-1], (lost + more).sum(axis=0), loop, states, given + self.given)
+            one = Cycle(path[1:], back[-1] - down[-1], (lost + more).sum(axis=0), loop, states, given + rest)
             last = back[-1]
             if count >= least and settled(one, before):
                 break
             before = one
-        self.last = one
         return one, count
 
     def point(self, amplitude):

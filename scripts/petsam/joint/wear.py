@@ -6,7 +6,6 @@ the simulation the loads of the patches and the motions of the bodies stay; half
 costs.
 """
 
-import csv
 import warnings
 from dataclasses import dataclass
 
@@ -14,6 +13,7 @@ import numpy as np
 
 from ..errors import Error
 from .backbone import modal_amplitudes
+from .numbers import Numbers
 from .sweep import STEPS, Sweep
 
 PARTS = 2  # parts of each span of cycles
@@ -29,21 +29,18 @@ WEAR = {
 
 
 @dataclass
-class Wear:
+class Wear(Numbers):
     """Numbers over the cycles of a vibration, each an array: cycles, frequency, damping, ... (WEAR).
 
     measured    {name: array} of what `measure` returned after each span, such as the tension of the bolts
     structures  copies of the structure at rest, at each number of cycles, for backbone()
     """
 
+    columns = WEAR
+
     numbers: dict
     measured: dict
     structures: list
-
-    def __getattr__(self, name):
-        if name != "numbers" and name in self.numbers:
-            return self.numbers[name]
-        raise AttributeError(name)
 
     def table(self):
         """Lines of a printed table."""
@@ -57,20 +54,15 @@ class Wear:
             )
         return lines
 
-    def to_csv(self, path):
-        """Writes all numbers, with names and units in the first line."""
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            rows = csv.writer(file)
-            rows.writerow([*(f"{name} ({unit})" for name, (unit, _) in WEAR.items()), *self.measured])
-            for k in range(len(self.cycles)):
-                values = [self.numbers[name][k] for name in WEAR] + [column[k] for column in self.measured.values()]
-                rows.writerow([f"{value:.10g}" for value in values])
+    def more_columns(self):
+        """What `measure` returned."""
+        return self.measured
 
     def plot(self):
         """A figure of frequency and damping over the cycles."""
-        from ..plot.style import COLORS, STYLE, plt
+        from ..plot.style import COLORS, WHOLE, plt
 
-        with plt.rc_context({**STYLE, "axes.formatter.useoffset": False}):
+        with plt.rc_context(WHOLE):
             figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
             for ax, name, factor in zip(axes, ("frequency", "damping"), (1.0, 100.0)):
                 values, error = (factor * self.numbers[one] for one in (name, f"{name}_error"))
@@ -109,17 +101,21 @@ def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure
 def _run(structure, alpha, cycles, how, measure, parts):
     """Numbers, what was measured and structures at 0 and all `cycles`, each span of which has so many parts."""
     points, volumes, measured, structures = [], [0.0], [], []
+
+    def vibrating():
+        sweep = Sweep(structure, *how)
+        return sweep, sweep.under(alpha)
+
     for span in (*np.diff(cycles, prepend=0.0), None):
         structures.append(structure.copy())
         measured.append(measure(structure))
-        sweep = Sweep(structure, *how)
-        points.append(sweep.under(alpha))
+        sweep, point = vibrating()
+        points.append(point)
         volumes.append(volumes[-1])
         for part in range(parts if span else 0):
             if part:
-                sweep = Sweep(structure, *how)
-                sweep.under(alpha)
-            volumes[-1] += _wear(sweep, span / parts)
+                sweep, point = vibrating()
+            volumes[-1] += _wear(sweep.work.patches, point.cycle.given, span / parts)
             sweep.work.step(structure.force, response=sweep.reversed)  # comes to rest
             structure.take(sweep.work)
     rows = dict(
@@ -131,14 +127,13 @@ def _run(structure, alpha, cycles, how, measure, parts):
     return rows, {name: np.array([one[name] for one in measured]) for name in measured[0]}, structures
 
 
-def _wear(sweep, count):
-    """Wears the patches over so many of the sweep's last cycle; returns the worn volume, m3."""
-    volume, given = 0.0, sweep.last.given
-    for k, patch in enumerate(sweep.work.patches):
+def _wear(patches, given, count):
+    """Wears patches over so many cycles of the given steps; returns the worn volume, m3."""
+    volume = 0.0
+    for k, patch in enumerate(patches):
         steps = [given[-1][k], *(one[k] for one in given)]  # closed
         history = {name: np.array([one[name] for one in steps]) for name in steps[0]}
-        start = patch.contact.number("time")
-        history["time"] = start + np.arange(len(steps), dtype=float)
+        history["time"] = patch.contact.number("time") + np.arange(len(steps))
         done = patch.contact.live(count, history)[-1]
         volume += done.volume1 + done.volume2
     return volume

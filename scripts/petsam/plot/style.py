@@ -22,6 +22,7 @@ STYLE = {
     "legend.frameon": False, "legend.fontsize": 8.5, "legend.title_fontsize": 9,
     "savefig.dpi": DPI, "mathtext.fontset": "dejavusans",
 }  # fmt: skip
+WHOLE = {**STYLE, "axes.formatter.useoffset": False}  # ticks have whole numbers, not what is beyond an offset
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#5a5a5a")  # of Okabe and Ito: for all eyes
 PANELS = 64  # maximum panels of a picture, one below the other or side by side
 MARKED = 80  # points of a curve up to which each is marked; more would form a band
