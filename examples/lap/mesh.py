@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""CalculiX deck (mm, N, MPa, t) of a lap joint: two steel strips, one over the other, for one bolt.
+"""CalculiX deck (mm, N, MPa, t) of a lap joint: two steel strips, one over the other, for one bolt or two.
 
     mesh.py lap lap.inp     body 2, x -150..30 mm, clamped at its end; body 1 above it, x -30..150 mm, TIP at its end
+    mesh.py two two.inp     the same for two bolts at x = -30 and 30 mm: overlap -56..56 mm, ends at -160 and 160 mm
 
-The contact's plane is z = 0, z points down into body 2. Strips are 50 mm wide and 12.7 mm high; washers are squares.
---coarse is for an estimate of the mesh's error.
+The contact's plane is z = 0, z points down into body 2. Strips are 50 mm wide; washers are squares. --coarse is for an
+estimate of the mesh's error.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,25 +17,51 @@ from petsam.compliance.mesh import grid_mesh
 from petsam.compliance.stiffness import numbers
 
 STEEL, DENSITY = (210000.0, 0.3), 7.8e-9
-HEIGHT, LAP, END = 12.7, 30.0, 150.0
 WASHER = 6.0  # half a side of a washer
+Y = ([3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0, 25.0], [6.0, 12.0, 18.0, 25.0])
 
 
-def edges(coarse):
-    """Planes of elements along x of body 1, y and z of both."""
-    near = [6.0, 10.0, 14.0, 18.0, 21.0, 25.0, LAP] if coarse else [3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 20.0,
-                                                                    23.0, 26.5, LAP]  # fmt: skip
-    far = [40.0, 53.0, 70.0, 95.0, 120.0, END] if coarse else [36.0, 45.0, 57.0, 72.0, 90.0, 110.0, 130.0, END]
-    y = [6.0, 12.0, 18.0, 25.0] if coarse else [3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0, 25.0]
-    z = [0.0, 3.0, 7.0, HEIGHT] if coarse else [0.0, 1.5, 3.5, 6.0, 9.0, HEIGHT]
-    both = [[-v for v in one[::-1]] + [0.0] + one for one in (near, y)]
-    return np.array([*both[0], *far]), np.array(both[1]), np.array(z)
+@dataclass
+class Strips:
+    """Places (mm) of the bolts along x by the ends of their washers' names, and planes of elements: up to the overlap's
+    end, beyond it, and over the height; each also coarse."""
+
+    bolts: dict
+    near: tuple
+    far: tuple
+    z: tuple
+
+    def edges(self, coarse):
+        """Planes of elements along x of body 1, y and z of both."""
+        near, far, y, z = (both[coarse] for both in (self.near, self.far, Y, self.z))
+        x, y = ([-v for v in one[::-1]] + [0.0] + one for one in (near, y))
+        return np.array([*x, *far]), np.array(y), np.array(z)
 
 
-def lines(_name, coarse, kind):
+STRIPS = {
+    "lap": Strips(
+        {"": 0.0},
+        ([3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 20.0, 23.0, 26.5, 30.0], [6.0, 10.0, 14.0, 18.0, 21.0, 25.0, 30.0]),
+        ([36.0, 45.0, 57.0, 72.0, 90.0, 110.0, 130.0, 150.0], [40.0, 53.0, 70.0, 95.0, 120.0, 150.0]),
+        ([0.0, 1.5, 3.5, 6.0, 9.0, 12.7], [0.0, 3.0, 7.0, 12.7]),
+    ),
+    "two": Strips(
+        {"L": -30.0, "R": 30.0},
+        (
+            [3.0, 7.0, 11.0, 14.0, 17.0, 20.0, 22.0, 24.0, 27.0, 30.0, 33.0, 36.0, 38.0, 40.0, 43.0, 46.0, 50.0, 56.0],
+            [7.0, 14.0, 19.0, 24.0, 30.0, 36.0, 41.0, 46.0, 50.0, 56.0],
+        ),
+        ([64.0, 76.0, 92.0, 112.0, 134.0, 160.0], [70.0, 95.0, 125.0, 160.0]),
+        ([0.0, 1.5, 3.5, 6.0, 10.0], [0.0, 3.0, 6.0, 10.0]),
+    ),
+}
+
+
+def lines(name, coarse, kind):
     """The deck: body 2 is the mesh turned about y by half a turn, without its height."""
-    x, y, z = edges(coarse)
-    out, first, sets = ["*HEADING", "lap joint, mm, N, MPa, t"], 0, []
+    strips = STRIPS[name]
+    x, y, z = strips.edges(coarse)
+    out, first, sets = [f"*HEADING\n{name} joint, mm, N, MPa, t"], 0, []
     for body in (1, 2):
         mesh = grid_mesh((x, y, z), kind, *STEEL)
         # body 2 lies below, with its long end at negative x; both turns keep the orientation of the elements
@@ -44,17 +73,11 @@ def lines(_name, coarse, kind):
             out += numbers([number + first, *nodes])
             out[-1] = out[-1].rstrip(",")
         out += [f"*SOLID SECTION, ELSET=BODY{body}, MATERIAL=STEEL"]
-        faces = mesh.boundary()
-        washer = [
-            f"{block.numbers[e] + first}, S{g.local + 1}"
-            for g in faces
-            for e, nodes in zip(g.elements, g.nodes)
-            if np.all(np.abs(mesh.nodes[nodes][:, 2] - HEIGHT) < 1e-9)
-            and np.all(np.abs(mesh.nodes[nodes][:, :2]) <= WASHER + 1e-9)
-        ]
         top = [f"{element + first}, S{face + 1}" for element, face in mesh.surfaces["TOP"]]
-        out += [f"*SURFACE, NAME=CONTACT{body}", *top, f"*SURFACE, NAME=WASHER{body}", *washer]
-        end = np.flatnonzero(np.abs(mesh.nodes[:, 0] - END) < 1e-9)
+        out += [f"*SURFACE, NAME=CONTACT{body}", *top]
+        for bolt, center in strips.bolts.items():
+            out += [f"*SURFACE, NAME=WASHER{body}{bolt}", *washer(mesh, points, center, z[-1], first)]
+        end = np.flatnonzero(np.abs(mesh.nodes[:, 0] - x[-1]) < 1e-9)
         if body == 2:
             sets += ["*NSET, NSET=CLAMP", *numbers(end + 1 + first)]
         else:
@@ -65,5 +88,18 @@ def lines(_name, coarse, kind):
     return out + sets
 
 
+def washer(mesh, points, center, height, first):
+    """Faces of a washer about x = center, of a body whose nodes are at `points`."""
+    on = (np.abs(mesh.nodes[:, 2] - height) < 1e-9) & (np.abs(points[:, 1]) <= WASHER + 1e-9)
+    on &= np.abs(points[:, 0] - center) <= WASHER + 1e-9
+    number = mesh.blocks[0].numbers
+    return [
+        f"{number[element] + first}, S{group.local + 1}"
+        for group in mesh.boundary()
+        for element, nodes in zip(group.elements, group.nodes)
+        if np.all(on[nodes])
+    ]
+
+
 if __name__ == "__main__":
-    write_deck(__doc__, ("lap",), lines)
+    write_deck(__doc__, tuple(STRIPS), lines)

@@ -93,7 +93,7 @@ typedef struct {
 } SamStateNumber;
 
 #define SAM_STATE_NUMBERS  512
-#define SAM_STATE_DECLARED 128 /* most declarations of numbers */
+#define SAM_STATE_DECLARED 256 /* most declarations of numbers */
 
 /*
   SamStateDeclareNumber - declares one or more numbers of a state.

@@ -572,6 +572,7 @@ def change(name, value):
         ("@young", -1.0, "young is -1, poisson 0.3: expected a modulus > 0"),
         ("@poisson", 0.6, "poisson 0.6: expected a modulus > 0"),
         ("patch/half", None, "has no dataset /patch/half: make the file by petsam-compliance"),
+        ("patches/1/x", np.zeros(1), "has several patches of a structure, which petsam-joint reads"),
         ("patch/half", [1.0, 0.0], "/patch/half is 1, 0: expected lengths > 0"),
         ("patch/half", [1e100, 1e100], "/patch/half is 1e+100, 1e+100, /patch/center 0, 0: expected at most 10000 m"),
         ("patch/half", [1e3, 1e-3], "sides that differ at most by a factor of 1000: check the unit of the file"),

@@ -41,9 +41,9 @@ def body(number, kind="C3D20", edges=None):
     return found
 
 
-def both(kind="C3D20"):
-    """One mesh of both bodies."""
-    second, first = body(2, kind), body(1, kind)
+def both(kind="C3D20", bodies=None):
+    """One mesh of both bodies, 2 and 1."""
+    second, first = bodies or (body(2, kind), body(1, kind))
     count, last = len(second.nodes), len(second.blocks[0].numbers)
     one, two = first.blocks[0], second.blocks[0]
     first.blocks[0] = mesh.Block(kind, one.numbers + last, one.nodes + count, one.young, one.poisson)

@@ -10,7 +10,7 @@
 
 #define SAM_COMPLIANCE_DEGREE 24  /* highest degree of the polynomials in x or y */
 #define SAM_COMPLIANCE_MODES  325 /* maximum number of polynomials: all of total degree 24, or 24 by 12 */
-#define SAM_COMPLIANCE_CASES  40  /* maximum number of load cases of a body */
+#define SAM_COMPLIANCE_CASES  64  /* maximum number of load cases of a body */
 #define SAM_CASE_NAME         20  /* maximum number of letters in the name of a load case */
 
 /*

@@ -134,8 +134,8 @@ def loads(deck, mesh, frame, units, step):
     return found
 
 
-def case(found, solver, remainder, jump):
-    """Returns the Case of the Loads; jump: Jump of the patch; `found.name`: in errors."""
+def cases(found, solver, remainder, jumps):
+    """Returns the Case of the Loads for each patch; jumps: the Jump of each; `found.name`: in errors."""
     free = found.prescribed & ~solver.fixed
     if np.any(free):
         number = found.mesh.node_numbers[np.flatnonzero(free)[0] // 3]
@@ -145,8 +145,9 @@ def case(found, solver, remainder, jump):
     loaded = np.flatnonzero(np.any(found.force.reshape(-1, 3), axis=1))
     coefficients = np.einsum("nic,ni->c", remainder.total(loaded), found.force.reshape(-1, 3)[loaded])
     coefficients -= (remainder.support.T @ given)[:, 0]
-    coefficients = coefficients.reshape(-1, 3)
-    return Case(coefficients, rest(f"load case {found.name}", jump, jump(v), coefficients), v)
+    parts = np.split(coefficients.reshape(-1, 3), np.cumsum([jump.patch.count for jump in jumps])[:-1])
+    name = f"load case {found.name}"
+    return [Case(part, rest(name, jump, jump(v), part), v) for jump, part in zip(jumps, parts)]
 
 
 def rest(what, jump, sampled, coefficients):

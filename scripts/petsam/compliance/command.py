@@ -33,8 +33,9 @@ from ..errors import Error, Parser, fail, guarded, joined, short
 from ..files import same
 from ..plot.saving import add_choice
 from ..replacing import need_own
-from ..surface.lengths import lengths, several, shown, sides
-from . import basis, model, picture, substructure, writing
+from ..surface.lengths import lengths, shown, sides
+from ..surface.lengths import several as numbers
+from . import basis, model, picture, several, substructure, writing
 
 HIGHEST = 10  # highest degree that petsam reads
 HIGHEST_EACH, MOST_FUNCTIONS = 24, 325  # the same of degrees in x and y, and the number of their products
@@ -195,7 +196,11 @@ def parser():
     patch = found.add_argument_group("the patch")
     patch.add_argument("--patch", type=sides, required=True, metavar="X[,Y]", help="full widths: 2e-3 (m) or 2mm")
     patch.add_argument(
-        "--center", type=several(2, "X,Y"), default=(0.0, 0.0), metavar="X,Y", help="its centre in the frame (0,0)"
+        "--center",
+        type=numbers(2, "X,Y"),
+        action="append",
+        metavar="X,Y",
+        help="its centre in the frame (0,0); repeated: several patches of a pair, all of one size",
     )
     patch.add_argument(
         "--degree",
@@ -230,6 +235,9 @@ def _check_cases(reader, options):
         name = "--depth" if options.depth else "--method cutoff"
         reader.error(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
     options.bolt, options.sensor = options.bolt or [], options.sensor or []
+    options.center = options.center or [(0.0, 0.0)]
+    if len(options.center) > 1 and not options.pair:
+        reader.error("--center: several patches are for a pair: give the surface of body 1 by --pair, or one centre")
     if options.sensor and not options.modes:
         reader.error("--sensor needs --modes: give their number, or remove it")
     if len({name for name, _ in options.sensor}) < len(options.sensor):
@@ -270,12 +278,28 @@ def arguments(words):
     return options
 
 
-def description(body):
-    """Returns lines that describe a Body."""
-    m = body.patch.count
+def description(found):
+    """Returns lines that describe a Joined."""
+    body = found.bodies[0]
     lines = [
         f"half-space  E = {body.young:.6g} Pa, nu = {body.poisson:.6g}",
         *(["body 1      E = {:.6g} Pa, nu = {:.6g}".format(*body.other)] if body.other else []),
+    ]
+    for one in found.bodies:
+        lines += _patch(one)
+    if len(found.bodies) > 1:
+        far = ", ".join(str(sum(name.startswith(several.NAME) for name in one.cases)) for one in found.bodies)
+        lines.append(
+            f"coupling    load cases of the other patches: {far}; they miss {found.missed:.1e} of the half-space's"
+        )
+        lines.append(f"            smallest eigenvalue of all patches {found.least:.3g}")
+    return lines + _joint(body)
+
+
+def _patch(body):
+    """Returns lines that describe the patch of a Body."""
+    m = body.patch.count
+    lines = [
         "patch       {} x {} about x = {:g} m, y = {:g} m".format(
             *(shown(2.0 * half) for half in body.patch.half), *body.patch.center
         ),
@@ -291,9 +315,11 @@ def description(body):
     if "mesh_change" in body.checks:
         lines.append(f"            the coarser mesh changes the compliance by {body.checks['mesh_change']:.1e}")
     lines += [
-        f"load case   {name}: the polynomials miss {one.rest:.1e} of its field" for name, one in body.cases.items()
+        f"load case   {name}: the polynomials miss {one.rest:.1e} of its field"
+        for name, one in body.cases.items()
+        if one.unit != several.UNIT
     ]
-    return lines + _joint(body)
+    return lines
 
 
 def _joint(body):
@@ -325,17 +351,20 @@ def carry_out(options, words):
     command = shlex.join([PROGRAM, *words])
     progress = model.Progress(sys.stderr)
     compute = model.computed if options.mesh else substructure.computed
-    body = compute(source, options, command, progress)
+    found = compute(source, options, command, progress)
+    body = found.bodies[0]
     for text in body.remarks:
         if text.startswith("warning: "):
             print(f"{PROGRAM}: {text}", file=sys.stderr)
-    writing.write(body, options.output)
+    writing.write(found, options.output)
     if not options.no_picture:
-        picture.save(body, options.picture, options.dpi)
+        picture.save(found.bodies, options.picture, options.dpi)
     print(f"{options.output}: compliance of {source}")
-    print("\n".join("  " + line for line in description(body) if "warning: " not in line))
+    print("\n".join("  " + line for line in description(found) if "warning: " not in line))
     if not options.no_picture:
         print("wrote " + options.picture)
+    if len(found.bodies) > 1:
+        return
     name = shlex.quote(options.output)
     print(
         f"options for petsam:\n  -body2_compliance {name} -body2_young {body.young:.10g} "

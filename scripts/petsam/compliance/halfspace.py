@@ -148,6 +148,22 @@ class Fields:
         return self.stress_of(self.gradient(points))
 
 
+class Several(Fields):
+    """The fields of the functions of several patches of one half-space, one patch after the other."""
+
+    def __init__(self, fields):
+        super().__init__(fields[0].patch, fields[0].young, fields[0].poisson)
+        self.fields, self.columns = fields, sum(one.columns for one in fields)
+
+    def displacement(self, points):
+        """As that of Fields."""
+        return np.concatenate([one.displacement(points) for one in self.fields], axis=-1)
+
+    def gradient(self, points):
+        """As that of Fields."""
+        return np.concatenate([one.gradient(points) for one in self.fields], axis=-1)
+
+
 MIRROR = np.array([1.0, 1.0, -1.0])
 
 

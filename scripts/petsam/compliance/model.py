@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import Error
-from . import bolts, checks, cutoff, deck, images, modes, parts, stresses
+from . import bolts, checks, cutoff, deck, images, modes, parts, several, stresses
 from . import cases as load_cases
 from .basis import Patch
-from .halfspace import Fields, Mirrored
+from .halfspace import Fields, Mirrored, Several
 from .remainder import Side
 from .solve import Solver, plane_normal
 from .stiffness import stiffness
@@ -49,7 +49,7 @@ class Frame:
 
 @dataclass
 class Body:
-    """The contents of the file."""
+    """A patch of a body, or of a pair: the contents of the file, or of its group for this patch."""
 
     young: float
     poisson: float
@@ -130,7 +130,10 @@ class Model:
         held = np.unique(np.concatenate([self.supported, *symmetric]))
         load_cases.need_supports(self.deck, self.mesh, self.frame, units, held)
         self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(options.symmetry, symmetric)]
-        self.patch = Patch(options.center, tuple(0.5 * side for side in options.patch), options.degree)
+        half = tuple(0.5 * side for side in options.patch)
+        self.patches = [Patch(center, half, options.degree) for center in options.center]
+        several.need_apart(self.patches)
+        self.patch = self.patches[0]
         self.parts, self.bolts = [parts.Part(self.mesh, faces)], []
         if options.pair:
             self._take_pair()
@@ -181,7 +184,19 @@ class Model:
     def sides(self):
         """The Sides of the bodies: body 2 first."""
         kinds = {1: Fields, -1: Mirrored}
-        return [Side(one.mesh, kinds[one.sign](self.patch, *one.moduli(self.patch))) for one in self.parts]
+        found = []
+        for one in self.parts:
+            fields = [kinds[one.sign](patch, *one.moduli(patch)) for patch in self.patches]
+            found.append(Side(one.mesh, fields[0] if len(fields) == 1 else Several(fields)))
+        return found
+
+    def need_places(self):
+        """Returns true if the surfaces of all patches count as plane; raises Error if a patch is not on them."""
+        each = [(part, patch) for part in self.parts for patch in self.patches]
+        plane = [checks.need_plane(part.mesh, patch, part.contact) for part, patch in each]
+        for part, patch in each:
+            checks.need_inside(part.mesh, patch, part.contact)
+        return all(plane)
 
     def _normal(self, name, nodes):
         """Normal of a plane of symmetry in the frame's coordinates."""
@@ -247,13 +262,14 @@ def _cutoff(model, plane, moduli):
 
 def remainder(model, method, plane, progress):
     """Returns the Remainder of a Model, and its solver, after the checks of the geometry; and remarks."""
-    mesh, patch, supported, sides = model.mesh, model.patch, model.supported, model.sides()
+    mesh, supported, sides = model.mesh, model.supported, model.sides()
     young = sides[0].fields.young
     remarks = []
     if MEGAPASCALS[0] <= young < MEGAPASCALS[1] and model.options.units == "m":
         remarks.append(f"warning: Young's modulus is {young:.6g} Pa: give --units mm if the deck is in mm and MPa")
     if method == "image":
-        clearance = min(checks.need_clearance(part.mesh, patch, supported) for part in model.parts)
+        each = [(part, one) for part in model.parts for one in model.patches]
+        clearance = min(checks.need_clearance(part.mesh, one, supported) for part, one in each)
         remarks.append(f"nearest other surface {clearance:.4g} m from the patch")
     else:
         chi, more = _cutoff(model, plane, (young, sides[0].fields.poisson))
@@ -266,24 +282,30 @@ def remainder(model, method, plane, progress):
     progress("factorization")
     solver = Solver(matrix if tie is None else matrix + tie, mesh.nodes, fixed.ravel(), model.planes)
     if method == "image":
-        return images.solved(sides, solver, supported, progress, tie), solver, remarks
+        found = images.solved(sides, solver, supported, progress, tie)
+        if len(model.patches) > 1:
+            found.compliance += several.between(sides, model.patches)
+        return found, solver, remarks
     return cutoff.solved(mesh, sides[0].fields, solver, chi, progress), solver, remarks
 
 
 def _cases(model, solver, found):
-    """Load cases by name: those of the deck, and unit initial tension of each bolt."""
+    """Load cases by name, each for each patch: those of the deck, and unit initial tension of each bolt."""
     if not (model.options.case or model.bolts):
         return {}
-    jump = load_cases.Jump(model.parts, model.patch, [degree + GAUSS_MORE for degree in model.patch.largest])
+    jumps = [
+        load_cases.Jump(model.parts, patch, [degree + GAUSS_MORE for degree in patch.largest])
+        for patch in model.patches
+    ]
     cases = {}
     for name, step in model.options.case:
         loads = load_cases.loads(model.deck, model.mesh, model.frame, model.units, step)
         loads.name = name
-        cases[name] = load_cases.case(loads, solver, found, jump)
+        cases[name] = load_cases.cases(loads, solver, found, jumps)
     for one in model.bolts:
         loads = load_cases.Loads(model.deck, model.mesh, model.frame, model.units)
         loads.name, loads.force = f"bolt_{one.name}", one.closing.T.toarray()
-        cases[loads.name] = load_cases.case(loads, solver, found, jump)
+        cases[loads.name] = load_cases.cases(loads, solver, found, jumps)
     return cases
 
 
@@ -301,11 +323,9 @@ def _stress(model, found, cases):
 
 
 def computed(path, options, command, progress):
-    """The Body of a deck."""
+    """The Joined of a deck."""
     model = Model(path, options)
-    plane = all([checks.need_plane(part.mesh, model.patch, part.contact) for part in model.parts])
-    for part in model.parts:
-        checks.need_inside(part.mesh, model.patch, part.contact)
+    plane = model.need_places()
     if options.modes:
         model.prepare_modes()
     other = Model(options.coarse_mesh, options) if options.coarse_mesh else None  # to find its mistakes before the work
@@ -313,29 +333,52 @@ def computed(path, options, command, progress):
     found, solver, remarks = remainder(model, method, plane, progress)
     if reason:
         remarks.insert(0, f"method cutoff: {reason}")
-    young, poisson = found.fields.young, found.fields.poisson
-    body = Body(young, poisson, method, path, command, model.frame, model.patch, found.compliance)
-    body.mesh, body.remarks = model, remarks
-    if options.pair:
-        body.other = tuple(getattr(found.sides[1].fields, name) for name in ("young", "poisson"))
-    examine(body)
-    body.cases = _cases(model, solver, found)
-    if options.modes:
-        progress(f"{options.modes} modes")
-        body.modes = modes.found(model, solver, options.modes, model.sensors)
-        body.cases.update(modes.cases(model, body.modes))
-        body.checks["mass_error"] = body.modes.mass_error
-        body.checks["residual_eigenvalue"] = _without_modes(body)
-    for name, case in body.cases.items():
-        body.checks[f"rest_{name}"] = case.rest
+    bodies = _bodies(model, found, method, command)
+    bodies[0].remarks = remarks
+    _add_cases(bodies, model, solver, found, progress)
     if options.stress and not options.pair:
         progress("stresses")
-        body.stress = _stress(model, found, body.cases)
+        bodies[0].stress = _stress(model, found, bodies[0].cases)
     if other:
         compliance = remainder(other, method, plane, progress)[0].compliance
         change = np.linalg.norm(compliance - found.compliance, 2) / np.linalg.norm(found.compliance, 2)
-        body.checks["mesh_change"] = float(change)
-    return body
+        bodies[0].checks["mesh_change"] = float(change)
+    return several.joined(bodies, checks.symmetric(found.compliance)) if len(bodies) > 1 else several.Joined(bodies)
+
+
+def _bodies(model, found, method, command):
+    """A Body for each patch, examined, with its own part of the compliance."""
+    bodies, first = [], 0
+    fields = found.fields
+    for patch in model.patches:
+        own = slice(first, first := first + 3 * patch.count)
+        body = Body(
+            fields.young, fields.poisson, method, model.path, command, model.frame, patch, found.compliance[own, own]
+        )
+        body.mesh = model
+        if model.options.pair:
+            body.other = tuple(getattr(found.sides[1].fields, name) for name in ("young", "poisson"))
+        examine(body)
+        bodies.append(body)
+    return bodies
+
+
+def _add_cases(bodies, model, solver, found, progress):
+    """Adds load cases and modes to the Bodies of the patches."""
+    shapes = None
+    if model.options.modes:
+        progress(f"{model.options.modes} modes")
+        shapes = modes.found(model, solver, model.options.modes, model.sensors)
+    named = _cases(model, solver, found)
+    for k, body in enumerate(bodies):
+        body.cases = {name: cases[k] for name, cases in named.items()}
+        if shapes:
+            body.modes = shapes
+            body.cases.update(modes.cases(model, shapes, body.patch))
+            body.checks["mass_error"] = shapes.mass_error
+            body.checks["residual_eigenvalue"] = _without_modes(body)
+        for name, case in body.cases.items():
+            body.checks[f"rest_{name}"] = case.rest
 
 
 def _without_modes(body):

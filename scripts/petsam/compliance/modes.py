@@ -71,10 +71,11 @@ def _signs(shapes):
     return np.sign(shapes[first, np.arange(shapes.shape[1])])
 
 
-def cases(model, modes):
-    """The Cases of the modes, by name: the projection on the polynomials of body 2's displacement minus body 1's."""
-    jump = Jump(model.parts, model.patch, [POINTS * (degree + MORE) for degree in model.patch.largest])
-    weighted = model.patch.values(*jump.points.T).T * jump.weights
+def cases(model, modes, patch):
+    """The Cases of the modes on a patch, by name: the projection on the polynomials of body 2's displacement minus body
+    1's."""
+    jump = Jump(model.parts, patch, [POINTS * (degree + MORE) for degree in patch.largest])
+    weighted = patch.values(*jump.points.T).T * jump.weights
     named = {}
     for k, shape in enumerate(modes.shapes.T, 1):
         sampled = jump(shape)

@@ -23,17 +23,23 @@ def _outline(body):
     return np.concatenate(edges)
 
 
-def _mesh(axes, body, unit):
+def _mesh(axes, bodies, unit):
     from matplotlib.collections import LineCollection
 
-    if body.mesh is not None:
-        axes.add_collection(LineCollection(_outline(body) * unit[0], colors="0.6", linewidths=0.5))
-    (x, y), (a, b) = body.patch.center, body.patch.half
-    corners = np.array([(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]) * unit[0]
-    axes.plot(*corners.T, color=COLORS[1], linewidth=1.6)
+    if bodies[0].mesh is not None:
+        axes.add_collection(LineCollection(_outline(bodies[0]) * unit[0], colors="0.6", linewidths=0.5))
+    for body in bodies:
+        (x, y), (a, b) = body.patch.center, body.patch.half
+        corners = np.array([(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]) * unit[0]
+        axes.plot(*corners.T, color=COLORS[1], linewidth=1.6)
     axes.autoscale()
     axes.grid(False)
-    frame(axes, "patch on the mesh", label("x", unit[1]), label("y", unit[1]))
+    frame(
+        axes,
+        "patch on the mesh" if len(bodies) == 1 else "patches on the mesh",
+        label("x", unit[1]),
+        label("y", unit[1]),
+    )
     axes.set_aspect("equal", adjustable="datalim")
 
 
@@ -79,19 +85,28 @@ def _convergence(axes, body):
     )
 
 
-def draw(body):
-    """The figure."""
-    unit = scale("m", float(max(body.patch.half)))
+def _panels(body, unit, name=""):
+    """What is drawn of a patch; of one of several, without load cases."""
+    title = "{}correction under {} = 1 N".format(f"{name}, " if name else "", "{}")
     panels = [
-        lambda axes: _mesh(axes, body, unit),
-        lambda axes: _map(axes, body, _unit_load(body, 2), "correction under N = 1 N", unit),
-        lambda axes: _map(axes, body, _unit_load(body, 0), "correction under T_x = 1 N", unit),
+        lambda axes: _map(axes, body, _unit_load(body, 2), title.format("N"), unit),
+        lambda axes: _map(axes, body, _unit_load(body, 0), title.format("T_x"), unit),
         lambda axes: _spectrum(axes, body),
     ]
     if len(body.changes) > 1:
         panels.append(lambda axes: _convergence(axes, body))
-    for name, case in body.cases.items():
-        panels.append(lambda axes, c=case, n=name: _map(axes, body, c.coefficients, f"load case {n}", unit, c.unit))
+    for case, one in {} if name else body.cases.items():
+        panels.append(lambda axes, c=one, n=case: _map(axes, body, c.coefficients, f"load case {n}", unit, c.unit))
+    return panels
+
+
+def draw(bodies):
+    """The figure of the patches of a body, or of a pair."""
+    body = bodies[0]
+    unit = scale("m", float(max(body.patch.half)))
+    panels = [lambda axes: _mesh(axes, bodies, unit)]
+    for k, one in enumerate(bodies, 1):
+        panels += _panels(one, unit, f"patch {k}" if len(bodies) > 1 else "")
     rows = -(-len(panels) // COLUMNS)
     figure, grid = plt.subplots(
         rows, COLUMNS, figsize=(COLUMNS * (SIDE + 1.0), rows * SIDE), squeeze=False, layout="constrained"
@@ -104,7 +119,7 @@ def draw(body):
     return figure
 
 
-def save(body, path, dpi=DPI):
+def save(bodies, path, dpi=DPI):
     """The picture as a file."""
     with plt.rc_context(STYLE):
-        write(draw(body), path, dpi)
+        write(draw(bodies), path, dpi)

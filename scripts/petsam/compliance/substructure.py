@@ -23,6 +23,7 @@ from . import checks
 from .basis import Patch
 from .halfspace import projected
 from .model import UNITS, Body, examine, frame_of
+from .several import Joined
 from .shapes import simplex_rule
 
 SYMMETRY = 1e-6  # relative to the largest term of the matrix
@@ -192,7 +193,7 @@ def weights(points, patch):
 
 
 def computed(path, options, command, progress):
-    """The Body of a substructure."""
+    """The Joined of a substructure, which is one body with one patch."""
     units = UNITS[options.units]
     if not (options.young > 0.0 and -1.0 < options.poisson < 0.5):
         raise Error(f"--young {options.young:g}, --poisson {options.poisson:g}: use E > 0 and -1 < nu < 0.5")
@@ -204,7 +205,7 @@ def computed(path, options, command, progress):
         raise Error("a matrix does not show where the body is: give z, into the body, as the third part of --frame")
     frame = frame_of(np.array(origin) * units.length, direction, z, -np.array(z))
     place = (x * units.length - frame.origin) @ frame.axes.T
-    patch = Patch(options.center, tuple(0.5 * side for side in options.patch), options.degree)
+    patch = Patch(options.center[0], tuple(0.5 * side for side in options.patch), options.degree)
     need_patch(place, patch)
     turn = np.kron(np.eye(len(place)), frame.axes)
     force = np.kron(weights(place[:, :2], patch), np.eye(3))
@@ -213,7 +214,7 @@ def computed(path, options, command, progress):
     body = Body(options.young, options.poisson, "direct", path, command, frame, patch, compliance)
     body.remarks.append(WARNING)
     examine(body)
-    return body
+    return Joined([body])
 
 
 def need_patch(place, patch):

@@ -12,10 +12,11 @@ the shear; with the standard deviation of five windows of the surface, and the e
 Iwan element. -o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and pyHarm, NAME.inp, the
 interaction for a deck of Abaqus, and NAME.png.
 
-backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written. Tightens the bolts
-and prints frequency and damping of a mode over its amplitude, by friction in the joint alone: by quasi-static modal
-analysis, or with --harmonics by harmonic balance. -o NAME writes NAME.csv, NAME.png and NAME-contact.png, which shows
-the pressure in the preload and where the contact slips.
+backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written; each of its patches
+is a contact with the options of --contact, whose origin is the patch's centre. Tightens the bolts and prints frequency
+and damping of a mode over its amplitude, by friction in the joint alone: by quasi-static modal analysis, or with
+--harmonics by harmonic balance. -o NAME writes NAME.csv, NAME.png and NAME-contact.png, which shows the pressure in the
+preload and where the contact slips.
 
 band: prints the range of the backbone over the histories of assembly: bolts in the given and in the reverse order,
 without friction until all are tightened, and after a vibration at the largest amplitude. With --scatter also the

@@ -12,6 +12,7 @@ from ..files import need_regular
 from .structure import DISPLACEMENTS, Patch, Structure
 
 PRESS = 4  # steps in which each bolt is tightened
+SNUG = 0.1  # part of the tension of several bolts that all get before the first one is tightened
 PRESSING = ("disp_z", "rot_x", "rot_y")  # displacements whose loads press the bodies together
 
 
@@ -22,16 +23,16 @@ class Unreadable(Error):
 
 
 class Pair:
-    """Modes, bolts and sensors of a file, and the structure with its contact.
+    """Modes, bolts and sensors of a file, and the structure with its contacts, one for each patch of the file.
 
     path          the file
     preload       {bolt: initial tension in N}; the bolts are tightened in this order
-    press         load steps in which each bolt is tightened
+    press         load steps in which each bolt is tightened; several bolts are snug first, with a tenth of the tension
     frictionless  True: without friction while they are tightened, as if a vibration settled the surfaces
     friction_scale  factor on the friction of the options
     lower         by how much the degree of the file's polynomials is lowered
     damping       damping of the material as a part of critical
-    options       of the contact: grid_n=..., friction=..., options_file=...
+    options       of each contact: grid_n=..., friction=..., options_file=...
 
     Attributes:
 
@@ -47,38 +48,53 @@ class Pair:
         need_regular(path)
         self.path = path
         self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
-        own = os.path.join(self._folder.name, "pair.h5")
         try:
             with h5py.File(path) as file:
                 self._read(file)
-            rigid = without_rigid(path, own, lower)
+                own = [self._patch_file(k, group, lower) for k, group in enumerate(patches_of(file), 1)]
         except (OSError, LookupError, ValueError, TypeError) as error:
             raise Unreadable(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
         self._check(preload)
         # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
-        contact = Contact(**{**self.defaults, **options, "body2_compliance": own})
-        self.structure = self._structure(contact, rigid, DISPLACEMENTS, damping)
+        contacts = [Contact(**{**where, **self.moduli, **options, "body2_compliance": name}) for name, where in own]
+        self.structure = self._structure(contacts, DISPLACEMENTS, damping)
         if frictionless:
-            pressed = self._structure(contact, rigid, PRESSING, damping)
+            pressed = self._structure(contacts, PRESSING, damping)
             self._tighten(pressed, preload, press, 0.0)
             self._continue(pressed, friction_scale)
         else:
             self._tighten(self.structure, preload, press, friction_scale)
         self.tensions = self.left()
 
-    def _structure(self, contact, rigid, by_load, damping):
+    def _patch_file(self, number, group, lower):
+        """Writes the file of a patch, without what the structure has and with its centre as the origin; returns its
+        name and the contact's grid."""
+        name = os.path.join(self._folder.name, f"patch{number}.h5")
+        without_rigid(group, name, lower)
+        return name, dict(grid_size=2 * group["patch/half"][()], gap_type="flat")
+
+    def _structure(self, contacts, by_load, damping):
         modes = [f"body2_case_mode{k + 1}" for k in range(self.omega.size)]
-        patch = Patch(contact, [*DISPLACEMENTS, *modes], by_load=by_load, name="contact")
-        count = len(patch.coordinates)
-        coupling = np.zeros((count, count))
-        coupling[:6, :6] = rigid
-        found = Structure([patch], self.omega, np.eye(count)[:, 6:], coupling, damping=damping)
-        found.needs = self._folder  # copies of the contact read the file
+        patches, static, moved = [], [], []
+        for k, (contact, far) in enumerate(zip(contacts, self.far), 1):
+            names = [*DISPLACEMENTS, *(f"body2_case_{name}" for name in far)]
+            name = "contact" if len(contacts) == 1 else f"patch{k}"
+            patches.append(Patch(contact, [*names, *modes], by_load=by_load, name=name))
+            static += [True] * len(names) + [False] * len(modes)
+            moved += [np.zeros((len(names), len(modes))), np.eye(len(modes))]
+        coupling, static = np.zeros(2 * (len(static),)), np.flatnonzero(static)
+        coupling[np.ix_(static, static)] = self.coupling
+        found = Structure(patches, self.omega, np.concatenate(moved), coupling, damping=damping)
+        found.needs = self._folder  # copies of the contacts read the files
         return found
 
     def _read(self, file):
-        if "rigid" not in file or "modes" not in file:
+        if not ("rigid" in file or "coupling" in file) or "modes" not in file:
             raise ValueError("it has no body 1, or no modes: make it with --pair and --modes")
+        self.coupling = file["coupling" if "coupling" in file else "rigid/compliance"][()]
+        self.far = [_far(group) for group in patches_of(file)]
+        if len(self.coupling) != sum(6 + len(names) for names in self.far):
+            raise ValueError(f"the coupling of its patches has the shape {self.coupling.shape}")
         self.omega = file["modes/omega"][()].astype(float)
         self.sensors = {}
         if "modes/sensors" in file:
@@ -89,10 +105,11 @@ class Pair:
             self.bolts = [str(name) for name in file["bolts/closing"].attrs["names"]]
             self.stiffness = np.array([float(file[f"bolts/{name}/stiffness"][()]) for name in self.bolts])
             self.closing = file["bolts/closing"][()].reshape(2 * (len(self.bolts),))
-        half, center = file["patch/half"][()], file["patch/center"][()]
-        self.defaults = dict(grid_size=2 * half, grid_center=center, gap_type="flat")
-        for body, end in (("body1", "1"), ("body2", "")):
-            self.defaults.update({f"{body}_{name}": float(file.attrs[name + end]) for name in ("young", "poisson")})
+        self.moduli = {
+            f"{body}_{name}": float(file.attrs[name + end])
+            for body, end in (("body1", "1"), ("body2", ""))
+            for name in ("young", "poisson")
+        }
 
     def _check(self, preload):
         for name, force in preload.items():
@@ -106,42 +123,64 @@ class Pair:
             raise Error(f"preload: give the tension of {', '.join(self.bolts)}, in N")
 
     def _tighten(self, structure, preload, press, friction_scale):
-        """Tightens the bolts one after the other, in the order given, each in `press` steps."""
-        (patch,), force = structure.patches, np.zeros(self.omega.size)
-        structure.loads[0] = -next(iter(preload.values()), 0.0) / press  # a first guess: all of the first tension
-        patch.held["friction_scale"] = friction_scale
+        """Tightens the bolts one after the other, in the order given, each in `press` steps; several ones after a part
+        of the tension that all of them get together."""
+        patches, parts, snug = structure.patches, np.linspace(0.0, 1.0, press + 1)[1:], {}
+        rows = []
+        if len(preload) > 1:
+            snug = {name: SNUG * whole for name, whole in preload.items()}
+            rows += [{name: part * force for name, force in snug.items()} for part in parts]
         for name, whole in preload.items():
-            for part in np.linspace(0.0, 1.0, press + 1)[1:]:
-                patch.held[f"body2_case_bolt_{name}"] = part * whole
-                structure.step(force)
+            first = snug.get(name, 0.0)
+            rows += [{name: first + part * (whole - first)} for part in parts]
+        at, guess = 0, sum(rows[0].values()) / len(patches)  # of the load: all of the tension, in equal parts
+        for patch in patches:
+            structure.loads[at] = -guess
+            at += len(patch.coordinates)
+            patch.held["friction_scale"] = friction_scale
+        for row in rows:
+            for patch in patches:
+                patch.held.update({f"body2_case_bolt_{name}": force for name, force in row.items()})
+            structure.step(np.zeros(self.omega.size))
 
     def _continue(self, pressed, friction_scale):
         """Goes on from a structure whose contact was pressed without friction."""
-        self.structure.patches[0].held = {**pressed.patches[0].held, "friction_scale": friction_scale}
+        for mine, its in zip(self.structure.patches, pressed.patches):
+            mine.held = {**its.held, "friction_scale": friction_scale}
         self.structure.z, self.structure.loads = pressed.z, pressed.loads
         self.structure.step(np.zeros(self.omega.size))
 
     def left(self, structure=None):
         """{bolt: tension in N} that is left in the last step of the structure, or of a copy of it."""
-        patch = (structure or self.structure).patches[0]
-        given = np.array([patch.held.get(f"body2_case_bolt_{name}", 0.0) for name in self.bolts])
-        loads = np.array([patch.number(f"body2_case_bolt_{name}_load") for name in self.bolts])
+        patches = (structure or self.structure).patches
+        given = np.array([patches[0].held.get(f"body2_case_bolt_{name}", 0.0) for name in self.bolts])
+        loads = [sum(patch.number(f"body2_case_bolt_{name}_load") for patch in patches) for name in self.bolts]
         return dict(zip(self.bolts, given - self.stiffness * (self.closing @ given + loads)))
 
 
-def without_rigid(path, name, lower=0):
-    """Writes the pair without the compliance of rigid motions to a file, and returns that compliance (6, 6). The degree
-    is lower by `lower` in x and in y."""
-    with h5py.File(path) as old, h5py.File(name, "w") as new:
+def patches_of(file):
+    """The groups of the patches: the file itself where there is one."""
+    return [file["patches"][k] for k in sorted(file["patches"], key=int)] if "patches" in file else [file]
+
+
+def _far(group):
+    """Names of the load cases by which other patches move a patch, in the order of their numbers."""
+    names = [name for name in group["cases"] if name.startswith("far")]
+    return sorted(names, key=lambda name: int(name[3:]))
+
+
+def without_rigid(old, name, lower=0):
+    """Writes a patch of a pair to a file, without the compliance of rigid motions, which the structure has; the origin is
+    the patch's centre. The degree is lower by `lower` in x and in y."""
+    with h5py.File(name, "w") as new:
         table = old["basis/degree_xy"][()]
         kept = np.flatnonzero(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1))
         if len(table) < np.prod(table.max(axis=0) + 1):  # up to a total degree
             kept = np.flatnonzero(table.sum(axis=1) <= max(table.sum(axis=1).max() - lower, 1))
         rigid, q = old["rigid/compliance"][()], old["rigid/motions"][()][:, kept]
-        new.attrs.update(old.attrs)
-        old.copy("patch", new)
+        new.attrs.update(old.file.attrs)
+        new["patch/half"], new["patch/center"] = old["patch/half"][()], np.zeros(2)
         new["basis/degree_xy"] = table[kept]
         new["compliance"] = old["compliance"][()][kept][:, :, kept] - np.einsum("cik,cd,djl->ikjl", q, rigid, q)
         for case, data in old["cases"].items():
             new[f"cases/{case}/displacement"] = data["displacement"][()][kept]
-    return rigid

@@ -26,8 +26,8 @@ from ..errors import Error
 TOLERANCE = 1e-7  # of the work of the errors, relative to that of the loads
 ROUGH = 1e-5  # the same where the contact's own tolerance ends the iteration
 SLOW = 0.3  # ratio of successive errors above which the contacts' stiffness is computed
-MOST = 25  # iterations
-BEYOND = (NoEquilibrium, NotConverged, PrescribedError)  # of a guess that contacts do not bear
+MOST, FEWER = 25, 12  # iterations; of those that others may follow
+SLIDING = ("disp_x", "disp_y", "rot_z")  # displacements whose loads friction limits
 # the displacements of body 1 as a step prescribes them, in the order of a contact's stiffness, with their loads
 DISPLACEMENTS = {
     "disp_z": "load_n", "disp_x": "load_tx", "disp_y": "load_ty",
@@ -37,6 +37,13 @@ DISPLACEMENTS = {
 
 class NoSolution(Error):
     """Equilibrium of patches and structure was not found, or the contact leaves its patch."""
+
+
+class Apart(NoSolution):
+    """The structure pulls the bodies apart."""
+
+
+BEYOND = (NoEquilibrium, NotConverged, PrescribedError, Apart)
 
 
 class Patch:
@@ -55,6 +62,7 @@ class Patch:
         self.by_load = np.array([name in by_load for name in self.coordinates])
         self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
         self.given = {}  # what the last step prescribed
+        self.outgrown = False
         self.sign = np.array([-1.0 if name in DISPLACEMENTS else 1.0 for name in self.coordinates])
         order = [*DISPLACEMENTS, *self.cases]
         self._rows = [order.index(name) for name in self.coordinates]
@@ -69,24 +77,35 @@ class Patch:
                 self.sign[k] if self.by_load[k] else 1.0
             )
         if given.get("load_n", 0.0) < 0.0:
-            raise NoSolution(
+            raise Apart(
                 f"{self.name or 'a contact'}: the structure pulls the bodies apart with {-given['load_n']:.3g} N: use "
                 "a higher preload, a smaller amplitude, or more steps"
             )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AdviceWarning)  # of small slip zones: the backbone has its own
             warnings.simplefilter("error", EdgeContactWarning)
+            self.outgrown = False
             try:
                 self.contact.try_step(**given)
             except EdgeContactWarning:
-                raise NoSolution(
-                    f"{self.name or 'a contact'}: reaches the border of its grid or patch: use smaller amplitudes, a "
-                    "higher preload, or a larger grid and patch"
-                ) from None
+                self.outgrown = True  # the step is solved; on the way to an equilibrium it does not matter
         z = np.array(values, dtype=float)
         found, loads = self.state()
         z[self.by_load] = found[self.by_load]
         return z, loads
+
+    @property
+    def limited(self):
+        """True if steps prescribe loads that friction limits."""
+        return bool(np.any(self.by_load & np.isin(self.coordinates, SLIDING)))
+
+    def need_inside(self):
+        """Raises NoSolution if the contact of the last step reaches the border of its grid or patch."""
+        if self.outgrown:
+            raise NoSolution(
+                f"{self.name or 'a contact'}: reaches the border of its grid or patch: use smaller amplitudes, a "
+                "higher preload, or a larger grid and patch"
+            )
 
     def state(self):
         """Coordinates and loads on the structure of the contact's last step. A factor that no step has given is 0."""
@@ -299,7 +318,9 @@ class Structure:
             self.a = _solved(self.rigid, self.z - driven - self.coupling @ self.loads)
             self.iterations.append(1)
         else:
-            response = self._iterate(driven, free, held, response, scale)
+            response = self._find(driven, free, held, response, scale)
+        for patch in self.patches:
+            patch.need_inside()
         self.force = np.array(force, dtype=float)
         return response
 
@@ -307,7 +328,35 @@ class Structure:
         """The response with which step() may begin, of a tangent."""
         return None if self.direct or self.given else self.response_of(tangent)
 
-    def _iterate(self, driven, free, held, response, scale):
+    def _find(self, driven, free, held, response, scale):
+        """Solves a step; returns its last response, None where contacts slide and another one must be computed.
+
+        A contact that slides does not bear more loads: where steps by loads find no equilibrium, displacements along
+        the surface are prescribed instead.
+        """
+        limited = [patch for patch in self.patches if patch.limited]
+        if not limited:
+            return self._iterate(driven, free, held, response, scale)
+        try:
+            return self._iterate(driven, free, held, response, scale, FEWER)
+        except (NoSolution, *BEYOND) as error:
+            reason = error
+        before = self.by_load, [patch.by_load for patch in limited]
+        for patch in limited:
+            patch.by_load = patch.by_load & ~np.isin(patch.coordinates, SLIDING)
+        self.by_load = np.concatenate([patch.by_load for patch in self.patches])
+        try:
+            self._iterate(driven, free, held, None, scale)
+            if any(patch.outgrown for patch in self.patches):
+                raise reason
+        except (NoSolution, *BEYOND):
+            raise reason from None
+        finally:
+            self.by_load = before[0]
+            for patch, mask in zip(limited, before[1]):
+                patch.by_load = mask
+
+    def _iterate(self, driven, free, held, response, scale, most=MOST):
         """Broyden's method for what steps prescribe, and for a; returns its last response."""
         z, loads, size = self.z, self.loads, np.inf
         base = np.concatenate([np.where(self.by_load, loads, z), self.a])
@@ -321,8 +370,8 @@ class Structure:
             before, last = np.where(self.by_load, z, loads), size
             try:
                 z, loads = self._try(given, held)
-            except BEYOND:
-                if self.iterations[-1] == MOST or not np.any(change):
+            except BEYOND:  # a guess that contacts do not bear
+                if self.iterations[-1] == most or not np.any(change):
                     raise
                 change = 0.5 * change  # the guess is beyond what the contacts bear
                 continue
@@ -330,9 +379,9 @@ class Structure:
             size = _work(error, scale or (z, loads, a))
             if size <= TOLERANCE or (SLOW * last <= size <= ROUGH):
                 break
-            if self.iterations[-1] == MOST:
+            if self.iterations[-1] == most:
                 raise NoSolution(
-                    f"patches and structure found no equilibrium in {MOST} iterations, error {size:.2g}, limit "
+                    f"patches and structure found no equilibrium in {most} iterations, error {size:.2g}, limit "
                     f"{TOLERANCE:g}: use more steps"
                 )
             if response is None or size > SLOW * last:

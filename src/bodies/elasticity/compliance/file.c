@@ -68,6 +68,9 @@ static PetscErrorCode ReadBasis(SamFile f, SamCompliance c)
   Shape  pair = {1, {2}, 0}, table = {2, {0, 2}, SAM_COMPLIANCE_MODES};
 
   PetscFunctionBegin;
+  PetscCheck(H5Lexists(f->id, "/patches", H5P_DEFAULT) <= 0, f->comm, SAM_ERR_FILE,
+             "-%s %s: has several patches of a structure, which petsam-joint reads: give a file of one patch",
+             f->option, f->filename);
   PetscCall(ReadNumbers(f, "/patch/center", &pair, c->center));
   PetscCall(ReadNumbers(f, "/patch/half", &pair, c->half));
   PetscCheck(c->half[0] > 0 && c->half[1] > 0, f->comm, SAM_ERR_FILE,
