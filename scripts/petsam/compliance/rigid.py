@@ -16,8 +16,8 @@ COMPONENTS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
 
 
 def motions(patch):
-    """Coefficients (6, m, 3) of the displacement of body 1 by a unit of each component, in the frame of body 2 about the
-    patch's centre; zeros where the polynomials do not have it."""
+    """Coefficients (6, m, 3) of the displacement of body 1 by a unit of each component, in body 2's frame and about
+    the patch's centre; zeros where the polynomials do not have it."""
     points, weight = patch.quadrature(patch.largest[0] + 2, patch.largest[1] + 2)
     values, (x, y), zero = patch.values(*points.T), (points - patch.center).T, np.zeros(len(points))
     one = zero + 1.0

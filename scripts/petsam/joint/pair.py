@@ -170,8 +170,8 @@ def _far(group):
 
 
 def without_rigid(old, name, lower=0):
-    """Writes a patch of a pair to a file, without the compliance of rigid motions, which the structure has; the origin is
-    the patch's centre. The degree is lower by `lower` in x and in y."""
+    """Writes a patch of a pair to a file, its centre as the origin, without the compliance of rigid motions, which the
+    structure has. The degree is lower by `lower` in x and in y."""
     with h5py.File(name, "w") as new:
         table = old["basis/degree_xy"][()]
         kept = np.flatnonzero(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1))
