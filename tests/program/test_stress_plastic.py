@@ -119,6 +119,16 @@ def test_where_a_body_yields_its_stress_is_the_yield_stress(folder, stress):
         assert mises.max() < YIELD * (1 + 1e-6)
 
 
+def test_bulk_stress_takes_part_in_yielding(petsam, folder, stress):
+    """The von Mises stress of tractions, plastic strain and bulk stress is the yield stress."""
+    bulk = dict(bulk2_stress_xx=150e6, bulk2_stress_yy=-120e6, bulk2_stress_xy=80e6)
+    petsam(dict(CASE, body2_yield=YIELD, load_n=40, output=str(folder / "bulk.h5"), **bulk))
+    mises = stress(input="bulk.h5", body=2, depths=middles(), quantities="mises")["mises"][0]
+    strain = layers(folder / "bulk.h5", "plastic_strain")
+    assert (strain > 1e-5).sum() > 100
+    assert mises[strain > 1e-5] == pytest.approx(YIELD, rel=1e-6) and mises.max() < YIELD * (1 + 1e-6)
+
+
 def test_surface_bears_the_tractions(folder, stress):
     with h5py.File(folder / "two.h5") as f:
         p, q = f["pressure"][0], f["shear_x"][0]

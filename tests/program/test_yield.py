@@ -181,6 +181,75 @@ def test_work_is_friction_plastic_work_and_what_the_residual_stress_stores(solve
     assert spent + run["residual_energy"][-1] == pytest.approx(work, rel=1e-2, abs=0)
 
 
+@pytest.mark.parametrize("fine, most", [(1, 0.015), pytest.param(2, 0.003, marks=pytest.mark.slow)])
+def test_work_with_bulk_stress_is_that_of_loads_and_of_stretching(solve, tmp_path, fine, most):
+    """Bulk stress works on the plastic strain, and its stretch on the shear: loads, bulk stress and work add up."""
+    up = np.linspace(0, 4, 12 * fine + 1)[1:]
+    force = np.concatenate([up, np.full(24 * fine, 4.0), up[::-1], [1e-3]])
+    angle = np.linspace(0, 2 * math.pi, 24 * fine + 1)[1:]
+    zero = 0 * up
+    turns = np.concatenate([zero, 0.5 * np.sin(angle), zero, [0]])
+    bulk = [
+        part * YIELD * np.concatenate([zero, wave, zero, [0]])
+        for part, wave in ((0.5, np.sin(angle)), (-0.2, 1 - np.cos(angle)), (0.2, np.sin(2 * angle)))
+    ]
+    case = pushed(12, 6, tmp_path / "h.csv", [0], output_fields="usual,plastic")
+    names = [f"bulk2_stress_{part}" for part in ("xx", "yy", "xy")]
+    columns = dict(load_n=(force * LOAD).tolist(), load_tx=(turns * PUSHED).tolist())
+    case.update(steps(tmp_path / "h.csv", **columns, **dict(zip(names, (one.tolist() for one in bulk)))))
+    results = solve(case)
+    run = all_steps(results)
+    mean = lambda values: 0.5 * (values[1:] + values[:-1])  # noqa: E731
+    begun = lambda values: np.concatenate([0 * values[:1], values])  # noqa: E731
+    with h5py.File(results.path) as f:
+        x, y = f["x"][()], f["y"][()][:, None]
+        shear = [begun(f[f"shear_{axis}"][()]) for axis in "xy"]
+        strain = [begun(f[f"plastic/plastic_strain_{part}"][()].sum(axis=(1, 2, 3))) for part in ("xx", "yy", "xy")]
+    area = (x[1] - x[0]) * (y[1, 0] - y[0, 0])
+    xx, yy, xy = bulk = [begun(one) for one in bulk]
+    e = np.array([xx - 0.3 * yy, yy - 0.3 * xx, 1.3 * xy])
+    moved = [np.einsum("t,yx->tyx", e[k], along + 0 * across) for k, along, across in ((0, x, y), (1, y, x))]
+    moved[0] += np.einsum("t,yx->tyx", e[2], y + 0 * x)
+    moved[1] += np.einsum("t,yx->tyx", e[2], x + 0 * y)
+    stretched = sum(np.sum(mean(q) * np.diff(u, axis=0)) * area for q, u in zip(shear, moved))
+    volume = case["yield_depth"] / 6 * area
+    yielded = sum(np.sum(n * mean(s) * np.diff(e)) * volume for n, s, e in zip((1, 1, 2), bulk, strain))
+    work = 0.0
+    for load, way in ("load_n", "disp_z"), ("load_tx", "disp_x"):
+        work += np.sum(mean(begun(run[load])) * np.diff(begun(run[way])))
+    spent = run["plastic_work"].sum() + run["dissipated_energy"].sum() + run["residual_energy"][-1]
+    assert min(abs(yielded), abs(stretched)) > 0.03 * work
+    assert spent - yielded + stretched == pytest.approx(work, rel=most, abs=0)
+
+
+def test_bulk_stress_is_initial_stress_of_a_contact_without_shear(solve, tmp_path):
+    """Of equal depth everywhere; of both bodies."""
+    stress = dict(xx=0.3 * YIELD, yy=-0.2 * YIELD)
+    (tmp_path / "initial.txt").write_text("depth,stress_xx,stress_yy\n" + "".join(f"{z},3e-4,-2e-4\n" for z in (0, 1)))
+    case = sphere(14, 7, 5, body1_young=2, body1_yield=1.3 * YIELD)
+    bulk = {f"bulk{body}_stress_{part}": value for body in (1, 2) for part, value in stress.items()}
+    initial = {f"body{body}_initial_stress": tmp_path / "initial.txt" for body in (1, 2)}
+    one, other, none = (all_steps(solve({**case, **more})) for more in (bulk, initial, {}))
+    for name in ("plastic_max", "plastic_work", "residual_energy", "disp_z", "pressure_max"):
+        assert one[name] == pytest.approx(other[name], rel=1e-6)
+        assert abs(one[name] / none[name] - 1) > 2e-4
+
+
+@pytest.mark.parametrize(
+    "more, limit",
+    [
+        (dict(bulk2_stress_xx=1.1e-3), "is 0.0011 Pa, limit 0.001 Pa, -body2_yield"),
+        (dict(bulk2_stress_xy=6e-4), "-bulk2_stress_xy"),
+        (dict(bulk2_stress_xx=6e-4, bulk2_stress_yy=-6e-4), "away from the contact is 0.00103923 Pa"),
+        (dict(bulk2_stress_xx=9e-4, bulk2_stress_yy=9e-4), None),
+    ],
+)
+def test_bulk_stress_above_yield_is_refused(petsam, more, limit):
+    case = sphere(8, 4, 0.1)
+    done = petsam({**case, **more}, check=2 if limit else 0)
+    assert not limit or limit in done.stderr
+
+
 def test_fretting_above_yield_shakes_down(solve, tmp_path):
     parts = [0] + [0.6, -0.6] * 5
     case = pushed(14, 8, tmp_path / "h.csv", parts, coupling="none", body2_backstress="0.3,800,0.02,100")
@@ -209,7 +278,9 @@ FIELDS = ("pressure", "shear_x", "history/disp_z", "history/plastic_max", "histo
 def test_ranks_and_restart_give_the_same_bits(petsam, tmp_path):
     loads = [x * LOAD for x in (2, 5, 1, 6)]
     turns = [0, 0.3 * LOAD, -0.1 * LOAD, 0.4 * LOAD]
-    case = sphere(13, 5, **steps(tmp_path / "loads.csv", load_n=loads, load_tx=turns), friction=0.2)
+    bulk = [0, 0.2 * YIELD, -0.3 * YIELD, 0.1 * YIELD]
+    columns = dict(load_n=loads, load_tx=turns, bulk2_stress_xx=bulk)
+    case = sphere(13, 5, **steps(tmp_path / "loads.csv", **columns), friction=0.2)
     runs = []
     for name, ranks in ("one", 1), ("three", 3):
         petsam(case, dict(output=tmp_path / f"{name}.h5"), ranks=ranks)

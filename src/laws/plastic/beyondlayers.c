@@ -14,7 +14,7 @@ static const double places[] = {0, 0.25, FIRST, DEEP, 1, 1.5, 2};
 #define PLACES ((PetscInt)(sizeof(places) / sizeof(places[0])))
 
 /*
-  Adds a layer's residual stress to the tractions' stress at a depth; raises `excess` to the largest relative excess
+  Adds a layer's residual stress and the bulk stress to the tractions' stress at a depth; raises `excess` to the largest relative excess
   over the yield stress.
 */
 static PetscErrorCode Look(SamPlastic *p, PetscInt b, PetscReal depth, const double state[], const double residual[],
@@ -33,7 +33,7 @@ static PetscErrorCode Look(SamPlastic *p, PetscInt b, PetscReal depth, const dou
 
     SamPlasticRead(p, state, l, k, &at);
     for (PetscInt c = 0; c < PARTS; c++)
-      stress[c] = s[c * cells + k] + residual[((ptrdiff_t)l * PARTS + c) * cells + k];
+      stress[c] = s[c * cells + k] + residual[((ptrdiff_t)l * PARTS + c) * cells + k] + body->bulk[c];
     *excess = PetscMax(*excess, SamMisesExcess(&body->material, &at, stress) / body->material.yield);
   }
   PetscCall(PetscFree(s));

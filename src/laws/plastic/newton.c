@@ -146,6 +146,19 @@ static void AddInitial(const SamPlastic *p, double s[])
   }
 }
 
+/* Adds the bulk stress of the step to that of all layers. */
+static void AddBulk(const SamPlastic *p, double s[])
+{
+  const PetscInt cells = p->grid->cells;
+
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++)
+    for (PetscInt c = 0; c < PARTS; c++) {
+      const double bulk = BodyOf(p, l)->bulk[c];
+
+      for (PetscInt k = 0; k < cells && bulk != 0; k++) s[((ptrdiff_t)l * PARTS + c) * cells + k] += bulk;
+    }
+}
+
 PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shear, double stress[], double *energy)
 {
   const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
@@ -166,6 +179,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
     PetscCall(Load(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
     PetscCall(VecRestoreArrayRead(shear, &by_q));
     PetscCall(VecRestoreArrayRead(pressure, &by_p));
+    AddBulk(p, stress);
   }
   for (PetscInt k = 0; k < n; k++) stress[k] += e[k];
   AddInitial(p, stress);
@@ -351,6 +365,7 @@ static PetscErrorCode GetDriver(Solve *w, double d[])
   PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
   for (PetscInt k = 0; k < w->n; k++) w->s[k] += w->v[k];
   AddInitial(w->plastic, w->s);
+  AddBulk(w->plastic, w->s);
   AddDeviator(w->plastic, w->e, w->s, d);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -11,6 +11,7 @@ typedef struct {
   SamResidual residual;
   PetscInt    first;
   double     *initial; /* stress before any load, xx and yy of each layer (Pa); NULL: none; borrowed */
+  double      bulk[SAM_STRESS_COMPONENTS]; /* bulk stress of the step (Pa) */
 } SamPlasticBody;
 
 /*
@@ -36,9 +37,9 @@ typedef struct {
   Collective.
   SamPlasticDisplace - computes the displacements of the surfaces by the strain of a generation of the state (m).
   Collective.
-  SamPlasticStress - computes the stress by the strain of the state, by the tractions (Pa; NULL: none), and before any
-  load, as (layers of all bodies, PARTS), and the elastic energy of the stress by the strain alone (J; NULL: not
-  wanted). Collective.
+  SamPlasticStress - computes the stress by the strain of the state and before any load, and, if the tractions are given
+  (Pa; NULL: not), by these and the bulk stress of the step, as (layers of all bodies, PARTS), and the elastic energy of
+  the stress by the strain alone (J; NULL: not wanted). Collective.
   SamPlasticWork - computes the work of such a stress on a strain (J). Collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawContact *contact);

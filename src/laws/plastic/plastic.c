@@ -511,22 +511,64 @@ static PetscErrorCode Destroy(SamLaw law)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rejects bulk stress, which is not included in the yield condition, and motions with which the memory of cells would
-   have to move. */
+/* Gets the bulk stress of body 0 or 1 in a step, Pa; `first`: its first condition that is not 0. */
+static void GetBulk(SamLaw law, const SamControl *control, PetscInt body, double bulk[PARTS],
+                    const SamCondition **first)
+{
+  static const struct {
+    const char        *name[2];
+    SamStressComponent component;
+  } of[] = {{{"bulk1_stress_xx", "bulk2_stress_xx"}, SAM_STRESS_XX},
+            {{"bulk1_stress_yy", "bulk2_stress_yy"}, SAM_STRESS_YY},
+            {{"bulk1_stress_xy", "bulk2_stress_xy"}, SAM_STRESS_XY}};
+
+  for (PetscInt c = 0; c < PARTS; c++) bulk[c] = 0;
+  for (size_t k = 0; k < sizeof(of) / sizeof(of[0]); k++) {
+    const SamCondition *one = law->conditions ? SamConditionsFind(law->conditions, of[k].name[body]) : NULL;
+
+    if (!one) continue;
+    bulk[of[k].component] = (double)SamControlGet(control, one);
+    if (first && !*first && bulk[of[k].component] != 0) *first = one;
+  }
+}
+
+/* Rejects bulk stress of a body that yields far away from the contact, where the strain would have no limit. */
+static void CheckBulk(SamLaw law, const SamControl *control, PetscInt body, PetscInt *wrong, char why[], size_t size)
+{
+  const Plastic *const  x      = (const Plastic *)law->data;
+  const Material *const m      = &x->material[body];
+  const SamCondition   *first  = NULL;
+  const SamMisesAt      virgin = {{0}, 0, {{0}}};
+  double                bulk[PARTS], most = -INFINITY;
+  SamMises              material;
+
+  if (!isfinite(m->yield)) return;
+  GetBulk(law, control, body, bulk, &first);
+  if (!first) return;
+  material = MaterialOf(m, SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body)));
+  for (PetscInt l = 0; l < x->layers; l++) {
+    double s[PARTS];
+
+    for (PetscInt c = 0; c < PARTS; c++) s[c] = bulk[c];
+    for (PetscInt c = 0; c < 2 && m->initial; c++) s[c] += m->initial[2 * l + c];
+    most = PetscMax(most, SamMisesExcess(&material, &virgin, s));
+  }
+  if (most < 0) return;
+  *wrong = SAM_COMPONENTS + first->place;
+  (void)snprintf(
+    why, size,
+    "with this bulk stress%s the von Mises stress of body %d away from the contact is %.6g Pa, limit %.6g Pa, "
+    "-%s: a body that yields as a whole has no limit of its strain",
+    m->initial ? " and the initial stress" : "", (int)body + 1, most + material.yield, material.yield, yielding[body]);
+}
+
+/* Rejects motions with which the memory of cells would have to move, and bulk stress above the yield stress. */
 static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, char why[], size_t size)
 {
-  static const char *const names[] = {"bulk1_stress_xx",
-                                      "bulk1_stress_yy",
-                                      "bulk1_stress_xy",
-                                      "bulk2_stress_xx",
-                                      "bulk2_stress_yy",
-                                      "bulk2_stress_xy",
-                                      "roll",
-                                      "roll_y",
-                                      "slide_x",
-                                      "slide_y"};
+  static const char *const names[] = {"roll", "roll_y", "slide_x", "slide_y"};
 
   PetscFunctionBegin;
+  for (PetscInt body = 0; body < 2 && !why[0]; body++) CheckBulk(law, control, body, wrong, why, size);
   for (size_t k = 0; k < sizeof(names) / sizeof(names[0]); k++) {
     const SamCondition *one = SamConditionsFind(law->conditions, names[k]);
 
@@ -541,11 +583,15 @@ static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, ch
 
 static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
 {
+  Plastic *const x    = (Plastic *)law->data;
+  PetscInt       next = 0;
+
   PetscFunctionBegin;
   (void)state;
-  (void)control;
   (void)duration;
   PetscCall(SetUp(law));
+  for (PetscInt b = 0; b < 2; b++)
+    if (isfinite(x->material[b].yield)) GetBulk(law, control, b, x->plastic.body[next++].bulk, NULL);
   law->revision++; /* the pressure has to be solved again */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
