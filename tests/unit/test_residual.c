@@ -192,10 +192,10 @@ static void Weigh(SamGrid grid, int layers, const PetscReal h[], Vec e)
   sam_call(VecRestoreArray(e, &a));
 }
 
-static void AssertSymmetric(SamElasticityType type, PetscInt body)
+static void AssertSymmetric(SamElasticityType type, PetscInt rows, PetscInt body)
 {
   const PetscReal h[3] = {0.1, 0.15, 0.3};
-  SamGrid         grid = NewGrid(9, 8, 1, 0.9);
+  SamGrid         grid = NewGrid(9, rows, 1, 0.9);
   SamElasticity   b    = NewBodies(grid, type);
   Vec e = NewRandom(grid, 18, 1), f = NewRandom(grid, 18, 2), q = NewRandom(grid, 3, 3), s = NewField(grid, 18),
       t = NewField(grid, 18), u = NewField(grid, 3);
@@ -227,8 +227,9 @@ static void test_operators_are_symmetric(void **state)
 {
   (void)state;
   for (PetscInt body = 1; body <= 2; body++) {
-    AssertSymmetric(SAM_ELASTICITY_PERIODIC, body);
-    AssertSymmetric(SAM_ELASTICITY_HALFSPACE, body);
+    AssertSymmetric(SAM_ELASTICITY_PERIODIC, 8, body);
+    AssertSymmetric(SAM_ELASTICITY_HALFSPACE, 8, body);
+    AssertSymmetric(SAM_ELASTICITY_PLANE, 1, body);
   }
 }
 
@@ -257,25 +258,19 @@ static double BellOf(double x, double y, const void *context)
   return exp(-(x * x + y * y) / 0.08);
 }
 
-/* A Gaussian in the second layer, in the fourth one at (0.15, 0.1): of cells with their centre there. */
-static void test_half_space_has_reference_stress(void **state)
+/* Asserts the stress in the fourth layer by a Gaussian in the second one, in a cell; expected: the component of the
+   strain, and the stress by it. */
+static void AssertStress(SamElasticityType type, SamGrid grid, PetscInt i, PetscInt j, int count,
+                         const double expected[][7])
 {
-  static const double expected[][7] = {{SAM_STRESS_XX, 0.12017021472, 0.034940988292, 0.021526568346, -0.005247477715,
-                                        -0.036862316792, -0.0015730785622},
-                                       {SAM_STRESS_ZZ, -0.0185524886, -0.014585083899, -0.057615056146,
-                                        -0.0047608856406, -0.024629023266, -0.016419348844},
-                                       {SAM_STRESS_XY, -0.013273441173, -0.012211776717, -0.016004904682,
-                                        0.088328127178, -0.028986725032, -0.038492649437}};
-  const PetscReal     h[4]          = {0.1, 0.1, 0.1, 0.1};
-  SamGrid             grid          = NewGridOn(PETSC_COMM_WORLD, 40, 40, 2, 2, 0.025, 0.025);
-  SamElasticity       b             = NewBodies(grid, SAM_ELASTICITY_HALFSPACE);
-  Vec                 bell = NewFrom(grid, BellOf, NULL), at = NewField(grid, 1);
-  SamResidual         r;
+  const PetscReal h[4] = {0.1, 0.1, 0.1, 0.1};
+  SamElasticity   b    = NewBodies(grid, type);
+  Vec             bell = NewFrom(grid, BellOf, NULL), at = NewField(grid, 1);
+  SamResidual     r;
 
-  (void)state;
   sam_call(SamResidualCreate(b, 2, 4, h, &r));
-  AddAt(grid, 0, 22, 21, 1, at);
-  for (int n = 0; n < 3; n++) {
+  AddAt(grid, 0, i, j, 1, at);
+  for (int n = 0; n < count; n++) {
     Vec e = NewField(grid, 24), s = NewField(grid, 24), u = NewField(grid, 3);
 
     SetPlane(grid, 6 + (PetscInt)expected[n][0], bell, e);
@@ -292,12 +287,37 @@ static void test_half_space_has_reference_stress(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+/* At (0.15, 0.1), by cells with their centre there. */
+static void test_half_space_has_reference_stress(void **state)
+{
+  static const double expected[][7] = {{SAM_STRESS_XX, 0.12017021472, 0.034940988292, 0.021526568346, -0.005247477715,
+                                        -0.036862316792, -0.0015730785622},
+                                       {SAM_STRESS_ZZ, -0.0185524886, -0.014585083899, -0.057615056146,
+                                        -0.0047608856406, -0.024629023266, -0.016419348844},
+                                       {SAM_STRESS_XY, -0.013273441173, -0.012211776717, -0.016004904682,
+                                        0.088328127178, -0.028986725032, -0.038492649437}};
+
+  (void)state;
+  AssertStress(SAM_ELASTICITY_HALFSPACE, NewGridOn(PETSC_COMM_WORLD, 40, 40, 2, 2, 0.025, 0.025), 22, 21, 3, expected);
+}
+
+/* In plane strain, at x = 0.15. */
+static void test_plane_has_reference_stress(void **state)
+{
+  static const double expected[][7] = {{SAM_STRESS_XX, 0.224803103, 0.08112454165, 0.04561203584, 0, -0.04365772005, 0},
+                                       {SAM_STRESS_ZZ, -0.01515929707, -0.01279692906, -0.02749713315, 0,
+                                        -0.02309058016, 0}};
+
+  (void)state;
+  AssertStress(SAM_ELASTICITY_PLANE, NewGridOn(PETSC_COMM_WORLD, 40, 1, 2, 1, 0.025, 0), 22, 0, 2, expected);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_waves_have_reference_amplitudes), cmocka_unit_test(test_uniform_layers),
     cmocka_unit_test(test_operators_are_symmetric),         cmocka_unit_test(test_nucleus_has_reference_stress),
-    cmocka_unit_test(test_half_space_has_reference_stress),
+    cmocka_unit_test(test_half_space_has_reference_stress), cmocka_unit_test(test_plane_has_reference_stress),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

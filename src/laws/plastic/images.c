@@ -7,11 +7,16 @@
   The matrix is the sum over the images of the stress of a point (nucleus.c), which falls as their distance cubed. Sums
   over squares |m|, |n| <= 1, 2, 4 are extrapolated in the powers 1 and 3 of 1/(N + 1/2). Apart from signs it depends
   only on the distance of two nodes along x and y.
+
+  A row of cells in plane strain has images along x only, which are lines: the point's stress is integrated along y by
+  Gauss's rule in the angle at which the points of the line are seen. It falls as the distance squared, so that four
+  times as many images are summed.
 */
 #include "images.h"
 #include <petsam/private/baseimpl.h>
+#include <petscdt.h>
 
-enum { ALONG = 6, DOWN = 5, LAGS = 1 + ALONG * (ALONG - 1) / 2, NODES = ALONG * ALONG * DOWN };
+enum { ALONG = 6, DOWN = 5, LAGS = 1 + ALONG * (ALONG - 1) / 2, NODES = ALONG * ALONG * DOWN, ANGLES = 24 };
 
 enum { ENTRIES = PARTS * PARTS };
 typedef double Matrix[ENTRIES];
@@ -19,6 +24,9 @@ typedef double Matrix[ENTRIES];
 struct _n_SamImages {
   SamGrid     grid;
   SamWaveBody body;
+  PetscInt    along[2];                      /* number of nodes along x and y, 1 across a row */
+  PetscReal   angle[ANGLES], weight[ANGLES]; /* of Gauss's rule between -1 and 1 */
+  PetscReal   point[DOWN], part[DOWN];       /* the same of a layer */
   double      node[2][ALONG], depth[DOWN];
   double     *basis[3];                   /* at columns, this rank's rows, and layers */
   PetscInt    lag[ALONG][ALONG];          /* the place of the distance of two nodes along an axis */
@@ -47,6 +55,18 @@ static void SetBasis(PetscInt n, const double node[], double at, double basis[])
   }
 }
 
+/* Sets the means over a layer of the polynomials along z, by Gauss's rule of order DOWN. */
+static void SetMeanBasis(SamImages m, double top, double thickness, double mean[])
+{
+  double one[DOWN];
+
+  for (PetscInt i = 0; i < DOWN; i++) mean[i] = 0;
+  for (PetscInt k = 0; k < DOWN; k++) {
+    SetBasis(DOWN, m->depth, top + thickness / 2 * (1 + m->point[k]), one);
+    for (PetscInt i = 0; i < DOWN; i++) mean[i] += m->part[k] / 2 * one[i];
+  }
+}
+
 /* Nodes and polynomials. */
 static PetscErrorCode CreateBasis(SamImages m)
 {
@@ -56,37 +76,53 @@ static PetscErrorCode CreateBasis(SamImages m)
   PetscFunctionBegin;
   for (PetscInt l = 0; l < m->body.layers; l++) all += m->body.thickness[l];
   for (PetscInt c = 0; c < 2; c++)
-    SetNodes(ALONG, g->center[c] - g->width[c] / 2, g->center[c] + g->width[c] / 2, m->node[c]);
+    SetNodes(m->along[c], g->center[c] - g->width[c] / 2, g->center[c] + g->width[c] / 2, m->node[c]);
   SetNodes(DOWN, 0, all, m->depth);
   PetscCall(
     PetscMalloc3(ALONG * g->nx, &m->basis[0], ALONG * g->rows, &m->basis[1], DOWN * m->body.layers, &m->basis[2]));
   for (PetscInt i = 0; i < g->nx; i++) SetBasis(ALONG, m->node[0], SamGridX(g, i), m->basis[0] + ALONG * i);
   for (PetscInt j = 0; j < g->rows; j++)
-    SetBasis(ALONG, m->node[1], SamGridY(g, g->row_start + j), m->basis[1] + ALONG * j);
+    SetBasis(m->along[1], m->node[1], SamGridY(g, g->row_start + j), m->basis[1] + ALONG * j);
   for (PetscInt l = 0; l < m->body.layers; l++) {
-    SetBasis(DOWN, m->depth, top + m->body.thickness[l] / 2, m->basis[2] + DOWN * l);
+    SetMeanBasis(m, top, m->body.thickness[l], m->basis[2] + DOWN * l);
     top += m->body.thickness[l];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Computes the stress of an image at a distance along x and y; in a row, of a line. */
+static void AddImage(SamImages m, const double between[2], double depth, double source, Matrix sum)
+{
+  const double far = hypot(between[0], depth - source);
+  Matrix       one;
+
+  for (PetscInt k = 0; k < (m->along[1] > 1 ? 1 : ANGLES); k++) {
+    const double angle = PETSC_PI / 2 * m->angle[k], y = far * tan(angle);
+    const double weight = m->weight[k] * PETSC_PI / 2 * far / (cos(angle) * cos(angle));
+
+    if (m->along[1] > 1)
+      SamNucleus(between, depth, source, m->body.shear, m->body.poisson, one);
+    else
+      SamNucleus((const double[2]){between[0], y}, depth, source, m->body.shear, m->body.poisson, one);
+    for (PetscInt a = 0; a < ENTRIES; a++) sum[a] += (m->along[1] > 1 ? 1 : weight) * one[a];
+  }
+}
+
 /* Computes the stress of all images for one lag. */
 static void SumImages(SamImages m, const double lag[2], const double period[2], double depth, double source, Matrix sum)
 {
-  static const PetscInt sizes[] = {1, 2, 4};
-  double                power[3][3];
-  Matrix                upto[3] = {{0}};
+  const PetscInt least = m->along[1] > 1 ? 1 : 4, sizes[] = {least, 2 * least, 4 * least};
+  double         power[3][3];
+  Matrix         upto[3] = {{0}};
 
   for (PetscInt s = 0; s < 3; s++)
     for (PetscInt i = -sizes[s]; i <= sizes[s]; i++)
       for (PetscInt j = -sizes[s]; j <= sizes[s]; j++) {
         const double between[2] = {lag[0] + (double)i * period[0], lag[1] + (double)j * period[1]};
-        Matrix       one;
 
         if (PetscMax(labs((long)i), labs((long)j)) <= (s ? sizes[s - 1] : 0)) continue;
-        SamNucleus(between, depth, source, m->body.shear, m->body.poisson, one);
-        for (PetscInt k = s; k < 3; k++)
-          for (PetscInt a = 0; a < ENTRIES; a++) upto[k][a] += one[a];
+        if (j == 0 || m->along[1] > 1)
+          for (PetscInt k = s; k < 3; k++) AddImage(m, between, depth, source, upto[k]);
       }
   /* The weights of the three sums that eliminate the powers 1 and 3. */
   for (PetscInt s = 0; s < 3; s++) {
@@ -132,8 +168,8 @@ static PetscErrorCode FillTable(SamImages m, const double period[2])
     for (PetscInt i = 0; i < ALONG; i++)
       for (PetscInt j = 0; j < i; j++) size[c][m->lag[i][j]] = m->node[c][i] - m->node[c][j];
   PetscCall(PetscCalloc1(LAGS, &m->table));
-  for (PetscInt k = rank; k < lags * lags; k += ranks) {
-    const PetscInt x = k / lags, y = k % lags;
+  for (PetscInt k = rank; k < lags * (m->along[1] > 1 ? lags : 1); k += ranks) {
+    const PetscInt x = k % lags, y = k / lags;
     const double   lag[2] = {size[0][x], size[1][y]};
 
     for (PetscInt z = 0; z < DOWN; z++)
@@ -152,7 +188,11 @@ PetscErrorCode SamImagesCreate(SamGrid grid, const PetscReal period[2], const Sa
   PetscCall(PetscNew(&m));
   m->grid = grid;
   PetscCall(SamGridReference(grid));
-  m->body = *body;
+  m->body     = *body;
+  m->along[0] = ALONG;
+  m->along[1] = SamGridIsRow(grid) ? 1 : ALONG;
+  PetscCall(PetscDTGaussQuadrature(ANGLES, -1, 1, m->angle, m->weight));
+  PetscCall(PetscDTGaussQuadrature(DOWN, -1, 1, m->point, m->part));
   PetscCall(CreateBasis(m));
   PetscCall(FillTable(m, of));
   *images = m;
@@ -205,7 +245,7 @@ PetscErrorCode SamImagesReduce(SamImages m, const double e[])
   for (PetscInt j = 0; j < m->grid->rows; j++) {
     ReduceRow(m, j, e, row);
     for (PetscInt k = 0; k < PARTS * DOWN; k++)
-      for (PetscInt y = 0; y < ALONG; y++)
+      for (PetscInt y = 0; y < m->along[1]; y++)
         for (PetscInt x = 0; x < ALONG; x++)
           SamAdd(&totals[(k * ALONG + y) * ALONG + x], m->basis[1][ALONG * j + y] * row[k * ALONG + x]);
   }
@@ -238,7 +278,7 @@ static void GetNodes(SamImages m, double s[NODES][PARTS])
       const PetscInt at[3]   = {i % ALONG, i / ALONG % ALONG, i / (ALONG * ALONG)},
                      from[3] = {j % ALONG, j / ALONG % ALONG, j / (ALONG * ALONG)};
 
-      AddNode(m, at, from, s[i]);
+      if (PetscMax(at[1], from[1]) < m->along[1]) AddNode(m, at, from, s[i]);
     }
 }
 
@@ -255,9 +295,11 @@ PetscErrorCode SamImagesAdd(SamImages m, double s[])
       double *to = s + (ptrdiff_t)k * g->cells + j * (ptrdiff_t)g->nx;
 
       memset(line, 0, sizeof(line));
-      for (PetscInt n = 0; n < NODES; n++)
+      for (PetscInt n = 0; n < NODES; n++) {
+        if (n / ALONG % ALONG >= m->along[1]) continue;
         line[n % ALONG] += m->basis[2][DOWN * (k / PARTS) + n / (ALONG * ALONG)] *
                            m->basis[1][ALONG * j + n / ALONG % ALONG] * node[n][k % PARTS];
+      }
       for (PetscInt i = 0; i < g->nx; i++)
         for (PetscInt n = 0; n < ALONG; n++) to[i] -= m->basis[0][ALONG * i + n] * line[n];
     }
