@@ -50,7 +50,7 @@ from .band import band
 from .numbers import ENDS
 from .pair import Pair, Unreadable
 from .sweep import BackboneWarning
-from .wear import wear
+from .wear import rising, wear
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -164,8 +164,9 @@ def cycle_counts(text):
         found = np.array([float(word) for word in text.split(",")])
     except ValueError:
         found = np.zeros(1)
-    if not np.all((np.diff(found, prepend=0.0) > 0.0) & np.isfinite(found)):
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected rising numbers above 0: 1e4,1e5,1e6")
+    if not rising(found):
+        what = "expected rising whole numbers above 0: 1e4,1e5,1e6"
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
     return found
 
 

@@ -61,7 +61,7 @@ class Patch:
         self.contact, self.coordinates, self.held, self.name = contact, list(coordinates), dict(held or {}), name
         self.by_load = np.array([name in by_load for name in self.coordinates])
         self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
-        self.given = {}  # what the last step prescribed
+        self.given = {}  # what the last step prescribed, and the coordinates that it found
         self.outgrown = False
         self.sign = np.array([-1.0 if name in DISPLACEMENTS else 1.0 for name in self.coordinates])
         order = [*DISPLACEMENTS, *self.cases]
@@ -71,7 +71,7 @@ class Patch:
     def step(self, values, held=None):
         """Tries a step with these coordinates, or loads on the structure where it is by_load; returns coordinates and
         loads."""
-        given = self.given = {**self.held, **(held or {})}
+        given = {**self.held, **(held or {})}
         for k, value in enumerate(values):
             given[self._loads[k] if self.by_load[k] else self.coordinates[k]] = value * (
                 self.sign[k] if self.by_load[k] else 1.0
@@ -91,6 +91,7 @@ class Patch:
                 self.outgrown = True  # the step is solved; on the way to an equilibrium it does not matter
         z = np.array(values, dtype=float)
         found, loads = self.state()
+        self.given = {**dict(zip(self.coordinates, found)), **given}
         z[self.by_load] = found[self.by_load]
         return z, loads
 
