@@ -309,6 +309,17 @@ def test_a_rigid_part_outside_of_the_contact_changes_nothing(tmp_path):
     assert max(plain.iterations) == 1 and one.viscous.tolist() == [1e-3, 1e-3]
 
 
+def test_bolts_are_tightened_though_displacements_are_tried_first(tmp_path, monkeypatch):
+    """Where loads need more iterations than those after which displacements along the surface are tried."""
+    file = pair_file(tmp_path / "pair.h5", 1.0)
+    plain = joint.Pair(file, PRELOAD, **OPTIONS | dict(grid_n=16))
+    assert max(plain.structure.iterations) > 4
+    monkeypatch.setattr(joint.structure, "FEWER", 2)
+    monkeypatch.setattr(joint.structure.Structure, "_slides", lambda *_: False)
+    found = joint.Pair(file, PRELOAD, **OPTIONS | dict(grid_n=16))
+    assert found.tensions["B"] == pytest.approx(plain.tensions["B"], rel=1e-6)
+
+
 def test_a_body_that_only_a_soft_bolt_holds(tmp_path):
     """A rigid part of 200 times the contact's: equilibrium of loads and of the bolt's energy."""
     file = pair_file(tmp_path / "pair.h5", 200.0)

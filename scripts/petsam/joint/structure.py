@@ -332,30 +332,36 @@ class Structure:
     def _find(self, driven, free, held, response, scale):
         """Solves a step; returns its last response, None where contacts slide and another one must be computed.
 
-        A contact that slides does not bear more loads: where steps by loads find no equilibrium, displacements along
-        the surface are prescribed instead.
+        A contact that slides does not bear more loads: where steps by loads find no equilibrium soon, displacements
+        along the surface are prescribed instead. Where those find none either, steps by loads go on.
         """
         limited = [patch for patch in self.patches if patch.limited]
-        if not limited:
-            return self._iterate(driven, free, held, response, scale)
-        try:
-            return self._iterate(driven, free, held, response, scale, FEWER)
-        except (NoSolution, *BEYOND) as error:
-            reason = error
+        if limited:
+            with contextlib.suppress(NoSolution, *BEYOND):
+                return self._iterate(driven, free, held, response, scale, FEWER)
+            if self._slides(limited, driven, free, held, scale):
+                return None
+        return self._iterate(driven, free, held, response, scale)
+
+    def _slides(self, limited, driven, free, held, scale):
+        """True if the step is solved by displacements along the surface of these patches."""
         before = self.by_load, [patch.by_load for patch in limited]
+        state = self.z, self.a, self.loads
         for patch in limited:
             patch.by_load = patch.by_load & ~np.isin(patch.coordinates, SLIDING)
         self.by_load = np.concatenate([patch.by_load for patch in self.patches])
         try:
             self._iterate(driven, free, held, None, scale)
-            if any(patch.outgrown for patch in self.patches):
-                raise reason
+            inside = not any(patch.outgrown for patch in self.patches)
         except (NoSolution, *BEYOND):
-            raise reason from None
+            inside = False
         finally:
             self.by_load = before[0]
             for patch, mask in zip(limited, before[1]):
                 patch.by_load = mask
+        if not inside:
+            self.z, self.a, self.loads = state
+        return inside
 
     def _iterate(self, driven, free, held, response, scale, most=MOST):
         """Broyden's method for what steps prescribe, and for a; returns its last response."""
