@@ -13,6 +13,7 @@ from .structure import DISPLACEMENTS, Patch, Structure
 
 PRESS = 4  # steps in which each bolt is tightened
 SNUG = 0.1  # part of the tension of several bolts that all get before the first one is tightened
+FIRST = 0.1  # the first guess of the loads over the tension: from loads that are too large the iteration may not end
 PRESSING = ("disp_z", "rot_x", "rot_y")  # displacements whose loads press the bodies together
 
 
@@ -133,7 +134,7 @@ class Pair:
         for name, whole in preload.items():
             first = snug.get(name, 0.0)
             rows += [{name: first + part * (whole - first)} for part in parts]
-        at, guess = 0, sum(rows[0].values()) / len(patches)  # of the load: all of the tension, in equal parts
+        at, guess = 0, FIRST * sum(rows[0].values()) / len(patches)
         for patch in patches:
             structure.loads[at] = -guess
             at += len(patch.coordinates)
