@@ -5,6 +5,7 @@ import functools
 import re
 import subprocess
 import sys
+import types
 import warnings
 
 import h5py
@@ -364,6 +365,27 @@ def test_a_band_has_its_assemblies_and_their_scatter(tmp_path):
         joint.band(make, PRELOAD, [3e-3], tip, dict(young=0.1), **given)
 
 
+def test_a_band_ends_where_its_assemblies_do(monkeypatch):
+    """Of three amplitudes two have a solution as given, one without friction; vibrated is at the larger of the two."""
+    module, shaken, ends = sys.modules["petsam.joint.band"], [], iter((2, 1, 2))
+    numbers = {name: np.ones(3) for name in ("amplitude", "frequency", "damping")}
+
+    def backbone(structure, amplitudes, sensor):
+        count = next(ends, None)
+        if count is None:
+            raise joint.NoSolution("gross slip: load_tx; for gross slip give disp_x")
+        return types.SimpleNamespace(alpha=amplitudes[:count], numbers=numbers, amplitude=numbers["amplitude"])
+
+    monkeypatch.setattr(module, "backbone", backbone)
+    monkeypatch.setattr(module, "shake", lambda structure, amplitude, *_: shaken.append(amplitude))
+    given = lambda *_, **changes: types.SimpleNamespace(structure=None)  # noqa: E731
+    with pytest.warns(joint.BackboneWarning, match="only 1 of 2 amplitudes: .* the assembly without friction"):
+        found = joint.band(given, PRELOAD, [1.0, 2.0, 3.0], lambda _: None)
+    assert found.count == 1 and shaken == [2.0]
+    with pytest.raises(joint.NoSolution, match="^assembly as given: gross slip: load_tx$"):
+        joint.band(given, PRELOAD, [1.0], lambda _: None)
+
+
 def test_a_shaken_contact_comes_to_rest_with_other_tractions():
     contact, stiffness = sphere(LOAD, 48)
     patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
@@ -602,6 +624,7 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
         (("--preload", "B=0.02", "--steps", "0"), "--steps 0: expected 1 or more", 2),
         (("--preload", "B=0.02", "--contact", "none.opts"), "none.opts", 3),
         (("--preload", "B=0.02", "--preload", "B=0.01"), "--preload: a bolt is given twice", 2),
+        (("--preload", "B=0.02", "--amplitudes", "1mm:2mm,3mm:3"), "1mm:2mm,3mm:3: expected FIRST:LAST:COUNT", 2),
         (("--preload", "B=0"), "does not resist them: give it friction and preload", 2),
         (("--preload", "B=0.02", "--damping", "nan"), "damping nan: expected a part of critical damping", 2),
     ],
@@ -724,3 +747,5 @@ def test_an_amplitude_that_slides_is_named():
     one = joint.Structure([patch], rigid=[[1.0]])
     with pytest.raises(petsam.Error, match="at an amplitude of .* m: gross slip: load_tx"):
         joint.backbone(one, [2 * FRICTION * LOAD / stiffness], steps=2)
+    with pytest.raises(petsam.Error, match="the vibration after 0 cycles or more: gross slip: load_tx.* mu p$"):
+        joint.wear(one, 2 * FRICTION * LOAD / stiffness, [10.0], steps=2)

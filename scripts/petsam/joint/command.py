@@ -139,7 +139,7 @@ def amplitude_range(text):
     words = text.split(":")
     if len(words) == 1:
         found = np.array(lengths(text))
-    elif len(words) == 3 and words[2].isdigit() and 2 <= int(words[2]) <= 1000:
+    elif len(words) == 3 and "," not in text and words[2].isdigit() and 2 <= int(words[2]) <= 1000:
         found = np.geomspace(*(lengths(word)[0] for word in words[:2]), int(words[2]))
     else:
         found = np.zeros(1)

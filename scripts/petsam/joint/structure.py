@@ -336,12 +336,18 @@ class Structure:
         along the surface are prescribed instead. Where those find none either, steps by loads go on.
         """
         limited = [patch for patch in self.patches if patch.limited]
-        if limited:
-            with contextlib.suppress(NoSolution, *BEYOND):
-                return self._iterate(driven, free, held, response, scale, FEWER)
-            if self._slides(limited, driven, free, held, scale):
-                return None
-        return self._iterate(driven, free, held, response, scale)
+        if not limited:
+            return self._iterate(driven, free, held, response, scale)
+        try:
+            return self._iterate(driven, free, held, response, scale, FEWER)
+        except (NoSolution, *BEYOND) as error:
+            first = error
+        if self._slides(limited, driven, free, held, scale):
+            return None
+        try:
+            return self._iterate(driven, free, held, response, scale)
+        except (NoSolution, *BEYOND):
+            raise first from None  # most often names what the contact does not bear
 
     def _slides(self, limited, driven, free, held, scale):
         """True if the step is solved by displacements along the surface of these patches."""

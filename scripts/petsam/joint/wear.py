@@ -13,8 +13,8 @@ import numpy as np
 
 from ..errors import Error
 from .backbone import modal_amplitudes
-from .numbers import Numbers
-from .structure import DISPLACEMENTS
+from .numbers import ENDS, Numbers, reason
+from .structure import DISPLACEMENTS, NoSolution
 from .sweep import STEPS, Sweep
 
 PARTS = 2  # parts of each span of cycles
@@ -116,7 +116,11 @@ def _run(structure, alpha, cycles, how, measure, parts):
 
     def vibrating():
         sweep = Sweep(structure, *how)
-        return sweep, sweep.under(alpha)
+        try:
+            return sweep, sweep.under(alpha)
+        except ENDS as error:
+            done = np.append(0.0, cycles)[len(points)]
+            raise NoSolution(f"the vibration after {done:g} cycles or more: {reason(error)}") from error
 
     for span in (*np.diff(cycles, prepend=0.0), None):
         structures.append(structure.copy())
