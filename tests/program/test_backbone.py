@@ -2,6 +2,7 @@
 
 import csv
 import functools
+import gc
 import re
 import subprocess
 import sys
@@ -319,6 +320,14 @@ def test_bolts_are_tightened_though_displacements_are_tried_first(tmp_path, monk
     monkeypatch.setattr(joint.structure.Structure, "_slides", lambda *_: False)
     found = joint.Pair(file, PRELOAD, **OPTIONS | dict(grid_n=16))
     assert found.tensions["B"] == pytest.approx(plain.tensions["B"], rel=1e-6)
+
+
+def test_a_copy_of_a_structure_outlives_its_pair(tmp_path):
+    pair = joint.Pair(pair_file(tmp_path / "pair.h5", 1.0), PRELOAD, **OPTIONS | dict(grid_n=8))
+    copy = pair.structure.copy()
+    del pair
+    gc.collect()
+    assert copy.copy().tangent() == pytest.approx(copy.tangent(), rel=1e-6)
 
 
 def test_a_body_that_only_a_soft_bolt_holds(tmp_path):

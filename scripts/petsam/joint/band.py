@@ -159,9 +159,10 @@ def _warn(found):
     """Warns of assemblies that end before the one as given."""
     count = found.count
     if count < len(found.given.alpha):
-        ended = [name for name, one in (found.backbones | found.sides).items() if len(one.alpha) == count]
+        every = found.backbones | found.sides
+        ended = ", ".join(name for name, one in every.items() if len(one.alpha) == count)
         warnings.warn(
-            f"only {count} of {len(found.given.alpha)} amplitudes: no more have a solution for the assembly {', '.join(ended)}",
+            f"only {count} of {len(found.given.alpha)} amplitudes: no more have a solution for the assembly {ended}",
             BackboneWarning,
             stacklevel=3,
         )

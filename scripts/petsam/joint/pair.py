@@ -86,7 +86,7 @@ class Pair:
         coupling, static = np.zeros(2 * (len(static),)), np.flatnonzero(static)
         coupling[np.ix_(static, static)] = self.coupling
         found = Structure(patches, self.omega, np.concatenate(moved), coupling, damping=damping)
-        found.needs = self._folder  # copies of the contacts read the files
+        found.needs = self._folder
         return found
 
     def _read(self, file):

@@ -164,6 +164,7 @@ class Structure:
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
         self.force = np.zeros(self.modes)  # of the last step
         self.iterations = []
+        self.needs = None  # what must not end before the structure and its copies: the folder of its contacts' files
 
     @staticmethod
     def _matrix(values, shape, name):
@@ -188,6 +189,7 @@ class Structure:
         patches = [patch.copy() for patch in self.patches]
         other = Structure(patches, self.omega, self.shapes, self.coupling, self.rigid, self.damping)
         other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
+        other.needs = self.needs
         return other
 
     def take(self, other):
