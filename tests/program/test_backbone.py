@@ -658,6 +658,26 @@ def test_the_pair_in_the_options_file_is_not_counted_twice(command, tmp_path):
     assert printed[0] == printed[1]
 
 
+def test_a_file_of_degree_1_has_no_lower_one(command, tmp_path):
+    """Its numbers would not change, as if the degree were enough."""
+    with h5py.File(pair_file(tmp_path / "pair.h5", 1.0), "a") as file:
+        kept = file["basis/degree_xy"][()].sum(axis=1) <= 1
+        for name in ("basis/degree_xy", *(f"cases/{one}/displacement" for one in file["cases"])):
+            values = file[name][()][kept]
+            del file[name]
+            file[name] = values
+        for name, chosen in (("compliance", np.ix_(kept, range(3), kept, range(3))), ("rigid/motions", np.s_[:, kept])):
+            values = file[name][()][chosen]
+            del file[name]
+            file[name] = values
+    (tmp_path / "c.opts").write_text(
+        "".join(f"-{name} {value}\n" for name, value in (OPTIONS | dict(grid_n=16)).items())
+    )
+    words = ("pair.h5", "--contact", "c.opts", "--preload", "B=0.02", "--sensor", "TIP:z", "--steps", 1)
+    printed = command(*words, "--amplitudes", "3mm", "--degree-check")
+    assert "--degree-check: the file has 3 polynomials and no lower degree" in printed
+
+
 def test_bodies_that_are_pulled_apart_end_the_backbone(tmp_path):
     pair = joint.Pair(pair_file(tmp_path / "pair.h5", 1.0), PRELOAD, **OPTIONS)
     with pytest.warns(joint.BackboneWarning, match="ended before .* pulls the bodies apart with"):

@@ -390,7 +390,7 @@ def _backbone(args):
     _tell_tensions(pair, preload)
     _print(result, found)
     if args.degree_check:
-        print(_degree_line(args, compute, result))
+        print(_degree_line(args, compute, pair, result))
     _write(args, result)
     if args.output:
         write(result.plot_contact(), args.output + "-contact.png", args.dpi)
@@ -440,15 +440,17 @@ def _response(args):
     return 0
 
 
-def _degree_line(args, compute, result):
+def _degree_line(args, compute, pair, result):
     """What fewer polynomials change at the largest amplitude."""
     last = len(result.alpha) - 1
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", BackboneWarning)
-            _, other = compute(2, args.amplitudes[last : last + 1])
+            lower, other = compute(2, args.amplitudes[last : last + 1])
     except ENDS as error:
         return f"degree lower by 2: {error}"
+    if lower.functions == pair.functions:
+        return f"--degree-check: the file has {pair.functions} polynomials and no lower degree: nothing is compared"
     frequency = other.frequency[-1] / result.frequency[-1] - 1.0
     damping = other.damping[-1] / result.damping[-1] - 1.0 if result.damping[-1] else float("nan")
     return f"degree lower by 2: frequency {frequency:+.1e}, damping {damping:+.1e} at the largest amplitude"

@@ -41,6 +41,7 @@ class Pair:
     omega       angular frequencies (rad/s) of the modes without contact
     sensors     {name: (modes, 3)}: displacement (m) of a sensor by each modal coordinate
     tensions    {name: N}: tension left in each bolt after all are tightened
+    functions   number of polynomials of a patch
     """
 
     def __init__(
@@ -71,7 +72,7 @@ class Pair:
         """Writes the file of a patch, without what the structure has and with its centre as the origin; returns its
         name and the contact's grid."""
         name = os.path.join(self._folder.name, f"patch{number}.h5")
-        without_rigid(group, name, lower)
+        self.functions = without_rigid(group, name, lower)
         return name, dict(grid_size=2 * group["patch/half"][()], gap_type="flat")
 
     def _structure(self, contacts, by_load, damping):
@@ -172,7 +173,7 @@ def _far(group):
 
 def without_rigid(old, name, lower=0):
     """Writes a patch of a pair to a file, its centre as the origin, without the compliance of rigid motions, which the
-    structure has. The degree is lower by `lower` in x and in y."""
+    structure has. The degree is lower by `lower` in x and in y, but at least 1; returns the number of polynomials."""
     with h5py.File(name, "w") as new:
         table = old["basis/degree_xy"][()]
         kept = np.flatnonzero(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1))
@@ -185,3 +186,4 @@ def without_rigid(old, name, lower=0):
         new["compliance"] = old["compliance"][()][kept][:, :, kept] - np.einsum("cik,cd,djl->ikjl", q, rigid, q)
         for case, data in old["cases"].items():
             new[f"cases/{case}/displacement"] = data["displacement"][()][kept]
+    return len(kept)
