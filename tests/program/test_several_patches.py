@@ -65,6 +65,20 @@ def test_two_patches_are_one_that_covers_them(files):
     assert found.names == ["patch1", "patch2"] and found.patches.sum(axis=1) == pytest.approx(found.energy)
 
 
+def test_patches_that_bear_unequal_loads_are_pressed_without_friction(compliance, tmp_path):  # noqa: F811
+    """The bolt is beside one of them; all is in equilibrium."""
+    write(tmp_path / "pair.inp", both(bodies=[body(number, edges=(X, Y, Z)) for number in (2, 1)]))
+    deck = (tmp_path / "pair.inp").read_text().replace("*ELASTIC", "*DENSITY\n1e3\n*ELASTIC")
+    (tmp_path / "pair.inp").write_text(deck)
+    apart = ["--patch", "1.0,0.8", "--center=-0.3,-1.0", "--center", "1.0,0.6"]
+    compliance(*WORDS, *apart, "--modes", "2", "--degree", "2,2", "-o", "apart.h5")
+    given = dict(friction=0.3, grid_n=(12, 10), gap_type="sphere", gap_radius1=RADIUS, gap_radius2="inf")
+    one = joint.Pair("apart.h5", dict(B=2e-3), frictionless=True, press=2, **given).structure
+    loads = [patch.number("load_n") for patch in one.patches]
+    assert 0 < loads[0] < 0.3 * loads[1]
+    assert one.coupling @ one.loads == pytest.approx(one.z, rel=1e-4, abs=1e-6 * np.abs(one.z).max())
+
+
 def test_the_half_space_between_patches_is_that_of_points():
     """Against sums over many points of both patches; it is symmetric."""
     patches = [basis.Patch((-1.0, 0.2), (0.7, 0.4), (2, 1)), basis.Patch((0.9, 0.3), (0.7, 0.4), (2, 1))]

@@ -13,7 +13,8 @@ import numpy as np
 
 from ..errors import Error, short
 from .backbone import COLUMNS, Backbone, backbone, shake
-from .numbers import heads
+from .numbers import ENDS, heads, reason
+from .structure import NoSolution
 from .sweep import BackboneWarning
 
 ASSEMBLED, REVERSED, FRICTIONLESS, SHAKEN = "as given", "bolts reversed", "without friction", "after the largest"
@@ -23,6 +24,7 @@ TEXTS = {
     FRICTIONLESS: "without friction until all are tightened",
     SHAKEN: "as given, then vibrated at the largest amplitude",
 }
+SIDES = "lower", "higher"  # of a parameter of the scatter
 NUMBERS = ("frequency", "damping")
 
 
@@ -43,10 +45,14 @@ class Band:
         return self.backbones[ASSEMBLED]
 
     @property
+    def sides(self):
+        """{parameter and side: Backbone} of the scatter."""
+        return {f"{name} {side}": one for name, two in self.scatter.items() for side, one in zip(SIDES, two)}
+
+    @property
     def count(self):
         """Number of amplitudes that all backbones have."""
-        every = [*self.backbones.values(), *(one for pair in self.scatter.values() for one in pair)]
-        return min(len(one.alpha) for one in every)
+        return min(len(one.alpha) for one in (self.backbones | self.sides).values())
 
     def limits(self, name):
         """Lowest and highest frequency or damping of all assemblies, an array each."""
@@ -80,8 +86,7 @@ class Band:
             rows = csv.writer(file)
             rows.writerow(["assembly", *heads(COLUMNS)])
             named = dict(self.backbones)
-            for parameter, (low, high) in self.scatter.items():
-                named.update({f"{parameter} lower": low, f"{parameter} higher": high})
+            named.update(self.sides)
             for assembly, one in named.items():
                 for k in range(len(one.alpha)):
                     rows.writerow([assembly, *(f"{one.numbers[name][k]:.10g}" for name in COLUMNS)])
@@ -121,17 +126,21 @@ def band(make, preload, amplitudes, sensor, scatter=None, report=None, **given):
     report      called with the name of each assembly
     given       mode, steps, harmonics of backbone()
     """
-    largest = float(np.max(amplitudes))
+    reached = np.atleast_1d(np.asarray(amplitudes, dtype=float))
 
     def one(name, preload=preload, shaken=False, **changes):
         if report:
             report(name)
-        pair = make(preload, **changes)
-        if shaken:
-            shake(pair.structure, largest, given.get("mode", 1), sensor(pair))
-        return backbone(pair.structure, amplitudes, sensor=sensor(pair), **given)
+        try:
+            pair = make(preload, **changes)
+            if shaken:
+                shake(pair.structure, float(np.max(reached)), given.get("mode", 1), sensor(pair))
+            return backbone(pair.structure, reached, sensor=sensor(pair), **given)
+        except ENDS as error:
+            raise NoSolution(f"assembly {name}: {reason(error)}") from error
 
     found, parts = {ASSEMBLED: one(ASSEMBLED)}, {}
+    reached = reached[: len(found[ASSEMBLED].alpha)]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", BackboneWarning)  # those of the first one
         if len(preload) > 1:
@@ -139,9 +148,24 @@ def band(make, preload, amplitudes, sensor, scatter=None, report=None, **given):
         found[FRICTIONLESS] = one(FRICTIONLESS, frictionless=True)
         found[SHAKEN] = one(SHAKEN, shaken=True)
         for name, value in (scatter or {}).items():
-            sides = (("lower", -1.0), ("higher", 1.0))
+            sides = zip(SIDES, (-1.0, 1.0))
             parts[name] = tuple(one(f"{name} {side}", **_scattered(name, value, sign, preload)) for side, sign in sides)
-    return Band(found, parts)
+    whole = Band(found, parts)
+    _warn(whole)
+    return whole
+
+
+def _warn(found):
+    """Warns of assemblies that end before the one as given."""
+    count = found.count
+    if count < len(found.given.alpha):
+        every = found.backbones | found.sides
+        ended = ", ".join(name for name, one in every.items() if len(one.alpha) == count)
+        warnings.warn(
+            f"only {count} of {len(found.given.alpha)} amplitudes: no more have a solution for the assembly {ended}",
+            BackboneWarning,
+            stacklevel=3,
+        )
 
 
 def _scattered(name, value, sign, preload):

@@ -50,7 +50,7 @@ from .band import band
 from .numbers import ENDS
 from .pair import Pair, Unreadable
 from .sweep import BackboneWarning
-from .wear import wear
+from .wear import rising, wear
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -139,7 +139,7 @@ def amplitude_range(text):
     words = text.split(":")
     if len(words) == 1:
         found = np.array(lengths(text))
-    elif len(words) == 3 and words[2].isdigit() and 2 <= int(words[2]) <= 1000:
+    elif len(words) == 3 and "," not in text and words[2].isdigit() and 2 <= int(words[2]) <= 1000:
         found = np.geomspace(*(lengths(word)[0] for word in words[:2]), int(words[2]))
     else:
         found = np.zeros(1)
@@ -164,8 +164,9 @@ def cycle_counts(text):
         found = np.array([float(word) for word in text.split(",")])
     except ValueError:
         found = np.zeros(1)
-    if not np.all((np.diff(found, prepend=0.0) > 0.0) & np.isfinite(found)):
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected rising numbers above 0: 1e4,1e5,1e6")
+    if not rising(found):
+        what = "expected rising whole numbers above 0: 1e4,1e5,1e6"
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
     return found
 
 
@@ -389,7 +390,7 @@ def _backbone(args):
     _tell_tensions(pair, preload)
     _print(result, found)
     if args.degree_check:
-        print(_degree_line(args, compute, result))
+        print(_degree_line(args, compute, pair, result))
     _write(args, result)
     if args.output:
         write(result.plot_contact(), args.output + "-contact.png", args.dpi)
@@ -439,15 +440,17 @@ def _response(args):
     return 0
 
 
-def _degree_line(args, compute, result):
+def _degree_line(args, compute, pair, result):
     """What fewer polynomials change at the largest amplitude."""
     last = len(result.alpha) - 1
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", BackboneWarning)
-            _, other = compute(2, args.amplitudes[last : last + 1])
+            lower, other = compute(2, args.amplitudes[last : last + 1])
     except ENDS as error:
         return f"degree lower by 2: {error}"
+    if lower.functions == pair.functions:
+        return f"--degree-check: the file has {pair.functions} polynomials and no lower degree: nothing is compared"
     frequency = other.frequency[-1] / result.frequency[-1] - 1.0
     damping = other.damping[-1] / result.damping[-1] - 1.0 if result.damping[-1] else float("nan")
     return f"degree lower by 2: frequency {frequency:+.1e}, damping {damping:+.1e} at the largest amplitude"

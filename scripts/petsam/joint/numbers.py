@@ -47,6 +47,11 @@ def energies(patches, names):
     return {f"energy_{name} (J)": column for name, column in zip(names, patches.T)}
 
 
+def reason(error):
+    """Words of an error of ENDS, without those that are for contacts alone."""
+    return str(error).partition("; for gross slip give")[0]
+
+
 def solved(values, solve, place, report):
     """Yields (value, solve(value)) until a value has no solution: the first one raises NoSolution, a later one is
     warned of. place(value) says in words where that is; report is called with the number of each value and of all."""
@@ -56,9 +61,8 @@ def solved(values, solve, place, report):
         try:
             found = solve(value)
         except ENDS as error:
-            reason = str(error).partition("; for gross slip give")[0]
             if not k:
-                raise NoSolution(f"at {place(value)}: {reason}") from error
-            warnings.warn(f"ended before {place(value)}: {reason}", BackboneWarning, stacklevel=3)
+                raise NoSolution(f"at {place(value)}: {reason(error)}") from error
+            warnings.warn(f"ended before {place(value)}: {reason(error)}", BackboneWarning, stacklevel=3)
             return
         yield value, found

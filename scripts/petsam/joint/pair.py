@@ -13,6 +13,7 @@ from .structure import DISPLACEMENTS, Patch, Structure
 
 PRESS = 4  # steps in which each bolt is tightened
 SNUG = 0.1  # part of the tension of several bolts that all get before the first one is tightened
+FIRST = 0.1  # the first guess of the loads over the tension: from loads that are too large the iteration may not end
 PRESSING = ("disp_z", "rot_x", "rot_y")  # displacements whose loads press the bodies together
 
 
@@ -40,6 +41,7 @@ class Pair:
     omega       angular frequencies (rad/s) of the modes without contact
     sensors     {name: (modes, 3)}: displacement (m) of a sensor by each modal coordinate
     tensions    {name: N}: tension left in each bolt after all are tightened
+    functions   number of polynomials of a patch
     """
 
     def __init__(
@@ -70,7 +72,7 @@ class Pair:
         """Writes the file of a patch, without what the structure has and with its centre as the origin; returns its
         name and the contact's grid."""
         name = os.path.join(self._folder.name, f"patch{number}.h5")
-        without_rigid(group, name, lower)
+        self.functions = without_rigid(group, name, lower)
         return name, dict(grid_size=2 * group["patch/half"][()], gap_type="flat")
 
     def _structure(self, contacts, by_load, damping):
@@ -85,7 +87,7 @@ class Pair:
         coupling, static = np.zeros(2 * (len(static),)), np.flatnonzero(static)
         coupling[np.ix_(static, static)] = self.coupling
         found = Structure(patches, self.omega, np.concatenate(moved), coupling, damping=damping)
-        found.needs = self._folder  # copies of the contacts read the files
+        found.needs = self._folder
         return found
 
     def _read(self, file):
@@ -133,7 +135,7 @@ class Pair:
         for name, whole in preload.items():
             first = snug.get(name, 0.0)
             rows += [{name: first + part * (whole - first)} for part in parts]
-        at, guess = 0, sum(rows[0].values()) / len(patches)  # of the load: all of the tension, in equal parts
+        at, guess = 0, FIRST * sum(rows[0].values()) / len(patches)
         for patch in patches:
             structure.loads[at] = -guess
             at += len(patch.coordinates)
@@ -171,7 +173,7 @@ def _far(group):
 
 def without_rigid(old, name, lower=0):
     """Writes a patch of a pair to a file, its centre as the origin, without the compliance of rigid motions, which the
-    structure has. The degree is lower by `lower` in x and in y."""
+    structure has. The degree is lower by `lower` in x and in y, but at least 1; returns the number of polynomials."""
     with h5py.File(name, "w") as new:
         table = old["basis/degree_xy"][()]
         kept = np.flatnonzero(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1))
@@ -184,3 +186,4 @@ def without_rigid(old, name, lower=0):
         new["compliance"] = old["compliance"][()][kept][:, :, kept] - np.einsum("cik,cd,djl->ikjl", q, rigid, q)
         for case, data in old["cases"].items():
             new[f"cases/{case}/displacement"] = data["displacement"][()][kept]
+    return len(kept)

@@ -61,7 +61,7 @@ class Patch:
         self.contact, self.coordinates, self.held, self.name = contact, list(coordinates), dict(held or {}), name
         self.by_load = np.array([name in by_load for name in self.coordinates])
         self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
-        self.given = {}  # what the last step prescribed
+        self.given = {}  # what the last step prescribed, and the coordinates that it found
         self.outgrown = False
         self.sign = np.array([-1.0 if name in DISPLACEMENTS else 1.0 for name in self.coordinates])
         order = [*DISPLACEMENTS, *self.cases]
@@ -71,7 +71,7 @@ class Patch:
     def step(self, values, held=None):
         """Tries a step with these coordinates, or loads on the structure where it is by_load; returns coordinates and
         loads."""
-        given = self.given = {**self.held, **(held or {})}
+        given = {**self.held, **(held or {})}
         for k, value in enumerate(values):
             given[self._loads[k] if self.by_load[k] else self.coordinates[k]] = value * (
                 self.sign[k] if self.by_load[k] else 1.0
@@ -91,6 +91,7 @@ class Patch:
                 self.outgrown = True  # the step is solved; on the way to an equilibrium it does not matter
         z = np.array(values, dtype=float)
         found, loads = self.state()
+        self.given = {**dict(zip(self.coordinates, found)), **given}
         z[self.by_load] = found[self.by_load]
         return z, loads
 
@@ -163,6 +164,7 @@ class Structure:
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
         self.force = np.zeros(self.modes)  # of the last step
         self.iterations = []
+        self.needs = None  # what must not end before the structure and its copies: the folder of its contacts' files
 
     @staticmethod
     def _matrix(values, shape, name):
@@ -187,6 +189,7 @@ class Structure:
         patches = [patch.copy() for patch in self.patches]
         other = Structure(patches, self.omega, self.shapes, self.coupling, self.rigid, self.damping)
         other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
+        other.needs = self.needs
         return other
 
     def take(self, other):
@@ -331,8 +334,8 @@ class Structure:
     def _find(self, driven, free, held, response, scale):
         """Solves a step; returns its last response, None where contacts slide and another one must be computed.
 
-        A contact that slides does not bear more loads: where steps by loads find no equilibrium, displacements along
-        the surface are prescribed instead.
+        A contact that slides does not bear more loads: where steps by loads find no equilibrium soon, displacements
+        along the surface are prescribed instead. Where those find none either, steps by loads go on.
         """
         limited = [patch for patch in self.patches if patch.limited]
         if not limited:
@@ -340,21 +343,33 @@ class Structure:
         try:
             return self._iterate(driven, free, held, response, scale, FEWER)
         except (NoSolution, *BEYOND) as error:
-            reason = error
+            first = error
+        if self._slides(limited, driven, free, held, scale):
+            return None
+        try:
+            return self._iterate(driven, free, held, response, scale)
+        except (NoSolution, *BEYOND):
+            raise first from None  # most often names what the contact does not bear
+
+    def _slides(self, limited, driven, free, held, scale):
+        """True if the step is solved by displacements along the surface of these patches."""
         before = self.by_load, [patch.by_load for patch in limited]
+        state = self.z, self.a, self.loads
         for patch in limited:
             patch.by_load = patch.by_load & ~np.isin(patch.coordinates, SLIDING)
         self.by_load = np.concatenate([patch.by_load for patch in self.patches])
         try:
             self._iterate(driven, free, held, None, scale)
-            if any(patch.outgrown for patch in self.patches):
-                raise reason
+            inside = not any(patch.outgrown for patch in self.patches)
         except (NoSolution, *BEYOND):
-            raise reason from None
+            inside = False
         finally:
             self.by_load = before[0]
             for patch, mask in zip(limited, before[1]):
                 patch.by_load = mask
+        if not inside:
+            self.z, self.a, self.loads = state
+        return inside
 
     def _iterate(self, driven, free, held, response, scale, most=MOST):
         """Broyden's method for what steps prescribe, and for a; returns its last response."""

@@ -28,7 +28,7 @@ class Cycle:
     energies  dissipated energy in each patch, J
     loop      that of the loop of forces and displacements, J
     states    the field state of each patch before the reversal: 0 open, 1 stick, 2 slip
-    given     what each step prescribed, for each patch {name: value}
+    given     what each step prescribed and the coordinates that it found, for each patch {name: value}
     """
 
     moved: np.ndarray
@@ -107,7 +107,7 @@ class Sweep:
 
     def follow(self, forces, scale):
         """Steps under these modal forces, beside those of the preload; returns modal coordinates and energies of each
-        step, and what it prescribed."""
+        step, and what it prescribed and found."""
         found, energies, given, response = [], [], [], self.reversed
         for force in forces:
             response = self.work.step(self.preload.force + force, response=response, scale=scale)

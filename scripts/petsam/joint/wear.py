@@ -3,7 +3,7 @@
 The joint vibrates at a given modal force. Its settled cycle prescribes the steps of each patch, whose contact wears
 over many of them. Then the structure finds its equilibrium anew, as worn patches unload the bolts. Within one part of
 the simulation the loads of the patches and the motions of the bodies stay; half the number of parts shows what that
-costs.
+costs. The cycles until each part's vibration has settled wear too, beside those that are counted.
 """
 
 import warnings
@@ -13,7 +13,8 @@ import numpy as np
 
 from ..errors import Error
 from .backbone import modal_amplitudes
-from .numbers import Numbers
+from .numbers import ENDS, Numbers, reason
+from .structure import DISPLACEMENTS, NoSolution
 from .sweep import STEPS, Sweep
 
 PARTS = 2  # parts of each span of cycles
@@ -78,12 +79,12 @@ def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure
     """The Wear of a structure in its preload, whose contacts have the options of wear.
 
     amplitude  of the vibration, as of backbone(); its modal force stays the same
-    cycles     rising numbers of cycles at which the numbers are wanted, the first above 0
+    cycles     rising whole numbers of cycles at which the numbers are wanted, the first above 0
     measure    measure(structure) returns {name: number} of a structure at rest, such as Pair.left
     """
     cycles = np.atleast_1d(np.asarray(cycles, dtype=float))
-    if not (cycles.size and np.all(np.isfinite(cycles)) and np.all(np.diff(cycles, prepend=0.0) > 0.0)):
-        raise Error("cycles: expected rising numbers above 0")
+    if not (cycles.size and rising(cycles)):
+        raise Error("cycles: expected rising whole numbers above 0")
     measure = measure or (lambda _: {})
     first = Sweep(structure, mode, steps)
     modal = float(modal_amplitudes(first, [amplitude], sensor)[0])
@@ -98,13 +99,28 @@ def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure
     return Wear({"cycles": np.append(0.0, cycles), **rows}, measured, structures)
 
 
+def rising(cycles):
+    """True if these are rising whole numbers above 0."""
+    whole = np.isfinite(cycles) & (cycles == np.floor(cycles))
+    return bool(np.all(whole) and np.all(np.diff(cycles, prepend=0.0) > 0.0))
+
+
+def _parts(span, count):
+    """A span of cycles in so many parts of whole numbers, less where there are fewer cycles."""
+    return [one for one in np.diff(np.floor(span * np.linspace(0.0, 1.0, count + 1))) if one > 0.0]
+
+
 def _run(structure, alpha, cycles, how, measure, parts):
     """Numbers, what was measured and structures at 0 and all `cycles`, each span of which has so many parts."""
     points, volumes, measured, structures = [], [0.0], [], []
 
     def vibrating():
         sweep = Sweep(structure, *how)
-        return sweep, sweep.under(alpha)
+        try:
+            return sweep, sweep.under(alpha)
+        except ENDS as error:
+            done = np.append(0.0, cycles)[len(points)]
+            raise NoSolution(f"the vibration after {done:g} cycles or more: {reason(error)}") from error
 
     for span in (*np.diff(cycles, prepend=0.0), None):
         structures.append(structure.copy())
@@ -112,10 +128,10 @@ def _run(structure, alpha, cycles, how, measure, parts):
         sweep, point = vibrating()
         points.append(point)
         volumes.append(volumes[-1])
-        for part in range(parts if span else 0):
+        for part, count in enumerate(_parts(span, parts) if span else []):
             if part:
                 sweep, point = vibrating()
-            volumes[-1] += _wear(sweep.work.patches, point.cycle.given, span / parts)
+            volumes[-1] += _wear(sweep.work.patches, point.cycle.given, count)
             sweep.work.step(structure.force, response=sweep.reversed)  # comes to rest
             structure.take(sweep.work)
     rows = dict(
@@ -131,9 +147,17 @@ def _wear(patches, given, count):
     """Wears patches over so many cycles of the given steps; returns the worn volume, m3."""
     volume = 0.0
     for k, patch in enumerate(patches):
-        steps = [given[-1][k], *(one[k] for one in given)]  # closed
-        history = {name: np.array([one[name] for one in steps]) for name in steps[0]}
-        history["time"] = patch.contact.number("time") + np.arange(len(steps))
-        done = patch.contact.live(count, history)[-1]
-        volume += done.volume1 + done.volume2
+        history = _history([given[-1][k], *(one[k] for one in given)])  # closed
+        history["time"] = patch.contact.number("time") + np.arange(len(given) + 1)
+        lived = patch.contact.live(count, history)
+        for name in ("volume1", "volume2"):  # of all wear of the contact
+            volume += getattr(lived[-1], name) - getattr(lived[0], name)
     return volume
+
+
+def _history(steps):
+    """{column: values} of a patch's steps: of a displacement and its load the load, unless a step that slides has no
+    load."""
+    names = set.intersection(*(set(one) for one in steps))
+    names -= {moved for moved, load in DISPLACEMENTS.items() if load in names}
+    return {name: np.array([one[name] for one in steps]) for name in sorted(names)}
