@@ -497,6 +497,48 @@ def test_plane_strain_yields_as_one_period(solve):
         assert row[name][-1] == pytest.approx(four[name][-1], rel=1e-6)
 
 
+LINE = dict(
+    body1_young="inf", body2_young=1, body2_poisson=0.3, gap_type="ellipsoid", gap_radius_x=1, gap_radius_y="inf",
+    elasticity="plane", body2_yield=YIELD,
+)  # fmt: skip
+
+
+def line(peak, n=64, **more):
+    """A rigid cylinder on a half-space in plane strain, to this elastic peak pressure."""
+    half = 2 * peak * 0.91
+    return dict(LINE, grid_n=n, grid_size=2.6 * half, load_n=math.pi / 2 * half * peak, yield_layers=40, **more)
+
+
+@pytest.mark.parametrize("friction, ratio", [(0, 1.7936698), (0.1, 1.7685086), (0.3, 1.500075)])
+def test_a_line_yields_first_at_its_closed_pressure(solve, friction, ratio):
+    """Of the elastic line contact that slides, below the surface or with much friction on it."""
+    for part, yields in (0.99, False), (1.012, True):
+        more = dict(friction=friction, coupling="none") if friction else {}
+        case = line(part * ratio * YIELD, 120, **more)
+        if friction:  # all but sliding
+            case["load_tx"] = 0.9999 * friction * case["load_n"]
+        assert (all_steps(solve(case))["plastic_max"][-1] > 0) == yields, part
+
+
+def test_a_line_does_not_depend_on_its_window(solve, tmp_path):
+    """Loads to and fro with bulk stress, which yy follows, on a grid three times as wide; much wider periods come near."""
+    case = line(2.5 * YIELD, 48, friction=0.4, coupling="none", body2_hardening_modulus=0.02, yield_first=2e-4)
+    size, force = 1.6 * case.pop("grid_size"), case.pop("load_n")
+    case["yield_depth"] = size
+    columns = dict(load_n=[force] * 4, load_tx=[0, 0.3 * force, -0.3 * force, 0.2 * force])
+    bulk = dict(bulk2_stress_xx=[0, 0.3 * YIELD, -0.3 * YIELD, 0.1 * YIELD])
+    loads = steps(tmp_path / "h.csv", **columns, **bulk)
+    narrow, wide = (all_steps(solve({**case, **loads, "grid_n": 48 * k, "grid_size": k * size})) for k in (1, 3))
+    loads = steps(tmp_path / "free.csv", **columns)
+    free = all_steps(solve({**case, **loads, "grid_size": size}))
+    far = dict(elasticity="plane_periodic", grid_n=48 * 33, grid_size=33 * size)
+    period = all_steps(solve({**case, **loads, **far}))
+    for name in ("plastic_max", "plastic_work", "pressure_max", "dissipated_energy"):
+        assert narrow[name] == pytest.approx(wide[name], rel=2e-4, abs=1e-4 * np.abs(wide[name]).max()), name
+        assert np.abs(narrow[name] - free[name]).max() > 3e-3 * np.abs(free[name]).max(), name
+        assert free[name] == pytest.approx(period[name], rel=0.08, abs=0.02 * np.abs(free[name]).max()), name
+
+
 def test_after_yielding_there_is_no_approach_without_contact(petsam, tmp_path):
     """Nor is a peak of the pressure said to be unresolved: cells half as wide do not raise it as an elastic one."""
     case = sphere(16, 10, **steps(tmp_path / "h.csv", load_n=(6 * LOAD, 0)))
