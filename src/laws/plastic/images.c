@@ -213,6 +213,11 @@ PetscErrorCode SamImagesDestroy(SamImages *images)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamImagesSetLayers(SamImages m, PetscInt layers)
+{
+  m->body.layers = layers;
+}
+
 /* ---- products ---- */
 
 /* Projects the eigenstrain of a row of cells onto the nodes along x and z. */

@@ -10,7 +10,8 @@
       (1 - Q Bc Q) y = Q r,  delta = r + Bc Q y,  Q = root of P,
   by conjugate gradients in the product sum 2 mu h a:b. The matrix is positive definite: 0 <= P < 1, R is negative
   semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite; only slipping cells make S unsymmetric, which
-  conjugate gradients tolerate. A step is halved until the residual falls.
+  conjugate gradients tolerate. They need only the layers down to the last one that yields. A step is halved until the
+  residual falls.
 
   Source: J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3, for the tangent; A. Frerot, M.
   Bonnet, J.-F. Molinari and G. Anciaux, Comput. Methods Appl. Mech. Engrg. 351 (2019) 951, for the integral equation.
@@ -32,7 +33,8 @@ typedef struct {
   PetscInt       n;                             /* values of a field on this rank */
   double        *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others are scratch of a step */
   double   *direction, *along, *across; /* the tangents: direction as a field; the other two have one value per cell */
-  PetscBool yields, solved;             /* yields: any cell on any rank; solved: the normal problem has a solution */
+  PetscInt  active;                     /* number of layers down to the last one that yields on any rank */
+  PetscBool solved;                     /* true: the normal problem has a solution */
   SamReaction reaction;
   double     *traction; /* (DIRECTIONS, cells) */
 } Solve;
@@ -201,6 +203,7 @@ static PetscErrorCode Sum(const SamPlastic *p, PetscBool weighted, const double 
       const double weight = weighted ? 2 * BodyOf(p, l)->material.shear : 1;
       double       sum    = 0;
 
+      if (l % p->layers >= p->used) continue;
       for (PetscInt c = 0; c < PARTS; c++) {
         const ptrdiff_t at  = ((ptrdiff_t)l * PARTS + c) * grid->cells + j * (ptrdiff_t)grid->nx;
         double          row = 0;
@@ -238,7 +241,7 @@ static void ApplyRoot(const Solve *w, const double from[], double to[])
   const PetscInt    cells = p->grid->cells;
 
   for (PetscInt l = 0; l < p->bodies * p->layers; l++)
-    for (PetscInt k = 0; k < cells; k++) {
+    for (PetscInt k = 0; k < cells && l % p->layers < p->used; k++) {
       const double along = sqrt(w->along[l * cells + k]), across = sqrt(w->across[l * cells + k]);
       double       x[PARTS], n[PARTS], dot;
 
@@ -254,7 +257,7 @@ static void ApplyRoot(const Solve *w, const double from[], double to[])
 static void AddDeviator(const SamPlastic *p, const double from[], const double s[], double to[])
 {
   for (PetscInt l = 0; l < p->bodies * p->layers; l++)
-    for (PetscInt k = 0; k < p->grid->cells; k++) {
+    for (PetscInt k = 0; k < p->grid->cells && l % p->layers < p->used; k++) {
       double x[PARTS], e[PARTS];
 
       Take(p, s, l, k, x);
@@ -281,18 +284,30 @@ static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the step of Newton's method in y from the residual, by conjugate gradients. */
+/* Restricts the operators, and sums and products of fields, to the first layers. */
+static void UseLayers(SamPlastic *p, PetscInt layers)
+{
+  p->used = layers;
+  for (PetscInt b = 0; b < p->bodies; b++) SamResidualSetLayers(p->body[b].residual, layers);
+}
+
+/* Computes the step of Newton's method in y from the residual, by conjugate gradients. These need the layers that yield
+   only; a last product with all layers gives the step. */
 static PetscErrorCode FindStep(Solve *w, double part)
 {
-  double *rest = w->e, first, size, before, step, square;
+  double  *rest = w->e, first, size, before, step, square;
+  PetscInt k    = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(w->y, w->r, w->n));
+  PetscCall(PetscArrayzero(w->y, w->n));
   ApplyRoot(w, w->r, rest);
   PetscCall(PetscArraycpy(w->z, rest, w->n));
   PetscCall(Dot(w, rest, rest, &first));
   size = first;
-  for (PetscInt k = 0; k < PRODUCTS && size > part * part * first; k++) {
+  PetscCall(PetscArrayzero(w->v, w->n)); /* nothing is computed below the layers that yield */
+  PetscCall(PetscArrayzero(w->w, w->n));
+  UseLayers(w->plastic, w->active);
+  for (; k < PRODUCTS && size > part * part * first; k++) {
     ApplyRoot(w, w->z, w->v);
     PetscCall(Multiply(w, w->v, w->w)); /* w = Bc Q z */
     ApplyRoot(w, w->w, w->v);
@@ -305,13 +320,18 @@ static PetscErrorCode FindStep(Solve *w, double part)
       break; /* slip is not symmetric, or plastic flow has no stiffness: the step so far is used */
     step = size / step;
     for (PetscInt i = 0; i < w->n; i++) {
-      w->y[i] += step * w->w[i];
+      w->y[i] += step * w->z[i];
       rest[i] -= step * w->v[i];
     }
     before = size;
     PetscCall(Dot(w, rest, rest, &size));
     for (PetscInt i = 0; i < w->n; i++) w->z[i] = rest[i] + size / before * w->z[i];
   }
+  UseLayers(w->plastic, w->plastic->layers);
+  ApplyRoot(w, w->y, w->v);
+  PetscCall(PetscArrayzero(w->w, w->n));
+  if (k) PetscCall(Multiply(w, w->v, w->w));
+  for (PetscInt i = 0; i < w->n; i++) w->y[i] = w->r[i] + w->w[i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -323,7 +343,7 @@ static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
   const SamPlastic *p     = w->plastic;
   const PetscInt    cells = p->grid->cells;
   const double     *from  = NULL;
-  double           *to, yields = 0;
+  double           *to, last = 0;
 
   PetscFunctionBegin;
   if (committed) PetscCall(VecGetArrayRead(committed, &from));
@@ -336,7 +356,7 @@ static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
 
       if (from) SamPlasticRead(p, from, l, k, &at);
       Take(p, w->d, l, k, d);
-      if (SamMisesReturn(&BodyOf(p, l)->material, d, &at, &t)) yields = 1;
+      if (SamMisesReturn(&BodyOf(p, l)->material, d, &at, &t)) last = PetscMax(last, l % p->layers + 1);
       Write(p, &at, l, k, to);
       Put(p, at.e, l, k, w->e);
       Put(p, t.n, l, k, w->direction);
@@ -345,8 +365,8 @@ static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
     }
   PetscCall(VecRestoreArray(tried, &to));
   if (committed) PetscCall(VecRestoreArrayRead(committed, &from));
-  PetscCall(SamMax(p->grid->comm, 1, &yields));
-  w->yields = yields > 0;
+  PetscCall(SamMax(p->grid->comm, 1, &last));
+  w->active = (PetscInt)last;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

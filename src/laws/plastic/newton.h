@@ -23,6 +23,7 @@ typedef struct {
   SamGrid        grid;
   SamElasticity  elasticity;
   PetscInt       bodies, layers; /* number of layers of each body */
+  PetscInt       used;           /* the first ones, to which the operators are restricted */
   PetscInt       size;
   SamPlasticBody body[2];
   PetscReal     *thickness; /* thicknesses of a body's layers, m; borrowed */

@@ -292,6 +292,7 @@ static PetscErrorCode SetUp(SamLaw law)
   *p = (SamPlastic){
     .grid = law->grid, .elasticity = law->elasticity, .layers = x->layers, .size = SizeOf(x), .rtol = x->rtol};
   p->thickness = x->thickness;
+  p->used      = x->layers;
   for (PetscInt b = 0; b < 2; b++) {
     SamPlasticBody *body = &p->body[p->bodies];
 

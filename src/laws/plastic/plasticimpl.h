@@ -29,6 +29,11 @@ PETSC_INTERN PetscErrorCode SamResidualCreate(SamElasticity elasticity, PetscInt
                                               const PetscReal thickness[], SamResidual *residual);
 PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);
 /*
+  SamResidualSetLayers - restricts the operators to the first layers, the same on all ranks: the strain below them counts
+  as zero, and no stress is computed there. Not collective.
+*/
+PETSC_INTERN void SamResidualSetLayers(SamResidual residual, PetscInt layers);
+/*
   SamResidualApply - computes the stress s (Pa) and the displacement u of the surface (m) by e; NULL: not wanted. u is
   the body's contribution to the relative displacement of the surfaces along x, y, and z into the body. s may be e.
   SamResidualLoad - computes the stress by the pressure p and the shear q_x, q_y between the bodies (Pa).

@@ -20,6 +20,7 @@ struct _n_SamResidual {
   SamFourierMode  mode;
   double          period; /* period of the waves along x, in cells; along y it is `waves` */
   SamWaveBody     body;
+  PetscInt        layers; /* number of all layers; `body` has those that are used */
   PetscReal      *thickness;
   double          sign;           /* sign of the shear between the bodies as it acts on this body */
   PetscInt        first, columns; /* frequency of this rank's first column, and their number */
@@ -169,6 +170,7 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscCall(SamGridReference(r->grid));
   r->elasticity = e; /* borrowed: the law that owns this object has a reference */
   r->number     = body;
+  r->layers     = layers;
   material      = SamBodyMaterialAt(SamPairBody(e->pair, body - 1), 0);
   PetscCall(PetscMalloc1(layers, &r->thickness));
   PetscCall(PetscArraycpy(r->thickness, thickness, layers));
@@ -184,6 +186,12 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamResidualSetLayers(SamResidual r, PetscInt layers)
+{
+  r->body.layers = layers;
+  if (r->images) SamImagesSetLayers(r->images, layers);
+}
+
 PetscErrorCode SamResidualDestroy(SamResidual *residual)
 {
   SamResidual r = *residual;
@@ -191,7 +199,7 @@ PetscErrorCode SamResidualDestroy(SamResidual *residual)
   PetscFunctionBegin;
   *residual = NULL;
   if (!r) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt l = 0; r->stress && l < r->body.layers; l++) PetscCall(SamStressDestroy(&r->stress[l]));
+  for (PetscInt l = 0; r->stress && l < r->layers; l++) PetscCall(SamStressDestroy(&r->stress[l]));
   PetscCall(PetscFree(r->stress));
   PetscCall(SamImagesDestroy(&r->images));
   PetscCall(VecDestroy(&r->plane));
