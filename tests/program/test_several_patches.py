@@ -112,6 +112,18 @@ def test_patches_that_make_no_sense_are_rejected(words, says, code, compliance, 
     assert says in said[0]
 
 
+def test_load_cases_beyond_what_a_file_holds_are_left_out_with_a_warning(compliance, tmp_path, monkeypatch):  # noqa: F811
+    write(tmp_path / "pair.inp", both(bodies=[body(number, edges=(X, Y, Z)) for number in (2, 1)]))
+    monkeypatch.setattr(several, "MOST", 4)
+    bare = WORDS[: WORDS.index("--modes")]
+    said = compliance(
+        *bare, *SMALL, "--degree", "3,3", "-o", "few.h5", warning="the load cases of the other patches miss"
+    )
+    assert "load cases of the other patches: 3, 3" in "".join(said)
+
+
 def test_several_patches_need_a_pair(compliance):  # noqa: F811
     words = ["--mesh", "a.inp", "--contact", "T", "--fixed", "F", "--patch", "1", "--center", "0,0", "--center", "2,0"]
     assert "--center: several patches are for a pair" in compliance(*words, check=2)[0]
+    said = compliance(*words, "--pair", "U", "--case", "far12=1", check=2)[0]
+    assert "--case: far with a number is a name of the file's own" in said

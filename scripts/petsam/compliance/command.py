@@ -238,6 +238,8 @@ def _check_cases(reader, options):
     options.center = options.center or [(0.0, 0.0)]
     if len(options.center) > 1 and not options.pair:
         reader.error("--center: several patches are for a pair: give the surface of body 1 by --pair, or one centre")
+    if len(options.center) > 1 and any(re.fullmatch(several.NAME + r"[0-9]+", name) for name, _ in options.case):
+        reader.error(f"--case: {several.NAME} with a number is a name of the file's own: give another one")
     if options.sensor and not options.modes:
         reader.error("--sensor needs --modes: give their number, or remove it")
     if len({name for name, _ in options.sensor}) < len(options.sensor):

@@ -8,7 +8,7 @@ contact of petsam knows the half-space inside its own patch only; between two pa
 A step of a contact takes what other patches do to it as rigid motions and load cases. With L L' the half-space's
 stiffness on the polynomials of a patch, the compliance of the half-space is 1 in L' D L. Of its rows of P, without P's
 own columns and without the rigid motions, the singular vectors are the load cases of P, as many as have singular values
-above FAR. The rest of D_PQ is left out.
+above FAR, at most MOST with the others. The rest of D_PQ is left out.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,9 @@ from .halfspace import points_needed
 
 FAR = 1e-3  # smallest singular value, relative to the half-space
 NAME = "far"  # of the load cases, with a number
+MOST = 64  # load cases of a patch that petsam reads
 UNIT = "m/J^0.5"  # of them at factor 1, the factor being in J^0.5
+TOO_MUCH = 3.0  # what is left out, over FAR, that is warned of
 NEAREST = 0.05  # least distance of two patches, in half widths
 
 
@@ -100,6 +102,11 @@ def joined(bodies, matrix):
     inverse = linalg.pinv(every)
     coupling = inverse @ left @ inverse.T
     missed = float(np.linalg.norm(left - every @ coupling @ every.T, 2))
+    if missed > TOO_MUCH * FAR:
+        bodies[0].remarks.append(
+            f"warning: the load cases of the other patches miss {missed:.1e} of the half-space's compliance, as a patch "
+            f"has at most {MOST} with bolts and modes: use fewer --modes, or patches that are farther apart"
+        )
     sign, first = np.ones(len(coupling)), 0
     for body, span in zip(bodies, spans):
         own = slice(first, first + 6)
@@ -115,7 +122,7 @@ def _span(body, rows):
     motions = rigid.motions(body.patch).reshape(6, -1) @ body.definite.root
     whole = linalg.orth(motions.T)
     u, values, _ = linalg.svd(rows - whole @ (whole.T @ rows))
-    kept = u[:, values > FAR]
+    kept = u[:, values > FAR][:, : MOST - len(body.cases)]
     fields = linalg.solve_triangular(body.definite.root, kept, trans="T", lower=True)
     for k, field in enumerate(fields.T, 1):
         body.cases[f"{NAME}{k}"] = Case(field.reshape(-1, 3), 0.0, None, UNIT)

@@ -1,6 +1,7 @@
 """The structure of a pair of bodies, from a file of petsam-compliance --pair."""
 
 import os
+import re
 import tempfile
 
 import h5py
@@ -94,7 +95,7 @@ class Pair:
         if not ("rigid" in file or "coupling" in file) or "modes" not in file:
             raise ValueError("it has no body 1, or no modes: make it with --pair and --modes")
         self.coupling = file["coupling" if "coupling" in file else "rigid/compliance"][()]
-        self.far = [_far(group) for group in patches_of(file)]
+        self.far = [_far(group) for group in patches_of(file)] if "coupling" in file else [[]]
         if len(self.coupling) != sum(6 + len(names) for names in self.far):
             raise ValueError(f"the coupling of its patches has the shape {self.coupling.shape}")
         self.omega = file["modes/omega"][()].astype(float)
@@ -167,7 +168,7 @@ def patches_of(file):
 
 def _far(group):
     """Names of the load cases by which other patches move a patch, in the order of their numbers."""
-    names = [name for name in group["cases"] if name.startswith("far")]
+    names = [name for name in group["cases"] if re.fullmatch("far[0-9]+", name)]
     return sorted(names, key=lambda name: int(name[3:]))
 
 
