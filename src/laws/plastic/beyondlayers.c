@@ -14,8 +14,8 @@ static const double places[] = {0, 0.25, FIRST, DEEP, 1, 1.5, 2};
 #define PLACES ((PetscInt)(sizeof(places) / sizeof(places[0])))
 
 /*
-  Adds a layer's residual stress and the bulk stress to the tractions' stress at a depth; raises `excess` to the largest relative excess
-  over the yield stress.
+  Adds a layer's residual stress and the bulk stress to the tractions' stress at a depth; raises `excess` to the
+  largest relative excess over the yield stress.
 */
 static PetscErrorCode Look(SamPlastic *p, PetscInt b, PetscReal depth, const double state[], const double residual[],
                            const double *const traction[3], double *excess)

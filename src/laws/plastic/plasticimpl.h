@@ -29,8 +29,8 @@ PETSC_INTERN PetscErrorCode SamResidualCreate(SamElasticity elasticity, PetscInt
                                               const PetscReal thickness[], SamResidual *residual);
 PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);
 /*
-  SamResidualSetLayers - restricts the operators to the first layers, the same on all ranks: the strain below them counts
-  as zero, and no stress is computed there. Not collective.
+  SamResidualSetLayers - restricts the operators to the first layers, the same on all ranks: the strain below them
+  counts as zero, and no stress is computed there. Not collective.
 */
 PETSC_INTERN void SamResidualSetLayers(SamResidual residual, PetscInt layers);
 /*
