@@ -521,7 +521,7 @@ def test_a_line_yields_first_at_its_closed_pressure(solve, friction, ratio):
 
 
 def test_a_line_does_not_depend_on_its_window(solve, tmp_path):
-    """Loads to and fro with bulk stress, which yy follows, on a grid three times as wide; much wider periods come near."""
+    """Loads to and fro with bulk stress, which yy follows, on a grid three times as wide; wide periods come near."""
     case = line(2.5 * YIELD, 48, friction=0.4, coupling="none", body2_hardening_modulus=0.02, yield_first=2e-4)
     size, force = 1.6 * case.pop("grid_size"), case.pop("load_n")
     case["yield_depth"] = size

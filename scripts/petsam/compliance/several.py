@@ -104,8 +104,8 @@ def joined(bodies, matrix):
     missed = float(np.linalg.norm(left - every @ coupling @ every.T, 2))
     if missed > TOO_MUCH * FAR:
         bodies[0].remarks.append(
-            f"warning: the load cases of the other patches miss {missed:.1e} of the half-space's compliance, as a patch "
-            f"has at most {MOST} with bolts and modes: use fewer --modes, or patches that are farther apart"
+            f"warning: the load cases of the other patches miss {missed:.1e} of the half-space's compliance, as a "
+            f"patch has at most {MOST} with bolts and modes: use fewer --modes, or patches that are farther apart"
         )
     sign, first = np.ones(len(coupling)), 0
     for body, span in zip(bodies, spans):
