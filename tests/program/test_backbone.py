@@ -428,6 +428,13 @@ def test_wear_of_one_contact_is_that_of_the_contact_alone():
     assert np.all(found.frequency_error <= 0.2 * np.ptp(found.frequency))
 
 
+def test_contacts_that_do_not_wear_are_named():
+    contact, _ = sphere(LOAD, 16)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
+    with pytest.raises(petsam.Error, match="no contact wears: give -wear_coefficient1"):
+        joint.wear(joint.Structure([patch], rigid=[[1.0]]), 1e-7, [10])
+
+
 def test_wear_unloads_the_bolt(tmp_path):
     """Wear of the contact lets the washers move, so that tension falls; the number of parts changes little of that."""
     pair = joint.Pair(

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..contact import ContactError
 from ..errors import Error
 from .backbone import modal_amplitudes
 from .numbers import ENDS, Numbers, reason
@@ -85,6 +86,11 @@ def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure
     cycles = np.atleast_1d(np.asarray(cycles, dtype=float))
     if not (cycles.size and rising(cycles)):
         raise Error("cycles: expected rising whole numbers above 0")
+    if not any(_wears(patch) for patch in structure.patches):
+        raise Error(
+            "no contact wears: give -wear_coefficient1, -wear_coefficient2, -wear_energy1 or -wear_energy2 among its "
+            "options"
+        )
     measure = measure or (lambda _: {})
     first = Sweep(structure, mode, steps)
     modal = float(modal_amplitudes(first, [amplitude], sensor)[0])
@@ -97,6 +103,15 @@ def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure
     for name in ("frequency", "damping"):
         rows[f"{name}_error"] = np.abs(rows[name] - coarse[0][name])
     return Wear({"cycles": np.append(0.0, cycles), **rows}, measured, structures)
+
+
+def _wears(patch):
+    """True if the options of a patch's contact have wear."""
+    try:
+        patch.number("wear_volume1")
+    except ContactError:
+        return False
+    return True
 
 
 def rising(cycles):
