@@ -778,7 +778,7 @@ def test_a_sensor_that_the_mode_does_not_move_is_named():
 
 
 def test_an_amplitude_that_slides_is_named():
-    contact, stiffness = sphere(LOAD, 16)
+    contact, stiffness = sphere(LOAD, 16, wear_coefficient1=1e-13)
     patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
     one = joint.Structure([patch], rigid=[[1.0]])
     with pytest.raises(petsam.Error, match="at an amplitude of .* m: gross slip: load_tx"):
