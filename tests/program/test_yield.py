@@ -151,7 +151,7 @@ def test_partial_slip_has_reference_numbers(solve, tmp_path):
     assert run["disp_x"][[1, 2, 4]] / APPROACH == pytest.approx([0.16346, 0.33901, 0.82354], rel=2e-3)
     assert run["pressure_max"][[0, 1, 2, 4]] / YIELD == pytest.approx([2.04541, 2.04156, 2.03050, 1.98404], rel=6e-3)
     assert list(run["stick_cells"][1:3]) == [124, 114]
-    assert run["plastic_products"].sum() < 200  # more where what slips does not follow the pressure
+    assert run["plastic_products"].sum() < 190  # more where what slips does not follow the pressure
 
 
 @pytest.mark.parametrize("coupling", [None, "none"])

@@ -290,7 +290,7 @@ def description(found):
     for one in found.bodies:
         lines += _patch(one)
     if len(found.bodies) > 1:
-        far = ", ".join(str(sum(name.startswith(several.NAME) for name in one.cases)) for one in found.bodies)
+        far = ", ".join(str(sum(case.unit == several.UNIT for case in one.cases.values())) for one in found.bodies)
         lines.append(
             f"coupling    load cases of the other patches: {far}; they miss {found.missed:.1e} of the half-space's"
         )

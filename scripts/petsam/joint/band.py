@@ -13,8 +13,8 @@ import numpy as np
 
 from ..errors import Error, short
 from .backbone import COLUMNS, Backbone, backbone, shake
-from .numbers import ENDS, heads, reason
-from .structure import NoSolution
+from .numbers import heads, reason
+from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
 
 ASSEMBLED, REVERSED, FRICTIONLESS, SHAKEN = "as given", "bolts reversed", "without friction", "after the largest"
@@ -50,9 +50,14 @@ class Band:
         return {f"{name} {side}": one for name, two in self.scatter.items() for side, one in zip(SIDES, two)}
 
     @property
+    def every(self):
+        """{assembly, or parameter and side: Backbone} of all."""
+        return self.backbones | self.sides
+
+    @property
     def count(self):
         """Number of amplitudes that all backbones have."""
-        return min(len(one.alpha) for one in (self.backbones | self.sides).values())
+        return min(len(one.alpha) for one in self.every.values())
 
     def limits(self, name):
         """Lowest and highest frequency or damping of all assemblies, an array each."""
@@ -85,9 +90,7 @@ class Band:
         with open(path, "w", newline="", encoding="utf-8") as file:
             rows = csv.writer(file)
             rows.writerow(["assembly", *heads(COLUMNS)])
-            named = dict(self.backbones)
-            named.update(self.sides)
-            for assembly, one in named.items():
+            for assembly, one in self.every.items():
                 for k in range(len(one.alpha)):
                     rows.writerow([assembly, *(f"{one.numbers[name][k]:.10g}" for name in COLUMNS)])
 
@@ -159,8 +162,7 @@ def _warn(found):
     """Warns of assemblies that end before the one as given."""
     count = found.count
     if count < len(found.given.alpha):
-        every = found.backbones | found.sides
-        ended = ", ".join(name for name, one in every.items() if len(one.alpha) == count)
+        ended = ", ".join(name for name, one in found.every.items() if len(one.alpha) == count)
         warnings.warn(
             f"only {count} of {len(found.given.alpha)} amplitudes: no more have a solution for the assembly {ended}",
             BackboneWarning,

@@ -47,8 +47,8 @@ from . import interface
 from .backbone import backbone
 from .balance import forced
 from .band import band
-from .numbers import ENDS
 from .pair import Pair, Unreadable
+from .structure import ENDS
 from .sweep import BackboneWarning
 from .wear import rising, wear
 

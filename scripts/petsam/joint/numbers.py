@@ -3,11 +3,8 @@
 import csv
 import warnings
 
-from ..contact import NoEquilibrium, NotConverged
-from .structure import NoSolution
+from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
-
-ENDS = (NoSolution, NoEquilibrium, NotConverged)  # of a row, after which those that follow are left out
 
 
 class Numbers:

@@ -43,7 +43,8 @@ class Apart(NoSolution):
     """The structure pulls the bodies apart."""
 
 
-BEYOND = (NoEquilibrium, NotConverged, PrescribedError, Apart)
+BEYOND = (NoEquilibrium, NotConverged, PrescribedError, Apart)  # of a guess that contacts do not bear
+ENDS = (NoSolution, *BEYOND)  # of a step
 
 
 class Patch:
@@ -158,7 +159,6 @@ class Structure:
         if not np.all((self.omega > 0.0) & np.isfinite(self.omega)):
             raise Error("omega: expected frequencies above 0; modes of 0 are given by rigid")
         self.direct = not self.rigid.size and not np.any(self.coupling)
-        self.by_load = np.concatenate([patch.by_load for patch in self.patches])
         floats = n == self.rigid.shape[1] and np.all(self.by_load)
         self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
@@ -178,6 +178,11 @@ class Structure:
     def modes(self):
         """Number of modes: elastic ones, then those without stiffness."""
         return self.omega.size + self.rigid.shape[1]
+
+    @property
+    def by_load(self):
+        """(n,) mask of the coordinates whose loads steps prescribe."""
+        return np.concatenate([patch.by_load for patch in self.patches])
 
     @property
     def names(self):
@@ -342,30 +347,28 @@ class Structure:
             return self._iterate(driven, free, held, response, scale)
         try:
             return self._iterate(driven, free, held, response, scale, FEWER)
-        except (NoSolution, *BEYOND) as error:
+        except ENDS as error:
             first = error
         if self._slides(limited, driven, free, held, scale):
             return None
         try:
             return self._iterate(driven, free, held, response, scale)
-        except (NoSolution, *BEYOND):
+        except ENDS:
             raise first from None  # most often names what the contact does not bear
 
     def _slides(self, limited, driven, free, held, scale):
         """True if the step is solved by displacements along the surface of these patches."""
-        before = self.by_load, [patch.by_load for patch in limited]
+        masks = [patch.by_load for patch in limited]
         state = self.z, self.a, self.loads
         for patch in limited:
             patch.by_load = patch.by_load & ~np.isin(patch.coordinates, SLIDING)
-        self.by_load = np.concatenate([patch.by_load for patch in self.patches])
         try:
             self._iterate(driven, free, held, None, scale)
             inside = not any(patch.outgrown for patch in self.patches)
-        except (NoSolution, *BEYOND):
+        except ENDS:
             inside = False
         finally:
-            self.by_load = before[0]
-            for patch, mask in zip(limited, before[1]):
+            for patch, mask in zip(limited, masks):
                 patch.by_load = mask
         if not inside:
             self.z, self.a, self.loads = state
@@ -385,7 +388,7 @@ class Structure:
             before, last = np.where(self.by_load, z, loads), size
             try:
                 z, loads = self._try(given, held)
-            except BEYOND:  # a guess that contacts do not bear
+            except BEYOND:
                 if self.iterations[-1] == most or not np.any(change):
                     raise
                 change = 0.5 * change  # the guess is beyond what the contacts bear

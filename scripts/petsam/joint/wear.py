@@ -14,8 +14,8 @@ import numpy as np
 from ..contact import ContactError
 from ..errors import Error
 from .backbone import modal_amplitudes
-from .numbers import ENDS, Numbers, reason
-from .structure import DISPLACEMENTS, NoSolution
+from .numbers import Numbers, reason
+from .structure import DISPLACEMENTS, ENDS, NoSolution
 from .sweep import STEPS, Sweep
 
 PARTS = 2  # parts of each span of cycles

@@ -91,38 +91,42 @@ static PetscErrorCode CreateBasis(SamImages m)
 }
 
 /* Computes the stress of an image at a distance along x and y; in a row, of a line. */
-static void AddImage(SamImages m, const double between[2], double depth, double source, Matrix sum)
+static void SetImage(SamImages m, const double between[2], double depth, double source, Matrix image)
 {
   const double far = hypot(between[0], depth - source);
-  Matrix       one;
 
-  for (PetscInt k = 0; k < (m->along[1] > 1 ? 1 : ANGLES); k++) {
-    const double angle = PETSC_PI / 2 * m->angle[k], y = far * tan(angle);
+  if (m->along[1] > 1) {
+    SamNucleus(between, depth, source, m->body.shear, m->body.poisson, image);
+    return;
+  }
+  memset(image, 0, sizeof(Matrix));
+  for (PetscInt k = 0; k < ANGLES; k++) {
+    const double angle = PETSC_PI / 2 * m->angle[k], to[2] = {between[0], far * tan(angle)};
     const double weight = m->weight[k] * PETSC_PI / 2 * far / (cos(angle) * cos(angle));
+    Matrix       one;
 
-    if (m->along[1] > 1)
-      SamNucleus(between, depth, source, m->body.shear, m->body.poisson, one);
-    else
-      SamNucleus((const double[2]){between[0], y}, depth, source, m->body.shear, m->body.poisson, one);
-    for (PetscInt a = 0; a < ENTRIES; a++) sum[a] += (m->along[1] > 1 ? 1 : weight) * one[a];
+    SamNucleus(to, depth, source, m->body.shear, m->body.poisson, one);
+    for (PetscInt a = 0; a < ENTRIES; a++) image[a] += weight * one[a];
   }
 }
 
 /* Computes the stress of all images for one lag. */
 static void SumImages(SamImages m, const double lag[2], const double period[2], double depth, double source, Matrix sum)
 {
-  const PetscInt least = m->along[1] > 1 ? 1 : 4, sizes[] = {least, 2 * least, 4 * least};
-  double         power[3][3];
-  Matrix         upto[3] = {{0}};
+  const PetscBool row   = m->along[1] == 1 ? PETSC_TRUE : PETSC_FALSE;
+  const PetscInt  least = row ? 4 : 1, sizes[] = {least, 2 * least, 4 * least};
+  double          power[3][3];
+  Matrix          upto[3] = {{0}}, one;
 
   for (PetscInt s = 0; s < 3; s++)
     for (PetscInt i = -sizes[s]; i <= sizes[s]; i++)
-      for (PetscInt j = -sizes[s]; j <= sizes[s]; j++) {
+      for (PetscInt j = row ? 0 : -sizes[s]; j <= (row ? 0 : sizes[s]); j++) {
         const double between[2] = {lag[0] + (double)i * period[0], lag[1] + (double)j * period[1]};
 
         if (PetscMax(labs((long)i), labs((long)j)) <= (s ? sizes[s - 1] : 0)) continue;
-        if (j == 0 || m->along[1] > 1)
-          for (PetscInt k = s; k < 3; k++) AddImage(m, between, depth, source, upto[k]);
+        SetImage(m, between, depth, source, one);
+        for (PetscInt k = s; k < 3; k++)
+          for (PetscInt a = 0; a < ENTRIES; a++) upto[k][a] += one[a];
       }
   /* The weights of the three sums that eliminate the powers 1 and 3. */
   for (PetscInt s = 0; s < 3; s++) {

@@ -280,7 +280,6 @@ static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
   PetscCall(Load(w->plastic, (const double *const[3]){z, x, y}, to));
   for (PetscInt k = 0; k < w->n; k++) w->s[k] += to[k];
   AddDeviator(w->plastic, from, w->s, to);
-  w->plastic->products++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -305,11 +304,11 @@ static PetscErrorCode FindStep(Solve *w, double part)
   PetscCall(Dot(w, rest, rest, &first));
   size = first;
   PetscCall(PetscArrayzero(w->v, w->n)); /* nothing is computed below the layers that yield */
-  PetscCall(PetscArrayzero(w->w, w->n));
   UseLayers(w->plastic, w->active);
   for (; k < PRODUCTS && size > part * part * first; k++) {
     ApplyRoot(w, w->z, w->v);
     PetscCall(Multiply(w, w->v, w->w)); /* w = Bc Q z */
+    w->plastic->products++;
     ApplyRoot(w, w->w, w->v);
     for (PetscInt i = 0; i < w->n; i++) w->v[i] = w->z[i] - w->v[i];
     PetscCall(Dot(w, w->z, w->v, &step));
