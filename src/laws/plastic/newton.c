@@ -578,6 +578,7 @@ PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact)
 
   PetscFunctionBegin;
   p->newton = p->products = 0;
+  UseLayers(p, p->layers); /* also after an error in the conjugate gradients */
   PetscCall(CreateWork(&w));
   PetscCall(TakeStrain(p, SamStateGetField(contact->state, field, SAM_COMMITTED), w.e));
   PetscCall(GetDriver(&w, w.d));
