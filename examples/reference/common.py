@@ -1,0 +1,86 @@
+"""What the cases share: intervals from evidence, and runs of petsam."""
+
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import petsam
+
+HERE = Path(__file__).resolve().parent
+MEASURED = (0.5, 5.0)  # orders of convergence that are believed; others say that the sequence is not regular yet
+
+
+class Interval(NamedTuple):
+    """A quantity and the interval that contains it; size: of what errors are a part, if not of the number itself."""
+
+    quantity: str
+    unit: str
+    low: float
+    high: float
+    how: str
+    size: float = None
+
+
+class Way(NamedTuple):
+    """One way to a number: its name, and what it gives at three or more resolutions, each twice as fine as the last."""
+
+    name: str
+    values: tuple
+
+    def limits(self):
+        """Limits extrapolated from each three neighbors, with the order that they show; None if they show none."""
+        found = []
+        for one, two, three in zip(self.values, self.values[1:], self.values[2:]):
+            ratio = (one - two) / (two - three) if two != three else math.inf
+            if math.isinf(ratio):
+                found.append((three, math.inf))
+            elif ratio > 0 and MEASURED[0] <= math.log2(ratio) <= MEASURED[1]:
+                found.append((three + (three - two) / (ratio - 1), math.log2(ratio)))
+            else:
+                found.append(None)
+        return found
+
+    def interval(self):
+        """Limit -+ half its distance from the finest value and from the limit before, or, without an order, the range
+        of the last two values on either side of the finest."""
+        limits, last = self.limits(), self.values[-1]
+        if limits[-1] is None:
+            spread = max(abs(last - value) for value in self.values[-3:-1])
+            return last - spread, last + spread
+        limit = limits[-1][0]
+        before = [other[0] for other in limits[:-1] if other is not None][-1:]
+        half = max([abs(limit - last) / 2] + [abs(limit - other) for other in before])
+        return limit - half, limit + half
+
+    def __str__(self):
+        values = ", ".join(f"{value:.10g}" for value in self.values)
+        limit = self.limits()[-1]
+        return f"{self.name}: {values}; " + (f"order {limit[1]:.2g}" if limit else "no clear order")
+
+
+def closed(quantity, unit, value, how, digits=10):
+    """The interval of a closed form: all numbers that round to the same digits."""
+    value = float(value)
+    half = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)
+    return Interval(quantity, unit, value - half, value + half, how)
+
+
+def covered(quantity, unit, ways, how="", size=None):
+    """The interval that covers those of all ways; `how` goes before what each way has found."""
+    ends = [way.interval() for way in ways]
+    text = ". ".join(([how] if how else []) + [str(way) for way in ways])
+    return Interval(quantity, unit, min(low for low, _ in ends), max(high for _, high in ends), text, size)
+
+
+def rounded(interval):
+    """The interval with its ends rounded outwards, to two digits of its width."""
+    width = interval.high - interval.low
+    step = 10.0 ** (math.floor(math.log10(width)) - 1) if width > 0 else abs(interval.high) * 1e-12
+    low, high = math.floor(interval.low / step) * step, math.ceil(interval.high / step) * step
+    places = max(2, 2 + math.ceil(math.log10(max(abs(low), abs(high)) / step)))
+    return interval._replace(low=float(f"{low:.{places}g}"), high=float(f"{high:.{places}g}"))
+
+
+def run(options=None, **more):
+    """petsam.run() on two ranks; see there."""
+    return petsam.run(options, ranks=2, **more)
