@@ -1,7 +1,8 @@
 """Rolling cylinders with creepage: Carter."""
 
 import mpmath as mp
-from common import closed, run
+import petsam
+from common import closed
 
 N, RADIUS, YOUNG, POISSON, FRICTION, CREEPAGE = "4e5", "0.2", "210e9", "0.3", "0.3", "5e-4"
 OPTIONS = {
@@ -45,7 +46,7 @@ def evidence():
 
 
 def answers():
-    last = {name: values[-1] for name, values in run(OPTIONS).history.items()}
+    last = {name: values[-1] for name, values in petsam.run(OPTIONS).history.items()}
     return {
         "tangential_force": last["load_tx"],
         "stick_width": last["stick_area"],
@@ -57,7 +58,7 @@ def answers():
 
 def draw(figure):
     axes = figure.subplots()
-    results = run(OPTIONS)
+    results = petsam.run(OPTIONS)
     x, mu = results.x * 1e3, float(FRICTION)
     axes.plot(x, mu * results["pressure"][-1][0] * 1e-6, "--", label="mu p")
     axes.plot(x, results["shear_x"][-1][0] * 1e-6, label="q")

@@ -1,7 +1,8 @@
 """A punch with rounded edges, inclined: Ciavarella, Hills and Monno; Goryacheva, Murthy and Farris."""
 
 import mpmath as mp
-from common import closed, run
+import petsam
+from common import closed
 
 N, MOMENT, SHEAR, YOUNG, POISSON, FRICTION = "1.5e6", "600", "2.7e5", "210e9", "0.3", "0.3"
 FLAT, EDGE = "2e-3", "50e-3"
@@ -118,7 +119,7 @@ def evidence():
 
 def solve_cells():
     """A first step applies N and M_y, then T_x."""
-    return run(OPTIONS, output_fields="usual,contact_edge,stick_edge")
+    return petsam.run(OPTIONS, output_fields="usual,contact_edge,stick_edge")
 
 
 def answers():

@@ -1,7 +1,8 @@
 """A cylindrical pad on a flat with bulk stress: Nowell and Hills' problem with slip to both sides."""
 
 import numpy as np
-from common import Way, covered, run
+import petsam
+from common import Way, covered
 from scipy.optimize import fsolve
 
 N, SHEAR, BULK, RADIUS, YOUNG, POISSON, FRICTION = 2e5, 4e4, 2e8, 50e-3, 115e9, 0.32, 0.5
@@ -110,7 +111,7 @@ def by_equation(n):
 
 
 def solve(**more):
-    return run(OPTIONS, history=HISTORY, output_fields="usual,contact_edge,stick_edge", **more)
+    return petsam.run(OPTIONS, history=HISTORY, output_fields="usual,contact_edge,stick_edge", **more)
 
 
 def by_cells(**more):
@@ -129,14 +130,14 @@ def by_cells(**more):
 
 def evidence():
     equation = [by_equation(n) for n in (64, 128, 256, 512)]
-    cells = [by_cells(grid_n=n) for n in (256, 512, 1024, 2048)]
+    cells = [by_cells(grid_n=n) for n in (1024, 2048, 4096, 8192)]
     return [
         covered(
             name,
             unit,
             [
                 Way("integral equation, 64 to 512 nodes", tuple(found[name] for found in equation)),
-                Way("petsam, 256 to 2048 cells", tuple(found[name] for found in cells)),
+                Way("petsam, 1024 to 8192 cells", tuple(found[name] for found in cells)),
             ],
         )
         for name, unit in UNITS.items()
@@ -151,9 +152,11 @@ def draw(figure):
     axes = figure.subplots()
     results = solve()
     x, bound = results.x * 1e3, FRICTION * results["pressure"][-1][0] * 1e-6
-    axes.plot(x, bound, "--", color="C0", label="mu p, -mu p")
+    axes.plot(x, bound, "--", color="C0", label="mu p")
     axes.plot(x, -bound, "--", color="C0")
     axes.plot(x, results["shear_x"][-1][0] * 1e-6, color="C1", label="q")
     axes.set_xlabel("x (mm)")
     axes.set_ylabel("shear (MPa)")
-    axes.legend(loc="upper right")
+    axes.set_xlim(-0.5, 0.5)
+    axes.set_yticks([-100, 0, 100])
+    axes.legend()
