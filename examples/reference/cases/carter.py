@@ -1,8 +1,9 @@
 """Rolling cylinders with creepage: Carter."""
 
 import mpmath as mp
-import petsam
 from common import closed
+
+import petsam
 
 N, RADIUS, YOUNG, POISSON, FRICTION, CREEPAGE = "4e5", "0.2", "210e9", "0.3", "0.3", "5e-4"
 OPTIONS = {

@@ -1,8 +1,9 @@
 """A punch with rounded edges, inclined: Ciavarella, Hills and Monno; Goryacheva, Murthy and Farris."""
 
 import mpmath as mp
-import petsam
 from common import closed
+
+import petsam
 
 N, MOMENT, SHEAR, YOUNG, POISSON, FRICTION = "1.5e6", "600", "2.7e5", "210e9", "0.3", "0.3"
 FLAT, EDGE = "2e-3", "50e-3"

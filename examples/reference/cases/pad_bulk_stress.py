@@ -1,9 +1,10 @@
 """A cylindrical pad on a flat with bulk stress: Nowell and Hills' problem with slip to both sides."""
 
 import numpy as np
-import petsam
 from common import Way, covered
 from scipy.optimize import fsolve
+
+import petsam
 
 N, SHEAR, BULK, RADIUS, YOUNG, POISSON, FRICTION = 2e5, 4e4, 2e8, 50e-3, 115e9, 0.32, 0.5
 OPTIONS = {
