@@ -153,6 +153,7 @@ def draw(figure):
         left.plot(at, t, "k.")
         left.annotate(f"N = {n} N", (at, t), xytext=(5, -10), textcoords="offset points", fontsize="x-small")
     left.set_xlim(-2.6, 4)
+    left.set_ylim(-310, 450)
     left.set_xlabel("d_x (µm)")
     left.set_ylabel("T_x (N)")
     results = solve(grid_n=128, output_at="history")
