@@ -111,14 +111,18 @@ def write_page(name, rows):
 
 
 def pictures(names, _):
-    """Draws the pictures of these cases."""
+    """Draws the pictures of these cases, in 48 colors, so that they are small."""
+    from PIL import Image
+
     from petsam.plot.style import plt
 
     for name in names:
         figure = plt.figure(figsize=(6.4, 3.2), layout="constrained")
         module(name).draw(figure)
-        figure.savefig(CASES / f"{name}.png", dpi=90)
+        picture = CASES / f"{name}.png"
+        figure.savefig(picture, dpi=90)
         plt.close(figure)
+        Image.open(picture).convert("RGB").quantize(48).save(picture, optimize=True)
 
 
 def main():
