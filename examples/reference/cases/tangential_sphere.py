@@ -63,7 +63,7 @@ def evidence():
 
 
 def answers():
-    return numbers(petsam.run(OPTIONS, grid_n=128, steps=64))
+    return numbers(petsam.run(OPTIONS, grid_n=128, steps=256))
 
 
 def draw(figure):
