@@ -181,7 +181,7 @@ class Shear:
         stick = np.sqrt((q**2).sum(0)) < self.b * (1 - 1e-6)
         ds[:, stick] = 0.0
         self.slip = slip + ds
-        self.ds, self.stick = ds, stick
+        self.stick = stick
         return (self.b * np.sqrt((ds**2).sum(0))).sum() * self.grid.area
 
     def field(self, values):

@@ -18,9 +18,12 @@ def limits(solve, steps=STEPS):
 
 
 def ways(petsam, own, name, cells="32, 64, 128", counts=STEPS):
-    """Both ways to one quantity, from lists of dictionaries."""
-    of_steps = f"limit of {', '.join(map(str, counts))} steps"
+    """Both ways to one quantity, from lists of dictionaries; counts: petsam's steps."""
+
+    def of_steps(counts):
+        return f"limit of {', '.join(map(str, counts))} steps"
+
     return [
-        Way(f"petsam, 64, 128, 256 cells, {of_steps}", tuple(found[name] for found in petsam)),
-        Way(f"halfspace.py, {cells} cells, {of_steps}", tuple(found[name] for found in own)),
+        Way(f"petsam, 64, 128, 256 cells, {of_steps(counts)}", tuple(found[name] for found in petsam)),
+        Way(f"halfspace.py, {cells} cells, {of_steps(STEPS)}", tuple(found[name] for found in own)),
     ]
