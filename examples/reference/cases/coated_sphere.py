@@ -3,10 +3,11 @@
 import functools
 
 import numpy as np
-import petsam
 from common import Way, covered
 from scipy.optimize import minimize_scalar
 from scipy.special import j0, j1
+
+import petsam
 
 N, RADIUS, THICKNESS = 100.0, 0.01, 5e-5
 FILM, BASE = (600e9, 0.2), (210e9, 0.3)  # Young's modulus, Poisson's ratio
