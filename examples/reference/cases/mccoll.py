@@ -56,7 +56,7 @@ def measured(cells=320, rtol=0.1):
 
 
 def strips(count, cycles):
-    """The same by strips, `count` of them in the stroke u, and so many cycles, each magnified to those of a longer time.
+    """The same by strips, `count` of them in the stroke u, and so many cycles, each magnified to a longer time.
 
     A step moves by a strip and wears by the pressure at its end, which is found together with the wear."""
     h, e_star = float(STROKE) / count, YOUNG / (1 - POISSON**2) / 2
@@ -120,7 +120,8 @@ def draw(figure):
     results = solve(320, 0.1)
     for body, name in (2, "flat"), (1, "cylinder"):
         axes.plot(results.x * 1e3, results.field(f"wear_depth{body}").ravel() * 1e6, label=name)
-    axes.invert_yaxis()
+    axes.set_xlim(0, 0.31)
+    axes.set_yticks([0, 1, 2])
     axes.set_xlabel("x of the body's own surface (mm)")
     axes.set_ylabel("removed depth (µm)")
     axes.legend(frameon=False)
