@@ -99,14 +99,12 @@ def answers():
 
 
 def draw(figure):
-    axes = figure.subplots(1, 2)
+    axes = figure.subplots()
     results = solve(128, 1e-2)
     row = len(results.y) // 2
     for cycle in (0, EARLY, LATE):
-        step = results.of_cycle(cycle)
-        for panel, name, unit in (axes[0], "pressure", 1e6), (axes[1], "wear_depth1", 1e-6):
-            panel.plot(results.x[row:] * 1e3, results.field(name, step)[row, row:] / unit, label=f"{cycle} cycles")
-    for panel, label in zip(axes, ("p (MPa)", "removed depth (µm)")):
-        panel.set_xlabel("x (mm)")
-        panel.set_ylabel(label)
-    axes[0].legend(frameon=False)
+        pressure = results.field("pressure", results.of_cycle(cycle))[row, row:]
+        axes.plot(results.x[row:] * 1e3, pressure * 1e-6, label=f"{cycle} cycles")
+    axes.set_xlabel("x (mm)")
+    axes.set_ylabel("p (MPa)")
+    axes.legend(frameon=False)
