@@ -105,7 +105,7 @@ def evidence():
 
 
 def answers():
-    return measured(128, 1e-2, END)
+    return measured(112, 1e-2, END)
 
 
 def draw(figure):
