@@ -337,7 +337,7 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
   SamStrain          e;
 
   PetscFunctionBegin;
-  PetscCall(SamStateMove(c->state, roll));
+  PetscCall(SamStateMove(c->state, roll, c->traits.periodic));
   PetscCall(SamContactRefresh(c));
   PetscCall(SamProblemDisplace(c->problem, NULL, &s->control, NULL, NULL, &e, NULL));
   rigid[SAM_COMPONENT_TX] -= rigid[SAM_COMPONENT_MZ] * roll[1] + e.xx * roll[0] + e.xy * roll[1];

@@ -173,8 +173,8 @@ PetscErrorCode SamContactSetUp(SamContact c)
              c->traits.upwind ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);
   for (PetscInt k = 0; k < count; k++)
     for (PetscInt j = 0; laws[k]->ops.follow && j < count; j++)
-      PetscCheck(!laws[j]->ops.separation, c->grid->comm, SAM_ERR_USER, "-%s: not supported with -%s", laws[k]->option,
-                 laws[j]->option);
+      PetscCheck(!laws[j]->ops.separation || !laws[j]->ops.limit, c->grid->comm, SAM_ERR_USER,
+                 "-%s: not supported with -%s", laws[k]->option, laws[j]->option);
   PetscCheck(isinf(limit) || SamNormalLimitsPressure(c->normal), c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
   PetscCall(SamNormalSetPressureLimit(c->normal, limit));

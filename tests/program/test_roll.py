@@ -219,3 +219,15 @@ def test_gross_slip_of_a_rolling_step_names_creepages(petsam, tmp_path):
     case = ball(32)
     rows = history(tmp_path / "h.csv", "time,load_tx,roll", (0, 10.0, 0.0), (1, 500.0, 5e-5))
     assert "for gross slip give creep_x" in petsam(case, rows, check=11).stderr
+
+
+def test_a_train_on_one_period_rolls_as_one_contact(solve, tmp_path):
+    """Cylinders with a creepage, until the tractions are steady: one on half-planes, and a train of them."""
+    cell, alone = 2e-3 / 64, dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+    rows = [(float(k), cell if k else 0.0, 2e-3 if k else 0.0) for k in range(51)]
+    alone.update(gap_type="sphere", gap_radius1=0.02, gap_radius2="inf", friction=0.3, load_n=3e5)
+    alone.update(history(tmp_path / "train.csv", "time,roll,creep_x", *rows))
+    one = solve(dict(alone, elasticity="plane", grid_n=64, grid_size=2e-3))
+    train = solve(dict(alone, elasticity="plane_periodic", grid_n=256, grid_size=8e-3))
+    assert train["load_tx"] == pytest.approx(one["load_tx"], rel=0.01)
+    assert 0.6 * 0.3 * 3e5 < one["load_tx"] < 0.9 * 0.3 * 3e5

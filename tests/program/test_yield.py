@@ -295,11 +295,6 @@ def test_ranks_and_restart_give_the_same_bits(petsam, tmp_path):
         assert np.array_equal(values[0], values[1]) and np.array_equal(values[0], values[2])
 
 
-def test_conditions_that_move_the_material_are_refused(petsam, tmp_path):
-    case = sphere(8, 4, **steps(tmp_path / "loads.csv", load_n=[LOAD, LOAD], roll=[0.0, 1e-3]))
-    assert "roll" in petsam(case, check=None).stderr
-
-
 @pytest.mark.parametrize(
     "more, words",
     [

@@ -161,7 +161,7 @@ static void test_field_with_depth_has_its_layers(void **state)
   sam_assert(holder == field && component == 4);
   sam_call(SamStateCommit(m.state));
   sam_call(SamStateBegin(m.state));
-  sam_call(SamStateMove(m.state, (const PetscReal[2]){m.grid->dx, 0}));
+  sam_call(SamStateMove(m.state, (const PetscReal[2]){m.grid->dx, 0}, PETSC_FALSE));
   sam_assert(Norm(SamStateGetField(m.state, id, SAM_COMMITTED), NORM_1) == 2. * 6 * 6 * 11); /* a column has left */
   sam_call(VecDestroy(&work));
   DestroyMemory(&m);

@@ -42,9 +42,10 @@ PETSC_INTERN PetscBool SamStateHasTried(SamState state);
 PETSC_INTERN PetscErrorCode SamStateReset(SamState state);
 /*
   SamStateMove - replaces the fields of the committed generation, during a try, by those after a move of the grid by
-  `distance` (m). A rejection of the try restores them, a commit keeps the moved ones. Collective.
+  `distance` (m); `wraps`: the grid is one period, and what leaves it enters at the other side. A rejection of the try
+  restores them, a commit keeps the moved ones. Collective.
 */
-PETSC_INTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distance[2]);
+PETSC_INTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distance[2], PetscBool wraps);
 /*
   SamStateSwapMoved - exchanges the fields of the committed generation before and after SamStateMove(), for code that
   saves the state: the first call restores the fields before the move, the next one those after it. Not collective.

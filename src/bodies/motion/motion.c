@@ -10,8 +10,6 @@ static PetscErrorCode Check(SamElasticity e, SamConditions conditions, const Sam
   (void)conditions;
   PetscCheck(rolled == 0 || !e->traits.patch, e->grid->comm, SAM_ERR_USER,
              "%sroll = %.6g: expected 0: bodies with a compliance of their own have a place", where, (double)rolled);
-  PetscCheck(rolled == 0 || !e->traits.periodic, e->grid->comm, SAM_ERR_USER,
-             "%sroll = %.6g: expected 0: bodies of type %s do not roll", where, (double)rolled, e->type);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
     PetscCheck(!control->creep[k] || control->value[k] == 0 || rolled != 0, e->grid->comm, SAM_ERR_USER,
                "%s%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady", where,

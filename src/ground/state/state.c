@@ -309,7 +309,7 @@ PetscErrorCode SamStateForgetFields(SamState s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStateMove(SamState s, const PetscReal distance[2])
+PetscErrorCode SamStateMove(SamState s, const PetscReal distance[2], PetscBool wraps)
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < s->fields; k++) {
@@ -318,7 +318,9 @@ PetscErrorCode SamStateMove(SamState s, const PetscReal distance[2])
     if (f->declared.motion == SAM_STAYS || !f->value[SAM_COMMITTED]) continue;
     PetscCall(SamGridCreateVec(s->grid, SamStateFieldSize(&f->declared), &f->other));
     PetscCall(SamGridMove(s->grid, SamStateFieldSize(&f->declared), distance,
-                          f->declared.motion == SAM_MOVES_CONTINUED ? SAM_BORDER_CONTINUES : SAM_BORDER_ZERO,
+                          wraps                                       ? SAM_BORDER_WRAPS
+                          : f->declared.motion == SAM_MOVES_CONTINUED ? SAM_BORDER_CONTINUES
+                                                                      : SAM_BORDER_ZERO,
                           f->value[SAM_COMMITTED], f->other));
   }
   SamStateSwapMoved(s);

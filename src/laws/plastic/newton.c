@@ -54,7 +54,7 @@ void SamPlasticRead(const SamPlastic *p, const double state[], PetscInt l, Petsc
   const double *from = state + (ptrdiff_t)l * p->size * p->grid->cells + k;
 
   for (PetscInt c = 0; c < PARTS; c++) at->e[c] = from[(ptrdiff_t)c * p->grid->cells];
-  at->p = from[(ptrdiff_t)PARTS * p->grid->cells];
+  at->p = PetscMax(from[(ptrdiff_t)PARTS * p->grid->cells], 0); /* cubics of moved fields fall below it */
   for (PetscInt c = PARTS + 1; c < p->size; c++) (&at->back[0][0])[c - PARTS - 1] = from[(ptrdiff_t)c * p->grid->cells];
 }
 
@@ -337,15 +337,15 @@ static PetscErrorCode FindStep(Solve *w, double part)
 /* ---- the residual ---- */
 
 /* Computes the plastic strains for a driver, as tried state, and the tangents. */
-static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
+static PetscErrorCode Return(Solve *w, Vec last, Vec tried)
 {
   const SamPlastic *p     = w->plastic;
   const PetscInt    cells = p->grid->cells;
   const double     *from  = NULL;
-  double           *to, last = 0;
+  double           *to, deepest = 0;
 
   PetscFunctionBegin;
-  if (committed) PetscCall(VecGetArrayRead(committed, &from));
+  if (last) PetscCall(VecGetArrayRead(last, &from));
   PetscCall(VecGetArray(tried, &to));
   for (PetscInt l = 0; l < p->bodies * p->layers; l++)
     for (PetscInt k = 0; k < cells; k++) {
@@ -355,7 +355,7 @@ static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
 
       if (from) SamPlasticRead(p, from, l, k, &at);
       Take(p, w->d, l, k, d);
-      if (SamMisesReturn(&BodyOf(p, l)->material, d, &at, &t)) last = PetscMax(last, l % p->layers + 1);
+      if (SamMisesReturn(&BodyOf(p, l)->material, d, &at, &t)) deepest = PetscMax(deepest, l % p->layers + 1);
       Write(p, &at, l, k, to);
       Put(p, at.e, l, k, w->e);
       Put(p, t.n, l, k, w->direction);
@@ -363,9 +363,9 @@ static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
       w->across[l * cells + k] = t.across;
     }
   PetscCall(VecRestoreArray(tried, &to));
-  if (committed) PetscCall(VecRestoreArrayRead(committed, &from));
-  PetscCall(SamMax(p->grid->comm, 1, &last));
-  w->active = (PetscInt)last;
+  if (last) PetscCall(VecRestoreArrayRead(last, &from));
+  PetscCall(SamMax(p->grid->comm, 1, &deepest));
+  w->active = (PetscInt)deepest;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -397,7 +397,7 @@ static PetscErrorCode Measure(Solve *w, PetscInt field, double *norm, double *la
 
   PetscFunctionBegin;
   PetscCall(SamStateSetField(w->contact->state, field, &tried));
-  PetscCall(Return(w, SamStateGetField(w->contact->state, field, SAM_COMMITTED), tried));
+  PetscCall(Return(w, p->last, tried));
   *norm = *largest = 0;
   w->solved        = PETSC_TRUE;
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0)); /* both problems have their own events */
@@ -580,7 +580,7 @@ PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact)
   p->newton = p->products = 0;
   UseLayers(p, p->layers); /* also after an error in the conjugate gradients */
   PetscCall(CreateWork(&w));
-  PetscCall(TakeStrain(p, SamStateGetField(contact->state, field, SAM_COMMITTED), w.e));
+  PetscCall(TakeStrain(p, p->last, w.e));
   PetscCall(GetDriver(&w, w.d));
   PetscCall(Iterate(&w, field));
   PetscCall(DestroyWork(&w));

@@ -7,6 +7,7 @@
 
 /* A body that yields, and the place of its layers among the layers of both bodies */
 typedef struct {
+  PetscInt    body; /* 0 or 1 */
   SamMises    material;
   SamResidual residual;
   PetscInt    first;
@@ -28,6 +29,7 @@ typedef struct {
   SamPlasticBody body[2];
   PetscReal     *thickness; /* thicknesses of a body's layers, m; borrowed */
   PetscReal      rtol;
+  Vec            last;             /* strain before the step, of the points that now lie under the cells; NULL: none */
   PetscInt       newton, products; /* counts of the last step */
 } SamPlastic;
 
@@ -63,6 +65,15 @@ PETSC_INTERN PetscErrorCode SamPlasticLookOutside(SamPlastic *plastic, Vec state
 */
 PETSC_INTERN void     SamPlasticGrade(PetscInt n, PetscReal first, PetscReal depth, PetscReal thickness[]);
 PETSC_INTERN PetscInt SamPlasticFind(const SamPlastic *plastic, PetscReal depth);
+/*
+  SamPlasticSlide - creates the strain after a slide of body 2 under the grid, m; NULL if body 2 does not yield or move.
+  Collective.
+  SamPlasticRaise - moves the strain of one of the bodies, in the array of a stored field, up by a depth in each cell:
+  the thickness of material removed from its surface, m. Depths below 0 count as 0. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamPlasticSlide(const SamPlastic *plastic, const PetscReal slide[2], Vec from, Vec *to);
+PETSC_INTERN PetscErrorCode SamPlasticRaise(const SamPlastic *plastic, PetscInt body, const double removed[],
+                                            double strain[]);
 /* SamPlasticRead, SamPlasticWrite - read and write the values of cell k of layer l in the array of a stored field. */
 PETSC_INTERN void SamPlasticRead(const SamPlastic *plastic, const double state[], PetscInt l, PetscInt k,
                                  SamMisesAt *at);

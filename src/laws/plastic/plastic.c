@@ -44,6 +44,10 @@ typedef struct {
 /* Largest depth that may yield, relative to the width of the grid */
 #define DEEPEST 2
 
+/* The fields of the depth removed of each body up to which the strain has been moved */
+static const char *const removed[2] = {"plastic_removed1", "plastic_removed2"};
+static const char *const depths[2]  = {"wear_depth1", "wear_depth2"};
+
 /* The numbers of a step, in this order from MOST on */
 enum {
   MOST,
@@ -298,6 +302,7 @@ static PetscErrorCode SetUp(SamLaw law)
 
     if (!isfinite(x->material[b].yield)) continue;
     PetscCall(SamResidualCreate(law->elasticity, b + 1, x->layers, p->thickness, &body->residual));
+    body->body     = b;
     body->material = MaterialOf(&x->material[b], SamBodyMaterialAt(SamPairBody(pair, b), 0));
     body->initial  = x->material[b].initial;
     body->first    = p->bodies++ * x->layers;
@@ -432,6 +437,24 @@ static PetscErrorCode OfferLayers(SamLaw law, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Declares the depths up to which the strain has been moved, of bodies that wear: a law of wear offers its depth. */
+static PetscErrorCode DeclareRemoved(const Plastic *x, SamState state)
+{
+  PetscReal       slide[2];
+  const PetscBool own = SamFramesGetSlide(state, SAM_TRIED, slide); /* then depths are at the body's own points */
+  PetscInt        id;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamStateField field = {
+      .name = removed[b], .components = 1, .generations = 2, .kept = PETSC_TRUE, .motion = own ? SAM_STAYS : SAM_MOVES};
+
+    if (isfinite(x->material[b].yield) && SamStateFindResult(state, depths[b]) >= 0)
+      PetscCall(SamStateDeclareField(state, &field, &id));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
   const Plastic              *x                = (const Plastic *)law->data;
@@ -442,6 +465,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .generations = 2,
                                                   .kept        = PETSC_TRUE,
                                                   .layers      = BodiesOf(x) * x->layers,
+                                                  .motion      = SAM_MOVES,
                                                   .separates   = PETSC_TRUE};
   static const SamStateNumber numbers[NUMBERS] = {
     {"plastic_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
@@ -488,6 +512,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 
   PetscFunctionBegin;
   PetscCall(SamStateDeclareField(state, &field, &id));
+  PetscCall(DeclareRemoved(x, state));
   for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
   for (PetscInt k = 0; k < 4; k++) {
     SamStateResult result = fields[k];
@@ -506,6 +531,7 @@ static PetscErrorCode Destroy(SamLaw law)
   SamPlastic *p = &((Plastic *)law->data)->plastic;
 
   PetscFunctionBegin;
+  PetscCall(VecDestroy(&p->last));
   for (PetscInt b = 0; b < p->bodies; b++) PetscCall(SamResidualDestroy(&p->body[b].residual));
   for (PetscInt b = 0; b < 2; b++) PetscCall(PetscFree(((Plastic *)law->data)->material[b].initial));
   PetscCall(PetscFree(((Plastic *)law->data)->thickness));
@@ -563,24 +589,90 @@ static void CheckBulk(SamLaw law, const SamControl *control, PetscInt body, Pets
     m->initial ? " and the initial stress" : "", (int)body + 1, most + material.yield, material.yield, yielding[body]);
 }
 
-/* Rejects motions with which the memory of cells would have to move, and bulk stress above the yield stress. */
+/* Rejects bulk stress above the yield stress. */
 static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, char why[], size_t size)
 {
-  static const char *const names[] = {"roll", "roll_y", "slide_x", "slide_y"};
-
   PetscFunctionBegin;
   for (PetscInt body = 0; body < 2 && !why[0]; body++) CheckBulk(law, control, body, wrong, why, size);
-  for (size_t k = 0; k < sizeof(names) / sizeof(names[0]); k++) {
-    const SamCondition *one = SamConditionsFind(law->conditions, names[k]);
-
-    if (!one || SamControlGet(control, one) == 0) continue;
-    *wrong = SAM_COMPONENTS + one->place;
-    (void)snprintf(why, size, "expected 0 with -%s", law->option);
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- a step ---- */
+
+/*
+  Sets the strain before the step to that of the step before, which the state has moved if the bodies roll. Where the
+  surfaces slide, body 2 moves under the grid as well.
+*/
+static PetscErrorCode TakeLast(SamPlastic *p, SamState state)
+{
+  const Vec before = SamStateGetField(state, SamStateFindField(state, SAM_PLASTIC_FIELD), SAM_COMMITTED);
+  PetscReal from[2], to[2];
+
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&p->last));
+  if (!before) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamFramesGetSlide(state, SAM_TRIED, to)) {
+    (void)SamFramesGetSlide(state, SAM_COMMITTED, from);
+    for (int k = 0; k < 2; k++) to[k] -= from[k];
+    PetscCall(SamPlasticSlide(p, to, before, &p->last));
+  }
+  if (p->last) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscObjectReference((PetscObject)before));
+  p->last = before;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the depth removed of a body since its strain was moved last, in the cells; notes the present depth. */
+static PetscErrorCode TakeRemoved(SamLaw law, SamState state, PetscInt body, Vec since)
+{
+  const PetscInt id     = SamStateFindField(state, removed[body]);
+  const Vec      before = SamStateGetField(state, id, SAM_COMMITTED);
+  PetscReal      offset[2];
+  PetscInt       component;
+  Vec            depth, now, own;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateSetField(state, id, &now));
+  PetscCall(SamStateFindValues(state, SamStateFindResult(state, depths[body]), since, &depth, &component));
+  PetscCall(VecCopy(depth, now));
+  if (depth != since) PetscCall(VecCopy(depth, since));
+  if (before) PetscCall(VecAXPY(since, -1, before));
+  if (!SamFramesGetOffset(state, SAM_TRIED, body, offset)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecDuplicate(since, &own));
+  PetscCall(VecCopy(since, own));
+  PetscCall(SamFramesRead(law->elasticity, offset, own, since));
+  PetscCall(VecDestroy(&own));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Moves the strain of body 0 or 1, whose layers stand at a place, up by what wear has removed since the step before. */
+static PetscErrorCode FollowWear(SamLaw law, SamState state, PetscInt body, PetscInt place)
+{
+  SamPlastic   *p = &((Plastic *)law->data)->plastic;
+  PetscReal     most;
+  const double *by;
+  double       *strain;
+  Vec           since, moved;
+
+  PetscFunctionBegin;
+  if (SamStateFindField(state, removed[body]) < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(law->grid, 1, &since));
+  PetscCall(TakeRemoved(law, state, body, since));
+  PetscCall(VecMax(since, NULL, &most));
+  if (most > 0 && p->last) {
+    PetscCall(VecDuplicate(p->last, &moved));
+    PetscCall(VecCopy(p->last, moved));
+    PetscCall(VecGetArrayRead(since, &by));
+    PetscCall(VecGetArray(moved, &strain));
+    PetscCall(SamPlasticRaise(p, place, by, strain));
+    PetscCall(VecRestoreArray(moved, &strain));
+    PetscCall(VecRestoreArrayRead(since, &by));
+    PetscCall(VecDestroy(&p->last));
+    p->last = moved;
+  }
+  PetscCall(VecDestroy(&since));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
 {
@@ -588,11 +680,14 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   PetscInt       next = 0;
 
   PetscFunctionBegin;
-  (void)state;
   (void)duration;
   PetscCall(SetUp(law));
-  for (PetscInt b = 0; b < 2; b++)
-    if (isfinite(x->material[b].yield)) GetBulk(law, control, b, x->plastic.body[next++].bulk, NULL);
+  PetscCall(TakeLast(&x->plastic, state));
+  for (PetscInt b = 0; b < 2; b++) {
+    if (!isfinite(x->material[b].yield)) continue;
+    GetBulk(law, control, b, x->plastic.body[next].bulk, NULL);
+    PetscCall(FollowWear(law, state, b, next++));
+  }
   law->revision++; /* the pressure has to be solved again */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -790,12 +885,12 @@ static PetscErrorCode FindDent(SamPlastic *p, Vec state, double before, double n
 
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
-  Plastic *const x     = (Plastic *)law->data;
-  SamPlastic    *p     = &x->plastic;
-  const PetscInt first = SamStateFindNumber(step->state, "plastic_max");
-  const PetscInt id    = SamStateFindField(step->state, SAM_PLASTIC_FIELD);
-  const Vec      tried = SamStateReadField(step->state, id), before = SamStateGetField(step->state, id, SAM_COMMITTED);
-  const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
+  Plastic *const x      = (Plastic *)law->data;
+  SamPlastic    *p      = &x->plastic;
+  const PetscInt first  = SamStateFindNumber(step->state, "plastic_max");
+  const Vec      tried  = SamStateReadField(step->state, SamStateFindField(step->state, SAM_PLASTIC_FIELD));
+  const Vec      before = p->last;
+  const PetscInt n      = PARTS * p->bodies * p->layers * p->grid->cells;
   double        *stress, *numbers, energy, work[2];
   const double  *now, *last = NULL;
 
