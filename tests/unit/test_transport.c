@@ -115,6 +115,28 @@ static void test_many_small_depths_are_their_sum(void **state)
   sam_assert(fine < 0.5 * coarse);
 }
 
+/* A strain in single layers keeps between its least and largest value, however it is moved. */
+static void test_no_value_leaves_the_range_of_the_profile(void **state)
+{
+  SamGrid        grid     = NewGrid(4, 3, 1, 1);
+  Case           c        = NewProfiles(grid, 12, DEPTH / 20);
+  const PetscInt count    = 2 * c.p.layers * SIZE * grid->cells;
+  double         range[2] = {1, 0};
+
+  (void)state;
+  for (PetscInt k = 0; k < count; k++) c.strain[k] = k / (SIZE * grid->cells) % 5 == 2 ? 1 : 0;
+  for (int n = 0; n < 7; n++) {
+    Remove(&c, 0.02, 1);
+    for (PetscInt k = 0; k < count; k++) {
+      range[0] = PetscMin(range[0], c.strain[k]);
+      range[1] = PetscMax(range[1], c.strain[k]);
+    }
+  }
+  sam_assert(range[0] >= -1e-15 && range[1] <= 1 + 1e-15);
+  DestroyProfiles(&c);
+  sam_call(SamGridDestroy(&grid));
+}
+
 /* What lies above the removed depth is gone, the rest stays; nothing comes up from below, and the other body stays. */
 static void test_the_removed_part_is_gone(void **state)
 {
@@ -143,6 +165,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_a_removed_depth_shifts_the_profile),
     cmocka_unit_test(test_many_small_depths_are_their_sum),
+    cmocka_unit_test(test_no_value_leaves_the_range_of_the_profile),
     cmocka_unit_test(test_the_removed_part_is_gone),
   };
 
