@@ -5,9 +5,11 @@ Unit tests (CMocka programs in build/tests) run on 1 and 3 ranks; then pytest ru
 tests/program. The output of failing tests and the slowest of both kinds are printed. Arguments choose tests by a
 part of their name. Time limits grow with the load of the machine.
 
-    python3 tests/run.py [--build build] [--ranks 1,3] [--units-only] [--slow] [name ...]
+    python3 tests/run.py [--build build] [--ranks 1,3] [--units-only] [--slow] [--measure] [name ...]
 
-With --slow it runs what it leaves out otherwise: units on 2 ranks, LONG ones on 3 too, tests marked as slow.
+With --slow it runs what it leaves out otherwise: units on 2 ranks, LONG ones on 3 too, tests marked as slow, which are
+those with the mark in their file and those listed in tests/program/slow.txt. --measure runs all whole-program tests,
+and writes this list anew.
 """
 
 import argparse
@@ -105,27 +107,21 @@ def run_units(programs, ranks):
     return sum(p for p, _ in counts), sum(f for _, f in counts)
 
 
-def run_pytest(build, names, slow):
+def run_pytest(build, names, slow, measure):
     python = build / "venv" / "bin" / "python"
     words = [str(python), "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider"]
     words += [str(ROOT / "tests" / "program")]
     if names:
         words += ["-k", " or ".join(names)]
     else:
-        words += [
-            "-m",
-            "slow" if slow else "not slow",
-            "-n",
-            str(min(os.cpu_count() or 1, WORKERS)),
-            "--dist",
-            "loadfile",
-        ]
+        words += [] if measure else ["-m", "slow" if slow else "not slow"]
+        words += ["-n", str(min(os.cpu_count() or 1, WORKERS)), "--dist", "loadfile"]
     done = subprocess.run(
         words,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        env=dict(environment(), PETSAM_BUILD=str(build)),
+        env=dict(environment(), PETSAM_BUILD=str(build), **({"PETSAM_MEASURE": "1"} if measure else {})),
     )
     print(done.stdout, flush=True)
     counts = {word: int(n) for n, word in re.findall(r"(\d+) (passed|failed|error)", done.stdout.splitlines()[-1])}
@@ -141,6 +137,7 @@ def main():
     parser.add_argument("--ranks", default="1,3")
     parser.add_argument("--units-only", action="store_true")
     parser.add_argument("--slow", action="store_true")
+    parser.add_argument("--measure", action="store_true")
     parser.add_argument("names", nargs="*")
     args = parser.parse_args()
     build = (ROOT / args.build).resolve()
@@ -155,7 +152,7 @@ def main():
 
     passed, failed = run_units(programs, ranks)
     if not args.units_only:
-        p, f = run_pytest(build, args.names, args.slow)
+        p, f = run_pytest(build, args.names, args.slow, args.measure)
         passed, failed = passed + p, failed + f
     print(f"{passed} passed, {failed} failed")
     return 1 if failed or not passed else 0

@@ -18,6 +18,8 @@ PROGRAM = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve()
 
 
 SLOWEST, FILES = 30, 10  # tests, and files of them, whose CPU times are printed
+SLOW = Path(__file__).with_name("slow.txt")  # test functions that `make test` leaves out
+MOST = 1.0  # CPU seconds of others
 
 
 def pytest_configure(config):
@@ -30,9 +32,12 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(items):
-    """Of a test on several numbers of ranks, all but one number, chosen by a checksum of its name, are slow."""
-    alike = {}
+    """Marks the slow tests: the listed ones, and of a test on several numbers of ranks all but one number, chosen by a
+    checksum of its name."""
+    alike, listed = {}, set(SLOW.read_text().splitlines())
     for item in items:
+        if name_of(item.nodeid) in listed:
+            item.add_marker("slow")
         places = dict(getattr(item, "callspec", None) and item.callspec.indices or {})
         if places.pop("ranks", None) is not None:
             alike.setdefault((item.nodeid.partition("[")[0], *sorted(places.items())), []).append(item)
@@ -40,6 +45,11 @@ def pytest_collection_modifyitems(items):
         chosen = zlib.crc32(repr(name).encode()) % len(tests)
         for test in tests[:chosen] + tests[chosen + 1 :]:
             test.add_marker("slow")
+
+
+def name_of(nodeid):
+    """The file and function of a test."""
+    return nodeid.partition("[")[0].rpartition("/")[2]
 
 
 def cpu():
@@ -57,11 +67,23 @@ def pytest_runtest_makereport(item, call):
     report.cpu, spent[0] = cpu() - spent[0], cpu()
 
 
+def write_slow(seconds):
+    """Lists the functions of which a test took longer than MOST; those that did not run keep their place."""
+    most = {}
+    for nodeid, value in seconds.items():
+        most[name_of(nodeid)] = max(value, most.get(name_of(nodeid), 0.0))
+    head, *before = SLOW.read_text().splitlines()
+    kept = {name for name in before if name not in most} | {name for name in most if most[name] > MOST}
+    SLOW.write_text("\n".join([head, *sorted(kept)]) + "\n")
+
+
 def pytest_terminal_summary(terminalreporter):
     seconds = {}
     for report in (r for reports in terminalreporter.stats.values() for r in reports if hasattr(r, "cpu")):
         seconds[report.nodeid] = seconds.get(report.nodeid, 0.0) + report.cpu
     terminalreporter.section(f"slowest {SLOWEST} tests and {FILES} files of {sum(seconds.values()):.0f} CPU seconds")
+    if os.environ.get("PETSAM_MEASURE"):
+        write_slow(seconds)
     files = {}
     for name, spent_there in seconds.items():
         file = name.partition("::")[0]
