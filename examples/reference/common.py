@@ -1,12 +1,8 @@
-"""What the cases share: intervals from evidence, and runs of petsam."""
+"""What the cases share: intervals from evidence."""
 
 import math
-from pathlib import Path
 from typing import NamedTuple
 
-import petsam
-
-HERE = Path(__file__).resolve().parent
 MEASURED = (0.5, 5.0)  # orders of convergence that are believed; others say that the sequence is not regular yet
 
 
@@ -79,8 +75,3 @@ def rounded(interval):
     low, high = math.floor(interval.low / step) * step, math.ceil(interval.high / step) * step
     places = max(2, 2 + math.ceil(math.log10(max(abs(low), abs(high)) / step)))
     return interval._replace(low=float(f"{low:.{places}g}"), high=float(f"{high:.{places}g}"))
-
-
-def run(options=None, **more):
-    """petsam.run() on two ranks; see there."""
-    return petsam.run(options, ranks=2, **more)

@@ -6,7 +6,7 @@
     reference.py pictures [CASE ...]                    draws cases/CASE.png
 
 A case is three files in cases/: CASE.md, its text; CASE.py, with the functions answers(), evidence() and draw(figure);
-CASE.png. `make reference` runs the answers and checks them.
+CASE.png. petsam runs on one rank. `make reference` runs the answers and checks them.
 """
 
 import argparse
@@ -50,6 +50,7 @@ NAMES = (
 )
 
 sys.path[:0] = [str(HERE), str(CASES)]
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # threads only disturb each other on small matrices
 
 
 def module(name):

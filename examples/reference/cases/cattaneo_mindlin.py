@@ -2,7 +2,9 @@
 
 import mpmath as mp
 import numpy as np
-from common import closed, run
+from common import closed
+
+import petsam
 
 N, T, RADIUS, YOUNG, FRICTION = "500", "150", "0.1", "200e9", "0.5"  # decimal, so that mpmath reads them exactly
 OPTIONS = {
@@ -19,7 +21,7 @@ OPTIONS = {
 
 
 def solve():
-    return run(OPTIONS, history={"load_tx": [0, float(T), 0, -float(T), float(T)]})
+    return petsam.run(OPTIONS, history={"load_tx": [0, float(T), 0, -float(T), float(T)]})
 
 
 def evidence():
@@ -82,7 +84,7 @@ def draw(figure):
     left.legend(loc="upper center", fontsize="small")
     turns = np.array([1, -1, 1]) * float(T)
     loads = np.concatenate([np.linspace(a, b, 41)[1:] for a, b in zip([0, *turns], turns)])
-    loop = run(OPTIONS, grid_n=128, output_fields="none", history={"load_tx": [0, *loads]}).history
+    loop = petsam.run(OPTIONS, grid_n=128, output_fields="none", history={"load_tx": [0, *loads]}).history
     right.plot(loop["disp_x"] * 1e6, loop["load_tx"])
     right.set_xlabel("d_x (µm)")
     right.set_ylabel("T (N)")

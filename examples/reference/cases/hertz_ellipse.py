@@ -2,7 +2,9 @@
 
 import mpmath as mp
 import numpy as np
-from common import closed, run
+from common import closed
+
+import petsam
 
 N, RADIUS1, RADIUS2, ANGLE = "500", "0.02", "0.05", "60"  # N, m, m, degrees; decimal, so that mpmath reads them exactly
 YOUNG1, POISSON1, YOUNG2, POISSON2 = "210e9", "0.3", "70e9", "0.33"
@@ -55,7 +57,7 @@ def evidence():
 
 
 def solve():
-    return run(OPTIONS)
+    return petsam.run(OPTIONS)
 
 
 def answers():

@@ -2,7 +2,9 @@
 
 import mpmath as mp
 import numpy as np
-from common import closed, run
+from common import closed
+
+import petsam
 
 N, RADIUS, YOUNG, POISSON = "1000", "0.2", "210e9", "0.3"  # decimal, so that mpmath reads them exactly
 OPTIONS = {
@@ -18,7 +20,7 @@ OPTIONS = {
 
 
 def solve(**more):
-    return run(OPTIONS, **more)
+    return petsam.run(OPTIONS, **more)
 
 
 def evidence():

@@ -2,7 +2,9 @@
 
 import numpy as np
 from axisymmetric import Body, boussinesq, edge, growing, halved
-from common import Way, covered, run
+from common import Way, covered
+
+import petsam
 
 N, RADIUS, YOUNG, POISSON, YIELD, HARDENING = 20.0, 5e-3, 210e9, 0.3, 600e6, 10e9
 DEPTH = 50e-6  # of the residual stress
@@ -32,7 +34,7 @@ UNITS = {
 
 def solve(grid_n, steps, layers):
     loads = [*(N * np.arange(1, steps + 1) / steps), 0.0]
-    return run(OPTIONS, grid_n=grid_n, yield_layers=layers, history={"load_n": loads})
+    return petsam.run(OPTIONS, grid_n=grid_n, yield_layers=layers, history={"load_n": loads})
 
 
 def at_axis(field):

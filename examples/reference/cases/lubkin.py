@@ -2,7 +2,9 @@
 
 import mpmath as mp
 import numpy as np
-from common import closed, run
+from common import closed
+
+import petsam
 
 # decimal, so that mpmath reads them exactly
 N, MOMENT, RADIUS, YOUNG, POISSON, FRICTION = "800", "0.09", "0.05", "210e9", "0.3", "0.4"
@@ -20,7 +22,7 @@ OPTIONS = {
 
 
 def solve():
-    return run(OPTIONS, history={"load_mz": [0, float(MOMENT)]})
+    return petsam.run(OPTIONS, history={"load_mz": [0, float(MOMENT)]})
 
 
 def evidence():
@@ -80,7 +82,7 @@ def draw(figure):
     left.set_xlabel("r (mm)")
     left.set_ylabel("q around the axis (MPa)")
     left.legend()
-    curve = run(
+    curve = petsam.run(
         OPTIONS, grid_n=64, history={"load_mz": np.linspace(0, float(MOMENT), 31)}, output_fields="none"
     ).history
     right.plot(curve["rot_z"] * 1e3, curve["load_mz"])

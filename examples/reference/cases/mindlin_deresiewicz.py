@@ -1,7 +1,9 @@
 """A sphere under normal and tangential force that vary together: Mindlin and Deresiewicz."""
 
 import numpy as np
-from common import Way, closed, covered, run
+from common import Way, closed, covered
+
+import petsam
 
 RADIUS, YOUNG, FRICTION = 0.1, 200e9, 0.5
 ROWS = ((1000, 0), (1000, 300), (1400, 400), (800, 150), (1200, -250), (1000, 0))  # N, T_x
@@ -19,7 +21,7 @@ OPTIONS = {
 
 def solve(steps=10, **more):
     n, t = zip(*ROWS)
-    return run(OPTIONS, history={"load_n": n, "load_tx": t}, steps=steps, **more)
+    return petsam.run(OPTIONS, history={"load_n": n, "load_tx": t}, steps=steps, **more)
 
 
 def slopes(knots, values):

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 from axisymmetric import Body, edge, halved
-from common import HERE, Way, covered, run
+from common import HERE, Way, covered
+
+import petsam
 
 N, RADIUS, YOUNG, POISSON = 2000.0, 0.1, 210e9, 0.3
 RING = (6e-3, 8e-3)
@@ -126,7 +128,7 @@ def solve(level, grid_n=128):
         ]
         command += ["--frame", "0,0,0:1,0,0:0,0,1", "--no-stress", "--no-picture", "-o", file]
         subprocess.run([str(part) for part in command], check=True, stdout=subprocess.DEVNULL, stderr=sys.stderr)
-        return run(OPTIONS, grid_n=grid_n, body2_compliance=str(file))
+        return petsam.run(OPTIONS, grid_n=grid_n, body2_compliance=str(file))
 
 
 def numbers(results):

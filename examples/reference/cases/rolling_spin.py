@@ -3,8 +3,10 @@
 import functools
 
 import numpy as np
-from common import Way, covered, run
+from common import Way, covered
 from scipy.sparse.linalg import LinearOperator, gmres
+
+import petsam
 
 N, RADIUS, YOUNG, POISSON, FRICTION = 50.0, 0.02, 210e9, 0.28, 0.3
 XI, ETA, SPIN = 2e-3, 1e-3, 15.0
@@ -27,7 +29,7 @@ UNITS = {"load_tx": "N", "load_ty": "N", "load_mz": "N m", "stick_area": "m2", "
 
 @functools.lru_cache
 def solve(cells):
-    return run({**OPTIONS, "grid_n": cells})
+    return petsam.run({**OPTIONS, "grid_n": cells})
 
 
 def numbers(results, end=""):

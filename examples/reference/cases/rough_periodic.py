@@ -5,8 +5,10 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from common import Way, covered, run
+from common import Way, covered
 from scipy import fft
+
+import petsam
 
 LENGTH, N, YOUNG, POISSON = 1e-3, 160.0, 210e9, 0.3
 # wave vector over 2 pi/LENGTH, amplitude (um), phase
@@ -149,7 +151,7 @@ def solve(n=512, **more):
         path = Path(folder) / "gap.h5"
         with h5py.File(path, "w") as file:
             file["height"] = gap(n)
-        return run(OPTIONS, grid_n=n, gap_file=path, **more)
+        return petsam.run(OPTIONS, grid_n=n, gap_file=path, **more)
 
 
 def by_petsam(**more):

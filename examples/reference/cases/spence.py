@@ -3,8 +3,10 @@
 import functools
 
 import numpy as np
-from common import Way, covered, run
+from common import Way, covered
 from rings import press, pressing_energy
+
+import petsam
 
 N, RADIUS, YOUNG, POISSON, FRICTION = 1000.0, 0.1, 210e9, 0.3, 0.15
 MODULUS = YOUNG / (1 - POISSON**2)
@@ -26,7 +28,7 @@ UNITS = {"contact_radius": "m", "stick_radius": "m", "approach": "m", "shear_max
 
 @functools.lru_cache
 def solve(cells, steps):
-    return run({**OPTIONS, "grid_n": cells, "steps": steps})
+    return petsam.run({**OPTIONS, "grid_n": cells, "steps": steps})
 
 
 def numbers(results):

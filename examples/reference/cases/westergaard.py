@@ -6,7 +6,9 @@ from pathlib import Path
 import h5py
 import mpmath as mp
 import numpy as np
-from common import closed, run
+from common import closed
+
+import petsam
 
 # decimal, so that mpmath reads them exactly
 N, LENGTH, HEIGHT, YOUNG, POISSON = "120e3", "1e-3", "1e-6", "210e9", "0.3"
@@ -30,7 +32,7 @@ def solve(cells=512):
         path = Path(folder) / "wave.h5"
         with h5py.File(path, "w") as file:
             file["height"] = float(HEIGHT) * (1 - np.cos(2 * np.pi * x / size))[None, :]
-        return run(OPTIONS, gap_file=path, grid_n=(cells, 1), grid_size=(size, size / cells))
+        return petsam.run(OPTIONS, gap_file=path, grid_n=(cells, 1), grid_size=(size, size / cells))
 
 
 def evidence():
