@@ -1,8 +1,10 @@
-"""What the cases share: intervals from evidence."""
+"""What the cases share: intervals from evidence, and the program that computes compliances."""
 
 import math
+from pathlib import Path
 from typing import NamedTuple
 
+TOOL = Path(__file__).resolve().parents[2] / "scripts" / "petsam-compliance"
 MEASURED = (0.5, 5.0)  # orders of convergence that are believed; others say that the sequence is not regular yet
 
 

@@ -74,9 +74,9 @@ def answers(names, output):
         seconds[name] = round(cpu() - start, 2)
         found[name] = {q: [float(part) for part in v] if isinstance(v, tuple) else float(v) for q, v in given.items()}
         print(f"{name}: {seconds[name]:.2f} s of CPU", flush=True)
-    text = json.dumps({"program": f"petsam {petsam.__version__}", "answers": found, "seconds": seconds}, indent=1)
-    output.parent.mkdir(parents=True, exist_ok=True)
-    output.write_text(text + "\n", encoding="utf-8")
+        text = json.dumps({"program": f"petsam {petsam.__version__}", "answers": found, "seconds": seconds}, indent=1)
+        output.parent.mkdir(parents=True, exist_ok=True)
+        output.write_text(text + "\n", encoding="utf-8")
 
 
 def intervals(names, _):

@@ -8,7 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from bricks import Joint, Strip, halved
-from common import HERE, Way, covered
+from common import TOOL, Way, covered
 
 import petsam
 from petsam import joint
@@ -22,7 +22,6 @@ SMALL, LARGE = 1e-7, 5.5e-6
 WASHER, PATCH = 6.0, 32.0  # half the side of a washer, side of the patch, mm
 REACH = 16.6  # of the nodes that may touch, mm
 STEPS, CYCLES = 6, 2  # from 0 to LARGE
-TOOL = HERE.parents[1] / "scripts" / "petsam-compliance"
 # three solid meshes of a strip: planes along x from the free end to the clamp, along y from the middle, along z, mm
 MESHES = (
     ([-24, -20, -16, -11, -6, -2, 2, 6, 11, 16, 20, 24, 33, 46, 60], [0, 6, 11, 16, 20], [0, 3, 6, 10]),

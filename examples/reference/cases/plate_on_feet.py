@@ -7,14 +7,13 @@ from pathlib import Path
 
 import numpy as np
 from axisymmetric import Body, edge, halved
-from common import HERE, Way, covered
+from common import TOOL, Way, covered
 
 import petsam
 
 N, RADIUS, YOUNG, POISSON = 2000.0, 0.1, 210e9, 0.3
 RING = (6e-3, 8e-3)
 PATCH = 2.4  # mm
-TOOL = HERE.parents[1] / "scripts" / "petsam-compliance"
 # three solid meshes: half of the elements along the middle square, circles beyond it, planes over the height, mm
 CORE = 1.5
 MESHES = (
