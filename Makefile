@@ -58,7 +58,7 @@ VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p'
 SONAME  := libpetsam.so.$(basename $(VERSION))
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help pages units bench bench-programs peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel site clean
+.PHONY: all help pages units bench bench-programs reference peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel site clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -128,6 +128,10 @@ bench: all bench-programs venv peers ## run the benchmark, or go on with an unfi
 	$(PYTHON) tests/bench/rolling.py --build $(B)
 	[ ! -e $(B)/peers/done ] || $(PYTHON) tests/bench/paired.py --build $(B)
 	$(if $(CONTACT),$(B)/venv/bin/python tests/bench/contact.py --build $(B) --contact '$(CONTACT)')
+
+reference: all $(B)/venv/tests-done ## petsam's answers to the problems of examples/reference, and their digits: ARGS="CASE ..." for some
+	$(B)/venv/bin/python -W ignore examples/reference/reference.py answers $(ARGS) -o $(B)/run/answers.json
+	$(B)/venv/bin/python examples/reference/check.py $(B)/run/answers.json
 
 # the programs that the benchmark compares with, built for this processor; the benchmark also runs without them
 peers: $(B)/peers/done ## install the programs that the benchmark compares with

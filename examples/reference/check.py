@@ -118,6 +118,8 @@ def digits(distance, scale):
 
 def reason(row, value, tolerance):
     """What may be wrong with an answer: a factor that would bring it into its interval."""
+    if not np.isfinite(value):
+        return "it is no finite number"
     for factor, text in FACTORS:
         if outside(row, value / factor) <= tolerance * size(row) / 10:
             return text
@@ -137,19 +139,20 @@ def judge(row, answer, tolerance):
 
 
 def print_case(case, rows, answers, seconds, tolerance):
-    """A line for each quantity of a case; the number of wrong answers."""
-    print(case + (f"    {seconds:.3g} s" if seconds is not None else ""))
-    wrong = 0
+    """A line for a case and for each of its quantities; the number of wrong answers."""
+    judged = {quantity: judge(rows[quantity], answers[quantity], tolerance) for quantity in rows if quantity in answers}
+    won = [of for _, of, _ in judged.values()]
+    spent = f", {seconds:.3g} s" if seconds is not None else ""
+    print(f"{case}: {min(won):.1f} to {max(won):.1f} digits in {len(won)} of {len(rows)} quantities{spent}")
     for quantity, row in rows.items():
         interval = f"{row['low']:.10g} .. {row['high']:.10g} {row['unit']}"
         if quantity not in answers:
-            print(f"  {quantity:32s} {'no answer':>16s}               {interval}")
+            print(f"  {quantity:24s} {'no answer':>16s}              {interval}")
             continue
-        held, won, why = judge(row, answers[quantity], tolerance)
+        held, of, why = judged[quantity]
         said = f"  WRONG: {case}: {quantity}: {why}" if why else ""
-        print(f"  {quantity:32s} {answers[quantity][0]:16.9g} {won:5.1f} -{held - won:4.1f}  {interval}{said}")
-        wrong += bool(why)
-    return wrong
+        print(f"  {quantity:24s} {answers[quantity][0]:16.9g} {of:5.1f} -{held - of:4.1f}  {interval}{said}")
+    return sum(bool(why) for _, _, why in judged.values())
 
 
 def main():

@@ -15,6 +15,7 @@ takes the pages as they are. Its fixes end in May 2027; its successor Zensical r
 """
 
 import argparse
+import json
 import os
 import re
 import shutil
@@ -34,6 +35,8 @@ COMMAND = ("-m", "mkdocs", "build", "--strict", "-f")  # strict: a warning is an
 BOOSTS = {"examples/manual/OPTIONS.md": 30, "scripts/README.md": 3, "scripts/packaging/paper.md": 0.1}
 MANUAL_BOOST = 3
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
+# the reference problems, in the order of their intervals
+CASES = dict.fromkeys(row["case"] for row in json.loads((ROOT / "examples/reference/cases.json").read_text("utf-8")))
 # the parts of the site and their pages in the order of work
 PARTS = (
     ("petsam", ("README.md",)),
@@ -86,6 +89,10 @@ PARTS = (
     ),
     ("Stresses and fatigue", ("examples/manual/STRESSES.md", "examples/stress/README.md")),
     ("Joints", ("examples/lap/README.md", "examples/joint/README.md", "examples/vibrating-joint/README.md")),
+    (
+        "Reference problems",
+        ("examples/reference/README.md", *(f"examples/reference/cases/{case}.md" for case in CASES)),
+    ),
     ("Python and scripts", ("scripts/README.md", "scripts/PYTHON.md", "examples/study/README.md")),
     ("C and other programs", ("examples/embed/README.md", "include/FUNCTIONS.md")),
     ("Options", ("examples/manual/OPTIONS.md", "examples/manual/INDEX.md")),

@@ -1,0 +1,154 @@
+"""The reference collection: its files agree, the checker finds what is wrong, and petsam has the numbers."""
+
+import importlib
+import json
+import re
+import subprocess
+import sys
+
+import pytest
+
+import support
+
+FOLDER = support.ROOT / "examples" / "reference"
+ROWS = json.loads((FOLDER / "cases.json").read_text())
+CASES = list(dict.fromkeys(row["case"] for row in ROWS))
+sys.path[:0] = [str(FOLDER), str(FOLDER / "cases")]
+# cases whose evidence takes seconds; some of the others need minutes
+CLOSED = ["hertz-sphere", "hertz-ellipse", "cattaneo-mindlin", "lubkin", "carter", "inclined-punch", "westergaard"]
+
+
+def middle(row):
+    return (row["low"] + row["high"]) / 2
+
+
+def size(row):
+    return row.get("size") or max(abs(row["low"]), abs(row["high"]))
+
+
+def check(path, answers, *words, code=0):
+    """Runs the checker on answers, or on a text; its output."""
+    path.write_text(answers if isinstance(answers, str) else json.dumps({"answers": answers}))
+    run = subprocess.run(
+        [sys.executable, FOLDER / "check.py", path, *words], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert run.returncode == code, run.stdout + run.stderr
+    assert "Traceback" not in run.stderr
+    return run.stdout + run.stderr
+
+
+def right():
+    answers = {}
+    for row in ROWS:
+        answers.setdefault(row["case"], {})[row["quantity"]] = middle(row)
+    return answers
+
+
+def test_there_are_24_cases_with_their_files():
+    names = re.search(r"NAMES = \((.*?)\)", (FOLDER / "reference.py").read_text(), re.S)[1]
+    assert re.findall(r'"(.*?)"', names) == CASES and len(CASES) == 24
+    for name in CASES:
+        text = (FOLDER / "cases" / f"{name}.md").read_text()
+        assert f"![]({name}.png)" in text and (FOLDER / "cases" / f"{name}.png").stat().st_size < 30e3
+        for head in "## Given", "## Required", "## Known by":
+            assert head in text
+    links = (FOLDER / "README.md").read_text()
+    assert all(f"cases/{name}.md" in links for name in CASES)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_page_has_the_intervals(name):
+    table = dict(re.findall(r"^\| `(\w+)` \| ([^|]*) \|", (FOLDER / "cases" / f"{name}.md").read_text(), re.M))
+    rows = [row for row in ROWS if row["case"] == name]
+    assert list(table) == [row["quantity"] for row in rows]
+    for row in rows:
+        low, _, high, *unit = table[row["quantity"]].split()
+        assert " ".join(unit) == row["unit"]
+        assert float(low) == pytest.approx(row["low"], rel=1e-11, abs=0)
+        assert float(high) == pytest.approx(row["high"], rel=1e-11, abs=0)
+        assert row["low"] < row["high"] and row["how"]
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_evidence_gives_the_intervals(name):
+    from common import rounded
+
+    found = [rounded(one) for one in importlib.import_module(name.replace("-", "_")).evidence()]
+    rows = [row for row in ROWS if row["case"] == name]
+    assert [one.quantity for one in found] == [row["quantity"] for row in rows]
+    for one, row in zip(found, rows):
+        assert one.low == pytest.approx(row["low"], rel=1e-9, abs=0)
+        assert one.high == pytest.approx(row["high"], rel=1e-9, abs=0)
+
+
+def test_right_answers_are_right(tmp_path):
+    said = check(tmp_path / "answers.json", right())
+    assert f"{len(ROWS)} answers of {len(ROWS)} quantities in 24 of 24 cases, 0 wrong" in said
+    assert "WRONG" not in said
+
+
+@pytest.mark.parametrize(
+    "change, why",
+    [
+        (lambda value, _: value * -1, "its sign is opposite"),
+        (lambda value, _: value * 2, "it is twice as large"),
+        (lambda value, _: value / 2, "it is half as large"),
+        (lambda value, scale: value + 0.01 * scale, "it differs by"),
+        (lambda value, _: [value * 1.004, 1e-3 * abs(value)], "its stated error is"),
+        (lambda value, _: float("nan"), "it is no finite number"),
+    ],
+)
+@pytest.mark.parametrize("index", range(0, len(ROWS), 11))
+def test_a_wrong_answer_is_named(tmp_path, index, change, why):
+    row, answers = ROWS[index], right()
+    narrow = (row["high"] - row["low"]) / size(row) < 2e-3
+    changed = change(middle(row), size(row))
+    if not narrow and why in ("it differs by", "its stated error is"):
+        pytest.skip("the interval is wider than the error")
+    answers[row["case"]][row["quantity"]] = changed
+    said = check(tmp_path / "answers.json", answers, code=1)
+    assert re.search(rf"WRONG: {row['case']}: {row['quantity']}: .*{why}", said)
+    assert said.count("WRONG") == 1 and said.rstrip().endswith("1 wrong")
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("", "no JSON"),
+        ("[]", '"answers"'),
+        ('{"answers": 3}', '"answers"'),
+        ('{"answers": {"hertz": {}}}', "there is no case 'hertz'"),
+        ('{"answers": {"carter": {"force": 1}}}', "carter does not require 'force'"),
+        ('{"answers": {"carter": 1}}', "carter: expected an object of quantities"),
+        ('{"answers": {"carter": {"stick_width": "1"}}}', "stick_width: expected a number"),
+        ('{"answers": {"carter": {"stick_width": [1, -1]}}}', "stated error is -1"),
+        ('{"answers": {"carter": {"stick_width": true}}}', "expected a number"),
+        ('{"answers": {"carter": {}}, "seconds": {"carter": "1"}}', '"seconds" is an object of numbers'),
+        ('{"answers": {"carter": {}, "carter": {}}}', "stands twice"),
+        ("[" * 100000, "nested too deeply"),
+    ],
+)
+def test_files_that_cannot_be_used_are_named(tmp_path, text, words):
+    assert words in check(tmp_path / "answers.json", text, code=2)
+
+
+def test_a_file_that_is_missing_is_named(tmp_path):
+    run = subprocess.run([sys.executable, FOLDER / "check.py", tmp_path / "no.json"], capture_output=True, text=True)
+    assert run.returncode == 2 and "no.json: No such file" in run.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CASES)
+def test_petsam_has_the_numbers(tmp_path, name):
+    """Answers by usual settings; digits are those of the README."""
+    words = ["answers", name, "-o", tmp_path / "answers.json"]
+    subprocess.run([sys.executable, "-W", "ignore", FOLDER / "reference.py", *words], check=True, timeout=600)
+    said = check(tmp_path / "answers.json", (tmp_path / "answers.json").read_text())
+    assert ", 0 wrong" in said
+
+
+def test_petsam_has_the_numbers_of_the_quick_cases(tmp_path):
+    names = ["hertz-sphere", "inclined-punch", "pad-bulk-stress", "sliding-stress"]
+    words = ["answers", *names, "-o", tmp_path / "answers.json"]
+    subprocess.run([sys.executable, "-W", "ignore", FOLDER / "reference.py", *words], check=True, timeout=600)
+    assert "in 4 of 24 cases, 0 wrong" in check(tmp_path / "answers.json", (tmp_path / "answers.json").read_text())
