@@ -515,6 +515,13 @@ def test_a_line_yields_first_at_its_closed_pressure(solve, friction, ratio):
         assert (all_steps(solve(case))["plastic_max"][-1] > 0) == yields, part
 
 
+def test_strain_amid_a_row_is_far_from_its_ends(solve):
+    """The margin of a row of cells is that along it; a row has no cells beside it."""
+    case = line(2.5 * YIELD, 64)
+    done = solve({**case, "grid_size": 2 * case["grid_size"]})
+    assert 10 <= done["yield_margin"] <= 24 and done["plastic_max"] > 1e-4
+
+
 def test_a_line_does_not_depend_on_its_window(solve, tmp_path):
     """Loads to and fro with bulk stress, which yy follows, on a grid three times as wide; wide periods come near."""
     case = line(2.5 * YIELD, 48, friction=0.4, coupling="none", body2_hardening_modulus=0.02, yield_first=2e-4)

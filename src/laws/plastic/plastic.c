@@ -12,6 +12,7 @@
 #include <petsam/private/body.h>
 #include <petsam/private/control.h>
 #include <petsam/private/elasticity.h>
+#include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 
 typedef struct {
   PetscReal    yield, modulus, voce_stress, voce_rate, swift_strain, swift_exponent;
@@ -22,11 +23,14 @@ typedef struct {
 } Material;
 
 typedef struct {
-  Material   material[2];
-  PetscReal  depth, first, rtol; /* m, m, 1; depth and first: 0 if they follow from the grid */
-  PetscInt   layers;
-  PetscReal *thickness; /* thickness of each layer, m */
-  SamPlastic plastic;
+  Material         material[2];
+  PetscReal        depth, first, rtol; /* m, m, 1; depth and first: 0 if they follow from the grid */
+  PetscInt         layers;
+  PetscReal       *thickness; /* thickness of each layer, m */
+  SamPlastic       plastic;
+  double          *stress;    /* by the strain of a vector at a revision, for the results; NULL: none */
+  Vec              stress_of; /* not referenced */
+  PetscObjectState stress_revision;
 } Plastic;
 
 /* Memory of a layer's cell without backstresses, bytes; measured at 64 and 96 cells per side: 980 to 1110 */
@@ -353,6 +357,34 @@ static PetscInt Above(const Plastic *x)
   return isfinite(x->material[0].yield) ? x->layers : 0;
 }
 
+static PetscErrorCode DropStress(Plastic *x)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(x->stress));
+  PetscCall(VecDestroy(&x->stress_of));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Gets the stress by the strain of the state, all components: it is computed once for the fields that follow each other
+   in the results, and kept until the next step begins. */
+static PetscErrorCode TakeStress(Plastic *x, Vec now, const double **stress)
+{
+  PetscObjectState revision = 0;
+
+  PetscFunctionBegin;
+  if (now) PetscCall(PetscObjectStateGet((PetscObject)now, &revision));
+  if (!x->stress || x->stress_of != now || x->stress_revision != revision) {
+    PetscCall(DropStress(x));
+    PetscCall(PetscMalloc1(PARTS * BodiesOf(x) * x->layers * x->plastic.grid->cells, &x->stress));
+    PetscCall(SamPlasticStress(&x->plastic, now, NULL, NULL, x->stress, NULL));
+    if (now) PetscCall(PetscObjectReference((PetscObject)now));
+    x->stress_of       = now;
+    x->stress_revision = revision;
+  }
+  *stress = x->stress;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Computes a field of layers in the results: the accumulated plastic strain (0), the plastic strain (1 to PARTS), and
   the residual stress. In body 1, whose own z is opposite to that of the results, the shears xz and yz change their
@@ -365,17 +397,14 @@ static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt compon
   const PetscInt cells = law->grid->cells, layers = BodiesOf(x) * x->layers;
   const PetscInt part = (component + PARTS - 1) % PARTS, stored = component ? part : PARTS;
   const Vec      now    = SamStateReadField(state, SamStateFindField(state, SAM_PLASTIC_FIELD));
-  double        *stress = NULL, *to;
-  const double  *from   = NULL;
+  const double  *stress = NULL, *from = NULL;
+  double        *to;
 
   PetscFunctionBegin;
   PetscCall(VecSet(field, 0));
   if (!now && component <= PARTS) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SetUp(law));
-  if (component > PARTS) {
-    PetscCall(PetscMalloc1(PARTS * layers * cells, &stress));
-    PetscCall(SamPlasticStress(&x->plastic, now, NULL, NULL, stress, NULL));
-  }
+  if (component > PARTS) PetscCall(TakeStress(x, now, &stress));
   if (now) PetscCall(VecGetArrayRead(now, &from));
   PetscCall(VecGetArray(field, &to));
   for (PetscInt m = 0; m < layers; m++) {
@@ -389,7 +418,6 @@ static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt compon
   }
   PetscCall(VecRestoreArray(field, &to));
   if (now) PetscCall(VecRestoreArrayRead(now, &from));
-  PetscCall(PetscFree(stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -535,6 +563,7 @@ static PetscErrorCode Destroy(SamLaw law)
   for (PetscInt b = 0; b < p->bodies; b++) PetscCall(SamResidualDestroy(&p->body[b].residual));
   for (PetscInt b = 0; b < 2; b++) PetscCall(PetscFree(((Plastic *)law->data)->material[b].initial));
   PetscCall(PetscFree(((Plastic *)law->data)->thickness));
+  PetscCall(DropStress((Plastic *)law->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -682,6 +711,7 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   PetscFunctionBegin;
   (void)duration;
   PetscCall(SetUp(law));
+  PetscCall(DropStress(x));
   PetscCall(TakeLast(&x->plastic, state));
   for (PetscInt b = 0; b < 2; b++) {
     if (!isfinite(x->material[b].yield)) continue;
@@ -774,7 +804,7 @@ static PetscErrorCode Extent(const SamPlastic *p, const double now[], PetscBool 
     for (PetscInt k = 0; k < cells; k++) {
       const double   strain = now[((ptrdiff_t)l * p->size + PARTS) * cells + k];
       const PetscInt i = k % grid->nx, j = grid->row_start + k / grid->nx;
-      const PetscInt x = PetscMin(i, grid->nx - 1 - i), y = PetscMin(j, grid->ny - 1 - j);
+      const PetscInt x = PetscMin(i, grid->nx - 1 - i), y = SamGridIsRow(grid) ? x : PetscMin(j, grid->ny - 1 - j);
 
       most[l] = PetscMax(most[l], strain);
       if (!periodic && strain > COUNTS * numbers[MOST]) near = PetscMax(near, -(double)PetscMin(x, y));
