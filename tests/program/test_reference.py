@@ -125,11 +125,40 @@ def test_a_wrong_answer_is_named(tmp_path, index, change, why):
         ('{"answers": {"carter": {"stick_width": true}}}', "expected a number"),
         ('{"answers": {"carter": {}}, "seconds": {"carter": "1"}}', '"seconds" is an object of numbers'),
         ('{"answers": {"carter": {}, "carter": {}}}', "stands twice"),
-        ("[" * 100000, "nested too deeply"),
+        ("[" * 100000, "no JSON"),
+        ('{"answers": {"carter": {"stick_width": ' + "9" * 4000 + "}}}", "expected a number"),
+        ('{"answers": {"carter": {"stick_width": ' + "9" * 9000 + "}}}", "no JSON"),
+        ('{"answers": {}}', "has no answer"),
+        ('{"answers": {"\\u001b[31m' + "x" * 100000 + '": {}}}', "there is no case '\\x1b"),
+        ('{"answers": {"carter": {"stick_width": 1e-3}}, "seconds": {"carter": -1}}', "at least 0"),
+        ('{"answers": {' + ", ".join(f'"a{k}": {{}}' for k in range(50000)) + "}}", "there is no case"),
     ],
 )
 def test_files_that_cannot_be_used_are_named(tmp_path, text, words):
     assert words in check(tmp_path / "answers.json", text, code=2)
+
+
+@pytest.mark.parametrize("text", ["{}", "[1]", '[{"case": "a"}]', "3"])
+def test_intervals_that_cannot_be_used_are_named(tmp_path, text):
+    (tmp_path / "cases.json").write_text(text)
+    assert "cases.json: " in check(tmp_path / "answers.json", right(), "--cases", tmp_path / "cases.json", code=2)
+
+
+def test_output_that_nobody_reads_is_no_answer(tmp_path):
+    (tmp_path / "answers.json").write_text(json.dumps({"answers": right(), "program": "\ud800"}))
+    with open("/dev/full", "w") as full:
+        run = subprocess.run(
+            [sys.executable, FOLDER / "check.py", tmp_path / "answers.json"], stdout=full, stderr=-1, text=True
+        )
+    assert run.returncode == 2 and run.stderr == "check.py: No space left on device\n"
+
+
+def test_units_are_told(tmp_path):
+    answers = right()
+    answers["sliding-stress"]["mises_deep"] *= 1e-6
+    answers["hertz-ellipse"]["axis_angle"] *= 3.14159265 / 180
+    said = check(tmp_path / "answers.json", answers, code=1)
+    assert "it is 1e-6 times as large: check the unit" in said and "it is in radians" in said
 
 
 def test_a_file_that_is_missing_is_named(tmp_path):

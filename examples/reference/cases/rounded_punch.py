@@ -22,8 +22,8 @@ OPTIONS = {
     "history": {"time": [0, 1], "load_tx": [0, FORCE], "load_mz": [0, TORQUE]},
     "output_every": 1000,
 }
-OF_PRESSURE = {"approach": "m", "tilt": "", "pressure_max": "Pa"}
-OF_SHEAR = {"displacement": "m", "twist": "", "stick_area": "m2", "dissipated_energy": "J"}
+OF_PRESSURE = {"approach": "m", "tilt": "rad", "pressure_max": "Pa"}
+OF_SHEAR = {"displacement": "m", "twist": "rad", "stick_area": "m2", "dissipated_energy": "J"}
 STEPS = 4, 8, 16  # of petsam; those of halfspace.py are of first order, and need more
 
 
