@@ -565,7 +565,7 @@ def contact_pad_bulk_stress():
 # ---------------------------------------------------------------- CalculiX
 
 
-def calculix_hertz_sphere(n=16):
+def calculix_hertz_sphere(n=8):
     """The model of examples/fe-comparison: a sphere on its plane of symmetry.
 
     Its flat top moves down by Hertz's approach, which needs a force that is a little different from N: radius and
