@@ -187,3 +187,76 @@ def test_ranks_and_restart_give_the_same_bits_with_wear_and_slide(petsam, tmp_pa
     one, three, on = (support.read_run(tmp_path / f"{name}.h5") for name in ("one", "three", "on"))
     for name in "pressure", "shear_x", "plastic_strain", "wear_depth1", "history/plastic_work", "history/disp_z":
         assert np.array_equal(one[name], three[name]) and np.array_equal(one[name], on[name])
+
+
+# ---------------------------------------------------------------- lives
+
+
+def flank(path, force, rows, **more):
+    """A cylinder in plane strain, of 1 mm at a peak 2.2 times the yield stress, under T_x to and fro."""
+    young, stress, half = 210e9, 600e6, 1e-4
+    normal = math.pi / 2 * half * 2.2 * stress
+    loads = [(float(k), normal, part * force * normal) for k, part in enumerate(rows)]
+    return dict(
+        elasticity="plane",
+        body1_young=young,
+        body1_poisson=0.3,
+        body2_young=young,
+        body2_poisson=0.3,
+        gap_type="sphere",
+        gap_radius1=young / (1 - 0.3**2) / 2 * half / (2 * 2.2 * stress),
+        gap_radius2="inf",
+        grid_n=48,
+        grid_size=3.2e-4,
+        body2_yield=stress,
+        body2_hardening_modulus=2e10,
+        yield_layers=12,
+        friction=0.4,
+        **support.history(path, "time,load_n,load_tx", *loads),
+        **more,
+    )
+
+
+TURNS = [1, 0, -1, 0]
+
+
+def test_a_life_of_a_body_that_yields_is_that_of_all_its_cycles(solve, tmp_path):
+    """Every one of 40 cycles in steps that wear, and by jumps, which are short until the body has shaken down."""
+    wear = dict(wear_coefficient2=1e-12)
+    every = all_steps(solve(flank(tmp_path / "all.csv", 0.2, [0] + 40 * TURNS, **wear)))
+    jumps = solve(flank(tmp_path / "one.csv", 0.2, [0, *TURNS], wear_cycles=40, wear_rtol=1e-2, **wear))
+    short = all_steps(jumps)
+    assert len(short["disp_z"]) < 0.4 * len(every["disp_z"])
+    for name, most in ("wear_volume2", 0.01), ("plastic_max", 3e-3), ("residual_z_max", 3e-3), ("pressure_max", 1e-3):
+        assert short[name][-1] == pytest.approx(every[name][-1], rel=most), name
+    assert every["plastic_max"][-1] > 1e-3
+
+
+@pytest.mark.parametrize("hardening, flows", [(None, True), (2e10, False)])
+def test_jumps_are_short_while_a_body_goes_on_yielding(petsam, tmp_path, hardening, flows):
+    """Without hardening the surface layer flows in each cycle, which then is computed; else the body shakes down."""
+    wear = dict(wear_coefficient2=1e-13, wear_cycles=12, wear_rtol=1e-2, output=tmp_path / "life.h5")
+    case = flank(tmp_path / "one.csv", 0.35, [0, *TURNS], **wear)
+    said = petsam(dict(case, body2_hardening_modulus=hardening)).complaint
+    assert any("it has not shaken down" in line for line in said) == flows
+    jump = support.read_run(tmp_path / "life.h5")["wear/jump"][1:]
+    assert np.all(jump == 1) == flows and jump.sum() == 12
+
+
+def test_a_life_above_yield_has_the_same_bits_on_any_number_of_ranks(petsam, tmp_path):
+    case = moving(
+        tmp_path / "x.csv",
+        n=13,
+        load_n=[4 * LOAD] * 5,
+        load_tx=[0.0, 0.3 * LOAD, 0.0, -0.3 * LOAD, 0.0],
+        friction=0.2,
+        wear_coefficient2=1e-4,
+        wear_cycles=30,
+        wear_rtol=1e-2,
+    )
+    runs = []
+    for ranks in 1, 3:
+        petsam(case, dict(output=tmp_path / f"{ranks}.h5"), ranks=ranks)
+        runs.append(support.read_run(tmp_path / f"{ranks}.h5"))
+    for name in "pressure", "plastic_strain", "wear_depth2", "history/plastic_work", "wear/jump":
+        assert np.array_equal(runs[0][name], runs[1][name])

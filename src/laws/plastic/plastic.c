@@ -474,8 +474,12 @@ static PetscErrorCode DeclareRemoved(const Plastic *x, SamState state)
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
-    const SamStateField field = {
-      .name = removed[b], .components = 1, .generations = 2, .kept = PETSC_TRUE, .motion = own ? SAM_STAYS : SAM_MOVES};
+    const SamStateField field = {.name        = removed[b],
+                                 .components  = 1,
+                                 .generations = 2,
+                                 .kept        = PETSC_TRUE,
+                                 .motion      = own ? SAM_STAYS : SAM_MOVES,
+                                 .separates   = PETSC_TRUE};
 
     if (isfinite(x->material[b].yield) && SamStateFindResult(state, depths[b]) >= 0)
       PetscCall(SamStateDeclareField(state, &field, &id));
@@ -982,7 +986,6 @@ PetscErrorCode SamLawCreate_Plastic(SamLaw law)
   law->heading            = "Plastic strain below the surface";
   law->rows               = rows;
   law->row_count          = (PetscInt)(sizeof(rows) / sizeof(rows[0]));
-  law->forbids_jumps      = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
   law->ops.destroy        = Destroy;

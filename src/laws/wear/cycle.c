@@ -184,8 +184,8 @@ static PetscErrorCode AddPassage(SamLife l)
 }
 
 /*
-  Adds a tried step to the means: pressure, gap in `shift`, and for coupled bodies u_z in `coefficient`; conditions are
-  those of the last step. Magnified cycles repeat the step itself instead.
+  Adds a tried step to the means: pressure, gap in `shift`, and, where surfaces are lifted, u_z in `coefficient`;
+  conditions are those of the last step. Magnified cycles repeat the step itself instead.
 */
 static PetscErrorCode Count(SamLife l, PetscInt k, const SamStep *step, SamRate *rate, SamControl *mean)
 {
@@ -207,7 +207,7 @@ static PetscErrorCode Count(SamLife l, PetscInt k, const SamStep *step, SamRate 
   PetscCall(VecAXPY(rate->pressure, part, s->pressure));
   PetscCall(SamContactGetField(l->contact, "gap", l->gap));
   PetscCall(VecAXPY(rate->shift, part, l->gap));
-  if (l->coupled) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
+  if (l->lifts) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
   *mean = step->control;
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) mean->value[c] = so_far.value[c] + part * step->control.value[c];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -215,7 +215,7 @@ static PetscErrorCode Count(SamLife l, PetscInt k, const SamStep *step, SamRate 
 
 /* ---- the rate ---- */
 
-/* Computes the shift from the mean gap; `coefficient` contains u_z for coupled bodies. */
+/* Computes the shift from the mean gap; `coefficient` contains u_z where surfaces are lifted. */
 static PetscErrorCode FindShift(SamLife l, SamRate *rate)
 {
   const double *p;
@@ -227,7 +227,7 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   for (PetscInt k = 0; k < l->grid->cells; k++) shift[k] = SamIsPressed(p[k]) ? -shift[k] : 0;
   PetscCall(VecRestoreArray(rate->shift, &shift));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
-  if (!l->coupled) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!l->lifts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamElasticityApplyNormal(SamProblemGetElasticity(l->problem), rate->pressure, l->gap));
   PetscCall(VecAXPY(rate->shift, 1, rate->coefficient));
   PetscCall(VecAXPY(rate->shift, -1, l->gap));
@@ -415,6 +415,7 @@ static PetscErrorCode FindWay(SamLife l, PetscReal cycles, PetscBool *solved)
 
   PetscFunctionBegin;
   PetscCall(CloseLoop(l, cycles, &closed, solved));
+  if (SamProblemDisplaces(l->problem)) PetscFunctionReturn(PETSC_SUCCESS); /* strain depends on the steps to it */
   l->state.by_turns = PETSC_TRUE;
   if (*solved) PetscCall(GoRound(l, cycles, &ignored, solved));
   l->state.by_turns = PETSC_FALSE;
@@ -442,6 +443,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   else if (!l->band)
     PetscCall(GoRound(l, cycles, &ignored, solved));
   PetscCall(Begin(l, rate, &mean));
+  if (tell) PetscCall(SamLifeKeepStrain(l, &l->strain[0]));
   PetscCall(Locate(l, from));
   for (PetscInt k = 0; k < n && *solved; k++) {
     PetscCall(SolveStep(l, k, cycles, &step, solved));
@@ -452,6 +454,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   l->state.computed++;
   l->open = *solved || l->band ? PETSC_FALSE : PETSC_TRUE;
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+  if (tell) PetscCall(SamLifeFindFlow(l, &l->strain[0]));
   PetscCall(Rewind(l, from));
   if (rate->passes) {
     if (rate == &l->start) PetscCall(SamLifeEndStrides(l));

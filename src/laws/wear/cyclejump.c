@@ -89,7 +89,7 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->band       = SamContactGetMotion(contact)->streams;
   l->open       = !l->band;
   if (l->band) PetscCall(SamGridCreateVec(grid, 1, &l->passage));
-  l->coupled = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled;
+  l->lifts = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled || SamProblemDisplaces(l->problem);
   PetscCheck(settings->magnified || !SamProblemGetOffset(problem, l->memory, SAM_COMMITTED, 1, slide), grid->comm,
              PETSC_ERR_ARG_INCOMP, "Surfaces that slide need magnified cycles");
   l->loads = SamStateFindField(l->memory, SAM_WEAR_LOAD2) < 0 ? 1 : SAM_WEAR_LOADS;
@@ -123,6 +123,7 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   PetscCall(VecDestroy(&l->passage));
   PetscCall(VecDestroy(&l->stripes));
   for (PetscInt k = 0; k < SAM_LAWS; k++) PetscCall(VecDestroy(&l->before[k]));
+  for (int k = 0; k < 2; k++) PetscCall(SamLifeDropStrain(&l->strain[k]));
   PetscCall(SamRateDestroyPasses(l, &l->start));
   PetscCall(SamRateDestroyPasses(l, &l->middle));
   PetscCall(PetscFree(l->turns));
@@ -361,6 +362,7 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
                        .error             = PetscMax(l->state.error, l->stripes_error),
                        .stripes           = l->stripes_error,
                        .stride            = l->stride,
+                       .flow              = l->flow,
                        .limit             = l->start.limit,
                        .dissipated_energy = l->energy,
                        .contact_area      = l->area,
@@ -426,12 +428,15 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
   PetscFunctionBegin;
   PetscCheck(l->known, l->grid->comm, PETSC_ERR_ORDER, "There is no computed cycle to jump from");
   next = FirstTry(l, cycles);
+  if (!l->set.fixed) next = PetscMin(next, SamLifeMostCycles(l));
+  PetscCall(SamLifeKeepStrain(l, &l->strain[1]));
   if (l->state.next == 0) l->state.next = next;
   while (!accepted && next != jump) {
     jump = next;
     PetscCall(TryJump(l, jump, &error, &solved));
     accepted = solved && (l->set.fixed || jump <= 1 || error <= HALVES * l->set.rtol);
-    next     = solved ? NextTry(l, jump, error / (HALVES * l->set.rtol)) : PetscMin(jump, Whole(GROW_LEAST * jump));
+    if (!accepted) PetscCall(SamLifeRestoreStrain(l, &l->strain[1]));
+    next = solved ? NextTry(l, jump, error / (HALVES * l->set.rtol)) : PetscMin(jump, Whole(GROW_LEAST * jump));
   }
   PetscCall(JumpSums(l, accepted ? jump : 0));
   if (accepted) {

@@ -33,6 +33,11 @@ typedef struct {
 #define SAM_WEAR_LOADS 2
 typedef Vec SamLoads[SAM_WEAR_LOADS];
 
+/* Copies of fields of the state, by their handles; NULL: none */
+typedef struct {
+  Vec field[SAM_STATE_MOST];
+} SamStrainKept;
+
 struct _n_SamLife {
   SamContact      contact; /* borrowed */
   SamProblem      problem; /* of the contact, like the next three; borrowed */
@@ -43,7 +48,7 @@ struct _n_SamLife {
   SamLifeCycle    cycle;
   SamLifeSettings set;
   SamLifeState    state;
-  PetscBool       coupled;
+  PetscBool       lifts;  /* the surfaces are lifted by other causes than the pressure */
   PetscBool       band;   /* material streams through: lines along x wear alike, by passages */
   PetscBool       open;   /* the loop is not closed: a cycle is run before the computed one */
   PetscBool       known;  /* `start` has been computed */
@@ -63,6 +68,8 @@ struct _n_SamLife {
   Vec             passage;             /* the wear load of a band in the cycle, Pa m; else NULL */
   Vec             shear;               /* scratch, two components */
   Vec             before[SAM_LAWS];    /* of each law that accumulates, its sum before this cycle; else NULL */
+  SamStrainKept   strain[2];           /* the strain before the computed cycle, and before the jump */
+  PetscReal       flow;                /* change of the strain in the computed cycle, relative to its maximum */
 };
 
 /*
@@ -110,6 +117,18 @@ PETSC_INTERN PetscErrorCode SamLifeMagnify(SamLife life, const SamRate *rate, Pe
 PETSC_INTERN PetscErrorCode SamLifeBeginStrides(SamLife life);
 PETSC_INTERN PetscErrorCode SamLifeNoteStride(SamLife life, Vec load, Vec before, Vec after);
 PETSC_INTERN PetscErrorCode SamLifeEndStrides(SamLife life);
+/*
+  Bodies that yield (strain.c).
+  SamLifeKeepStrain - copies the fields of the state, besides the wear loads, on which later steps depend.
+  SamLifeRestoreStrain - puts them back. SamLifeFindFlow - sets l->flow, their largest change since they were kept.
+  SamLifeMostCycles - returns the longest jump with this change, cycles; infinite without one. SamLifeDropStrain -
+  destroys copies. All but SamLifeMostCycles are collective.
+*/
+PETSC_INTERN PetscErrorCode SamLifeKeepStrain(SamLife life, SamStrainKept *kept);
+PETSC_INTERN PetscErrorCode SamLifeRestoreStrain(SamLife life, SamStrainKept *kept);
+PETSC_INTERN PetscErrorCode SamLifeFindFlow(SamLife life, const SamStrainKept *before);
+PETSC_INTERN PetscReal      SamLifeMostCycles(SamLife life);
+PETSC_INTERN PetscErrorCode SamLifeDropStrain(SamStrainKept *kept);
 /* SamLifeGetSum - gets the committed values that law k accumulates; NULL: none. Collective. */
 PETSC_INTERN PetscErrorCode SamLifeGetSum(SamLife life, PetscInt k, Vec *sum);
 

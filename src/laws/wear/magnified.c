@@ -23,7 +23,7 @@
 PetscErrorCode SamRateCreatePasses(SamLife l, SamRate *rate)
 {
   const size_t    bytes = sizeof(float) * (size_t)l->grid->cells;
-  const PetscBool lifts = (PetscBool)(l->coupled || SamProblemDisplaces(l->problem));
+  const PetscBool lifts = l->lifts;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(l->cycle.steps, &rate->passes));

@@ -10,6 +10,9 @@
 #define LARGE 0.1
 /* Number of cycles that wear as much as a single step may, below which the unit of the coefficient is questioned */
 #define FAST 0.1
+/* Change of the plastic strain in a cycle that is told, over the tolerance of jumps, after this number of cycles */
+#define FLOWS   0.1
+#define SETTLES 20
 
 /* ---- callbacks of the life ---- */
 
@@ -222,6 +225,25 @@ static PetscErrorCode WarnOfStride(SamSimulation s, const SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Warns once of jumps that are short because a body goes on yielding. */
+static PetscErrorCode WarnOfFlow(SamSimulation s, const SamLifeReport *r)
+{
+  const SamLifeSettings *set = &s->plan.life;
+  char                   text[256];
+
+  PetscFunctionBegin;
+  if (s->flows || r->computed < SETTLES || !(r->flow > FLOWS * set->rtol)) PetscFunctionReturn(PETSC_SUCCESS);
+  s->flows = PETSC_TRUE;
+  (void)snprintf(text, sizeof(text),
+                 "after %.10g cycles: plastic strain changes by %.2g %% of its maximum in a cycle: it has not shaken "
+                 "down, and jumps %s",
+                 (double)r->cycles, 100 * (double)r->flow,
+                 set->fixed ? "omit what it changes in the cycles between"
+                            : "are short, so that it changes by less than -wear_rtol");
+  PetscCall(SamSimulationWarn(s, text, ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Reports once for each body that its first material is worn through; `ended`: the life ends there on request. */
 static PetscErrorCode WarnOfWorn(SamSimulation s, const SamLifeReport *r, PetscBool *ended)
 {
@@ -256,6 +278,7 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
   PetscCall(WarnOfJump(s, &r));
   PetscCall(WarnOfUnit(s, &r));
   PetscCall(WarnOfStride(s, &r));
+  PetscCall(WarnOfFlow(s, &r));
   PetscCall(WarnOfWorn(s, &r, ended));
   s->writing = PETSC_TRUE;
   PetscCall(SamLifeRecord(s->life, &r));

@@ -66,6 +66,7 @@ struct _n_SamSimulation {
   PetscBool              has_output;
   PetscBool              told;      /* in a life: the failed step is in the file */
   PetscBool              warned;    /* a warning has been printed in this life */
+  PetscBool              flows;     /* a warning of plastic strain that has not shaken down has been given */
   PetscBool              stripes;   /* a warning of steps that slide too far has been given */
   PetscBool              fast;      /* a warning of wear so fast that the unit is questioned has been given */
   PetscBool              worn[2];   /* it has been reported that the first material of a body is worn through */
