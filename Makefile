@@ -129,9 +129,10 @@ bench: all bench-programs venv peers ## run the benchmark, or go on with an unfi
 	[ ! -e $(B)/peers/done ] || $(PYTHON) tests/bench/paired.py --build $(B)
 	$(if $(CONTACT),$(B)/venv/bin/python tests/bench/contact.py --build $(B) --contact '$(CONTACT)')
 
-reference: all $(B)/venv/tests-done ## petsam's answers to the problems of examples/reference, and their digits: ARGS="CASE ..." for some
+reference: all $(B)/venv/tests-done ## petsam's answers to the problems of examples/reference, and their digits: ARGS="CASE ..." for some; PEERS="tamaas aspher contact calculix" for those of other programs
 	$(B)/venv/bin/python -W ignore examples/reference/reference.py answers $(ARGS) -o $(B)/run/answers.json
 	$(B)/venv/bin/python examples/reference/check.py $(B)/run/answers.json
+	$(foreach peer,$(PEERS),$(B)/$(if $(filter tamaas aspher,$(peer)),peers,venv)/bin/python examples/reference/peers.py $(peer) $(ARGS) -o $(B)/run/$(peer).json && $(B)/venv/bin/python examples/reference/check.py $(B)/run/$(peer).json;)
 
 # the programs that the benchmark compares with, built for this processor; the benchmark also runs without them
 peers: $(B)/peers/done ## install the programs that the benchmark compares with

@@ -19,7 +19,7 @@ PROGRAM = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve()
 
 SLOWEST, FILES = 30, 10  # tests, and files of them, whose CPU times are printed
 SLOW = Path(__file__).with_name("slow.txt")  # test functions that `make test` leaves out
-MOST = 1.0  # CPU seconds of others
+MOST = 0.6  # CPU seconds of others
 
 
 def pytest_configure(config):

@@ -29,7 +29,7 @@ typedef struct {
   PetscReal       *thickness; /* thickness of each layer, m */
   SamPlastic       plastic;
   double          *stress;    /* by the strain of a vector at a revision, for the results; NULL: none */
-  Vec              stress_of; /* not referenced */
+  Vec              stress_of; /* this vector */
   PetscObjectState stress_revision;
 } Plastic;
 

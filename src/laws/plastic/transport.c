@@ -2,9 +2,9 @@
   The plastic strain of material that moves under the cells between two steps.
 
   Wear removes the surface, so that material comes up: the strain at a depth z below the worn surface is that at z plus
-  the depth removed since the step before. Over the depth the strain of a layer is taken as linear, with the smaller
-  slope to both neighbours, or none at a maximum (van Leer's limiter), and the mean of this profile over the moved layer
-  is the new value. Below the last layer there is no strain.
+  the depth removed since the step before. Over the depth the strain of a layer is taken as linear, with the harmonic
+  mean of the slopes to both neighbours, or none at a maximum (van Leer's limiter), and the mean of this profile over
+  the moved layer is the new value. Below the last layer there is no strain.
 
   Along the surface the grid moves over both bodies if they roll, which the state does, and over body 2 if it slides;
   steps of whole cells are without error, others interpolate.

@@ -415,7 +415,7 @@ static PetscErrorCode FindWay(SamLife l, PetscReal cycles, PetscBool *solved)
 
   PetscFunctionBegin;
   PetscCall(CloseLoop(l, cycles, &closed, solved));
-  if (SamProblemDisplaces(l->problem)) PetscFunctionReturn(PETSC_SUCCESS); /* strain depends on the steps to it */
+  if (SamLifeHasStrain(l)) PetscFunctionReturn(PETSC_SUCCESS); /* it depends on the steps to it */
   l->state.by_turns = PETSC_TRUE;
   if (*solved) PetscCall(GoRound(l, cycles, &ignored, solved));
   l->state.by_turns = PETSC_FALSE;

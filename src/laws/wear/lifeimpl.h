@@ -119,11 +119,13 @@ PETSC_INTERN PetscErrorCode SamLifeNoteStride(SamLife life, Vec load, Vec before
 PETSC_INTERN PetscErrorCode SamLifeEndStrides(SamLife life);
 /*
   Bodies that yield (strain.c).
-  SamLifeKeepStrain - copies the fields of the state, besides the wear loads, on which later steps depend.
-  SamLifeRestoreStrain - puts them back. SamLifeFindFlow - sets l->flow, their largest change since they were kept.
-  SamLifeMostCycles - returns the longest jump with this change, cycles; infinite without one. SamLifeDropStrain -
-  destroys copies. All but SamLifeMostCycles are collective.
+  SamLifeHasStrain - returns true if the state has fields, besides the wear loads, on which the separation or the offset
+  of later steps depends. SamLifeKeepStrain - copies these. SamLifeRestoreStrain - puts them back. SamLifeFindFlow -
+  sets l->flow, their largest change since they were kept. SamLifeMostCycles - returns the longest jump with this
+  change, cycles; infinite without one. SamLifeDropStrain - destroys copies. All but SamLifeHasStrain and
+  SamLifeMostCycles are collective.
 */
+PETSC_INTERN PetscBool      SamLifeHasStrain(SamLife life);
 PETSC_INTERN PetscErrorCode SamLifeKeepStrain(SamLife life, SamStrainKept *kept);
 PETSC_INTERN PetscErrorCode SamLifeRestoreStrain(SamLife life, SamStrainKept *kept);
 PETSC_INTERN PetscErrorCode SamLifeFindFlow(SamLife life, const SamStrainKept *before);

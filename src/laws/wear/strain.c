@@ -18,6 +18,13 @@ static PetscBool Matters(SamState state, PetscInt id)
   return field->separates && strcmp(field->name, SAM_WEAR_LOAD) && strcmp(field->name, SAM_WEAR_LOAD2);
 }
 
+PetscBool SamLifeHasStrain(SamLife l)
+{
+  for (PetscInt id = 0; id < SamStateCountFields(l->memory); id++)
+    if (Matters(l->memory, id)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 PetscErrorCode SamLifeKeepStrain(SamLife l, SamStrainKept *kept)
 {
   PetscFunctionBegin;
