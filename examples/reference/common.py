@@ -70,6 +70,15 @@ def covered(quantity, unit, ways, how="", size=None):
     return Interval(quantity, unit, min(low for low, _ in ends), max(high for _, high in ends), text, size)
 
 
+def all_covered(units, ways):
+    """The intervals of quantities, {name: unit}, each covered by all ways, {name of a way: its numbers at each of its
+    resolutions, as {quantity: value}}."""
+    return [
+        covered(name, unit, [Way(way, tuple(float(found[name]) for found in runs)) for way, runs in ways.items()])
+        for name, unit in units.items()
+    ]
+
+
 def rounded(interval):
     """The interval with its ends rounded outwards, to two digits of its width."""
     width = interval.high - interval.low

@@ -17,13 +17,13 @@ def limits(solve, steps=STEPS):
     return {name: limit([run[name] for run in runs]) for name in runs[0]}
 
 
-def ways(petsam, own, name, cells="32, 64, 128", counts=STEPS):
-    """Both ways to one quantity, from lists of dictionaries; counts: petsam's steps."""
+def ways(petsam, own, cells="32, 64, 128", counts=STEPS):
+    """Both ways, from lists of dictionaries, as all_covered() takes them; counts: petsam's steps."""
 
     def of_steps(counts):
         return f"limit of {', '.join(map(str, counts))} steps"
 
-    return [
-        Way(f"petsam, 64, 128, 256 cells, {of_steps(counts)}", tuple(found[name] for found in petsam)),
-        Way(f"halfspace.py, {cells} cells, {of_steps(STEPS)}", tuple(found[name] for found in own)),
-    ]
+    return {
+        f"petsam, 64, 128, 256 cells, {of_steps(counts)}": petsam,
+        f"halfspace.py, {cells} cells, {of_steps(STEPS)}": own,
+    }

@@ -3,7 +3,7 @@
 import functools
 
 import numpy as np
-from common import Way, covered
+from common import all_covered
 from scipy.optimize import minimize_scalar
 from scipy.special import j0, j1
 
@@ -155,17 +155,9 @@ def integral_equation(count):
 
 def evidence():
     equation = [integral_equation(count) for count in (8, 16, 32, 64)]
-    return [
-        covered(
-            quantity,
-            unit,
-            [
-                Way("integral equation, 8 to 64 nodes", tuple(float(found[quantity]) for found in equation)),
-                Way("petsam, 128 to 1024 cells across", tuple(float(measured(cells)[quantity]) for cells in CELLS)),
-            ],
-        )
-        for quantity, unit in UNITS.items()
-    ]
+    cells = [measured(cells) for cells in CELLS]
+    ways = {"integral equation, 8 to 64 nodes": equation, "petsam, 128 to 1024 cells across": cells}
+    return all_covered(UNITS, ways)
 
 
 def answers():

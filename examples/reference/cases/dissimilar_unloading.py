@@ -3,7 +3,7 @@
 import functools
 
 import numpy as np
-from common import Way, covered
+from common import all_covered
 from rings import press
 from unloading import Unloading
 
@@ -88,20 +88,11 @@ def rings(n):
 def evidence():
     ours = [numbers(solve(cells, steps)) for cells, steps in ((64, 16), (128, 32), (256, 64))]
     others = [rings(n)[-1] for n in (50, 100, 200, 400)]
-    return [
-        covered(
-            quantity,
-            unit,
-            [
-                Way(
-                    "petsam, 64, 128, 256 cells, 16, 32, 64 steps up and as many down",
-                    tuple(row[quantity] for row in ours),
-                ),
-                Way("50, 100, 200, 400 rings, 20, 40, 80, 160 steps down", tuple(row[quantity] for row in others)),
-            ],
-        )
-        for quantity, unit in UNITS.items()
-    ]
+    ways = {
+        "petsam, 64, 128, 256 cells, 16, 32, 64 steps up and as many down": ours,
+        "50, 100, 200, 400 rings, 20, 40, 80, 160 steps down": others,
+    }
+    return all_covered(UNITS, ways)
 
 
 def answers():

@@ -4,7 +4,7 @@ import functools
 
 import mpmath as mp
 import numpy as np
-from common import Way, closed, covered
+from common import all_covered, closed
 from worn_sphere import Sphere, radius_at
 
 import petsam
@@ -81,17 +81,12 @@ def evidence():
         volume = mp.mpf(WEAR) * mp.mpf(N) * 4 * mp.mpf(STROKE) * EARLY
     units = {"wear_depth": "m", "pressure_max": "Pa", "contact_radius": "m"}
     units |= {"wear_depth_late": "m", "contact_radius_late": "m"}
-    return [closed("wear_volume", "m3", volume, "closed form: k N times the path, 4 u in a cycle")] + [
-        covered(
-            quantity,
-            unit,
-            [
-                Way("rings, 25 to 100 in the radius without wear", tuple(float(way[quantity]) for way in own)),
-                Way("petsam, 24 to 96 cells, error of jumps 1e-2 to 2.5e-3", tuple(float(f[quantity]) for f in finer)),
-            ],
-        )
-        for quantity, unit in units.items()
-    ]
+    ways = {
+        "rings, 25 to 100 in the radius without wear": own,
+        "petsam, 24 to 96 cells, error of jumps 1e-2 to 2.5e-3": finer,
+    }
+    how = "closed form: k N times the path, 4 u in a cycle"
+    return [closed("wear_volume", "m3", volume, how), *all_covered(units, ways)]
 
 
 def answers():

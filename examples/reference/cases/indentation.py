@@ -2,7 +2,7 @@
 
 import numpy as np
 from axisymmetric import Body, boussinesq, edge, growing, halved
-from common import Way, covered
+from common import all_covered
 
 import petsam
 
@@ -88,12 +88,11 @@ def evidence():
     """petsam and axisymmetric elements, each with cells, layers, elements and load steps twice as fine every time."""
     ours = [numbers(solve(16 * 2**k, 2 * 2**k, 8 * 2**k)) for k in range(3)]
     others = [elements(k, 4 * 2**k)[0] for k in range(3)]
-    ways = ("petsam, 16, 32, 64 cells, 8, 16, 32 layers, 2, 4, 8 load steps",)
-    ways += ("axisymmetric elements of 12, 6, 3 um, 4, 8, 16 load steps",)
-    return [
-        covered(name, unit, [Way(way, tuple(one[name] for one in found)) for way, found in zip(ways, (ours, others))])
-        for name, unit in UNITS.items()
-    ]
+    ways = {
+        "petsam, 16, 32, 64 cells, 8, 16, 32 layers, 2, 4, 8 load steps": ours,
+        "axisymmetric elements of 12, 6, 3 um, 4, 8, 16 load steps": others,
+    }
+    return all_covered(UNITS, ways)
 
 
 def answers():

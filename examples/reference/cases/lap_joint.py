@@ -8,7 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from bricks import Joint, Strip, halved
-from common import TOOL, Way, covered
+from common import TOOL, all_covered
 
 import petsam
 from petsam import joint
@@ -157,14 +157,11 @@ def evidence():
     """petsam on three meshes of its compliance, and bricks."""
     ours = [solve(level, 32 * 2**level) for level in range(3)]
     others = [bricks(times) for times in range(3)]
-    ways = (
-        "petsam, 32, 64, 128 cells, compliance by three meshes",
-        "bricks of 8 nodes, 3, 1.5, 0.75 mm long in the contact",
-    )
-    return [
-        covered(name, unit, [Way(way, tuple(one[name] for one in found)) for way, found in zip(ways, (ours, others))])
-        for name, unit in UNITS.items()
-    ]
+    ways = {
+        "petsam, 32, 64, 128 cells, compliance by three meshes": ours,
+        "bricks of 8 nodes, 3, 1.5, 0.75 mm long in the contact": others,
+    }
+    return all_covered(UNITS, ways)
 
 
 def answers():

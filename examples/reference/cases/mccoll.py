@@ -4,7 +4,7 @@ import functools
 
 import mpmath as mp
 import numpy as np
-from common import Way, closed, covered
+from common import all_covered, closed
 
 import petsam
 
@@ -98,17 +98,10 @@ def evidence():
     own = [strips(3 * 2**level, 20 * 2**level) for level in range(3)]
     with mp.workdps(30):
         area = mp.mpf(WEAR2) * mp.mpf(N) * 4 * mp.mpf(STROKE) * CYCLES
-    return [closed("flat_area", "m2", area, "closed form: k N times the path, 4 u in a cycle")] + [
-        covered(
-            quantity,
-            "m",
-            [
-                Way("strips, 3 to 12 in the stroke", tuple(float(way[quantity]) for way in own)),
-                Way("petsam, 80 to 320 cells, error of jumps 0.1 to 0.025", tuple(float(f[quantity]) for f in finer)),
-            ],
-        )
-        for quantity in ("flat_depth", "flat_width", "cylinder_depth")
-    ]
+    ways = {"strips, 3 to 12 in the stroke": own, "petsam, 80 to 320 cells, error of jumps 0.1 to 0.025": finer}
+    units = dict.fromkeys(("flat_depth", "flat_width", "cylinder_depth"), "m")
+    how = "closed form: k N times the path, 4 u in a cycle"
+    return [closed("flat_area", "m2", area, how), *all_covered(units, ways)]
 
 
 def answers():

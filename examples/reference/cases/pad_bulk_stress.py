@@ -1,7 +1,7 @@
 """A cylindrical pad on a flat with bulk stress: Nowell and Hills' problem with slip to both sides."""
 
 import numpy as np
-from common import Way, covered
+from common import all_covered
 from scipy.optimize import fsolve
 
 import petsam
@@ -132,17 +132,8 @@ def by_cells(**more):
 def evidence():
     equation = [by_equation(n) for n in (64, 128, 256, 512)]
     cells = [by_cells(grid_n=n) for n in (1024, 2048, 4096, 8192)]
-    return [
-        covered(
-            name,
-            unit,
-            [
-                Way("integral equation, 64 to 512 nodes", tuple(found[name] for found in equation)),
-                Way("petsam, 1024 to 8192 cells", tuple(found[name] for found in cells)),
-            ],
-        )
-        for name, unit in UNITS.items()
-    ]
+    ways = {"integral equation, 64 to 512 nodes": equation, "petsam, 1024 to 8192 cells": cells}
+    return all_covered(UNITS, ways)
 
 
 def answers():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from axisymmetric import Body, edge, halved
-from common import TOOL, Way, covered
+from common import TOOL, all_covered
 
 import petsam
 
@@ -165,14 +165,11 @@ def evidence():
     """petsam on three meshes of its compliance, and axisymmetric elements."""
     ours = [numbers(solve(level, 64 * 2**level)) for level in range(3)]
     others = [elements(times)[0] for times in range(3)]
-    ways = (
-        "petsam, 64, 128, 256 cells, compliance by three meshes",
-        "axisymmetric elements of 4 nodes, 731, 2805, 10985 nodes",
-    )
-    return [
-        covered(name, unit, [Way(way, tuple(one[name] for one in found)) for way, found in zip(ways, (ours, others))])
-        for name, unit in UNITS.items()
-    ]
+    ways = {
+        "petsam, 64, 128, 256 cells, compliance by three meshes": ours,
+        "axisymmetric elements of 4 nodes, 731, 2805, 10985 nodes": others,
+    }
+    return all_covered(UNITS, ways)
 
 
 def answers():

@@ -4,7 +4,7 @@ import functools
 
 import mpmath as mp
 import numpy as np
-from common import Way, closed, covered
+from common import all_covered, closed
 from worn_sphere import Sphere
 
 import petsam
@@ -91,17 +91,11 @@ def evidence():
     with mp.workdps(30):
         how = "closed form (Popov, Sci. Rep. 4 (2014) 3749), mpmath, 30 digits"
         last = [closed(name, units[name[:-6]], value, how) for name, value in limit().items()]
-    return [
-        covered(
-            quantity,
-            unit,
-            [
-                Way("rings, 32 to 128 in the radius without wear", tuple(float(way[quantity]) for way in own)),
-                Way("petsam, 24 to 96 cells, error of jumps 1e-2 to 2.5e-3", tuple(float(f[quantity]) for f in finer)),
-            ],
-        )
-        for quantity, unit in units.items()
-    ] + last
+    ways = {
+        "rings, 32 to 128 in the radius without wear": own,
+        "petsam, 24 to 96 cells, error of jumps 1e-2 to 2.5e-3": finer,
+    }
+    return all_covered(units, ways) + last
 
 
 def answers():

@@ -3,7 +3,7 @@
 import functools
 
 import numpy as np
-from common import Way, covered
+from common import all_covered
 from scipy.sparse.linalg import LinearOperator, gmres
 
 import petsam
@@ -112,17 +112,8 @@ def rolls(n):
 def evidence():
     ours = [numbers(solve(cells)) for cells in (64, 128, 256, 512)]
     others = [rolls(n) for n in (16, 32, 64)]
-    return [
-        covered(
-            quantity,
-            unit,
-            [
-                Way("petsam, 64, 128, 256, 512 cells", tuple(row[quantity] for row in ours)),
-                Way("cells in numpy, 16, 32, 64 across", tuple(row[quantity] for row in others)),
-            ],
-        )
-        for quantity, unit in UNITS.items()
-    ]
+    ways = {"petsam, 64, 128, 256, 512 cells": ours, "cells in numpy, 16, 32, 64 across": others}
+    return all_covered(UNITS, ways)
 
 
 def answers():

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from common import Way, covered
+from common import all_covered
 from scipy import fft
 
 import petsam
@@ -174,11 +174,7 @@ def evidence():
     areas = [2 * fine["contact_area"] - coarse["contact_area"] for coarse, fine in zip(own, own[1:])]
     own = [{**found, "contact_area": area} for found, area in zip(own[1:], areas)]
     other = [by_petsam(n=n) for n in (128, 256, 512, 1024)]
-    ways = (("active sets, 128 to 1024 cells", own), ("petsam, 128 to 1024 cells", other))
-    return [
-        covered(name, unit, [Way(text, tuple(found[name] for found in values)) for text, values in ways])
-        for name, unit in UNITS.items()
-    ]
+    return all_covered(UNITS, {"active sets, 128 to 1024 cells": own, "petsam, 128 to 1024 cells": other})
 
 
 def answers():

@@ -3,7 +3,7 @@
 import halfspace
 import numpy as np
 import steps
-from common import Way, covered
+from common import all_covered
 
 import petsam
 
@@ -64,18 +64,11 @@ def evidence():
     one = [numbers(petsam.run(OPTIONS, grid_n=n)) for n in (128, 256, 512)]
     solved = {n: own_pressure(n) for n in (24, 48, 96, 192)}
     two = [dict(zip(OF_PRESSURE, (a, b, p.max()))) for _, p, a, b in (solved[n] for n in (48, 96, 192))]
-    found = []
-    for name, unit in OF_PRESSURE.items():
-        ways = [
-            Way("petsam, 128, 256, 512 cells", tuple(numbers[name] for numbers in one)),
-            Way("halfspace.py, 48, 96, 192 cells", tuple(numbers[name] for numbers in two)),
-        ]
-        found.append(covered(name, unit, ways))
+    ways = {"petsam, 128, 256, 512 cells": one, "halfspace.py, 48, 96, 192 cells": two}
+    found = all_covered(OF_PRESSURE, ways)
     one = [steps.limits(lambda m, n=n: numbers(petsam.run(OPTIONS, grid_n=n, steps=m)), STEPS) for n in (64, 128, 256)]
     two = [steps.limits(lambda m, n=n: own_shear(solved[n], m)) for n in (24, 48, 96)]
-    return found + [
-        covered(name, unit, steps.ways(one, two, name, "24, 48, 96", STEPS)) for name, unit in OF_SHEAR.items()
-    ]
+    return found + all_covered(OF_SHEAR, steps.ways(one, two, "24, 48, 96", STEPS))
 
 
 def answers():

@@ -2,7 +2,7 @@
 
 import mpmath as mp
 import numpy as np
-from common import Way, closed, covered
+from common import all_covered, closed
 
 import petsam
 
@@ -138,12 +138,9 @@ def evidence():
     with mp.workdps(30):
         p0, nu, mu = contact()[1], mp.mpf(POISSON), mp.mpf(FRICTION)
         edge = p0 * ((1 - 2 * nu) / 3 + mu * mp.pi * (4 + nu) / 8)
-    found = [closed("tension_edge", "Pa", edge, "closed form (Hamilton and Goodman 1966), mpmath, 30 digits")]
-    for name in own[0]:
-        ways = [Way("sum of point forces, 180, 360, 720 states", tuple(one[name] for one in own))]
-        ways.append(Way("petsam, 129, 257, 513 cells", tuple(one[name] for one in other)))
-        found.append(covered(name, "Pa", ways))
-    return found
+    ways = {"sum of point forces, 180, 360, 720 states": own, "petsam, 129, 257, 513 cells": other}
+    how = "closed form (Hamilton and Goodman 1966), mpmath, 30 digits"
+    return [closed("tension_edge", "Pa", edge, how), *all_covered(dict.fromkeys(own[0], "Pa"), ways)]
 
 
 def answers():

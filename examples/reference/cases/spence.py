@@ -3,7 +3,7 @@
 import functools
 
 import numpy as np
-from common import Way, covered
+from common import all_covered
 from rings import press, pressing_energy
 
 import petsam
@@ -56,17 +56,11 @@ def rings(n):
 def evidence():
     ours = [numbers(solve(cells, steps)) for cells, steps in ((96, 20), (192, 40), (384, 80))]
     others = [rings(n)[1] for n in (40, 80, 160, 320)]
-    return [
-        covered(
-            quantity,
-            unit,
-            [
-                Way("petsam, 96, 192, 384 cells, 20, 40, 80 steps", tuple(row[quantity] for row in ours)),
-                Way("axisymmetric equations, 40, 80, 160, 320 rings", tuple(row[quantity] for row in others)),
-            ],
-        )
-        for quantity, unit in UNITS.items()
-    ]
+    ways = {
+        "petsam, 96, 192, 384 cells, 20, 40, 80 steps": ours,
+        "axisymmetric equations, 40, 80, 160, 320 rings": others,
+    }
+    return all_covered(UNITS, ways)
 
 
 def answers():

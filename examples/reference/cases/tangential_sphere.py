@@ -3,7 +3,7 @@
 import halfspace
 import numpy as np
 import steps
-from common import covered
+from common import all_covered
 
 import petsam
 
@@ -59,7 +59,7 @@ def own(cells, count):
 def evidence():
     one = [steps.limits(lambda m, n=n: numbers(petsam.run(OPTIONS, grid_n=n, steps=m))) for n in (64, 128, 256)]
     two = [steps.limits(lambda m, n=n: own(n, m)) for n in (32, 64, 128)]
-    return [covered(name, unit, steps.ways(one, two, name)) for name, unit in UNITS.items()]
+    return all_covered(UNITS, steps.ways(one, two))
 
 
 def answers():

@@ -3,7 +3,7 @@
 import halfspace
 import numpy as np
 import steps
-from common import covered
+from common import all_covered
 from tangential_sphere import CONTACT, FORCE, FRICTION, OPTIONS, POISSON, YOUNG, N
 
 import petsam
@@ -50,7 +50,7 @@ def own(cells, count):
 def evidence():
     one = [steps.limits(lambda m, n=n: numbers(solve(n, m))) for n in (64, 128, 256)]
     two = [steps.limits(lambda m, n=n: own(n, m)) for n in (24, 48, 96)]
-    return [covered(name, unit, steps.ways(one, two, name, "24, 48, 96")) for name, unit in UNITS.items()]
+    return all_covered(UNITS, steps.ways(one, two, "24, 48, 96"))
 
 
 def answers():
