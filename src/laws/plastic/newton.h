@@ -66,12 +66,12 @@ PETSC_INTERN PetscErrorCode SamPlasticLookOutside(SamPlastic *plastic, Vec state
 PETSC_INTERN void     SamPlasticGrade(PetscInt n, PetscReal first, PetscReal depth, PetscReal thickness[]);
 PETSC_INTERN PetscInt SamPlasticFind(const SamPlastic *plastic, PetscReal depth);
 /*
-  SamPlasticSlide - creates the strain after a slide of body 2 under the grid, m; NULL if body 2 does not yield or move.
+  SamPlasticSlide - moves the strain of body 2, which yields, in a stored field by a slide under the grid, m.
   Collective.
   SamPlasticRaise - moves the strain of one of the bodies, in the array of a stored field, up by a depth in each cell:
   the thickness of material removed from its surface, m. Depths below 0 count as 0. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamPlasticSlide(const SamPlastic *plastic, const PetscReal slide[2], Vec from, Vec *to);
+PETSC_INTERN PetscErrorCode SamPlasticSlide(const SamPlastic *plastic, const PetscReal slide[2], Vec strain);
 PETSC_INTERN PetscErrorCode SamPlasticRaise(const SamPlastic *plastic, PetscInt body, const double removed[],
                                             double strain[]);
 /* SamPlasticRead, SamPlasticWrite - read and write the values of cell k of layer l in the array of a stored field. */

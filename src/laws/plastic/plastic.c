@@ -632,6 +632,19 @@ static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, ch
 
 /* ---- a step ---- */
 
+/* Makes the strain before the step a copy, which may be changed, of that of the step before. */
+static PetscErrorCode CopyLast(SamPlastic *p, SamState state)
+{
+  const Vec before = SamStateGetField(state, SamStateFindField(state, SAM_PLASTIC_FIELD), SAM_COMMITTED);
+
+  PetscFunctionBegin;
+  if (p->last != before) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecDestroy(&p->last));
+  PetscCall(VecDuplicate(before, &p->last));
+  PetscCall(VecCopy(before, p->last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Sets the strain before the step to that of the step before, which the state has moved if the bodies roll. Where the
   surfaces slide, body 2 moves under the grid as well.
@@ -644,14 +657,14 @@ static PetscErrorCode TakeLast(SamPlastic *p, SamState state)
   PetscFunctionBegin;
   PetscCall(VecDestroy(&p->last));
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
-  if (SamFramesGetSlide(state, SAM_TRIED, to)) {
-    (void)SamFramesGetSlide(state, SAM_COMMITTED, from);
-    for (int k = 0; k < 2; k++) to[k] -= from[k];
-    PetscCall(SamPlasticSlide(p, to, before, &p->last));
-  }
-  if (p->last) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscObjectReference((PetscObject)before));
   p->last = before;
+  (void)SamFramesGetSlide(state, SAM_TRIED, to);
+  (void)SamFramesGetSlide(state, SAM_COMMITTED, from);
+  for (int k = 0; k < 2; k++) to[k] -= from[k];
+  if (p->body[p->bodies - 1].body != 1 || (to[0] == 0 && to[1] == 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(CopyLast(p, state));
+  PetscCall(SamPlasticSlide(p, to, p->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -685,7 +698,7 @@ static PetscErrorCode FollowWear(SamLaw law, SamState state, PetscInt body, Pets
   PetscReal     most;
   const double *by;
   double       *strain;
-  Vec           since, moved;
+  Vec           since;
 
   PetscFunctionBegin;
   if (SamStateFindField(state, removed[body]) < 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -693,15 +706,12 @@ static PetscErrorCode FollowWear(SamLaw law, SamState state, PetscInt body, Pets
   PetscCall(TakeRemoved(law, state, body, since));
   PetscCall(VecMax(since, NULL, &most));
   if (most > 0 && p->last) {
-    PetscCall(VecDuplicate(p->last, &moved));
-    PetscCall(VecCopy(p->last, moved));
+    PetscCall(CopyLast(p, state));
     PetscCall(VecGetArrayRead(since, &by));
-    PetscCall(VecGetArray(moved, &strain));
+    PetscCall(VecGetArray(p->last, &strain));
     PetscCall(SamPlasticRaise(p, place, by, strain));
-    PetscCall(VecRestoreArray(moved, &strain));
+    PetscCall(VecRestoreArray(p->last, &strain));
     PetscCall(VecRestoreArrayRead(since, &by));
-    PetscCall(VecDestroy(&p->last));
-    p->last = moved;
   }
   PetscCall(VecDestroy(&since));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -88,33 +88,28 @@ PetscErrorCode SamPlasticRaise(const SamPlastic *p, PetscInt body, const double 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPlasticSlide(const SamPlastic *p, const PetscReal slide[2], Vec from, Vec *to)
+PetscErrorCode SamPlasticSlide(const SamPlastic *p, const PetscReal slide[2], Vec strain)
 {
-  const SamPlasticBody *const last   = &p->body[p->bodies - 1];
-  const SamGrid               grid   = p->grid;
-  const PetscInt              values = p->layers * p->size, count = values * grid->cells;
+  const SamGrid   grid   = p->grid;
+  const PetscInt  values = p->layers * p->size, count = values * grid->cells;
+  const ptrdiff_t first  = (ptrdiff_t)p->body[p->bodies - 1].first * p->size * grid->cells;
   const SamBorder border = SamElasticityGetTraits(p->elasticity).periodic ? SAM_BORDER_WRAPS : SAM_BORDER_ZERO;
-  const double   *all;
-  double         *part, *moved;
-  Vec             own[2];
+  double         *all, *part;
+  Vec             before, after;
 
   PetscFunctionBegin;
-  *to = NULL;
-  if (last->body != 1 || (slide[0] == 0 && slide[1] == 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecDuplicate(from, to));
-  PetscCall(VecCopy(from, *to));
-  for (int k = 0; k < 2; k++) PetscCall(SamGridCreateVec(grid, values, &own[k]));
-  PetscCall(VecGetArrayRead(from, &all));
-  PetscCall(VecGetArray(own[0], &part));
-  PetscCall(PetscArraycpy(part, all + (ptrdiff_t)last->first * p->size * grid->cells, count));
-  PetscCall(VecRestoreArray(own[0], &part));
-  PetscCall(VecRestoreArrayRead(from, &all));
-  PetscCall(SamGridMove(grid, values, slide, border, own[0], own[1]));
-  PetscCall(VecGetArray(*to, &moved));
-  PetscCall(VecGetArray(own[1], &part));
-  PetscCall(PetscArraycpy(moved + (ptrdiff_t)last->first * p->size * grid->cells, part, count));
-  PetscCall(VecRestoreArray(own[1], &part));
-  PetscCall(VecRestoreArray(*to, &moved));
-  for (int k = 0; k < 2; k++) PetscCall(VecDestroy(&own[k]));
+  PetscCall(SamGridCreateVec(grid, values, &before));
+  PetscCall(SamGridCreateVec(grid, values, &after));
+  PetscCall(VecGetArray(strain, &all));
+  PetscCall(VecGetArray(before, &part));
+  PetscCall(PetscArraycpy(part, all + first, count));
+  PetscCall(VecRestoreArray(before, &part));
+  PetscCall(SamGridMove(grid, values, slide, border, before, after));
+  PetscCall(VecGetArray(after, &part));
+  PetscCall(PetscArraycpy(all + first, part, count));
+  PetscCall(VecRestoreArray(after, &part));
+  PetscCall(VecRestoreArray(strain, &all));
+  PetscCall(VecDestroy(&after));
+  PetscCall(VecDestroy(&before));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -443,7 +443,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   else if (!l->band)
     PetscCall(GoRound(l, cycles, &ignored, solved));
   PetscCall(Begin(l, rate, &mean));
-  if (tell) PetscCall(SamLifeKeepStrain(l, &l->strain[0]));
+  if (tell) PetscCall(SamLifeKeepStrain(l, &l->strain));
   PetscCall(Locate(l, from));
   for (PetscInt k = 0; k < n && *solved; k++) {
     PetscCall(SolveStep(l, k, cycles, &step, solved));
@@ -454,7 +454,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   l->state.computed++;
   l->open = *solved || l->band ? PETSC_FALSE : PETSC_TRUE;
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  if (tell) PetscCall(SamLifeFindFlow(l, &l->strain[0]));
+  if (tell) PetscCall(SamLifeFindFlow(l, &l->strain));
   PetscCall(Rewind(l, from));
   if (rate->passes) {
     if (rate == &l->start) PetscCall(SamLifeEndStrides(l));

@@ -123,7 +123,7 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   PetscCall(VecDestroy(&l->passage));
   PetscCall(VecDestroy(&l->stripes));
   for (PetscInt k = 0; k < SAM_LAWS; k++) PetscCall(VecDestroy(&l->before[k]));
-  for (int k = 0; k < 2; k++) PetscCall(SamLifeDropStrain(&l->strain[k]));
+  PetscCall(SamLifeDropStrain(&l->strain));
   PetscCall(SamRateDestroyPasses(l, &l->start));
   PetscCall(SamRateDestroyPasses(l, &l->middle));
   PetscCall(PetscFree(l->turns));
@@ -429,13 +429,13 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
   PetscCheck(l->known, l->grid->comm, PETSC_ERR_ORDER, "There is no computed cycle to jump from");
   next = FirstTry(l, cycles);
   if (!l->set.fixed) next = PetscMin(next, SamLifeMostCycles(l));
-  PetscCall(SamLifeKeepStrain(l, &l->strain[1]));
+  PetscCall(SamLifeKeepStrain(l, &l->strain));
   if (l->state.next == 0) l->state.next = next;
   while (!accepted && next != jump) {
     jump = next;
     PetscCall(TryJump(l, jump, &error, &solved));
     accepted = solved && (l->set.fixed || jump <= 1 || error <= HALVES * l->set.rtol);
-    if (!accepted) PetscCall(SamLifeRestoreStrain(l, &l->strain[1]));
+    if (!accepted) PetscCall(SamLifeRestoreStrain(l, &l->strain));
     next = solved ? NextTry(l, jump, error / (HALVES * l->set.rtol)) : PetscMin(jump, Whole(GROW_LEAST * jump));
   }
   PetscCall(JumpSums(l, accepted ? jump : 0));

@@ -68,7 +68,7 @@ struct _n_SamLife {
   Vec             passage;             /* the wear load of a band in the cycle, Pa m; else NULL */
   Vec             shear;               /* scratch, two components */
   Vec             before[SAM_LAWS];    /* of each law that accumulates, its sum before this cycle; else NULL */
-  SamStrainKept   strain[2];           /* the strain before the computed cycle, and before the jump */
+  SamStrainKept   strain;              /* the strain before the computed cycle, then before the jump */
   PetscReal       flow;                /* change of the strain in the computed cycle, relative to its maximum */
 };
 
