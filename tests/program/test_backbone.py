@@ -106,6 +106,22 @@ def test_a_mass_on_one_contact_and_a_spring_in_series(soft, by_load):
     assert found.energy == pytest.approx(found.patches[:, 0]) and np.all(found.cycles == 2)
 
 
+def test_a_small_shear_beside_a_large_normal_load_is_in_equilibrium():
+    """It does little of the work to which the tolerance was relative: the shear was wrong by 2e-4."""
+    contact, stiffness = sphere(LOAD)
+    spring, share = 0.1 / stiffness, 0.3
+    patch = joint.Patch(contact, ["disp_z", "disp_x"], by_load=["disp_x"])
+    one = joint.Structure([patch], [1.0, 1.0], np.eye(2), coupling=spring * np.eye(2))
+    one.z, one.loads = patch.state()
+    whole = 1.5 * FRICTION * LOAD / stiffness
+    pull = whole * (1 - (1 - share) ** (2 / 3)) + spring * share * FRICTION * LOAD
+    push = one.z[0] - spring * one.loads[0]
+    for force in ([1.05 * push, 0.2 * pull], [push, pull]):
+        one.step(force)
+        assert one.z - force == pytest.approx(spring * one.loads, rel=5e-6, abs=0)
+    assert one.loads == pytest.approx([-LOAD, -share * FRICTION * LOAD], rel=1e-4)
+
+
 def test_a_normal_load_that_changes_by_rounding_is_constant():
     """As the loads of a structure do: the ratio of the changes of shear and normal load was infinite."""
     bodies = dict(body1_young=210e9, body1_poisson=0.1, body2_young=70e9, body2_poisson=0.4)

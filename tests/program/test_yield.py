@@ -151,16 +151,16 @@ def test_partial_slip_has_reference_numbers(solve, tmp_path):
     assert run["disp_x"][[1, 2, 4]] / APPROACH == pytest.approx([0.16346, 0.33901, 0.82354], rel=2e-3)
     assert run["pressure_max"][[0, 1, 2, 4]] / YIELD == pytest.approx([2.04541, 2.04156, 2.03050, 1.98404], rel=6e-3)
     assert list(run["stick_cells"][1:3]) == [124, 114]
-    assert run["plastic_products"].sum() < 190  # more where what slips does not follow the pressure
+    assert run["plastic_products"].sum() < 230  # more where what slips does not follow the pressure
 
 
 @pytest.mark.parametrize("coupling", [None, "none"])
 def test_contact_that_does_not_yield_is_elastic(solve, tmp_path, coupling):
-    """But for the first slip of coupled bodies: only of elastic ones it counts from when cells touch."""
     case = pushed(16, 6, tmp_path / "h.csv", (0, 0.5, -0.2, 0.7), coupling=coupling)
     high = all_steps(solve({**case, "body2_yield": 1.0}))
     elastic = all_steps(solve({**case, "body2_yield": "inf"}))
-    for name in ("disp_z", "disp_x", "pressure_max", *(["dissipated_energy", "stick_cells"] if coupling else [])):
+    assert high["dissipated_energy"] == pytest.approx(elastic["dissipated_energy"], rel=5e-3, abs=0)
+    for name in ("disp_z", "disp_x", "pressure_max", *(["stick_cells"] if coupling else [])):
         assert high[name] == pytest.approx(elastic[name], rel=5e-4, abs=1e-6 * abs(elastic[name]).max())
 
 
@@ -677,3 +677,17 @@ def test_shear_that_no_body_without_hardening_bears_is_named(petsam, tmp_path):
     said = re.search(r"the shear is ([\d.]+) times what the body bears without hardening", done.stderr)
     assert said and 1 < float(said[1]) < 5
     petsam(dict(case, body2_hardening_modulus=20e9))
+
+
+@pytest.mark.parametrize("friction", [0.4, 0.67])
+def test_plastic_strain_of_dissimilar_bodies_converges(solve, friction):
+    """The place where slip begins followed every iterate of Newton's method, whose tangent does not have it: 24 and 26
+    steps, and none that ended on finer grids."""
+    case = dict(
+        body1_young="inf", body2_young=210e9, body2_poisson=0.3, body2_yield=350e6, gap_type="ellipsoid",
+        gap_radius_x=0.03, gap_radius_y="inf",
+        elasticity="plane_periodic", grid_n=160, grid_size=4e-3, friction=friction, load_n=5.3e5,
+    )  # fmt: skip
+    run = all_steps(solve(case))
+    assert run["plastic_newton"][0] <= 15 and run["plastic_products"][0] <= 200
+    assert run["yield_error"][0] <= 1e-6

@@ -23,7 +23,7 @@ import numpy as np
 from ..contact import AdviceWarning, ContactError, EdgeContactWarning, NoEquilibrium, NotConverged, PrescribedError
 from ..errors import Error
 
-TOLERANCE = 1e-7  # of the work of the errors, relative to that of the loads
+TOLERANCE = 1e-7  # of the work and of the energy of the errors, relative to the work of the loads
 ROUGH = 1e-5  # the same where the contact's own tolerance ends the iteration
 SLOW = 0.3  # ratio of successive errors above which the contacts' stiffness is computed
 MOST, FEWER = 25, 12  # iterations; of those that others may follow
@@ -394,7 +394,9 @@ class Structure:
                 change = 0.5 * change  # the guess is beyond what the contacts bear
                 continue
             error = self._error(z, a, loads, driven, free)
-            size = _work(error, scale or (z, loads, a))
+            if response is None:
+                response = self.response_of(self.tangent(False))
+            size = max(_work(error, scale or (z, loads, a)), self._energy(error, response, z, loads))
             if size <= TOLERANCE or (SLOW * last <= size <= ROUGH):
                 break
             if self.iterations[-1] == most:
@@ -402,7 +404,7 @@ class Structure:
                     f"patches and structure found no equilibrium in {most} iterations, error {size:.2g}, limit "
                     f"{TOLERANCE:g}: use more steps"
                 )
-            if response is None or size > SLOW * last:
+            if size > SLOW * last:
                 response = self.response_of(self.tangent(False))
             elif moved is not None:
                 response = self._updated(response, change[: z.size], np.where(self.by_load, z, loads) - before)
@@ -420,6 +422,18 @@ class Structure:
             if part @ part > 0.0:
                 response[own, own] += np.outer(change - response[own, own] @ part, part) / (part @ part)
         return response
+
+    def _energy(self, error, response, z, loads):
+        """Norm of the errors by the energy that they are worth, relative to the work of the loads. It sees errors of
+        coordinates that have no load, beside which _work() is zero."""
+        with np.errstate(divide="ignore"):
+            own = np.abs(np.diag(response))
+            soft = np.where(self.by_load, own, 1.0 / own)  # compliance of each coordinate of the contacts
+            stiff = 1.0 / (soft + np.abs(np.diag(self.coupling)))
+        moved, forces = np.split(error, [z.size])
+        energy = stiff @ moved**2 + np.sum(forces**2 / (stiff @ self.rigid**2))
+        whole = np.abs(z) @ np.abs(loads)
+        return float(np.sqrt(energy / whole)) if whole else 0.0
 
     def _error(self, z, a, loads, driven, free):
         moved = z - driven - self.coupling @ loads - self.rigid @ a

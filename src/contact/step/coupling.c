@@ -210,7 +210,7 @@ PetscErrorCode SamSolveCoupled(SamSolve *s)
                                    .error   = shear ? GUESS : FIRST,
                                    .least   = INFINITY,
                                    .sharper = 1,
-                                   .rough   = s->s->touches || (s->task->before && !s->task->rolls)};
+                                   .rough   = !s->holds && (s->s->touches || (s->task->before && !s->task->rolls))};
   SamPassEnd          end;
 
   PetscFunctionBegin;

@@ -100,7 +100,7 @@ static PetscBool Grows(SamSolve *w)
 
 PetscBool SamSolveIsTwice(SamSolve *w)
 {
-  return w->s->mid_step || (Grows(w) && !(w->tangential.force[0] && w->tangential.force[1]));
+  return !w->holds && (w->s->mid_step || (Grows(w) && !(w->tangential.force[0] && w->tangential.force[1])));
 }
 
 /* Returns kappa (top of this file) along x or y. */
@@ -395,12 +395,17 @@ static PetscErrorCode AddTouching(SamSolve *w, Vec aside)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool SamSolveSetsAside(SamSolve *w)
+{
+  return !w->holds && (w->s->mid_step || Grows(w) || w->s->touches);
+}
+
 PetscErrorCode SamSolveSetAside(SamSolve *w, PetscBool solved)
 {
   Vec aside;
 
   PetscFunctionBegin;
-  if (!w->s->mid_step && !Grows(w) && !(solved && w->s->touches)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamSolveSetsAside(w)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(w->task->grid, 2, &aside));
   if (w->s->mid_step) PetscCall((solved ? SetTurn : PredictTurn)(w, aside));
   if (Grows(w)) PetscCall(SetEntering(w, solved, aside));

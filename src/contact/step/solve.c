@@ -121,7 +121,28 @@ static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves for the tractions together with the state of a law that depends on the tractions. */
+/* A law's state and the tractions together: with the field `aside` of the elastic step, then with their own. */
+static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSolveSetAside(w, PETSC_FALSE));
+  w->holds = PETSC_TRUE;
+  PetscCall(law->ops.follow(law, contact));
+  w->holds = PETSC_FALSE;
+  if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamSolveSetAside(w, PETSC_TRUE));
+  w->holds = PETSC_TRUE;
+  PetscCall(law->ops.follow(law, contact));
+  w->holds = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Solves for the tractions together with the state of a law that depends on the tractions. Where the slip begins and its
+  direction follow from a solution: they stay while the law solves, so that the tractions depend on its state alone, and
+  are found again from what it has found.
+*/
 static PetscErrorCode FollowTractions(SamSolve *w)
 {
   SamLawContact contact = {.state      = w->task->state,
@@ -138,7 +159,7 @@ static PetscErrorCode FollowTractions(SamSolve *w)
   PetscFunctionBegin;
   PetscCall(SamProblemGetLaws(w->task->problem, &count, &laws));
   for (PetscInt k = 0; k < count && w->step->status == SAM_STATUS_CONVERGED; k++)
-    if (laws[k]->ops.follow) PetscCall(laws[k]->ops.follow(laws[k], &contact));
+    if (laws[k]->ops.follow) PetscCall(Follow(w, laws[k], &contact));
   if (contact.failed[0]) PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, contact.failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,6 +14,7 @@ typedef struct {
   SamCachedStep      kept;                    /* the same step one cycle before; NULL: none, or already used */
   PetscBool          has_pressure, has_shear; /* the tried solution holds a guess */
   PetscBool          known_pressure;          /* the pressure is that of the kept step */
+  PetscBool          holds;                   /* the field `aside` stays as it is */
   SamBalance         normal, tangential;      /* as prescribed */
   double             rigid[3];                /* guess of the tangential rigid displacements */
   double            *counts;                  /* iteration counts of the solvers, in the state */
@@ -82,6 +83,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
 /*
   SamSolveSetAside - sets the field `aside` for the pressure and bound of the tried solution; if the step has been
   `solved`, also by its shear, to a tolerance of SAM_ROUGH times that of the shear (direction.c). Collective.
+  SamSolveSetsAside - true if it sets anything in such a step. Not collective.
   SamSolveIsTwice - true if the tangential problem has to be solved twice for the tried pressure. Not collective.
   SamSolveBound - computes a bound of the shear, from the pressure and the last slip. Collective.
   SamSolveShear - solves the tangential problem under the bound of the tried solution. If the bound depends on the slip,
@@ -91,6 +93,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
 */
 #define SAM_ROUGH 100
 PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, PetscBool solved);
+PETSC_INTERN PetscBool      SamSolveSetsAside(SamSolve *solve);
 PETSC_INTERN PetscBool      SamSolveIsTwice(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
 PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);

@@ -24,7 +24,8 @@
 #define PRODUCTS 200   /* maximum number in one step */
 #define ROUGH    0.1   /* a step's equations are solved at least to this part, */
 #define ROUNDING 1e-12 /* of a product relative to the square of its vector */
-#define FORCING  0.3   /* and to this part of the residual relative to its first value */
+#define FORCING  0.3   /* and to this part of the residual relative to its first value, */
+#define SLIPPING 1e-3  /* but not below this part where cells slip: conjugate gradients reach no less there */
 
 /* The fields of a solve, each of all layers, and the tangents of the cells */
 typedef struct {
@@ -561,9 +562,10 @@ static PetscErrorCode Iterate(Solve *w, PetscInt field)
   PetscFunctionBegin;
   PetscCall(Measure(w, field, &norm, &largest));
   first = norm;
-  while (w->solved && largest > p->rtol && p->newton < STEPS) {
+  for (PetscInt k = 0; w->solved && largest > p->rtol && k < STEPS; k++) {
     PetscCall(SamReactionFreeze(w->reaction));
-    PetscCall(FindStep(w, PetscMin(ROUGH, FORCING * norm / first)));
+    PetscCall(
+      FindStep(w, PetscMax(PetscMin(ROUGH, FORCING * norm / first), SamReactionSlips(w->reaction) ? SLIPPING : 0)));
     p->newton++;
     PetscCall(GoAlong(w, field, &norm, &largest));
   }
@@ -577,10 +579,9 @@ PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact)
   Solve          w     = {.plastic = p, .contact = contact};
 
   PetscFunctionBegin;
-  p->newton = p->products = 0;
   UseLayers(p, p->layers); /* also after an error in the conjugate gradients */
   PetscCall(CreateWork(&w));
-  PetscCall(TakeStrain(p, p->last, w.e));
+  PetscCall(TakeStrain(p, SamStateReadField(contact->state, field), w.e)); /* a second solve begins with the first */
   PetscCall(GetDriver(&w, w.d));
   PetscCall(Iterate(&w, field));
   PetscCall(DestroyWork(&w));

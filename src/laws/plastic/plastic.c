@@ -727,6 +727,7 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   PetscCall(SetUp(law));
   PetscCall(DropStress(x));
   PetscCall(TakeLast(&x->plastic, state));
+  x->plastic.newton = x->plastic.products = 0;
   for (PetscInt b = 0; b < 2; b++) {
     if (!isfinite(x->material[b].yield)) continue;
     GetBulk(law, control, b, x->plastic.body[next].bulk, NULL);
