@@ -58,6 +58,7 @@ NAMED = (
     ("plastic work is done in one step", ("pressure_max", "residual_energy", "plastic_max", "residual_z")),
     ("slips only within a cell", ("shear_max", "slip_max", "dissipated_energy", "stick_area")),
     ("the load steps are long|slip zones are|widest slip zone|before cells touch|in one step", FRICTIONAL),
+    ("the plastic strain that it causes", ("plastic_max", "plastic_work", "residual_z", "residual_energy")),
     ("maximum shear there", ("shear_max",)),
     ("stick zone is", ("stick_area",)),
     ("wears in stripes", ("depth_max1", "depth_max2", "pressure_max", "shear_max", "contact_area")),

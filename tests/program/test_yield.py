@@ -691,3 +691,18 @@ def test_plastic_strain_of_dissimilar_bodies_converges(solve, friction):
     run = all_steps(solve(case))
     assert run["plastic_newton"][0] <= 15 and run["plastic_products"][0] <= 200
     assert run["yield_error"][0] <= 1e-6
+
+
+def test_plastic_strain_by_a_shear_of_one_step_is_warned_of(petsam, tmp_path):
+    """The shear of dissimilar bodies in one step is much too large, and the dent with it."""
+    case = dict(
+        body1_young=600e9, body1_poisson=0.2, body2_young=210e9, body2_poisson=0.3, body2_yield=550e6,
+        body2_hardening_modulus=10e9, gap_type="ellipsoid", gap_radius_x=0.077, gap_radius_y="inf",
+        elasticity="plane_periodic", grid_n=108, grid_size=0.0105, friction=0.5, load_n=1.5e6, output="o.h5",
+    )  # fmt: skip
+    told, dent = [], []
+    for count in (1, 16):
+        done = petsam({**case, "steps": count})
+        told.append(any("plastic strain that it causes" in line for line in done.complaint))
+        dent.append(all_steps(support.Results(tmp_path / "o.h5"))["residual_z_max"][-1])
+    assert told == [True, False] and dent[0] > 1.05 * dent[1]

@@ -269,8 +269,9 @@ static void Long(SamAdvice *a)
   SamAdviceSay(
     a, "",
     "elastically dissimilar bodies slip while the normal load grows, here in one step: the dissipated energy "
-    "is %s too large, the shear may be as wrong: %s several -steps",
-    part, slip->share > ALIKE ? "give the normal load a row of its own (-history), and" : "use");
+    "is %s too large, the shear%s may be as wrong: %s several -steps",
+    part, SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? " and the plastic strain that it causes" : "",
+    slip->share > ALIKE ? "give the normal load a row of its own (-history), and" : "use");
 }
 
 /* Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. */
