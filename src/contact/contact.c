@@ -118,7 +118,7 @@ static const SamOptionRow rows[] = {
    .words = "mid,end"},
   {"warm_start", "start each step from the previous steps, on the finest grid only", SAM_OPTION_BOOL,
    .member = MEMBER(warm_start)},
-  {"cycle_memory", "bytes to keep steps of a repeated cycle; default: 20 fields, 16 MB to 1 GB", SAM_OPTION_REAL,
+  {"cycle_memory", "bytes to keep steps of a repeated cycle; default: 20 fields, 48 MB to 1 GB", SAM_OPTION_REAL,
    MEMBER(cycle_memory), .range = SAM_RANGE_NONNEGATIVE},
   {"allow_edge_contact", "contact at the grid's edge is a warning, no error", SAM_OPTION_BOOL,
    .member = MEMBER(allow_edge)},

@@ -466,17 +466,32 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Keeps the tried step for the same step one cycle later. */
+static PetscErrorCode Keep(SamContact c)
+{
+  const SamSolution *now  = &c->generation[SAM_TRIED];
+  Vec                turn = NULL;
+  SamStepOf          of;
+
+  PetscFunctionBegin;
+  PetscCall(GetStepOf(c, &of));
+  if (now->mid_step && !SamContactIsCoupled(c)) {
+    PetscCall(SamGridCreateVec(c->grid, 2, &turn));
+    PetscCall(SamStepFindTurn(c->problem, c->grid, SamContactSlipBefore(c), now, turn));
+  }
+  PetscCall(SamStepCacheKeep(c->cache, SamContactBefore(c), now, turn, &of));
+  PetscCall(VecDestroy(&turn));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactCommit(SamContact c)
 {
-  SamStepOf of;
-
   PetscFunctionBegin;
   SamValidHandle(c, SamContact, 1);
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
   *SamStateNumbers(c->state, c->steps, SAM_TRIED) += 1;
-  PetscCall(GetStepOf(c, &of));
   if (SamContactRecalls(c))
-    PetscCall(SamStepCacheKeep(c->cache, SamContactBefore(c), &c->generation[SAM_TRIED], &of));
+    PetscCall(Keep(c));
   else /* after a rejected rolling step, material between the bodies may have moved, and kept pressures may be wrong */
     SamStepCacheForget(c->cache);
   PetscCall(SamStateCommit(c->state));

@@ -48,17 +48,19 @@ STEADY = ("slip_velocity_max", "rolling_energy", "load_tx", "load_ty", "creep_x"
 SUMS = ("dissipated_energy", "plastic_work")
 LIFE = ("volume1", "volume2", "depth_max1", "depth_max2", "pressure_max", "contact_area", "dissipated_energy")
 FRICTIONAL = ("dissipated_energy", "shear_max", "slip_max", "stick_area", "last_energy")
+PLASTIC = ("plastic_max", "plastic_work", "residual_z", "residual_energy")
 # numbers that a warning names, or whose cause it is; others name all numbers
 NAMED = (
-    ("plastic_max, plastic_work and residual_z", ("plastic_max", "plastic_work", "residual_z", "residual_energy")),
+    ("plastic_max, plastic_work and residual_z", PLASTIC),
     ("contact_area may be wrong", ("contact_area",)),
     ("largest at the surface", ("plastic_max",)),
     ("the dissipated energy and the maximum slip may", ("dissipated_energy", "slip_max")),
+    ("and plastic_work, the dissipated energy", ("plastic_work",)),
     ("pressure is not resolved", ("pressure_max", "shear_max")),
-    ("plastic work is done in one step", ("pressure_max", "residual_energy", "plastic_max", "residual_z")),
+    ("plastic work is done in one step", ("pressure_max", *PLASTIC)),
     ("slips only within a cell", ("shear_max", "slip_max", "dissipated_energy", "stick_area")),
     ("the load steps are long|slip zones are|widest slip zone|before cells touch|in one step", FRICTIONAL),
-    ("the plastic strain that it causes", ("plastic_max", "plastic_work", "residual_z", "residual_energy")),
+    ("the plastic strain that it causes", PLASTIC),
     ("maximum shear there", ("shear_max",)),
     ("stick zone is", ("stick_area",)),
     ("wears in stripes", ("depth_max1", "depth_max2", "pressure_max", "shear_max", "contact_area")),

@@ -1,5 +1,6 @@
 """Loads that repeat: kept steps of the cycle before change nothing but the cost."""
 
+import numpy as np
 import pytest
 
 from random_repeats import BALL, trial
@@ -26,3 +27,26 @@ def test_a_load_comes_back_to_surfaces_that_have_yielded_since(petsam, tmp_path,
 def test_random_pair(tmp_path, seed):
     pair, codes, wrong, _ = trial(seed, tmp_path)
     assert not wrong, f"{pair}: exit codes {codes}, {wrong}"
+
+
+def turning(path, steps, cycles, swing):
+    """Tangential loads that turn, and a normal load that swings by this part."""
+    turn = 2 * np.pi * np.arange(steps * cycles + 1) / steps
+    tangential = 0.4 * BALL["friction"] * 900 * (1 - swing)
+    columns = turn, 900 * (1 + swing * np.sin(turn)), tangential * np.sin(turn), tangential * np.cos(turn)
+    columns[3][0] = 0.0
+    return history(path, "time,load_n,load_tx,load_ty", *zip(*(map(float, column) for column in columns)))
+
+
+@pytest.mark.parametrize("swing, part", [(0.0, 0.5), (0.3, 0.7)])
+def test_where_shear_turns_a_kept_step_costs_less_and_is_as_accurate(petsam, tmp_path, swing, part):
+    """Its slip's direction is that of the cycle before. Both are compared with eight times as many steps."""
+    products, energy = [], []
+    case = dict(BALL, grid_size=2.2e-3, output="o.h5")
+    for steps, memory in ((16, 1e8), (16, 0), (128, 0)):
+        petsam(case, turning(tmp_path / f"{steps}.csv", steps, 5, swing), dict(cycle_memory=memory))
+        run = read_run(tmp_path / "o.h5")
+        products.append(run["history/tangential_applies"][-steps:].mean())
+        energy.append(run["history/dissipated_energy"][-steps:].sum())
+    assert products[0] < part * products[1]
+    assert abs(energy[0] / energy[2] - 1) <= abs(energy[1] / energy[2] - 1) + 1e-3

@@ -351,17 +351,17 @@ def test_strain_that_has_just_begun_is_warned_of(petsam, solve, above, warned):
 
 @pytest.mark.parametrize("plane", [False, True])
 def test_plastic_work_of_one_step_is_warned_of(petsam, tmp_path, plane):
-    """Peak pressure and residual energy of one step are too large by what is named; of eight steps nothing is named."""
+    """Peak pressure and residual energy of one step are too large by what is named, those of many steps are right."""
     case = cylinder(1, elasticity="plane_periodic", grid_n=160) if plane else sphere(16, 12, 12)
     case.update(yield_depth=None, yield_first=None)
     found, said = [], []
-    for count in (1, 8, 16):
+    for count in (1, 16, 24):
         done = petsam(case, dict(steps=count, output="o.h5"))
         run = all_steps(support.Results(tmp_path / "o.h5"))
         found.append([run[name][-1] for name in ("pressure_max", "residual_energy")])
         said.append([line for line in done.complaint if "plastic work is done in one step" in line])
     assert [len(lines) for lines in said] == [1, 0, 0]
-    named = [float(n) / 100 for n in re.findall(r"by (?:about )?(\d+) %", said[0][0])]
+    named = [float(n) / 100 for n in re.findall(r"by (?:about )?([\d.]+) %", said[0][0])]
     for error, bound in zip(np.divide(found[0], found[2]) - 1, named, strict=True):
         assert 0.4 * bound < error < 2 * bound
 

@@ -46,14 +46,17 @@ static double ShearDifference(const Case *a, const Case *b)
   return (double)(most / size);
 }
 
-/* Runs cycles with and without memory for them, and compares the ends. */
+/*
+  Runs cycles with and without memory for them, and compares the ends: within the shear's tolerance, 1e-6, times the
+  condition at the edges; where the direction of slip turns, both know it from a solution to a tenth of its effect.
+*/
 static void Compare(double swing, double across, const char *memory, Work *with, Work *without)
 {
   Case c = NewCase(Steel(), 31, 1.5, MU, memory), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 0");
 
   *with    = RunCycles(&c, 5, swing, across);
   *without = RunCycles(&d, 5, swing, across);
-  sam_assert(ShearDifference(&c, &d) < 3e-4); /* the shear's tolerance, 1e-6, times the condition at the edges */
+  sam_assert(ShearDifference(&c, &d) < (across != 0 ? 0.04 : 3e-4));
   DestroyCase(&c);
   DestroyCase(&d);
 }
@@ -68,7 +71,7 @@ static void test_repeated_cycle_takes_few_products_under_constant_normal_load(vo
   sam_assert(with.tangential < 0.12 * without.tangential);
 }
 
-/* Where the shear turns, the step is solved twice, from there both times. */
+/* Where the shear turns, the direction of slip is that of the cycle before, and the step is solved once. */
 static void test_repeated_cycle_takes_less_where_loads_turn(void **state)
 {
   Work with, without;
@@ -204,11 +207,11 @@ static void test_rejected_tries_leave_no_trace(void **state)
   DestroyCase(&d);
 }
 
-/* 20 fields, at least 16 MB, at most 1 GB. */
+/* 20 fields, at least 48 MB, at most 1 GB. */
 static void test_usual_memory_follows_from_the_grid_alone(void **state)
 {
-  const PetscInt n[]     = {31, 500, 4000};
-  const double   bytes[] = {16e6, 40e6, 1e9};
+  const PetscInt n[]     = {31, 1000, 4000};
+  const double   bytes[] = {48e6, 160e6, 1e9};
 
   (void)state;
   for (int k = 0; k < 3; k++) {

@@ -69,7 +69,7 @@ PETSC_EXTERN PetscErrorCode SamContactSetSettings(SamContact contact, const SamC
 PETSC_EXTERN SamContactSettings SamContactGetSettings(SamContact contact);
 
 /*
-  SamContactCycleMemory - returns the default memory for kept steps on a grid (bytes): 20 fields, 16 MB to 1 GB.
+  SamContactCycleMemory - returns the default memory for kept steps on a grid (bytes): 20 fields, 48 MB to 1 GB.
 
   Not collective.
 

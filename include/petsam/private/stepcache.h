@@ -15,18 +15,17 @@
 typedef struct _n_SamStepCache  *SamStepCache;
 typedef struct _n_SamCachedStep *SamCachedStep;
 typedef struct {
-  PetscInt references, cells;
+  PetscInt references, cells, changes;
   int32_t *range;
-  int32_t *change;   /* SAM_STEP_CHANGES fields, one after the other */
+  int32_t *change;   /* this number of fields, one after the other */
   double  *pressure; /* Pa; NULL: that of the previous step */
 } * SamStepFields;
-#define SAM_STEP_CHANGES 4
 
 /*
   SamStepCacheCreate, SamStepCacheDestroy - create a cache with the default memory, and free it. The grid and the
   conditions are borrowed.
   SamStepCacheCreateLike - creates an empty cache for the same contact, with as much memory.
-  SamStepCacheUsual - returns the default memory, bytes: 20 fields of the grid, at least 16 MB, at most 1 GB. Not
+  SamStepCacheUsual - returns the default memory, bytes: 20 fields of the grid, at least 48 MB, at most 1 GB. Not
   collective.
 */
 PETSC_INTERN PetscErrorCode SamStepCacheCreate(SamGrid grid, SamConditions conditions, SamStepCache *cache);
@@ -57,11 +56,12 @@ typedef struct {
   SamStepCacheFind - finds the last step with the same control as the next one, or its reverse, that followed a step
   with the same control as the last one, or its reverse; NULL: there is none, or it is not stored. Not collective.
   SamStepCacheKeep - notes the control of a step that is committed, and stores its fields if the last search found an
-  equal step. `before`: the committed solution so far, NULL in the first step. Collective.
+  equal step. `before`: the committed solution so far, NULL in the first step. `turn`: the part of the step's slip that
+  the shear at its end does not oppose (m), NULL: none. Collective.
 */
 PETSC_INTERN void           SamStepCacheFind(SamStepCache cache, const SamControl *next, SamCachedStep *kept);
 PETSC_INTERN PetscErrorCode SamStepCacheKeep(SamStepCache cache, const SamSolution *before, const SamSolution *now,
-                                             const SamStepOf *of);
+                                             Vec turn, const SamStepOf *of);
 /*
   SamCachedStepGetControl - gets the values of the components of a stored step, and how they were given. Not collective.
   SamCachedStepHasPressure - returns true if its pressure is that of a new step with the same normal control. Not
@@ -70,12 +70,17 @@ PETSC_INTERN PetscErrorCode SamStepCacheKeep(SamStepCache cache, const SamSoluti
   SamCachedStepGetShear - computes an initial guess of the shear (Pa), zero outside of the bound, and its product with
   the operator (m), for a step after the solution `now`. `found`: true if the contact is at the same place as in the
   stored step. Collective.
+  SamCachedStepCountTurns - returns the number of repetitions, 2 at most, of which the part of the slip is stored that
+  the shear at the end does not oppose; 0 if it is not stored of one of them. Not collective.
+  SamCachedStepAddTurn - adds this part (m) to a field. Not collective.
 */
 PETSC_INTERN void           SamCachedStepGetControl(SamCachedStep kept, SamControl *control);
 PETSC_INTERN PetscBool      SamCachedStepHasPressure(SamCachedStep kept, const SamStepOf *of);
 PETSC_INTERN PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid grid, SamSolution *solution);
 PETSC_INTERN PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticity, const SamSolution *now,
                                                   Vec bound, Vec shear, SamProduct *product, PetscBool *found);
+PETSC_INTERN PetscInt       SamCachedStepCountTurns(SamCachedStep kept);
+PETSC_INTERN PetscErrorCode SamCachedStepAddTurn(SamCachedStep kept, SamGrid grid, Vec field);
 
 /*
   The following functions are for code that saves and restores the cache: a table that is the same on all ranks, and the
@@ -83,15 +88,15 @@ PETSC_INTERN PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElastic
   SamStepCacheGetTable - gets the table, borrowed; it has no rows if there are no steps.
   SamStepCacheSetTable - forgets all steps, and copies a table, if its width fits and there is memory for its fields,
   which must then be added.
-  SamStepCacheCells - returns the number of cells on all ranks in the fields of a row, 0 if it has none; `pressure`:
-  true if a pressure is among the fields.
+  SamStepCacheCells - returns the number of cells on all ranks in the fields of a row, 0 if it has none; `changes`: the
+  number of these fields; `pressure`: true if a pressure is stored, too.
   SamStepCacheGetFields - returns the fields of a row, borrowed; NULL if it has none.
   SamStepCacheAddFields - adds fields to a row, with memory for their values.
 */
 PETSC_INTERN void           SamStepCacheGetTable(SamStepCache cache, PetscInt *rows, PetscInt *width, double **table);
 PETSC_INTERN PetscErrorCode SamStepCacheSetTable(SamStepCache cache, PetscInt rows, PetscInt width,
                                                  const double table[]);
-PETSC_INTERN PetscInt       SamStepCacheCells(SamStepCache cache, PetscInt row, PetscBool *pressure);
+PETSC_INTERN PetscInt       SamStepCacheCells(SamStepCache cache, PetscInt row, PetscInt *changes, PetscBool *pressure);
 PETSC_INTERN SamStepFields  SamStepCacheGetFields(SamStepCache cache, PetscInt row);
 PETSC_INTERN PetscErrorCode SamStepCacheAddFields(SamStepCache cache, PetscInt row, const int32_t range[],
                                                   SamStepFields *fields);

@@ -89,7 +89,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
     PetscCall(SamSolveZeroShear(s));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (pass == 1) PetscCall(SamSolveSetAside(s, PETSC_FALSE));
+  if (pass == 1) PetscCall(SamSolveSetAside(s, SAM_ASIDE_PREDICTED));
   PetscCall(SamSolveShear(s, has_shear, rtol, effort));
   reason    = SamSolverGetReason(SamTangentialAsSolver(s->task->tangential));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
@@ -176,7 +176,7 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec lift, SamPassEnd *e
   PetscCall(Compare(p, pass, &solved));
   *end = solved ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
   if (p->rough && !p->slides && !p->stuck && p->error <= SAM_ROUGH * p->rtol[1]) {
-    PetscCall(SamSolveSetAside(p->s, PETSC_TRUE));
+    PetscCall(SamSolveSetAside(p->s, SAM_ASIDE_SOLVED));
     p->rough = PETSC_FALSE;
     p->least = INFINITY;
     *end     = SAM_PASS_RESTARTS;

@@ -53,10 +53,12 @@
 
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r. If t = ds - R ds is known, the tangential problem with
   the offset reduced by t uses the rule at the end of the step.
-    1. The tangential problem with t of the step before, times the square of the ratio of the steps, gives q and ds, to
-       a tolerance that t bears.
+    1. The tangential problem with t of the step before, times the square of the ratio of the steps and turned as q
+       turned in it, gives q and ds, to a tolerance that t bears.
     2. t = ds - R(q) ds of the cells that slide. Its error is of second order in the step, relative to ds.
     3. The tangential problem with this t, from that q on.
+  In a cycle that repeats itself step 1 uses t of the same step one cycle before (stepcache.c). If it has done so once,
+  step 1 is solved completely, and steps 2 and 3 are left out if t agrees with it.
   For dissimilar bodies steps 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 suffices: the
   shear keeps its direction, except for the transverse part that Poisson's ratio causes, whose work cancels. The motion
   of cells before they touch follows from the loads: if loads are unknown, after step 1.
@@ -255,16 +257,15 @@ static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
 }
 
 /* Sets t in cells that slide all the time or begin to slide. */
-static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
+PetscErrorCode SamStepFindTurn(SamProblem problem, SamGrid grid, const SamSolution *before, const SamSolution *now,
+                               Vec turn)
 {
-  const SamGrid grid = w->task->grid;
-  SamIncrement  increment;
-  double       *t, *to[2], share[2];
+  SamIncrement increment;
+  double      *t, *to[2], share[2];
 
   PetscFunctionBegin;
-  PetscCall(SamSolveDisplace(w));
-  PetscCall(SamIncrementCreate(w->task->problem, w->task->before, w->s, &increment));
-  PetscCall(VecGetArray(aside, &t));
+  PetscCall(SamIncrementCreate(problem, before, now, &increment));
+  PetscCall(VecGetArray(turn, &t));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t first = (ptrdiff_t)j * grid->nx;
 
@@ -278,31 +279,53 @@ static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
       for (PetscInt c = 0; c < 2; c++) to[c][i] = turns ? increment.row[c][i] - to[c][i] : 0;
     }
   }
-  PetscCall(VecRestoreArray(aside, &t));
+  PetscCall(VecRestoreArray(turn, &t));
   PetscCall(SamIncrementDestroy(&increment));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Predicts t from the step before, in proportion to the square of the step, where there was contact before that. */
+static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSolveDisplace(w));
+  PetscCall(SamStepFindTurn(w->task->problem, w->task->grid, w->task->before, w->s, aside));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Predicts t from the step before, in proportion to the square of the step and turned as the shear turned in it, where
+  there was contact before that.
+*/
 static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
 {
-  const SamSolution *last  = w->task->before;
+  const SamSolution *last = w->task->before, *earlier = w->task->earlier;
   const double       scale = w->task->start.along * w->task->start.along;
   const PetscInt     cells = w->task->grid->cells;
-  const double      *p, *p0, *t;
+  const double      *p, *p0, *t, *q, *q0;
   double            *to;
 
   PetscFunctionBegin;
   if (scale == 0 || !last->aside) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecGetArrayRead(w->task->earlier->pressure, &p));
+  PetscCall(VecGetArrayRead(earlier->pressure, &p));
   PetscCall(VecGetArrayRead(last->pressure, &p0));
+  PetscCall(VecGetArrayRead(earlier->shear, &q0));
+  PetscCall(VecGetArrayRead(last->shear, &q));
   PetscCall(VecGetArrayRead(last->aside, &t));
   PetscCall(VecGetArray(aside, &to));
-  for (PetscInt k = 0; k < 2 * cells; k++) to[k] = PetscMin(p[k % cells], p0[k % cells]) > 0 ? scale * t[k] : 0;
+  for (PetscInt k = 0; k < cells; k++) {
+    const double x = q0[k] * q[k] + q0[k + cells] * q[k + cells], y = q0[k] * q[k + cells] - q0[k + cells] * q[k];
+    const double size = hypot(x, y), along = size > 0 ? x / size : 1, across = size > 0 ? y / size : 0;
+
+    if (!(PetscMin(p[k], p0[k]) > 0)) continue;
+    to[k]         = scale * (along * t[k] - across * t[k + cells]);
+    to[k + cells] = scale * (across * t[k] + along * t[k + cells]);
+  }
   PetscCall(VecRestoreArray(aside, &to));
   PetscCall(VecRestoreArrayRead(last->aside, &t));
+  PetscCall(VecRestoreArrayRead(last->shear, &q));
+  PetscCall(VecRestoreArrayRead(earlier->shear, &q0));
   PetscCall(VecRestoreArrayRead(last->pressure, &p0));
-  PetscCall(VecRestoreArrayRead(w->task->earlier->pressure, &p));
+  PetscCall(VecRestoreArrayRead(earlier->pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -400,14 +423,18 @@ PetscBool SamSolveSetsAside(SamSolve *w)
   return !w->holds && (w->s->mid_step || Grows(w) || w->s->touches);
 }
 
-PetscErrorCode SamSolveSetAside(SamSolve *w, PetscBool solved)
+PetscErrorCode SamSolveSetAside(SamSolve *w, SamAsideFrom from)
 {
-  Vec aside;
+  const PetscBool solved = from == SAM_ASIDE_SOLVED;
+  Vec             aside;
 
   PetscFunctionBegin;
   if (!SamSolveSetsAside(w)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(w->task->grid, 2, &aside));
-  if (w->s->mid_step) PetscCall((solved ? SetTurn : PredictTurn)(w, aside));
+  if (w->s->mid_step && from == SAM_ASIDE_KEPT)
+    PetscCall(SamCachedStepAddTurn(w->task->start.kept, w->task->grid, aside));
+  else if (w->s->mid_step)
+    PetscCall((solved ? SetTurn : PredictTurn)(w, aside));
   if (Grows(w)) PetscCall(SetEntering(w, solved, aside));
   if (solved && w->s->touches) PetscCall(AddTouching(w, aside));
   PetscCall(SamStateSetField(w->task->state, w->task->aside, &w->s->aside));

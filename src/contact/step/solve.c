@@ -12,6 +12,9 @@
 #include <petsam/private/problem.h>
 #include <petsam/private/solver.h>
 
+/* Relative difference of the field `aside` from that of the solution below which it is left as it is */
+#define SAME_ASIDE 0.05
+
 static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
 {
   PetscFunctionBegin;
@@ -59,12 +62,37 @@ static PetscErrorCode End(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves the tangential problem under a bound from the pressure, twice if necessary, unless the normal problem
-   failed. */
+/* Sets the field `aside` by the shear so far, unless it is nearly that field; `same`: it is. */
+static PetscErrorCode CompareAside(SamSolve *w, PetscBool *same)
+{
+  const SamGrid grid = w->task->grid;
+  PetscReal     size, change;
+  Vec           used;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 2, &used));
+  PetscCall(VecCopy(w->s->aside, used));
+  PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
+  PetscCall(SamGridNorm(grid, w->s->aside, NORM_2, &size));
+  PetscCall(VecAXPY(w->s->aside, -1, used));
+  PetscCall(SamGridNorm(grid, w->s->aside, NORM_2, &change));
+  *same = change <= SAME_ASIDE * size ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(*same ? VecCopy(used, w->s->aside) : VecAXPY(w->s->aside, 1, used));
+  PetscCall(VecDestroy(&used));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Solves the tangential problem under a bound from the pressure, twice if necessary, unless the normal problem failed.
+  A step that repeats one of the cycle before begins with the field `aside` of that step; if this is nearly that of the
+  solution, once is enough.
+*/
 static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
 {
   const PetscBool     twice  = SamSolveIsTwice(w);
   const SamCachedStep kept   = w->kept;
+  const PetscInt      times  = twice && w->s->mid_step ? SamCachedStepCountTurns(kept) : 0;
+  PetscBool           same   = PETSC_FALSE;
   SamSolverReason     reason = SAM_SOLVER_CONVERGED_RTOL;
   PetscReal           rtol;
 
@@ -76,16 +104,19 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &rtol, NULL));
-  PetscCall(SamSolveSetAside(w, PETSC_FALSE));
+  PetscCall(SamSolveSetAside(w, times ? SAM_ASIDE_KEPT : SAM_ASIDE_PREDICTED));
   if (twice) {
+    const PetscReal first = times > 1 ? rtol : SAM_ROUGH * rtol;
+
     if (!w->shear_product.field) PetscCall(SamGridCreateVec(w->task->grid, 2, &w->shear_product.field));
-    SamSolverSetEffort(SamTangentialAsSolver(w->task->tangential), SAM_ROUGH * rtol, SAM_EFFORT_FULL);
-    PetscCall(SamSolveShear(w, has_shear, SAM_ROUGH * rtol, SAM_EFFORT_FULL));
+    SamSolverSetEffort(SamTangentialAsSolver(w->task->tangential), first, SAM_EFFORT_FULL);
+    PetscCall(SamSolveShear(w, has_shear, first, SAM_EFFORT_FULL));
     reason = SamSolverGetReason(SamTangentialAsSolver(w->task->tangential));
-    if (reason > 0) PetscCall(SamSolveSetAside(w, PETSC_TRUE));
-    w->kept = kept; /* it is nearer than the solution so far if the cycle repeats itself */
+    if (reason > 0 && times > 1) PetscCall(CompareAside(w, &same));
+    if (reason > 0 && times <= 1) PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
+    if (!times) w->kept = kept; /* it is nearer than the solution so far if the cycle repeats itself */
   }
-  if (reason > 0) PetscCall(SamSolveShear(w, has_shear || twice, rtol, SAM_EFFORT_FULL));
+  if (reason > 0 && !same) PetscCall(SamSolveShear(w, has_shear || twice, rtol, SAM_EFFORT_FULL));
   PetscCall(SamSolveJudge(w, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -125,13 +156,13 @@ static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
 static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
   PetscFunctionBegin;
-  PetscCall(SamSolveSetAside(w, PETSC_FALSE));
+  PetscCall(SamSolveSetAside(w, SAM_ASIDE_PREDICTED));
   w->holds = PETSC_TRUE;
   PetscCall(law->ops.follow(law, contact));
   w->holds = PETSC_FALSE;
   if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
     PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamSolveSetAside(w, PETSC_TRUE));
+  PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
   w->holds = PETSC_TRUE;
   PetscCall(law->ops.follow(law, contact));
   w->holds = PETSC_FALSE;

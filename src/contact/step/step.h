@@ -59,6 +59,13 @@ PETSC_INTERN PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step,
 */
 PETSC_INTERN PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2], SamSolution *tried);
 /*
+  SamStepFindTurn - computes the part of a step's slip that the shear at its end does not oppose (m, two components), in
+  cells that slide then, if slip is opposite to the shear at mid step (direction.c). `before`: the solution before the
+  step. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamStepFindTurn(SamProblem problem, SamGrid grid, const SamSolution *before,
+                                            const SamSolution *now, Vec turn);
+/*
   SamStepDeclareRolling - declares the numbers of a motion in which material streams, and returns the first
   (steadystep.c). Collective.
 */

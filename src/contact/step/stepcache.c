@@ -17,6 +17,10 @@
   older D', the combination w D + (1 - w) D' with w = 1 + m is much nearer to the limit than D. w is fitted to the
   changes of the last step.
 
+  Where the direction of slip turns, the part t of the slip that the shear does not oppose (direction.c) is kept too. It
+  repeats like the shear, and is computed anew from each solution. So a step needs no solution to find it, and is solved
+  once where the t of two repetitions has led to nearly the same t.
+
   If the pressure does not depend on the shear, this step has the pressure of step k when the prescribed normal values
   and the gap are the same (SamControlSnap() has removed differences by rounding). Gaps are compared by a number that
   grows with each change of the gap: when the problem's revision changes, or a field of the state that is declared as
@@ -52,18 +56,22 @@
 
 /* The default memory of a cache in fields of the grid, and its limits in bytes */
 #define USUAL_FIELDS 20
-#define USUAL_LEAST  16e6
+#define USUAL_LEAST  48e6
 #define USUAL_MOST   1e9
 
 /* ---- what is kept ---- */
 
-enum { SHEAR_X, SHEAR_Y, PRODUCT_X, PRODUCT_Y }; /* the stored changes of a step */
+/* The stored changes of a step: of the shear, of its product, and, where the direction of slip turns, the slip that the
+   shear at the end does not oppose */
+enum { SHEAR_X, SHEAR_Y, PRODUCT_X, PRODUCT_Y, STRAIGHT, TURN_X = STRAIGHT, TURN_Y, TURNING };
 
 /* The numbers in the row of a step, after the values that it prescribes */
 enum {
   CELLS,        /* number of stored cells on all ranks; 0: nothing is stored */
+  CHANGES,      /* number of stored changes: STRAIGHT or TURNING */
   UNIT_SHEAR,   /* of the stored changes (Pa) */
   UNIT_PRODUCT, /* (m) */
+  UNIT_TURN,    /* (m) */
   GAP,          /* number of the gap for which the pressure was solved; -1: the gap has moved since */
   PRESSURE,     /* 1: a pressure is stored; 0: it is that of the step before */
   RTOL,         /* tolerance of the normal solver */
@@ -131,7 +139,7 @@ static double BytesOf(SamStepCache r, const double row[])
   const double *kept = row + r->numbers;
 
   if (kept[CELLS] == 0) return 0;
-  return kept[CELLS] * (double)(SAM_STEP_CHANGES * sizeof(int32_t) + (kept[PRESSURE] > 0 ? sizeof(double) : 0)) +
+  return kept[CELLS] * (kept[CHANGES] * sizeof(int32_t) + (kept[PRESSURE] > 0 ? sizeof(double) : 0)) +
          2 * sizeof(int32_t) * (double)r->grid->ny;
 }
 
@@ -261,8 +269,9 @@ SamStepFields SamStepCacheGetFields(SamStepCache r, PetscInt row)
   return r->fields[row];
 }
 
-PetscInt SamStepCacheCells(SamStepCache r, PetscInt row, PetscBool *pressure)
+PetscInt SamStepCacheCells(SamStepCache r, PetscInt row, PetscInt *changes, PetscBool *pressure)
 {
+  *changes  = (PetscInt)*At(r, row, CHANGES);
   *pressure = *At(r, row, PRESSURE) > 0 ? PETSC_TRUE : PETSC_FALSE;
   return (PetscInt)*At(r, row, CELLS);
 }
@@ -275,11 +284,12 @@ PetscErrorCode SamStepCacheAddFields(SamStepCache r, PetscInt row, const int32_t
   PetscFunctionBegin;
   PetscCall(SamAllocateZeros(sizeof(*f), &f));
   f->references  = 1;
+  f->changes     = (PetscInt)*At(r, row, CHANGES);
   r->fields[row] = *fields = f;
   PetscCall(SamAllocate(sizeof(*range) * (size_t)(2 * rows), &f->range));
   PetscCall(PetscArraycpy(f->range, range, 2 * rows));
   for (PetscInt j = 0; j < rows; j++) f->cells += range[2 * j + 1] - range[2 * j];
-  PetscCall(SamAllocate(sizeof(int32_t) * (size_t)(SAM_STEP_CHANGES * f->cells + 1), &f->change));
+  PetscCall(SamAllocate(sizeof(int32_t) * (size_t)(f->changes * f->cells + 1), &f->change));
   if (*At(r, row, PRESSURE) > 0) PetscCall(SamAllocate(sizeof(double) * (size_t)(f->cells + 1), &f->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -487,7 +497,7 @@ static PetscErrorCode KeepPressure(SamStepCache r, SamStepFields f, const SamSol
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the kept changes of a component of the shear (0, 1) or the product (2, 3) to row j, whose part begins at n. */
+/* Adds a kept change to row j, whose part begins at n. */
 static void AddRow(const Part *part, double weight, PetscInt component, PetscInt j, ptrdiff_t n, double to[])
 {
   const SamStepFields f      = part->fields;
@@ -575,8 +585,21 @@ static void AddStep(SamStepCache r, const SamControl *control)
   for (PetscInt k = 0; k < r->numbers; k++) Row(r, 0)[k] = PetscMax(Row(r, 0)[k], fabs(row[k]));
 }
 
+/* Stores the part of the slip that the shear does not oppose. */
+static PetscErrorCode KeepTurn(SamStepCache r, SamStepFields f, Vec turn, double *unit)
+{
+  Vec zero;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(r->grid, 2, &zero));
+  PetscCall(KeepChange(r, f, zero, turn, TURN_X, unit));
+  PetscCall(VecDestroy(&zero));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Stores the fields of the last step, which repeats the step in row `found` (0: none). */
-static PetscErrorCode KeepFields(SamStepCache r, PetscInt found, const SamSolution *before, const SamSolution *now)
+static PetscErrorCode KeepFields(SamStepCache r, PetscInt found, const SamSolution *before, const SamSolution *now,
+                                 Vec turn)
 {
   const PetscBool pressure =
     SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL) ? PETSC_FALSE : PETSC_TRUE;
@@ -588,18 +611,21 @@ static PetscErrorCode KeepFields(SamStepCache r, PetscInt found, const SamSoluti
   PetscCall(PetscMalloc1(2 * r->grid->rows, &range));
   PetscCall(FindRanges(r, before, now, pressure, range, &numbers[CELLS]));
   numbers[PRESSURE] = pressure;
+  numbers[CHANGES]  = turn ? TURNING : STRAIGHT;
   MakeRoom(r, found);
   if (numbers[CELLS] > 0) {
     PetscCall(SamStepCacheAddFields(r, r->count, range, &f));
     PetscCall(KeepChange(r, f, before->shear, now->shear, SHEAR_X, &numbers[UNIT_SHEAR]));
     PetscCall(KeepChange(r, f, before->displacement_t, now->displacement_t, PRODUCT_X, &numbers[UNIT_PRODUCT]));
+    if (turn) PetscCall(KeepTurn(r, f, turn, &numbers[UNIT_TURN]));
     if (pressure) PetscCall(KeepPressure(r, f, now));
   }
   PetscCall(PetscFree(range));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const SamSolution *now, const SamStepOf *of)
+PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const SamSolution *now, Vec turn,
+                                const SamStepOf *of)
 {
   PetscInt found, older;
   double   weight = 1;
@@ -618,7 +644,7 @@ PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const
   if (!of->same_gap || of->yields) *At(r, 0, GAP_NOW) += 1;
   *At(r, r->count, GAP)  = of->moves ? -1 : *At(r, 0, GAP_NOW);
   *At(r, r->count, RTOL) = (double)of->rtol;
-  if (before && before->displacement_t) PetscCall(KeepFields(r, found, before, now));
+  if (before && before->displacement_t) PetscCall(KeepFields(r, found, before, now, turn));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -710,7 +736,7 @@ PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticit
     PetscInt        first = 0, last = grid->nx;
 
     for (int n = 0; n < 2 && parts[n].fields; n++) {
-      for (PetscInt c = 0; c < SAM_STEP_CHANGES; c++)
+      for (PetscInt c = 0; c < STRAIGHT; c++)
         AddRow(&parts[n], parts[n].weight, c, j, at[n],
                (c < PRODUCT_X ? q : u) + (c % 2) * (ptrdiff_t)grid->cells + row);
       first = PetscMax(first, parts[n].fields->range[2 * j]);
@@ -732,5 +758,36 @@ PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticit
     product->rounding += fabs(parts[n].weight) * sqrt(parts[n].numbers[CELLS]) *
                          (parts[n].numbers[UNIT_PRODUCT] / (double)self + SPREAD * parts[n].numbers[UNIT_SHEAR]);
   *found = open > 0 ? PETSC_FALSE : PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscInt SamCachedStepCountTurns(SamCachedStep kept)
+{
+  PetscInt count = 0;
+
+  if (!kept) return 0;
+  for (int n = 0; n < 2 && kept->part[n].fields; n++) {
+    if (kept->part[n].fields->changes < TURNING) return 0;
+    count++;
+  }
+  return count;
+}
+
+PetscErrorCode SamCachedStepAddTurn(SamCachedStep kept, SamGrid grid, Vec field)
+{
+  const Part *const parts = kept->part;
+  ptrdiff_t         at[2] = {0, 0};
+  double           *to;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &to));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (int n = 0; n < 2 && parts[n].fields; n++) {
+      for (PetscInt c = 0; c < 2; c++)
+        AddRow(&parts[n], parts[n].weight, TURN_X + c, j, at[n],
+               to + c * (ptrdiff_t)grid->cells + (ptrdiff_t)j * grid->nx);
+      at[n] += CellsInRow(&parts[n], j);
+    }
+  PetscCall(VecRestoreArray(field, &to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

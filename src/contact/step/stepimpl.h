@@ -81,8 +81,9 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
                                               PetscReal *change, PetscReal *largest);
 
 /*
-  SamSolveSetAside - sets the field `aside` for the pressure and bound of the tried solution; if the step has been
-  `solved`, also by its shear, to a tolerance of SAM_ROUGH times that of the shear (direction.c). Collective.
+  SamSolveSetAside - sets the field `aside` for the pressure and bound of the tried solution (direction.c): predicted
+  from the step before, as it was in the kept step, or by the shear of the tried solution, whose tolerance may be
+  SAM_ROUGH times that of the shear. Collective.
   SamSolveSetsAside - true if it sets anything in such a step. Not collective.
   SamSolveIsTwice - true if the tangential problem has to be solved twice for the tried pressure. Not collective.
   SamSolveBound - computes a bound of the shear, from the pressure and the last slip. Collective.
@@ -92,7 +93,8 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   SamSolveRolling - computes the numbers of the solved motion, in which material streams (steadystep.c). Collective.
 */
 #define SAM_ROUGH 100
-PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, PetscBool solved);
+typedef enum { SAM_ASIDE_PREDICTED, SAM_ASIDE_KEPT, SAM_ASIDE_SOLVED } SamAsideFrom;
+PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, SamAsideFrom from);
 PETSC_INTERN PetscBool      SamSolveSetsAside(SamSolve *solve);
 PETSC_INTERN PetscBool      SamSolveIsTwice(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);

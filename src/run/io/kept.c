@@ -9,12 +9,12 @@
     kept_pressures  (cells)
 
   The steps are stored in batches; a rank moves its part of a batch at once. A batch is ordered by rows of the grid, so
-  that a rank's part is contiguous; within a row by steps, and within a step by the four changes.
+  that a rank's part is contiguous; within a row by steps, and within a step by the changes.
 */
 #include "ioimpl.h"
 
-/* Maximum number of cells of a batch's steps, unless it has only one step: 4 MB of changes */
-#define BATCH 262144
+/* Maximum number of changes of a batch's steps, unless it has only one step: 4 MB */
+#define BATCH 1048576
 
 typedef struct {
   hid_t   ranges, changes, pressures;
@@ -23,7 +23,7 @@ typedef struct {
 
 /* ---- the table ---- */
 
-/* Numbers of the steps with fields, of the cells of all these, and of the cells with a pressure */
+/* Numbers of the steps with fields, of the changes of all these, and of the cells with a pressure */
 typedef struct {
   hsize_t steps, changed, pressed;
 } Sizes;
@@ -38,10 +38,11 @@ typedef struct {
 static void AddStep(SamStepCache cache, PetscInt row, Sizes *s)
 {
   PetscBool     pressure;
-  const hsize_t cells = (hsize_t)SamStepCacheCells(cache, row, &pressure);
+  PetscInt      changes;
+  const hsize_t cells = (hsize_t)SamStepCacheCells(cache, row, &changes, &pressure);
 
   s->steps += cells > 0;
-  s->changed += cells;
+  s->changed += cells * (hsize_t)changes;
   s->pressed += pressure ? cells : 0;
 }
 
@@ -70,8 +71,7 @@ off_t SamKeptBytes(SamStepCache cache)
   double     *table;
 
   SamStepCacheGetTable(cache, &rows, &width, &table);
-  return (off_t)(SAM_STEP_CHANGES * s.changed * sizeof(int32_t) +
-                 (s.pressed + (hsize_t)(rows * width)) * sizeof(double));
+  return (off_t)(s.changed * sizeof(int32_t) + (s.pressed + (hsize_t)(rows * width)) * sizeof(double));
 }
 
 static hid_t Create(SamFile f, const char name[], hid_t type, int rank, hsize_t n0, hsize_t n1, hsize_t n2)
@@ -129,7 +129,7 @@ static void PassRows(SamFile f, SamStepCache cache, const Batch *b, PetscBool pr
 
       if (!n) continue;
       if (pressures && s->pressure) Pass(f, &buffer, s->pressure + at[k - b->first], sizeof(double) * (size_t)n);
-      for (PetscInt c = 0; c < SAM_STEP_CHANGES && !pressures; c++)
+      for (PetscInt c = 0; c < s->changes && !pressures; c++)
         Pass(f, &buffer, s->change + c * s->cells + at[k - b->first], sizeof(int32_t) * (size_t)n);
       at[k - b->first] += n;
     }
@@ -156,19 +156,18 @@ static PetscErrorCode MoveNumbers(SamFile f, SamStepCache cache, const Batch *b,
 
 static PetscErrorCode MoveBatch(SamFile f, SamStepCache cache, const Batch *b, Places *p)
 {
-  const hsize_t changes = SAM_STEP_CHANGES * b->sizes.changed;
-  PetscInt      n[2]    = {0, 0};
+  PetscInt n[2] = {0, 0};
 
   PetscFunctionBegin;
   for (PetscInt k = b->first; k < b->end; k++) {
     const SamStepFields s = SamStepCacheGetFields(cache, k);
 
-    if (s) n[0] += SAM_STEP_CHANGES * s->cells;
+    if (s) n[0] += s->changes * s->cells;
     if (s && s->pressure) n[1] += s->cells;
   }
   PetscCall(MoveNumbers(f, cache, b, p->changes, PETSC_FALSE, n[0], p->changed));
   if (b->sizes.pressed) PetscCall(MoveNumbers(f, cache, b, p->pressures, PETSC_TRUE, n[1], p->pressed));
-  p->changed += changes;
+  p->changed += b->sizes.changed;
   p->pressed += b->sizes.pressed;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -198,6 +197,7 @@ static PetscErrorCode MoveRanges(SamFile f, SamStepCache cache, hid_t dataset, h
   PetscInt       rows, width;
   double        *table;
   int32_t       *ranges, *range;
+  PetscInt       changes;
   PetscBool      pressure;
   SamStepFields  fields;
 
@@ -213,7 +213,7 @@ static PetscErrorCode MoveRanges(SamFile f, SamStepCache cache, hid_t dataset, h
   }
   Move(f, dataset, H5T_NATIVE_INT32, &block, ranges);
   for (PetscInt k = 1; k < rows && !f->writing; k++) {
-    if (!SamStepCacheCells(cache, k, &pressure)) continue;
+    if (!SamStepCacheCells(cache, k, &changes, &pressure)) continue;
     PetscCall(SamStepCacheAddFields(cache, k, range, &fields));
     range += n;
   }
@@ -241,7 +241,7 @@ PetscErrorCode SamKeptWrite(SamFile f, SamStepCache cache)
   Close(f, dataset);
   if (!sizes.steps) PetscFunctionReturn(PETSC_SUCCESS);
   p.ranges  = Create(f, "kept_ranges", H5T_STD_I32LE, 3, sizes.steps, ny, 2);
-  p.changes = Create(f, "kept_changes", H5T_STD_I32LE, 1, SAM_STEP_CHANGES * sizes.changed, 0, 0);
+  p.changes = Create(f, "kept_changes", H5T_STD_I32LE, 1, sizes.changed, 0, 0);
   if (sizes.pressed) p.pressures = Create(f, "kept_pressures", H5T_IEEE_F64LE, 1, sizes.pressed, 0, 0);
   PetscCall(MoveRanges(f, cache, p.ranges, sizes.steps));
   PetscCall(MoveBatches(f, cache, &p));
