@@ -45,11 +45,11 @@ static inline PetscBool SamContactIsCoupled(SamContact c)
 /* True if steps may start from the same steps one cycle before. A kept step has the change of its displacement as the
    product of its change of shear, so that only tractions may cause displacements, besides a uniform strain. Laws that
    displace by fields (load cases, sliding surfaces, plastic strain) have a part in that change which does not follow
-   from the shear, and for coupled bodies a part follows from the pressure. */
+   from the shear. Of coupled bodies the product is not used. */
 static inline PetscBool SamContactRecalls(SamContact c)
 {
-  return c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !c->rolls &&
-         !SamProblemFollowsSlip(c->problem) && !SamProblemDisplaces(c->problem);
+  return c->set.warm_start && c->motion->continues && !c->rolls && !SamProblemFollowsSlip(c->problem) &&
+         (SamContactIsCoupled(c) || !SamProblemDisplaces(c->problem));
 }
 
 /* ---- what is remembered (generations.c) ---- */

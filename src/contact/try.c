@@ -378,7 +378,7 @@ static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
   PetscReal slide[2];
 
   PetscFunctionBegin;
-  *of        = (SamStepOf){.same_gap = c->same_gap};
+  *of        = (SamStepOf){.same_gap = c->same_gap, .coupled = SamContactIsCoupled(c)};
   of->moves  = c->revision[SAM_TRIED] < 0 || SamProblemGetOffset(c->problem, c->state, SAM_TRIED, 1, slide);
   of->yields = SamStateSeparates(c->state);
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &of->rtol, NULL));
@@ -426,7 +426,7 @@ static void FindKept(SamContact c, SamControl *control, SamCachedStep *kept)
   const PetscReal lever  = PetscMin(c->grid->width[0], c->grid->width[1]) / 2;
   SamControl      before = *control;
 
-  SamStepCacheFind(c->cache, control, kept);
+  SamStepCacheFind(c->cache, control, !SamContactIsCoupled(c), kept);
   if (*kept) SamCachedStepGetControl(*kept, &before);
   SamControlSnap(&before, lever, SAM_BALANCE_NORMAL, control);
   if (SamContactBefore(c)) SamControlSnap(&c->generation[SAM_COMMITTED].control, lever, SAM_BALANCE_NORMAL, control);
@@ -475,7 +475,7 @@ static PetscErrorCode Keep(SamContact c)
 
   PetscFunctionBegin;
   PetscCall(GetStepOf(c, &of));
-  if (now->mid_step && !SamContactIsCoupled(c)) {
+  if (now->mid_step) {
     PetscCall(SamGridCreateVec(c->grid, 2, &turn));
     PetscCall(SamStepFindTurn(c->problem, c->grid, SamContactSlipBefore(c), now, turn));
   }

@@ -50,3 +50,17 @@ def test_where_shear_turns_a_kept_step_costs_less_and_is_as_accurate(petsam, tmp
         energy.append(run["history/dissipated_energy"][-steps:].sum())
     assert products[0] < part * products[1]
     assert abs(energy[0] / energy[2] - 1) <= abs(energy[1] / energy[2] - 1) + 1e-3
+
+
+def test_a_cycle_after_another_one_is_that_without_kept_steps(petsam, tmp_path):
+    """Its loads repeat, but not its slip: the direction of slip that was kept is not used."""
+    small, energy = turning(tmp_path / "small.csv", 16, 3, 0.0), []
+    rows = np.loadtxt(tmp_path / "small.csv", delimiter=",", skiprows=1)
+    other = rows[1:17] * [1, 1, -1.9, 1.2]
+    rows = np.vstack([rows, other, rows[-16:]])
+    rows[:, 0] = np.arange(len(rows))
+    small = history(tmp_path / "both.csv", "time,load_n,load_tx,load_ty", *map(tuple, rows.tolist()))
+    for memory in (1e8, 0):
+        petsam(dict(BALL, grid_size=2.2e-3, output="o.h5"), small, dict(cycle_memory=memory))
+        energy.append(read_run(tmp_path / "o.h5")["history/dissipated_energy"][-16:])
+    assert energy[0] == pytest.approx(energy[1], rel=0.02, abs=1e-3 * energy[1].max())

@@ -50,36 +50,42 @@ typedef struct {
   PetscBool same_gap; /* true: the gap is that of the previous step */
   PetscBool moves;    /* true: the step changes the gap, so that its pressure is invalid afterwards */
   PetscBool yields;   /* true: the step changes the gap to one for which its pressure is also valid */
+  PetscBool coupled;  /* true: the pressure depends on the shear, and a stored one is a guess */
   PetscReal rtol;     /* tolerance of the normal solver */
 } SamStepOf;
 /*
-  SamStepCacheFind - finds the last step with the same control as the next one, or its reverse, that followed a step
-  with the same control as the last one, or its reverse; NULL: there is none, or it is not stored. Not collective.
+  SamStepCacheFind - finds the last step with the same control as the next one, or if the problem is `odd` its reverse,
+  that followed a step with the same control as the last one, or its reverse; NULL: there is none, or it is not stored.
+  Not collective.
   SamStepCacheKeep - notes the control of a step that is committed, and stores its fields if the last search found an
   equal step. `before`: the committed solution so far, NULL in the first step. `turn`: the part of the step's slip that
   the shear at its end does not oppose (m), NULL: none. Collective.
 */
-PETSC_INTERN void           SamStepCacheFind(SamStepCache cache, const SamControl *next, SamCachedStep *kept);
+PETSC_INTERN void SamStepCacheFind(SamStepCache cache, const SamControl *next, PetscBool odd, SamCachedStep *kept);
 PETSC_INTERN PetscErrorCode SamStepCacheKeep(SamStepCache cache, const SamSolution *before, const SamSolution *now,
                                              Vec turn, const SamStepOf *of);
 /*
   SamCachedStepGetControl - gets the values of the components of a stored step, and how they were given. Not collective.
   SamCachedStepHasPressure - returns true if its pressure is that of a new step with the same normal control. Not
   collective.
-  SamCachedStepGetPressure - gets this pressure (Pa), with its normal loads and rigid displacements. Not collective.
+  SamCachedStepGetPressure - gets this pressure (Pa), with its normal loads and rigid displacements; `found`: true if it
+  is stored. Not collective.
   SamCachedStepGetShear - computes an initial guess of the shear (Pa), zero outside of the bound, and its product with
   the operator (m), for a step after the solution `now`. `found`: true if the contact is at the same place as in the
   stored step. Collective.
-  SamCachedStepCountTurns - returns the number of repetitions, 2 at most, of which the part of the slip is stored that
-  the shear at the end does not oppose; 0 if it is not stored of one of them. Not collective.
+  SamCachedStepCount - returns the number of its repetitions that are stored, 2 at most; 0: NULL. Not collective.
+  SamCachedStepHasTurn - returns true if the part of their slip that the shear at the end does not oppose is stored too.
+  Not collective.
   SamCachedStepAddTurn - adds this part (m) to a field. Not collective.
 */
 PETSC_INTERN void           SamCachedStepGetControl(SamCachedStep kept, SamControl *control);
 PETSC_INTERN PetscBool      SamCachedStepHasPressure(SamCachedStep kept, const SamStepOf *of);
-PETSC_INTERN PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid grid, SamSolution *solution);
+PETSC_INTERN PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid grid, SamSolution *solution,
+                                                     PetscBool *found);
 PETSC_INTERN PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticity, const SamSolution *now,
                                                   Vec bound, Vec shear, SamProduct *product, PetscBool *found);
-PETSC_INTERN PetscInt       SamCachedStepCountTurns(SamCachedStep kept);
+PETSC_INTERN PetscInt       SamCachedStepCount(SamCachedStep kept);
+PETSC_INTERN PetscBool      SamCachedStepHasTurn(SamCachedStep kept);
 PETSC_INTERN PetscErrorCode SamCachedStepAddTurn(SamCachedStep kept, SamGrid grid, Vec field);
 
 /*

@@ -41,6 +41,8 @@
 #define WAITS      8
 #define WAITS_NEXT 4
 #define SHARPER    0.01
+/* Number of repetitions of a cycle whose steps are better guesses than the steps before them */
+#define REPEATED 2
 /* Parts of the last error, and of the tolerances, to which the problems of a pass are solved. */
 #define NORMAL_PART      0.1
 #define NORMAL_FINAL     0.3
@@ -58,6 +60,7 @@ typedef struct {
   PetscInt  waits;   /* passes since the least error */
   PetscReal sharper; /* factor on the tolerance of the shear */
   PetscBool rough;   /* the slip's direction is not known yet */
+  PetscBool turns;   /* its guess is that of the step one cycle before */
 } Passes;
 
 /* Steps 1 and 2. The first pass starts from the guesses, later passes from the last pass. */
@@ -89,7 +92,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
     PetscCall(SamSolveZeroShear(s));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (pass == 1) PetscCall(SamSolveSetAside(s, SAM_ASIDE_PREDICTED));
+  if (pass == 1) PetscCall(SamSolveSetAside(s, p->turns ? SAM_ASIDE_KEPT : SAM_ASIDE_PREDICTED));
   PetscCall(SamSolveShear(s, has_shear, rtol, effort));
   reason    = SamSolverGetReason(SamTangentialAsSolver(s->task->tangential));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
@@ -199,15 +202,65 @@ static PetscErrorCode Fail(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Makes the pressure and the shear of the same step one cycle before the guess, if it has been repeated; `found`: true
+   if its contact is at the same place. */
+static PetscErrorCode TakeKept(SamSolve *s, PetscBool *found)
+{
+  const SamStepTask  *task    = s->task;
+  const SamCachedStep kept    = s->kept;
+  SamProduct          product = {.rounding = 0}; /* it is not used: the displacement is also by the pressure */
+  Vec                 shear, pressure;
+
+  PetscFunctionBegin;
+  *found  = PETSC_FALSE;
+  s->kept = NULL;
+  if (SamCachedStepCount(kept) < REPEATED) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(task->grid, 2, &product.field));
+  PetscCall(SamGridCreateVec(task->grid, 2, &shear));
+  PetscCall(SamGridCreateVec(task->grid, 1, &pressure));
+  PetscCall(VecCopy(s->s->pressure, pressure));
+  PetscCall(SamCachedStepGetPressure(kept, task->grid, s->s, found));
+  if (*found) {
+    PetscCall(SamSolveBound(s, s->s->bound));
+    PetscCall(SamCachedStepGetShear(kept, task->elasticity, task->before, s->s->bound, shear, &product, found));
+  }
+  PetscCall(*found ? VecCopy(shear, s->s->shear) : VecCopy(pressure, s->s->pressure));
+  PetscCall(VecDestroy(&pressure));
+  PetscCall(VecDestroy(&shear));
+  PetscCall(VecDestroy(&product.field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sets the first lift by the guess of the shear, and finds the error of a guess that is the step one cycle before. */
+static PetscErrorCode Start(Passes *p)
+{
+  SamSolve *const s      = p->s;
+  const SamSolver normal = SamNormalAsSolver(s->task->normal);
+  PetscBool       kept;
+
+  PetscFunctionBegin;
+  p->turns = SamCachedStepHasTurn(s->kept);
+  PetscCall(TakeKept(s, &kept));
+  s->has_pressure = s->has_pressure || kept;
+  s->has_shear    = s->has_shear || kept;
+  p->turns        = p->turns && kept;
+  p->error        = s->has_shear ? GUESS : FIRST;
+  if (s->has_shear) PetscCall(SamElasticityApplyTangentialToNormal(s->task->elasticity, s->s->shear, s->lift));
+  if (!kept) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecCopy(s->lift, s->h));
+  SamSolverSetEffort(normal, NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_RESIDUAL_ONLY);
+  PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
+  PetscCall(SamSolverGetStatistics(normal, &p->error, NULL, NULL, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolveCoupled(SamSolve *s)
 {
   const SamStepTask  *task   = s->task;
   const SamSolver     normal = SamNormalAsSolver(task->normal), tangential = SamTangentialAsSolver(task->tangential);
   const SamFixedPoint iteration = {.components = 1, .most = task->set->coupling_max_it, .pass = Pass};
-  const PetscBool     shear     = s->has_shear;
   Passes              p         = {.s       = s,
                                    .looks   = PETSC_TRUE,
-                                   .error   = shear ? GUESS : FIRST,
                                    .least   = INFINITY,
                                    .sharper = 1,
                                    .rough   = !s->holds && (s->s->touches || (s->task->before && !s->task->rolls))};
@@ -216,7 +269,7 @@ PetscErrorCode SamSolveCoupled(SamSolve *s)
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(normal, &p.rtol[0], NULL));
   PetscCall(SamSolverGetTolerances(tangential, &p.rtol[1], NULL));
-  if (shear) PetscCall(SamElasticityApplyTangentialToNormal(task->elasticity, s->s->shear, s->lift));
+  PetscCall(Start(&p));
   PetscCall(SamSolveFixedPoint(s, &iteration, &p, s->lift, &end));
   if (end == SAM_PASS_GOES_ON) PetscCall(Fail(&p));
   SamSolverSetEffort(normal, 0, SAM_EFFORT_FULL);

@@ -124,8 +124,7 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (IsKnown(w)) {
-    PetscCall(SamCachedStepGetPressure(w->kept, w->task->grid, w->s));
-    w->known_pressure = PETSC_TRUE;
+    PetscCall(SamCachedStepGetPressure(w->kept, w->task->grid, w->s, &w->known_pressure));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(GetSeparation(w, &h));

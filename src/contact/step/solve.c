@@ -91,7 +91,7 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
 {
   const PetscBool     twice  = SamSolveIsTwice(w);
   const SamCachedStep kept   = w->kept;
-  const PetscInt      times  = twice && w->s->mid_step ? SamCachedStepCountTurns(kept) : 0;
+  const PetscInt      times  = twice && w->s->mid_step && SamCachedStepHasTurn(kept) ? SamCachedStepCount(kept) : 0;
   PetscBool           same   = PETSC_FALSE;
   SamSolverReason     reason = SAM_SOLVER_CONVERGED_RTOL;
   PetscReal           rtol;
@@ -132,7 +132,10 @@ static PetscErrorCode SolveProblems(SamSolve *w)
     PetscCall(SamSolveCoupled(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (w->task->coupled) PetscCall(VecSet(w->h, 0));
+  if (w->task->coupled) {
+    PetscCall(VecSet(w->h, 0));
+    w->kept = NULL;
+  }
   PetscCall(SamSolveNormal(w, w->has_pressure, w->has_shear));
   if (!w->task->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
   PetscCall(SolveShear(w, w->has_shear));

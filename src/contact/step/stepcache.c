@@ -8,9 +8,9 @@
   little; the solver's first trial then goes to the nearest admissible shear (newton.c). If the error of the start is
   too large, the start of predict.c replaces it.
 
-  Friction is odd: if all causes of shear are reversed, the change of the shear is reversed, too. So under the same
-  normal loads the second half of a symmetric cycle repeats the first half with opposite signs, and k is a step of the
-  previous half cycle.
+  Friction of similar bodies is odd: if all causes of shear are reversed, the change of the shear is reversed, too. So
+  under the same normal loads the second half of a symmetric cycle repeats the first half with opposite signs, and k is
+  a step of the previous half cycle.
 
   Before the cycle repeats exactly, the changes differ from their limit by parts that shrink by nearly the same factor m
   per repetition; m < 0 for parts that do not change sign at a reversal. So with the last two repetitions, D and the
@@ -20,6 +20,9 @@
   Where the direction of slip turns, the part t of the slip that the shear does not oppose (direction.c) is kept too. It
   repeats like the shear, and is computed anew from each solution. So a step needs no solution to find it, and is solved
   once where the t of two repetitions has led to nearly the same t.
+
+  Of coupled bodies pressure and shear of step k are a guess of both, once the cycle has been repeated; before that the
+  extrapolation is as good.
 
   If the pressure does not depend on the shear, this step has the pressure of step k when the prescribed normal values
   and the gap are the same (SamControlSnap() has removed differences by rounding). Gaps are compared by a number that
@@ -324,19 +327,20 @@ static PetscBool IsSame(PetscInt count, const double a[], const double b[], cons
 /* The controls of a step and of the step before it, and their reverses, and the scales of the numbers */
 typedef struct {
   double to[2][MOST_NUMBERS], from[2][MOST_NUMBERS], largest[MOST_NUMBERS];
+  int    ways; /* 2: also the reverses */
 } Sought;
 
 /* Returns 1 if the step in this row and the step before it repeat the sought ones, -1 if reversed, 0 if not. */
 static int Compare(SamStepCache r, const Sought *s, PetscInt row)
 {
-  for (int way = 0; way < 2; way++)
+  for (int way = 0; way < s->ways; way++)
     if (IsSame(r->numbers, Row(r, row), s->to[way], s->largest) &&
         IsSame(r->numbers, Row(r, row - 1), s->from[way], s->largest))
       return way ? -1 : 1;
   return 0;
 }
 
-void SamStepCacheFind(SamStepCache r, const SamControl *next, SamCachedStep *kept)
+void SamStepCacheFind(SamStepCache r, const SamControl *next, PetscBool odd, SamCachedStep *kept)
 {
   const SamCachedStep start = r->start;
   Part *const         part  = start->part;
@@ -346,6 +350,7 @@ void SamStepCacheFind(SamStepCache r, const SamControl *next, SamCachedStep *kep
   *start = (struct _n_SamCachedStep){.part = {{0}}};
   if (r->table && r->numbers != CountNumbers(r)) SamStepCacheForget(r);
   if (!r->table) return;
+  s.ways = odd ? 2 : 1;
   GetNumbers(r, next, s.to[0]);
   Reverse(r, s.to[0], s.to[1]);
   memcpy(s.from[0], Row(r, r->count), sizeof(double) * (size_t)r->numbers);
@@ -599,13 +604,12 @@ static PetscErrorCode KeepTurn(SamStepCache r, SamStepFields f, Vec turn, double
 
 /* Stores the fields of the last step, which repeats the step in row `found` (0: none). */
 static PetscErrorCode KeepFields(SamStepCache r, PetscInt found, const SamSolution *before, const SamSolution *now,
-                                 Vec turn)
+                                 Vec turn, PetscBool coupled)
 {
-  const PetscBool pressure =
-    SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL) ? PETSC_FALSE : PETSC_TRUE;
-  double *const numbers = At(r, r->count, 0);
-  int32_t      *range;
-  SamStepFields f;
+  const PetscBool pressure = coupled || !SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL);
+  double *const   numbers  = At(r, r->count, 0);
+  int32_t        *range;
+  SamStepFields   f;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(2 * r->grid->rows, &range));
@@ -644,7 +648,7 @@ PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const
   if (!of->same_gap || of->yields) *At(r, 0, GAP_NOW) += 1;
   *At(r, r->count, GAP)  = of->moves ? -1 : *At(r, 0, GAP_NOW);
   *At(r, r->count, RTOL) = (double)of->rtol;
-  if (before && before->displacement_t) PetscCall(KeepFields(r, found, before, now, turn));
+  if (before && before->displacement_t) PetscCall(KeepFields(r, found, before, now, turn, of->coupled));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -654,7 +658,7 @@ PetscBool SamCachedStepHasPressure(SamCachedStep kept, const SamStepOf *of)
 {
   const double *numbers = kept ? kept->part[0].numbers : NULL;
 
-  return numbers && numbers[PRESSURE] > 0 && of->same_gap && numbers[GAP] == kept->gap &&
+  return numbers && numbers[PRESSURE] > 0 && !of->coupled && of->same_gap && numbers[GAP] == kept->gap &&
          numbers[RTOL] <= (double)of->rtol;
 }
 
@@ -668,13 +672,15 @@ void SamCachedStepGetControl(SamCachedStep kept, SamControl *control)
   }
 }
 
-PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid grid, SamSolution *s)
+PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid grid, SamSolution *s, PetscBool *found)
 {
   const Part *const part = &kept->part[0];
   const double     *from = part->fields->pressure;
   double           *p;
 
   PetscFunctionBegin;
+  *found = part->numbers[PRESSURE] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayWrite(s->pressure, &p));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double        *row = p + (ptrdiff_t)j * grid->nx;
@@ -761,16 +767,16 @@ PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticit
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscInt SamCachedStepCountTurns(SamCachedStep kept)
+PetscInt SamCachedStepCount(SamCachedStep kept)
 {
-  PetscInt count = 0;
+  return !kept ? 0 : kept->part[1].fields ? 2 : 1;
+}
 
-  if (!kept) return 0;
-  for (int n = 0; n < 2 && kept->part[n].fields; n++) {
-    if (kept->part[n].fields->changes < TURNING) return 0;
-    count++;
-  }
-  return count;
+PetscBool SamCachedStepHasTurn(SamCachedStep kept)
+{
+  for (PetscInt n = 0; n < SamCachedStepCount(kept); n++)
+    if (kept->part[n].fields->changes < TURNING) return PETSC_FALSE;
+  return kept ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode SamCachedStepAddTurn(SamCachedStep kept, SamGrid grid, Vec field)

@@ -80,7 +80,7 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
 #define ROLLING_BYTES 280
 
 /* Largest memory of a kept step of a load cycle, bytes per cell */
-#define KEPT_BYTES 24
+#define KEPT_BYTES 32
 
 /*
   Memory of a wear simulation, bytes per cell. Sliding surfaces add the wear load of each body, and a part for each
@@ -105,8 +105,7 @@ static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNee
 
   PetscFunctionBegin;
   *bytes = 0;
-  if (needs->steps < 2 || needs->coupled || SamElasticityGetTraits(setup->elasticity).upwind)
-    PetscFunctionReturn(PETSC_SUCCESS);
+  if (needs->steps < 2 || SamElasticityGetTraits(setup->elasticity).upwind) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), &given));
   *bytes = PetscMin(given ? atof(kept) : (double)SamContactCycleMemory(setup->grid),
                     KEPT_BYTES * steps * (double)setup->grid->nx * (double)setup->grid->ny);
