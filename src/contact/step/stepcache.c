@@ -658,7 +658,7 @@ PetscBool SamCachedStepHasPressure(SamCachedStep kept, const SamStepOf *of)
 {
   const double *numbers = kept ? kept->part[0].numbers : NULL;
 
-  return numbers && numbers[PRESSURE] > 0 && !of->coupled && of->same_gap && numbers[GAP] == kept->gap &&
+  return numbers && numbers[PRESSURE] > 0 && of->same_gap && numbers[GAP] == kept->gap &&
          numbers[RTOL] <= (double)of->rtol;
 }
 
