@@ -1,4 +1,4 @@
-"""Loads that repeat: kept steps of the cycle before change nothing but the cost."""
+"""Loads that repeat: kept steps of the cycle before change the cost, and nothing that the steps themselves determine."""
 
 import numpy as np
 import pytest
