@@ -1,4 +1,4 @@
-"""Loads that repeat: kept steps of the cycle before change the cost, and nothing that the steps themselves determine."""
+"""Loads that repeat: kept steps of the cycle before change the cost, and less than the length of the steps does."""
 
 import numpy as np
 import pytest
