@@ -106,7 +106,8 @@ static void Begun(SamAdvice *a)
 }
 
 /*
-  Advises on the area of a row of few cells after the largest load, whose edges differ from those of elastic bodies.
+  Advises on the area of a row of few cells after the largest load. Edges of bodies that may yield differ from those of
+  elastic bodies, and are not reconstructed.
 */
 static void Unloaded(SamAdvice *a)
 {
@@ -180,6 +181,7 @@ void SamAdviceYielding(SamAdvice *a)
                  "the stress exceeds the yield stress by %.0f %% below the last layer, so the results are too elastic: "
                  "omit -yield_depth, which then follows from the grid",
                  100 * (double)outside);
+  Unloaded(a);
   if (!(most > 0)) return;
   if (most > STRAINED)
     SamAdviceSay(a, "", "plastic strain up to %.2g: strains are taken as small, up to about %g", (double)most,
@@ -187,7 +189,6 @@ void SamAdviceYielding(SamAdvice *a)
   Coarse(a);
   if (thick <= SAM_PLASTIC_THICK) Begun(a);
   Shallow(a, (double)most);
-  Unloaded(a);
   Sudden(a, (double)most);
   Carried(a);
   if (left < 1 && !(outside > BEYOND))
