@@ -50,6 +50,9 @@ class Campaign:
         self.set = arguments
         self.program = Path(arguments.build).resolve() / "bin" / "petsam"
         self.kinds = arguments.only.split(",")
+        unknown = set(self.kinds) - set(trials.KINDS)
+        if unknown:
+            raise SystemExit(f"--only {','.join(sorted(unknown))}: the kinds are {', '.join(trials.KINDS)}")
         self.ranks = [int(n) for n in arguments.ranks.split(",")]
         self.launcher = launcher_words()
         self.end = time.monotonic() + arguments.seconds
