@@ -475,7 +475,7 @@ static PetscErrorCode Keep(SamContact c)
 
   PetscFunctionBegin;
   PetscCall(GetStepOf(c, &of));
-  if (now->mid_step) {
+  if (now->mid_step && SamStepCacheKeeps(c->cache)) {
     PetscCall(SamGridCreateVec(c->grid, 2, &turn));
     PetscCall(SamStepFindTurn(c->problem, c->grid, SamContactSlipBefore(c), now, turn));
   }

@@ -32,8 +32,12 @@ PETSC_INTERN PetscErrorCode SamStepCacheCreate(SamGrid grid, SamConditions condi
 PETSC_INTERN PetscErrorCode SamStepCacheCreateLike(SamStepCache cache, SamStepCache *other);
 PETSC_INTERN void           SamStepCacheDestroy(SamStepCache *cache);
 PETSC_INTERN PetscReal      SamStepCacheUsual(SamGrid grid);
-/* SamStepCacheSetMemory - sets the memory on all ranks for stored steps, bytes; 0: none are stored. Not collective. */
-PETSC_INTERN void SamStepCacheSetMemory(SamStepCache cache, PetscReal bytes);
+/*
+  SamStepCacheSetMemory - sets the memory on all ranks for stored steps, bytes; 0: none are stored. Not collective.
+  SamStepCacheKeeps - returns true if there is any. Not collective.
+*/
+PETSC_INTERN void      SamStepCacheSetMemory(SamStepCache cache, PetscReal bytes);
+PETSC_INTERN PetscBool SamStepCacheKeeps(SamStepCache cache);
 /*
   SamStepCacheForget - forgets all steps.
   SamStepCacheCopy - stores in `to` the steps of `from`, the cache of another contact on the same grid, if it has the
@@ -73,9 +77,9 @@ PETSC_INTERN PetscErrorCode SamStepCacheKeep(SamStepCache cache, const SamSoluti
   SamCachedStepGetShear - computes an initial guess of the shear (Pa), zero outside of the bound, and its product with
   the operator (m), for a step after the solution `now`. `found`: true if the contact is at the same place as in the
   stored step. Collective.
-  SamCachedStepCount - returns the number of its repetitions that are stored, 2 at most; 0: NULL. Not collective.
-  SamCachedStepHasTurn - returns true if the part of their slip that the shear at the end does not oppose is stored too.
-  Not collective.
+  SamCachedStepIsRepeated - returns true if it is stored of two cycles; false for NULL. Not collective.
+  SamCachedStepHasTurn - returns true if the part of its slip that the shear at the end does not oppose is stored too;
+  false for NULL. Not collective.
   SamCachedStepAddTurn - adds this part (m) to a field. Not collective.
 */
 PETSC_INTERN void           SamCachedStepGetControl(SamCachedStep kept, SamControl *control);
@@ -84,7 +88,7 @@ PETSC_INTERN PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid
                                                      PetscBool *found);
 PETSC_INTERN PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticity, const SamSolution *now,
                                                   Vec bound, Vec shear, SamProduct *product, PetscBool *found);
-PETSC_INTERN PetscInt       SamCachedStepCount(SamCachedStep kept);
+PETSC_INTERN PetscBool      SamCachedStepIsRepeated(SamCachedStep kept);
 PETSC_INTERN PetscBool      SamCachedStepHasTurn(SamCachedStep kept);
 PETSC_INTERN PetscErrorCode SamCachedStepAddTurn(SamCachedStep kept, SamGrid grid, Vec field);
 

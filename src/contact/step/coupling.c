@@ -41,8 +41,6 @@
 #define WAITS      8
 #define WAITS_NEXT 4
 #define SHARPER    0.01
-/* Number of repetitions of a cycle whose steps are better guesses than the steps before them */
-#define REPEATED 2
 /* Parts of the last error, and of the tolerances, to which the problems of a pass are solved. */
 #define NORMAL_PART      0.1
 #define NORMAL_FINAL     0.3
@@ -202,8 +200,8 @@ static PetscErrorCode Fail(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes the pressure and the shear of the same step one cycle before the guess, if it has been repeated; `found`: true
-   if its contact is at the same place. */
+/* Makes the pressure and the shear of the same step one cycle before the guess, if it has been repeated: until then the
+   steps before are better guesses. `found`: true if its contact is at the same place. */
 static PetscErrorCode TakeKept(SamSolve *s, PetscBool *found)
 {
   const SamStepTask  *task    = s->task;
@@ -214,7 +212,7 @@ static PetscErrorCode TakeKept(SamSolve *s, PetscBool *found)
   PetscFunctionBegin;
   *found  = PETSC_FALSE;
   s->kept = NULL;
-  if (SamCachedStepCount(kept) < REPEATED) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamCachedStepIsRepeated(kept)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 2, &product.field));
   PetscCall(SamGridCreateVec(task->grid, 2, &shear));
   PetscCall(SamGridCreateVec(task->grid, 1, &pressure));
@@ -239,11 +237,10 @@ static PetscErrorCode Start(Passes *p)
   PetscBool       kept;
 
   PetscFunctionBegin;
-  p->turns = SamCachedStepHasTurn(s->kept);
   PetscCall(TakeKept(s, &kept));
   s->has_pressure = s->has_pressure || kept;
   s->has_shear    = s->has_shear || kept;
-  p->turns        = p->turns && kept;
+  p->turns        = kept && SamCachedStepHasTurn(s->task->start.kept);
   p->error        = s->has_shear ? GUESS : FIRST;
   if (s->has_shear) PetscCall(SamElasticityApplyTangentialToNormal(s->task->elasticity, s->s->shear, s->lift));
   if (!kept) PetscFunctionReturn(PETSC_SUCCESS);

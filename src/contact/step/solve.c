@@ -91,7 +91,8 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
 {
   const PetscBool     twice  = SamSolveIsTwice(w);
   const SamCachedStep kept   = w->kept;
-  const PetscInt      times  = twice && w->s->mid_step && SamCachedStepHasTurn(kept) ? SamCachedStepCount(kept) : 0;
+  const PetscBool     again  = twice && w->s->mid_step && SamCachedStepHasTurn(kept);
+  const PetscBool     steady = again && SamCachedStepIsRepeated(kept);
   PetscBool           same   = PETSC_FALSE;
   SamSolverReason     reason = SAM_SOLVER_CONVERGED_RTOL;
   PetscReal           rtol;
@@ -104,17 +105,17 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &rtol, NULL));
-  PetscCall(SamSolveSetAside(w, times ? SAM_ASIDE_KEPT : SAM_ASIDE_PREDICTED));
+  PetscCall(SamSolveSetAside(w, again ? SAM_ASIDE_KEPT : SAM_ASIDE_PREDICTED));
   if (twice) {
-    const PetscReal first = times > 1 ? rtol : SAM_ROUGH * rtol;
+    const PetscReal first = steady ? rtol : SAM_ROUGH * rtol;
 
     if (!w->shear_product.field) PetscCall(SamGridCreateVec(w->task->grid, 2, &w->shear_product.field));
     SamSolverSetEffort(SamTangentialAsSolver(w->task->tangential), first, SAM_EFFORT_FULL);
     PetscCall(SamSolveShear(w, has_shear, first, SAM_EFFORT_FULL));
     reason = SamSolverGetReason(SamTangentialAsSolver(w->task->tangential));
-    if (reason > 0 && times > 1) PetscCall(CompareAside(w, &same));
-    if (reason > 0 && times <= 1) PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
-    if (!times) w->kept = kept; /* it is nearer than the solution so far if the cycle repeats itself */
+    if (reason > 0 && steady) PetscCall(CompareAside(w, &same));
+    if (reason > 0 && !steady) PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
+    if (!again) w->kept = kept; /* it is nearer than the solution so far if the cycle repeats itself */
   }
   if (reason > 0 && !same) PetscCall(SamSolveShear(w, has_shear || twice, rtol, SAM_EFFORT_FULL));
   PetscCall(SamSolveJudge(w, SAM_BALANCE_TANGENTIAL));
@@ -155,20 +156,26 @@ static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A law's state and the tractions together: with the field `aside` of the elastic step, then with their own. */
+/* Finds a law's state and the tractions together, while the field `aside` stays. */
+static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *contact)
+{
+  PetscFunctionBegin;
+  w->holds = PETSC_TRUE;
+  PetscCall(law->ops.follow(law, contact));
+  w->holds = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same with the field `aside` that is predicted, and then with that of the solution. */
 static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
   PetscFunctionBegin;
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_PREDICTED));
-  w->holds = PETSC_TRUE;
-  PetscCall(law->ops.follow(law, contact));
-  w->holds = PETSC_FALSE;
+  PetscCall(FollowHolding(w, law, contact));
   if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
     PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
-  w->holds = PETSC_TRUE;
-  PetscCall(law->ops.follow(law, contact));
-  w->holds = PETSC_FALSE;
+  PetscCall(FollowHolding(w, law, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

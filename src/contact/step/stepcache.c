@@ -244,6 +244,11 @@ PetscErrorCode SamStepCacheCopy(SamStepCache from, SamStepCache to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool SamStepCacheKeeps(SamStepCache r)
+{
+  return r->limit > 0;
+}
+
 /* ---- access for checkpoints ---- */
 
 void SamStepCacheGetTable(SamStepCache r, PetscInt *rows, PetscInt *width, double **table)
@@ -393,15 +398,17 @@ SAM_VECTORIZED static void StoreChange(PetscInt n, const double before[], const 
   for (PetscInt i = 0; i < n; i++) to[i] = (int32_t)rint((now[i] - before[i]) * scale);
 }
 
-/* Stores the changes of both components of a field from `before` to `now`, in units of their largest. */
+/* Stores the changes of both components of a field from `before` (NULL: from 0) to `now`, in units of their
+   largest. */
 static PetscErrorCode KeepChange(SamStepCache r, SamStepFields f, Vec before, Vec now, PetscInt first, double *unit)
 {
   const SamGrid grid = r->grid;
-  const double *a, *b;
-  double        most = 0;
+  const double *a    = NULL, *b;
+  double       *zeros, most = 0;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(before, &a));
+  PetscCall(PetscCalloc1(grid->nx, &zeros));
+  if (before) PetscCall(VecGetArrayRead(before, &a));
   PetscCall(VecGetArrayRead(now, &b));
   for (PetscInt pass = 0; pass < 2; pass++) {
     const double scale = most > 0 ? UNITS / most : 0;
@@ -410,13 +417,14 @@ static PetscErrorCode KeepChange(SamStepCache r, SamStepFields f, Vec before, Ve
       int32_t *to = f->change + (first + c) * f->cells;
 
       for (PetscInt j = 0; j < grid->rows; j++) {
-        const PetscInt  n  = f->range[2 * j + 1] - f->range[2 * j];
-        const ptrdiff_t at = c * (ptrdiff_t)grid->cells + (ptrdiff_t)j * grid->nx + f->range[2 * j];
+        const PetscInt  n    = f->range[2 * j + 1] - f->range[2 * j];
+        const ptrdiff_t at   = c * (ptrdiff_t)grid->cells + (ptrdiff_t)j * grid->nx + f->range[2 * j];
+        const double   *from = a ? a + at : zeros;
 
         if (pass == 0)
-          most = PetscMax(most, LargestChange(n, a + at, b + at));
+          most = PetscMax(most, LargestChange(n, from, b + at));
         else
-          StoreChange(n, a + at, b + at, scale, to);
+          StoreChange(n, from, b + at, scale, to);
         to += n;
       }
     }
@@ -424,7 +432,8 @@ static PetscErrorCode KeepChange(SamStepCache r, SamStepFields f, Vec before, Ve
   }
   *unit = most / UNITS;
   PetscCall(VecRestoreArrayRead(now, &b));
-  PetscCall(VecRestoreArrayRead(before, &a));
+  if (before) PetscCall(VecRestoreArrayRead(before, &a));
+  PetscCall(PetscFree(zeros));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -590,18 +599,6 @@ static void AddStep(SamStepCache r, const SamControl *control)
   for (PetscInt k = 0; k < r->numbers; k++) Row(r, 0)[k] = PetscMax(Row(r, 0)[k], fabs(row[k]));
 }
 
-/* Stores the part of the slip that the shear does not oppose. */
-static PetscErrorCode KeepTurn(SamStepCache r, SamStepFields f, Vec turn, double *unit)
-{
-  Vec zero;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(r->grid, 2, &zero));
-  PetscCall(KeepChange(r, f, zero, turn, TURN_X, unit));
-  PetscCall(VecDestroy(&zero));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Stores the fields of the last step, which repeats the step in row `found` (0: none). */
 static PetscErrorCode KeepFields(SamStepCache r, PetscInt found, const SamSolution *before, const SamSolution *now,
                                  Vec turn, PetscBool coupled)
@@ -621,7 +618,7 @@ static PetscErrorCode KeepFields(SamStepCache r, PetscInt found, const SamSoluti
     PetscCall(SamStepCacheAddFields(r, r->count, range, &f));
     PetscCall(KeepChange(r, f, before->shear, now->shear, SHEAR_X, &numbers[UNIT_SHEAR]));
     PetscCall(KeepChange(r, f, before->displacement_t, now->displacement_t, PRODUCT_X, &numbers[UNIT_PRODUCT]));
-    if (turn) PetscCall(KeepTurn(r, f, turn, &numbers[UNIT_TURN]));
+    if (turn) PetscCall(KeepChange(r, f, NULL, turn, TURN_X, &numbers[UNIT_TURN]));
     if (pressure) PetscCall(KeepPressure(r, f, now));
   }
   PetscCall(PetscFree(range));
@@ -767,16 +764,15 @@ PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticit
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscInt SamCachedStepCount(SamCachedStep kept)
+PetscBool SamCachedStepIsRepeated(SamCachedStep kept)
 {
-  return !kept ? 0 : kept->part[1].fields ? 2 : 1;
+  return kept && kept->part[1].fields;
 }
 
 PetscBool SamCachedStepHasTurn(SamCachedStep kept)
 {
-  for (PetscInt n = 0; n < SamCachedStepCount(kept); n++)
-    if (kept->part[n].fields->changes < TURNING) return PETSC_FALSE;
-  return kept ? PETSC_TRUE : PETSC_FALSE;
+  return kept && kept->part[0].fields->changes == TURNING &&
+         (!kept->part[1].fields || kept->part[1].fields->changes == TURNING);
 }
 
 PetscErrorCode SamCachedStepAddTurn(SamCachedStep kept, SamGrid grid, Vec field)
