@@ -527,6 +527,21 @@ def test_layer_that_makes_the_half_space_stiffer_than_the_correction_is_refused(
     assert ("would gain energy" in complaint) == bool(code)
 
 
+@pytest.mark.parametrize("given, code", [("rot_z", 10), ("load_mz", 0)])
+def test_soft_twist_is_solved_by_its_load_and_named_where_it_is_not(given, code, petsam, tmp_path):
+    """Cells that begin to slip turn the body by far more than they deform it."""
+    twist, power = np.zeros((15, 3)), compliances.powers(4).tolist()
+    twist[power.index([0, 1]), 0], twist[power.index([1, 0]), 1] = -1, 1
+    pull = np.zeros((15, 3))
+    pull[:, :2] = 1e-4 * np.random.default_rng(1).normal(size=(15, 2))
+    softness = 3e3 * np.einsum("ia,jb->iajb", twist, twist)
+    file = compliances.write(tmp_path / "soft.h5", softness, cases={"pull": pull})
+    case = {**bodies(2), "body1_young": 1, "body1_poisson": 0.3, "body2_compliance": file, "body2_case_pull": 1}
+    case |= dict(gap_type="flat", grid_n=[48, 40], grid_size=2, friction=0.3, disp_z=0.002, allow_edge_contact=True)
+    complaint = " ".join(petsam(case, dict(disp_x=0, disp_y=0, rot_x=0, rot_y=0, **{given: 0}), check=code).complaint)
+    assert ("by load_tx, load_ty and load_mz, or by petsam-joint" in complaint) == bool(code)
+
+
 @pytest.mark.parametrize("times, code", [(1e3, 0), (1e5, 3)])
 def test_body_whose_pressures_would_be_lost_in_its_displacement_is_refused(times, code, petsam, tmp_path):
     """On a soft mount along z, which changes no pressure: 1e5 gave pressures wrong by 1e-4, 1e7 by a third."""

@@ -215,10 +215,49 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 /*
   A cell slides under the mean of the bounds before and after the step, b0 and b1, also where contact is made or lost.
   So the bounds of all cells add up to friction times N, and a contact that slides as a whole dissipates the work of its
-  loads. A cell that stuck before begins to slide at some time within the step, on average under b1 - (b1 - b0)/4; if
-  the slip itself changes the bound, the mean is used here, too. The springback of surfaces that lose contact does no
-  work.
+  loads. A cell that stuck before, or slid the other way, begins to slide at some time within the step, on average under
+  b1 - (b1 - b0)/4; where it leaves the contact, it slides late and works under b0/8. That holds for slip at the edge of
+  a contact that sticks. If the cell slides by a large part of the bodies' motion against each other, it begins early,
+  at the time that its slip lacks of the motion. If the slip itself changes the bound, the mean is used. The springback
+  of surfaces that lose contact does no work.
 */
+#define BEGUN  0.25  /* share of b0 in the bound of a cell that begins to slide */
+#define LEAVES 0.125 /* the same of one that leaves the contact later in the step */
+
+/* The part of the slip of this rank's cell k, in the row that was computed last, by which it goes back on its slip
+   before: 1 if it turned round, 0 if it went on or to the side. */
+static double Reversal(const SamIncrement *s, ptrdiff_t k)
+{
+  const SamValues *a = &s->at_before;
+  const ptrdiff_t  l = k + s->grid->cells, i = k % s->grid->nx;
+  const double     x = s->row[0][i], y = s->row[1][i], size = a->b[k] * hypot(x, y);
+
+  return size > 0 ? PetscClipInterval((a->q[k] * x + a->q[l] * y) / size, 0, 1) : 0;
+}
+
+/* Half the slip of this cell relative to the change of the rigid motion in the step there, at most 1/2. */
+static double HalfOfMotion(const SamIncrement *s, ptrdiff_t k)
+{
+  const ptrdiff_t l = k + s->grid->cells, i = k % s->grid->nx;
+  const double    x = s->row[0][i], y = s->row[1][i],
+               moved = hypot(s->u_now[k] - s->u_before[k] - x, s->u_now[l] - s->u_before[l] - y);
+
+  return moved > 0 ? PetscMin(0.5, 0.5 * hypot(x, y) / moved) : 0.5;
+}
+
+/* The weight of the bound before the step. */
+static double ShareBefore(const SamIncrement *s, SamSlide slide, ptrdiff_t k)
+{
+  double begun, late;
+
+  if (slide == SAM_SLIDE_NONE || slide == SAM_SLIDE_FIRST) return 0;
+  if (s->follows_slip || slide == SAM_SLIDE_ENTERS) return 0.5;
+  begun = slide == SAM_SLIDE_BEGINS ? 1 : Reversal(s, k);
+  if (begun == 0) return 0.5;
+  late = PetscMax(slide == SAM_SLIDE_LEAVES ? LEAVES : BEGUN, HalfOfMotion(s, k));
+  return 0.5 + begun * (late - 0.5);
+}
+
 SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2])
 {
   const SamValues   *a = &s->at_before, *b = &s->at_now;
@@ -233,8 +272,7 @@ SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2
   if (now == SAM_CELL_SLIP && before == SAM_CELL_SLIP) slide = SAM_SLIDE_ALWAYS;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_STICK) slide = SAM_SLIDE_BEGINS;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_OPEN) slide = s->solutions[0] ? SAM_SLIDE_ENTERS : SAM_SLIDE_FIRST;
-  share[0] = slide == SAM_SLIDE_NONE || slide == SAM_SLIDE_FIRST ? 0 : 0.5;
-  if (slide == SAM_SLIDE_BEGINS && !s->follows_slip) share[0] = 0.25;
+  share[0] = ShareBefore(s, slide, k);
   share[1] = slide == SAM_SLIDE_NONE ? 0 : 1 - share[0];
   if (s->solutions[1]->touches && (slide == SAM_SLIDE_ENTERS || slide == SAM_SLIDE_FIRST)) {
     share[0] = 0;

@@ -60,7 +60,8 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     slip in the direction at the end of the step   ENDS b abs(2 sin a/4) ds   first order: ds is turned by about a/2
     of cells that slid all the time                TURNS b a^2/24 ds          ds is the chord of an arc
     of the same where the bound stays              STAYS b a^2/24 ds/f        likewise
-    of cells that begin to slide                   BEGINS abs(b - b_before)/4 ds   they begin anywhere in the step
+    of cells that begin to slide                   BEGINS (1/2 - share) abs(b - b_before) ds   anywhere in the step
+    of cells that slide back                       RETURNS (1/2 - share) abs(b - b_before) ds   likewise
     where contact is made or left                  CROSSES b/10 ds            0.5 of the bounds instead of 0.4
     of dissimilar bodies, where contact is made    TOUCHES w^2/(w + dissipated)   w is what was slip before they touch
     of the first step of others                    all of it: loads in proportion need not slide at all
@@ -78,8 +79,17 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 #define LEAST   0.1  /* of f */
 #define CHANGES 0.05 /* relative change of the bound in a step above which the bound counts as changing */
 #define BEGINS  0.6
+#define RETURNS 0.3
 #define CROSSES 0.3
 #define TOUCHES 0.5
+
+/* The error by the time at which a cell begins to slide within the step; more is known of cells that slide back. */
+static double ErrorOfBegin(const SamIncrement *increment, SamSlide slide, const double share[2])
+{
+  if (slide == SAM_SLIDE_BEGINS) return BEGINS * (increment->follows_slip ? 0.25 : 0.5 - share[0]);
+  return slide == SAM_SLIDE_ENTERS ? 0 : RETURNS * (0.5 - share[0]);
+}
+
 static void AddErrors(const SamIncrement *increment, PetscInt j, double *const turned[2], double sums[SUMS])
 {
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
@@ -107,7 +117,7 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, double *const t
         sums[TURNED] += stays * STAYS / 6 * half * half * work;
       }
     }
-    if (slide == SAM_SLIDE_BEGINS) sums[ERROR] += BEGINS / 4 * fabs(b1[k] - b0[k]) * length;
+    sums[ERROR] += ErrorOfBegin(increment, slide, share) * fabs(b1[k] - b0[k]) * length;
     if (slide == SAM_SLIDE_ENTERS || slide == SAM_SLIDE_LEAVES) sums[ERROR] += CROSSES / 5 * work;
   }
 }

@@ -190,12 +190,27 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 /* Smaller residuals at which a solver stagnates are rounding: a smaller tolerance cannot be reached. */
 #define ROUNDING 1e-9
 
+/*
+  Returns the cure for a tangential problem of finite bodies whose displacements are given. Shear of cells that enter or
+  leave slip moves such bodies as wholes by far more than it deforms them, and all other cells with it; where loads are
+  given, the projection on them takes these motions out.
+*/
+static const char *CureOfMotion(SamSolve *w)
+{
+  const SamBalance *t = &w->tangential;
+
+  return w->task->traits.patch && !(t->force[0] && t->force[1] && t->force[2])
+           ? ": finite bodies that move as wholes are solved by load_tx, load_ty and load_mz, or by petsam-joint"
+           : "";
+}
+
 /* Writes the message for a solver that has not converged; if rounding is the cause, it names the reachable
    tolerance. */
-static PetscErrorCode DescribeFailure(SamSolve *w, const char name[], SamSolver solver, SamSolverReason reason)
+static PetscErrorCode DescribeFailure(SamSolve *w, SamBalanceKind kind, SamSolver solver, SamSolverReason reason)
 {
-  PetscReal left, rtol;
-  char      message[sizeof(w->step->message)], more[128] = "";
+  const char *const name = kind == SAM_BALANCE_NORMAL ? "normal" : "tangential";
+  PetscReal         left, rtol;
+  char              message[sizeof(w->step->message)], more[128] = "";
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetStatistics(solver, &left, NULL, NULL, NULL));
@@ -204,7 +219,8 @@ static PetscErrorCode DescribeFailure(SamSolve *w, const char name[], SamSolver 
     (void)snprintf(more, sizeof(more), ": rounding leaves no less: use a tolerance of %.1g",
                    pow(10, ceil(log10(2 * (double)left)))); /* as the residual omits some rounding */
     PetscCall(PetscSNPrintf(w->step->setting, sizeof(w->step->setting), "%s_rtol", name));
-  }
+  } else if (kind == SAM_BALANCE_TANGENTIAL)
+    PetscCall(PetscStrncpy(more, CureOfMotion(w), sizeof(more)));
   PetscCall(PetscSNPrintf(message, sizeof(message),
                           "the %s problem did not converge: %s, residual %.2g, tolerance %.2g%s", name,
                           SamSolverReasonName(reason), (double)left, (double)rtol, more));
@@ -224,7 +240,7 @@ PetscErrorCode SamSolveJudge(SamSolve *w, SamBalanceKind kind)
     PetscCall((normal ? DescribeImpossible : DescribeSliding)(w, message, sizeof(message)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
   } else if (reason < 0) {
-    PetscCall(DescribeFailure(w, normal ? "normal" : "tangential", solver, reason));
+    PetscCall(DescribeFailure(w, kind, solver, reason));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
