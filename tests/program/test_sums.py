@@ -24,13 +24,14 @@ def folder(tmp_path):
     return tmp_path
 
 
-def share_before(state, earlier, q, u, ds, bound):
+def share_before(state, earlier, q, ds, bound):
     """The part of the bound before a step in the bound that slip works against: less where cells begin to slide."""
     size = np.maximum(np.hypot(*ds), 1e-300)
     back = np.clip(np.sum(q * ds, axis=0) / np.maximum(bound * size, 1e-300), 0, 1)
     begun = np.where(earlier == 1, 1, back)
-    motion = np.maximum(np.hypot(*(u - ds)), 1e-300)
-    late = np.maximum(np.where(state == 0, 0.125, 0.25), np.minimum(0.5, 0.5 * size / motion))
+    lengths = np.where((state > 0) & (earlier > 0), np.hypot(*ds), np.nan).reshape(len(state), -1)
+    alike = np.concatenate(([0], np.nanmin(lengths[1:], axis=1) / np.nanmax(lengths[1:], axis=1)))[:, None, None]
+    late = np.maximum(np.where(state == 0, 0.125, 0.25), 0.5 * alike)
     return np.where(earlier == 0, 0.5, 0.5 + begun * (late - 0.5))
 
 
@@ -38,12 +39,12 @@ def summed(path, friction):
     """Both sums after each step, by the fields of every step."""
     with h5py.File(path) as f:
         bound, state = friction * f["pressure"][:], f["state"][:]  # 0 open, 1 stick, 2 slip
-        slip, q, u = (np.stack((f[f"{k}_x"], f[f"{k}_y"])) for k in ("slip", "shear", "displacement"))
-    ds, du = (np.diff(field, axis=1, prepend=0) for field in (slip, u))
+        slip, q = (np.stack((f[f"{k}_x"], f[f"{k}_y"])) for k in ("slip", "shear"))
+    ds = np.diff(slip, axis=1, prepend=0)
     before = [np.concatenate((np.zeros_like(a[:1]), a[:-1])) for a in (state, bound, *q)]
     earlier = before[0]
     slides = (state == 2) | ((state == 0) & (earlier == 2))
-    share = share_before(state, earlier, np.stack(before[2:]), du, ds, before[1])
+    share = share_before(state, earlier, np.stack(before[2:]), ds, before[1])
     share[0] = 0
     work = np.where(slides, (share * before[1] + (1 - share) * bound) * np.hypot(*ds), 0)
     return np.cumsum(np.hypot(*ds), axis=0), np.cumsum(work, axis=0)

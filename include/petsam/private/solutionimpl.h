@@ -62,6 +62,8 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   SamIncrementTurnRow - rotates the slip of row j by the angle from the mean direction of the shear in the step to that
   at its end, and writes it to `to`; to be called after ComputeRow, and only if there is a solution before. Not
   collective.
+  SamIncrementMeasure - finds how far all cells slide together, if N changes in the step, for SamIncrementGetSlide().
+  Collective.
   SamIncrementOpposeRow - subtracts from the slip of row j the part that the shear at the end of the step does not
   oppose (`aside`), so that the friction law holds with that shear; to be called after ComputeRow. Not collective.
 */
@@ -75,10 +77,12 @@ typedef struct {
   SamValues          at_before, at_now; /* values of these solutions */
   const double      *aside;             /* `aside` of the solution after the step; NULL: zero */
   PetscBool          follows_slip;      /* true: the bound depends on the slip */
+  double             slides; /* the shortest slip of a cell in contact over the longest one; 0: not measured */
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);
 PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
+PETSC_INTERN PetscErrorCode SamIncrementMeasure(SamIncrement *increment);
 PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);
 PETSC_INTERN void           SamIncrementTurnRow(const SamIncrement *increment, PetscInt j, double *const to[2]);
 PETSC_INTERN void           SamIncrementOpposeRow(const SamIncrement *increment, PetscInt j);

@@ -87,6 +87,7 @@ PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution 
 
   PetscFunctionBegin;
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
+  PetscCall(SamIncrementMeasure(&increment));
   PetscCall(GetOptional(path, &f.path));
   PetscCall(GetOptional(pressed, &f.pressed));
   PetscCall(GetOptional(work, &f.work));

@@ -209,6 +209,31 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   }
 }
 
+PetscErrorCode SamIncrementMeasure(SamIncrement *s)
+{
+  const PetscInt nx      = s->grid->nx;
+  double         most[2] = {-INFINITY, 0}; /* minus the shortest slip, and the longest one */
+
+  PetscFunctionBegin;
+  s->slides = 0;
+  if (!s->solutions[0] || SamSolutionGetNormal(s->solutions[0]) == SamSolutionGetNormal(s->solutions[1]))
+    PetscFunctionReturn(PETSC_SUCCESS); /* the bounds hardly change */
+  for (PetscInt j = 0; j < s->grid->rows; j++) {
+    SamIncrementComputeRow(s, j);
+    for (PetscInt i = 0; i < nx; i++) {
+      const ptrdiff_t k      = (ptrdiff_t)j * nx + i;
+      const double    length = hypot(s->row[0][i], s->row[1][i]);
+
+      if (!SamIsPressed(s->at_before.p[k]) || !SamIsPressed(s->at_now.p[k])) continue;
+      most[0] = PetscMax(most[0], -length);
+      most[1] = PetscMax(most[1], length);
+    }
+  }
+  PetscCall(SamMax(s->grid->comm, 2, most));
+  if (most[1] > 0) s->slides = -most[0] / most[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Shear against which a cell slips after it has touched in a step, relative to the final bound (step/direction.c) */
 #define TOUCHED 0.4
 
@@ -217,9 +242,8 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   So the bounds of all cells add up to friction times N, and a contact that slides as a whole dissipates the work of its
   loads. A cell that stuck before, or slid the other way, begins to slide at some time within the step, on average under
   b1 - (b1 - b0)/4; where it leaves the contact, it slides late and works under b0/8. That holds for slip at the edge of
-  a contact that sticks. If the cell slides by a large part of the bodies' motion against each other, it begins early,
-  at the time that its slip lacks of the motion. If the slip itself changes the bound, the mean is used. The springback
-  of surfaces that lose contact does no work.
+  a contact that sticks. If all cells slide, and by about the same length, they begin early. If the slip itself changes
+  the bound, the mean is used. The springback of surfaces that lose contact does no work.
 */
 #define BEGUN  0.25  /* share of b0 in the bound of a cell that begins to slide */
 #define LEAVES 0.125 /* the same of one that leaves the contact later in the step */
@@ -235,16 +259,6 @@ static double Reversal(const SamIncrement *s, ptrdiff_t k)
   return size > 0 ? PetscClipInterval((a->q[k] * x + a->q[l] * y) / size, 0, 1) : 0;
 }
 
-/* Half the slip of this cell relative to the change of the rigid motion in the step there, at most 1/2. */
-static double HalfOfMotion(const SamIncrement *s, ptrdiff_t k)
-{
-  const ptrdiff_t l = k + s->grid->cells, i = k % s->grid->nx;
-  const double    x = s->row[0][i], y = s->row[1][i],
-               moved = hypot(s->u_now[k] - s->u_before[k] - x, s->u_now[l] - s->u_before[l] - y);
-
-  return moved > 0 ? PetscMin(0.5, 0.5 * hypot(x, y) / moved) : 0.5;
-}
-
 /* The weight of the bound before the step. */
 static double ShareBefore(const SamIncrement *s, SamSlide slide, ptrdiff_t k)
 {
@@ -254,7 +268,7 @@ static double ShareBefore(const SamIncrement *s, SamSlide slide, ptrdiff_t k)
   if (s->follows_slip || slide == SAM_SLIDE_ENTERS) return 0.5;
   begun = slide == SAM_SLIDE_BEGINS ? 1 : Reversal(s, k);
   if (begun == 0) return 0.5;
-  late = PetscMax(slide == SAM_SLIDE_LEAVES ? LEAVES : BEGUN, HalfOfMotion(s, k));
+  late = PetscMax(slide == SAM_SLIDE_LEAVES ? LEAVES : BEGUN, 0.5 * s->slides);
   return 0.5 + begun * (late - 0.5);
 }
 

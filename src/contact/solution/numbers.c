@@ -202,6 +202,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 
   PetscFunctionBegin;
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
+  PetscCall(SamIncrementMeasure(&increment));
   PetscCall(PetscMalloc2(grid->nx, &turned[0], grid->nx, &turned[1]));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double row[SUMS] = {0};
