@@ -30,7 +30,8 @@ def share_before(state, earlier, q, ds, bound):
     back = np.clip(np.sum(q * ds, axis=0) / np.maximum(bound * size, 1e-300), 0, 1)
     begun = np.where(earlier == 1, 1, back)
     lengths = np.where((state > 0) & (earlier > 0), np.hypot(*ds), np.nan).reshape(len(state), -1)
-    alike = np.concatenate(([0], np.nanmin(lengths[1:], axis=1) / np.nanmax(lengths[1:], axis=1)))[:, None, None]
+    alike = np.concatenate(([0], np.nanmin(lengths[1:], axis=1) / np.nanmax(lengths[1:], axis=1)))
+    alike = np.minimum(alike / 0.8, 1)[:, None, None]
     late = np.maximum(np.where(state == 0, 0.125, 0.25), 0.5 * alike)
     return np.where(earlier == 0, 0.5, 0.5 + begun * (late - 0.5))
 

@@ -209,15 +209,21 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   }
 }
 
+/* Ratio of the shortest to the longest slip from which on all cells slide alike */
+#define ALIKE 0.8
+
 PetscErrorCode SamIncrementMeasure(SamIncrement *s)
 {
   const PetscInt nx      = s->grid->nx;
   double         most[2] = {-INFINITY, 0}; /* minus the shortest slip, and the longest one */
+  double         changes;
 
   PetscFunctionBegin;
   s->slides = 0;
-  if (!s->solutions[0] || SamSolutionGetNormal(s->solutions[0]) == SamSolutionGetNormal(s->solutions[1]))
-    PetscFunctionReturn(PETSC_SUCCESS); /* the bounds hardly change */
+  if (!s->solutions[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  changes = memcmp(s->at_before.p, s->at_now.p, sizeof(double) * (size_t)s->grid->cells) ? 1 : 0;
+  PetscCall(SamMax(s->grid->comm, 1, &changes));
+  if (changes == 0) PetscFunctionReturn(PETSC_SUCCESS); /* all weights of the bounds are alike */
   for (PetscInt j = 0; j < s->grid->rows; j++) {
     SamIncrementComputeRow(s, j);
     for (PetscInt i = 0; i < nx; i++) {
@@ -230,7 +236,7 @@ PetscErrorCode SamIncrementMeasure(SamIncrement *s)
     }
   }
   PetscCall(SamMax(s->grid->comm, 2, most));
-  if (most[1] > 0) s->slides = -most[0] / most[1];
+  if (most[1] > 0) s->slides = PetscMin(-most[0] / (ALIKE * most[1]), 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
