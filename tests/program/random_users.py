@@ -56,6 +56,7 @@ NAMED = (
     ("largest at the surface", ("plastic_max",)),
     ("the dissipated energy and the maximum slip may", ("dissipated_energy", "slip_max")),
     ("and plastic_work, the dissipated energy", ("plastic_work",)),
+    ("the dissipated energy of later slip is", ("dissipated_energy",)),
     ("pressure is not resolved", ("pressure_max", "shear_max")),
     ("plastic work is done in one step", ("pressure_max", *PLASTIC)),
     ("slips only within a cell", ("shear_max", "slip_max", "dissipated_energy", "stick_area")),

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support import ROOT, assert_close, assert_same, ball, bodies, closed, displacement, few
+from support import ROOT, assert_close, assert_same, ball, bodies, closed, displacement, few, history
 
 INF = float("inf")
 
@@ -347,6 +347,26 @@ def test_few_steps_of_dissimilar_bodies_are_warned_of(petsam):
 
     assert not petsam(RIGID, dict(steps=40)).complaint
     assert not petsam(similar(STEEL), dict(steps=3)).complaint
+
+
+ALUMINIUM = dict(body1_young=70e9, body1_poisson=0.34, body2_young=210e9, body2_poisson=0.3, friction=0.35)
+
+
+def test_few_steps_of_pressing_are_warned_of_where_later_slip_is_wrong(petsam, tmp_path):
+    """Most sticks where it touches; the shear of long steps is too large, and T releases it."""
+    case = dict(ALUMINIUM, gap_type="sphere", gap_radius1=0.01, gap_radius2="inf", grid_n=40, grid_size=5e-4)
+    energy, said = {}, {}
+    for parts in 2, 4, 40:
+        rows = [(k + 1.0, 60.0 * (k + 1) / parts, 0.0) for k in range(parts)]
+        turns = [(100.0 + k, 60.0, 12.0 * (-1) ** k) for k in range(3)]
+        done = petsam(case, history(tmp_path / "h.csv", "time,load_n,load_tx", *rows, *turns), dict(output="o.h5"))
+        with h5py.File(tmp_path / "o.h5") as f:
+            energy[parts] = f["history/dissipated_energy"][-3:].sum()
+        said[parts] = [int(k) for k in re.findall(r"later slip is about (\d+) % too large", " ".join(done.complaint))]
+        (tmp_path / "o.h5").unlink()
+    assert not said[40]
+    for parts in 2, 4:
+        assert said[parts] and 0.3 < (100 * energy[parts] / energy[40] - 100) / said[parts][0] < 3, (energy, said)
 
 
 def energy_of(petsam, tmp_path, steps, share):

@@ -74,11 +74,15 @@
 #define MAKING   0.33 /* part of the work of slip that is too much before cells touch */
 #define LESS     0.25 /* the same, relative to the energy, with enough steps; it falls like 1/steps^(1/FALLS) */
 #define FALLS    0.75
-#define ONCE     0.75 /* part of the largest normal load that counts as all of it */
-#define SLIGHT   0.2  /* part of mu N above which T counts in it */
-#define WAVES    2.5  /* largest wave number of those used for beta, relative to that of the contact */
-#define SPIN     0.59 /* M_z of sliding, relative to mu N a */
-#define LEAST    1.25 /* least ratio of the cells of an advised grid to those of this grid */
+/* Error of the energy after pressing in one step, where most sticks; it falls like 1/steps (30 random histories) */
+#define LOCKED 0.25
+#define ENOUGH 8 /* steps of pressing from which on it is small, and those that are advised */
+#define RIGHT  12
+#define ONCE   0.75 /* part of the largest normal load that counts as all of it */
+#define SLIGHT 0.2  /* part of mu N above which T counts in it */
+#define WAVES  2.5  /* largest wave number of those used for beta, relative to that of the contact */
+#define SPIN   0.59 /* M_z of sliding, relative to mu N a */
+#define LEAST  1.25 /* least ratio of the cells of an advised grid to those of this grid */
 
 /* ---- the width of the zone ---- */
 
@@ -274,6 +278,21 @@ static void Long(SamAdvice *a)
     slip->share > ALIKE ? "give the normal load a row of its own (-history), and" : "use");
 }
 
+/* Advises more steps of pressing if the shear that the first ones have left decides later slip. */
+static void Pressed(SamAdvice *a)
+{
+  const SamSlip *slip = &a->slip;
+
+  if (slip->coupling > 0 || slip->pressing == 0 || slip->pressing >= ENOUGH) return;
+  if (!(slip->first_touch > MAKING * (slip->first_touch + slip->pressed))) return;
+  if (!(slip->energy > 2 * slip->pressed && slip->energy > NOTHING * slip->work)) return;
+  SamAdviceSay(
+    a, "steps",
+    "elastically dissimilar bodies are pressed together in %" PetscInt_FMT " steps, which locks in too much "
+    "shear: the dissipated energy of later slip is about %.0f %% too large: let the load grow in about %d steps",
+    slip->pressing, 100 * LOCKED / (double)slip->pressing, RIGHT);
+}
+
 /* Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. */
 static void Few(SamAdvice *a)
 {
@@ -341,6 +360,11 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   slip->energy += (double)n.energy;
   slip->before_touch += PetscMax(n.before_touch, 0);
   slip->growing += n.before_touch > 0 ? 1 : 0;
+  if (n.before_touch > 0 && slip->pressing == slip->growing - 1 && slip->pressing == slip->steps - 1) {
+    slip->pressing++;
+    slip->pressed += (double)n.energy;
+    slip->first_touch += n.before_touch;
+  }
   slip->sticks = sticks;
   if (n.energy > 0 && slip->width < INFINITY) slip->widest = PetscMax(slip->widest, slip->width);
   /* N and T that grow together may cause no slip: then the length of the steps, and not the cells, causes the
@@ -478,6 +502,7 @@ void SamAdviceSlip(SamAdvice *a)
   if (!a->slip.steps || a->slip.rolls) return;
   Long(a);
   Few(a);
+  Pressed(a);
   Energy(a);
   SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
                  "slip and shear");
