@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Two builds of petsam on the same cases, by turns, on one core each: what a change costs or saves.
 
-    build/venv/bin/python tests/bench/builds.py BEFORE AFTER [--cases cold,cycle] [--rounds 6]
+    build/venv/bin/python tests/bench/builds.py BEFORE AFTER [--cases cold,virgin] [--rounds 6]
 
 BEFORE and AFTER are checkouts of petsam with their programs built (make). A round is before, after, after, before.
 For each case the table has the CPU seconds of whole processes, their medians; the ratio of after to before, its median
@@ -100,12 +100,9 @@ def plastic(folder):
                 gap_radius2="inf", grid_n=32, grid_size=0.5e-3, load_n=100, load_tx=12, steps=3)  # fmt: skip
 
 
-def life(**more):
-    def options(folder):
-        grid = dict(SPHERE, grid_n=64, grid_size=1.6e-3, load_n=225, wear_coefficient1=1e-14, wear_cycles=20000)
-        return dict(grid, history=reversing(folder, 16), **more)
-
-    return options
+def life(folder):
+    return dict(SPHERE, grid_n=64, grid_size=1.6e-3, load_n=225, wear_coefficient1=1e-14, wear_cycles=20000,
+                history=reversing(folder, 16))  # fmt: skip
 
 
 def sliding(folder):
@@ -119,7 +116,7 @@ CASES = {
     "cold": problem("slip_tx", 512),
     "virgin": virgin,
     "repeated": lambda folder: dict(sphere()(folder), load_n=None, history=turning(folder, 5, 32, 0.25)),
-    "life": life(),
+    "life": life,
     "sliding": sliding,
     "rough": rough,
     "periodic": problem("periodic_8", 1024),

@@ -62,8 +62,7 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   SamIncrementTurnRow - rotates the slip of row j by the angle from the mean direction of the shear in the step to that
   at its end, and writes it to `to`; to be called after ComputeRow, and only if there is a solution before. Not
   collective.
-  SamIncrementMeasure - finds how far all cells slide together, if the pressure changes, for SamIncrementGetSlide().
-  Collective.
+  SamIncrementMeasure - finds how far all cells slide together, for SamIncrementGetSlide(). Collective.
   SamIncrementOpposeRow - subtracts from the slip of row j the part that the shear at the end of the step does not
   oppose (`aside`), so that the friction law holds with that shear; to be called after ComputeRow. Not collective.
 */
@@ -77,7 +76,7 @@ typedef struct {
   SamValues          at_before, at_now; /* values of these solutions */
   const double      *aside;             /* `aside` of the solution after the step; NULL: zero */
   PetscBool          follows_slip;      /* true: the bound depends on the slip */
-  double slides; /* 1: all cells in contact slide alike in the step; 0: one does not slide, or it is not measured */
+  double             slides;            /* 1: all cells in contact slide alike; 0: one sticks, or it is not measured */
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);

@@ -214,25 +214,23 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 
 PetscErrorCode SamIncrementMeasure(SamIncrement *s)
 {
-  const PetscInt nx      = s->grid->nx;
-  double         most[2] = {-INFINITY, 0}; /* minus the shortest slip, and the longest one */
-  double         changes;
+  const SamValues *v  = &s->at_now;
+  const PetscInt   nx = s->grid->nx, cells = s->grid->cells;
+  double           most[2] = {-INFINITY, 0}; /* minus the shortest slip, and the longest one */
 
   PetscFunctionBegin;
   s->slides = 0;
   if (!s->solutions[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  changes = memcmp(s->at_before.p, s->at_now.p, sizeof(double) * (size_t)s->grid->cells) ? 1 : 0;
-  PetscCall(SamMax(s->grid->comm, 1, &changes));
-  if (changes == 0) PetscFunctionReturn(PETSC_SUCCESS); /* all weights of the bounds are alike */
-  for (PetscInt j = 0; j < s->grid->rows; j++) {
+  for (PetscInt j = 0; j < s->grid->rows && most[0] < 0; j++) { /* once a cell sticks, the shortest is known */
     SamIncrementComputeRow(s, j);
     for (PetscInt i = 0; i < nx; i++) {
-      const ptrdiff_t k      = (ptrdiff_t)j * nx + i;
-      const double    length = hypot(s->row[0][i], s->row[1][i]);
+      const ptrdiff_t    k     = (ptrdiff_t)j * nx + i;
+      const SamCellState state = SamCellStateOf(v->p[k], v->q[k], v->q[k + cells], v->b[k]);
+      const double       slip  = state == SAM_CELL_STICK ? 0 : hypot(s->row[0][i], s->row[1][i]);
 
-      if (!SamIsPressed(s->at_before.p[k]) || !SamIsPressed(s->at_now.p[k])) continue;
-      most[0] = PetscMax(most[0], -length);
-      most[1] = PetscMax(most[1], length);
+      if (state == SAM_CELL_OPEN || !SamIsPressed(s->at_before.p[k])) continue;
+      most[0] = PetscMax(most[0], -slip);
+      most[1] = PetscMax(most[1], slip);
     }
   }
   PetscCall(SamMax(s->grid->comm, 2, most));

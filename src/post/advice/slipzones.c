@@ -360,7 +360,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   slip->energy += (double)n.energy;
   slip->before_touch += PetscMax(n.before_touch, 0);
   slip->growing += n.before_touch > 0 ? 1 : 0;
-  if (n.before_touch > 0 && slip->pressing == slip->growing - 1 && slip->pressing == slip->steps - 1) {
+  if (n.before_touch > 0 && slip->pressing == slip->steps - 1) {
     slip->pressing++;
     slip->pressed += (double)n.energy;
     slip->first_touch += n.before_touch;
