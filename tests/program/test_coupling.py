@@ -219,12 +219,12 @@ def test_tolerance_of_the_coupling_is_that_of_the_solution(solve):
 
 
 def test_shear_under_normal_load_is_radial(solve):
-    """Four mirror lines; inwards or outwards according to the sign of the coupling."""
+    """Four mirror lines; inwards or outwards by the sign of the coupling. Where stick ends, the grid turns it."""
     s = solve(STEEL)
     assert_close(s.shear_x, -s.shear_x[:, ::-1], 2e-5, "q_x odd in x", s.shear.max())  # tolerance of q, twenty times
     assert_close(s.shear_x, s.shear_x[::-1], 2e-5, "q_x even in y", s.shear.max())
     assert_close(s.shear_y, s.shear_x.T, 2e-5, "q_y", s.shear.max())
-    assert_close(s.xx * s.shear_y - s.yy * s.shear_x, 0, 2e-2, "q_theta", (s.r * s.shear).max())  # cells are square
+    assert_close(s.xx * s.shear_y - s.yy * s.shear_x, 0, 0.05, "q_theta", (s.r * s.shear).max())  # cells are square
 
 
 def test_shear_under_normal_load_points_as_the_stiffer_body_holds(solve):
@@ -335,10 +335,14 @@ def test_one_pass_is_enough_where_nothing_couples(petsam):
 
 
 def test_one_step_of_dissimilar_bodies_is_warned_of(petsam):
-    assert [line for line in petsam(STEEL).complaint if "here in one step" in line and line.endswith("several -steps")]
+    told = [line for line in petsam(dict(STEEL, load_tx=20.0)).complaint if "here in one step" in line]
+    assert told and told[0].endswith("several -steps")
+    told = [line for line in petsam(RIGID).complaint if "before cells touch, in one step, and the shear" in line]
+    assert told and int(re.search(r"about (\d+) steps", told[0])[1]) > 1
     for case in similar(STEEL), dict(STEEL, friction=0), dict(STEEL, coupling="none"):
         assert not petsam(case).complaint, case
-    assert not [line for line in petsam(dict(STEEL, steps=2)).complaint if "here in one step" in line]
+    for case in dict(STEEL, steps=2), STEEL:
+        assert not [line for line in petsam(case).complaint if "here in one step" in line]
 
 
 def test_few_steps_of_dissimilar_bodies_are_warned_of(petsam):
@@ -347,26 +351,6 @@ def test_few_steps_of_dissimilar_bodies_are_warned_of(petsam):
 
     assert not petsam(RIGID, dict(steps=40)).complaint
     assert not petsam(similar(STEEL), dict(steps=3)).complaint
-
-
-ALUMINIUM = dict(body1_young=70e9, body1_poisson=0.34, body2_young=210e9, body2_poisson=0.3, friction=0.35)
-
-
-def test_few_steps_of_pressing_are_warned_of_where_later_slip_is_wrong(petsam, tmp_path):
-    """Most sticks where it touches; the shear of long steps is too large, and T releases it."""
-    case = dict(ALUMINIUM, gap_type="sphere", gap_radius1=0.01, gap_radius2="inf", grid_n=40, grid_size=5e-4)
-    energy, said = {}, {}
-    for parts in 2, 4, 40:
-        rows = [(k + 1.0, 60.0 * (k + 1) / parts, 0.0) for k in range(parts)]
-        turns = [(100.0 + k, 60.0, 12.0 * (-1) ** k) for k in range(3)]
-        done = petsam(case, history(tmp_path / "h.csv", "time,load_n,load_tx", *rows, *turns), dict(output="o.h5"))
-        with h5py.File(tmp_path / "o.h5") as f:
-            energy[parts] = f["history/dissipated_energy"][-3:].sum()
-        said[parts] = [int(k) for k in re.findall(r"later slip is about (\d+) % too large", " ".join(done.complaint))]
-        (tmp_path / "o.h5").unlink()
-    assert not said[40]
-    for parts in 2, 4:
-        assert said[parts] and 0.3 < (100 * energy[parts] / energy[40] - 100) / said[parts][0] < 3, (energy, said)
 
 
 def energy_of(petsam, tmp_path, steps, share):
@@ -383,9 +367,32 @@ def test_energy_as_contact_grows(petsam, tmp_path, share):
     """Slip counts from when cells touch; before, ten steps were wrong by 53 and twenty by 18 % at T = 0."""
     right = energy_of(petsam, tmp_path, 60, share)[0]
     energy, error, printed = energy_of(petsam, tmp_path, 10, share)
-    assert abs(energy - right) < 0.05 * right
+    assert abs(energy - right) < 0.03 * right
     assert printed == pytest.approx(error / energy, rel=0.06)  # with the first step, where all cells touch
-    assert abs(energy_of(petsam, tmp_path, 20, share)[0] - right) < 0.02 * right
+    for steps, within in (2, 0.15), (3, 0.08), (5, 0.05), (20, 0.02):
+        assert abs(energy_of(petsam, tmp_path, steps, share)[0] - right) < within * right, steps
+
+
+ALUMINIUM = dict(body1_young=70e9, body1_poisson=0.34, body2_young=210e9, body2_poisson=0.3, friction=0.35)
+
+
+@pytest.mark.parametrize("shape", ["sphere", "plane"])
+def test_energy_of_a_cycle_does_not_depend_on_the_steps_of_the_normal_load(petsam, tmp_path, shape):
+    """Most of the contact sticks where it touches: if it were pushed into slip there, T would release that. In one step
+    the energy of the cycle was 40 to 60 % too large, in four 7 to 10 %."""
+    one = dict(ALUMINIUM, gap_type="sphere", gap_radius1=0.01, gap_radius2="inf", grid_n=44, grid_size=5e-4, load_n=60)
+    row = dict(ALUMINIUM, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.01, gap_radius_y="inf", grid_n=96)
+    case = one if shape == "sphere" else dict(row, grid_size=5.2e-4, load_n=2e5)
+    n = case.pop("load_n")
+    found = []
+    for parts in 1, 2, 4, 30:
+        rows = [(k + 1.0, n * (k + 1) / parts, 0.0) for k in range(parts)]
+        turns = [(100.0 + k, n, 0.6 * ALUMINIUM["friction"] * n * (-1) ** k) for k in range(3)]
+        loads = history(tmp_path / "h.csv", "time,load_n,load_tx", *rows, *turns)
+        petsam(case, loads, dict(output="out.h5", overwrite=True))
+        with h5py.File(tmp_path / "out.h5") as f:
+            found.append(f["history/dissipated_energy"][-3:].sum())
+    assert found[:3] == pytest.approx([found[3]] * 3, rel=0.06)
 
 
 def changes(done):
@@ -411,11 +418,11 @@ def test_monitor_of_uncoupled_bodies_prints_nothing(petsam):
 def test_tolerance_of_the_coupling_is_that_of_the_last_pass(petsam):
     """Besides, both problems have to meet their own tolerances."""
     passes = []
-    for rtol in (1e-2, 1e-6, 1e-8):
+    for rtol in (1e-1, 1e-6, 1e-9):
         lines = changes(petsam(STEEL, dict(coupling_rtol=rtol, coupling_monitor=True)))
         assert max(lines[-1][1:]) <= rtol
         passes.append(len(lines))
-    assert passes[0] <= passes[1] < passes[2]
+    assert passes[0] <= passes[1] <= passes[2] and passes[0] < passes[2]
 
 
 # ---------------------------------------------------------------- histories

@@ -298,7 +298,7 @@ def test_one_row_is_a_periodic_contact_without_y(petsam, tmp_path, options):
         # what is taken aside is the gap before the step, whose differences are more exact than it is
         assert np.abs(plane[name] - rows[name]).max() <= (1e-5 if "aside" in name else 1e-6) * scale, name
     # the place of an edge that is parallel to y is known on one row only, elsewhere that of edges in all directions
-    assert np.abs(numbers["contact_area"] - others["contact_area"]).max() < 2 * 0.04 * 2e-5
+    assert np.abs(numbers["contact_area"] - others["contact_area"]).max() < 2 * 0.05 * 2e-5
     for name in ("load_tx", "disp_z", "disp_x", "dissipated_energy", "wear_volume2"):
         if name in numbers:
             scale = np.abs(others[name]).max()

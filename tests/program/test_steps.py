@@ -188,4 +188,4 @@ def test_energy_of_a_contact_that_sticks_is_not_warned_of(petsam, tmp_path):
         table = file["history"]
         energy, error = (np.sum(table[name][:]) for name in ("dissipated_energy", "energy_error"))
         work = table["load_tx"][-1] * table["disp_x"][-1]
-    assert error > energy and error < 1e-5 * work
+    assert error > 0.5 * energy and error < 1e-5 * work

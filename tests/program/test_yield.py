@@ -159,7 +159,8 @@ def test_contact_that_does_not_yield_is_elastic(solve, tmp_path, coupling):
     case = pushed(16, 6, tmp_path / "h.csv", (0, 0.5, -0.2, 0.7), coupling=coupling)
     high = all_steps(solve({**case, "body2_yield": 1.0}))
     elastic = all_steps(solve({**case, "body2_yield": "inf"}))
-    assert high["dissipated_energy"] == pytest.approx(elastic["dissipated_energy"], rel=5e-3, abs=0)
+    energy = elastic["dissipated_energy"]
+    assert high["dissipated_energy"] == pytest.approx(energy, rel=5e-3, abs=1e-6 * energy.max())
     for name in ("disp_z", "disp_x", "pressure_max", *(["stick_cells"] if coupling else [])):
         assert high[name] == pytest.approx(elastic[name], rel=5e-4, abs=1e-6 * abs(elastic[name]).max())
 
@@ -267,7 +268,7 @@ def test_loads_along_x_and_y_are_alike(solve, tmp_path, other):
     along = all_steps(solve(case))
     columns = dict(load_n=[4 * LOAD] * 4, load_ty=[-part * PUSHED for part in parts])
     across = all_steps(solve({**case, **steps(tmp_path / "y.csv", **columns)}))
-    assert across["disp_y"] == pytest.approx(-along["disp_x"], rel=1e-6, abs=1e-9 * APPROACH)
+    assert across["disp_y"] == pytest.approx(-along["disp_x"], rel=1e-6, abs=1e-8 * APPROACH)
     assert across["plastic_max"] == pytest.approx(along["plastic_max"], rel=1e-6)
     assert np.all(along["yield_error"] < 1e-5) and along["plastic_max"][-1] > 1e-5
 
@@ -683,28 +684,29 @@ def test_shear_that_no_body_without_hardening_bears_is_named(petsam, tmp_path):
 
 @pytest.mark.parametrize("friction", [0.4, 0.67])
 def test_plastic_strain_of_dissimilar_bodies_converges(solve, friction):
-    """The place where slip begins followed every iterate of Newton's method, whose tangent does not have it: 24 and 26
-    steps, and none that ended on finer grids."""
+    """The place where slip begins followed every iterate of Newton's method, whose tangent does not have it, which then
+    failed on finer grids. It stays now, and is found once more; what yields moves the edge, so that the second time
+    takes longer where most sticks."""
     case = dict(
         body1_young="inf", body2_young=210e9, body2_poisson=0.3, body2_yield=350e6, gap_type="ellipsoid",
         gap_radius_x=0.03, gap_radius_y="inf",
         elasticity="plane_periodic", grid_n=160, grid_size=4e-3, friction=friction, load_n=5.3e5,
     )  # fmt: skip
     run = all_steps(solve(case))
-    assert run["plastic_newton"][0] <= 15 and run["plastic_products"][0] <= 200
+    assert run["plastic_newton"][0] <= 30
     assert run["yield_error"][0] <= 1e-6
 
 
-def test_plastic_strain_by_a_shear_of_one_step_is_warned_of(petsam, tmp_path):
-    """The shear of dissimilar bodies in one step is much too large, and the dent with it."""
+def test_dent_of_dissimilar_bodies_does_not_depend_on_the_steps(petsam, tmp_path):
+    """The shear of one step was three times too large, as cells that stick were pushed into slip, and the dent 16 %."""
     case = dict(
         body1_young=600e9, body1_poisson=0.2, body2_young=210e9, body2_poisson=0.3, body2_yield=550e6,
         body2_hardening_modulus=10e9, gap_type="ellipsoid", gap_radius_x=0.077, gap_radius_y="inf",
         elasticity="plane_periodic", grid_n=108, grid_size=0.0105, friction=0.5, load_n=1.5e6, output="o.h5",
     )  # fmt: skip
     told, dent = [], []
-    for count in (1, 16):
-        done = petsam({**case, "steps": count})
+    for more in {}, dict(steps=16), dict(load_tx=1e5):
+        done = petsam({**case, **more, "overwrite": True})
         told.append(any("plastic strain that it causes" in line for line in done.complaint))
         dent.append(all_steps(support.Results(tmp_path / "o.h5"))["residual_z_max"][-1])
-    assert told == [True, False] and dent[0] > 1.05 * dent[1]
+    assert told == [False, False, True] and dent[0] == pytest.approx(dent[1], rel=0.04)

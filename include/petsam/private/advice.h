@@ -64,9 +64,6 @@ typedef struct {
   double    coupling;      /* coupling over friction if N of dissimilar bodies grows in one step; else 0 */
   double    before_touch;  /* extra work of slip if the cells of dissimilar bodies had touched before each step, J */
   PetscInt  growing;       /* number of steps in which cells come into contact */
-  PetscInt  pressing;      /* the first of them, without a break */
-  double    pressed;       /* energy of these (J) */
-  double    first_touch;   /* before_touch of these (J) */
   double    share;         /* largest T over mu N before the first reversal */
   double    first;         /* energy of the first branch once it has ended, J; 0: not yet */
 } SamSlip;

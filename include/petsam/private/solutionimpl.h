@@ -156,9 +156,10 @@ static inline PetscReal SamSolutionGetNormal(const SamSolution *s)
 }
 /*
   SAM_ENTERING - the name of a number in the state: the extra work of slip (J) of dissimilar bodies if the cells of new
-  contact had touched before the step; 0 for other bodies.
+  contact had touched before the step; 0 for other bodies. SAM_TOUCHING: 1 if their slip counts from when they touch.
 */
 #define SAM_ENTERING "entering_work"
+#define SAM_TOUCHING "touching"
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
 PETSC_INTERN PetscErrorCode SamSolutionDeclareClosed(SamState state);
 PETSC_INTERN PetscErrorCode SamSolutionFollowClosed(SamProblem problem, SamState state, const SamSolution *before,

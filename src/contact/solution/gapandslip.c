@@ -238,8 +238,10 @@ PetscErrorCode SamIncrementMeasure(SamIncrement *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Shear against which a cell slips after it has touched in a step, relative to the final bound (step/direction.c) */
-#define TOUCHED 0.4
+/* Shear against which a cell slips after it has touched in a step, relative to the final bound: in a step from no
+   contact, and in others. The bound grows like the root of the time, the slip fades (examples/manual/LOADS.md). */
+#define TOUCHED_FIRST 0.55
+#define TOUCHED       0.6
 
 /*
   A cell slides under the mean of the bounds before and after the step, b0 and b1, also where contact is made or lost.
@@ -294,7 +296,7 @@ SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2
   share[1] = slide == SAM_SLIDE_NONE ? 0 : 1 - share[0];
   if (s->solutions[1]->touches && (slide == SAM_SLIDE_ENTERS || slide == SAM_SLIDE_FIRST)) {
     share[0] = 0;
-    share[1] = TOUCHED;
+    share[1] = s->solutions[0] && SamSolutionGetNormal(s->solutions[0]) > 0 ? TOUCHED : TOUCHED_FIRST;
   }
   return slide;
 }

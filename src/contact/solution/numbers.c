@@ -81,7 +81,7 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 #define BEGINS  0.6
 #define RETURNS 0.3
 #define CROSSES 0.3
-#define TOUCHES 0.5
+#define TOUCHES 0.05
 
 /* The error by the time at which a cell begins to slide within the step; more is known of cells that slide back. */
 static double ErrorOfBegin(const SamIncrement *increment, SamSlide slide, const double share[2])
@@ -146,6 +146,7 @@ enum {
   ENERGY_ERROR,
   CLOSED,
   ENTERING,
+  TOUCHING,
   NUMBERS
 };
 #define REAL(name, unit, text, ...) \
@@ -174,7 +175,8 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0),
   REAL("dissipated_energy_closed", "J", "the same in closed form, of alike bodies under T along a line", SAM_JOIN_SUM,
        0),
-  {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
+  {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0},
+  {SAM_TOUCHING, "1", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
 /* Numbers of the contact edge: 1 if known, area, faces and good faces; valid until the pressure changes */
 enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
@@ -229,6 +231,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(sums);
   numbers[ENERGY_ERROR] = sums[ERROR] * area;
   numbers[ENTERING]     = sums[BEFORE_TOUCH] * area;
+  numbers[TOUCHING]     = s->touches ? 1 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

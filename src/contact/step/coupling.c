@@ -2,12 +2,13 @@
   The coupling of the normal and the tangential problem of dissimilar bodies: pressure displaces the surfaces
   tangentially, and shear displaces them normally.
 
-  Algorithm; unknown is the lift d, the normal displacement by the shear. A pass:
+  Algorithm; unknown is the lift d, the normal displacement by the shear, and where contact grows the motion m of the
+  surfaces until cells touch (touching.c). A pass:
     1. The normal problem with the separation h + d gives p.
     2. The tangential problem with the bound mu p (bound.c) and the displacement by p gives q.
-    3. The lift by q should be d. If it is, within the error of the normal problem with this lift, the step is solved:
-       the same p and q then solve both problems.
-    4. Else Anderson's method makes the next d of this and the last passes (fixedpoint.c).
+    3. The lift by q should be d, and the motion that follows from p and q should be m. If they are, d within the error
+       of the normal problem with this lift, the step is solved: the same p and q then solve both problems.
+    4. Else Anderson's method makes the next d and m of this and the last passes (fixedpoint.c).
   Plain passes (Panagiotopoulos 1975, Ing.-Arch. 44, 421) would shrink the error by friction times Dundurs' beta a pass,
   and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
   imaginary eigenvalues, for which Anderson's method is made.
@@ -49,6 +50,7 @@
 
 typedef struct {
   SamSolve *s;
+  Vec       unknown; /* the lift and, where it is to be found, the motion until cells touch */
   PetscReal error;   /* of the normal problem with the lift by the shear of the last pass */
   PetscReal rtol[2]; /* of the normal and the tangential problem, as the user wants them */
   PetscBool looks;   /* contact may exist outside of the cells searched so far */
@@ -60,6 +62,66 @@ typedef struct {
   PetscBool rough;   /* the slip's direction is not known yet */
   PetscBool turns;   /* its guess is that of the step one cycle before */
 } Passes;
+
+/* Copies the unknown to the lift and, where it is found, to the motion until cells touch, a part of `aside`. */
+static PetscErrorCode Unpack(Passes *p)
+{
+  SamSolve      *s     = p->s;
+  const PetscInt cells = s->task->grid->cells;
+  const double  *x;
+  double        *to;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(p->unknown, &x));
+  PetscCall(VecGetArrayWrite(s->lift, &to));
+  PetscCall(PetscArraycpy(to, x, cells));
+  PetscCall(VecRestoreArrayWrite(s->lift, &to));
+  if (SamSolveFindsTouching(s)) {
+    if (s->s->aside) PetscCall(VecAXPY(s->s->aside, -1, s->touching));
+    PetscCall(VecGetArrayWrite(s->touching, &to));
+    PetscCall(PetscArraycpy(to, x + cells, 2 * cells));
+    PetscCall(VecRestoreArrayWrite(s->touching, &to));
+    if (s->s->aside) PetscCall(VecAXPY(s->s->aside, 1, s->touching));
+  }
+  PetscCall(VecRestoreArrayRead(p->unknown, &x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes the lift and, unless it is NULL, the motion until cells touch as an unknown. */
+static PetscErrorCode Pack(SamGrid grid, Vec lift, Vec motion, Vec unknown)
+{
+  const double *from;
+  double       *x;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayWrite(unknown, &x));
+  PetscCall(VecGetArrayRead(lift, &from));
+  PetscCall(PetscArraycpy(x, from, grid->cells));
+  PetscCall(VecRestoreArrayRead(lift, &from));
+  if (motion) {
+    PetscCall(VecGetArrayRead(motion, &from));
+    PetscCall(PetscArraycpy(x + grid->cells, from, 2 * grid->cells));
+    PetscCall(VecRestoreArrayRead(motion, &from));
+  }
+  PetscCall(VecRestoreArrayWrite(unknown, &x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the unknown by the solution of this pass. */
+static PetscErrorCode FindUnknown(SamSolve *s, Vec result)
+{
+  Vec motion = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityApplyTangentialToNormal(s->task->elasticity, s->s->shear, s->h));
+  if (SamSolveFindsTouching(s)) {
+    PetscCall(SamGridCreateVec(s->task->grid, 2, &motion));
+    PetscCall(SamSolveFindTouching(s, motion));
+  }
+  PetscCall(Pack(s->task->grid, s->h, motion, result));
+  PetscCall(VecDestroy(&motion));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 /* Steps 1 and 2. The first pass starts from the guesses, later passes from the last pass. */
 static PetscErrorCode Solve(Passes *p, PetscInt pass)
@@ -81,6 +143,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
                      p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_CHECK_SUPPORT);
   /* Newton's method may get stuck on the shear of a pressure that is not smooth yet, and would waste iterations */
   SamSolverSetEffort(SamTangentialAsSolver(s->task->tangential), rtol, effort);
+  PetscCall(Unpack(p));
   PetscCall(VecCopy(s->lift, s->h));
   PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && s->has_shear));
   PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
@@ -103,7 +166,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
 }
 
 /* Step 3. `solved`: the pressure solves the normal problem with this lift, and the shear is accurate enough. */
-static PetscErrorCode Measure(Passes *p, Vec lift, PetscBool *solved)
+static PetscErrorCode Measure(Passes *p, Vec result, PetscBool *solved)
 {
   SamSolve       *s      = p->s;
   const PetscReal before = p->error;
@@ -111,8 +174,7 @@ static PetscErrorCode Measure(Passes *p, Vec lift, PetscBool *solved)
   PetscReal       error;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityApplyTangentialToNormal(s->task->elasticity, s->s->shear, lift));
-  PetscCall(VecCopy(lift, s->h));
+  PetscCall(FindUnknown(s, result));
   SamSolverSetEffort(SamNormalAsSolver(s->task->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_RESIDUAL_ONLY);
   PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
   reason = SamSolverGetReason(SamNormalAsSolver(s->task->normal));
@@ -162,7 +224,7 @@ static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Pass(void *context, PetscInt pass, Vec lift, SamPassEnd *end)
+static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd *end)
 {
   Passes *const  p      = (Passes *)context;
   SamStep *const step   = p->s->step;
@@ -171,7 +233,7 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec lift, SamPassEnd *e
   PetscFunctionBegin;
   PetscCall(Solve(p, pass));
   p->s->counts[SAM_COUNT_COUPLING] = (double)pass;
-  if (step->status == SAM_STATUS_CONVERGED) PetscCall(Measure(p, lift, &solved));
+  if (step->status == SAM_STATUS_CONVERGED) PetscCall(Measure(p, result, &solved));
   *end = SAM_PASS_FAILED;
   if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Compare(p, pass, &solved));
@@ -255,19 +317,19 @@ PetscErrorCode SamSolveCoupled(SamSolve *s)
 {
   const SamStepTask  *task   = s->task;
   const SamSolver     normal = SamNormalAsSolver(task->normal), tangential = SamTangentialAsSolver(task->tangential);
-  const SamFixedPoint iteration = {.components = 1, .most = task->set->coupling_max_it, .pass = Pass};
-  Passes              p         = {.s       = s,
-                                   .looks   = PETSC_TRUE,
-                                   .least   = INFINITY,
-                                   .sharper = 1,
-                                   .rough   = !s->holds && (s->s->touches || (s->task->before && !s->task->rolls))};
-  SamPassEnd          end;
+  const SamFixedPoint iteration = {
+    .components = SamSolveFindsTouching(s) ? 3 : 1, .most = task->set->coupling_max_it, .pass = Pass};
+  Passes     p = {.s = s, .looks = PETSC_TRUE, .least = INFINITY, .sharper = 1, .rough = SamSolveIsTwice(s)};
+  SamPassEnd end;
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(normal, &p.rtol[0], NULL));
   PetscCall(SamSolverGetTolerances(tangential, &p.rtol[1], NULL));
   PetscCall(Start(&p));
-  PetscCall(SamSolveFixedPoint(s, &iteration, &p, s->lift, &end));
+  PetscCall(SamGridCreateVec(task->grid, iteration.components, &p.unknown));
+  PetscCall(Pack(task->grid, s->lift, SamSolveFindsTouching(s) ? s->touching : NULL, p.unknown));
+  PetscCall(SamSolveFixedPoint(s, &iteration, &p, p.unknown, &end));
+  PetscCall(VecDestroy(&p.unknown));
   if (end == SAM_PASS_GOES_ON) PetscCall(Fail(&p));
   SamSolverSetEffort(normal, 0, SAM_EFFORT_FULL);
   SamSolverSetEffort(tangential, 0, SAM_EFFORT_FULL);

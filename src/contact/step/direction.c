@@ -34,22 +34,12 @@
     kappa tau = (kappa dT/dN d - 2 e r)/(d + 2 tilt),
 
   d being the approach. In plane strain, where the approach is unbounded, d is 4 dN/(pi E*). From no contact, tau is
-  that of N. The motion by M_z there is not estimated: its error stays of first order. The motion by the pressure of
-  dissimilar bodies is of first order too, in the other direction: if Dundurs' constant is at least MOST_DUNDURS, both
-  corrections are omitted, as they partly cancel.
+  that of N. The motion by M_z there is not estimated: its error stays of first order.
 
   The pressure of dissimilar bodies moves the surfaces at all times, outside of contact too, and most of the slip of a
-  growing contact is in cells that touch within the step. If they move by ds in the step, the part
-
-    tau = d0/(d0 + d1),   d0 = (g0/G)^(2/3),   d1 = (p1/P)^2
-
-  is before they touch, g0 being the gap before the step, p1 the pressure after it, G and P the largest of both: the gap
-  grows like the power 3/2 of the distance from the old edge, the pressure like its root behind the new one. In a first
-  step, from no contact, the part is the power 3/2 of the distance of the undeformed bodies, since the N of a sphere
-  grows like that. If such a step also has tangential loads, and the next one does not continue it in proportion, N is
-  applied first, and all slip counts. The rest works against 0.4 of the bound after the step: behind a moving edge slip
-  fades. Measured on a rigid sphere on a half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44,
-  17, 4 and 1 %, and was by 330, 150, 53 and 18 %.
+  growing contact is in cells that touch within the step. Their motion until they touch is found from that of the open
+  cells beside them (touching.c). In a first step, from no contact, with tangential loads, which the next one does not
+  continue in proportion, N is applied first, and all slip counts.
 
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r. If t = ds - R ds is known, the tangential problem with
   the offset reduced by t uses the rule at the end of the step.
@@ -77,8 +67,6 @@
 #include <petsam/private/pressed.h>
 #include <petsam/private/body.h>
 
-/* Largest absolute Dundurs' constant of surfaces whose relative motion is determined by the shear alone */
-#define MOST_DUNDURS 0.15
 /* Growth of N, relative to it, below which it is rounding: the ratio of the changes of T and N says nothing there */
 #define LEAST_GROWTH 1e-9
 
@@ -91,13 +79,11 @@ static PetscReal LoadBefore(SamSolve *w, PetscInt component)
 /* True if contact grows with N and the other loads, and the shear determines the motion where contact is made. */
 static PetscBool Grows(SamSolve *w)
 {
-  const SamPair   pair    = SamElasticityGetPair(w->task->elasticity);
   const PetscReal before  = w->task->before ? SamSolutionGetNormal(w->task->before) : 0;
   const PetscBool touched = before > 0 || w->s->control.together ? PETSC_TRUE : PETSC_FALSE;
 
   return touched && w->task->set->slip_direction == SAM_SLIP_MID && w->task->motion->continues && !w->task->rolls &&
-         SamSolutionGetNormal(w->s) > (1 + LEAST_GROWTH) * before &&
-         !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
+         SamSolutionGetNormal(w->s) > (1 + LEAST_GROWTH) * before;
 }
 
 PetscBool SamSolveIsTwice(SamSolve *w)
@@ -188,7 +174,7 @@ static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the distance of the undeformed bodies instead, in a step from no contact, for cells in contact after it. */
+/* Computes the distance of the undeformed bodies instead, in a step from no contact; it is 0 where they touch first. */
 static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
 {
   const PetscInt nx    = w->task->grid->nx;
@@ -211,7 +197,7 @@ static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
   for (PetscInt k = 0; k < w->task->grid->cells; k++)
     if (SamIsPressed(p[k])) least = PetscMax(least, -g[k]);
   PetscCall(SamMax(w->task->grid->comm, 1, &least));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = SamIsPressed(p[k]) ? g[k] + least : 0;
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] += least;
   PetscCall(VecRestoreArray(distance, &g));
   PetscCall(VecRestoreArrayRead(w->separation, &h));
   PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
@@ -219,36 +205,47 @@ static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets the motion of the surfaces in cells before they touch, from the loads, given or `found`. */
-static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
+PetscErrorCode SamSolveFindGaps(SamSolve *w, Vec gap)
+{
+  PetscFunctionBegin;
+  PetscCall((LoadBefore(w, SAM_COMPONENT_N) > 0 ? FindGaps : FindDistances)(w, gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveAddEntering(SamSolve *w, PetscBool found, PetscBool open, Vec motion)
 {
   const SamSolution *s        = w->s;
   const SamGrid      grid     = w->task->grid;
   const PetscInt     cells    = grid->cells;
   const double       kappa[2] = {RatioOfCompliances(w, 0), RatioOfCompliances(w, 1)};
-  double            *to;
+  double            *to, friction = 0; /* the largest */
   const double      *p, *b, *g;
   Approach           approach;
   Vec                gap;
 
   PetscFunctionBegin;
+  if (!Grows(w)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(FindApproach(w, found, &approach));
   PetscCall(SamGridCreateVec(w->task->grid, 1, &gap));
-  PetscCall((LoadBefore(w, SAM_COMPONENT_N) > 0 ? FindGaps : FindDistances)(w, gap));
+  PetscCall(SamSolveFindGaps(w, gap));
   PetscCall(VecGetArrayRead(gap, &g));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->bound, &b));
-  PetscCall(VecGetArray(aside, &to));
+  PetscCall(VecGetArray(motion, &to));
+  for (PetscInt k = 0; k < cells; k++)
+    if (SamIsPressed(p[k])) friction = PetscMax(friction, b[k] / p[k]);
+  PetscCall(SamMax(grid->comm, 1, &friction));
   for (PetscInt k = 0; k < cells; k++) {
-    double tau[2], size, part;
+    const PetscBool pressed = SamIsPressed(p[k]);
+    double          tau[2], size, part;
 
-    if (!SamIsPressed(p[k]) || g[k] <= 0) continue;
+    if (!(pressed || open) || g[k] <= 0) continue;
     ShearAtEdge(&approach, kappa, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx), tau);
     size = hypot(tau[0], tau[1]);
-    part = size * p[k] > b[k] ? b[k] / (p[k] * size) : 1;
-    for (int c = 0; c < 2; c++) to[k + c * cells] = -kappa[c] * tau[c] * part * g[k];
+    part = pressed ? (size * p[k] > b[k] ? b[k] / (p[k] * size) : 1) : size > friction ? friction / size : 1;
+    for (int c = 0; c < 2; c++) to[k + c * cells] -= kappa[c] * tau[c] * part * g[k];
   }
-  PetscCall(VecRestoreArray(aside, &to));
+  PetscCall(VecRestoreArray(motion, &to));
   PetscCall(VecRestoreArrayRead(s->bound, &b));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
   PetscCall(VecRestoreArrayRead(gap, &g));
@@ -329,98 +326,9 @@ static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Finds the largest gap before and the largest pressure after the step among cells of all ranks that come into contact.
-*/
-static PetscErrorCode MeasureTouching(SamGrid grid, const double p0[], const double p[], const double g[],
-                                      double most[2])
-{
-  PetscFunctionBegin;
-  most[0] = most[1] = 0;
-  for (PetscInt k = 0; k < grid->cells; k++) {
-    if (SamIsPressed(p0[k]) || !SamIsPressed(p[k])) continue;
-    most[0] = PetscMax(most[0], g[k]);
-    most[1] = PetscMax(most[1], p[k]);
-  }
-  PetscCall(SamMax(grid->comm, 2, most));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Computes the time at which cells touch, as a part of the step, where there was contact before. */
-static PetscErrorCode FindTimes(SamSolve *w, Vec time)
-{
-  const SamSolution *before = w->task->before;
-  const double      *p0, *p;
-  double            *t, most[2];
-
-  PetscFunctionBegin;
-  PetscCall(SamSolutionComputeGap(w->task->problem, before, w->separation, time));
-  PetscCall(VecGetArrayRead(before->pressure, &p0));
-  PetscCall(VecGetArrayRead(w->s->pressure, &p));
-  PetscCall(VecGetArray(time, &t));
-  PetscCall(MeasureTouching(w->task->grid, p0, p, t, most));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++) {
-    const PetscBool touches = !SamIsPressed(p0[k]) && SamIsPressed(p[k]) && t[k] > 0;
-    const double    outside = touches ? pow(t[k] / most[0], 2.0 / 3) : 0, inside = touches ? p[k] / most[1] : 1;
-
-    t[k] = outside / (outside + inside * inside);
-  }
-  PetscCall(VecRestoreArray(time, &t));
-  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
-  PetscCall(VecRestoreArrayRead(before->pressure, &p0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Computes these times by the distance of the undeformed bodies in a step from no contact, in which all cells touch. */
-static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
-{
-  double *t, most = 0;
-
-  PetscFunctionBegin;
-  PetscCall(FindDistances(w, time));
-  PetscCall(VecGetArray(time, &t));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++) most = PetscMax(most, t[k]);
-  PetscCall(SamMax(w->task->grid->comm, 1, &most));
-  for (PetscInt k = 0; k < w->task->grid->cells && most > 0; k++) t[k] = pow(t[k] / most, 1.5);
-  PetscCall(VecRestoreArray(time, &t));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Adds the motion of the surfaces until they touched, from the slip of the solution so far. */
-static PetscErrorCode AddTouching(SamSolve *w, Vec aside)
-{
-  const SamGrid   grid    = w->task->grid;
-  const PetscBool touched = w->task->before && w->task->before->load[SAM_COMPONENT_N] > 0;
-  SamIncrement    increment;
-  const double   *t;
-  double         *to;
-  Vec             time;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(grid, 1, &time));
-  PetscCall((touched ? FindTimes : FindFirstTimes)(w, time));
-  PetscCall(SamSolveDisplace(w));
-  PetscCall(SamIncrementCreate(w->task->problem, w->task->before, w->s, &increment));
-  PetscCall(VecGetArrayRead(time, &t));
-  PetscCall(VecGetArray(aside, &to));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    const ptrdiff_t first = (ptrdiff_t)j * grid->nx;
-
-    SamIncrementComputeRow(&increment, j);
-    for (PetscInt c = 0; c < 2; c++)
-      for (PetscInt i = 0; i < grid->nx; i++)
-        if (t[first + i] > 0) to[first + i + c * (ptrdiff_t)grid->cells] += t[first + i] * increment.row[c][i];
-  }
-  PetscCall(VecRestoreArray(aside, &to));
-  PetscCall(VecRestoreArrayRead(time, &t));
-  PetscCall(SamIncrementDestroy(&increment));
-  PetscCall(VecDestroy(&time));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscBool SamSolveSetsAside(SamSolve *w)
 {
-  return !w->holds && (w->s->mid_step || Grows(w) || w->s->touches);
+  return !w->holds && (w->s->mid_step || Grows(w) || w->touching);
 }
 
 PetscErrorCode SamSolveSetAside(SamSolve *w, SamAsideFrom from)
@@ -435,8 +343,8 @@ PetscErrorCode SamSolveSetAside(SamSolve *w, SamAsideFrom from)
     PetscCall(SamCachedStepAddTurn(w->task->start.kept, w->task->grid, aside));
   else if (w->s->mid_step)
     PetscCall((solved ? SetTurn : PredictTurn)(w, aside));
-  if (Grows(w)) PetscCall(SetEntering(w, solved, aside));
-  if (solved && w->s->touches) PetscCall(AddTouching(w, aside));
+  PetscCall(SamSolveAddEntering(w, solved, PETSC_FALSE, aside));
+  if (w->touching) PetscCall(VecAXPY(aside, 1, w->touching));
   PetscCall(SamStateSetField(w->task->state, w->task->aside, &w->s->aside));
   PetscCall(VecCopy(aside, w->s->aside));
   PetscCall(VecDestroy(&aside));

@@ -10,8 +10,9 @@
 #include "stepimpl.h"
 #include <math.h>
 
-/* Number of last iterates that are stored, for one component */
-#define DEPTH 6
+/* Number of last iterates that are stored, and of fields of several components */
+#define DEPTH   6
+#define DEPTH_3 4
 /* Smaller eigenvalues of the scaled matrix of products are rounding. */
 #define LEAST 1e-10
 /* Largest sum of the absolute weights of the combined results; it bounds the amplification of their errors */
@@ -135,7 +136,7 @@ static PetscErrorCode CutNegative(SamGrid grid, Vec field)
 PetscErrorCode SamSolveFixedPoint(SamSolve *w, const SamFixedPoint *f, void *context, Vec argument, SamPassEnd *end)
 {
   const SamGrid grid = w->task->grid;
-  Mixing        m    = {.grid = grid, .components = f->components, .depth = DEPTH / f->components};
+  Mixing        m    = {.grid = grid, .components = f->components, .depth = f->components > 1 ? DEPTH_3 : DEPTH};
   Vec           result;
 
   PetscFunctionBegin;

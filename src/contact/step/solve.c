@@ -41,6 +41,7 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
   }
   if (!task->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 1, &w->lift));
+  if (w->s->touches) PetscCall(SamGridCreateVec(task->grid, 2, &w->touching));
   PetscCall(SamGridCreateVec(task->grid, 1, &w->pressure_product.field));
   PetscCall(SamGridCreateVec(task->grid, 1, &w->previous_pressure));
   PetscCall(SamGridCreateVec(task->grid, 2, &w->previous_shear));
@@ -54,6 +55,7 @@ static PetscErrorCode End(SamSolve *w)
   PetscCall(VecDestroy(&w->slip));
   PetscCall(VecDestroy(&w->pushed));
   PetscCall(VecDestroy(&w->lift));
+  PetscCall(VecDestroy(&w->touching));
   PetscCall(VecDestroy(&w->h));
   PetscCall(VecDestroy(&w->pressure_product.field));
   PetscCall(VecDestroy(&w->shear_product.field));
@@ -174,6 +176,7 @@ static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
   PetscCall(FollowHolding(w, law, contact));
   if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
     PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->touching) PetscCall(SamSolveFindTouching(w, w->touching));
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
   PetscCall(FollowHolding(w, law, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -213,6 +216,7 @@ PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step, PetscBool *k
   PetscCall(Begin(task, step, &w));
   PetscCall(SolveProblems(&w));
   PetscCall(FollowTractions(&w));
+  if (w.touching && w.s->aside) PetscCall(SamSolveEndTouching(&w));
   *known_pressure = task->same_pressure || w.known_pressure ? PETSC_TRUE : PETSC_FALSE;
   if (task->motion->streams) PetscCall(SamSolveRolling(&w));
   PetscCall(End(&w));

@@ -26,6 +26,8 @@ typedef struct {
   Vec pushed; /* tangential displacement by pressure and offset, set by SamSolveShear() */
   /* only if coupled */
   Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
+  Vec        touching;                          /* motion until cells touch, a part of `aside`; NULL: it is not found */
+  double     deviation;                         /* of the Gaussian of edgemean.h, 0 before the first mean */
   SamProduct pressure_product;                  /* S p of the tried solution */
   Vec        previous_pressure, previous_shear; /* of the previous pass */
 } SamSolve;
@@ -84,7 +86,16 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   SamSolveSetAside - sets the field `aside` for the pressure and bound of the tried solution (direction.c): predicted
   from the step before, as it was in the kept step, or by the shear of the tried solution, whose tolerance may be
   SAM_ROUGH times that of the shear. Collective.
-  SamSolveSetsAside - true if it sets anything in such a step. Not collective.
+  SamSolveSetsAside - true if it sets anything in such a step. SamSolveFindsTouching - true if the motion until cells
+  touch is to be found. Not collective.
+  SamSolveFindTouching - computes the motion (m, two components) of the surfaces of dissimilar bodies in the step until
+  cells touch, by the tried solution; it is 0 in other cells, but for open ones beside the contact, which may touch in
+  the next pass (touching.c). Collective. SamSolveEndTouching - takes it from `aside` in
+  open cells. Not collective.
+  SamSolveAddEntering - adds the part of it that the loads alone cause, given or `found` (direction.c); `open`: in cells
+  that are open after the step, too, as if they touched. Collective.
+  SamSolveFindGaps - computes the gap (m) before the step in cells that were open, 0 in others; in a step from no
+  contact the distance of the undeformed bodies, 0 where it is least. Collective.
   SamSolveIsTwice - true if the tangential problem has to be solved twice for the tried pressure. Not collective.
   SamSolveBound - computes a bound of the shear, from the pressure and the last slip. Collective.
   SamSolveShear - solves the tangential problem under the bound of the tried solution. If the bound depends on the slip,
@@ -96,6 +107,14 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
 typedef enum { SAM_ASIDE_PREDICTED, SAM_ASIDE_KEPT, SAM_ASIDE_SOLVED } SamAsideFrom;
 PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, SamAsideFrom from);
 PETSC_INTERN PetscBool      SamSolveSetsAside(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveFindTouching(SamSolve *solve, Vec motion);
+PETSC_INTERN PetscErrorCode SamSolveEndTouching(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveAddEntering(SamSolve *solve, PetscBool found, PetscBool open, Vec motion);
+PETSC_INTERN PetscErrorCode SamSolveFindGaps(SamSolve *solve, Vec gap);
+static inline PetscBool     SamSolveFindsTouching(SamSolve *solve)
+{
+  return solve->touching && !solve->holds ? PETSC_TRUE : PETSC_FALSE;
+}
 PETSC_INTERN PetscBool      SamSolveIsTwice(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
 PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);

@@ -67,12 +67,12 @@ static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
 /*
   Bytes per cell at the peak, with shared memory counted once, without the program and its libraries; measured at 1024
   cells per side, for contact on half of the grid and on all of it. From 2048 cells on up to 15 bytes fewer are needed:
-    one step        without friction 72 and 82, with friction 165 and 214, coupled 362 and 424
-    several steps   without friction 255 and 270, with friction 335 and 358, coupled 490 and 538
+    one step        without friction 72 and 82, with friction 165 and 214, coupled 650 and 700
+    several steps   without friction 255 and 270, with friction 335 and 358, coupled 780 and 830
   Several steps need a second state, to which a rejected step returns.
 */
-static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
-                                               {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
+static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 730}},
+                                               {{265, 365}, {350, 870}}}; /* [several steps][friction][coupled] */
 
 /* Memory of the slip in a step (step/direction.c), bytes per cell; measured at 512 cells a side: 57, coupled 4 */
 #define TURN_BYTES 70

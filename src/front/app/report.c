@@ -199,7 +199,7 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep 
   PetscCall(SamContactGetNumber(contact, "energy_error", &error));
   PetscCall(SamContactGetState(contact, &state));
   r->energy_unit = SamStateUnitOf(state, "dissipated_energy");
-  touches = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_ENTERING))[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  touches = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_TOUCHING))[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (isnan(error)) r->energy[1] = -INFINITY; /* rolling: there is no estimate for all steps */
   if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(contact, "dissipated_energy", &energy));

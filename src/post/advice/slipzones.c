@@ -74,15 +74,11 @@
 #define MAKING   0.33 /* part of the work of slip that is too much before cells touch */
 #define LESS     0.25 /* the same, relative to the energy, with enough steps; it falls like 1/steps^(1/FALLS) */
 #define FALLS    0.75
-/* Error of the energy after pressing in one step, where most sticks; it falls like 1/steps (30 random histories) */
-#define LOCKED 0.25
-#define ENOUGH 8 /* steps of pressing from which on it is small, and those that are advised */
-#define RIGHT  12
-#define ONCE   0.75 /* part of the largest normal load that counts as all of it */
-#define SLIGHT 0.2  /* part of mu N above which T counts in it */
-#define WAVES  2.5  /* largest wave number of those used for beta, relative to that of the contact */
-#define SPIN   0.59 /* M_z of sliding, relative to mu N a */
-#define LEAST  1.25 /* least ratio of the cells of an advised grid to those of this grid */
+#define ONCE     0.75 /* part of the largest normal load that counts as all of it */
+#define SLIGHT   0.2  /* part of mu N above which T counts in it */
+#define WAVES    2.5  /* largest wave number of those used for beta, relative to that of the contact */
+#define SPIN     0.59 /* M_z of sliding, relative to mu N a */
+#define LEAST    1.25 /* least ratio of the cells of an advised grid to those of this grid */
 
 /* ---- the width of the zone ---- */
 
@@ -101,9 +97,9 @@ static PetscBool IsRound(SamGap gap)
 /* Numbers of a step */
 typedef struct {
   PetscReal contact, stick, width, contact_cells, stick_cells, energy, closed, unsure, accepted;
-  PetscReal slip;         /* the maximum slip */
-  double    before_touch; /* SAM_ENTERING */
-  double    known, faces; /* known: 1 if the edge of contact is reconstructed; its faces between cells */
+  PetscReal slip;                   /* the maximum slip */
+  double    before_touch, touching; /* SAM_ENTERING, SAM_TOUCHING */
+  double    known, faces;           /* known: 1 if the edge of contact is reconstructed; its faces between cells */
 } Numbers;
 
 static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
@@ -125,6 +121,7 @@ static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
   PetscCall(SamContactGetState(s->contact, &state));
   edge            = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_CONTACT_EDGE));
   n->before_touch = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_ENTERING))[0];
+  n->touching     = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_TOUCHING))[0];
   n->known        = edge[SAM_CONTACT_EDGE_KNOWN];
   n->faces        = edge[SAM_CONTACT_EDGE_FACES];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -222,7 +219,8 @@ static PetscErrorCode AddStuck(const SamSetup *s, const SamStep *step, PetscBool
 
 /* ---- dissimilar bodies ---- */
 
-/* Adds the data by which the error of a single step of N is estimated. Collective. */
+/* Adds the data by which the error of a single step of N is estimated in which slip does not count from when cells
+   touch. Collective. */
 static PetscErrorCode Join(SamAdvice *a, const SamStep *step, const Numbers *n)
 {
   const SamSetup     *s       = a->setup;
@@ -240,7 +238,8 @@ static PetscErrorCode Join(SamAdvice *a, const SamStep *step, const Numbers *n)
   PetscCall(SamLawGetFriction(SamProblemGetLaw(s->problem, SAM_LAW_COULOMB), &friction));
   PetscCall(SamProblemHasFriction(s->problem, &rubs));
   if (!(friction > 0)) friction = 1; /* friction is a field */
-  if (!slip->joined && rubs && SamContactGetSettings(s->contact).coupling && now > ONCE * (double)most->normal)
+  if (!slip->joined && rubs && SamContactGetSettings(s->contact).coupling && n->touching == 0 &&
+      now > ONCE * (double)most->normal)
     slip->coupling = SamPairCoupling(s->pair, 1 / radius, WAVES / radius) / (double)friction;
   slip->joined = PETSC_TRUE;
   if (slip->first == 0)
@@ -278,33 +277,19 @@ static void Long(SamAdvice *a)
     slip->share > ALIKE ? "give the normal load a row of its own (-history), and" : "use");
 }
 
-/* Advises more steps of pressing if the shear that the first ones have left decides later slip. */
-static void Pressed(SamAdvice *a)
-{
-  const SamSlip *slip = &a->slip;
-
-  if (slip->coupling > 0 || slip->pressing == 0 || slip->pressing >= ENOUGH) return;
-  if (!(slip->first_touch > MAKING * (slip->first_touch + slip->pressed))) return;
-  if (!(slip->energy > 2 * slip->pressed && slip->energy > NOTHING * slip->work)) return;
-  SamAdviceSay(
-    a, "steps",
-    "elastically dissimilar bodies are pressed together in %" PetscInt_FMT " steps, which locks in too much "
-    "shear: the dissipated energy of later slip is about %.0f %% too large: let the load grow in about %d steps",
-    slip->pressing, 100 * LOCKED / (double)slip->pressing, RIGHT);
-}
-
 /* Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. */
 static void Few(SamAdvice *a)
 {
   const SamSlip *slip = &a->slip;
   const double   all  = slip->before_touch + slip->energy;
+  char           steps[32];
 
   if (slip->coupling > 0 || !(slip->energy > NOTHING * slip->work && slip->before_touch > MAKING * all)) return;
+  (void)snprintf(steps, sizeof(steps), slip->growing > 1 ? "%" PetscInt_FMT " steps" : "one step", slip->growing);
   SamAdviceSay(a, "steps",
                "elastically dissimilar bodies slip while the normal load grows: %.0f %% of that slip is before cells "
-               "touch, in %" PetscInt_FMT " steps, and the dissipated energy and the shear may be wrong: let the load "
-               "grow in about %.0f steps",
-               100 * slip->before_touch / all, slip->growing,
+               "touch, in %s, and the shear and the stick area may be wrong: let the load grow in about %.0f steps",
+               100 * slip->before_touch / all, steps,
                ceil((double)slip->growing * pow(slip->before_touch / (LESS * slip->energy), FALLS)));
 }
 
@@ -360,11 +345,6 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   slip->energy += (double)n.energy;
   slip->before_touch += PetscMax(n.before_touch, 0);
   slip->growing += n.before_touch > 0 ? 1 : 0;
-  if (n.before_touch > 0 && slip->pressing == slip->steps - 1) {
-    slip->pressing++;
-    slip->pressed += (double)n.energy;
-    slip->first_touch += n.before_touch;
-  }
   slip->sticks = sticks;
   if (n.energy > 0 && slip->width < INFINITY) slip->widest = PetscMax(slip->widest, slip->width);
   /* N and T that grow together may cause no slip: then the length of the steps, and not the cells, causes the
@@ -502,7 +482,6 @@ void SamAdviceSlip(SamAdvice *a)
   if (!a->slip.steps || a->slip.rolls) return;
   Long(a);
   Few(a);
-  Pressed(a);
   Energy(a);
   SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
                  "slip and shear");
