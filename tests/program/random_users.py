@@ -50,7 +50,9 @@ LIFE = ("volume1", "volume2", "depth_max1", "depth_max2", "pressure_max", "conta
 FRICTIONAL = ("dissipated_energy", "shear_max", "slip_max", "stick_area", "last_energy")
 PLASTIC = ("plastic_max", "plastic_work", "residual_z", "residual_energy")
 # numbers that a warning names, or whose cause it is; others name all numbers
+STATED = "error by the length of the load steps about"
 NAMED = (
+    (STATED, ("dissipated_energy",)),
     ("plastic_max, plastic_work and residual_z", PLASTIC),
     ("contact_area may be wrong", ("contact_area",)),
     ("largest at the surface", ("plastic_max",)),
@@ -345,17 +347,24 @@ def options_of(kind, problem, folder, cells, steps):
     return case
 
 
+def said(line):
+    """The error that is printed beside the dissipated energy, relative to it."""
+    found = re.search(STATED + r" (\S+) %", line)
+    return float(found[1]) / 100 if found else 0.0
+
+
 def run(program, case, folder, timeout):
-    """Exit code, warnings and the last line of stderr; code None after so many seconds."""
+    """Exit code, warnings with errors that are printed beside numbers, last line of stderr; code None: it took longer."""
     try:
         done = subprocess.run(
-            [str(program), *words(dict(case, quiet=True, output="out.h5"))], cwd=folder, capture_output=True, text=True,
+            [str(program), *words(dict(case, output="out.h5"))], cwd=folder, capture_output=True, text=True,
             timeout=timeout, env=conftest.environment(), stdin=subprocess.DEVNULL,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
         return None, [], f"more than {timeout:g} s"
     lines = done.stderr.splitlines()
     found = [line.partition("warning: ")[2] for line in lines if "warning: " in line]
+    found += [line.strip() for line in done.stdout.splitlines() if said(line) > WRONG]
     return done.returncode, [line for line in found if not re.search(MODEL, line)], (lines or [""])[-1]
 
 
@@ -457,7 +466,8 @@ class Trial:
 
     @property
     def loud(self):
-        return bool(self.warnings) and bool(self.errors) and max(self.errors.values()) < RIGHT
+        warned = any(STATED not in line for line in self.warnings)
+        return warned and bool(self.errors) and max(self.errors.values()) < RIGHT
 
     def tell(self):
         p = self.problem

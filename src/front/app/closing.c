@@ -13,7 +13,6 @@
 
 #define LARGE 0.02 /* error of the dissipated energy by the steps, relative to it, above which a warning is given */
 #define NONE  1e-4 /* energy relative to T disp that counts as none: N and T that grow in proportion need not slip */
-#define ZERO  1e-5 /* the same of the energy and its error if all cells stick */
 #define FOUND 0.5  /* share of reconstructed edges above which nothing is printed */
 
 /* A row of the table: the sum of the times of one or more events. */
@@ -166,7 +165,7 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
 
   PetscFunctionBegin;
   if (!HasEnergy(r) || r->energy[1] <= LARGE * PetscMax(r->energy[0], NONE * r->work) ||
-      PetscMax(r->energy[0], r->energy[1]) <= ZERO * r->work)
+      PetscMax(r->energy[0], r->energy[1]) <= NONE * r->work)
     PetscFunctionReturn(PETSC_SUCCESS);
   for (size_t k = 0; !given && k < sizeof(without) / sizeof(without[0]); k++)
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &given));

@@ -207,8 +207,8 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep 
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) /* tangential components can be creepages */
     if (SamComponentNames[c].creep) work += fabs(step->load[c] * step->rigid[c]);
   r->work = PetscMax(r->work, work);
-  /* The first step of similar bodies applies N, then the rest, which causes no error. */
-  if (r->number || touches) r->energy[1] += error;
+  /* A first step of similar bodies that applies N, then the rest, causes no error. */
+  if (r->number || touches || step->control.together) r->energy[1] += error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
