@@ -354,7 +354,7 @@ def said(line):
 
 
 def run(program, case, folder, timeout):
-    """Exit code, warnings with errors that are printed beside numbers, last line of stderr; code None: it took longer."""
+    """Exit code, warnings with errors printed beside numbers, last line of stderr; code None after so many seconds."""
     try:
         done = subprocess.run(
             [str(program), *words(dict(case, output="out.h5"))], cwd=folder, capture_output=True, text=True,
