@@ -34,7 +34,7 @@
 /* A pass that leaves a larger part of the error searches all cells for contact again. */
 #define LOOK 0.9
 /* Error below which a pass starts from the last shear and is solved completely */
-#define NEAR  1e-3
+#define NEAR  1e-2
 #define EXACT 1e-5
 /* After so many consecutive passes that did not find the shear in a brief solve, the solve is complete. */
 #define PATIENCE 2
