@@ -395,6 +395,33 @@ def test_energy_of_a_cycle_does_not_depend_on_the_steps_of_the_normal_load(petsa
     assert found[:3] == pytest.approx([found[3]] * 3, rel=0.06)
 
 
+def test_growing_contact_may_lie_across_the_border_of_a_period(petsam, tmp_path):
+    """The edges of new contact continue beyond the grid: the shear was 2 % of the pressure off, the energy 14 %."""
+    x = (np.arange(40) + 0.5) * 2 * np.pi / 40
+    heights = 1e-7 * (2 - np.cos(x)[None, :] - np.cos(x)[:, None] + 0.3 * np.cos(3 * x[None, :] + x[:, None]))
+    case = dict({**PERIODIC, **ALUMINIUM}, grid_n=40, load_n=20, steps=3, output="out.h5", overwrite=True)
+    found = []
+    for by, ranks in ((0, 0), 1), ((13, 21), 1), ((13, 21), 3):
+        with h5py.File(tmp_path / "h.h5", "w") as f:
+            f["height"] = np.roll(heights, by, (0, 1))
+        petsam(case, ranks=ranks)
+        with h5py.File(tmp_path / "out.h5") as f:
+            fields = [np.roll(f[name][-1], (-by[0], -by[1]), (0, 1)) for name in ("pressure", "shear_x", "shear_y")]
+            found.append((fields, f["history/dissipated_energy"][:].sum()))
+    peak = found[0][0][0].max()
+    assert np.abs(found[0][0][1]).max() > 0.02 * peak and found[0][1] > 0
+    for fields, energy in found[1:]:
+        assert_close(np.array(fields), np.array(found[0][0]), 1e-5, "tractions", peak)
+        assert energy == pytest.approx(found[0][1], rel=1e-4)
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_contact_of_one_cell(petsam, ranks):
+    """Its edge has little weight, and its width is not found by that."""
+    case = dict(ALUMINIUM, gap_type="sphere", gap_radius1=0.01, gap_radius2="inf", grid_n=9, grid_size=2e-3)
+    petsam(case, dict(load_n=0.01, steps=2), ranks=ranks)
+
+
 def changes(done):
     """The monitor's lines: pass, change of p, change of q."""
     return [

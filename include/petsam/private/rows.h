@@ -27,23 +27,36 @@ PETSC_INTERN PetscErrorCode SamRowsRestore(const SamRows *rows, const double **w
 #define SAM_HALO_MOST 6
 /*
   SamHalo - a field in this rank's rows and `halo` more before and after them. SamHaloBegin - fetches it; `components`:
-  at most SAM_HALO_MOST. SamHaloEnd - restores it. Both are collective.
-  SamHaloAt - returns a component in the cell in column i of the grid's row j; 0 outside of the fetched rows. Not
-  collective.
+  at most SAM_HALO_MOST; `wraps`: the field is periodic. SamHaloEnd - restores it. Both are collective.
+  SamHaloAt - returns a component in the cell in column i of the grid's row j; 0 outside of the fetched rows. A periodic
+  field continues beyond the grid. Not collective.
 */
 typedef struct {
   Vec           field;
+  PetscBool     wraps;
   PetscInt      components;
-  SamRows       rows;
+  SamRows       rows, beyond[2];         /* beyond: the grid's last and first rows, where they are next to these */
   const double *own, *at[SAM_HALO_MOST]; /* components of the fetched rows */
+  const double *past[2][SAM_HALO_MOST];  /* of those beyond the grid */
 } SamHalo;
-PETSC_INTERN PetscErrorCode SamHaloBegin(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamHalo *seen);
+PETSC_INTERN PetscErrorCode SamHaloBegin(SamGrid grid, Vec field, PetscInt components, PetscInt halo, PetscBool wraps,
+                                         SamHalo *seen);
 PETSC_INTERN PetscErrorCode SamHaloEnd(SamHalo *seen);
 static inline double        SamHaloAt(const SamHalo *seen, PetscInt component, PetscInt i, PetscInt j)
 {
-  const PetscInt row = j - seen->rows.first, nx = seen->rows.grid->nx;
+  const PetscInt nx = seen->rows.grid->nx, ny = seen->rows.grid->ny;
 
-  return i < 0 || i >= nx || row < 0 || row >= seen->rows.count ? 0 : seen->at[component][(ptrdiff_t)row * nx + i];
+  if (seen->wraps) i = (i % nx + nx) % nx;
+  if (seen->wraps) j = (j % ny + ny) % ny;
+  if (i < 0 || i >= nx) return 0;
+  if (j >= seen->rows.first && j < seen->rows.first + seen->rows.count)
+    return seen->at[component][(ptrdiff_t)(j - seen->rows.first) * nx + i];
+  for (int k = 0; k < 2 && seen->wraps; k++) {
+    const PetscInt row = j - seen->beyond[k].first;
+
+    if (row >= 0 && row < seen->beyond[k].count) return seen->past[k][component][(ptrdiff_t)row * nx + i];
+  }
+  return 0;
 }
 
 /*

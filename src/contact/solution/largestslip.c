@@ -68,10 +68,10 @@ static PetscErrorCode Begin(SamProblem problem, const SamSolution *s, Vec separa
   seen->ratio[1] = c[SAM_LAYERED_TT] / c[SAM_LAYERED_ZZ];
   PetscCall(SamRigidSet(&seen->rigid, problem, s));
   PetscCall(SamValuesGet(s, &seen->own));
-  PetscCall(SamHaloBegin(grid, s->pressure, 1, HALO, &seen->p));
-  PetscCall(SamHaloBegin(grid, s->displacement_z, 1, HALO, &seen->u_z));
-  PetscCall(SamHaloBegin(grid, s->displacement_t, 2, HALO, &seen->u_t));
-  PetscCall(SamHaloBegin(grid, separation, 1, HALO, &seen->separation));
+  PetscCall(SamHaloBegin(grid, s->pressure, 1, HALO, PETSC_FALSE, &seen->p));
+  PetscCall(SamHaloBegin(grid, s->displacement_z, 1, HALO, PETSC_FALSE, &seen->u_z));
+  PetscCall(SamHaloBegin(grid, s->displacement_t, 2, HALO, PETSC_FALSE, &seen->u_t));
+  PetscCall(SamHaloBegin(grid, separation, 1, HALO, PETSC_FALSE, &seen->separation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

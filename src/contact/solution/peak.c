@@ -139,11 +139,11 @@ PetscErrorCode SamSolutionFindShear(SamProblem problem, const SamSolution *solut
   Vec           cells;
 
   PetscFunctionBegin;
-  PetscCall(SamHaloBegin(grid, solution->pressure, 1, BEHIND + 1, &s.p));
-  PetscCall(SamHaloBegin(grid, solution->bound, 1, 1, &s.b));
-  PetscCall(SamHaloBegin(grid, solution->shear, 2, 1, &s.q));
+  PetscCall(SamHaloBegin(grid, solution->pressure, 1, BEHIND + 1, PETSC_FALSE, &s.p));
+  PetscCall(SamHaloBegin(grid, solution->bound, 1, 1, PETSC_FALSE, &s.b));
+  PetscCall(SamHaloBegin(grid, solution->shear, 2, 1, PETSC_FALSE, &s.q));
   PetscCall(CreateCells(&s, stick, s.q.own, &cells, most));
-  PetscCall(SamHaloBegin(grid, cells, 1, 1, &s.cell));
+  PetscCall(SamHaloBegin(grid, cells, 1, 1, PETSC_FALSE, &s.cell));
   for (PetscInt k = 0; k < grid->cells && !(film > 0); k++) {
     const double shear =
       s.cell.own[k] == SAM_CELL_STICK ? ShearBeside(&s, k % grid->nx, grid->row_start + k / grid->nx) : 0;

@@ -127,7 +127,8 @@ static PetscErrorCode FindDeviation(SamEdgeMean e, const double p[], double *dev
   for (PetscInt k = 0; k < e->grid->cells; k++) cells += SamIsPressed(p[k]) ? 1 : 0;
   PetscCall(SamSum(e->grid->comm, 1, &cells));
   for (PetscInt k = 0; k < e->count; k++) sides += e->point[SAM_EDGE_POINT * k + SAM_EDGE_WEIGHT];
-  *deviation = PetscMax(DEVIATION, sides > 0 ? PART * 4 * cells / sides : 0);
+  /* a compact contact is as wide as the root of its area; edges that no cell shares exactly have little weight */
+  *deviation = PetscMax(DEVIATION, PART * (sides > 0 ? PetscMin(4 * cells / sides, sqrt(cells)) : 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -96,7 +96,7 @@ static PetscErrorCode Cover(SamSolve *w, Apply apply, Vec traction, SamProduct *
   SamHalo       p;
 
   PetscFunctionBegin;
-  PetscCall(SamHaloBegin(grid, w->s->pressure, 1, 2, &p));
+  PetscCall(SamHaloBegin(grid, w->s->pressure, 1, 2, w->task->traits.periodic, &p));
   for (PetscInt j = grid->row_start; j < grid->row_start + grid->rows; j++)
     for (PetscInt i = 0; i < grid->nx; i++) {
       const PetscInt at[2] = {i, j};
@@ -114,7 +114,6 @@ static PetscErrorCode Cover(SamSolve *w, Apply apply, Vec traction, SamProduct *
 
 /* What a point is made of, in this rank's rows and two more on either side */
 typedef struct {
-  SamGrid grid;
   double  power, stiff[2]; /* E* over the distance of cells in x and y (Pa/m) */
   SamHalo p, left, gap, moved, base;
 } Surface;
@@ -123,10 +122,8 @@ typedef struct {
 static double CosineOf(const Surface *s, PetscInt i, PetscInt j, int way)
 {
   const PetscInt x = WAY_X[way], y = WAY_Y[way];
-  const double   along = SamHaloAt(&s->p, 0, i + x, j + y) - SamHaloAt(&s->p, 0, i - x, j - y);
-  const PetscInt k = x ? j : i, last = (x ? s->grid->ny : s->grid->nx) - 1;
-  /* a straight edge continues beyond the grid */
-  const double across = k > 0 && k < last ? SamHaloAt(&s->p, 0, i + y, j + x) - SamHaloAt(&s->p, 0, i - y, j - x) : 0;
+  const double   along  = SamHaloAt(&s->p, 0, i + x, j + y) - SamHaloAt(&s->p, 0, i - x, j - y);
+  const double   across = SamHaloAt(&s->p, 0, i + y, j + x) - SamHaloAt(&s->p, 0, i - y, j - x);
 
   return along > 0 ? along / hypot(along, across) : 0;
 }
@@ -185,18 +182,18 @@ static PetscBool MakePoint(const Surface *s, PetscInt i, PetscInt j, double poin
 static PetscErrorCode FindPoints(Step *step, double **points, PetscInt *count)
 {
   const SamGrid grid = step->grid;
-  Surface       s = {.grid = grid, .power = step->power, .stiff = {step->modulus / grid->dx, step->modulus / grid->dy}};
+  Surface       s    = {.power = step->power, .stiff = {step->modulus / grid->dx, step->modulus / grid->dy}};
   PetscInt      room = 0;
   double        point[SAM_EDGE_POINT];
 
   PetscFunctionBegin;
   *count  = 0;
   *points = NULL;
-  PetscCall(SamHaloBegin(grid, step->pressure, 1, 3, &s.p));
-  PetscCall(SamHaloBegin(grid, step->left, 1, 2, &s.left));
-  PetscCall(SamHaloBegin(grid, step->gap, 1, 2, &s.gap));
-  PetscCall(SamHaloBegin(grid, step->moved, 2, 2, &s.moved));
-  PetscCall(SamHaloBegin(grid, step->base, 2, 2, &s.base));
+  PetscCall(SamHaloBegin(grid, step->pressure, 1, 3, step->wraps, &s.p));
+  PetscCall(SamHaloBegin(grid, step->left, 1, 2, step->wraps, &s.left));
+  PetscCall(SamHaloBegin(grid, step->gap, 1, 2, step->wraps, &s.gap));
+  PetscCall(SamHaloBegin(grid, step->moved, 2, 2, step->wraps, &s.moved));
+  PetscCall(SamHaloBegin(grid, step->base, 2, 2, step->wraps, &s.base));
   for (PetscInt j = grid->row_start; j < grid->row_start + grid->rows; j++)
     for (PetscInt i = 0; i < grid->nx; i++) {
       if (!MakePoint(&s, i, j, point)) continue;

@@ -93,22 +93,36 @@ PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHaloBegin(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamHalo *seen)
+PetscErrorCode SamHaloBegin(SamGrid grid, Vec field, PetscInt components, PetscInt halo, PetscBool wraps, SamHalo *seen)
 {
+  const PetscInt  most  = PetscMin(halo, grid->ny);
+  const PetscBool first = grid->rows && grid->row_start < halo ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool last  = grid->rows && grid->row_start + grid->rows > grid->ny - halo ? PETSC_TRUE : PETSC_FALSE;
+
   PetscFunctionBegin;
-  *seen = (SamHalo){.field = field, .components = components};
+  *seen = (SamHalo){.field = field, .components = components, .wraps = wraps};
   PetscCall(SamRowsCreateAbout(grid, halo, &seen->rows));
+  if (wraps) PetscCall(SamRowsCreate(grid, first ? grid->ny - most : 0, first ? most : 0, &seen->beyond[0]));
+  if (wraps) PetscCall(SamRowsCreate(grid, 0, last ? most : 0, &seen->beyond[1]));
   PetscCall(VecGetArrayRead(field, &seen->own));
-  for (PetscInt c = 0; c < components; c++)
-    PetscCall(SamRowsFetch(&seen->rows, grid->nx, seen->own + (ptrdiff_t)c * grid->cells, &seen->at[c]));
+  for (PetscInt c = 0; c < components; c++) {
+    const double *own = seen->own + (ptrdiff_t)c * grid->cells;
+
+    PetscCall(SamRowsFetch(&seen->rows, grid->nx, own, &seen->at[c]));
+    for (int k = 0; k < 2 && wraps; k++) PetscCall(SamRowsFetch(&seen->beyond[k], grid->nx, own, &seen->past[k][c]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamHaloEnd(SamHalo *seen)
 {
   PetscFunctionBegin;
-  for (PetscInt c = seen->components; c-- > 0;) PetscCall(SamRowsRestore(&seen->rows, &seen->at[c]));
+  for (PetscInt c = seen->components; c-- > 0;) {
+    for (int k = 2; k-- > 0 && seen->wraps;) PetscCall(SamRowsRestore(&seen->beyond[k], &seen->past[k][c]));
+    PetscCall(SamRowsRestore(&seen->rows, &seen->at[c]));
+  }
   PetscCall(VecRestoreArrayRead(seen->field, &seen->own));
+  for (int k = 0; k < 2 && seen->wraps; k++) PetscCall(SamRowsDestroy(&seen->beyond[k]));
   PetscCall(SamRowsDestroy(&seen->rows));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -94,7 +94,7 @@ PetscErrorCode SamAdviceMeasureStuck(const SamSetup *s, double *share, SamStuck 
   PetscCall(ReadBefore(state, "shear", &before[2], &seen.q0));
   PetscCall(VecGetArrayRead(now->bound, &seen.b));
   PetscCall(VecGetArrayRead(now->shear, &seen.q));
-  PetscCall(SamHaloBegin(s->grid, now->pressure, 1, 1, &seen.p));
+  PetscCall(SamHaloBegin(s->grid, now->pressure, 1, 1, PETSC_FALSE, &seen.p));
   AddCells(&seen, s->grid, sums, &bound);
   PetscCall(SamHaloEnd(&seen.p));
   PetscCall(VecRestoreArrayRead(now->shear, &seen.q));

@@ -47,7 +47,7 @@ static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map 
       SamHalfSpaceStressRow(&source, (SamStressGroup)(SAM_STRESS_PLANE_P + t), j, LAGS, to);
     }
   PetscCall(PetscDTGaussQuadrature(POINTS, 0, 1, m->x, m->w));
-  PetscCall(SamHaloBegin(grid, field, SAM_STRESS_COMPONENTS, BLOCK + 1, &m->seen));
+  PetscCall(SamHaloBegin(grid, field, SAM_STRESS_COMPONENTS, BLOCK + 1, PETSC_FALSE, &m->seen));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -103,7 +103,7 @@ static PetscErrorCode Measure(SamGrid grid, Vec heights, Heights *found)
   PetscCall(VecMean(heights, &mean));
   PetscCall(VecShift(heights, -mean));
   PetscCall(PetscCalloc1(n[0] + n[1], &sums));
-  PetscCall(SamHaloBegin(grid, heights, 1, 3, &seen));
+  PetscCall(SamHaloBegin(grid, heights, 1, 3, PETSC_FALSE, &seen));
   AddUp(&seen, grid, square, sums);
   PetscCall(SamHaloEnd(&seen));
   PetscCall(SamSum(grid->comm, 3, square));
@@ -190,8 +190,8 @@ static PetscErrorCode FindStep(SamGrid grid, Vec heights, Vec pressure, double *
   PetscFunctionBegin;
   *most  = 0;
   *place = -1;
-  PetscCall(SamHaloBegin(grid, heights, 1, 3, &h));
-  PetscCall(SamHaloBegin(grid, pressure, 1, 1, &p));
+  PetscCall(SamHaloBegin(grid, heights, 1, 3, PETSC_FALSE, &h));
+  PetscCall(SamHaloBegin(grid, pressure, 1, 1, PETSC_FALSE, &p));
   for (PetscInt c = 0; c < 2 * grid->cells; c++) {
     const PetscInt axis = c % 2, i = c / 2 % grid->nx, j = grid->row_start + c / 2 / grid->nx;
     double         step;
