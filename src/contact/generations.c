@@ -180,7 +180,7 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
     break;
   case GAP:
     PetscCall(SamSolutionCreateSeparation(c->problem, state, SAM_TRIED, &h));
-    PetscCall(SamSolutionComputeGap(c->problem, s, h, field));
+    PetscCall(SamSolutionComputeGap(c->problem, s, s->displacement_z, h, field));
     PetscCall(SamSolutionDestroySeparation(c->problem, &h));
     break;
   case STATE:

@@ -269,7 +269,8 @@ static PetscErrorCode ComputeGap(SamContact c, Vec gap)
 
   PetscFunctionBegin;
   PetscCall(SamSolutionCreateSeparation(c->problem, c->state, SAM_COMMITTED, &h));
-  PetscCall(SamSolutionComputeGap(c->problem, &c->generation[SAM_TRIED], h, gap));
+  PetscCall(
+    SamSolutionComputeGap(c->problem, &c->generation[SAM_TRIED], c->generation[SAM_TRIED].displacement_z, h, gap));
   PetscCall(SamSolutionDestroySeparation(c->problem, &h));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

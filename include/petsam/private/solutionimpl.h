@@ -46,9 +46,12 @@ PETSC_INTERN void SamRigidGap(const SamRigid *motion, SamRigidRow row, const dou
 PETSC_INTERN PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation,
                                                         Vec *separation);
 PETSC_INTERN PetscErrorCode SamSolutionDestroySeparation(SamProblem problem, Vec *separation);
-/* SamSolutionComputeGap - computes the gap (m) in this rank's cells. Not collective. */
-PETSC_INTERN PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *solution, Vec separation,
-                                                  Vec gap);
+/*
+  SamSolutionComputeGap - computes the gap (m) in this rank's cells; `displacement`: that by the tractions along the
+  normal (m), as a rule the solution's; NULL: the bodies are undeformed. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *solution, Vec displacement,
+                                                  Vec separation, Vec gap);
 /* SamSolutionComputeSlip - computes a component of the slip (m) in this rank's cells. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *solution, PetscInt component,
                                                    double slip[]);

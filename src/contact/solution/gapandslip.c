@@ -324,26 +324,29 @@ PetscErrorCode SamSolutionDestroySeparation(SamProblem problem, Vec *h)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *s, Vec separation, Vec gap)
+PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *s, Vec displacement, Vec separation,
+                                     Vec gap)
 {
   SamRigid      motion;
-  const double *u, *h;
-  double       *g;
+  const double *u = NULL, *h;
+  double       *g, *zero;
   const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
   PetscCall(SamRigidSet(&motion, problem, s));
+  PetscCall(PetscCalloc1(grid->nx, &zero));
   PetscCall(VecGetArrayRead(separation, &h));
-  PetscCall(VecGetArrayRead(s->displacement_z, &u));
+  if (displacement) PetscCall(VecGetArrayRead(displacement, &u));
   PetscCall(VecGetArrayWrite(gap, &g));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-    SamRigidGap(&motion, SamRigidOfGap(&motion, j), u + k, h + k, g + k);
+    SamRigidGap(&motion, SamRigidOfGap(&motion, j), u ? u + k : zero, h + k, g + k);
   }
   PetscCall(VecRestoreArrayWrite(gap, &g));
-  PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
+  if (displacement) PetscCall(VecRestoreArrayRead(displacement, &u));
   PetscCall(VecRestoreArrayRead(separation, &h));
+  PetscCall(PetscFree(zero));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -28,7 +28,7 @@ static PetscErrorCode MeanGap(SamProblem problem, SamState state, const SamSolut
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(grid, 1, &gap));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_TRIED, &h));
-  PetscCall(SamSolutionComputeGap(problem, s, h, gap));
+  PetscCall(SamSolutionComputeGap(problem, s, s->displacement_z, h, gap));
   PetscCall(SamSolutionDestroySeparation(problem, &h));
   PetscCall(VecGetArrayRead(gap, &g));
   for (PetscInt j = 0; j < grid->rows; j++) {

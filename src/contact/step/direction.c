@@ -161,47 +161,37 @@ static void ShearAtEdge(const Approach *a, const double kappa[2], double x, doub
 /* Computes the gap before the step in cells that were open; it is 0 in others. */
 static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
 {
-  const double *p;
-  double       *g;
+  const SamSolution *before = w->task->before;
+  const double      *p;
+  double            *g;
 
   PetscFunctionBegin;
-  PetscCall(SamSolutionComputeGap(w->task->problem, w->task->before, w->separation, gap));
-  PetscCall(VecGetArrayRead(w->task->before->pressure, &p));
+  PetscCall(SamSolutionComputeGap(w->task->problem, before, before->displacement_z, w->separation, gap));
+  PetscCall(VecGetArrayRead(before->pressure, &p));
   PetscCall(VecGetArray(gap, &g));
   for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = SamIsPressed(p[k]) ? 0 : g[k];
   PetscCall(VecRestoreArray(gap, &g));
-  PetscCall(VecRestoreArrayRead(w->task->before->pressure, &p));
+  PetscCall(VecRestoreArrayRead(before->pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Computes the distance of the undeformed bodies instead, in a step from no contact; it is 0 where they touch first. */
 static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
 {
-  const PetscInt nx    = w->task->grid->nx;
-  double         least = -INFINITY; /* the negative of the least distance */
-  const double  *p, *h;
-  double        *zero, *g;
-  SamRigid       motion;
+  double        least = -INFINITY; /* the negative of the least distance */
+  const double *p;
+  double       *g;
 
   PetscFunctionBegin;
-  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
-  PetscCall(PetscCalloc1(nx, &zero));
+  PetscCall(SamSolutionComputeGap(w->task->problem, w->s, NULL, w->separation, distance));
   PetscCall(VecGetArrayRead(w->s->pressure, &p));
-  PetscCall(VecGetArrayRead(w->separation, &h));
   PetscCall(VecGetArray(distance, &g));
-  for (PetscInt j = 0; j < w->task->grid->rows; j++) {
-    const ptrdiff_t first = (ptrdiff_t)j * nx;
-
-    SamRigidGap(&motion, SamRigidOfGap(&motion, j), zero, h + first, g + first);
-  }
   for (PetscInt k = 0; k < w->task->grid->cells; k++)
     if (SamIsPressed(p[k])) least = PetscMax(least, -g[k]);
   PetscCall(SamMax(w->task->grid->comm, 1, &least));
   for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] += least;
   PetscCall(VecRestoreArray(distance, &g));
-  PetscCall(VecRestoreArrayRead(w->separation, &h));
   PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
-  PetscCall(PetscFree(zero));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -232,9 +222,9 @@ PetscErrorCode SamSolveAddEntering(SamSolve *w, PetscBool found, PetscBool open,
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->bound, &b));
   PetscCall(VecGetArray(motion, &to));
-  for (PetscInt k = 0; k < cells; k++)
+  for (PetscInt k = 0; k < cells && open; k++)
     if (SamIsPressed(p[k])) friction = PetscMax(friction, b[k] / p[k]);
-  PetscCall(SamMax(grid->comm, 1, &friction));
+  if (open) PetscCall(SamMax(grid->comm, 1, &friction));
   for (PetscInt k = 0; k < cells; k++) {
     const PetscBool pressed = SamIsPressed(p[k]);
     double          tau[2], size, part;

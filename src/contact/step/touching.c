@@ -86,13 +86,16 @@ static PetscBool IsBeside(const SamHalo *p, PetscInt i, PetscInt j)
   return PETSC_FALSE;
 }
 
-typedef PetscErrorCode (*Apply)(SamElasticity elasticity, Vec traction, Vec displacement);
-
-/* Makes a product with a traction known beside the contact; the solver knows it in the contact's rectangle only. */
-static PetscErrorCode Cover(SamSolve *w, Apply apply, Vec traction, SamProduct *product)
+/* Makes the products with the tractions known beside the contact; the solvers know them in its rectangle only. */
+static PetscErrorCode Cover(SamSolve *w)
 {
-  const SamGrid grid    = w->task->grid;
-  double        outside = 0;
+  static PetscErrorCode (*const apply[])(SamElasticity, Vec, Vec) = {SamElasticityApplyNormal,
+                                                                     SamElasticityApplyTangential};
+
+  const SamGrid grid       = w->task->grid;
+  const Vec     traction[] = {w->s->pressure, w->s->shear};
+  SamProduct   *product[]  = {&w->pressure_product, &w->shear_product};
+  double        most[2][2] = {{-INFINITY, -INFINITY}, {-INFINITY, -INFINITY}}; /* minus the first cell, and the last */
   SamHalo       p;
 
   PetscFunctionBegin;
@@ -101,14 +104,24 @@ static PetscErrorCode Cover(SamSolve *w, Apply apply, Vec traction, SamProduct *
     for (PetscInt i = 0; i < grid->nx; i++) {
       const PetscInt at[2] = {i, j};
 
-      for (int k = 0; k < 2 && IsBeside(&p, i, j); k++)
-        if (at[k] < product->first[k] || at[k] >= product->first[k] + product->n[k]) outside = 1;
+      if (!IsBeside(&p, i, j)) continue;
+      for (int k = 0; k < 2; k++) {
+        most[0][k] = PetscMax(most[0][k], -(double)at[k]);
+        most[1][k] = PetscMax(most[1][k], (double)at[k]);
+      }
     }
   PetscCall(SamHaloEnd(&p));
-  PetscCall(SamMax(grid->comm, 1, &outside));
-  if (outside == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall((*apply)(w->task->elasticity, traction, product->field));
-  *product = (SamProduct){.field = product->field, .n = {grid->nx, grid->ny}};
+  PetscCall(SamMax(grid->comm, 4, most[0]));
+  for (int t = 0; t < 2; t++) {
+    PetscBool outside = PETSC_FALSE;
+
+    for (int k = 0; k < 2; k++)
+      if (-most[0][k] < (double)product[t]->first[k] || most[1][k] >= (double)(product[t]->first[k] + product[t]->n[k]))
+        outside = PETSC_TRUE;
+    if (!outside) continue;
+    PetscCall((*apply[t])(w->task->elasticity, traction[t], product[t]->field));
+    *product[t] = (SamProduct){.field = product[t]->field, .n = {grid->nx, grid->ny}};
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -246,29 +259,6 @@ static PetscErrorCode Move(Step *step, Vec motion)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the gap after the step, with the pressure and the lift that belong together. */
-static PetscErrorCode FindGapsLeft(SamSolve *w, Vec gap)
-{
-  const PetscInt nx = w->task->grid->nx;
-  const double  *h;
-  double        *g;
-  SamRigid       motion;
-
-  PetscFunctionBegin;
-  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
-  PetscCall(VecWAXPY(gap, 1, w->lift, w->pressure_product.field));
-  PetscCall(VecGetArrayRead(w->separation, &h));
-  PetscCall(VecGetArray(gap, &g));
-  for (PetscInt j = 0; j < w->task->grid->rows; j++) {
-    const ptrdiff_t k = (ptrdiff_t)j * nx;
-
-    SamRigidGap(&motion, SamRigidOfGap(&motion, j), g + k, h + k, g + k);
-  }
-  PetscCall(VecRestoreArray(gap, &g));
-  PetscCall(VecRestoreArrayRead(w->separation, &h));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Computes the motion of all cells in the step. */
 static PetscErrorCode FindMoved(SamSolve *w, Vec moved)
 {
@@ -311,11 +301,11 @@ PetscErrorCode SamSolveFindTouching(SamSolve *w, Vec motion)
   PetscCall(SamGridCreateVec(step.grid, 2, &step.moved));
   PetscCall(SamGridCreateVec(step.grid, 2, &step.base));
   PetscCall(PetscCalloc1(step.grid->cells, &step.beside));
+  PetscCall(Cover(w));
+  PetscCall(VecWAXPY(step.gap, 1, w->lift, w->pressure_product.field)); /* the pressure is solved with this lift */
+  PetscCall(SamSolutionComputeGap(w->task->problem, w->s, step.gap, w->separation, step.left));
   PetscCall(SamSolveFindGaps(w, step.gap));
-  PetscCall(Cover(w, SamElasticityApplyNormal, w->s->pressure, &w->pressure_product));
-  PetscCall(Cover(w, SamElasticityApplyTangential, w->s->shear, &w->shear_product));
   PetscCall(SamSolveDisplace(w));
-  PetscCall(FindGapsLeft(w, step.left));
   PetscCall(FindMoved(w, step.moved));
   PetscCall(SamSolveAddEntering(w, PETSC_TRUE, PETSC_TRUE, step.base));
   PetscCall(Move(&step, motion));

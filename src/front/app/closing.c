@@ -164,8 +164,7 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
   PetscBool                given     = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!HasEnergy(r) || r->energy[1] <= LARGE * PetscMax(r->energy[0], NONE * r->work) ||
-      PetscMax(r->energy[0], r->energy[1]) <= NONE * r->work)
+  if (!HasEnergy(r) || r->energy[1] <= LARGE * r->energy[0] || PetscMax(r->energy[0], r->energy[1]) <= NONE * r->work)
     PetscFunctionReturn(PETSC_SUCCESS);
   for (size_t k = 0; !given && k < sizeof(without) / sizeof(without[0]); k++)
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &given));

@@ -31,7 +31,7 @@ static PetscErrorCode ComputeOverlap(SamProblem problem, SamState state, const S
   PetscFunctionBegin;
   PetscCall(SamProblemGetPressureLimit(problem, &limit));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
-  PetscCall(SamSolutionComputeGap(problem, s, separation, overlap));
+  PetscCall(SamSolutionComputeGap(problem, s, s->displacement_z, separation, overlap));
   PetscCall(SamSolutionDestroySeparation(problem, &separation));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArray(overlap, &g));
