@@ -23,7 +23,7 @@ typedef enum { SAM_STIFFNESS_FORWARD, SAM_STIFFNESS_REVERSAL } SamStiffnessDirec
 
 /*
   SamStiffness - d(load)/d(rigid displacement) in the order of SamComponent, then those of load cases, and its cost. The
-  load of a case is its number NAME_load, the displacement its factor.
+  load of a case is its number NAME_load, the displacement its factor. Rows and columns beyond these are 0.
 */
 #define SAM_STIFFNESS_MOST 86
 typedef struct {

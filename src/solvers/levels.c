@@ -3,6 +3,8 @@
 #include <petsam/private/solverimpl.h>
 #include <math.h>
 
+#define NESTED 32 /* fewest cells in a direction of a grid on which the solution on half the cells is a start */
+
 /* Creates a field on the level's grid for each field that `like` has. */
 static PetscErrorCode CreateFields(SamSolver s, const SamLevel *like, SamLevel *level)
 {
@@ -28,7 +30,8 @@ PetscErrorCode SamLevelSolveNested(SamSolver s, SamLevel *level, PetscInt depth,
   SamTransfer transfer;
 
   PetscFunctionBegin;
-  if (depth > 1 && !guess) PetscCall(SamElasticityGetCoarse(level->elasticity, &coarse.elasticity, &transfer));
+  if (depth > 1 && !guess && level->grid->fewest >= NESTED)
+    PetscCall(SamElasticityGetCoarse(level->elasticity, &coarse.elasticity, &transfer));
   if (coarse.elasticity) {
     coarse.grid = SamElasticityGetGrid(coarse.elasticity);
     PetscCall(CreateFields(s, level, &coarse));

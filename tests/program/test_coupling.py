@@ -395,6 +395,24 @@ def test_energy_of_a_cycle_does_not_depend_on_the_steps_of_the_normal_load(petsa
     assert found[:3] == pytest.approx([found[3]] * 3, rel=0.06)
 
 
+def test_energy_after_few_steps_of_bodies_that_nearly_stick(petsam, tmp_path):
+    """A push after N, where slip at the edge of contact is narrow. With the power 2/3 of the gap, in proportion to which
+    cells moved until they touched, two to four steps of N gave 34 to 26 % less energy, and 36 to 19 % more shear."""
+    row = dict(elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.0369, gap_radius_y="inf", grid_size=1.1e-3)
+    case = dict(row, body1_young=210e9, body1_poisson=0.3, body2_young=107.5e9, body2_poisson=0.25, friction=0.2)
+    n, energy, shear = 326688.0, {}, {}
+    for parts in 2, 4, 48:
+        rows = [((k + 1.0) / parts, n * (k + 1) / parts, 0.0) for k in range(parts)]
+        rows += [(1 + (k + 1) / 8, n, 0.046 * n * (k + 1) / 8) for k in range(8)]
+        petsam(case, history(tmp_path / "h.csv", "time,load_n,load_tx", *rows),
+               dict(grid_n=191, output="out.h5", output_every=1, overwrite=True))  # fmt: skip
+        with h5py.File(tmp_path / "out.h5") as f:
+            energy[parts], shear[parts] = f["history/dissipated_energy"][-8:].sum(), f["history/shear_max"][parts - 1]
+    for parts in 2, 4:
+        assert energy[parts] == pytest.approx(energy[48], rel=0.1)
+        assert shear[parts] == pytest.approx(shear[48], rel=0.13)
+
+
 def test_growing_contact_may_lie_across_the_border_of_a_period(petsam, tmp_path):
     """The edges of new contact continue beyond the grid: the shear was 2 % of the pressure off, the energy 14 %."""
     x = (np.arange(40) + 0.5) * 2 * np.pi / 40

@@ -172,6 +172,15 @@ def test_extrapolated_loads(solve, ratio, creep, expected):
         assert fine(s, case, name, arm) == pytest.approx(value, abs=tolerance), name
 
 
+def test_small_grids_are_extrapolated(solve):
+    """A spin that is found for M_z = 0, on a contact of twenty cells: 10 % off, and told so."""
+    creep = dict(creep_x=0.5 * U, creep_y=0.4 * U)
+    coarse, right = solve(ellipse(n=27), creep), float(solve(ellipse(n=216), creep)["creep_spin_extrapolated"])
+    assert abs(coarse["creep_spin"] / right - 1) > 0.06
+    assert abs(coarse["creep_spin_extrapolated"] / right - 1) < 0.04
+    assert "warning: creep_spin = " in coarse.run.stderr
+
+
 @pytest.mark.parametrize(
     "ratio, poisson, table",
     [

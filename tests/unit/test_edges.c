@@ -157,20 +157,21 @@ static void test_peak_is_not_sought_where_slip_is_not_resolved(void **state)
   }
 }
 
-/* mu p at the stick radius, of zones of a third to three quarters of a cell, beside the contact's edge. */
+/* mu p at the stick radius, of zones of a tenth to three quarters of a cell, beside the contact's edge; in the thinnest,
+   with the pressure of a whole cell at the edge, it was up to 1.2 times that at 0.03. */
 static void test_peak_of_a_thin_slip_zone_is_that_of_mindlin(void **state)
 {
-  static const double loads[] = {0.06, 0.08, 0.1, 0.12};
+  static const double loads[] = {0.02, 0.03, 0.06, 0.08, 0.1, 0.12};
 
   (void)state;
   for (PetscInt n = 60; n <= 72; n += 12)
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 6; k++) {
       Case             c       = NewCase(PLAIN, n, 1.5, MU, "");
       const SamControl control = Loads(&c, 1, loads[k], 0, 0);
       const double     peak    = MU * c.s.p0 * sqrt(1 - pow(1 - loads[k], 2.0 / 3));
 
       (void)Try(&c, &control);
-      sam_assert_close(NumberOf(&c, "shear_max") / peak, 1, 0.04);
+      sam_assert_close(NumberOf(&c, "shear_max") / peak, 1, loads[k] < 0.05 ? 0.08 : 0.04);
       DestroyCase(&c);
     }
 }

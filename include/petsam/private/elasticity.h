@@ -28,7 +28,7 @@ PETSC_INTERN PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from
 PETSC_INTERN PetscErrorCode SamElasticityAddParameters(SamElasticity elasticity, SamParameters *parameters);
 /*
   SamElasticityGetCoarse - gets the operator on the next coarser grid, and the transfer to it; both are borrowed, and
-  NULL if the grid is too small to be halved (fewer than 32 cells in a direction, except a single row). They are created
+  NULL if the grid is too small to be halved (fewer than 8 cells in a direction, except a single row). They are created
   at the first call. Collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,

@@ -8,8 +8,7 @@
 
 #define THINNEST 1e-12 /* thinnest layer, in cells */
 
-/* Grids with fewer cells than this in a direction are solved without a coarser grid. */
-#define COARSEST 32
+#define HALVED 8 /* fewest cells in a direction of a grid that is halved */
 
 static PetscFunctionList SamElasticityList = NULL;
 
@@ -404,7 +403,7 @@ PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const
 PetscErrorCode SamElasticityGetCoarse(SamElasticity e, SamElasticity *coarse, SamTransfer *transfer)
 {
   PetscFunctionBegin;
-  if (!e->coarse && e->grid->fewest >= COARSEST) {
+  if (!e->coarse && e->grid->fewest >= HALVED) {
     SamGrid grid;
 
     PetscCall(SamGridCoarsen(e->grid, &grid));

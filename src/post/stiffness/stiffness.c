@@ -209,11 +209,11 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   else
     PetscCall(ComputeUncoupled(&s));
   PetscCall(Free(&s));
-  stiffness->error         = s.error;
-  stiffness->converged     = s.error <= SAM_FROZEN_RTOL;
-  stiffness->columns       = s.motions;
-  stiffness->applies       = s.f.applies;
-  stiffness->preconditions = s.f.preconditions;
+  *stiffness = (SamStiffness){.converged     = s.error <= SAM_FROZEN_RTOL ? PETSC_TRUE : PETSC_FALSE,
+                              .error         = s.error,
+                              .columns       = s.motions,
+                              .applies       = s.f.applies,
+                              .preconditions = s.f.preconditions};
   Transform(&s, SamElasticityGetTraits(SamProblemGetElasticity(SamContactGetProblem(contact))).rotations, stiffness);
   PetscCall(SamFrozenDestroy(&s.f));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
