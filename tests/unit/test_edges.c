@@ -157,8 +157,8 @@ static void test_peak_is_not_sought_where_slip_is_not_resolved(void **state)
   }
 }
 
-/* mu p at the stick radius, of zones of a tenth to three quarters of a cell, beside the contact's edge; in the thinnest,
-   with the pressure of a whole cell at the edge, it was up to 1.2 times that at 0.03. */
+/* mu p at the stick radius, of zones of a tenth to three quarters of a cell, beside the contact's edge. With the mean
+   pressure of the cell at the edge it was up to 1.2 times that at 0.03. */
 static void test_peak_of_a_thin_slip_zone_is_that_of_mindlin(void **state)
 {
   static const double loads[] = {0.02, 0.03, 0.06, 0.08, 0.1, 0.12};
