@@ -84,8 +84,10 @@ static double SlackAt(const Seen *s, PetscInt i, PetscInt j, const double shear[
                : 0;
 }
 
-/* Returns the distance, in cells, from the centre of a cell to where what vanishes like a root is zero; `ratio`: its value
-   in that cell over that in the cell behind it. */
+/*
+  Returns the distance, in cells, from the centre of a cell to where what vanishes like a root is zero; `ratio`: its
+  value in that cell over that in the cell behind it.
+*/
 static double DistanceOfZero(double ratio)
 {
   return PetscMin(-0.17551 + ratio * (1.01898 + ratio * (0.32267 + ratio * 0.36465)), FARTHEST);
