@@ -66,6 +66,7 @@ NAMED = (
     ("the plastic strain that it causes", PLASTIC),
     ("maximum shear there", ("shear_max",)),
     ("stick zone is", ("stick_area",)),
+    ("has a tip", ("pressure_max", "shear_max")),
     ("wears in stripes", ("depth_max1", "depth_max2", "pressure_max", "shear_max", "contact_area")),
     ("since the last load reversal", ("slip_max",)),
 )

@@ -396,8 +396,8 @@ def test_energy_of_a_cycle_does_not_depend_on_the_steps_of_the_normal_load(petsa
 
 
 def test_energy_after_few_steps_of_bodies_that_nearly_stick(petsam, tmp_path):
-    """A push after N, where slip at the edge of contact is narrow. With the power 2/3 of the gap, in proportion to which
-    cells moved until they touched, two to four steps of N gave 34 to 26 % less energy, and 36 to 19 % more shear."""
+    """A push after N, where slip at the edge of contact is narrow. With the power 2/3 of the gap, in proportion to
+    which cells moved until they touched, two to four steps of N gave 34 to 26 % less energy, 36 to 19 % more shear."""
     row = dict(elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.0369, gap_radius_y="inf", grid_size=1.1e-3)
     case = dict(row, body1_young=210e9, body1_poisson=0.3, body2_young=107.5e9, body2_poisson=0.25, friction=0.2)
     n, energy, shear = 326688.0, {}, {}

@@ -1,5 +1,7 @@
 """Lives of surfaces that slide past each other: scars of both bodies over many cycles, by magnified cycles."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -334,3 +336,17 @@ def test_a_jump_leads_where_its_cycles_do(life, petsam, tmp_path, bodies):
         assert one[f"wear/volume{body}"][-1] == pytest.approx(exact, rel=2e-6, abs=0)
         depth = worn(every, body) - worn(first, body)
         assert np.abs(worn(one, body) - depth).max() < 4e-3 * depth.max()
+
+
+def test_few_steps_a_stroke_leave_a_tip_of_pressure(petsam, tmp_path):
+    """At the end of the stroke the scar is uneven: warned of, with its size, unless the steps are short."""
+    case = dict(CYLINDER, gap_radius_x=1.7e-3, plane_datum=1e-3, load_n=2400.0, friction=0.8, wear_coefficient2=7e-15,
+                body1_young=70e9, body2_young=70e9, grid_n=199, grid_size=6.4e-5, wear_cycles=4600)  # fmt: skip
+    rows = history(tmp_path / "h.csv", "time,disp_x", (0, 4e-6), (1, -4e-6), (2, 4e-6))
+    peak, told = {}, {}
+    for steps in 2, 8:
+        told[steps] = petsam(case, rows, dict(steps=steps, output="o.h5", overwrite=True)).stderr
+        peak[steps] = read_run(tmp_path / "o.h5")["wear/pressure_max"][-1]
+    found = re.search(r"tip (\d+) % above .* may be wrong by (\d+) %: use 2 times more steps", told[2])
+    assert float(found[2]) == pytest.approx(100 * (peak[2] / peak[8] - 1), rel=0.5)
+    assert "tip" not in told[8]

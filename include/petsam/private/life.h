@@ -27,15 +27,16 @@ typedef struct {
 
 /* SamLifeReport - a computed cycle, and the jump before it. */
 typedef struct {
-  PetscReal cycles;            /* number of cycles so far */
-  PetscReal jump;              /* length of the last jump, cycles */
-  PetscReal error;             /* relative error of that jump, by its difference from two half jumps; or `stripes` */
-  PetscReal stripes;           /* relative error of body 2's depth so far by steps with long slides */
-  PetscReal stride;            /* longest slide of a step of the cycle, relative to the contact's length along it */
-  PetscReal flow;              /* change of plastic strain in the cycle, relative to its maximum */
-  PetscReal limit;             /* cycles that wear as much as a single step may, infinite without wear */
-  PetscReal volume[2];         /* m3, volumes removed from body 1 and 2 so far */
-  PetscReal depth[2];          /* m, maximum depths removed from body 1 and 2 so far */
+  PetscReal cycles;    /* number of cycles so far */
+  PetscReal jump;      /* length of the last jump, cycles */
+  PetscReal error;     /* relative error of that jump, by its difference from two half jumps; or `stripes` */
+  PetscReal stripes;   /* relative error of body 2's depth so far by steps with long slides */
+  PetscReal stride;    /* longest slide of a step of the cycle, relative to the contact's length along it */
+  PetscReal tip;       /* excess of `pressure` over its mean along the slide of the last step; 0: not resolved */
+  PetscReal flow;      /* change of plastic strain in the cycle, relative to its maximum */
+  PetscReal limit;     /* cycles that wear as much as a single step may, infinite without wear */
+  PetscReal volume[2]; /* m3, volumes removed from body 1 and 2 so far */
+  PetscReal depth[2];  /* m, maximum depths removed from body 1 and 2 so far */
   PetscReal dissipated_energy; /* J, energy of this cycle */
   PetscReal contact_area;      /* m2, area at the end of the cycle */
   PetscReal pressure;          /* Pa, maximum pressure at the end of the cycle */

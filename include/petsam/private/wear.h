@@ -6,8 +6,10 @@
 
 /*
   SamWearAdviseStride - writes a warning about a step that slides too far; `stride`: its slide divided by the length of
-  the contact. Else an empty text. Not collective.
+  the contact. SamWearAdviseTip - about the excess of the maximum pressure over its mean along the slide of a step. Else
+  an empty text. Not collective.
 */
+PETSC_INTERN PetscErrorCode SamWearAdviseTip(PetscReal tip, char text[], size_t size);
 PETSC_INTERN PetscErrorCode SamWearAdviseStride(PetscReal stride, char text[], size_t size);
 
 #endif

@@ -362,6 +362,7 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
                        .error             = PetscMax(l->state.error, l->stripes_error),
                        .stripes           = l->stripes_error,
                        .stride            = l->stride,
+                       .tip               = l->tip,
                        .flow              = l->flow,
                        .limit             = l->start.limit,
                        .dissipated_energy = l->energy,

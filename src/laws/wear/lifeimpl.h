@@ -57,6 +57,7 @@ struct _n_SamLife {
   PetscInt        at;     /* index of `step` in the cycle */
   PetscReal       apart;  /* difference of the pressures of a jump and of its halves, over all steps */
   PetscReal       stride; /* the longest slide of a step of the computed cycle, relative to the contact's length */
+  PetscReal       tip;    /* excess of the maximum pressure after its last step over that along the step's slide */
   PetscReal       stripes_error;       /* error of body 2's depth so far by the length of the steps */
   Vec             stripes;             /* wear of body 2 in a cycle minus that by many steps; NULL: not created yet */
   PetscReal       energy, area;        /* of the last cycle, J; m2, in contact in `step` */

@@ -8,6 +8,11 @@
   over the cycles of all jumps, in the 2-norm relative to the load of body 2, estimates the error of the depth by the
   length of the steps. For a pin that slides over a disc by 4, 2, 1 and 1/2 lengths of the contact per step it is within
   a third of the true error; scars that conform, as in fretting, have a third of it.
+
+  Where a stroke of few steps ends, the depth is uneven, and the pressure has a tip on what stands out. The tip's excess
+  over the mean of the pressure along the slide of a step was 1.9 to 3.2 times the error of the maximum pressure, in all
+  of 97 random lives in which that was above 4 % (strokes of 2 to 24 steps of 4 cells or more, against a quarter of
+  their length); where the excess was below 8 %, the error was below 4 %.
 */
 #include "lifeimpl.h"
 #include <petsam/private/grid.h>
@@ -17,6 +22,10 @@
 
 /* Largest slide of a step, relative to the contact's length */
 #define LONGEST 0.25
+/* Largest excess of a tip of pressure without a warning, its ratio to the error, fewest cells of a step that show it */
+#define TIP      0.08
+#define TIPS     2
+#define RESOLVED 4
 /* Number of places between for a slide of the contact's length, and the maximum number */
 #define PLACES      8
 #define MOST_PLACES 64
@@ -32,6 +41,70 @@ PetscErrorCode SamWearGetStride(SamGrid grid, Vec pressure, const PetscReal from
   PetscCall(SamGridGetSupport(grid, pressure, first, n));
   for (PetscInt k = 0; k < grid->axes; k++)
     if (n[k] > 0) *stride = PetscMax(*stride, fabs(to[k] - from[k]) / ((PetscReal)n[k] * cell[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the first cell with the maximum pressure. */
+static PetscErrorCode FindPeak(SamGrid grid, const double p[], PetscInt at[2])
+{
+  double most = 0, first = -INFINITY; /* minus its index */
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < grid->cells; k++) most = PetscMax(most, p[k]);
+  PetscCall(SamMax(grid->comm, 1, &most));
+  for (PetscInt k = grid->cells; k-- > 0;)
+    if (p[k] == most) first = -(double)(grid->row_start * grid->nx + k);
+  PetscCall(SamMax(grid->comm, 1, &first));
+  at[0] = (PetscInt)-first % grid->nx;
+  at[1] = (PetscInt)-first / grid->nx;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Computes the excess of the maximum pressure over its mean along the slide of a step about it, in contact; 0 where a
+  step has few cells.
+*/
+static PetscErrorCode FindTip(SamGrid grid, Vec pressure, const PetscReal from[2], const PetscReal to[2],
+                              PetscReal *tip)
+{
+  const double   slide[] = {(double)((to[0] - from[0]) / grid->dx), (double)((to[1] - from[1]) / grid->dy)};
+  const PetscInt n       = (PetscInt)(PetscMax(fabs(slide[0]), fabs(slide[1])) + 0.5);
+  double         line[MOST_PLACES + 1] = {0}, sum = 0, cells = 0, most = 0;
+  PetscInt       at[2] = {0};
+  const double  *p;
+
+  PetscFunctionBegin;
+  *tip = 0;
+  if (n < RESOLVED || n > MOST_PLACES) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(pressure, &p));
+  PetscCall(FindPeak(grid, p, at));
+  for (PetscInt k = 0; k <= n; k++) {
+    const double   t = (double)k / (double)n - 0.5;
+    const PetscInt i = at[0] + (PetscInt)lrint(t * slide[0]),
+                   j = at[1] + (PetscInt)lrint(t * slide[1]) - grid->row_start;
+
+    if (i >= 0 && i < grid->nx && j >= 0 && j < grid->rows) line[k] = p[i + j * grid->nx];
+  }
+  PetscCall(VecRestoreArrayRead(pressure, &p));
+  PetscCall(SamSum(grid->comm, n + 1, line));
+  for (PetscInt k = 0; k <= n; k++) {
+    sum += line[k];
+    cells += line[k] > 0 ? 1 : 0;
+    most = PetscMax(most, line[k]);
+  }
+  *tip = sum > 0 ? most * cells / sum - 1 : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearAdviseTip(PetscReal tip, char text[], size_t size)
+{
+  PetscFunctionBegin;
+  text[0] = '\0';
+  if (tip > TIP)
+    PetscCall(PetscSNPrintf(text, size,
+                            "the pressure has a tip %.0f %% above its mean along the slide of a step, so that the "
+                            "maximum pressure and shear may be wrong by %.0f %%: use 2 times more steps",
+                            100 * (double)tip, 100 * (double)tip / TIPS));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -82,7 +155,7 @@ static PetscErrorCode Divide(SamLife l, Vec load, Vec before, Vec after, Vec fir
 PetscErrorCode SamLifeBeginStrides(SamLife l)
 {
   PetscFunctionBegin;
-  l->stride = 0;
+  l->stride = l->tip = 0;
   if (l->loads == 1) PetscFunctionReturn(PETSC_SUCCESS);
   if (!l->stripes) PetscCall(SamGridCreateVec(l->grid, 1, &l->stripes));
   PetscCall(VecSet(l->stripes, 0));
@@ -101,7 +174,8 @@ PetscErrorCode SamLifeNoteStride(SamLife l, Vec load, Vec before, Vec after)
   (void)SamFramesGetSlide(l->memory, SAM_TRIED, to);
   PetscCall(SamWearGetStride(l->grid, after, from, to, &stride));
   l->stride = PetscMax(l->stride, stride);
-  n         = (PetscInt)PetscMin(PetscMax(ceil(PLACES * stride), 2), MOST_PLACES);
+  PetscCall(FindTip(l->grid, after, from, to, &l->tip));
+  n = (PetscInt)PetscMin(PetscMax(ceil(PLACES * stride), 2), MOST_PLACES);
   PetscCall(Divide(l, load, before, after, first, rest));
   PetscCall(Write(l, from, 1, first));
   PetscCall(Write(l, to, 1, rest));

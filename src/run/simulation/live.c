@@ -211,13 +211,14 @@ static PetscErrorCode WarnOfUnit(SamSimulation s, const SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Warns once of steps that slide far over the contact. */
+/* Warns once of steps that slide far over the contact, or leave a tip of pressure. */
 static PetscErrorCode WarnOfStride(SamSimulation s, const SamLifeReport *r)
 {
   char advice[192], text[256];
 
   PetscFunctionBegin;
   PetscCall(SamWearAdviseStride(r->stride, advice, sizeof(advice)));
+  if (!advice[0]) PetscCall(SamWearAdviseTip(r->tip, advice, sizeof(advice)));
   if (s->stripes || !advice[0]) PetscFunctionReturn(PETSC_SUCCESS);
   s->stripes = PETSC_TRUE;
   (void)snprintf(text, sizeof(text), "after %.10g cycles: %s", (double)r->cycles, advice);
