@@ -32,6 +32,7 @@ YIELD_FINER = 2  # in three dimensions, where layers and cells take their time
 SLIDE_FINER = 2  # the same
 FINE_LAYERS = 64
 SLACK = 1e-6  # of the normal work: energies below it are none
+YIELDED = 1e-5  # plastic strain, about a hundredth of the elastic one at yield, and dent over approach: none below
 RESIDUAL = 0.2  # of all plastic work: 5 % of it is the stated accuracy of residual_energy, 1 % of that work
 NORMAL = ("time", "load_n", "load_mx", "load_my", "disp_z")
 LAST = (
@@ -385,7 +386,8 @@ def read(path):
     least = dict.fromkeys(("dissipated_energy", "plastic_work", "residual_energy"), SLACK * work)
     least["residual_energy"] += RESIDUAL * numbers.get("plastic_work", 0)
     least.update(stick_area=1e-3 * numbers["contact_area"], shear_max=1e-4 * numbers["pressure_max"])
-    least.update(slip_max=1e-5 * np.nanmax(np.abs(table["disp_z"])), plastic_max=1e-6)
+    least.update(slip_max=1e-5 * np.nanmax(np.abs(table["disp_z"])), plastic_max=YIELDED)
+    least["residual_z"] = YIELDED * np.nanmax(np.abs(table["disp_z"]))
     least.update(
         load_tx=1e-3 * table["load_n"][-1],
         load_ty=1e-3 * table["load_n"][-1],

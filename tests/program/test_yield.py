@@ -394,6 +394,22 @@ def test_shear_by_plastic_strain_alone_is_warned_of(petsam, tmp_path):
     assert "along each other" not in petsam(case, dict(friction=0)).stderr
 
 
+def test_peak_of_shear_that_would_yield_between_cells_is_warned_of(petsam, tmp_path):
+    """No cell yields, where on half as wide ones some do."""
+    case = dict(
+        support.bodies(210e9, 0.3), body1_young=70e9, body2_yield=165e6, body2_hardening_modulus=1e9, friction=0.6,
+        gap_type="ellipsoid", gap_radius_x=0.0045, gap_radius_y="inf", elasticity="plane_periodic", grid_size=4.9e-4,
+    )  # fmt: skip
+    case.update(steps(tmp_path / "loads.csv", load_n=[15e3, 15e3], load_tx=[0, 3.4e3]))
+    told, strain = [], []
+    for n in 176, 352:
+        done = petsam(case, dict(grid_n=n, output="o.h5", overwrite=True))
+        told.append([line for line in done.complaint if "but no cell yields" in line])
+        strain.append(all_steps(support.Results(tmp_path / "o.h5"))["plastic_max"][-1])
+    assert strain[0] == 0 < strain[1]
+    assert len(told[0]) == 1 and told[0][0].endswith("or -grid_n 704") and not told[1]
+
+
 def test_a_contact_at_the_edge_is_told_of_a_larger_grid(petsam):
     """What yields is wider than the elastic contact of its load, which the grid would hold."""
     case = sphere(16, 8, 12)

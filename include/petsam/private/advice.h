@@ -81,6 +81,7 @@ typedef struct {
 typedef struct {
   double work, step; /* plastic work of all steps, and of that step which did most of it, J */
   double pressure;   /* maximum pressure of any step, Pa */
+  double shear;      /* maximum shear of any step, also at the edge of stick between cells, Pa */
   double dent;       /* residual_z_max of the last step, m */
   double before;     /* that before the first step: of a restart, or of a copied contact */
 } SamYielding;

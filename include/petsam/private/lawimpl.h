@@ -255,5 +255,7 @@ PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
   contact, above which the maximum plastic strain is more than 4 % too small.
 */
 #define SAM_PLASTIC_THICK 0.2
+/* SamPlasticGetYieldStress - returns the smallest yield stress (Pa) of the bodies of this law. Not collective. */
+PETSC_INTERN PetscReal SamPlasticGetYieldStress(SamLaw law);
 
 #endif

@@ -558,6 +558,15 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscReal SamPlasticGetYieldStress(SamLaw law)
+{
+  const SamPlastic *p     = &((const Plastic *)law->data)->plastic;
+  PetscReal         least = PETSC_INFINITY;
+
+  for (PetscInt b = 0; b < p->bodies; b++) least = PetscMin(least, (PetscReal)p->body[b].material.yield);
+  return least;
+}
+
 static PetscErrorCode Destroy(SamLaw law)
 {
   SamPlastic *p = &((Plastic *)law->data)->plastic;

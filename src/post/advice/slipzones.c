@@ -310,11 +310,41 @@ static PetscBool GrowTogether(SamSlip *slip, const SamStep *step)
   return slip->together;
 }
 
+/* Returns the work of a step's tangential loads, J. */
+static double WorkOf(const SamStep *step)
+{
+  double work = 0;
+
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt c = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
+
+    work += fabs((double)(step->load[c] * step->rigid[c]));
+  }
+  return work;
+}
+
+/* Returns the order of the work of the shear of alike bodies that bulk stress stretches under the contact, J. */
+static PetscErrorCode GetStrained(const SamSetup *s, double contact, double *work)
+{
+  PetscReal shear;
+
+  PetscFunctionBegin;
+  *work = 0;
+  if (!IsAlike(s)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetNumber(s->contact, "shear_max", &shear));
+  *work = (double)(shear * shear / SamPairModulus(s->pair)) * contact;
+  *work *= SamGridIsRow(s->grid) ? contact : sqrt(contact);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
 {
   const SamSetup *s      = a->setup;
+  const double    normal = fabs((double)(step->load[SAM_COMPONENT_N] * step->rigid[SAM_COMPONENT_N]));
   SamSlip        *slip   = &a->slip;
-  double          pushes = 0, work = 0, sticks;
+  const double    pushes = WorkOf(step);
+  const PetscBool pushed = pushes > NOTHING * NOTHING * normal ? PETSC_TRUE : PETSC_FALSE;
+  double          work   = pushes, sticks;
   Numbers         n;
 
   PetscFunctionBegin;
@@ -331,13 +361,8 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   Measure(s, &n, slip);
   PetscCall(Join(a, step, &n));
   PetscCall(AddStuck(s, step, n.stick_cells == n.contact_cells ? PETSC_TRUE : PETSC_FALSE, slip));
-  for (PetscInt k = 0; k < 3; k++) {
-    const PetscInt c = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
-
-    pushes += fabs((double)(step->load[c] * step->rigid[c]));
-  }
-  if (n.energy < ROUNDING * fabs((double)(step->load[SAM_COMPONENT_N] * step->rigid[SAM_COMPONENT_N]))) n.energy = 0;
-  if (GrowTogether(slip, step) && n.energy < SLIVER * pushes) {
+  if (n.energy < ROUNDING * normal) n.energy = 0;
+  if (GrowTogether(slip, step) && pushed && n.energy < SLIVER * pushes) {
     n.energy     = 0;
     slip->unsure = PETSC_TRUE;
   }
@@ -354,9 +379,8 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
     slip->unsure = PETSC_TRUE;
   }
   slip->branch += (double)n.energy;
-  if (slip->width < INFINITY) work = pushes;
-  if (step->load[SAM_COMPONENT_N] != 0 &&
-      work > NOTHING * NOTHING * fabs((double)(step->load[SAM_COMPONENT_N] * step->rigid[SAM_COMPONENT_N])))
+  if (!pushed) PetscCall(GetStrained(s, (double)n.contact, &work));
+  if (slip->width < INFINITY && step->load[SAM_COMPONENT_N] != 0 && work > NOTHING * NOTHING * normal)
     slip->work = PetscMax(slip->work, work);
   slip->pushed = step->control.force[SAM_COMPONENT_TX] && step->control.force[SAM_COMPONENT_TY] &&
                  step->control.force[SAM_COMPONENT_MZ];
