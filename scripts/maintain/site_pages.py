@@ -91,7 +91,11 @@ PARTS = (
     ("Joints", ("examples/lap/README.md", "examples/joint/README.md", "examples/vibrating-joint/README.md")),
     (
         "Reference problems",
-        ("examples/reference/README.md", *(f"examples/reference/cases/{case}.md" for case in CASES)),
+        (
+            "examples/reference/README.md",
+            "examples/reference/CREEP.md",
+            *(f"examples/reference/cases/{case}.md" for case in CASES),
+        ),
     ),
     ("Python and scripts", ("scripts/README.md", "scripts/PYTHON.md", "examples/study/README.md")),
     ("C and other programs", ("examples/embed/README.md", "include/FUNCTIONS.md")),

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import support
@@ -181,3 +182,69 @@ def test_petsam_has_the_numbers_of_the_quick_cases(tmp_path):
     words = ["answers", *names, "-o", tmp_path / "answers.json"]
     subprocess.run([sys.executable, "-W", "ignore", FOLDER / "reference.py", *words], check=True, timeout=600)
     assert "in 4 of 24 cases, 0 wrong" in check(tmp_path / "answers.json", (tmp_path / "answers.json").read_text())
+
+
+# ---------------------------------------------------------------- the table of creep forces
+
+
+@pytest.fixture(scope="module")
+def creep():
+    return importlib.import_module("creep")
+
+
+def test_creep_table_has_all_cases_and_narrow_intervals(creep):
+    table = creep.read()
+    ratios, count = np.unique(table["ratio"], return_counts=True)
+    assert len(ratios) == 10 and set(count) == {204}
+    for name in creep.FORCES:
+        width = table[name + "_high"] - table[name + "_low"]
+        assert 0 < width.min() and width.max() < 0.015 and np.median(width) < 1e-3
+        assert name == "mz" or np.all(np.abs(table[name + "_low"]) < 1.001)
+    assert (FOLDER / "creep.csv").stat().st_size < 200e3 and len((FOLDER / "creep.py").read_text().splitlines()) <= 40
+
+
+def forces_of(solve, ratio, xi, eta, phi, cells=96):
+    """The extrapolated fx, fy, mz of petsam, with other constants than those of the table."""
+    table = importlib.import_module("creep_table")
+    half, options = table.contact(ratio)
+    limit = 0.5 * options["load_n"]
+    shear = table.YOUNG / 2.5
+    unit, length = limit / (shear * 1e-6), 1e-3
+    case = dict(support.bodies(table.YOUNG, 0.25), **options, friction=0.5, gap_type="ellipsoid", rolling="steady",
+                grid_n=cells, grid_size=(2.4 * half[0], 2.4 * half[1]), creep_x=xi * unit, creep_y=eta * unit,
+                creep_spin=phi * unit / length)  # fmt: skip
+    found = solve(case)
+    return [found[f"load_{name}_extrapolated"] / limit / arm for name, arm in (("tx", 1), ("ty", 1), ("mz", length))]
+
+
+@pytest.mark.parametrize(
+    "case", [(1, -0.25, 0.1, 0.5), (0.35, 0.1, -0.6, -1.2), (3.5, 0.6, -0.25, 0.0), (0.1, 0.0, 0.25, 3.0)]
+)
+def test_creep_table_contains_what_petsam_finds_for_any_signs(solve, creep, case):
+    low, high = creep.find(creep.read(), *case)
+    found = np.array(forces_of(solve, *case))
+    assert np.all(found > low - 2e-3) and np.all(found < high + 2e-3)
+
+
+def test_creep_table_names_wrong_forces(creep, tmp_path):
+    table = creep.read()[::7]
+    middles = [(table[n + "_low"] + table[n + "_high"]) / 2 for n in creep.FORCES]
+    middles[1] = middles[1] * 1.01  # one force is 1 % off
+    rows = np.transpose([*(table[name] for name in creep.INPUTS), *middles])
+    head = "ratio,xi,eta,phi,fx,fy,mz"
+    np.savetxt(tmp_path / "f.csv", rows, delimiter=",", header=head, comments="")
+    run = subprocess.run(
+        [sys.executable, FOLDER / "creep.py", tmp_path / "f.csv"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    cases, wrong, worst = re.match(r"(\d+) of \1 cases in the table, (\d+) .* by (\S+) at most", run.stdout).groups()
+    assert int(cases) == len(table) and int(wrong) > len(table) / 3 and 0.002 < float(worst) < 0.01
+
+
+def test_a_second_way_to_creep_forces_overlaps_the_table(creep, capsys):
+    table = importlib.import_module("creep_table")
+    assert table.second(3, 5, FOLDER / "creep.csv", (16, 32, 64)) == 0
+    assert "9 of 9 intervals overlap" in capsys.readouterr().out

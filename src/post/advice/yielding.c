@@ -40,7 +40,7 @@
 /* Relative error of the peak pressure at s w = 1, in plane strain and for other contacts */
 #define SUDDEN_PLANE 0.06
 #define SUDDEN       0.11
-#define STORED       1.5 /* times that: the error of the energy of the residual stress */
+#define STORED       2 /* times that: the error of the energy of the residual stress */
 /* Shear by plastic strain, relative to the pressure, that friction has to carry */
 #define CARRIED 1e-3
 /* How many times finer a grid is advised for it, and for a body that yields between cells */

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Computes the table of creep forces with petsam, and some of its cases a second way.
+
+creep_table.py compute [--ratios 0.1,1,...] [--cells 64,128,256] -o creep.csv
+table.py second [--cases 40] [--seed 1] [--table creep.csv]    the same by cells in numpy: do the intervals overlap?
+table.py picture [--table creep.csv] -o forces.png
+"""
+
+import argparse
+import csv
+import itertools
+import sys
+import tempfile
+from pathlib import Path
+
+import creep
+import numpy as np
+from rolling_cells import steady
+from scipy.special import ellipe, ellipk
+
+import petsam
+
+YOUNG, POISSON, FRICTION, LENGTH, PEAK = 210e9, 0.25, 0.3, 1e-3, 1e-3  # Pa, 1, 1, sqrt(a b) in m, p0/E*
+SHEAR = YOUNG / (2 + 2 * POISSON)
+RATIOS = (0.1, 0.2, 0.35, 0.6, 1.0, 1.5, 2.2, 3.5, 6.0, 10.0)
+CREEPS = (0.0, 0.1, 0.25, 0.6, 1.5)
+SPINS = (0.0, 0.2, 0.5, 1.2, 3.0)
+ROOM = 1.15  # width of the grid over that of the contact
+FLOOR = 2e-4  # no interval is narrower than twice this
+
+
+def cases():
+    """Creepages and spin, xi and phi not negative; without spin eta neither: the rest follows by symmetry."""
+    etas = sorted({sign * eta for eta in CREEPS for sign in (1, -1)})
+    for xi, eta, phi in itertools.product(CREEPS, etas, SPINS):
+        if (xi or eta or phi) and not (phi == 0 and eta < 0):
+            yield xi, abs(eta) if eta == 0 else eta, phi
+
+
+def contact(ratio):
+    """Half axes and, as options, radii and N of Hertz's contact of this a/b: Johnson, Contact Mechanics, (4.26)."""
+    a, b = LENGTH * np.sqrt(ratio), LENGTH / np.sqrt(ratio)
+    long, short = max(a, b), min(a, b)
+    m = 1 - (short / long) ** 2
+    if m == 0:
+        curvatures = [np.pi * PEAK / (4 * long)] * 2
+    else:
+        unit = PEAK * short / (m * long**2)
+        curvatures = [unit * (ellipk(m) - ellipe(m)), unit * ((long / short) ** 2 * ellipe(m) - ellipk(m))]
+    if a < b:
+        curvatures.reverse()
+    force = 2 / 3 * np.pi * a * b * PEAK * YOUNG / (2 - 2 * POISSON**2)
+    radii = {f"gap_radius_{axis}": 1 / (2 * value) for axis, value in zip("xy", curvatures)}
+    return (a, b), {**radii, "load_n": force}
+
+
+def forces(ratio, cells):
+    """T_x/(mu N), T_y/(mu N), M_z/(mu N c) of all cases on a grid."""
+    half, options = contact(ratio)
+    unit = FRICTION * options["load_n"] / (SHEAR * LENGTH**2)
+    rows = [(k + 1, xi * unit, eta * unit, phi * unit / LENGTH) for k, (xi, eta, phi) in enumerate(cases())]
+    with tempfile.TemporaryDirectory() as folder:
+        loads = Path(folder) / "creepages.csv"
+        with loads.open("w", newline="") as file:
+            csv.writer(file).writerows([("time", "creep_x", "creep_y", "creep_spin"), *rows])
+        run = petsam.run(
+            options, history=str(loads), rolling="steady", friction=FRICTION, gap_type="ellipsoid",
+            body1_young=YOUNG, body2_young=YOUNG, body1_poisson=POISSON, body2_poisson=POISSON,
+            grid_n=cells, grid_size=tuple(2 * ROOM * side for side in half), output_every=len(rows),
+        )  # fmt: skip
+    limit = FRICTION * options["load_n"]
+    return np.transpose([run.history[f"load_{name}"] / limit for name in ("tx", "ty", "mz")]) / (1, 1, LENGTH)
+
+
+def intervals(grids):
+    """Low and high ends from three grids, each twice as fine as the last: errors are of first order.
+
+    Limit 2 F(h) - F(2h), -+ 1.5 times its difference from that of the coarser grids, or half of the last change.
+    """
+    coarse, middle, fine = grids
+    limit, before = 2 * fine - middle, 2 * middle - coarse
+    half = np.maximum.reduce([1.5 * abs(limit - before), abs(fine - middle) / 2, np.full(fine.shape, FLOOR)])
+    return limit - half, limit + half
+
+
+def compute(ratios, cells, path):
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(creep.COLUMNS)
+        for ratio in ratios:
+            low, high = intervals([forces(ratio, n) for n in cells])
+            for case, ends in zip(cases(), zip(low, high)):
+                numbers = [f"{function(end * 1e5) / 1e5:.5f}" for pair in zip(*ends) for end, function in
+                           zip(pair, (np.floor, np.ceil))]  # fmt: skip
+                writer.writerow([f"{ratio:g}", *(f"{value:g}" for value in case), *numbers])
+            file.flush()
+            print(f"a/b = {ratio:g}: widest interval {np.max(high - low):.4f}", file=sys.stderr)
+
+
+def second(count, seed, path, cells=(32, 64, 128)):
+    """Random cases by so many cells in numpy across the contact: their own intervals have to overlap the table's."""
+    table, apart, solved = creep.read(path), 0, 0
+    for row in np.random.default_rng(seed).permutation(len(table)):
+        case = table[row]
+        half, options = contact(case["ratio"])
+        limit = FRICTION * options["load_n"]
+        unit = limit / (SHEAR * LENGTH**2)
+        motion = (case["xi"] * unit, case["eta"] * unit, case["phi"] * unit / LENGTH)
+        name = " ".join(f"{case[name]:g}" for name in creep.INPUTS)
+        try:
+            grids = [np.array(steady(half, n, SHEAR, POISSON, limit, motion)[:3]) for n in cells]
+        except RuntimeError as error:
+            print(name, error)
+            continue
+        low, high = intervals([forces / limit / (1, 1, LENGTH) for forces in grids])
+        ends = [(case[f"{force}_low"], case[f"{force}_high"]) for force in creep.FORCES]
+        outside = [force for force, a, b, (c, d) in zip(creep.FORCES, low, high, ends) if a > d or b < c]
+        print(name, "apart: " + ", ".join(outside) if outside else "overlap")
+        apart, solved = apart + len(outside), solved + 1
+        if solved == count:
+            break
+    print(f"{3 * solved - apart} of {3 * solved} intervals overlap")
+    return apart
+
+
+def picture(table_path, path):
+    """T_x over xi, and T_y over phi, for some contacts."""
+    import matplotlib.pyplot as plt
+
+    table = creep.read(table_path)
+    figure, panels = plt.subplots(1, 2, figsize=(7, 2.9), layout="constrained", sharey=True)
+    for ratio in (0.1, 0.35, 1, 3.5, 10):
+        for axes, name, values, force in zip(panels, ("xi", "phi"), (CREEPS, SPINS), (0, 1)):
+            points = [{"xi": 0, "eta": 0, "phi": 0, name: value} for value in values[1:]]
+            ends = np.array([creep.find(table, ratio, **point)[:, force] for point in points])
+            axes.plot(values, [0, *ends.mean(axis=1)], "o-", markersize=3, label=f"a/b = {ratio:g}")
+    panels[0].set(xlabel="xi G c$^2$/(mu N)", ylabel="T$_x$/(mu N)", title="creepage along x")
+    panels[1].set(xlabel="phi G c$^3$/(mu N)", ylabel="T$_y$/(mu N)", title="spin")
+    panels[1].legend(fontsize="small")
+    figure.savefig(path, dpi=90)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("task", choices=["compute", "second", "picture"])
+    parser.add_argument("--ratios", default=",".join(f"{ratio:g}" for ratio in RATIOS))
+    parser.add_argument("--cells", default="64,128,256")
+    parser.add_argument("--cases", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--table", default=creep.TABLE)
+    parser.add_argument("-o", "--output", default="creep.csv")
+    given = parser.parse_args()
+    if given.task == "second":
+        sys.exit(second(given.cases, given.seed, given.table) > 0)
+    if given.task == "picture":
+        return picture(given.table, given.output)
+    return compute([float(x) for x in given.ratios.split(",")], [int(n) for n in given.cells.split(",")], given.output)
+
+
+if __name__ == "__main__":
+    main()
