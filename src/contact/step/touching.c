@@ -319,7 +319,7 @@ static PetscErrorCode FindPower(SamSolve *w, double *power)
   PetscCall(VecRestoreArrayRead(before->pressure, &p));
   PetscCall(SamSum(w->task->grid->comm, 2, sums));
   stuck  = sums[0] > 0 ? sums[1] / sums[0] : 1;
-  share  = (double)(SamSolutionGetNormal(before) / SamSolutionGetNormal(w->s));
+  share  = PetscMin((double)(SamSolutionGetNormal(before) / SamSolutionGetNormal(w->s)), 1);
   *power = 1 - (SLIPS - (SLIPS - STICKS) * pow(stuck, 4)) * sqrt(share);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
