@@ -1,10 +1,12 @@
 """Bulk stress in the bodies: the stretch of their surfaces, its options and columns."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
 
-from support import SPHERE, assert_same, ball, history, read_run, slide_limit
+from support import SPHERE, assert_same, ball, bodies, history, read_run, slide_limit
 
 BALL = ball(48, load_tx=10.0)
 
@@ -113,3 +115,17 @@ def test_contact_that_is_stretched_in_proportion_to_the_load_sticks(solve, tmp_p
     energy = of_a_cycle(solve(case), 1, "dissipated_energy")[0]
     apart = of_a_cycle(solve(stretched(tmp_path, "plane", 0.7)), 1, "dissipated_energy")[0]
     assert energy < 1e-5 * apart
+
+
+def test_slip_by_bulk_stress_alone_within_a_cell_is_warned_of(petsam, tmp_path):
+    """No tangential load does work; the shear of the stretched surface still slips at the edge, on finer cells."""
+    pad = dict(
+        bodies(210e9, 0.3), elasticity="plane", gap_type="pad", gap_half_flat_x=4.84e-3, gap_edge_radius_x=0.136,
+        friction=1.0, grid_n=120, grid_size=0.0189, steps=4,
+    )  # fmt: skip
+    rows = [(0, 7.26e5, 0), (1, 5.56e5, -3.94e6), (2, 6.07e5, 5.3e6), (3, 4.53e5, -1.23e6)]
+    done = petsam(pad, history(tmp_path / "h.csv", "time,load_n,bulk1_stress_xx", *rows))
+    assert re.search(r"warning: .*the dissipated energy, 0 J/m, is not resolved", done.stderr)
+    rows = [(0, 7.26e5, 0), (1, 7.26e5, 0)]
+    done = petsam(pad, history(tmp_path / "h.csv", "time,load_n,bulk1_stress_xx", *rows))
+    assert "dissipated energy" not in done.stderr
