@@ -10,6 +10,9 @@ READELF    ?= readelf
 # within the shared library, calls go straight to its own functions
 BIND       ?= -Wl,-Bsymbolic-functions
 prefix     ?= /usr/local
+ifeq ($(origin PREFIX),command line)
+  $(error PREFIX=$(PREFIX) has no effect: write prefix=$(PREFIX))
+endif
 PYTHON     ?= python3
 B          := build
 # one name of a folder in this tree, so that the rules of dependencies name the same objects

@@ -227,3 +227,8 @@ def test_what_the_manual_says_is_installed_is(prefix):
     text = re.search(r"`make install.*?\n\n", (ROOT / "scripts/README.md").read_text(), re.S).group()
     for place in re.findall(r"`((?:bin|lib|include|share)/[\w/.*-]*)`", text):
         assert list(prefix.glob(place.rstrip("/"))), place
+
+
+def test_the_other_spelling_of_prefix_is_refused():
+    run = subprocess.run(["make", "PREFIX=/opt/p", "install"], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert run.returncode and "PREFIX=/opt/p has no effect: write prefix=/opt/p" in run.stderr

@@ -205,6 +205,8 @@ def test_dry_run_reads_all_that_a_run_reads(folder, petsam):
     assert "after step 21" in petsam(on).stdout
     assert "friction" in petsam(on, dict(friction=0.123), check=2).stderr
     assert "cannot be written: " in petsam(CASE, dict(output="no/out.h5", dry_run=True), check=3).stderr
+    (folder / "file").touch()
+    assert "its folder is a file" in petsam(CASE, dict(output="file/out.h5", dry_run=True), check=3).stderr
     assert "-frob" in petsam(CASE, dict(frob=1, dry_run=True), check=2).stderr
     assert not (folder / "on.h5").exists()
 

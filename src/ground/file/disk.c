@@ -27,6 +27,7 @@ static const struct {
                {IS_LINK, "it is a symbolic link"},
                {NOT_A_FILE, "it is not a file"},
                {NO_FOLDER, "its folder does not exist"},
+               {ENOTDIR, "its folder is a file"},
                {EISDIR, "it is a folder, expected the name of a file"}};
 
 static const char *Reason(int error)
@@ -38,11 +39,13 @@ static const char *Reason(int error)
 
 PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error)
 {
-  char folder[PETSC_MAX_PATH_LEN];
+  char        folder[PETSC_MAX_PATH_LEN];
+  struct stat status;
 
   PetscFunctionBegin;
   SamGetFolder(filename, folder);
   if (error == ENOENT && access(folder, F_OK)) error = NO_FOLDER;
+  if (error == EACCES && !stat(folder, &status) && !S_ISDIR(status.st_mode)) error = ENOTDIR;
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
   PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename, Reason(error));
   PetscFunctionReturn(PETSC_SUCCESS);
