@@ -39,13 +39,11 @@ static const char *Reason(int error)
 
 PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error)
 {
-  char        folder[PETSC_MAX_PATH_LEN];
-  struct stat status;
+  char folder[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   SamGetFolder(filename, folder);
   if (error == ENOENT && access(folder, F_OK)) error = NO_FOLDER;
-  if (error == EACCES && !stat(folder, &status) && !S_ISDIR(status.st_mode)) error = ENOTDIR;
   PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, grid->comm));
   PetscCheck(!error, grid->comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename, Reason(error));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -167,6 +165,15 @@ static int CheckContent(int file, SamFileUse use)
 
 /* ---- space ---- */
 
+/* Returns 0 if a folder allows this access, else errno. */
+static int CheckFolder(const char folder[], int mode)
+{
+  struct stat status;
+
+  if (!stat(folder, &status) && !S_ISDIR(status.st_mode)) return ENOTDIR;
+  return access(folder, mode) ? errno : 0;
+}
+
 /*
   Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer; otherwise its length never
   changes, because a checkpoint that is longer when a run is killed would count as damaged. The limit of file sizes is
@@ -239,7 +246,7 @@ PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char fil
   FollowLinks(filename, real);
   SamGetFolder(real, folder);
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
-  if (rank == 0 && access(access(filename, F_OK) ? folder : filename, W_OK)) error = errno;
+  if (rank == 0) error = access(filename, F_OK) ? CheckFolder(folder, W_OK) : access(filename, W_OK) ? errno : 0;
   if (rank == 0 && !statvfs(folder, &space)) *bytes = (double)space.f_bavail * (double)space.f_frsize;
   PetscCallMPI(MPI_Bcast(bytes, 1, MPI_DOUBLE, 0, grid->comm));
   PetscCall(SamFileRaise(grid, option, filename, error));
@@ -339,7 +346,7 @@ static int CheckFolderOf(const char filename[])
 
   FollowLinks(filename, real);
   SamGetFolder(real, folder);
-  return access(folder, W_OK | X_OK) ? errno : 0;
+  return CheckFolder(folder, W_OK | X_OK);
 }
 
 PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use)
