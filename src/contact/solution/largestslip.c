@@ -46,7 +46,7 @@
 typedef struct {
   SamGrid   grid;
   SamRigid  rigid;
-  PetscBool streams;
+  PetscBool streams, wraps; /* material streams through; the bodies are periodic, without rotations but about z */
   double    modulus, strain, ratio[2]; /* E*, strain by pressure, and M across the edge and along it */
   SamValues own;
   SamHalo   p, u_z, u_t, separation;
@@ -60,7 +60,7 @@ static PetscErrorCode Begin(SamProblem problem, const SamSolution *s, Vec separa
   double              c[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
 
   PetscFunctionBegin;
-  *seen = (Seen){.grid = grid, .streams = SamMotionOf(e)->streams};
+  *seen = (Seen){.grid = grid, .streams = SamMotionOf(e)->streams, .wraps = SamElasticityGetTraits(e).periodic};
   SamPairSymbols(SamElasticityGetPair(e), k, c, difference);
   seen->modulus  = 2 / c[SAM_LAYERED_ZZ];
   seen->strain   = c[SAM_LAYERED_ZR];
@@ -68,10 +68,10 @@ static PetscErrorCode Begin(SamProblem problem, const SamSolution *s, Vec separa
   seen->ratio[1] = c[SAM_LAYERED_TT] / c[SAM_LAYERED_ZZ];
   PetscCall(SamRigidSet(&seen->rigid, problem, s));
   PetscCall(SamValuesGet(s, &seen->own));
-  PetscCall(SamHaloBegin(grid, s->pressure, 1, HALO, PETSC_FALSE, &seen->p));
-  PetscCall(SamHaloBegin(grid, s->displacement_z, 1, HALO, PETSC_FALSE, &seen->u_z));
-  PetscCall(SamHaloBegin(grid, s->displacement_t, 2, HALO, PETSC_FALSE, &seen->u_t));
-  PetscCall(SamHaloBegin(grid, separation, 1, HALO, PETSC_FALSE, &seen->separation));
+  PetscCall(SamHaloBegin(grid, s->pressure, 1, HALO, seen->wraps, &seen->p));
+  PetscCall(SamHaloBegin(grid, s->displacement_z, 1, HALO, seen->wraps, &seen->u_z));
+  PetscCall(SamHaloBegin(grid, s->displacement_t, 2, HALO, seen->wraps, &seen->u_t));
+  PetscCall(SamHaloBegin(grid, separation, 1, HALO, seen->wraps, &seen->separation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -88,7 +88,7 @@ static PetscErrorCode End(const SamSolution *s, Seen *seen)
 
 static PetscBool Has(const Seen *s, PetscInt i, PetscInt j)
 {
-  return i >= 0 && i < s->grid->nx && j >= 0 && j < s->grid->ny;
+  return s->wraps || (i >= 0 && i < s->grid->nx && j >= 0 && j < s->grid->ny);
 }
 
 static PetscBool Touches(const Seen *s, PetscInt i, PetscInt j)
@@ -99,7 +99,8 @@ static PetscBool Touches(const Seen *s, PetscInt i, PetscInt j)
 /* Returns the gap of a cell, which is 0 in contact; beyond the grid, the gap of the nearest cell. */
 static double GapOf(const Seen *s, PetscInt i, PetscInt j)
 {
-  const PetscInt    a = PetscClipInterval(i, 0, s->grid->nx - 1), b = PetscClipInterval(j, 0, s->grid->ny - 1);
+  const PetscInt    a   = s->wraps ? i : PetscClipInterval(i, 0, s->grid->nx - 1);
+  const PetscInt    b   = s->wraps ? j : PetscClipInterval(j, 0, s->grid->ny - 1);
   const SamRigidRow row = SamRigidOfGap(&s->rigid, b - s->grid->row_start);
   double            gap;
 

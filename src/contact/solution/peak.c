@@ -45,15 +45,21 @@ static PetscBool IsInside(const SamHalo *p, PetscInt i, PetscInt j)
   return PETSC_TRUE;
 }
 
+static double SquareIn(const SamHalo *p, PetscInt i, PetscInt j)
+{
+  const double value = SamHaloAt(p, 0, i, j);
+
+  return value * value;
+}
+
 /* Returns p^2 at (x, y), in cells from the grid's first one, interpolated between the four cells about it. */
 static double SquareAt(const SamHalo *p, double x, double y)
 {
-  const PetscInt nx = p->rows.grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
-  const double   tx = x - (double)i, ty = y - (double)j, *q = p->at[0] + (ptrdiff_t)(j - p->rows.first) * nx + i;
+  const PetscInt i = (PetscInt)floor(x), j = (PetscInt)floor(y);
+  const double tx = x - (double)i, ty = y - (double)j, here = (1 - tx) * SquareIn(p, i, j) + tx * SquareIn(p, i + 1, j);
 
-  if (SamGridIsRow(p->rows.grid)) return (1 - tx) * q[0] * q[0] + tx * q[1] * q[1];
-  return (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
-         ty * ((1 - tx) * q[nx] * q[nx] + tx * q[nx + 1] * q[nx + 1]);
+  if (SamGridIsRow(p->rows.grid)) return here;
+  return (1 - ty) * here + ty * ((1 - tx) * SquareIn(p, i, j + 1) + tx * SquareIn(p, i + 1, j + 1));
 }
 
 /* Finds the largest shear at the reconstructed points of the edge, and marks their cells as known. */
@@ -145,17 +151,19 @@ static PetscErrorCode CreateCells(const Seen *s, const SamEdge *stick, const dou
 
 PetscErrorCode SamSolutionFindShear(SamProblem problem, const SamSolution *solution, const SamEdge *stick, double *most)
 {
-  const SamGrid grid = SamProblemGetGrid(problem);
-  const double  film = (double)SamPairFilm(SamElasticityGetPair(SamProblemGetElasticity(problem)));
-  Seen          s    = {.grid = grid};
-  Vec           cells;
+  const SamGrid       grid  = SamProblemGetGrid(problem);
+  const SamElasticity e     = SamProblemGetElasticity(problem);
+  const PetscBool     wraps = SamElasticityGetTraits(e).periodic;
+  const double        film  = (double)SamPairFilm(SamElasticityGetPair(e));
+  Seen                s     = {.grid = grid};
+  Vec                 cells;
 
   PetscFunctionBegin;
-  PetscCall(SamHaloBegin(grid, solution->pressure, 1, BEHIND + 1, PETSC_FALSE, &s.p));
-  PetscCall(SamHaloBegin(grid, solution->bound, 1, 1, PETSC_FALSE, &s.b));
-  PetscCall(SamHaloBegin(grid, solution->shear, 2, 1, PETSC_FALSE, &s.q));
+  PetscCall(SamHaloBegin(grid, solution->pressure, 1, BEHIND + 1, wraps, &s.p));
+  PetscCall(SamHaloBegin(grid, solution->bound, 1, 1, wraps, &s.b));
+  PetscCall(SamHaloBegin(grid, solution->shear, 2, 1, wraps, &s.q));
   PetscCall(CreateCells(&s, stick, s.q.own, &cells, most));
-  PetscCall(SamHaloBegin(grid, cells, 1, 1, PETSC_FALSE, &s.cell));
+  PetscCall(SamHaloBegin(grid, cells, 1, 1, wraps, &s.cell));
   for (PetscInt k = 0; k < grid->cells && !(film > 0); k++) {
     const double shear =
       s.cell.own[k] == SAM_CELL_STICK ? ShearBeside(&s, k % grid->nx, grid->row_start + k / grid->nx) : 0;
