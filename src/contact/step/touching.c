@@ -15,8 +15,8 @@
   itself: displacements of points on the edge grow like the gap there, and s is exact. In a short step, in which the
   edge moves at a constant speed, g grows like the power 3/2 of the distance from the old edge. The motion grows like
   that distance, a = 2/3, where cells at the edge slip, and faster where they stick. The rule for a was fitted to
-  cylinders that are pressed in 200 or 400 steps on 1528 or 3056 cells: with moduli of 210 and 107.5 GPa, mu = 3, 0.2 and
-  0.1, and a rigid one, mu = 0.3. Their a at s = 0.4:
+  cylinders that are pressed in 200 or 400 steps on 1528 or 3056 cells: with moduli of 210 and 107.5 GPa, mu = 3, 0.2
+  and 0.1, and a rigid one, mu = 0.3. Their a at s = 0.4:
 
     N0/N          0.05    0.25    0.5     0.75    0.875
     c = 1         0.94    0.89    0.88    0.87    0.87
