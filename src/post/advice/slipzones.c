@@ -39,6 +39,7 @@
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/problemimpl.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/balance.h>
 #include <petsam/private/body.h>
@@ -324,13 +325,15 @@ static double WorkOf(const SamStep *step)
 }
 
 /* Returns the order of the work of the shear of alike bodies that bulk stress stretches under the contact, J. */
-static PetscErrorCode GetStrained(const SamSetup *s, double contact, double *work)
+static PetscErrorCode GetStrained(const SamSetup *s, const SamStep *step, double contact, double *work)
 {
+  SamStrain e;
   PetscReal shear;
 
   PetscFunctionBegin;
   *work = 0;
-  if (!IsAlike(s)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamProblemDisplace(s->problem, NULL, &step->control, NULL, NULL, &e, NULL));
+  if (!IsAlike(s) || (e.xx == 0 && e.yy == 0 && e.xy == 0)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(s->contact, "shear_max", &shear));
   *work = (double)(shear * shear / SamPairModulus(s->pair)) * contact;
   *work *= SamGridIsRow(s->grid) ? contact : sqrt(contact);
@@ -379,7 +382,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
     slip->unsure = PETSC_TRUE;
   }
   slip->branch += (double)n.energy;
-  if (!pushed) PetscCall(GetStrained(s, (double)n.contact, &work));
+  if (!pushed) PetscCall(GetStrained(s, step, (double)n.contact, &work));
   if (slip->width < INFINITY && step->load[SAM_COMPONENT_N] != 0 && work > NOTHING * NOTHING * normal)
     slip->work = PetscMax(slip->work, work);
   slip->pushed = step->control.force[SAM_COMPONENT_TX] && step->control.force[SAM_COMPONENT_TY] &&
