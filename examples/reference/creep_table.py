@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Computes the table of creep forces with petsam, and some of its cases a second way.
 
-creep_table.py compute [--ratios 0.1,1,...] [--cells 64,128,256] -o creep.csv
-table.py second [--cases 40] [--seed 1] [--table creep.csv]    the same by cells in numpy: do the intervals overlap?
-table.py picture [--table creep.csv] -o forces.png
+    creep_table.py compute [--ratios 0.1,1,...] [--cells 64,128,256] -o creep.csv
+    creep_table.py second [--cases 40] [--seed 1] [--table creep.csv]    by cells in numpy: do the intervals overlap?
+    creep_table.py picture [--table creep.csv] -o creep.png
+
+CREEP.md has the definitions.
 """
 
 import argparse
@@ -54,11 +56,22 @@ def contact(ratio):
     return (a, b), {**radii, "load_n": force}
 
 
+def motion(limit, xi, eta, phi):
+    """Creepages and spin (1, 1, 1/m) of a case, for mu N."""
+    unit = limit / (SHEAR * LENGTH**2)
+    return xi * unit, eta * unit, phi * unit / LENGTH
+
+
+def relative(limit, loads):
+    """T_x/(mu N), T_y/(mu N), M_z/(mu N c) of loads T_x, T_y, M_z in the last axis."""
+    return np.asarray(loads) / limit / (1, 1, LENGTH)
+
+
 def forces(ratio, cells):
-    """T_x/(mu N), T_y/(mu N), M_z/(mu N c) of all cases on a grid."""
+    """The relative loads of all cases on a grid."""
     half, options = contact(ratio)
-    unit = FRICTION * options["load_n"] / (SHEAR * LENGTH**2)
-    rows = [(k + 1, xi * unit, eta * unit, phi * unit / LENGTH) for k, (xi, eta, phi) in enumerate(cases())]
+    limit = FRICTION * options["load_n"]
+    rows = [(k + 1, *motion(limit, *case)) for k, case in enumerate(cases())]
     with tempfile.TemporaryDirectory() as folder:
         loads = Path(folder) / "creepages.csv"
         with loads.open("w", newline="") as file:
@@ -68,8 +81,7 @@ def forces(ratio, cells):
             body1_young=YOUNG, body2_young=YOUNG, body1_poisson=POISSON, body2_poisson=POISSON,
             grid_n=cells, grid_size=tuple(2 * ROOM * side for side in half), output_every=len(rows),
         )  # fmt: skip
-    limit = FRICTION * options["load_n"]
-    return np.transpose([run.history[f"load_{name}"] / limit for name in ("tx", "ty", "mz")]) / (1, 1, LENGTH)
+    return relative(limit, np.transpose([run.history[f"load_{name}"] for name in ("tx", "ty", "mz")]))
 
 
 def intervals(grids):
@@ -104,15 +116,14 @@ def second(count, seed, path, cells=(32, 64, 128)):
         case = table[row]
         half, options = contact(case["ratio"])
         limit = FRICTION * options["load_n"]
-        unit = limit / (SHEAR * LENGTH**2)
-        motion = (case["xi"] * unit, case["eta"] * unit, case["phi"] * unit / LENGTH)
+        creepages = motion(limit, case["xi"], case["eta"], case["phi"])
         name = " ".join(f"{case[name]:g}" for name in creep.INPUTS)
         try:
-            grids = [np.array(steady(half, n, SHEAR, POISSON, limit, motion)[:3]) for n in cells]
+            grids = [relative(limit, steady(half, n, SHEAR, POISSON, limit, creepages)[:3]) for n in cells]
         except RuntimeError as error:
             print(name, error)
             continue
-        low, high = intervals([forces / limit / (1, 1, LENGTH) for forces in grids])
+        low, high = intervals(grids)
         ends = [(case[f"{force}_low"], case[f"{force}_high"]) for force in creep.FORCES]
         outside = [force for force, a, b, (c, d) in zip(creep.FORCES, low, high, ends) if a > d or b < c]
         print(name, "apart: " + ", ".join(outside) if outside else "overlap")

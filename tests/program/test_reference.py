@@ -204,17 +204,15 @@ def test_creep_table_has_all_cases_and_narrow_intervals(creep):
 
 
 def forces_of(solve, ratio, xi, eta, phi, cells=96):
-    """The extrapolated fx, fy, mz of petsam, with other constants than those of the table."""
+    """The extrapolated fx, fy, mz of petsam, with another friction than that of the table."""
     table = importlib.import_module("creep_table")
     half, options = table.contact(ratio)
     limit = 0.5 * options["load_n"]
-    shear = table.YOUNG / 2.5
-    unit, length = limit / (shear * 1e-6), 1e-3
-    case = dict(support.bodies(table.YOUNG, 0.25), **options, friction=0.5, gap_type="ellipsoid", rolling="steady",
-                grid_n=cells, grid_size=(2.4 * half[0], 2.4 * half[1]), creep_x=xi * unit, creep_y=eta * unit,
-                creep_spin=phi * unit / length)  # fmt: skip
+    creepages = dict(zip(("creep_x", "creep_y", "creep_spin"), table.motion(limit, xi, eta, phi)))
+    case = dict(support.bodies(table.YOUNG, 0.25), **options, **creepages, friction=0.5, gap_type="ellipsoid",
+                rolling="steady", grid_n=cells, grid_size=(2.4 * half[0], 2.4 * half[1]))  # fmt: skip
     found = solve(case)
-    return [found[f"load_{name}_extrapolated"] / limit / arm for name, arm in (("tx", 1), ("ty", 1), ("mz", length))]
+    return table.relative(limit, [found[f"load_{name}_extrapolated"] for name in ("tx", "ty", "mz")])
 
 
 @pytest.mark.parametrize(
@@ -222,7 +220,7 @@ def forces_of(solve, ratio, xi, eta, phi, cells=96):
 )
 def test_creep_table_contains_what_petsam_finds_for_any_signs(solve, creep, case):
     low, high = creep.find(creep.read(), *case)
-    found = np.array(forces_of(solve, *case))
+    found = forces_of(solve, *case)
     assert np.all(found > low - 2e-3) and np.all(found < high + 2e-3)
 
 

@@ -170,6 +170,8 @@ PETSC_INTERN void  SamFileCountVTK(SamFile file, hid_t number, int64_t steps);
 
 /* ---- the disk (disk.c) ---- */
 
+/* SamFileCheckFolder - returns 0 if a folder allows this access (W_OK ...), else errno. Not collective. */
+PETSC_INTERN int SamFileCheckFolder(const char folder[], int mode);
 /* The purposes of a file. Old results must exist; a temporary file is renamed to one of the other kinds */
 typedef enum { SAM_FILE_RESULTS, SAM_FILE_OLD_RESULTS, SAM_FILE_CHECKPOINT, SAM_FILE_TEMPORARY } SamFileUse;
 /*

@@ -71,6 +71,11 @@ PETSC_INTERN PetscErrorCode SamWindowPut(SamWindow window, Vec part, Vec whole);
 */
 PETSC_INTERN PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], PetscInt n[2]);
 /*
+  SamGridFindPeak - finds the column and row of the maximum of a field, of several the first one; `most`: its value, 0
+  if none is positive. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamGridFindPeak(SamGrid grid, Vec field, PetscInt at[2], double *most);
+/*
   SamGridCountZones - counts the zones of cells, connected by their sides, where the first component of a field is
   positive; with `wrap` the cells at opposite borders of the grid are neighbours. The same on any number of ranks.
   Collective.

@@ -41,7 +41,7 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
   }
   if (!task->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 1, &w->lift));
-  if (w->s->touches) PetscCall(SamGridCreateVec(task->grid, 2, &w->touching));
+  if (w->s->touches) PetscCall(SamSolveBeginTouching(w));
   PetscCall(SamGridCreateVec(task->grid, 1, &w->pressure_product.field));
   PetscCall(SamGridCreateVec(task->grid, 1, &w->previous_pressure));
   PetscCall(SamGridCreateVec(task->grid, 2, &w->previous_shear));

@@ -27,6 +27,7 @@ typedef struct {
   /* only if coupled */
   Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
   Vec        touching;                          /* motion until cells touch, a part of `aside`; NULL: it is not found */
+  double     stuck;                             /* part of the contact that sticks before the step (touching.c) */
   double     deviation;                         /* of the Gaussian of edgemean.h, 0 before the first mean */
   SamProduct pressure_product;                  /* S p of the tried solution */
   Vec        previous_pressure, previous_shear; /* of the previous pass */
@@ -88,6 +89,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   SAM_ROUGH times that of the shear. Collective.
   SamSolveSetsAside - true if it sets anything in such a step. SamSolveFindsTouching - true if the motion until cells
   touch is to be found. Not collective.
+  SamSolveBeginTouching - creates the field `touching` of a step in which it is to be found. Collective.
   SamSolveFindTouching - computes the motion (m, two components) of the surfaces of dissimilar bodies in the step until
   cells touch, by the tried solution; it is 0 in other cells, but for open ones beside the contact, which may touch in
   the next pass (touching.c). Collective. SamSolveEndTouching - takes it from `aside` in
@@ -107,6 +109,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
 typedef enum { SAM_ASIDE_PREDICTED, SAM_ASIDE_KEPT, SAM_ASIDE_SOLVED } SamAsideFrom;
 PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, SamAsideFrom from);
 PETSC_INTERN PetscBool      SamSolveSetsAside(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveBeginTouching(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveFindTouching(SamSolve *solve, Vec motion);
 PETSC_INTERN PetscErrorCode SamSolveEndTouching(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveAddEntering(SamSolve *solve, PetscBool found, PetscBool open, Vec motion);

@@ -295,18 +295,17 @@ static PetscErrorCode FindMoved(SamSolve *w, Vec moved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the power of the gap, in proportion to which cells move until they touch (top of this file). */
-static PetscErrorCode FindPower(SamSolve *w, double *power)
+PetscErrorCode SamSolveBeginTouching(SamSolve *w)
 {
   const SamSolution *before  = w->task->before;
   const PetscInt     cells   = w->task->grid->cells;
   double             sums[2] = {0}; /* cells in contact before the step, and those of them that stick */
-  double             stuck, share;
   const double      *p, *q, *b;
 
   PetscFunctionBegin;
-  *power = 1;
-  if (!before || !(SamSolutionGetNormal(before) > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(w->task->grid, 2, &w->touching));
+  w->stuck = 1;
+  if (!before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(before->pressure, &p));
   PetscCall(VecGetArrayRead(before->shear, &q));
   PetscCall(VecGetArrayRead(before->bound, &b));
@@ -320,10 +319,17 @@ static PetscErrorCode FindPower(SamSolve *w, double *power)
   PetscCall(VecRestoreArrayRead(before->shear, &q));
   PetscCall(VecRestoreArrayRead(before->pressure, &p));
   PetscCall(SamSum(w->task->grid->comm, 2, sums));
-  stuck  = sums[0] > 0 ? sums[1] / sums[0] : 1;
-  share  = PetscMin((double)(SamSolutionGetNormal(before) / SamSolutionGetNormal(w->s)), 1);
-  *power = 1 - (SLIPS - (SLIPS - STICKS) * stuck * stuck) * sqrt(share);
+  if (sums[0] > 0) w->stuck = sums[1] / sums[0];
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Returns the power of the gap, in proportion to which cells move until they touch (top of this file). */
+static double PowerOf(const SamSolve *w)
+{
+  const double before = w->task->before ? (double)SamSolutionGetNormal(w->task->before) : 0;
+  const double share  = before > 0 ? PetscMin(before / (double)SamSolutionGetNormal(w->s), 1) : 0;
+
+  return 1 - (SLIPS - (SLIPS - STICKS) * w->stuck * w->stuck) * sqrt(share);
 }
 
 PetscErrorCode SamSolveFindTouching(SamSolve *w, Vec motion)
@@ -331,11 +337,11 @@ PetscErrorCode SamSolveFindTouching(SamSolve *w, Vec motion)
   Step step = {.grid      = w->task->grid,
                .modulus   = SamPairModulus(SamElasticityGetPair(w->task->elasticity)),
                .pressure  = w->s->pressure,
+               .power     = PowerOf(w),
                .deviation = &w->deviation,
                .wraps     = w->task->traits.periodic};
 
   PetscFunctionBegin;
-  PetscCall(FindPower(w, &step.power));
   PetscCall(SamVecZero(motion));
   PetscCall(SamGridCreateVec(step.grid, 1, &step.gap));
   PetscCall(SamGridCreateVec(step.grid, 1, &step.left));

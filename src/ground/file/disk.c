@@ -165,8 +165,7 @@ static int CheckContent(int file, SamFileUse use)
 
 /* ---- space ---- */
 
-/* Returns 0 if a folder allows this access, else errno. */
-static int CheckFolder(const char folder[], int mode)
+int SamFileCheckFolder(const char folder[], int mode)
 {
   struct stat status;
 
@@ -246,7 +245,7 @@ PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char fil
   FollowLinks(filename, real);
   SamGetFolder(real, folder);
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
-  if (rank == 0) error = access(filename, F_OK) ? CheckFolder(folder, W_OK) : access(filename, W_OK) ? errno : 0;
+  if (rank == 0) error = access(filename, F_OK) ? SamFileCheckFolder(folder, W_OK) : access(filename, W_OK) ? errno : 0;
   if (rank == 0 && !statvfs(folder, &space)) *bytes = (double)space.f_bavail * (double)space.f_frsize;
   PetscCallMPI(MPI_Bcast(bytes, 1, MPI_DOUBLE, 0, grid->comm));
   PetscCall(SamFileRaise(grid, option, filename, error));
@@ -346,7 +345,7 @@ static int CheckFolderOf(const char filename[])
 
   FollowLinks(filename, real);
   SamGetFolder(real, folder);
-  return CheckFolder(folder, W_OK | X_OK);
+  return SamFileCheckFolder(folder, W_OK | X_OK);
 }
 
 PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use)

@@ -154,3 +154,22 @@ PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], Pet
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamGridFindPeak(SamGrid grid, Vec field, PetscInt at[2], double *most)
+{
+  const double *p;
+  double        place = -INFINITY;
+
+  PetscFunctionBegin;
+  *most = 0;
+  PetscCall(VecGetArrayRead(field, &p));
+  for (PetscInt c = 0; c < grid->cells; c++) *most = PetscMax(*most, p[c]);
+  PetscCall(SamMax(grid->comm, 1, most));
+  for (PetscInt c = grid->cells - 1; c >= 0; c--)
+    if (p[c] == *most) place = -((double)grid->row_start * (double)grid->nx + (double)c);
+  PetscCall(VecRestoreArrayRead(field, &p));
+  PetscCall(SamMax(grid->comm, 1, &place));
+  at[0] = (PetscInt)fmod(-place, (double)grid->nx);
+  at[1] = (PetscInt)floor(-place / (double)grid->nx);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

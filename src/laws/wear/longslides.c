@@ -44,22 +44,6 @@ PetscErrorCode SamWearGetStride(SamGrid grid, Vec pressure, const PetscReal from
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the first cell with the maximum pressure. */
-static PetscErrorCode FindPeak(SamGrid grid, const double p[], PetscInt at[2])
-{
-  double most = 0, first = -INFINITY; /* minus its index */
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < grid->cells; k++) most = PetscMax(most, p[k]);
-  PetscCall(SamMax(grid->comm, 1, &most));
-  for (PetscInt k = grid->cells; k-- > 0;)
-    if (p[k] == most) first = -(double)(grid->row_start * grid->nx + k);
-  PetscCall(SamMax(grid->comm, 1, &first));
-  at[0] = (PetscInt)-first % grid->nx;
-  at[1] = (PetscInt)-first / grid->nx;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   Computes the excess of the maximum pressure over its mean along the slide of a step about it, in contact; 0 where a
   step has few cells.
@@ -69,15 +53,15 @@ static PetscErrorCode FindTip(SamGrid grid, Vec pressure, const PetscReal from[2
 {
   const double   slide[] = {(double)((to[0] - from[0]) / grid->dx), (double)((to[1] - from[1]) / grid->dy)};
   const PetscInt n       = (PetscInt)(PetscMax(fabs(slide[0]), fabs(slide[1])) + 0.5);
-  double         line[MOST_PLACES + 1] = {0}, sum = 0, cells = 0, most = 0;
+  double         line[MOST_PLACES + 1] = {0}, sum = 0, cells = 0, most;
   PetscInt       at[2] = {0};
   const double  *p;
 
   PetscFunctionBegin;
   *tip = 0;
   if (n < (SamGridIsRow(grid) ? ROW : RESOLVED) || n > MOST_PLACES) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridFindPeak(grid, pressure, at, &most));
   PetscCall(VecGetArrayRead(pressure, &p));
-  PetscCall(FindPeak(grid, p, at));
   for (PetscInt k = 0; k <= n; k++) {
     const double   t = (double)k / (double)n - 0.5;
     const PetscInt i = at[0] + (PetscInt)lrint(t * slide[0]),
@@ -90,7 +74,6 @@ static PetscErrorCode FindTip(SamGrid grid, Vec pressure, const PetscReal from[2
   for (PetscInt k = 0; k <= n; k++) {
     sum += line[k];
     cells += line[k] > 0 ? 1 : 0;
-    most = PetscMax(most, line[k]);
   }
   *tip = sum > 0 ? most * cells / sum - 1 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -27,6 +27,7 @@
 #include <petsam/normal.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/body.h>
+#include <petsam/private/grid.h>
 #include <petsam/private/gap.h>
 #include <petsam/private/pressed.h>
 #include <petsam/private/problem.h>
@@ -286,26 +287,6 @@ static double TakePeak(Patch *a)
 
 /* ---- the patch on the grid ---- */
 
-/* Finds the cell of the largest pressure, the first one of several, and its pressure. */
-static PetscErrorCode FindPeak(SamGrid grid, Vec pressure, PetscInt at[2], double *most)
-{
-  const double *p;
-  double        place = -INFINITY;
-
-  PetscFunctionBegin;
-  *most = 0;
-  PetscCall(VecGetArrayRead(pressure, &p));
-  for (PetscInt c = 0; c < grid->cells; c++) *most = PetscMax(*most, p[c]);
-  PetscCall(SamMax(grid->comm, 1, most));
-  for (PetscInt c = grid->cells - 1; c >= 0; c--)
-    if (p[c] == *most) place = -((double)grid->row_start * (double)grid->nx + (double)c);
-  PetscCall(VecRestoreArrayRead(pressure, &p));
-  PetscCall(SamMax(grid->comm, 1, &place));
-  at[0] = (PetscInt)fmod(-place, (double)grid->nx);
-  at[1] = (PetscInt)floor(-place / (double)grid->nx);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Gathers the values of a field in the patch about a cell, on all ranks; beyond the grid's edge those at the edge. */
 static PetscErrorCode Gather(const Local *l, Vec field, const PetscInt at[2], double values[])
 {
@@ -414,7 +395,7 @@ PetscErrorCode SamAdviceMeasurePeak(const SamSetup *s, SamExtent *extent)
   extent->finer  = 1;
   PetscCall(SamProblemGetPressureLimit(s->problem, &limit));
   PetscCall(SamContactGetSolution(s->contact, &l.solution));
-  PetscCall(FindPeak(s->grid, l.solution->pressure, at, &most));
+  PetscCall(SamGridFindPeak(s->grid, l.solution->pressure, at, &most));
   PetscCall(Yields(s, &yields));
   if (!(most > 0) || yields || most >= SAM_SATURATED * limit || s->grid->fewest < WIDE)
     PetscFunctionReturn(PETSC_SUCCESS);

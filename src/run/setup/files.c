@@ -75,8 +75,7 @@ static int CheckPlace(const char name[])
 
   if (!stat(name, &status)) return S_ISDIR(status.st_mode) ? EISDIR : access(name, W_OK) ? errno : 0;
   SamGetFolder(name, folder);
-  if (!stat(folder, &status) && !S_ISDIR(status.st_mode)) return ENOTDIR;
-  return access(folder, W_OK | X_OK) ? errno : 0;
+  return SamFileCheckFolder(folder, W_OK | X_OK);
 }
 
 /* Checks -options_view, which PETSc reads twice: once as a viewer and once as a logical value. */
