@@ -36,7 +36,7 @@ static PetscErrorCode DescribeBeyond(SamContact c, SamStep *step)
         (k == 0 || hypot(way[1][0], way[1][1]) >= hypot(way[0][0], way[0][1])))
       body = k + 1;
   if (body == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, first, n));
+  PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, PETSC_FALSE, first, n));
   for (PetscInt k = 0; k < c->grid->axes; k++)
     if (first[k] == 0 || first[k] + n[k] == cells[k]) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(step->message, sizeof(step->message),
@@ -60,7 +60,7 @@ static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
 
   PetscFunctionBegin;
   (void)SamProblemGetRolled(c->problem, &step->control, roll);
-  PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, first, n));
+  PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, PETSC_FALSE, first, n));
   for (PetscInt k = 0; k < 2; k++)
     if (first[k] == 0 || first[k] + n[k] == cells[k]) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < 2; k++) { /* interpolation between cells needs one more */

@@ -421,7 +421,7 @@ static void test_support_is_the_smallest_rectangle_of_positive_cells(void **stat
   double  *a;
 
   (void)state;
-  sam_call(SamGridGetSupport(grid, field, first, n));
+  sam_call(SamGridGetSupport(grid, field, PETSC_FALSE, first, n));
   sam_assert(n[0] == 0 && n[1] == 0);
   sam_call(VecGetArray(field, &a));
   for (PetscInt j = 0; j < grid->rows; j++)
@@ -431,8 +431,16 @@ static void test_support_is_the_smallest_rectangle_of_positive_cells(void **stat
       a[j * 13 + i] = (i == 4 && row == 9) || (i == 11 && row == 3) ? 1 : -1;
     }
   sam_call(VecRestoreArray(field, &a));
-  sam_call(SamGridGetSupport(grid, field, first, n));
+  sam_call(SamGridGetSupport(grid, field, PETSC_FALSE, first, n));
   sam_assert(first[0] == 4 && n[0] == 8 && first[1] == 3 && n[1] == 7);
+  sam_call(SamGridGetSupport(grid, field, PETSC_TRUE, first, n)); /* from column 11 on over the border, and row 9 */
+  sam_assert(first[0] == 11 && n[0] == 7 && first[1] == 9 && n[1] == 6);
+  sam_call(VecSet(field, 1));
+  sam_call(SamGridGetSupport(grid, field, PETSC_TRUE, first, n));
+  sam_assert(first[0] == 0 && n[0] == 13 && first[1] == 0 && n[1] == 11);
+  sam_call(VecSet(field, 0));
+  sam_call(SamGridGetSupport(grid, field, PETSC_TRUE, first, n));
+  sam_assert(n[0] == 0 && n[1] == 0);
   sam_call(VecDestroy(&field));
   sam_call(SamGridDestroy(&grid));
 }

@@ -29,7 +29,8 @@ static void Apply(SamResidual r, Vec e, Vec s, Vec u)
   sam_call(VecGetArray(u, &at));
   sam_call(VecGetLocalSize(u, &n));
   for (int c = 0; c < 3; c++) shift[c] = at + c * (n / 3);
-  sam_call(SamResidualApply(r, from, to, shift));
+  sam_call(SamResidualBegin(r, from, shift));
+  sam_call(SamResidualEnd(r, NULL, to));
   sam_call(VecRestoreArray(u, &at));
   sam_call(VecRestoreArray(s, &to));
   sam_call(VecRestoreArrayRead(e, &from));
@@ -45,7 +46,8 @@ static void Load(SamResidual r, Vec q, Vec s)
   sam_call(VecGetArray(s, &to));
   sam_call(VecGetLocalSize(q, &n));
   for (int c = 0; c < 3; c++) traction[c] = from + ((c + 2) % 3) * (n / 3); /* p last, as u_z */
-  sam_call(SamResidualLoad(r, traction, to));
+  sam_call(SamResidualBegin(r, NULL, NULL));
+  sam_call(SamResidualEnd(r, traction, to));
   sam_call(VecRestoreArray(s, &to));
   sam_call(VecRestoreArrayRead(q, &from));
 }
@@ -120,7 +122,7 @@ static void test_waves_have_reference_amplitudes(void **state)
   SamResidual     r;
 
   (void)state;
-  sam_call(SamResidualCreate(b, 2, 3, h, &r));
+  sam_call(SamResidualCreate(b, 2, 3, h, PETSC_TRUE, &r));
   for (size_t n = 0; n < sizeof(amplitudes) / sizeof(amplitudes[0]); n++) {
     const int shear = amplitudes[n].component == SAM_STRESS_XZ;
     Vec       e = NewField(grid, 18), s = NewField(grid, 18), u = NewField(grid, 3);
@@ -157,7 +159,7 @@ static void test_uniform_layers(void **state)
   SamResidual     r;
 
   (void)state;
-  sam_call(SamResidualCreate(b, 2, 2, h, &r));
+  sam_call(SamResidualCreate(b, 2, 2, h, PETSC_TRUE, &r));
   sam_call(VecSet(one, 1));
   SetPlane(grid, 6 + SAM_STRESS_XX, one, e);
   Apply(r, e, s, u);
@@ -202,7 +204,7 @@ static void AssertSymmetric(SamElasticityType type, PetscInt rows, PetscInt body
   SamResidual r;
   double      size;
 
-  sam_call(SamResidualCreate(b, body, 3, h, &r));
+  sam_call(SamResidualCreate(b, body, 3, h, PETSC_TRUE, &r));
   Apply(r, f, t, u);
   Apply(r, e, s, u);
   Weigh(grid, 3, h, f);
@@ -268,7 +270,7 @@ static void AssertStress(SamElasticityType type, SamGrid grid, PetscInt i, Petsc
   Vec             bell = NewFrom(grid, BellOf, NULL), at = NewField(grid, 1);
   SamResidual     r;
 
-  sam_call(SamResidualCreate(b, 2, 4, h, &r));
+  sam_call(SamResidualCreate(b, 2, 4, h, PETSC_TRUE, &r));
   AddAt(grid, 0, i, j, 1, at);
   for (int n = 0; n < count; n++) {
     Vec e = NewField(grid, 24), s = NewField(grid, 24), u = NewField(grid, 3);

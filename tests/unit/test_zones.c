@@ -27,14 +27,14 @@ static void FieldOf(const Pattern *p, SamGrid *grid, Vec *field)
   sam_call(VecRestoreArray(*field, &a));
 }
 
-static void Measure(const Pattern *p, double part, PetscInt *zones, PetscReal *across)
+static void Measure(const Pattern *p, double part, PetscBool wrap, PetscInt *zones, PetscReal *across)
 {
   SamGrid grid;
   Vec     field;
 
   FieldOf(p, &grid, &field);
-  sam_call(SamGridCountZones(grid, field, PETSC_FALSE, zones));
-  sam_call(SamGridMeasureZones(grid, field, part, across));
+  sam_call(SamGridCountZones(grid, field, wrap, zones));
+  sam_call(SamGridMeasureZones(grid, field, part, wrap, across));
   sam_call(VecDestroy(&field));
   sam_call(SamGridDestroy(&grid));
 }
@@ -128,7 +128,7 @@ static void AssertRight(const Pattern *p, double part)
   PetscReal across;
   double    width;
 
-  Measure(p, part, &zones, &across);
+  Measure(p, part, PETSC_FALSE, &zones, &across);
   Expect(p, part, &expected, &width);
   sam_assert(zones == expected);
   sam_assert_close(across, width, 0.0501); /* a tenth of a cell */
@@ -238,12 +238,12 @@ static void test_widths_are_those_of_the_shapes(void **state)
   (void)state;
   p.nx = p.ny = 64;
   for (PetscInt k = 0; k < 64 * 64; k++) p.in[k] = hypot((double)(k % 64) - 31.5, (double)(k / 64) - 30.2) < 12.5;
-  Measure(&p, 0, &zones, &across);
+  Measure(&p, 0, PETSC_FALSE, &zones, &across);
   sam_assert(zones == 1);
   sam_assert_close(across, 25, 1.01); /* the box counts whole cells */
   for (PetscInt k = 0; k < 64 * 64; k++)
     p.in[k] = fabs((double)(k % 64) - (double)(k / 64)) < 5 * sqrt(2.) && k % 64 + k / 64 > 20 && k % 64 + k / 64 < 106;
-  Measure(&p, 0, &zones, &across);
+  Measure(&p, 0, PETSC_FALSE, &zones, &across);
   sam_assert(zones == 1);
   sam_assert_close(across, 15 / sqrt(2.) * 4 / sqrt(12.), 0.2); /* the ellipse of a strip is a little wider */
 }
@@ -264,7 +264,7 @@ static void test_strips_have_no_width_along_their_length(void **state)
 
       p.in[k] = n >= 11 && n < 26;
     }
-    Measure(&p, 0, &zones, &across);
+    Measure(&p, 0, PETSC_FALSE, &zones, &across);
     sam_assert(zones == 1);
     sam_assert_close(across, 15, 1e-12);
   }
@@ -279,15 +279,46 @@ static void test_small_zones_do_not_count_up_to_their_part(void **state)
   (void)state;
   p.nx = p.ny = 64;
   memset(p.in, 0, sizeof(p.in));
-  Measure(&p, 0.1, &zones, &across);
+  Measure(&p, 0.1, PETSC_FALSE, &zones, &across);
   sam_assert(zones == 0 && across == 0);
   for (PetscInt k = 0; k < 64 * 64; k++) p.in[k] = k % 64 >= 20 && k % 64 < 50 && k / 64 >= 20 && k / 64 < 50;
   for (PetscInt k = 0; k < 30; k++) p.in[2 * k] = p.in[63 * 64 + 2 * k] = 1; /* 60 of 960 cells */
-  Measure(&p, 0.1, &zones, &across);
+  Measure(&p, 0.1, PETSC_FALSE, &zones, &across);
   sam_assert(zones == 61);
   sam_assert_close(across, 30, 0.06);
-  Measure(&p, 0.05, &zones, &across);
+  Measure(&p, 0.05, PETSC_FALSE, &zones, &across);
   sam_assert_close(across, 1, 0.06);
+}
+
+/* Wherever the border of the grid cuts the zones, they are those in its middle: two ellipses, and a strip. */
+static void test_zones_over_the_borders_are_as_wide_as_in_the_middle(void **state)
+{
+  static const PetscInt by[][2] = {{0, 0}, {9, 0}, {0, 20}, {13, 17}, {30, 31}};
+  static Pattern        p, moved;
+  PetscInt              zones;
+  PetscReal             across, middle = 0;
+
+  (void)state;
+  for (int strip = 0; strip < 2; strip++) {
+    moved.nx = p.nx = 44;
+    moved.ny = p.ny = 37;
+    for (PetscInt k = 0; k < p.nx * p.ny; k++) {
+      const double x = (double)(k % p.nx) - 20, y = (double)(k / p.nx) - 16;
+
+      p.in[k] = strip ? fabs(x) < 5.2 : hypot(x + 0.6 * y, 2 * y) < 13 || hypot(x - 14, 0.7 * (y - 11)) < 4;
+    }
+    for (int n = 0; n < 5; n++) {
+      for (PetscInt k = 0; k < p.nx * p.ny; k++)
+        moved.in[(k % p.nx + by[n][0]) % p.nx + (k / p.nx + by[n][1]) % p.ny * p.nx] = p.in[k];
+      Measure(&moved, 0.3, PETSC_TRUE, &zones, &across);
+      if (n == 0) {
+        Measure(&moved, 0.3, PETSC_FALSE, &zones, &middle);
+        sam_assert(middle > 10);
+      }
+      sam_assert(zones == 2 - strip);
+      sam_assert_close(across, middle, 1e-12);
+    }
+  }
 }
 
 int main(int argc, char **argv)
@@ -299,6 +330,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_widths_are_those_of_the_shapes),
     cmocka_unit_test(test_strips_have_no_width_along_their_length),
     cmocka_unit_test(test_small_zones_do_not_count_up_to_their_part),
+    cmocka_unit_test(test_zones_over_the_borders_are_as_wide_as_in_the_middle),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -128,7 +128,6 @@ typedef void (*SamKernelRows)(PetscInt j, PetscInt count, double *const values[]
 PETSC_INTERN PetscErrorCode SamKernelsCreate(SamFourier fourier, PetscInt n, const PetscBool odd[][2],
                                              SamKernelRows rows, const void *context, SamKernel kernels[]);
 PETSC_INTERN PetscErrorCode SamKernelDestroy(SamKernel *kernel);
-
 /*
   SamConvolve - computes out[o] = sum_i scale[o][i] * (kernel[o][i] convolved with in[i]), exact up to rounding. A NULL
   kernel is zero. Fields are local arrays of (rows, nx); out may be the same arrays as in. Collective.
@@ -142,6 +141,14 @@ typedef struct {
 
 PETSC_INTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[],
                                         double *const out[]);
+/*
+  SamKernelMatrixAdd - adds the products with a matrix of 3 x 3 kernels for columns of spectra that are kept between
+  passes of transforms: those of a phase of column b of a block, whose data are not used. A grid of one row has a single
+  column, of all frequencies along x; the block then has hy of them. `scratch`: 3 columns of hy entries. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamKernelMatrixAdd(const SamKernelMatrix *matrix, const SamFourierBlock *block,
+                                               PetscInt phase, PetscInt b, double (*const in[])[2],
+                                               double (*const out[])[2], double (*scratch)[2]);
 /*
   SamConvolveSingle - computes `factor` times the same in single precision, for one field and an even kernel, or for two
   fields and a symmetric matrix whose off-diagonal kernel is odd in x and in y. `factor` scales the result to the range

@@ -67,9 +67,11 @@ PETSC_INTERN PetscErrorCode SamWindowTake(SamWindow window, Vec whole, Vec part)
 PETSC_INTERN PetscErrorCode SamWindowPut(SamWindow window, Vec part, Vec whole);
 /*
   SamGridGetSupport - finds the smallest rectangle that contains all cells where the first component of a field is
-  positive; n is 0 if there are none. Collective.
+  positive; n is 0 if there are none. With `wrap` it may lie across opposite borders of the grid; the sum of `first` and
+  n then exceeds the number of columns or rows. Collective.
 */
-PETSC_INTERN PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], PetscInt n[2]);
+PETSC_INTERN PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscBool wrap, PetscInt first[2],
+                                              PetscInt n[2]);
 /*
   SamGridFindPeak - finds the column and row of the maximum of a field, of several the first one; `most`: its value, 0
   if none is positive. Collective.
@@ -82,13 +84,15 @@ PETSC_INTERN PetscErrorCode SamGridFindPeak(SamGrid grid, Vec field, PetscInt at
 */
 PETSC_INTERN PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscInt *zones);
 /*
-  SamGridMeasureZones - measures the width in cells of the narrow ones of these zones, without `wrap`. The narrowest
-  zones that together contain at most `part` of all these cells do not count. The width of a zone is the shorter side of
-  its bounding box, or the width of the ellipse of its second moments if that is smaller; to a tenth of a cell. A zone
-  that extends from border to border along one axis only has no width along it. 0 if there are no such cells. The same
-  on any number of ranks. Collective.
+  SamGridMeasureZones - measures the width in cells of the narrow ones of these zones. The narrowest zones that together
+  contain at most `part` of all these cells do not count. The width of a zone is the shorter side of its bounding box,
+  or the width of the ellipse of its second moments if that is smaller; to a tenth of a cell. A zone that extends from
+  border to border along one axis only has no width along it. With `wrap` a zone may lie across opposite borders, if all
+  cells of some column (of some row) are outside of the zones. 0 if there are no such cells. The same on any number of
+  ranks. Collective.
 */
-PETSC_INTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across);
+PETSC_INTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscBool wrap,
+                                                PetscReal *across);
 
 /*
   SamGridCreateFromOptions - creates a grid from -grid_n, -grid_size, -grid_center. On entry `n`, `width` and `center`

@@ -89,10 +89,16 @@ PETSC_INTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettin
 PETSC_INTERN PetscErrorCode SamStressUseDepth(SamStress stress, PetscReal depth);
 
 /*
-  SamStressApplyTransposed - applies the transpose of SamStressApply() at a depth > 0 in a half-space: in an array of
-  SAM_STRESS_COMPONENTS fields, the sums over the components are written to the places of the tractions. Collective.
+  SamStressAddColumns - does the work of SamStressApply() at a depth > 0 in a half-space for columns of spectra
+  (SamKernelMatrixAdd(), with its scratch): adds the stresses, times `scale`, by the tractions p, q_x, q_y. Transposed:
+  it adds to the tractions the sums over the components of the stress times `scale`. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamStressApplyTransposed(SamStress stress, double field[]);
+PETSC_INTERN PetscErrorCode SamStressAddColumns(SamStress stress, const SamFourierBlock *block, PetscInt phase,
+                                                PetscInt b, PetscBool transposed,
+                                                const double scale[SAM_STRESS_COMPONENTS],
+                                                double (*const traction[SAM_STRESS_TRACTIONS])[2],
+                                                double (*const component[SAM_STRESS_COMPONENTS])[2],
+                                                double (*scratch)[2]);
 
 /* SamPrincipalOf - computes the principal stresses of one stress, the largest first. Not collective. */
 PETSC_INTERN void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3]);

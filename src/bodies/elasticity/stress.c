@@ -202,31 +202,35 @@ PetscErrorCode SamStressApply(SamStress s, Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStressApplyTransposed(SamStress s, double field[])
+PetscErrorCode SamStressAddColumns(SamStress s, const SamFourierBlock *block, PetscInt phase, PetscInt b,
+                                   PetscBool transposed, const double scale[SAM_STRESS_COMPONENTS],
+                                   double (*const traction[SAM_STRESS_TRACTIONS])[2],
+                                   double (*const component[SAM_STRESS_COMPONENTS])[2], double (*scratch)[2])
 {
-  const PetscInt cells = s->grid->cells;
-  double        *sum[PASSES][SAM_STRESS_GROUP];
-  const double  *in[SAM_STRESS_GROUP];
-
   PetscFunctionBegin;
-  PetscCheck(s->depth > 0 && !s->sums, s->grid->comm, PETSC_ERR_SUP, "Only below the surface of half-spaces");
   for (PetscInt pass = 0; pass < PASSES; pass++) {
-    SamKernelMatrix matrix = {.n_in = SAM_STRESS_GROUP, .n_out = SAM_STRESS_TRACTIONS};
+    SamKernelMatrix matrix = {.n_in = SAM_STRESS_GROUP, .n_out = SAM_STRESS_GROUP};
+    double(*of[SAM_STRESS_GROUP])[2];
 
     for (PetscInt o = 0; o < SAM_STRESS_GROUP; o++) {
-      in[o] = sum[pass][o] = field + components[pass][o] * cells;
-      for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
-        const SamStressKernel k   = SamStressKernelOf(s, components[pass][o], t);
-        const PetscBool      *odd = SamStressOdd[k.group][k.member];
+      const PetscInt c = components[pass][o];
 
-        matrix.kernel[t][o] = s->kernels[k.group][k.member];
-        matrix.scale[t][o]  = odd[0] != odd[1] ? -s->sign[t] : s->sign[t];
+      of[o] = component[c];
+      for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
+        const SamStressKernel k   = SamStressKernelOf(s, c, t);
+        const PetscBool      *odd = SamStressOdd[k.group][k.member];
+        const PetscInt        to = transposed ? t : o, from = transposed ? o : t;
+        const double          factor = s->sign[t] * scale[c];
+
+        matrix.kernel[to][from] = s->kernels[k.group][k.member];
+        matrix.scale[to][from]  = transposed && odd[0] != odd[1] ? -factor : factor;
       }
     }
-    PetscCall(SamConvolve(s->fourier, &matrix, in, sum[pass]));
+    if (transposed)
+      PetscCall(SamKernelMatrixAdd(&matrix, block, phase, b, of, traction, scratch));
+    else
+      PetscCall(SamKernelMatrixAdd(&matrix, block, phase, b, traction, of, scratch));
   }
-  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
-    for (PetscInt k = 0; k < cells; k++) sum[NORMAL][t][k] += sum[PLANE][t][k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -197,13 +197,11 @@ typedef struct Factors {
   double (*column[SAM_FOURIER_FIELDS])[2]; /* work space of the general case */
 } Factors;
 
-static void MultiplyThree(const Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+/* Multiplies three columns in place. */
+static void MultiplyColumns(const SamKernelMatrix *M, Nine nine, const SamFourierBlock *block, PetscInt phase,
+                            PetscInt b, double (*const column[3])[2])
 {
-  const SamKernelMatrix *M      = factors->matrix;
-  const ptrdiff_t        offset = (phase * block->width + b) * (ptrdiff_t)block->stride, n = block->hy;
-  const ptrdiff_t        rising = GetColumn(M->kernel[0][0], block, phase, b).rising;
-  double(*const column[3])[2]   = {block->data[0] + offset, block->data[1] + offset, block->data[2] + offset};
-  Nine nine                     = factors->nine;
+  const ptrdiff_t n = block->hy, rising = GetColumn(M->kernel[0][0], block, phase, b).rising;
 
   for (PetscInt o = 0; o < 3; o++)
     for (PetscInt i = 0; i < 3; i++) nine.values[o][i] = GetColumn(M->kernel[o][i], block, phase, b).values;
@@ -216,6 +214,14 @@ static void MultiplyThree(const Factors *factors, const SamFourierBlock *block, 
     }
   MultiplyFalling(&nine, n - rising, column[0] + rising, column[1] + rising, column[2] + rising);
   Turn(nine.out, n, column);
+}
+
+static void MultiplyThree(const Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const ptrdiff_t offset      = (phase * block->width + b) * (ptrdiff_t)block->stride;
+  double(*const column[3])[2] = {block->data[0] + offset, block->data[1] + offset, block->data[2] + offset};
+
+  MultiplyColumns(factors->matrix, factors->nine, block, phase, b, column);
 }
 
 /* Multiplies by any matrix: the output columns are collected separately, and then replace the inputs. */
@@ -301,6 +307,24 @@ PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *M, const double 
       PetscCall(SamAllocate(sizeof(*factors.column[o]) * (size_t)(F->row ? F->hx + 1 : F->hy), &factors.column[o]));
   PetscCall(SamFourierApply(F, &filter, in, out));
   for (PetscInt o = 0; o < M->n_out; o++) SamFree(factors.column[o]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamKernelMatrixAdd(const SamKernelMatrix *M, const SamFourierBlock *block, PetscInt phase, PetscInt b,
+                                  double (*const in[])[2], double (*const out[])[2], double (*scratch)[2])
+{
+  double(*const column[3])[2] = {scratch, scratch + block->hy, scratch + 2 * block->hy};
+  Nine nine;
+
+  PetscFunctionBegin;
+  PetscCheck(FindNine(M, &nine), PETSC_COMM_SELF, PETSC_ERR_SUP, "Only for 3 x 3 kernels");
+  for (PetscInt k = 0; k < 3; k++) PetscCall(PetscArraycpy(column[k], in[k], block->hy));
+  MultiplyColumns(M, nine, block, phase, b, column);
+  for (PetscInt k = 0; k < 3; k++)
+    for (PetscInt m = 0; m < block->hy; m++) {
+      out[k][m][0] += column[k][m][0];
+      out[k][m][1] += column[k][m][1];
+    }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -131,7 +131,43 @@ PetscErrorCode SamWindowPut(SamWindow w, Vec part, Vec whole)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], PetscInt n[2])
+/*
+  Finds the smallest range of lines (columns or rows) that contains all used ones, across the border of the grid, as
+  what the longest range of unused lines leaves.
+*/
+static void FindRange(const char used[], PetscInt lines, PetscInt *first, PetscInt *n)
+{
+  PetscInt unused = 0;
+
+  *n = lines;
+  for (PetscInt k = 0; k < 2 * lines; k++) {
+    unused = used[k % lines] ? 0 : unused + 1;
+    if (lines - unused >= *n || unused >= lines) continue;
+    *n     = lines - unused;
+    *first = (k + 1) % lines;
+  }
+}
+
+/* Finds the smallest rectangle that may lie across the borders. */
+static PetscErrorCode FindAcross(SamGrid grid, const double f[], PetscInt first[2], PetscInt n[2])
+{
+  PetscMPIInt lines;
+  char       *used;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMPIIntCast(grid->nx + grid->ny, &lines));
+  PetscCall(PetscCalloc1(lines, &used)); /* columns, then rows */
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++)
+      if (f[j * grid->nx + i] > 0) used[i] = used[grid->nx + grid->row_start + j] = 1;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, used, lines, MPI_CHAR, MPI_MAX, grid->comm));
+  FindRange(used, grid->nx, &first[0], &n[0]);
+  FindRange(used + grid->nx, grid->ny, &first[1], &n[1]);
+  PetscCall(PetscFree(used));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscBool wrap, PetscInt first[2], PetscInt n[2])
 {
   PetscInt64    bounds[4] = {-grid->nx, -grid->ny, -1, -1}; /* minus the least, and the largest, column and row */
   const double *f;
@@ -146,12 +182,13 @@ PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], Pet
       bounds[2] = PetscMax(bounds[2], i);
       bounds[3] = PetscMax(bounds[3], grid->row_start + j);
     }
-  PetscCall(VecRestoreArrayRead(field, &f));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 4, MPIU_INT64, MPI_MAX, grid->comm));
   for (PetscInt k = 0; k < 2; k++) {
     first[k] = (PetscInt)-bounds[k];
     n[k]     = bounds[2] < 0 ? 0 : (PetscInt)(bounds[k + 2] + bounds[k]) + 1;
   }
+  if (wrap && n[0] > 0) PetscCall(FindAcross(grid, f, first, n));
+  PetscCall(VecRestoreArrayRead(field, &f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

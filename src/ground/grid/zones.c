@@ -20,8 +20,10 @@ typedef struct {
 
 /* Pieces; `parent` of a piece is the piece with which it has been united, at first the piece itself */
 typedef struct {
-  PetscBool wrap; /* the grid's opposite borders connect cells, too */
-  Piece    *piece;
+  PetscBool wrap[2]; /* the grid's opposite borders along x, along y connect cells, too */
+  PetscInt
+         first[2]; /* column and row that count as 0; they are not 0 only with `wrap`, and where no zone crosses them */
+  Piece *piece;
   PetscInt *parent;
   PetscInt  count, room;
 } Forest;
@@ -116,8 +118,14 @@ static double Across(const Piece *p, SamGrid grid)
 
 /* ---- rows ---- */
 
-/* Processes row y: `label` has the pieces of the row before, -1 for cells in none, and receives those of this row. */
-static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt y, Forest *f, PetscInt label[])
+/* Returns the place of a column (axis 0) or row among n of them, counted from the first one. */
+static PetscInt PlaceOf(const Forest *f, int axis, PetscInt k, PetscInt n)
+{
+  return k < f->first[axis] ? k - f->first[axis] + n : k - f->first[axis];
+}
+
+/* Processes row j: `label` has the pieces of the row before, -1 for cells in none, and receives those of this row. */
+static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt j, Forest *f, PetscInt label[])
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < grid->nx; i++) {
@@ -128,14 +136,14 @@ static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt y, Forest
       if (label[i] >= 0) k = k < 0 ? Find(f, label[i]) : Unite(f, k, label[i]);
     if (i < grid->nx) label[i] = -1;
     if (i == first) continue;
-    piece = PieceOf(first, i - 1, y);
+    piece = PieceOf(PlaceOf(f, 0, first, grid->nx), PlaceOf(f, 0, i - 1, grid->nx), PlaceOf(f, 1, j, grid->ny));
     if (k < 0)
       PetscCall(AddPiece(f, &piece, &k));
     else
       Add(&f->piece[k], &piece);
     while (first < i) label[first++] = k;
   }
-  if (f->wrap && label[0] >= 0 && label[grid->nx - 1] >= 0) (void)Unite(f, label[0], label[grid->nx - 1]);
+  if (f->wrap[0] && label[0] >= 0 && label[grid->nx - 1] >= 0) (void)Unite(f, label[0], label[grid->nx - 1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -229,7 +237,7 @@ static PetscErrorCode Share(SamGrid grid, Forest *f, PetscInt *edge[2])
   PetscCall(TakeOut(grid, f, edge, pieces, &count));
   PetscCall(SamGather(grid->comm, MPI_INT64_T, PIECE * count, pieces, &count, &all_pieces));
   for (PetscInt k = 0; all_pieces && k < count / PIECE; k++) PetscCall(AddPiece(f, &all_pieces[k], &index));
-  PetscCall(FindPairs(grid, f->wrap, edge, pairs, &count));
+  PetscCall(FindPairs(grid, f->wrap[1], edge, pairs, &count));
   PetscCall(SamGather(grid->comm, MPI_INT64_T, count, pairs, &count, &all_pairs));
   for (PetscInt k = 0; all_pairs && k < count; k += 2)
     (void)Unite(f, own + (PetscInt)all_pairs[k], own + (PetscInt)all_pairs[k + 1]);
@@ -242,12 +250,11 @@ static PetscErrorCode Share(SamGrid grid, Forest *f, PetscInt *edge[2])
 /* ---- all zones ---- */
 
 /* Finds this rank's zones, and on rank 0 those of several ranks; only roots with cells count. */
-static PetscErrorCode FindZones(SamGrid grid, Vec field, PetscBool wrap, Forest *f)
+static PetscErrorCode FindZones(SamGrid grid, Vec field, Forest *f)
 {
   PetscInt *edge[2];
 
   PetscFunctionBegin;
-  *f = (Forest){.wrap = wrap};
   PetscCall(PetscMalloc2(grid->nx, &edge[0], grid->nx, &edge[1]));
   PetscCall(ReadRows(grid, field, f, edge));
   PetscCall(Share(grid, f, edge));
@@ -270,11 +277,11 @@ static PetscErrorCode DestroyForest(Forest *f)
 
 PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscInt *zones)
 {
-  Forest f;
+  Forest f   = {.wrap = {wrap, wrap}};
   double sum = 0;
 
   PetscFunctionBegin;
-  PetscCall(FindZones(grid, field, wrap, &f));
+  PetscCall(FindZones(grid, field, &f));
   for (PetscInt k = 0; k < f.count; k++) sum += IsZone(&f, k);
   PetscCall(DestroyForest(&f));
   PetscCall(SamSum(grid->comm, 1, &sum));
@@ -282,16 +289,31 @@ PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across)
+/* Counts columns and rows from an edge of the zones on, if there are any without a zone. */
+static PetscErrorCode BeginOutside(SamGrid grid, Vec field, Forest *f)
+{
+  PetscInt first[2], n[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamGridGetSupport(grid, field, PETSC_TRUE, first, n));
+  for (int k = 0; k < 2; k++) {
+    f->wrap[k]  = n[k] < (k ? grid->ny : grid->nx) ? PETSC_TRUE : PETSC_FALSE;
+    f->first[k] = f->wrap[k] && n[k] > 0 ? first[k] : 0;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscBool wrap, PetscReal *across)
 {
   const PetscInt widths = 10 * PetscMax(grid->nx, grid->ny);
   double        *cells, sum = 0, narrow = 0; /* cells[w]: number of cells in zones of width w/10 */
-  Forest         f;
+  Forest         f = {.count = 0};
   PetscInt       w = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(widths + 1, &cells));
-  PetscCall(FindZones(grid, field, PETSC_FALSE, &f));
+  if (wrap) PetscCall(BeginOutside(grid, field, &f));
+  PetscCall(FindZones(grid, field, &f));
   for (PetscInt k = 0; k < f.count; k++)
     if (IsZone(&f, k))
       cells[PetscMin(widths, PetscMax(1, (PetscInt)floor(10 * Across(&f.piece[k], grid) + 0.5)))] +=

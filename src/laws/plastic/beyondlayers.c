@@ -49,7 +49,7 @@ PetscErrorCode SamPlasticLookOutside(SamPlastic *p, Vec state, Vec pressure, Vec
 
   PetscFunctionBegin;
   *thick = *excess = 0;
-  PetscCall(SamGridMeasureZones(p->grid, pressure, NARROW, &across));
+  PetscCall(SamGridMeasureZones(p->grid, pressure, NARROW, SamElasticityGetTraits(p->elasticity).periodic, &across));
   half = across * p->grid->side[0] / 2;
   if (!(half > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt l = 0; l < p->layers; l++) bottom += p->thickness[l];

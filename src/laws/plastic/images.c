@@ -217,11 +217,6 @@ PetscErrorCode SamImagesDestroy(SamImages *images)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamImagesSetLayers(SamImages m, PetscInt layers)
-{
-  m->body.layers = layers;
-}
-
 /* ---- products ---- */
 
 /* Projects the eigenstrain of a row of cells onto the nodes along x and z. */
@@ -294,24 +289,25 @@ static void GetNodes(SamImages m, double s[NODES][PARTS])
 PetscErrorCode SamImagesAdd(SamImages m, double s[])
 {
   const SamGrid g = m->grid;
-  double(*node)[PARTS], line[ALONG];
+  double(*node)[PARTS];
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(NODES, &node));
   GetNodes(m, node);
-  for (PetscInt k = 0; k < PARTS * m->body.layers; k++)
-    for (PetscInt j = 0; j < g->rows; j++) {
-      double *to = s + (ptrdiff_t)k * g->cells + j * (ptrdiff_t)g->nx;
+  for (PetscInt k = 0; k < PARTS * m->body.layers; k++) {
+    double layer[ALONG][ALONG] = {{0}}; /* y, x */
 
-      memset(line, 0, sizeof(line));
-      for (PetscInt n = 0; n < NODES; n++) {
-        if (n / ALONG % ALONG >= m->along[1]) continue;
-        line[n % ALONG] += m->basis[2][DOWN * (k / PARTS) + n / (ALONG * ALONG)] *
-                           m->basis[1][ALONG * j + n / ALONG % ALONG] * node[n][k % PARTS];
-      }
+    for (PetscInt n = 0; n < NODES; n++)
+      layer[n / ALONG % ALONG][n % ALONG] += m->basis[2][DOWN * (k / PARTS) + n / (ALONG * ALONG)] * node[n][k % PARTS];
+    for (PetscInt j = 0; j < g->rows; j++) {
+      double *to = s + (ptrdiff_t)k * g->cells + j * (ptrdiff_t)g->nx, line[ALONG] = {0};
+
+      for (PetscInt y = 0; y < m->along[1]; y++)
+        for (PetscInt x = 0; x < ALONG; x++) line[x] += m->basis[1][ALONG * j + y] * layer[y][x];
       for (PetscInt i = 0; i < g->nx; i++)
         for (PetscInt n = 0; n < ALONG; n++) to[i] -= m->basis[0][ALONG * i + n] * line[n];
     }
+  }
   PetscCall(PetscFree(node));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

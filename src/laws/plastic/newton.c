@@ -8,36 +8,32 @@
   With P = de/dd, S the contact's stiffness on frozen sets of cells (reaction.c), and Bc = 1 + dev(R - K S K')/(2 mu), a
   step solves (1 - Bc P) delta = r in the symmetric form
       (1 - Q Bc Q) y = Q r,  delta = r + Bc Q y,  Q = root of P,
-  by conjugate gradients in the product sum 2 mu h a:b. The matrix is positive definite: 0 <= P < 1, R is negative
-  semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite; only slipping cells make S unsymmetric, which
-  conjugate gradients tolerate. They need only the layers down to the last one that yields. A step is halved until the
-  residual falls.
+  by conjugate gradients in the product sum 2 mu h a:b (equations.c). The matrix is positive definite: 0 <= P < 1, R is
+  negative semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite; only slipping cells make S unsymmetric,
+  which conjugate gradients tolerate. A step is halved until the residual falls.
 
   Source: J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3, for the tangent; A. Frerot, M.
   Bonnet, J.-F. Molinari and G. Anciaux, Comput. Methods Appl. Mech. Engrg. 351 (2019) 951, for the integral equation.
 */
-#include "newton.h"
-#include "reaction.h"
+#include "equations.h"
 
-#define STEPS    30    /* maximum number of steps of Newton's method */
-#define HALVINGS 8     /* maximum number in one step */
-#define PRODUCTS 200   /* maximum number in one step */
-#define ROUGH    0.1   /* a step's equations are solved at least to this part, */
-#define ROUNDING 1e-12 /* of a product relative to the square of its vector */
-#define FORCING  0.3   /* and to this part of the residual relative to its first value, */
-#define SLIPPING 1e-3  /* but not below this part where cells slip: conjugate gradients reach no less there */
+#define STEPS    30   /* maximum number of steps of Newton's method */
+#define HALVINGS 8    /* maximum number in one step */
+#define ROUGH    0.1  /* a step's equations are solved at least to this part, */
+#define FORCING  0.3  /* and to this part of the residual relative to its first value, */
+#define ENOUGH   0.1  /* but not below this part of the largest residual's tolerance, */
+#define SLIPPING 1e-3 /* nor below this part where cells slip: conjugate gradients reach no less there */
 
 /* The fields of a solve, each of all layers, and the tangents of the cells */
 typedef struct {
   SamPlastic    *plastic;
   SamLawContact *contact;
-  PetscInt       n;                             /* values of a field on this rank */
-  double        *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others are scratch of a step */
-  double   *direction, *along, *across; /* the tangents: direction as a field; the other two have one value per cell */
-  PetscInt  active;                     /* number of layers down to the last one that yields on any rank */
-  PetscBool solved;                     /* true: the normal problem has a solution */
-  SamReaction reaction;
-  double     *traction; /* (DIRECTIONS, cells) */
+  PetscInt       n;                 /* values of a field on this rank */
+  double        *d, *r, *e, *s, *y; /* driver, residual, strain, stress, step */
+  SamTangent     tangent;
+  PetscBool      solved; /* true: the normal problem has a solution */
+  SamReaction    reaction;
+  double        *traction; /* (DIRECTIONS, cells) */
 } Solve;
 
 static inline const SamPlasticBody *BodyOf(const SamPlastic *p, PetscInt l)
@@ -80,31 +76,34 @@ static inline void Put(const SamPlastic *p, const double from[PARTS], PetscInt l
 
 /* ---- the operators of all bodies ---- */
 
-/* Computes the stress and the displacement (each NULL: not wanted) by a strain. */
-static PetscErrorCode Respond(SamPlastic *p, const double e[], double s[], double *const u[3])
+/* Begins products with a strain, and computes the displacement by it (NULL: not wanted). */
+static PetscErrorCode Displace(SamPlastic *p, const double e[], double *const u[3])
 {
   const PetscInt cells = p->grid->cells;
   double        *own[3], *more;
 
   PetscFunctionBegin;
+  p->begun.spectra = PETSC_FALSE;
   PetscCall(PetscMalloc1(3 * cells, &more));
   for (PetscInt c = 0; c < 3; c++) own[c] = more + c * cells;
   for (PetscInt c = 0; u && c < 3; c++) PetscCall(PetscArrayzero(u[c], cells));
   for (PetscInt b = 0; b < p->bodies; b++) {
     const ptrdiff_t at = (ptrdiff_t)p->body[b].first * PARTS * cells;
 
-    PetscCall(SamResidualApply(p->body[b].residual, e + at, s ? s + at : NULL, u ? own : NULL));
+    PetscCall(SamResidualBegin(p->body[b].residual, e ? e + at : NULL, u ? own : NULL));
     for (PetscInt k = 0; u && k < 3 * cells; k++) u[k / cells][k % cells] += more[k];
   }
   PetscCall(PetscFree(more));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Load(SamPlastic *p, const double *const traction[3], double s[])
+/* Computes the stress by the strain of the products that have begun, and by tractions (NULL: none). */
+static PetscErrorCode Respond(SamPlastic *p, const double *const traction[3], double s[])
 {
   PetscFunctionBegin;
+  p->begun.spectra = PETSC_FALSE;
   for (PetscInt b = 0; b < p->bodies; b++)
-    PetscCall(SamResidualLoad(p->body[b].residual, traction, s + (ptrdiff_t)p->body[b].first * PARTS * p->grid->cells));
+    PetscCall(SamResidualEnd(p->body[b].residual, traction, s + (ptrdiff_t)p->body[b].first * PARTS * p->grid->cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -124,15 +123,24 @@ static PetscErrorCode TakeStrain(SamPlastic *p, Vec state, double e[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* While the contact is solved, both of its problems ask for this displacement, and GetDriver() ends its products. */
 PetscErrorCode SamPlasticDisplace(SamPlastic *p, Vec state, double *const u[3])
 {
-  double *e;
+  const PetscInt cells = p->grid->cells;
+  double        *e, *own[3];
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * p->grid->cells, &e));
-  PetscCall(TakeStrain(p, state, e));
-  PetscCall(Respond(p, e, NULL, u));
-  PetscCall(PetscFree(e));
+  if (!p->begun.of || state != p->begun.of) {
+    PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * cells, &e));
+    PetscCall(TakeStrain(p, state, e));
+    PetscCall(Displace(p, e, u));
+    PetscCall(PetscFree(e));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt c = 0; c < 3; c++) own[c] = p->begun.u + c * cells;
+  if (!p->begun.known) PetscCall(Displace(p, p->begun.e, own));
+  if (!p->begun.known) p->begun.known = p->begun.spectra = PETSC_TRUE;
+  for (PetscInt c = 0; c < 3; c++) PetscCall(PetscArraycpy(u[c], own[c], cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -172,14 +180,16 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
   PetscCall(PetscMalloc1(n, &e));
   PetscCall(TakeStrain(p, state, e));
   PetscCall(PetscArraycpy(stress, e, n));
-  PetscCall(Respond(p, e, e, NULL));
+  PetscCall(Displace(p, e, NULL));
+  PetscCall(Respond(p, NULL, e));
   if (energy) PetscCall(SamPlasticWork(p, stress, e, energy));
   if (energy) *energy *= -0.5;
   PetscCall(PetscArrayzero(stress, n));
   if (pressure) {
     PetscCall(VecGetArrayRead(pressure, &by_p));
     PetscCall(VecGetArrayRead(shear, &by_q));
-    PetscCall(Load(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
+    PetscCall(Displace(p, NULL, NULL));
+    PetscCall(Respond(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
     PetscCall(VecRestoreArrayRead(shear, &by_q));
     PetscCall(VecRestoreArrayRead(pressure, &by_p));
     AddBulk(p, stress);
@@ -204,7 +214,6 @@ static PetscErrorCode Sum(const SamPlastic *p, PetscBool weighted, const double 
       const double weight = weighted ? 2 * BodyOf(p, l)->material.shear : 1;
       double       sum    = 0;
 
-      if (l % p->layers >= p->used) continue;
       for (PetscInt c = 0; c < PARTS; c++) {
         const ptrdiff_t at  = ((ptrdiff_t)l * PARTS + c) * grid->cells + j * (ptrdiff_t)grid->nx;
         double          row = 0;
@@ -233,32 +242,13 @@ PetscErrorCode SamPlasticWork(const SamPlastic *p, const double e[], const doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- a product ---- */
-
-/* Multiplies a field by the root of P; `from` and `to` may be the same. */
-static void ApplyRoot(const Solve *w, const double from[], double to[])
-{
-  const SamPlastic *p     = w->plastic;
-  const PetscInt    cells = p->grid->cells;
-
-  for (PetscInt l = 0; l < p->bodies * p->layers; l++)
-    for (PetscInt k = 0; k < cells && l % p->layers < p->used; k++) {
-      const double along = sqrt(w->along[l * cells + k]), across = sqrt(w->across[l * cells + k]);
-      double       x[PARTS], n[PARTS], dot;
-
-      Take(p, from, l, k, x);
-      Take(p, w->direction, l, k, n);
-      dot = SamTensorDot(x, n);
-      for (PetscInt c = 0; c < PARTS; c++) x[c] = across * x[c] + (along - across) * dot * n[c];
-      Put(p, x, l, k, to);
-    }
-}
+/* ---- the residual ---- */
 
 /* Computes to = from + dev(s)/(2 mu). */
 static void AddDeviator(const SamPlastic *p, const double from[], const double s[], double to[])
 {
   for (PetscInt l = 0; l < p->bodies * p->layers; l++)
-    for (PetscInt k = 0; k < p->grid->cells && l % p->layers < p->used; k++) {
+    for (PetscInt k = 0; k < p->grid->cells; k++) {
       double x[PARTS], e[PARTS];
 
       Take(p, s, l, k, x);
@@ -268,74 +258,6 @@ static void AddDeviator(const SamPlastic *p, const double from[], const double s
       Put(p, x, l, k, to);
     }
 }
-
-/* Computes to = Bc from. */
-static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
-{
-  const PetscInt cells = w->plastic->grid->cells;
-  double *const z = w->traction, *const x = z + ALONG_X * cells, *const y = z + ALONG_Y * cells;
-
-  PetscFunctionBegin;
-  PetscCall(Respond(w->plastic, from, w->s, (double *const[3]){x, y, z}));
-  PetscCall(SamReactionApply(w->reaction, w->traction));
-  PetscCall(Load(w->plastic, (const double *const[3]){z, x, y}, to));
-  for (PetscInt k = 0; k < w->n; k++) w->s[k] += to[k];
-  AddDeviator(w->plastic, from, w->s, to);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Restricts the operators, and sums and products of fields, to the first layers. */
-static void UseLayers(SamPlastic *p, PetscInt layers)
-{
-  p->used = layers;
-  for (PetscInt b = 0; b < p->bodies; b++) SamResidualSetLayers(p->body[b].residual, layers);
-}
-
-/* Computes the step of Newton's method in y from the residual, by conjugate gradients. These need the layers that yield
-   only; a last product with all layers gives the step. */
-static PetscErrorCode FindStep(Solve *w, double part)
-{
-  double  *rest = w->e, first, size, before, step, square;
-  PetscInt k    = 0;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(w->y, w->n));
-  ApplyRoot(w, w->r, rest);
-  PetscCall(PetscArraycpy(w->z, rest, w->n));
-  PetscCall(Dot(w, rest, rest, &first));
-  size = first;
-  PetscCall(PetscArrayzero(w->v, w->n)); /* nothing is computed below the layers that yield */
-  UseLayers(w->plastic, w->active);
-  for (; k < PRODUCTS && size > part * part * first; k++) {
-    ApplyRoot(w, w->z, w->v);
-    PetscCall(Multiply(w, w->v, w->w)); /* w = Bc Q z */
-    w->plastic->products++;
-    ApplyRoot(w, w->w, w->v);
-    for (PetscInt i = 0; i < w->n; i++) w->v[i] = w->z[i] - w->v[i];
-    PetscCall(Dot(w, w->z, w->v, &step));
-    PetscCall(Dot(w, w->z, w->z, &square));
-    PetscCheck(step > -ROUNDING * square || SamReactionSlips(w->reaction), w->plastic->grid->comm, PETSC_ERR_PLIB,
-               "The operators of plastic strain are not symmetric");
-    if (!(step > ROUNDING * square))
-      break; /* slip is not symmetric, or plastic flow has no stiffness: the step so far is used */
-    step = size / step;
-    for (PetscInt i = 0; i < w->n; i++) {
-      w->y[i] += step * w->z[i];
-      rest[i] -= step * w->v[i];
-    }
-    before = size;
-    PetscCall(Dot(w, rest, rest, &size));
-    for (PetscInt i = 0; i < w->n; i++) w->z[i] = rest[i] + size / before * w->z[i];
-  }
-  UseLayers(w->plastic, w->plastic->layers);
-  ApplyRoot(w, w->y, w->v);
-  PetscCall(PetscArrayzero(w->w, w->n));
-  if (k) PetscCall(Multiply(w, w->v, w->w));
-  for (PetscInt i = 0; i < w->n; i++) w->y[i] = w->r[i] + w->w[i];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- the residual ---- */
 
 /* Computes the plastic strains for a driver, as tried state, and the tangents. */
 static PetscErrorCode Return(Solve *w, Vec last, Vec tried)
@@ -359,14 +281,14 @@ static PetscErrorCode Return(Solve *w, Vec last, Vec tried)
       if (SamMisesReturn(&BodyOf(p, l)->material, d, &at, &t)) deepest = PetscMax(deepest, l % p->layers + 1);
       Write(p, &at, l, k, to);
       Put(p, at.e, l, k, w->e);
-      Put(p, t.n, l, k, w->direction);
-      w->along[l * cells + k]  = t.along;
-      w->across[l * cells + k] = t.across;
+      Put(p, t.n, l, k, w->tangent.n);
+      w->tangent.along[l * cells + k]  = t.along;
+      w->tangent.across[l * cells + k] = t.across;
     }
   PetscCall(VecRestoreArray(tried, &to));
   if (last) PetscCall(VecRestoreArrayRead(last, &from));
   PetscCall(SamMax(p->grid->comm, 1, &deepest));
-  w->active = (PetscInt)deepest;
+  w->tangent.active = (PetscInt)deepest;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -377,16 +299,46 @@ static PetscErrorCode GetDriver(Solve *w, double d[])
   const double  *p, *q;
 
   PetscFunctionBegin;
-  PetscCall(Respond(w->plastic, w->e, w->s, NULL));
+  if (!w->plastic->begun.spectra) PetscCall(Displace(w->plastic, w->e, NULL));
   PetscCall(VecGetArrayRead(w->contact->pressure, &p));
   PetscCall(VecGetArrayRead(w->contact->shear, &q));
-  PetscCall(Load(w->plastic, (const double *const[3]){p, q, q + cells}, w->v));
+  PetscCall(Respond(w->plastic, (const double *const[3]){p, q, q + cells}, w->s));
   PetscCall(VecRestoreArrayRead(w->contact->shear, &q));
   PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
-  for (PetscInt k = 0; k < w->n; k++) w->s[k] += w->v[k];
   AddInitial(w->plastic, w->s);
   AddBulk(w->plastic, w->s);
   AddDeviator(w->plastic, w->e, w->s, d);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Sets the driver of a cell that does not yield to the new one where it does not yield there either: its strain is the
+  same for both, and its residual becomes 0.
+*/
+static PetscErrorCode FollowElastic(Solve *w, Vec last)
+{
+  const SamPlastic *p     = w->plastic;
+  const PetscInt    cells = p->grid->cells;
+  const double     *from  = NULL;
+
+  PetscFunctionBegin;
+  if (last) PetscCall(VecGetArrayRead(last, &from));
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++)
+    for (PetscInt k = 0; k < cells; k++) {
+      SamMisesAt      at = {{0}, 0, {{0}}};
+      SamMisesTangent t;
+      double          d[PARTS], r[PARTS];
+
+      if (w->tangent.along[l * cells + k] > 0 || w->tangent.across[l * cells + k] > 0) continue;
+      if (from) SamPlasticRead(p, from, l, k, &at);
+      Take(p, w->d, l, k, d);
+      Take(p, w->r, l, k, r);
+      for (PetscInt c = 0; c < PARTS; c++) d[c] += r[c];
+      if (SamMisesReturn(&BodyOf(p, l)->material, d, &at, &t)) continue;
+      Put(p, d, l, k, w->d);
+      Put(p, (const double[PARTS]){0}, l, k, w->r);
+    }
+  if (last) PetscCall(VecRestoreArrayRead(last, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -402,11 +354,17 @@ static PetscErrorCode Measure(Solve *w, PetscInt field, double *norm, double *la
   *norm = *largest = 0;
   w->solved        = PETSC_TRUE;
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0)); /* both problems have their own events */
+  if (!w->plastic->begun.u) PetscCall(PetscMalloc1(3 * p->grid->cells, &w->plastic->begun.u));
+  w->plastic->begun.of    = tried;
+  w->plastic->begun.e     = w->e;
+  w->plastic->begun.known = PETSC_FALSE;
   PetscCall(w->contact->solve(w->contact, &w->solved));
+  w->plastic->begun.of = NULL;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0));
   if (!w->solved) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(GetDriver(w, w->r));
   for (PetscInt k = 0; k < w->n; k++) w->r[k] -= w->d[k];
+  PetscCall(FollowElastic(w, p->last));
   PetscCall(Dot(w, w->r, w->r, norm));
   *norm = sqrt(*norm);
   for (PetscInt l = 0; l < p->bodies * p->layers; l++)
@@ -427,25 +385,23 @@ static PetscErrorCode CreateWork(Solve *w)
 {
   const SamPlastic *p       = w->plastic;
   const PetscInt    cells   = p->grid->cells;
-  double          **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->v, &w->w, &w->z, &w->direction};
+  double          **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->tangent.n};
 
   PetscFunctionBegin;
   w->n = PARTS * p->bodies * p->layers * cells;
   for (size_t k = 0; k < sizeof(field) / sizeof(field[0]); k++) PetscCall(PetscCalloc1(w->n, field[k]));
-  PetscCall(PetscCalloc2(w->n / PARTS, &w->along, w->n / PARTS, &w->across));
-  PetscCall(PetscCalloc1(DIRECTIONS * cells, &w->traction));
+  PetscCall(PetscCalloc2(w->n / PARTS, &w->tangent.along, w->n / PARTS, &w->tangent.across));
   PetscCall(SamReactionCreate(p->elasticity, w->contact, &w->reaction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode DestroyWork(Solve *w)
 {
-  double **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->v, &w->w, &w->z, &w->direction};
+  double **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->tangent.n};
 
   PetscFunctionBegin;
   for (size_t k = 0; k < sizeof(field) / sizeof(field[0]); k++) PetscCall(PetscFree(*field[k]));
-  PetscCall(PetscFree2(w->along, w->across));
-  PetscCall(PetscFree(w->traction));
+  PetscCall(PetscFree2(w->tangent.along, w->tangent.across));
   PetscCall(SamReactionDestroy(&w->reaction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -454,18 +410,17 @@ static PetscErrorCode DestroyWork(Solve *w)
 static PetscErrorCode GoAlong(Solve *w, PetscInt field, double *norm, double *largest)
 {
   const double before = *norm;
-  double       length = 1, *start, *step;
+  double       length = 1, *start;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(w->n, &start, w->n, &step));
+  PetscCall(PetscMalloc1(w->n, &start));
   PetscCall(PetscArraycpy(start, w->d, w->n));
-  PetscCall(PetscArraycpy(step, w->y, w->n));
   for (PetscInt k = 0; k < HALVINGS; k++, length /= 2) {
-    for (PetscInt i = 0; i < w->n; i++) w->d[i] = start[i] + length * step[i];
+    for (PetscInt i = 0; i < w->n; i++) w->d[i] = start[i] + length * w->y[i];
     PetscCall(Measure(w, field, norm, largest));
     if (!w->solved || *norm < before || *largest <= w->plastic->rtol) break;
   }
-  PetscCall(PetscFree2(start, step));
+  PetscCall(PetscFree(start));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -493,7 +448,7 @@ static PetscErrorCode Flows(const Solve *w, PetscBool *flows)
   for (PetscInt l = 0; l < layers; l++) {
     if (Hardens(&BodyOf(p, l)->material)) holds[l] = 1;
     for (PetscInt k = 0; k < cells; k++)
-      if (!(w->along[l * cells + k] > 0)) holds[l] = 1;
+      if (!(w->tangent.along[l * cells + k] > 0)) holds[l] = 1;
   }
   PetscCall(SamMax(p->grid->comm, layers, holds));
   for (PetscInt l = 0; l < layers; l++)
@@ -557,15 +512,16 @@ static PetscErrorCode DescribeFailure(Solve *w, double largest)
 static PetscErrorCode Iterate(Solve *w, PetscInt field)
 {
   SamPlastic *p = w->plastic;
-  double      norm, first, largest;
+  double      norm, first, largest, part;
 
   PetscFunctionBegin;
   PetscCall(Measure(w, field, &norm, &largest));
   first = norm;
   for (PetscInt k = 0; w->solved && largest > p->rtol && k < STEPS; k++) {
     PetscCall(SamReactionFreeze(w->reaction));
-    PetscCall(
-      FindStep(w, PetscMax(PetscMin(ROUGH, FORCING * norm / first), SamReactionSlips(w->reaction) ? SLIPPING : 0)));
+    part = PetscMax(PetscMin(ROUGH, FORCING * norm / first), ENOUGH * (double)p->rtol / largest);
+    if (SamReactionSlips(w->reaction)) part = PetscMax(part, SLIPPING);
+    PetscCall(SamEquationsSolve(p, w->contact, w->reaction, &w->tangent, w->r, part, w->y));
     p->newton++;
     PetscCall(GoAlong(w, field, &norm, &largest));
   }
@@ -576,12 +532,12 @@ static PetscErrorCode Iterate(Solve *w, PetscInt field)
 PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact)
 {
   const PetscInt field = SamStateFindField(contact->state, SAM_PLASTIC_FIELD);
+  const Vec      state = SamStateReadField(contact->state, field); /* a second solve begins with the first */
   Solve          w     = {.plastic = p, .contact = contact};
 
   PetscFunctionBegin;
-  UseLayers(p, p->layers); /* also after an error in the conjugate gradients */
   PetscCall(CreateWork(&w));
-  PetscCall(TakeStrain(p, SamStateReadField(contact->state, field), w.e)); /* a second solve begins with the first */
+  PetscCall(TakeStrain(p, state, w.e));
   PetscCall(GetDriver(&w, w.d));
   PetscCall(Iterate(&w, field));
   PetscCall(DestroyWork(&w));

@@ -16,21 +16,33 @@ typedef struct {
 } SamPlasticBody;
 
 /*
+  SamPlasticBegun - the displacement u (m, three fields) by the strains e of the tried state `of` (NULL: none), while the
+  contact is solved for it; `known`: it has been computed; `spectra`: the residuals hold the spectra of this strain.
+*/
+typedef struct {
+  Vec           of;
+  const double *e;
+  double       *u;
+  PetscBool     known, spectra;
+} SamPlasticBegun;
+
+/*
   SamPlastic - the bodies that yield, with their layers one after the other. The memory of a cell of a layer is in the
   state's field `field`: `size` values, which are the plastic strain, the accumulated plastic strain and the
   backstresses.
 */
 typedef struct {
-  SamGrid        grid;
-  SamElasticity  elasticity;
-  PetscInt       bodies, layers; /* number of layers of each body */
-  PetscInt       used;           /* the first ones, to which the operators are restricted */
-  PetscInt       size;
-  SamPlasticBody body[2];
-  PetscReal     *thickness; /* thicknesses of a body's layers, m; borrowed */
-  PetscReal      rtol;
-  Vec            last;             /* strain before the step, of the points that now lie under the cells; NULL: none */
-  PetscInt       newton, products; /* counts of the last step */
+  SamGrid                 grid;
+  SamElasticity           elasticity;
+  PetscInt                bodies, layers; /* number of layers of each body */
+  PetscInt                size;
+  SamPlasticBody          body[2];
+  PetscReal              *thickness; /* thicknesses of a body's layers, m; borrowed */
+  PetscReal               rtol;
+  Vec                     last; /* strain before the step, of the points that now lie under the cells; NULL: none */
+  PetscInt                newton, products; /* counts of the last step */
+  struct _n_SamEquations *equations;        /* of the last step (equations.h); NULL: none */
+  SamPlasticBegun         begun;
 } SamPlastic;
 
 #define SAM_PLASTIC_FIELD "plastic"

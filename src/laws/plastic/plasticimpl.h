@@ -20,28 +20,25 @@ enum { PARTS = SAM_STRESS_COMPONENTS };
 typedef struct _n_SamResidual *SamResidual;
 /*
   SamResidualCreate - creates the operators for body 1 or 2 of a uniform pair of half-spaces, periodic or not.
-  `thickness`: of the layers (m). Collective. Errors: as SamResidualCheckBodies().
+  `thickness`: of the layers (m). `images`: without it, the images of the grid in a padded period act, too, where bodies
+  are not periodic; that costs some parts in a thousand of accuracy. Collective. Errors: as SamResidualCheckBodies().
   SamResidualCheckBodies - fails for other types of elasticity, layered or rigid bodies. Collective. Errors:
   SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamResidualCheckBodies(SamElasticity elasticity, PetscInt body);
 PETSC_INTERN PetscErrorCode SamResidualCreate(SamElasticity elasticity, PetscInt body, PetscInt layers,
-                                              const PetscReal thickness[], SamResidual *residual);
+                                              const PetscReal thickness[], PetscBool images, SamResidual *residual);
 PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);
 /*
-  SamResidualSetLayers - restricts the operators to the first layers, the same on all ranks: the strain below them
-  counts as zero, and no stress is computed there. Not collective.
+  SamResidualBegin - begins a product with e (NULL: none), and computes the displacement u of the surface (m; NULL: not
+  wanted). u is the body's contribution to the relative displacement of the surfaces along x, y, and z into the body.
+  SamResidualEnd - computes the stress s (Pa) by e and by the pressure p and the shear q_x, q_y between the bodies (Pa;
+  NULL: none), which may be those that u causes. s may be e.
+  SamResidualLoadAt - computes the stress by p and q at a depth (m), PARTS fields; it takes the time of about ten layers.
+  All are collective.
 */
-PETSC_INTERN void SamResidualSetLayers(SamResidual residual, PetscInt layers);
-/*
-  SamResidualApply - computes the stress s (Pa) and the displacement u of the surface (m) by e; NULL: not wanted. u is
-  the body's contribution to the relative displacement of the surfaces along x, y, and z into the body. s may be e.
-  SamResidualLoad - computes the stress by the pressure p and the shear q_x, q_y between the bodies (Pa).
-  SamResidualLoadAt - computes the same at a depth (m) instead of in layers, PARTS fields; it takes the time of about
-  ten layers. All are collective.
-*/
-PETSC_INTERN PetscErrorCode SamResidualApply(SamResidual residual, const double e[], double s[], double *const u[3]);
-PETSC_INTERN PetscErrorCode SamResidualLoad(SamResidual residual, const double *const traction[3], double s[]);
+PETSC_INTERN PetscErrorCode SamResidualBegin(SamResidual residual, const double e[], double *const u[3]);
+PETSC_INTERN PetscErrorCode SamResidualEnd(SamResidual residual, const double *const traction[3], double s[]);
 PETSC_INTERN PetscErrorCode SamResidualLoadAt(SamResidual residual, PetscReal depth, const double *const traction[3],
                                               double s[]);
 

@@ -1,10 +1,11 @@
 /*
   The class SamResidual: the operators of plastic strain on a grid, by waves (waves.c).
 
-  The transforms process three planes at a time; all spectra are stored, and each of their columns is processed once.
-  For bodies that are not periodic, the waves have a padded period, and the images of the window are subtracted again
-  (images.c). For them the stress by tractions comes from the cells' kernels at the middle of each layer, and the
-  displacement by plastic strain from the transpose of these.
+  The transforms process three planes at a time. All spectra are stored: those of the strain become those of the stress,
+  to which that by the tractions is added, so that a product takes one transform of each plane of the strain and one of
+  each plane of the stress. For bodies that are not periodic, the waves have a padded period, and the images of the
+  window are subtracted again (images.c). For them the stress by tractions comes from the cells' kernels at the middle
+  of each layer, and the displacement by plastic strain from the transpose of these.
 */
 #include "images.h"
 #include "waves.h"
@@ -20,15 +21,16 @@ struct _n_SamResidual {
   SamFourierMode  mode;
   double          period; /* period of the waves along x, in cells; along y it is `waves` */
   SamWaveBody     body;
-  PetscInt        layers; /* number of all layers; `body` has those that are used */
   PetscReal      *thickness;
   double          sign;           /* sign of the shear between the bodies as it acts on this body */
   PetscInt        first, columns; /* frequency of this rank's first column, and their number */
   PetscInt        phases, waves;  /* phases and waves of a column: see SamFourierBlock */
+  SamFourierBlock block;          /* all columns of this rank, without data */
   double         *ky;             /* wave numbers of these waves along y, 1/m */
   PetscInt        nyquist;        /* index of the wave of two cells along y, which is also the wave of -ky; -1: none */
   double complex *spectra;        /* (planes, columns, waves) */
-  double complex *displaced;      /* (3, columns, waves) */
+  double complex *surface;        /* (3, columns, waves): of the displacement or of the tractions */
+  PetscBool       strained;       /* true: a product with a strain has begun */
   /* only if not periodic */
   SamStress *stress; /* kernels of each layer */
   Vec        plane;  /* scratch, PARTS components */
@@ -52,6 +54,7 @@ static void CountBlock(SamResidual r, const SamFourierBlock *block)
   r->phases = block->phases;
   r->waves  = block->phases * block->hy;
   r->columns += block->columns;
+  r->block = (SamFourierBlock){.phases = r->phases, .hy = block->hy, .stride = block->stride, .columns = r->columns};
 }
 
 static void MoveBlock(const SamFourierBlock *block, const void *context)
@@ -106,7 +109,11 @@ static PetscErrorCode CreateSpectra(SamResidual r)
                             (const double *const *)field, NULL));
   PetscCall(PetscFree(zero));
   PetscCall(SamAllocate(sizeof(*r->spectra) * (size_t)((planes + 3) * r->columns * r->waves), &r->spectra));
-  r->displaced = r->spectra + (ptrdiff_t)planes * r->columns * r->waves;
+  r->surface = r->spectra + (ptrdiff_t)planes * r->columns * r->waves;
+  if (SamGridIsRow(r->grid)) { /* one column along x */
+    r->block.hy      = r->columns;
+    r->block.columns = 1;
+  }
   PetscCall(PetscMalloc1(r->waves, &r->ky));
   r->nyquist = -1;
   for (PetscInt k = 0; k < r->waves; k++) {
@@ -138,7 +145,7 @@ PetscErrorCode SamResidualCheckBodies(SamElasticity e, PetscInt body)
 }
 
 /* Creates the kernels at the middle of each layer, and the operator of the window's images. */
-static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body)
+static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body, PetscBool images)
 {
   const PetscReal period[2] = {r->period * r->grid->dx, (PetscReal)r->waves * r->grid->dy};
   PetscReal       top       = 0;
@@ -151,12 +158,12 @@ static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body
     top += r->thickness[l];
   }
   PetscCall(SamGridCreateVec(r->grid, PARTS, &r->plane));
-  PetscCall(SamImagesCreate(r->grid, period, &r->body, &r->images));
+  if (images) PetscCall(SamImagesCreate(r->grid, period, &r->body, &r->images));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers, const PetscReal thickness[],
-                                 SamResidual *residual)
+                                 PetscBool images, SamResidual *residual)
 {
   const PetscBool    periodic = SamElasticityGetTraits(e).periodic;
   const SamMaterial *material;
@@ -170,7 +177,6 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscCall(SamGridReference(r->grid));
   r->elasticity = e; /* borrowed: the law that owns this object has a reference */
   r->number     = body;
-  r->layers     = layers;
   material      = SamBodyMaterialAt(SamPairBody(e->pair, body - 1), 0);
   PetscCall(PetscMalloc1(layers, &r->thickness));
   PetscCall(PetscArraycpy(r->thickness, thickness, layers));
@@ -181,15 +187,9 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscCall(SamFourierGetPeriods(r->fourier, &h[0], &h[1]));
   r->period = periodic ? h[0] : 2 * h[0];
   PetscCall(CreateSpectra(r));
-  if (!periodic) PetscCall(CreateWindow(r, e, body));
+  if (!periodic) PetscCall(CreateWindow(r, e, body, images));
   *residual = r;
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-void SamResidualSetLayers(SamResidual r, PetscInt layers)
-{
-  r->body.layers = layers;
-  if (r->images) SamImagesSetLayers(r->images, layers);
 }
 
 PetscErrorCode SamResidualDestroy(SamResidual *residual)
@@ -199,7 +199,7 @@ PetscErrorCode SamResidualDestroy(SamResidual *residual)
   PetscFunctionBegin;
   *residual = NULL;
   if (!r) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt l = 0; r->stress && l < r->layers; l++) PetscCall(SamStressDestroy(&r->stress[l]));
+  for (PetscInt l = 0; r->stress && l < r->body.layers; l++) PetscCall(SamStressDestroy(&r->stress[l]));
   PetscCall(PetscFree(r->stress));
   PetscCall(SamImagesDestroy(&r->images));
   PetscCall(VecDestroy(&r->plane));
@@ -232,7 +232,7 @@ static double WaveOf(SamResidual r, PetscInt b)
 }
 
 /* Response that is computed in a column of waves: to eigenstrains, or to tractions */
-typedef enum { RESPOND, DISPLACE, RESPOND_AND_DISPLACE, LOAD } Task;
+typedef enum { RESPOND, DISPLACE, LOAD } Task;
 
 static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double kx, const double ky[],
                                   double complex *const column[], double complex *const surface[3])
@@ -241,20 +241,19 @@ static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double k
   if (task == LOAD)
     PetscCall(SamWavesLoad(&r->body, n, kx, ky, (const double complex *const *)surface, column));
   else
-    PetscCall(SamWavesApply(&r->body, n, kx, ky, column, task != DISPLACE, task == RESPOND ? NULL : surface));
+    PetscCall(SamWavesApply(&r->body, n, kx, ky, column, task == RESPOND, task == DISPLACE ? surface : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Computes the response in a column; the Nyquist wave, which is also the wave of -ky, gets the mean of both. */
-static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double complex *column[])
+static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double complex *const column[])
 {
   const PetscInt  planes = PARTS * r->body.layers, m = r->nyquist;
   double complex *surface[3], *kept, **at;
   const double    back = m < 0 ? 0 : -r->ky[m];
 
   PetscFunctionBegin;
-  GetColumn(r, planes, b, r->spectra, column);
-  GetColumn(r, 3, b, r->displaced, surface);
+  GetColumn(r, 3, b, r->surface, surface);
   PetscCall(PetscMalloc2(planes + 3, &kept, planes + 3, &at));
   for (PetscInt k = 0; k < planes + 3; k++) {
     at[k] = &kept[k];
@@ -271,90 +270,124 @@ static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the stress, and the displacement, by waves. */
-static PetscErrorCode ApplyWaves(SamResidual r, const double e[], double s[], double *const u[3])
+/* Adds the stress by the tractions in a column of waves; `own`: scratch, (planes, waves). */
+static PetscErrorCode LoadColumn(SamResidual r, PetscInt b, double complex *const column[], double complex own[])
 {
   const PetscInt   planes = PARTS * r->body.layers;
-  const double   **at;
+  double complex **load;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(planes, &load));
+  for (PetscInt k = 0; k < planes; k++) load[k] = own + (ptrdiff_t)k * r->waves;
+  PetscCall(WorkOnColumn(r, LOAD, b, load));
+  for (PetscInt k = 0; k < planes; k++)
+    for (PetscInt m = 0; m < r->waves; m++) column[k][m] += load[k][m];
+  PetscCall(PetscFree(load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Adds the stress by the tractions to the spectra, by the cells' kernels, or (`transposed`) the displacement by the
+  strain, whose weights in products are the layers' thicknesses. The kernels contain the factor of the transforms.
+*/
+static PetscErrorCode AddCells(SamResidual r, PetscBool transposed)
+{
+  const ptrdiff_t plane  = (ptrdiff_t)r->columns * r->waves;
+  const double    factor = r->period * (double)r->waves;
+  double(*scratch)[2];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * r->block.hy, &scratch));
+  for (PetscInt b = 0; b < r->block.columns; b++)
+    for (PetscInt f = 0; f < r->phases; f++)
+      for (PetscInt l = 0; l < r->body.layers; l++) {
+        double complex *const first = r->spectra + l * PARTS * plane + (b * r->phases + f) * (ptrdiff_t)r->block.hy;
+        double complex *const above = r->surface + (b * r->phases + f) * (ptrdiff_t)r->block.hy;
+        double(*component[PARTS])[2], (*traction[SAM_STRESS_TRACTIONS])[2], scale[PARTS];
+
+        for (PetscInt c = 0; c < PARTS; c++) {
+          component[c] = (double(*)[2])(first + c * plane);
+          scale[c]     = transposed ? factor * (c < SAM_STRESS_XY ? 1 : 2) * r->thickness[l] : factor;
+        }
+        for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) traction[t] = (double(*)[2])(above + t * plane);
+        PetscCall(SamStressAddColumns(r->stress[l], &r->block, f, b, transposed, scale, traction, component, scratch));
+      }
+  PetscCall(PetscFree(scratch));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the displacement from the spectra of the strain. */
+static PetscErrorCode Displace(SamResidual r, double *const u[3])
+{
+  double *const    order[] = {u[2], u[0], u[1]}; /* as the tractions p, q_x, q_y */
   double complex **column;
 
   PetscFunctionBegin;
-  PetscCall(GetPlanes(r, planes, e, &at));
-  PetscCall(PetscMalloc1(planes, &column));
-  PetscCall(Transform(r, planes, at, NULL, r->spectra));
-  for (PetscInt b = 0; b < r->columns; b++)
-    PetscCall(WorkOnColumn(r, !u ? RESPOND : s ? RESPOND_AND_DISPLACE : DISPLACE, b, column));
-  PetscCall(PetscFree(column));
-  PetscCall(PetscFree(at));
-  if (u) PetscCall(Transform(r, 3, NULL, u, r->displaced));
-  for (PetscInt k = 0; u && k < 2 * r->grid->cells; k++) u[k / r->grid->cells][k % r->grid->cells] *= r->sign;
-  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(GetPlanes(r, planes, s, &at));
-  PetscCall(Transform(r, planes, NULL, (double *const *)at, r->spectra));
-  PetscCall(PetscFree(at));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Computes the displacement by eigenstrains, by the transpose of the cells' kernels. */
-static PetscErrorCode DisplaceByCells(SamResidual r, const double e[], double *const u[3])
-{
-  const PetscInt cells = r->grid->cells;
-  double        *part;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(r->plane, &part));
-  for (PetscInt c = 0; c < 3; c++) PetscCall(PetscArrayzero(u[c], cells));
-  for (PetscInt l = 0; l < r->body.layers; l++) {
-    for (PetscInt k = 0; k < PARTS * cells; k++)
-      part[k] = (k < SAM_STRESS_XY * cells ? 1 : 2) * r->thickness[l] * e[(ptrdiff_t)l * PARTS * cells + k];
-    PetscCall(SamStressApplyTransposed(r->stress[l], part));
-    for (PetscInt k = 0; k < cells; k++) {
-      u[0][k] += part[SAM_STRESS_XZ * cells + k];
-      u[1][k] += part[SAM_STRESS_YZ * cells + k];
-      u[2][k] += part[SAM_STRESS_ZZ * cells + k];
-    }
-  }
-  PetscCall(VecRestoreArray(r->plane, &part));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamResidualApply(SamResidual r, const double e[], double s[], double *const u[3])
-{
-  PetscFunctionBegin;
-  if (!r->images) {
-    PetscCall(ApplyWaves(r, e, s, u));
+  if (r->stress) {
+    PetscCall(PetscArrayzero(r->surface, 3 * r->columns * r->waves));
+    PetscCall(AddCells(r, PETSC_TRUE));
+    PetscCall(Transform(r, 3, NULL, order, r->surface));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (u) PetscCall(DisplaceByCells(r, e, u));
-  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamImagesReduce(r->images, e));
-  PetscCall(ApplyWaves(r, e, s, NULL));
-  PetscCall(SamImagesAdd(r->images, s));
+  PetscCall(PetscMalloc1(PARTS * r->body.layers, &column));
+  for (PetscInt b = 0; b < r->columns; b++) {
+    GetColumn(r, PARTS * r->body.layers, b, r->spectra, column);
+    PetscCall(WorkOnColumn(r, DISPLACE, b, column));
+  }
+  PetscCall(PetscFree(column));
+  PetscCall(Transform(r, 3, NULL, u, r->surface));
+  for (PetscInt k = 0; k < 2 * r->grid->cells; k++) u[k / r->grid->cells][k % r->grid->cells] *= r->sign;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the stress s by tractions, by waves. */
-static PetscErrorCode LoadWaves(SamResidual r, const double *const traction[3], double s[])
+PetscErrorCode SamResidualBegin(SamResidual r, const double e[], double *const u[3])
 {
-  const PetscInt   planes = PARTS * r->body.layers;
-  const double   **at;
-  double complex **column, *given[3];
+  const double **at;
 
   PetscFunctionBegin;
-  PetscCall(GetPlanes(r, planes, s, &at));
-  PetscCall(PetscMalloc1(planes, &column));
-  PetscCall(Transform(r, 3, traction, NULL, r->displaced));
-  for (PetscInt b = 0; b < r->columns; b++) {
-    GetColumn(r, 3, b, r->displaced, given);
-    for (PetscInt k = 0; k < r->waves; k++) {
-      given[1][k] *= r->sign;
-      given[2][k] *= r->sign;
-    }
-    PetscCall(WorkOnColumn(r, LOAD, b, column));
-  }
-  PetscCall(Transform(r, planes, NULL, (double *const *)at, r->spectra));
-  PetscCall(PetscFree(column));
+  r->strained = e ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt c = 0; u && !e && c < 3; c++) PetscCall(PetscArrayzero(u[c], r->grid->cells));
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(GetPlanes(r, PARTS * r->body.layers, e, &at));
+  PetscCall(Transform(r, PARTS * r->body.layers, at, NULL, r->spectra));
   PetscCall(PetscFree(at));
+  if (r->images) PetscCall(SamImagesReduce(r->images, e));
+  if (u) PetscCall(Displace(r, u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the spectra of the stress from those of the strain, and of the tractions if `loaded`. */
+static PetscErrorCode WorkOnColumns(SamResidual r, PetscBool loaded)
+{
+  const PetscInt   planes = PARTS * r->body.layers;
+  double complex **column, *own;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(planes, &column, planes * r->waves, &own));
+  for (PetscInt b = 0; b < r->columns; b++) {
+    GetColumn(r, planes, b, r->spectra, column);
+    if (r->strained) PetscCall(WorkOnColumn(r, RESPOND, b, column));
+    for (PetscInt k = 0; k < planes && !r->strained; k++) PetscCall(PetscArrayzero(column[k], r->waves));
+    if (loaded && !r->stress) PetscCall(LoadColumn(r, b, column, own));
+  }
+  PetscCall(PetscFree2(column, own));
+  if (loaded && r->stress) PetscCall(AddCells(r, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResidualEnd(SamResidual r, const double *const traction[3], double s[])
+{
+  const PetscInt plane = r->columns * r->waves;
+  const double **at;
+
+  PetscFunctionBegin;
+  if (traction) PetscCall(Transform(r, 3, traction, NULL, r->surface));
+  for (PetscInt k = plane; traction && !r->stress && k < 3 * plane; k++) r->surface[k] *= r->sign;
+  PetscCall(WorkOnColumns(r, traction ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(GetPlanes(r, PARTS * r->body.layers, s, &at));
+  PetscCall(Transform(r, PARTS * r->body.layers, NULL, (double *const *)at, r->spectra));
+  PetscCall(PetscFree(at));
+  if (r->strained && r->images) PetscCall(SamImagesAdd(r->images, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -377,24 +410,6 @@ static PetscErrorCode LoadPlane(SamResidual r, SamStress stress, const double *c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode LoadCells(SamResidual r, const double *const traction[3], double s[])
-{
-  PetscFunctionBegin;
-  for (PetscInt l = 0; l < r->body.layers; l++)
-    PetscCall(LoadPlane(r, r->stress[l], traction, s + (ptrdiff_t)l * PARTS * r->grid->cells));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamResidualLoad(SamResidual r, const double *const traction[3], double s[])
-{
-  PetscFunctionBegin;
-  if (r->stress)
-    PetscCall(LoadCells(r, traction, s));
-  else
-    PetscCall(LoadWaves(r, traction, s));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Computes the stress by tractions at a depth, as the mean over a layer of thickness zero below a layer that ends
    there. */
 static PetscErrorCode LoadWavesAt(SamResidual r, PetscReal depth, const double *const traction[3], double s[])
@@ -408,7 +423,8 @@ static PetscErrorCode LoadWavesAt(SamResidual r, PetscReal depth, const double *
   PetscCall(PetscMalloc1(2 * n, &both));
   r->body.layers    = 2;
   r->body.thickness = thickness;
-  PetscCall(LoadWaves(r, traction, both));
+  PetscCall(SamResidualBegin(r, NULL, NULL));
+  PetscCall(SamResidualEnd(r, traction, both));
   r->body = own;
   PetscCall(PetscArraycpy(s, both + n, n));
   PetscCall(PetscFree(both));

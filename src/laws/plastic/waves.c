@@ -15,33 +15,40 @@
 #include "waves.h"
 #include <petsam/private/baseimpl.h>
 
+/*
+  Amplitudes are stored as their real and imaginary parts in turn, and each number of a wave twice. The components MZ
+  and TZ are multiplied by i in strains, and by -i in stresses: all other factors are then real, and the loops below
+  treat both parts alike.
+*/
+
 /* Components of a wave along its own directions */
 enum { MM, TT, ZZ, MT, MZ, TZ };
 
-/* The numbers of a layer for each wave of a column, and the state of a sweep */
-enum { K, COS, SIN, LOSS, Q, M0, M1, A0, A1, E0, E1, REALS };
+/* The numbers of a wave, those of a wave in a layer, and the state of a sweep */
+enum { K, COS, SIN, E0, E1, REALS };
+enum { LOSS, Q, M0, M1, A0, A1, OF_LAYER };
 enum { X0, X1, Y0, T0, STATES };
 
 typedef double complex Wave;
 
 typedef struct {
   const SamWaveBody *body;
-  PetscInt           n; /* number of waves */
+  PetscInt           n; /* number of parts: twice the number of waves */
   double            *v[REALS];
-  Wave              *state[STATES], *e, *s; /* e and s: (layers, PARTS, n) */
+  double           **layer, *numbers; /* numbers of each layer, (OF_LAYER, n); layers of equal thickness share them */
+  double            *state[STATES], *e, *s; /* e and s: (layers, PARTS, n) */
 } Column;
 
-static PetscErrorCode CreateColumn(const SamWaveBody *body, PetscInt n, Column *w)
+static PetscErrorCode CreateColumn(const SamWaveBody *body, PetscInt waves, Column *w)
 {
-  const PetscInt all = body->layers * PARTS * n;
+  const PetscInt n = 2 * waves, all = body->layers * PARTS * n;
 
   PetscFunctionBegin;
   *w = (Column){.body = body, .n = n};
-  PetscCall(PetscMalloc1(REALS * n, &w->v[0]));
-  PetscCall(PetscMalloc1(STATES * n, &w->state[0]));
-  PetscCall(PetscMalloc2(all, &w->e, all, &w->s));
+  PetscCall(PetscMalloc1((REALS + STATES) * n, &w->v[0]));
+  PetscCall(PetscMalloc4(all, &w->e, all, &w->s, body->layers, &w->layer, body->layers * OF_LAYER * n, &w->numbers));
   for (PetscInt k = 1; k < REALS; k++) w->v[k] = w->v[0] + k * n;
-  for (PetscInt k = 1; k < STATES; k++) w->state[k] = w->state[0] + k * n;
+  for (PetscInt k = 0; k < STATES; k++) w->state[k] = w->v[0] + (REALS + k) * n;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -49,13 +56,23 @@ static PetscErrorCode DestroyColumn(Column *w)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(w->v[0]));
-  PetscCall(PetscFree(w->state[0]));
-  PetscCall(PetscFree2(w->e, w->s));
+  PetscCall(PetscFree4(w->e, w->s, w->layer, w->numbers));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Multiplies n parts by i (sign 1) or -i (-1). */
+static void Turn(PetscInt n, double sign, double x[])
+{
+  for (PetscInt m = 0; m < n; m += 2) {
+    const double re = x[m];
+
+    x[m]     = -sign * x[m + 1];
+    x[m + 1] = sign * re;
+  }
+}
+
 /* Returns i * sign * z. A complex number has the layout of its two parts; some compilers lack CMPLX(). */
-static inline Wave Turn(double sign, Wave z)
+static inline Wave Turned(double sign, Wave z)
 {
   const union {
     double part[2];
@@ -71,11 +88,11 @@ static inline Wave Turn(double sign, Wave z)
 static void SetWaves(Column *w, double kx, const double ky[])
 {
   for (PetscInt m = 0; m < w->n; m++) {
-    const double k = hypot(kx, ky[m]);
+    const double k = hypot(kx, ky[m / 2]);
 
     w->v[K][m]   = k;
     w->v[COS][m] = k > 0 ? kx / k : 1;
-    w->v[SIN][m] = k > 0 ? ky[m] / k : 0;
+    w->v[SIN][m] = k > 0 ? ky[m / 2] / k : 0;
   }
 }
 
@@ -84,9 +101,11 @@ static void SetWaves(Column *w, double kx, const double ky[])
 #define TERMS 15
 
 /* Computes the means over a layer of thickness h of exp(-r) and r exp(-r), and the means by its own source. */
-static void SetLayer(Column *w, double h)
+static void SetLayer(const Column *w, double h, double number[])
 {
-  for (PetscInt m = 0; m < w->n; m++) {
+  const PetscInt n = w->n;
+
+  for (PetscInt m = 0; m < n; m += 2) {
     const double q = w->v[K][m] * h, loss = exp(-q);
     double       m0 = (1 - loss) / q, m1 = (1 - (1 + q) * loss) / q, a0 = 1 - m0, a1 = 1 - m0 - m1, term = 1;
 
@@ -100,140 +119,172 @@ static void SetLayer(Column *w, double h)
       }
       m0 = 1 - a0;
     }
-    w->v[Q][m]    = q;
-    w->v[LOSS][m] = loss;
-    w->v[M0][m]   = m0;
-    w->v[M1][m]   = m1;
-    w->v[A0][m]   = a0;
-    w->v[A1][m]   = a1;
+    for (PetscInt part = m; part < m + 2; part++) {
+      number[Q * n + part]    = q;
+      number[LOSS * n + part] = loss;
+      number[M0 * n + part]   = m0;
+      number[M1 * n + part]   = m1;
+      number[A0 * n + part]   = a0;
+      number[A1 * n + part]   = a1;
+    }
   }
 }
 
-/*
-  UseLayer() sets the means over layer l, unless it is as thick as the last one. SetDecay() then multiplies them by the
-  decay of the waves from the surface to the layer's top (m).
-*/
-static void UseLayer(Column *w, PetscInt l, double *last)
+/* Computes the numbers of all layers. */
+static void SetLayers(Column *w)
 {
-  if (w->body->thickness[l] != *last) SetLayer(w, *last = w->body->thickness[l]);
+  const PetscReal *h = w->body->thickness;
+
+  for (PetscInt l = 0; l < w->body->layers; l++) {
+    w->layer[l] = w->numbers + l * OF_LAYER * w->n;
+    if (l > 0 && h[l] == h[l - 1])
+      w->layer[l] = w->layer[l - 1];
+    else
+      SetLayer(w, (double)h[l], w->layer[l]);
+  }
 }
-static void SetDecay(Column *w, double top)
+
+/* Multiplies the means over layer l by the decay of the waves from the surface to the layer's top (m). */
+static void SetDecay(Column *w, PetscInt l, double top)
 {
-  for (PetscInt m = 0; m < w->n; m++) {
+  const double *m0 = w->layer[l] + M0 * w->n, *m1 = w->layer[l] + M1 * w->n;
+
+  for (PetscInt m = 0; m < w->n; m += 2) {
     const double kb = w->v[K][m] * top, decay = exp(-kb);
 
-    w->v[E0][m] = decay * w->v[M0][m];
-    w->v[E1][m] = decay * (kb * w->v[M0][m] + w->v[M1][m]);
+    w->v[E0][m] = w->v[E0][m + 1] = decay * m0[m];
+    w->v[E1][m] = w->v[E1][m + 1] = decay * (kb * m0[m] + m1[m]);
   }
 }
 
 /* ---- rotation to the wave's directions and back ---- */
 
-static void TakeStrain(Column *w, const Wave *const from[PARTS], Wave to[])
+SAM_VECTORIZED static void Rotate(PetscInt            n, const double *restrict cosine, const double *restrict sine,
+                                  const double *const from[PARTS], double *restrict to)
 {
-  const PetscInt n = w->n;
+  const double *restrict xx = from[SAM_STRESS_XX], *restrict yy = from[SAM_STRESS_YY],
+                         *restrict zz = from[SAM_STRESS_ZZ], *restrict xy = from[SAM_STRESS_XY],
+                         *restrict xz = from[SAM_STRESS_XZ], *restrict yz = from[SAM_STRESS_YZ];
 
   for (PetscInt m = 0; m < n; m++) {
-    const double c = w->v[COS][m], s = w->v[SIN][m];
-    const Wave   xx = from[SAM_STRESS_XX][m], yy = from[SAM_STRESS_YY][m], xy = from[SAM_STRESS_XY][m],
-               xz = from[SAM_STRESS_XZ][m], yz = from[SAM_STRESS_YZ][m];
+    const double c = cosine[m], s = sine[m];
 
-    to[MM * n + m] = c * c * xx + s * s * yy + 2 * c * s * xy;
-    to[TT * n + m] = s * s * xx + c * c * yy - 2 * c * s * xy;
-    to[ZZ * n + m] = from[SAM_STRESS_ZZ][m];
-    to[MT * n + m] = c * s * (yy - xx) + (c * c - s * s) * xy;
-    to[MZ * n + m] = c * xz + s * yz;
-    to[TZ * n + m] = c * yz - s * xz;
+    to[MM * n + m] = c * c * xx[m] + s * s * yy[m] + 2 * c * s * xy[m];
+    to[TT * n + m] = s * s * xx[m] + c * c * yy[m] - 2 * c * s * xy[m];
+    to[ZZ * n + m] = zz[m];
+    to[MT * n + m] = c * s * (yy[m] - xx[m]) + (c * c - s * s) * xy[m];
+    to[MZ * n + m] = c * xz[m] + s * yz[m];
+    to[TZ * n + m] = c * yz[m] - s * xz[m];
   }
 }
 
-static void PutStress(const Column *w, const Wave from[], Wave *const to[PARTS])
+SAM_VECTORIZED static void RotateBack(PetscInt n, const double *restrict cosine, const double *restrict sine,
+                                      const double *restrict from, double *const to[PARTS])
 {
-  const PetscInt n = w->n;
+  double *restrict xx = to[SAM_STRESS_XX], *restrict yy = to[SAM_STRESS_YY], *restrict zz = to[SAM_STRESS_ZZ],
+                   *restrict xy = to[SAM_STRESS_XY], *restrict xz = to[SAM_STRESS_XZ], *restrict yz = to[SAM_STRESS_YZ];
 
   for (PetscInt m = 0; m < n; m++) {
-    const double c = w->v[COS][m], s = w->v[SIN][m];
-    const Wave   mm = from[MM * n + m], tt = from[TT * n + m], mt = from[MT * n + m], mz = from[MZ * n + m],
-               tz = from[TZ * n + m];
+    const double c = cosine[m], s = sine[m], mm = from[MM * n + m], tt = from[TT * n + m], mt = from[MT * n + m],
+                 mz = from[MZ * n + m], tz = from[TZ * n + m];
 
-    to[SAM_STRESS_XX][m] = c * c * mm + s * s * tt - 2 * c * s * mt;
-    to[SAM_STRESS_YY][m] = s * s * mm + c * c * tt + 2 * c * s * mt;
-    to[SAM_STRESS_ZZ][m] = from[ZZ * n + m];
-    to[SAM_STRESS_XY][m] = c * s * (mm - tt) + (c * c - s * s) * mt;
-    to[SAM_STRESS_XZ][m] = c * mz - s * tz;
-    to[SAM_STRESS_YZ][m] = s * mz + c * tz;
+    xx[m] = c * c * mm + s * s * tt - 2 * c * s * mt;
+    yy[m] = s * s * mm + c * c * tt + 2 * c * s * mt;
+    zz[m] = from[ZZ * n + m];
+    xy[m] = c * s * (mm - tt) + (c * c - s * s) * mt;
+    xz[m] = c * mz - s * tz;
+    yz[m] = s * mz + c * tz;
   }
+}
+
+static void TakeStrain(Column *w, Wave *const from[PARTS], double to[])
+{
+  const double *parts[PARTS];
+
+  for (PetscInt c = 0; c < PARTS; c++) parts[c] = (const double *)from[c];
+  Rotate(w->n, w->v[COS], w->v[SIN], parts, to);
+  Turn(w->n, 1, to + MZ * w->n);
+  Turn(w->n, 1, to + TZ * w->n);
+}
+
+static void PutStress(const Column *w, const double from[], Wave *const to[PARTS])
+{
+  double *parts[PARTS];
+
+  for (PetscInt c = 0; c < PARTS; c++) parts[c] = (double *)to[c];
+  RotateBack(w->n, w->v[COS], w->v[SIN], from, parts);
+  Turn(w->n, 1, parts[SAM_STRESS_XZ]);
+  Turn(w->n, 1, parts[SAM_STRESS_YZ]);
 }
 
 /* ---- sweeps ---- */
 
-/* Adds the stress of the waves x, y, t that arrive from the side s. */
-static inline void Add(const SamWaveBody *body, double s, Wave x, Wave y, Wave t, PetscInt n, Wave to[])
+/* Processes one layer of a sweep in the direction s: the waves that leave it, and the stress that they cause. */
+SAM_VECTORIZED static void Pass(PetscInt n, double s, double shear, double nu, const double *restrict number,
+                                const double *restrict e, double *const state[STATES], double *restrict stress)
 {
-  const double f = body->shear / (2 * (1 - body->poisson)), g = 2 * (1 - body->poisson);
-
-  to[MM * n] += f * (x + y);
-  to[TT * n] += 2 * body->poisson * f * x;
-  to[ZZ * n] += f * (x - y);
-  to[MT * n] += g * f * t;
-  to[MZ * n] += Turn(s * f, y);
-  to[TZ * n] += Turn(s * g * f, t);
-}
-
-/* Processes one layer of a sweep: its stress (NULL: not wanted), and the waves that leave it. */
-static void Pass(Column *w, double s, const Wave e[], Wave stress[])
-{
-  const PetscInt n  = w->n;
-  const double   nu = w->body->poisson;
+  const double f = shear / (2 * (1 - nu)), g = 2 * (1 - nu);
+  double *restrict sx0 = state[X0], *restrict sx1 = state[X1], *restrict sy0 = state[Y0], *restrict st0 = state[T0];
 
   for (PetscInt m = 0; m < n; m++) {
-    const double m0 = w->v[M0][m], m1 = w->v[M1][m], a0 = w->v[A0][m], a1 = w->v[A1][m], q = w->v[Q][m],
-                 loss = w->v[LOSS][m];
-    const Wave shear = Turn(2 * s, e[MZ * n + m]), X = e[MM * n + m] + shear - e[ZZ * n + m],
-               Y = 2 * e[MM * n + m] + shear + 2 * nu * e[TT * n + m], T = e[MT * n + m] + Turn(s, e[TZ * n + m]);
-    const Wave x0 = w->state[X0][m], x1 = w->state[X1][m], y0 = w->state[Y0][m], t0 = w->state[T0][m];
+    const double loss = number[LOSS * n + m], q = number[Q * n + m], m0 = number[M0 * n + m], m1 = number[M1 * n + m],
+                 a0 = number[A0 * n + m], a1 = number[A1 * n + m], along = 2 * s * e[MZ * n + m],
+                 X = e[MM * n + m] + along - e[ZZ * n + m], Y = 2 * e[MM * n + m] + along + 2 * nu * e[TT * n + m],
+                 T = e[MT * n + m] + s * e[TZ * n + m], x0 = sx0[m], x1 = sx1[m], y0 = sy0[m], t0 = st0[m];
+    const double x = m0 * x0 + a0 * X, y = m0 * y0 + a0 * Y - (m0 * x1 + m1 * x0 + a1 * X), t = m0 * t0 + a0 * T;
 
-    if (stress)
-      Add(w->body, s, m0 * x0 + a0 * X, m0 * y0 + a0 * Y - (m0 * x1 + m1 * x0 + a1 * X), m0 * t0 + a0 * T, n,
-          stress + m);
-    w->state[X1][m] = loss * (x1 + q * x0) + q * m1 * X;
-    w->state[X0][m] = loss * x0 + q * m0 * X;
-    w->state[Y0][m] = loss * y0 + q * m0 * Y;
-    w->state[T0][m] = loss * t0 + q * m0 * T;
+    stress[MM * n + m] += f * (x + y);
+    stress[TT * n + m] += 2 * nu * f * x;
+    stress[ZZ * n + m] += f * (x - y);
+    stress[MT * n + m] += g * f * t;
+    stress[MZ * n + m] += s * f * y;
+    stress[TZ * n + m] += s * g * f * t;
+    sx1[m] = loss * (x1 + q * x0) + q * m1 * X;
+    sx0[m] = loss * x0 + q * m0 * X;
+    sy0[m] = loss * y0 + q * m0 * Y;
+    st0[m] = loss * t0 + q * m0 * T;
   }
 }
 
-/* Adds the stress of the sheet itself. */
-static void AddOwn(const Column *w, const Wave e[], Wave s[])
+/* Sets the stress to that of the sheet itself. */
+SAM_VECTORIZED static void SetOwn(PetscInt n, double shear, double nu, const double *restrict e, double *restrict s)
 {
-  const PetscInt n  = w->n;
-  const double   mu = w->body->shear, lateral = w->body->poisson / (1 - w->body->poisson);
+  const double lateral = nu / (1 - nu);
 
   for (PetscInt m = 0; m < n; m++) {
-    const Wave both = lateral * (e[MM * n + m] + e[TT * n + m]);
+    const double both = lateral * (e[MM * n + m] + e[TT * n + m]);
 
-    s[MM * n + m] -= 2 * mu * (e[MM * n + m] + both);
-    s[TT * n + m] -= 2 * mu * (e[TT * n + m] + both);
-    s[MT * n + m] -= 2 * mu * e[MT * n + m];
+    s[MM * n + m] = -2 * shear * (e[MM * n + m] + both);
+    s[TT * n + m] = -2 * shear * (e[TT * n + m] + both);
+    s[MT * n + m] = -2 * shear * e[MT * n + m];
+    s[ZZ * n + m] = s[MZ * n + m] = s[TZ * n + m] = 0;
   }
 }
 
 /* Adds the stress in a layer by the reflection, from the free surface, of the waves of the upward sweep. */
-static void AddFreeSurface(const Column *w, Wave s[])
+SAM_VECTORIZED static void AddFreeSurface(PetscInt n, double shear, double nu, const double *restrict e0,
+                                          const double *restrict e1, double *const state[STATES], double *restrict s)
 {
-  const PetscInt n  = w->n;
-  const double   nu = w->body->poisson, f = w->body->shear / (2 * (1 - nu));
+  const double f = shear / (2 * (1 - nu)), g = 2 * (1 - nu);
+  const double *restrict x0 = state[X0], *restrict x1 = state[X1], *restrict y0 = state[Y0], *restrict t0 = state[T0];
 
   for (PetscInt m = 0; m < n; m++) {
-    const double e0 = w->v[E0][m], e1 = w->v[E1][m];
-    const Wave   x0 = w->state[X0][m], x1 = w->state[X1][m], y0 = w->state[Y0][m], relief = f * (x0 - y0 + x1);
+    const double relief = f * (x0[m] - y0[m] + x1[m]), x = e0[m] * x0[m], y = e0[m] * (y0[m] - x1[m]) - e1[m] * x0[m],
+                 t = e0[m] * t0[m];
 
-    Add(w->body, 1, e0 * x0, e0 * (y0 - x1) - e1 * x0, e0 * w->state[T0][m], n, s + m);
-    s[ZZ * n + m] -= 2 * (e0 + e1) * relief;
-    s[MM * n + m] -= 2 * (e0 - e1) * relief;
-    s[TT * n + m] -= 4 * nu * e0 * relief;
-    s[MZ * n + m] += Turn(2 * e1, relief);
+    s[MM * n + m] += f * (x + y) - 2 * (e0[m] - e1[m]) * relief;
+    s[TT * n + m] += 2 * nu * f * x - 4 * nu * e0[m] * relief;
+    s[ZZ * n + m] += f * (x - y) - 2 * (e0[m] + e1[m]) * relief;
+    s[MT * n + m] += g * f * t;
+    s[MZ * n + m] += f * y + 2 * e1[m] * relief;
+    s[TZ * n + m] += g * f * t;
   }
+}
+
+/* Returns wave m of an array of parts. */
+static inline Wave WaveAt(const double parts[], PetscInt m)
+{
+  return ((const Wave *)parts)[m];
 }
 
 /* Computes the displacement of the surface from the upward sweep; for the mean, from the strains. */
@@ -242,19 +293,20 @@ static void GetDisplacement(const Column *w, Wave *const u[3])
   const PetscInt n       = w->n;
   const double   lateral = w->body->poisson / (1 - w->body->poisson);
 
-  for (PetscInt m = 0; m < n; m++) {
-    const double k = w->v[K][m], c = w->v[COS][m], s = w->v[SIN][m];
-    const Wave   rest = w->state[Y0][m] - w->state[X1][m];
-    Wave along = Turn(-1 / k, rest), across = Turn(-2 / k, w->state[T0][m]), down = (w->state[X0][m] - rest) / k;
+  for (PetscInt m = 0; m < n / 2; m++) {
+    const double k = w->v[K][2 * m], c = w->v[COS][2 * m], s = w->v[SIN][2 * m];
+    const Wave   rest  = WaveAt(w->state[Y0], m) - WaveAt(w->state[X1], m);
+    Wave         along = Turned(-1 / k, rest), across = Turned(-2 / k, WaveAt(w->state[T0], m)),
+         down = (WaveAt(w->state[X0], m) - rest) / k;
 
     if (k == 0) along = across = down = 0;
     for (PetscInt l = 0; k == 0 && l < w->body->layers; l++) {
-      const Wave  *e = w->e + l * PARTS * n + m;
-      const double h = w->body->thickness[l];
+      const double *e = w->e + l * PARTS * n;
+      const double  h = w->body->thickness[l];
 
-      down -= h * (e[ZZ * n] + lateral * (e[MM * n] + e[TT * n]));
-      along -= 2 * h * e[MZ * n];
-      across -= 2 * h * e[TZ * n];
+      down -= h * (WaveAt(e + ZZ * n, m) + lateral * (WaveAt(e + MM * n, m) + WaveAt(e + TT * n, m)));
+      along += Turned(2 * h, WaveAt(e + MZ * n, m));
+      across += Turned(2 * h, WaveAt(e + TZ * n, m));
     }
     u[0][m] = c * along - s * across;
     u[1][m] = s * along + c * across;
@@ -267,28 +319,24 @@ static void GetDisplacement(const Column *w, Wave *const u[3])
 static void ApplyColumn(Column *w, Wave *const planes[], PetscBool stress, Wave *const u[3])
 {
   const PetscInt layers = w->body->layers, step = PARTS * w->n;
-  double         last = -1, top = 0;
+  const double   mu = w->body->shear, nu = w->body->poisson;
+  double         top = 0;
 
-  for (PetscInt l = 0; l < layers; l++) TakeStrain(w, (const Wave *const *)planes + l * PARTS, w->e + l * step);
-  if (stress) {
-    memset(w->s, 0, sizeof(*w->s) * (size_t)(layers * step));
-    memset(w->state[0], 0, sizeof(Wave) * (size_t)(STATES * w->n));
-    for (PetscInt l = 0; l < layers; l++) {
-      UseLayer(w, l, &last);
-      AddOwn(w, w->e + l * step, w->s + l * step);
-      Pass(w, 1, w->e + l * step, w->s + l * step);
-    }
+  SetLayers(w);
+  for (PetscInt l = 0; l < layers; l++) {
+    TakeStrain(w, planes + l * PARTS, w->e + l * step);
+    SetOwn(w->n, mu, nu, w->e + l * step, w->s + l * step);
   }
-  memset(w->state[0], 0, sizeof(Wave) * (size_t)(STATES * w->n));
-  for (PetscInt l = layers - 1; l >= 0; l--) {
-    UseLayer(w, l, &last);
-    Pass(w, -1, w->e + l * step, stress ? w->s + l * step : NULL);
-  }
+  memset(w->state[0], 0, sizeof(double) * (size_t)(STATES * w->n));
+  for (PetscInt l = 0; stress && l < layers; l++)
+    Pass(w->n, 1, mu, nu, w->layer[l], w->e + l * step, w->state, w->s + l * step);
+  memset(w->state[0], 0, sizeof(double) * (size_t)(STATES * w->n));
+  for (PetscInt l = layers - 1; l >= 0; l--)
+    Pass(w->n, -1, mu, nu, w->layer[l], w->e + l * step, w->state, w->s + l * step);
   if (u) GetDisplacement(w, u);
   for (PetscInt l = 0; stress && l < layers; l++) {
-    UseLayer(w, l, &last);
-    SetDecay(w, top);
-    AddFreeSurface(w, w->s + l * step);
+    SetDecay(w, l, top);
+    AddFreeSurface(w->n, mu, nu, w->v[E0], w->v[E1], w->state, w->s + l * step);
     PutStress(w, w->s + l * step, planes + l * PARTS);
     top += w->body->thickness[l];
   }
@@ -308,41 +356,43 @@ PetscErrorCode SamWavesApply(const SamWaveBody *body, PetscInt n, double kx, con
 }
 
 /*
-  Adds the stress in a layer by tractions p, and q along and across the wave. A mean pressure causes no lateral strain.
+  Computes the stress in a layer by tractions p, and q along and across the wave. A mean pressure causes no lateral
+  strain.
 */
-static void AddTractions(const Column *w, const Wave *const traction[3], Wave s[])
+static void SetTractions(const Column *w, const Wave *const traction[3], double to[])
 {
-  const PetscInt n  = w->n;
+  const PetscInt n  = w->n / 2;
   const double   nu = w->body->poisson;
+  Wave *const    s  = (Wave *)to;
 
   for (PetscInt m = 0; m < n; m++) {
-    const double e0 = w->v[E0][m], e1 = w->v[E1][m], c = w->v[COS][m], r = w->v[SIN][m];
+    const double e0 = w->v[E0][2 * m], e1 = w->v[E1][2 * m], c = w->v[COS][2 * m], r = w->v[SIN][2 * m];
     const Wave   p = traction[0][m], along = c * traction[1][m] + r * traction[2][m],
                across    = c * traction[2][m] - r * traction[1][m];
-    const PetscBool mean = w->v[K][m] == 0;
+    const PetscBool mean = w->v[K][2 * m] == 0;
 
-    s[ZZ * n + m] = Turn(e1, along) - (e0 + e1) * p;
-    s[MM * n + m] = mean ? -nu / (1 - nu) * p : Turn(2 * e0 - e1, along) - (e0 - e1) * p;
-    s[TT * n + m] = mean ? -nu / (1 - nu) * p : Turn(2 * nu * e0, along) - 2 * nu * e0 * p;
-    s[MZ * n + m] = Turn(e1, p) - (e0 - e1) * along;
-    s[MT * n + m] = mean ? 0 : Turn(e0, across);
-    s[TZ * n + m] = -e0 * across;
+    s[ZZ * n + m] = Turned(e1, along) - (e0 + e1) * p;
+    s[MM * n + m] = mean ? -nu / (1 - nu) * p : Turned(2 * e0 - e1, along) - (e0 - e1) * p;
+    s[TT * n + m] = mean ? -nu / (1 - nu) * p : Turned(2 * nu * e0, along) - 2 * nu * e0 * p;
+    s[MZ * n + m] = e1 * p + Turned(e0 - e1, along);
+    s[MT * n + m] = mean ? 0 : Turned(e0, across);
+    s[TZ * n + m] = Turned(e0, across);
   }
 }
 
 PetscErrorCode SamWavesLoad(const SamWaveBody *body, PetscInt n, double kx, const double ky[],
                             const double complex *const traction[3], double complex *const planes[])
 {
-  double last = -1, top = 0;
+  double top = 0;
   Column w;
 
   PetscFunctionBegin;
   PetscCall(CreateColumn(body, n, &w));
   SetWaves(&w, kx, ky);
+  SetLayers(&w);
   for (PetscInt l = 0; l < body->layers; l++) {
-    UseLayer(&w, l, &last);
-    SetDecay(&w, top);
-    AddTractions(&w, traction, w.s);
+    SetDecay(&w, l, top);
+    SetTractions(&w, traction, w.s);
     PutStress(&w, w.s, planes + l * PARTS);
     top += body->thickness[l];
   }

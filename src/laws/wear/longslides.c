@@ -30,15 +30,16 @@
 #define PLACES      8
 #define MOST_PLACES 64
 
-PetscErrorCode SamWearGetStride(SamGrid grid, Vec pressure, const PetscReal from[2], const PetscReal to[2],
+PetscErrorCode SamWearGetStride(SamElasticity elasticity, Vec pressure, const PetscReal from[2], const PetscReal to[2],
                                 PetscReal *stride)
 {
+  const SamGrid   grid    = SamElasticityGetGrid(elasticity);
   const PetscReal cell[2] = {grid->dx, grid->dy};
   PetscInt        first[2], n[2];
 
   PetscFunctionBegin;
   *stride = 0;
-  PetscCall(SamGridGetSupport(grid, pressure, first, n));
+  PetscCall(SamGridGetSupport(grid, pressure, SamElasticityGetTraits(elasticity).periodic, first, n));
   for (PetscInt k = 0; k < grid->axes; k++)
     if (n[k] > 0) *stride = PetscMax(*stride, fabs(to[k] - from[k]) / ((PetscReal)n[k] * cell[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -48,14 +49,16 @@ PetscErrorCode SamWearGetStride(SamGrid grid, Vec pressure, const PetscReal from
   Computes the excess of the maximum pressure over its mean along the slide of a step about it, in contact; 0 where a
   step has few cells.
 */
-static PetscErrorCode FindTip(SamGrid grid, Vec pressure, const PetscReal from[2], const PetscReal to[2],
+static PetscErrorCode FindTip(SamElasticity elasticity, Vec pressure, const PetscReal from[2], const PetscReal to[2],
                               PetscReal *tip)
 {
-  const double   slide[] = {(double)((to[0] - from[0]) / grid->dx), (double)((to[1] - from[1]) / grid->dy)};
-  const PetscInt n       = (PetscInt)(PetscMax(fabs(slide[0]), fabs(slide[1])) + 0.5);
-  double         line[MOST_PLACES + 1] = {0}, sum = 0, cells = 0, most;
-  PetscInt       at[2] = {0};
-  const double  *p;
+  const PetscBool wrap    = SamElasticityGetTraits(elasticity).periodic;
+  const SamGrid   grid    = SamElasticityGetGrid(elasticity);
+  const double    slide[] = {(double)((to[0] - from[0]) / grid->dx), (double)((to[1] - from[1]) / grid->dy)};
+  const PetscInt  n       = (PetscInt)(PetscMax(fabs(slide[0]), fabs(slide[1])) + 0.5);
+  double          line[MOST_PLACES + 1] = {0}, sum = 0, cells = 0, most;
+  PetscInt        at[2] = {0};
+  const double   *p;
 
   PetscFunctionBegin;
   *tip = 0;
@@ -63,10 +66,14 @@ static PetscErrorCode FindTip(SamGrid grid, Vec pressure, const PetscReal from[2
   PetscCall(SamGridFindPeak(grid, pressure, at, &most));
   PetscCall(VecGetArrayRead(pressure, &p));
   for (PetscInt k = 0; k <= n; k++) {
-    const double   t = (double)k / (double)n - 0.5;
-    const PetscInt i = at[0] + (PetscInt)lrint(t * slide[0]),
-                   j = at[1] + (PetscInt)lrint(t * slide[1]) - grid->row_start;
+    const double t = (double)k / (double)n - 0.5;
+    PetscInt     i = at[0] + (PetscInt)lrint(t * slide[0]), j = at[1] + (PetscInt)lrint(t * slide[1]);
 
+    if (wrap) {
+      i = (i % grid->nx + grid->nx) % grid->nx;
+      j = (j % grid->ny + grid->ny) % grid->ny;
+    }
+    j -= grid->row_start;
     if (i >= 0 && i < grid->nx && j >= 0 && j < grid->rows) line[k] = p[i + j * grid->nx];
   }
   PetscCall(VecRestoreArrayRead(pressure, &p));
@@ -155,9 +162,9 @@ PetscErrorCode SamLifeNoteStride(SamLife l, Vec load, Vec before, Vec after)
   if (l->loads == 1) PetscFunctionReturn(PETSC_SUCCESS);
   (void)SamFramesGetSlide(l->memory, SAM_COMMITTED, from);
   (void)SamFramesGetSlide(l->memory, SAM_TRIED, to);
-  PetscCall(SamWearGetStride(l->grid, after, from, to, &stride));
+  PetscCall(SamWearGetStride(SamProblemGetElasticity(l->problem), after, from, to, &stride));
   l->stride = PetscMax(l->stride, stride);
-  PetscCall(FindTip(l->grid, after, from, to, &l->tip));
+  PetscCall(FindTip(SamProblemGetElasticity(l->problem), after, from, to, &l->tip));
   n = (PetscInt)PetscMin(PetscMax(ceil(PLACES * stride), 2), MOST_PLACES);
   PetscCall(Divide(l, load, before, after, first, rest));
   PetscCall(Write(l, from, 1, first));

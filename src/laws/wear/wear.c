@@ -301,7 +301,7 @@ static PetscErrorCode FindStride(SamLaw law, SamLawStep *step, double *stride)
   PetscFunctionBegin;
   if (law->of_body[1] && SamFramesGetSlide(step->state, SAM_TRIED, to)) {
     (void)SamFramesGetSlide(step->state, SAM_COMMITTED, from);
-    PetscCall(SamWearGetStride(step->grid, step->pressure, from, to, &found));
+    PetscCall(SamWearGetStride(step->elasticity, step->pressure, from, to, &found));
   }
   *stride = found;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -41,8 +41,8 @@ PETSC_INTERN PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, Petsc
   SamWearGetStride - gets the distance between two slides (m) relative to the contact's length along it (longslides.c).
   Collective.
 */
-PETSC_INTERN PetscErrorCode SamWearGetStride(SamGrid grid, Vec pressure, const PetscReal from[2], const PetscReal to[2],
-                                             PetscReal *stride);
+PETSC_INTERN PetscErrorCode SamWearGetStride(SamElasticity elasticity, Vec pressure, const PetscReal from[2],
+                                             const PetscReal to[2], PetscReal *stride);
 /*
   SamWearGetVolumes - gets the volumes (m3; of a running band m3 per m of its length) that wear loads of both bodies,
   which may be the same vector, remove, and the maximum depths (m). Collective.

@@ -96,16 +96,16 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
 
 static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
 {
+  const PetscBool    wrap    = SamElasticityGetTraits(s->elasticity).periodic;
   const PetscReal    cell[2] = {s->grid->dx, s->grid->dy};
   const SamSolution *solution;
   PetscInt           first[2], n[2];
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(s->contact, &solution));
-  PetscCall(SamGridMeasureZones(s->grid, solution->pressure, NARROW, &extent->across));
-  PetscCall(
-    SamGridCountZones(s->grid, solution->pressure, SamElasticityGetTraits(s->elasticity).periodic, &extent->zones));
-  PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
+  PetscCall(SamGridMeasureZones(s->grid, solution->pressure, NARROW, wrap, &extent->across));
+  PetscCall(SamGridCountZones(s->grid, solution->pressure, wrap, &extent->zones));
+  PetscCall(SamGridGetSupport(s->grid, solution->pressure, wrap, first, n));
   for (int k = 0; k < 2; k++) extent->half[k] = k >= s->grid->axes ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
   /* A row in contact from border to border has no width along x. */
   extent->whole =

@@ -422,7 +422,8 @@ PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
   PetscCall(VecGetArray(zone, &state));
   for (PetscInt k = 0; k < cells; k++) state[k] = state[k] == SAM_CELL_STICK ? 1 : 0;
   PetscCall(VecRestoreArray(zone, &state));
-  PetscCall(SamGridMeasureZones(s->grid, zone, STRAY, &a->slip.across)); /* 0 without a zone */
+  PetscCall(SamGridMeasureZones(s->grid, zone, STRAY, SamElasticityGetTraits(s->elasticity).periodic,
+                                &a->slip.across)); /* 0 without a zone */
   PetscCall(VecDestroy(&zone));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -168,7 +168,7 @@ PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection dire
   PetscCall(SamProblemHasFriction(problem, &friction));
   coupled = SamElasticityGetTraits(e).coupled && SamContactGetSettings(contact).coupling && friction;
   PetscCall(SamContactGetSolution(contact, &s));
-  PetscCall(SamGridGetSupport(whole, s->pressure, first, n));
+  PetscCall(SamGridGetSupport(whole, s->pressure, PETSC_FALSE, first, n));
   PetscCall(SamElasticityChoosePart(e, first, n, PETSC_TRUE, &window, &part));
   PetscCall(CreateFields(contact, direction, window, window ? SamWindowGetGrid(window) : whole, fields));
   PetscCall(SamFrozenCreate(window ? part : e, fields, coupled || count ? PETSC_TRUE : PETSC_FALSE, f));

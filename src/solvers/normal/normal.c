@@ -114,7 +114,7 @@ static PetscErrorCode IsInside(const SamLevel *level, SamWindow window, PetscInt
 
   PetscFunctionBegin;
   PetscCall(SamWindowGetPlace(window, start, n));
-  PetscCall(SamGridGetSupport(level->grid, level->traction, first, size));
+  PetscCall(SamGridGetSupport(level->grid, level->traction, PETSC_FALSE, first, size));
   *inside = PETSC_TRUE;
   for (PetscInt k = 0; k < 2; k++) {
     const PetscBool low  = start[k] > 0 && first[k] <= start[k];
@@ -140,7 +140,7 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
   PetscBool     done;
 
   PetscFunctionBegin;
-  PetscCall(SamGridGetSupport(level->grid, level->traction, first, size));
+  PetscCall(SamGridGetSupport(level->grid, level->traction, PETSC_FALSE, first, size));
   while (size[0]) {
     PetscCall(SamElasticityChoosePart(level->elasticity, first, size, level->finest, &window, &part));
     if (!window) break;

@@ -114,7 +114,7 @@ static PetscErrorCode FindTouching(SamSolver s, SamLevel *level, const SamFrame 
   PetscCall(VecRestoreArrayRead(gap, &h));
   PetscCall(VecRestoreArrayRead(level->traction, &p));
   PetscCall(VecRestoreArray(touching, &u));
-  PetscCall(SamGridGetSupport(grid, touching, first, size));
+  PetscCall(SamGridGetSupport(grid, touching, PETSC_FALSE, first, size));
   PetscCall(VecDestroy(&touching));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

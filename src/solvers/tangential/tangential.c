@@ -274,7 +274,7 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
     PetscCall(SolveFree(s, level));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamGridGetSupport(level->grid, bound, first, size));
+  PetscCall(SamGridGetSupport(level->grid, bound, PETSC_FALSE, first, size));
   /* an upwind difference of the shear reaches one cell behind the contact */
   if (SamElasticityGetTraits(level->elasticity).upwind && first[0] > 0) {
     first[0]--;
