@@ -29,7 +29,7 @@ static void Apply(SamResidual r, Vec e, Vec s, Vec u)
   sam_call(VecGetArray(u, &at));
   sam_call(VecGetLocalSize(u, &n));
   for (int c = 0; c < 3; c++) shift[c] = at + c * (n / 3);
-  sam_call(SamResidualBegin(r, from, shift));
+  sam_call(SamResidualBegin(r, from, PARTS, shift));
   sam_call(SamResidualEnd(r, NULL, to));
   sam_call(VecRestoreArray(u, &at));
   sam_call(VecRestoreArray(s, &to));
@@ -46,7 +46,7 @@ static void Load(SamResidual r, Vec q, Vec s)
   sam_call(VecGetArray(s, &to));
   sam_call(VecGetLocalSize(q, &n));
   for (int c = 0; c < 3; c++) traction[c] = from + ((c + 2) % 3) * (n / 3); /* p last, as u_z */
-  sam_call(SamResidualBegin(r, NULL, NULL));
+  sam_call(SamResidualBegin(r, NULL, 0, NULL));
   sam_call(SamResidualEnd(r, traction, to));
   sam_call(VecRestoreArray(s, &to));
   sam_call(VecRestoreArrayRead(q, &from));

@@ -51,18 +51,15 @@ typedef struct {
 
 /*
   SamLawContact - the contact of a step, for a law whose state depends on the tractions, and whose offset in turn
-  changes the tractions. `solve` solves it with the offset of the tried state, starting from the last tractions;
-  `solved`: true if it has a solution. Collective.
+  changes the tractions.
 */
-typedef struct _n_SamLawContact SamLawContact;
-struct _n_SamLawContact {
+typedef struct {
   SamState          state;
   const SamBalance *normal, *tangential;
   Vec               pressure, shear, bound; /* Pa: the last solution */
+  PetscBool         solved;                 /* false: there is no solution with the offset of the tried state */
   char              failed[128];            /* set by a law that finds no solution: the reason */
-  PetscErrorCode (*solve)(SamLawContact *contact, PetscBool *solved);
-  void *context;
-};
+} SamLawContact;
 
 /*
   SamLawUse - a field of a solved step that the advance() of a law uses. The contact computes the fields that any law
@@ -215,10 +212,12 @@ struct _n_SamLaw {
     */
     PetscErrorCode (*separation)(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds);
     /*
-      Computes, after the contact is solved, the law's tried state and the tractions with its offset. Only one law of a
-      problem may have this method.
+      Judges the law's tried state by the tractions of the solved contact. With `again` it has set another one: the
+      contact is solved with its offset, starting from the last tractions, and the method is called again. In its first
+      call of a solve, the tractions are those without such a state, or those that another solve has found. Only one law
+      of a problem may have this method.
     */
-    PetscErrorCode (*follow)(SamLaw law, SamLawContact *contact);
+    PetscErrorCode (*follow)(SamLaw law, SamLawContact *contact, PetscBool *again);
     /* gets the largest pressure that the surfaces bear, Pa */
     PetscErrorCode (*limit)(SamLaw law, PetscReal *most);
     /* computes the largest shear of each cell */

@@ -145,25 +145,29 @@ static PetscErrorCode SolveProblems(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves both problems again, for a law. */
-static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
+/* Solves both problems again, from the last tractions. */
+static PetscErrorCode SolveAgain(SamSolve *w)
 {
-  SamSolve *w = (SamSolve *)contact->context;
-
   PetscFunctionBegin;
   w->has_pressure = w->has_shear = PETSC_TRUE;
   w->shear_product.n[0]          = 0; /* at first the shear is scaled with the pressure */
   PetscCall(SolveProblems(w));
-  *solved = w->step->status == SAM_STATUS_CONVERGED;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Finds a law's state and the tractions together, while the field `aside` stays. */
 static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
+  PetscBool again;
+
   PetscFunctionBegin;
   w->holds = PETSC_TRUE;
-  PetscCall(law->ops.follow(law, contact));
+  do {
+    again           = PETSC_FALSE;
+    contact->solved = w->step->status == SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
+    PetscCall(law->ops.follow(law, contact, &again));
+    if (again) PetscCall(SolveAgain(w));
+  } while (again);
   w->holds = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -194,9 +198,7 @@ static PetscErrorCode FollowTractions(SamSolve *w)
                            .tangential = &w->tangential,
                            .pressure   = w->s->pressure,
                            .shear      = w->s->shear,
-                           .bound      = w->s->bound,
-                           .solve      = SolveAgain,
-                           .context    = w};
+                           .bound      = w->s->bound};
   const SamLaw *laws;
   PetscInt      count;
 

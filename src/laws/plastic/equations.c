@@ -311,7 +311,7 @@ static PetscErrorCode Respond(SamPlastic *p, const Cells *y, SamReaction reactio
   PetscCall(PetscMalloc1(3 * cells, &more));
   for (PetscInt c = 0; c < 3; c++) own[c] = more + c * cells;
   for (PetscInt b = 0; b < p->bodies; b++) {
-    PetscCall(SamResidualBegin(q->residual[b], q->field + (ptrdiff_t)PlaneOf(b, 0, q->layers) * cells, own));
+    PetscCall(SamResidualBegin(q->residual[b], q->field + (ptrdiff_t)PlaneOf(b, 0, q->layers) * cells, PARTS, own));
     for (PetscInt k = 0; k < cells; k++) {
       u[ALONG_X * cells + k] += own[0][k];
       u[ALONG_Y * cells + k] += own[1][k];

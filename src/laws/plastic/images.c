@@ -220,14 +220,14 @@ PetscErrorCode SamImagesDestroy(SamImages *images)
 /* ---- products ---- */
 
 /* Projects the eigenstrain of a row of cells onto the nodes along x and z. */
-static void ReduceRow(SamImages m, PetscInt j, const double e[], double row[])
+static void ReduceRow(SamImages m, PetscInt j, const double e[], PetscInt step, double row[])
 {
   const SamGrid g = m->grid;
 
   memset(row, 0, sizeof(double) * PARTS * DOWN * ALONG);
   for (PetscInt k = 0; k < PARTS * m->body.layers; k++) {
     const PetscInt l          = k / PARTS;
-    const double  *from       = e + (ptrdiff_t)k * g->cells + j * (ptrdiff_t)g->nx;
+    const double  *from       = e + (ptrdiff_t)(l * step + k % PARTS) * g->cells + j * (ptrdiff_t)g->nx;
     double         sum[ALONG] = {0};
 
     for (PetscInt i = 0; i < g->nx; i++)
@@ -239,7 +239,7 @@ static void ReduceRow(SamImages m, PetscInt j, const double e[], double row[])
   }
 }
 
-PetscErrorCode SamImagesReduce(SamImages m, const double e[])
+PetscErrorCode SamImagesReduce(SamImages m, const double e[], PetscInt step)
 {
   SamTotal *totals;
   double    row[PARTS * DOWN * ALONG];
@@ -247,7 +247,7 @@ PetscErrorCode SamImagesReduce(SamImages m, const double e[])
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(PARTS * NODES, &totals));
   for (PetscInt j = 0; j < m->grid->rows; j++) {
-    ReduceRow(m, j, e, row);
+    ReduceRow(m, j, e, step, row);
     for (PetscInt k = 0; k < PARTS * DOWN; k++)
       for (PetscInt y = 0; y < m->along[1]; y++)
         for (PetscInt x = 0; x < ALONG; x++)

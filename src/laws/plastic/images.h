@@ -8,14 +8,14 @@ typedef struct _n_SamImages *SamImages;
 /*
   SamImagesCreate - creates the operator for the layers below a grid in a half-space, with images at all multiples of
   the period (m) except 0; the period must be at least twice the grid's widths. Collective.
-  SamImagesReduce - computes the sums of an eigenstrain (layers, PARTS fields) that determine the stress of the images,
-  on all ranks.
+  SamImagesReduce - computes the sums of an eigenstrain that determine the stress of the images, on all ranks; its
+  layers of PARTS fields are `step` fields apart.
   SamImagesAdd - subtracts the stress of the images of that eigenstrain from a stress (Pa). Both are collective.
 */
 PETSC_INTERN PetscErrorCode SamImagesCreate(SamGrid grid, const PetscReal period[2], const SamWaveBody *body,
                                             SamImages *images);
 PETSC_INTERN PetscErrorCode SamImagesDestroy(SamImages *images);
-PETSC_INTERN PetscErrorCode SamImagesReduce(SamImages images, const double e[]);
+PETSC_INTERN PetscErrorCode SamImagesReduce(SamImages images, const double e[], PetscInt step);
 PETSC_INTERN PetscErrorCode SamImagesAdd(SamImages images, double s[]);
 
 /*

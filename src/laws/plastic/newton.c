@@ -16,6 +16,7 @@
   Bonnet, J.-F. Molinari and G. Anciaux, Comput. Methods Appl. Mech. Engrg. 351 (2019) 951, for the integral equation.
 */
 #include "equations.h"
+#include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 
 #define STEPS    30   /* maximum number of steps of Newton's method */
 #define HALVINGS 8    /* maximum number in one step */
@@ -24,16 +25,18 @@
 #define ENOUGH   0.1  /* but not below this part of the largest residual's tolerance, */
 #define SLIPPING 1e-3 /* nor below this part where cells slip: conjugate gradients reach no less there */
 
-/* The fields of a solve, each of all layers, and the tangents of the cells */
-typedef struct {
+/* An iteration under way; its fields are of all layers. */
+typedef struct _n_SamPlasticWork {
   SamPlastic    *plastic;
   SamLawContact *contact;
-  PetscInt       n;                 /* values of a field on this rank */
-  double        *d, *r, *e, *s, *y; /* driver, residual, strain, stress, step */
+  PetscInt       n;                         /* values of a field on this rank */
+  double        *d, *r, *e, *s, *y, *start; /* driver, residual, strain, stress; step, driver from which it starts */
   SamTangent     tangent;
-  PetscBool      solved; /* true: the normal problem has a solution */
   SamReaction    reaction;
-  double        *traction; /* (DIRECTIONS, cells) */
+  PetscInt       steps, halvings;     /* number of steps so far, and of halvings of the last one */
+  double         length;              /* part of the step that is tried */
+  double         first, before, norm; /* norms of the residual: the first one, before the step, now */
+  double         largest;             /* largest residual relative to the strain at yield */
 } Solve;
 
 static inline const SamPlasticBody *BodyOf(const SamPlastic *p, PetscInt l)
@@ -76,8 +79,9 @@ static inline void Put(const SamPlastic *p, const double from[PARTS], PetscInt l
 
 /* ---- the operators of all bodies ---- */
 
-/* Begins products with a strain, and computes the displacement by it (NULL: not wanted). */
-static PetscErrorCode Displace(SamPlastic *p, const double e[], double *const u[3])
+/* Begins products with a strain (NULL: none), whose layers are `step` fields apart, and computes the displacement by it
+   (NULL: not wanted). */
+static PetscErrorCode Displace(SamPlastic *p, const double e[], PetscInt step, double *const u[3])
 {
   const PetscInt cells = p->grid->cells;
   double        *own[3], *more;
@@ -88,9 +92,9 @@ static PetscErrorCode Displace(SamPlastic *p, const double e[], double *const u[
   for (PetscInt c = 0; c < 3; c++) own[c] = more + c * cells;
   for (PetscInt c = 0; u && c < 3; c++) PetscCall(PetscArrayzero(u[c], cells));
   for (PetscInt b = 0; b < p->bodies; b++) {
-    const ptrdiff_t at = (ptrdiff_t)p->body[b].first * PARTS * cells;
+    const ptrdiff_t at = (ptrdiff_t)p->body[b].first * step * cells;
 
-    PetscCall(SamResidualBegin(p->body[b].residual, e ? e + at : NULL, u ? own : NULL));
+    PetscCall(SamResidualBegin(p->body[b].residual, e ? e + at : NULL, step, u ? own : NULL));
     for (PetscInt k = 0; u && k < 3 * cells; k++) u[k / cells][k % cells] += more[k];
   }
   PetscCall(PetscFree(more));
@@ -123,24 +127,51 @@ static PetscErrorCode TakeStrain(SamPlastic *p, Vec state, double e[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* While the contact is solved, both of its problems ask for this displacement, and GetDriver() ends its products. */
+/* True if the displacement by this field, in its present condition, is known. */
+static PetscErrorCode IsBegun(const SamPlastic *p, Vec state, PetscBool *is)
+{
+  PetscObjectState now;
+
+  PetscFunctionBegin;
+  *is = PETSC_FALSE;
+  if (!state || state != p->begun.of) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscObjectStateGet((PetscObject)state, &now));
+  *is = now == p->begun.revision ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The last displacement is kept: both problems of a contact and the check ask for it, and GetDriver() ends its
+   products. */
 PetscErrorCode SamPlasticDisplace(SamPlastic *p, Vec state, double *const u[3])
 {
   const PetscInt cells = p->grid->cells;
-  double        *e, *own[3];
+  const double  *e;
+  double        *own[3];
+  PetscBool      is;
 
   PetscFunctionBegin;
-  if (!p->begun.of || state != p->begun.of) {
-    PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * cells, &e));
-    PetscCall(TakeStrain(p, state, e));
-    PetscCall(Displace(p, e, u));
-    PetscCall(PetscFree(e));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
+  PetscCall(IsBegun(p, state, &is));
+  if (!p->begun.u) PetscCall(PetscMalloc1(3 * cells, &p->begun.u));
   for (PetscInt c = 0; c < 3; c++) own[c] = p->begun.u + c * cells;
-  if (!p->begun.known) PetscCall(Displace(p, p->begun.e, own));
-  if (!p->begun.known) p->begun.known = p->begun.spectra = PETSC_TRUE;
+  if (!is) {
+    PetscCall(VecDestroy(&p->begun.of));
+    PetscCall(VecGetArrayRead(state, &e));
+    PetscCall(Displace(p, e, p->size, own));
+    PetscCall(VecRestoreArrayRead(state, &e));
+    PetscCall(PetscObjectReference((PetscObject)state));
+    p->begun.of = state;
+    PetscCall(PetscObjectStateGet((PetscObject)state, &p->begun.revision));
+    p->begun.spectra = PETSC_TRUE;
+  }
   for (PetscInt c = 0; c < 3; c++) PetscCall(PetscArraycpy(u[c], own[c], cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPlasticForget(SamPlastic *p)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&p->begun.of));
+  PetscCall(PetscFree(p->begun.u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -180,7 +211,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
   PetscCall(PetscMalloc1(n, &e));
   PetscCall(TakeStrain(p, state, e));
   PetscCall(PetscArraycpy(stress, e, n));
-  PetscCall(Displace(p, e, NULL));
+  PetscCall(Displace(p, e, PARTS, NULL));
   PetscCall(Respond(p, NULL, e));
   if (energy) PetscCall(SamPlasticWork(p, stress, e, energy));
   if (energy) *energy *= -0.5;
@@ -188,7 +219,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
   if (pressure) {
     PetscCall(VecGetArrayRead(pressure, &by_p));
     PetscCall(VecGetArrayRead(shear, &by_q));
-    PetscCall(Displace(p, NULL, NULL));
+    PetscCall(Displace(p, NULL, 0, NULL));
     PetscCall(Respond(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
     PetscCall(VecRestoreArrayRead(shear, &by_q));
     PetscCall(VecRestoreArrayRead(pressure, &by_p));
@@ -292,14 +323,16 @@ static PetscErrorCode Return(Solve *w, Vec last, Vec tried)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the driver from the strains w->e and the tractions. */
-static PetscErrorCode GetDriver(Solve *w, double d[])
+/* Computes the driver from the strains w->e, which are those of the state (NULL: 0), and the tractions. */
+static PetscErrorCode GetDriver(Solve *w, Vec state, double d[])
 {
   const PetscInt cells = w->plastic->grid->cells;
   const double  *p, *q;
+  PetscBool      is;
 
   PetscFunctionBegin;
-  if (!w->plastic->begun.spectra) PetscCall(Displace(w->plastic, w->e, NULL));
+  PetscCall(IsBegun(w->plastic, state, &is));
+  if (!is || !w->plastic->begun.spectra) PetscCall(Displace(w->plastic, w->e, PARTS, NULL));
   PetscCall(VecGetArrayRead(w->contact->pressure, &p));
   PetscCall(VecGetArrayRead(w->contact->shear, &q));
   PetscCall(Respond(w->plastic, (const double *const[3]){p, q, q + cells}, w->s));
@@ -342,85 +375,76 @@ static PetscErrorCode FollowElastic(Solve *w, Vec last)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the residual of the driver, its norm, and its largest value relative to the strain at yield. */
-static PetscErrorCode Measure(Solve *w, PetscInt field, double *norm, double *largest)
+/* Returns the tried strain, or else the committed one; NULL: none. */
+static Vec StateOf(const SamLawContact *contact)
 {
-  const SamPlastic *p = w->plastic;
-  Vec               tried;
+  return SamStateReadField(contact->state, SamStateFindField(contact->state, SAM_PLASTIC_FIELD));
+}
+
+/* Sets the strain of the driver as the tried one, with which the contact is solved next. */
+static PetscErrorCode Propose(Solve *w)
+{
+  SamPlastic *p = w->plastic;
+  Vec         tried;
 
   PetscFunctionBegin;
-  PetscCall(SamStateSetField(w->contact->state, field, &tried));
+  PetscCall(SamStateSetField(w->contact->state, SamStateFindField(w->contact->state, SAM_PLASTIC_FIELD), &tried));
   PetscCall(Return(w, p->last, tried));
-  *norm = *largest = 0;
-  w->solved        = PETSC_TRUE;
-  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0)); /* both problems have their own events */
-  if (!w->plastic->begun.u) PetscCall(PetscMalloc1(3 * p->grid->cells, &w->plastic->begun.u));
-  w->plastic->begun.of    = tried;
-  w->plastic->begun.e     = w->e;
-  w->plastic->begun.known = PETSC_FALSE;
-  PetscCall(w->contact->solve(w->contact, &w->solved));
-  w->plastic->begun.of = NULL;
-  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0));
-  if (!w->solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(GetDriver(w, w->r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the residual of the driver from the tractions with its strain. */
+static PetscErrorCode Measure(Solve *w)
+{
+  const SamPlastic *p = w->plastic;
+
+  PetscFunctionBegin;
+  PetscCall(GetDriver(w, StateOf(w->contact), w->r));
   for (PetscInt k = 0; k < w->n; k++) w->r[k] -= w->d[k];
   PetscCall(FollowElastic(w, p->last));
-  PetscCall(Dot(w, w->r, w->r, norm));
-  *norm = sqrt(*norm);
+  PetscCall(Dot(w, w->r, w->r, &w->norm));
+  w->norm    = sqrt(w->norm);
+  w->largest = 0;
   for (PetscInt l = 0; l < p->bodies * p->layers; l++)
     for (PetscInt k = 0; k < p->grid->cells; k++) {
       const SamMises *m = &BodyOf(p, l)->material;
       double          r[PARTS];
 
       Take(p, w->r, l, k, r);
-      *largest = SamLarger(*largest, sqrt(SamTensorDot(r, r)) * 3 * m->shear / m->yield);
+      w->largest = SamLarger(w->largest, sqrt(SamTensorDot(r, r)) * 3 * m->shear / m->yield);
     }
-  PetscCall(SamMax(p->grid->comm, 1, largest));
+  PetscCall(SamMax(p->grid->comm, 1, &w->largest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the method ---- */
 
-static PetscErrorCode CreateWork(Solve *w)
+static PetscErrorCode CreateWork(SamPlastic *p, SamLawContact *contact, Solve **work)
 {
-  const SamPlastic *p       = w->plastic;
-  const PetscInt    cells   = p->grid->cells;
-  double          **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->tangent.n};
+  Solve *w;
 
   PetscFunctionBegin;
-  w->n = PARTS * p->bodies * p->layers * cells;
-  for (size_t k = 0; k < sizeof(field) / sizeof(field[0]); k++) PetscCall(PetscCalloc1(w->n, field[k]));
+  PetscCall(PetscNew(work));
+  w  = *work;
+  *w = (Solve){.plastic = p, .contact = contact, .n = PARTS * p->bodies * p->layers * p->grid->cells};
+  PetscCall(PetscCalloc7(w->n, &w->d, w->n, &w->r, w->n, &w->e, w->n, &w->s, w->n, &w->y, w->n, &w->start, w->n,
+                         &w->tangent.n));
   PetscCall(PetscCalloc2(w->n / PARTS, &w->tangent.along, w->n / PARTS, &w->tangent.across));
-  PetscCall(SamReactionCreate(p->elasticity, w->contact, &w->reaction));
+  PetscCall(SamReactionCreate(p->elasticity, contact, &w->reaction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode DestroyWork(Solve *w)
+PetscErrorCode SamPlasticAbandon(SamPlastic *p)
 {
-  double **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->tangent.n};
+  Solve *w = p->work;
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(field) / sizeof(field[0]); k++) PetscCall(PetscFree(*field[k]));
+  p->work = NULL;
+  if (!w) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFree7(w->d, w->r, w->e, w->s, w->y, w->start, w->tangent.n));
   PetscCall(PetscFree2(w->tangent.along, w->tangent.across));
   PetscCall(SamReactionDestroy(&w->reaction));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Follows a step; halves it repeatedly until it lowers the residual. */
-static PetscErrorCode GoAlong(Solve *w, PetscInt field, double *norm, double *largest)
-{
-  const double before = *norm;
-  double       length = 1, *start;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(w->n, &start));
-  PetscCall(PetscArraycpy(start, w->d, w->n));
-  for (PetscInt k = 0; k < HALVINGS; k++, length /= 2) {
-    for (PetscInt i = 0; i < w->n; i++) w->d[i] = start[i] + length * w->y[i];
-    PetscCall(Measure(w, field, norm, largest));
-    if (!w->solved || *norm < before || *largest <= w->plastic->rtol) break;
-  }
-  PetscCall(PetscFree(start));
+  PetscCall(PetscFree(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -508,38 +532,75 @@ static PetscErrorCode DescribeFailure(Solve *w, double largest)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Iterates from the present driver. */
-static PetscErrorCode Iterate(Solve *w, PetscInt field)
+/* Sets the driver at the present length of the step. */
+static void GoAlong(Solve *w)
+{
+  for (PetscInt i = 0; i < w->n; i++) w->d[i] = w->start[i] + w->length * w->y[i];
+}
+
+/* Computes a step of Newton's method from the residual, and goes along it. */
+static PetscErrorCode BeginStep(Solve *w)
 {
   SamPlastic *p = w->plastic;
-  double      norm, first, largest, part;
+  double      part;
 
   PetscFunctionBegin;
-  PetscCall(Measure(w, field, &norm, &largest));
-  first = norm;
-  for (PetscInt k = 0; w->solved && largest > p->rtol && k < STEPS; k++) {
-    PetscCall(SamReactionFreeze(w->reaction));
-    part = PetscMax(PetscMin(ROUGH, FORCING * norm / first), ENOUGH * (double)p->rtol / largest);
-    if (SamReactionSlips(w->reaction)) part = PetscMax(part, SLIPPING);
-    PetscCall(SamEquationsSolve(p, w->contact, w->reaction, &w->tangent, w->r, part, w->y));
-    p->newton++;
-    PetscCall(GoAlong(w, field, &norm, &largest));
-  }
-  if (w->solved && largest > p->rtol) PetscCall(DescribeFailure(w, largest));
+  PetscCall(SamReactionFreeze(w->reaction));
+  part = PetscMax(PetscMin(ROUGH, FORCING * w->norm / w->first), ENOUGH * (double)p->rtol / w->largest);
+  if (SamReactionSlips(w->reaction)) part = PetscMax(part, SLIPPING);
+  PetscCall(SamEquationsSolve(p, w->contact, w->reaction, &w->tangent, w->r, part, w->y));
+  p->newton++;
+  w->steps++;
+  w->before   = w->norm;
+  w->length   = 1;
+  w->halvings = 1;
+  PetscCall(PetscArraycpy(w->start, w->d, w->n));
+  GoAlong(w);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact)
+/* Sets the next driver, if the residual asks for one: at half the step while this has not lowered it, or after a new
+   step. */
+static PetscErrorCode Continue(Solve *w, PetscBool *again)
 {
-  const PetscInt field = SamStateFindField(contact->state, SAM_PLASTIC_FIELD);
-  const Vec      state = SamStateReadField(contact->state, field); /* a second solve begins with the first */
-  Solve          w     = {.plastic = p, .contact = contact};
+  const PetscReal rtol = w->plastic->rtol;
 
   PetscFunctionBegin;
-  PetscCall(CreateWork(&w));
-  PetscCall(TakeStrain(p, state, w.e));
-  PetscCall(GetDriver(&w, w.d));
-  PetscCall(Iterate(&w, field));
-  PetscCall(DestroyWork(&w));
+  if (!w->steps) w->first = w->norm;
+  *again = w->largest > rtol ? PETSC_TRUE : PETSC_FALSE;
+  if (!*again) PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->steps && !(w->norm < w->before) && w->halvings < HALVINGS) {
+    w->length /= 2;
+    w->halvings++;
+    GoAlong(w);
+  } else if (w->steps < STEPS) {
+    PetscCall(BeginStep(w));
+  } else {
+    PetscCall(DescribeFailure(w, w->largest));
+    *again = PETSC_FALSE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A second solve of a step begins with the strain of the first. */
+PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact, PetscBool *again)
+{
+  Solve *w = p->work;
+
+  PetscFunctionBegin;
+  *again = contact->solved;
+  if (!w && contact->solved) {
+    PetscCall(CreateWork(p, contact, &p->work));
+    w = p->work;
+    PetscCall(TakeStrain(p, StateOf(contact), w->e));
+    PetscCall(GetDriver(w, StateOf(contact), w->d));
+  } else if (contact->solved) {
+    PetscCall(Measure(w));
+    PetscCall(Continue(w, again));
+  }
+  if (*again)
+    PetscCall(Propose(w));
+  else
+    PetscCall(SamPlasticAbandon(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

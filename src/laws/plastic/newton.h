@@ -16,14 +16,14 @@ typedef struct {
 } SamPlasticBody;
 
 /*
-  SamPlasticBegun - the displacement u (m, three fields) by the strains e of the tried state `of` (NULL: none), while the
-  contact is solved for it; `known`: it has been computed; `spectra`: the residuals hold the spectra of this strain.
+  SamPlasticBegun - the displacement u (m, three fields) by a field of the state at a revision; `of` NULL: none.
+  `spectra`: the residuals hold the spectra of its strain.
 */
 typedef struct {
-  Vec           of;
-  const double *e;
-  double       *u;
-  PetscBool     known, spectra;
+  Vec              of;
+  PetscObjectState revision;
+  double          *u;
+  PetscBool        spectra;
 } SamPlasticBegun;
 
 /*
@@ -32,33 +32,36 @@ typedef struct {
   backstresses.
 */
 typedef struct {
-  SamGrid                 grid;
-  SamElasticity           elasticity;
-  PetscInt                bodies, layers; /* number of layers of each body */
-  PetscInt                size;
-  SamPlasticBody          body[2];
-  PetscReal              *thickness; /* thicknesses of a body's layers, m; borrowed */
-  PetscReal               rtol;
-  Vec                     last; /* strain before the step, of the points that now lie under the cells; NULL: none */
-  PetscInt                newton, products; /* counts of the last step */
-  struct _n_SamEquations *equations;        /* of the last step (equations.h); NULL: none */
-  SamPlasticBegun         begun;
+  SamGrid                   grid;
+  SamElasticity             elasticity;
+  PetscInt                  bodies, layers; /* number of layers of each body */
+  PetscInt                  size;
+  SamPlasticBody            body[2];
+  PetscReal                *thickness; /* thicknesses of a body's layers, m; borrowed */
+  PetscReal                 rtol;
+  Vec                       last; /* strain before the step, of the points that now lie under the cells; NULL: none */
+  PetscInt                  newton, products; /* counts of the last step */
+  struct _n_SamEquations   *equations;        /* of the last step (equations.h); NULL: none */
+  struct _n_SamPlasticWork *work;             /* of an iteration under way (newton.c); NULL: none */
+  SamPlasticBegun           begun;
 } SamPlastic;
 
 #define SAM_PLASTIC_FIELD "plastic"
 
 /*
-  SamPlasticSolve - solves for the plastic strain of a step, which becomes the tried one, and for its tractions.
-  Collective.
-  SamPlasticDisplace - computes the displacements of the surfaces by the strain of a generation of the state (m).
-  Collective.
+  SamPlasticSolve - iterates for the plastic strain of a step, which becomes the tried one, together with its tractions:
+  a method `follow` of SamLaw. SamPlasticAbandon - ends an iteration that was not ended. Both are collective.
+  SamPlasticDisplace - computes the displacements of the surfaces by the strain of a generation of the state (m), and
+  keeps them until it is called with another strain. SamPlasticForget - frees what is kept. Both are collective.
   SamPlasticStress - computes the stress by the strain of the state and before any load, and, if the tractions are given
   (Pa; NULL: not), by these and the bulk stress of the step, as (layers of all bodies, PARTS), and the elastic energy of
   the stress by the strain alone (J; NULL: not wanted). Collective.
   SamPlasticWork - computes the work of such a stress on a strain (J). Collective.
 */
-PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawContact *contact);
+PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawContact *contact, PetscBool *again);
+PETSC_INTERN PetscErrorCode SamPlasticAbandon(SamPlastic *plastic);
 PETSC_INTERN PetscErrorCode SamPlasticDisplace(SamPlastic *plastic, Vec state, double *const u[3]);
+PETSC_INTERN PetscErrorCode SamPlasticForget(SamPlastic *plastic);
 PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec pressure, Vec shear, double stress[],
                                              double *energy);
 PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const double e[], const double s[], double *work);

@@ -573,8 +573,9 @@ static PetscErrorCode Destroy(SamLaw law)
 
   PetscFunctionBegin;
   PetscCall(VecDestroy(&p->last));
+  PetscCall(SamPlasticAbandon(p));
   PetscCall(SamEquationsDestroy(&p->equations));
-  PetscCall(PetscFree(p->begun.u));
+  PetscCall(SamPlasticForget(p));
   for (PetscInt b = 0; b < p->bodies; b++) PetscCall(SamResidualDestroy(&p->body[b].residual));
   for (PetscInt b = 0; b < 2; b++) PetscCall(PetscFree(((Plastic *)law->data)->material[b].initial));
   PetscCall(PetscFree(((Plastic *)law->data)->thickness));
@@ -737,6 +738,7 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   (void)duration;
   PetscCall(SetUp(law));
   PetscCall(DropStress(x));
+  PetscCall(SamPlasticAbandon(&x->plastic)); /* after an error */
   PetscCall(TakeLast(&x->plastic, state));
   x->plastic.newton = x->plastic.products = 0;
   for (PetscInt b = 0; b < 2; b++) {
@@ -775,11 +777,11 @@ static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Follow(SamLaw law, SamLawContact *contact)
+static PetscErrorCode Follow(SamLaw law, SamLawContact *contact, PetscBool *again)
 {
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0));
-  PetscCall(SamPlasticSolve(&((Plastic *)law->data)->plastic, contact));
+  PetscCall(SamPlasticSolve(&((Plastic *)law->data)->plastic, contact, again));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -214,12 +214,14 @@ PetscErrorCode SamResidualDestroy(SamResidual *residual)
 
 /* ---- products ---- */
 
-/* Gets the planes of a field, or those of all spectra in one column. */
-static PetscErrorCode GetPlanes(SamResidual r, PetscInt planes, const double field[], const double ***at)
+/* Gets the planes of a field whose layers are `step` fields apart, or those of all spectra in one column. */
+static PetscErrorCode GetPlanes(SamResidual r, const double field[], PetscInt step, const double ***at)
 {
+  const PetscInt planes = PARTS * r->body.layers;
+
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(planes, at));
-  for (PetscInt k = 0; k < planes; k++) (*at)[k] = field + (ptrdiff_t)k * r->grid->cells;
+  for (PetscInt k = 0; k < planes; k++) (*at)[k] = field + (ptrdiff_t)(k / PARTS * step + k % PARTS) * r->grid->cells;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 static void GetColumn(SamResidual r, PetscInt planes, PetscInt b, double complex *spectra, double complex *at[])
@@ -340,7 +342,7 @@ static PetscErrorCode Displace(SamResidual r, double *const u[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResidualBegin(SamResidual r, const double e[], double *const u[3])
+PetscErrorCode SamResidualBegin(SamResidual r, const double e[], PetscInt step, double *const u[3])
 {
   const double **at;
 
@@ -348,10 +350,10 @@ PetscErrorCode SamResidualBegin(SamResidual r, const double e[], double *const u
   r->strained = e ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt c = 0; u && !e && c < 3; c++) PetscCall(PetscArrayzero(u[c], r->grid->cells));
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(GetPlanes(r, PARTS * r->body.layers, e, &at));
+  PetscCall(GetPlanes(r, e, step, &at));
   PetscCall(Transform(r, PARTS * r->body.layers, at, NULL, r->spectra));
   PetscCall(PetscFree(at));
-  if (r->images) PetscCall(SamImagesReduce(r->images, e));
+  if (r->images) PetscCall(SamImagesReduce(r->images, e, step));
   if (u) PetscCall(Displace(r, u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -384,7 +386,7 @@ PetscErrorCode SamResidualEnd(SamResidual r, const double *const traction[3], do
   if (traction) PetscCall(Transform(r, 3, traction, NULL, r->surface));
   for (PetscInt k = plane; traction && !r->stress && k < 3 * plane; k++) r->surface[k] *= r->sign;
   PetscCall(WorkOnColumns(r, traction ? PETSC_TRUE : PETSC_FALSE));
-  PetscCall(GetPlanes(r, PARTS * r->body.layers, s, &at));
+  PetscCall(GetPlanes(r, s, PARTS, &at));
   PetscCall(Transform(r, PARTS * r->body.layers, NULL, (double *const *)at, r->spectra));
   PetscCall(PetscFree(at));
   if (r->strained && r->images) PetscCall(SamImagesAdd(r->images, s));
@@ -423,7 +425,7 @@ static PetscErrorCode LoadWavesAt(SamResidual r, PetscReal depth, const double *
   PetscCall(PetscMalloc1(2 * n, &both));
   r->body.layers    = 2;
   r->body.thickness = thickness;
-  PetscCall(SamResidualBegin(r, NULL, NULL));
+  PetscCall(SamResidualBegin(r, NULL, 0, NULL));
   PetscCall(SamResidualEnd(r, traction, both));
   r->body = own;
   PetscCall(PetscArraycpy(s, both + n, n));
