@@ -5,6 +5,7 @@
 #include "elasticities.h"
 
 #include "../../src/laws/plastic/images.h"
+#include <petsam/private/layered.h>
 
 #define MU 1.0
 #define NU 0.3
@@ -314,12 +315,119 @@ static void test_plane_has_reference_stress(void **state)
   AssertStress(SAM_ELASTICITY_PLANE, NewGridOn(PETSC_COMM_WORLD, 40, 1, 2, 1, 0.025, 0), 22, 0, 2, expected);
 }
 
+/* ---- below layers of other materials ---- */
+
+/* The stiffness of the layers of a body at the wave numbers k. */
+static void SetHold(SamBody body, PetscInt n, const double k[], double hold[4][8])
+{
+  for (PetscInt m = 0; m < n; m++) {
+    double c[SAM_LAYERED_SYMBOLS], det;
+
+    SamBodyInterfaceSymbols(body, k[m], c);
+    det        = c[SAM_LAYERED_ZZ] * c[SAM_LAYERED_RR] - c[SAM_LAYERED_ZR] * c[SAM_LAYERED_ZR];
+    hold[0][m] = k[m] * c[SAM_LAYERED_RR] / det;
+    hold[1][m] = k[m] * c[SAM_LAYERED_ZR] / det;
+    hold[2][m] = k[m] * c[SAM_LAYERED_ZZ] / det;
+    hold[3][m] = k[m] / c[SAM_LAYERED_TT];
+  }
+}
+
+/*
+  Amplitudes of the mean stress in layers of 0.15, 0.1 and 0.2 by e in the second one, cos 2x (of xz and yz sin 2x), in
+  a substrate of shear modulus 1 below layers of E = 6, nu = 0.2, 0.1 thick, and E = 0.5, nu = 0.4, 0.2 thick. By finite
+  elements of three nodes along z, 8 and 16 a layer, whose results differ by 2e-6.
+*/
+static const struct {
+  PetscInt component;
+  double   s[3][6];
+} below[] = {
+  {SAM_STRESS_XX,
+   {{0.4652207, 0.1258296, -0.0457889, 0, 0.1384298, 0},
+    {-2.3621795, -0.7312376, -0.0752793, 0, -0.0261654, 0},
+    {0.3495875, 0.0980026, -0.0229122, 0, -0.1862500, 0}}},
+  {SAM_STRESS_ZZ,
+   {{0.0051539, -0.0055670, -0.0237106, 0, 0.0390777, 0},
+    {-0.0752793, -0.0324394, -0.0328519, 0, 0.0298399, 0},
+    {-0.0565502, -0.0284149, -0.0381661, 0, 0.0091921, 0}}},
+  {SAM_STRESS_XY,
+   {{0, 0, 0, 0.2227454, 0, 0.0904659}, {0, 0, 0, -1.7612899, 0, -0.0514026}, {0, 0, 0, 0.1876726, 0, -0.1876727}}},
+  {SAM_STRESS_XZ,
+   {{-0.4600670, -0.1313966, 0.0220783, 0, -0.0993522, 0},
+    {-0.0523308, 0.0022047, 0.0596797, 0, -0.1943248, 0},
+    {0.3266277, 0.1297004, 0.1057069, 0, -0.1104606, 0}}},
+  {SAM_STRESS_YZ,
+   {{0, 0, 0, -0.2227454, 0, -0.0904659}, {0, 0, 0, -0.0514026, 0, -0.1359049}, {0, 0, 0, 0.1111315, 0, -0.1111315}}}};
+
+static void test_waves_below_layers_have_amplitudes_of_finite_elements(void **state)
+{
+  static const PetscReal h[]        = {0.15, 0.1, 0.2};
+  const SamMaterial      material[] = {{6, 0.2, 0.1}, {0.5, 0.4, 0.2}, {2 * MU * (1 + NU), NU, PETSC_INFINITY}};
+  const SamWaveBody      of         = {3, h, MU, NU};
+  const double           k[] = {2}, ky[] = {0};
+  double                 hold[4][8];
+  const SamWaveHold      stiffness = {hold[0], hold[1], hold[2], hold[3]};
+  SamBody                body;
+
+  (void)state;
+  sam_call(SamBodyCreate(3, material, &body));
+  SetHold(body, 1, k, hold);
+  for (size_t n = 0; n < sizeof(below) / sizeof(below[0]); n++) {
+    double complex value[18] = {0}, *planes[18];
+
+    for (int c = 0; c < 18; c++) planes[c] = &value[c];
+    value[6 + below[n].component] = below[n].component > SAM_STRESS_XY ? -I : 1;
+    sam_call(SamWavesApply(&of, 1, 2, ky, planes, PETSC_TRUE, NULL, &stiffness));
+    for (int c = 0; c < 18; c++) {
+      const double complex expected = (c % 6 > SAM_STRESS_XY ? -I : 1) * below[n].s[c / 6][c % 6];
+
+      sam_assert_close(cabs(value[c] - expected), 0, 1e-6);
+    }
+  }
+  sam_call(SamBodyDestroy(&body));
+}
+
+/* Layers of the substrate's own material change nothing, in waves of any direction and length. */
+static void test_layers_of_the_same_material_change_nothing(void **state)
+{
+  static const PetscReal h[]        = {0.3, 0.15, 0.1, 0.2};
+  const SamMaterial      same       = {2 * MU * (1 + NU), NU, 0.1};
+  const SamMaterial      material[] = {same, {same.young, NU, 0.2}, {same.young, NU, PETSC_INFINITY}};
+  const SamWaveBody      whole = {4, h, MU, NU}, of = {3, h + 1, MU, NU};
+  const double           ky[8] = {0, 0.01, -0.9, 2, -3.3, 5, 17, 80};
+  double                 hold[4][8], k[8];
+  const SamWaveHold      stiffness       = {hold[0], hold[1], hold[2], hold[3]};
+  double complex         value[2][24][8] = {{{0}}}, *planes[2][24];
+  SamBody                body;
+
+  (void)state;
+  sam_call(SamBodyCreate(3, material, &body));
+  for (int m = 0; m < 8; m++) k[m] = hypot(0.4, ky[m]);
+  SetHold(body, 8, k, hold);
+  for (int c = 0; c < 24; c++)
+    for (int m = 0; m < 8; m++) {
+      planes[0][c]   = value[0][c];
+      planes[1][c]   = value[1][c];
+      value[0][c][m] = c < 6 ? 0 : sin(1 + 3 * c + m) + I * cos(2 * c - 0.3 * m);
+      value[1][c][m] = value[0][c][m];
+    }
+  sam_call(SamWavesApply(&whole, 8, 0.4, ky, planes[0], PETSC_TRUE, NULL, NULL));
+  sam_call(SamWavesApply(&of, 8, 0.4, ky, planes[1] + 6, PETSC_TRUE, NULL, &stiffness));
+  for (int c = 6; c < 24; c++)
+    for (int m = 0; m < 8; m++) sam_assert_close(cabs(value[0][c][m] - value[1][c][m]), 0, 1e-10);
+  sam_call(SamBodyDestroy(&body));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_waves_have_reference_amplitudes), cmocka_unit_test(test_uniform_layers),
-    cmocka_unit_test(test_operators_are_symmetric),         cmocka_unit_test(test_nucleus_has_reference_stress),
-    cmocka_unit_test(test_half_space_has_reference_stress), cmocka_unit_test(test_plane_has_reference_stress),
+    cmocka_unit_test(test_waves_have_reference_amplitudes),
+    cmocka_unit_test(test_uniform_layers),
+    cmocka_unit_test(test_operators_are_symmetric),
+    cmocka_unit_test(test_nucleus_has_reference_stress),
+    cmocka_unit_test(test_half_space_has_reference_stress),
+    cmocka_unit_test(test_plane_has_reference_stress),
+    cmocka_unit_test(test_waves_below_layers_have_amplitudes_of_finite_elements),
+    cmocka_unit_test(test_layers_of_the_same_material_change_nothing),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

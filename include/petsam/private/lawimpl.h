@@ -254,7 +254,10 @@ PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
   contact, above which the maximum plastic strain is more than 4 % too small.
 */
 #define SAM_PLASTIC_THICK 0.2
-/* SamPlasticGetYieldStress - returns the smallest yield stress (Pa) of the bodies of this law. Not collective. */
+/*
+  SamPlasticGetYieldStress - returns the smallest yield stress (Pa) at the surface of a body of this law; infinite if
+  layers that do not yield lie on it. Not collective.
+*/
 PETSC_INTERN PetscReal SamPlasticGetYieldStress(SamLaw law);
 
 #endif

@@ -31,10 +31,13 @@ typedef enum { SAM_LAYERED_ZZ, SAM_LAYERED_ZR, SAM_LAYERED_RR, SAM_LAYERED_TT, S
   exp(-2 k h). `sign`: the sign of zr.
   SamPairSymbols - computes the symbols of a pair: zz, rr, tt are sums over both bodies, zr is that of body 2 minus that
   of body 1.
-  Neither is collective.
+  SamBodyInterfaceSymbols - computes the symbols of the surfaces on both sides of a body's last interface, as of a pair:
+  the layers, free at the surface of the body, are body 1, and the substrate is body 2. They are not bonded.
+  None is collective.
 */
 PETSC_INTERN void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERED_SYMBOLS],
                                  double difference[SAM_LAYERED_SYMBOLS]);
+PETSC_INTERN void SamBodyInterfaceSymbols(SamBody body, double k, double total[SAM_LAYERED_SYMBOLS]);
 PETSC_INTERN void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS],
                                  double difference[SAM_LAYERED_SYMBOLS]);
 

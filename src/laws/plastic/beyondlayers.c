@@ -21,7 +21,7 @@ static PetscErrorCode Look(SamPlastic *p, PetscInt b, PetscReal depth, const dou
                            const double *const traction[3], double *excess)
 {
   const SamPlasticBody *body  = &p->body[b];
-  const PetscInt        cells = p->grid->cells, l = body->first + SamPlasticFind(p, depth);
+  const PetscInt        cells = p->grid->cells, l = body->first + SamPlasticFind(p, depth - body->top);
   double               *s;
 
   PetscFunctionBegin;
@@ -53,21 +53,22 @@ PetscErrorCode SamPlasticLookOutside(SamPlastic *p, Vec state, Vec pressure, Vec
   half = across * p->grid->side[0] / 2;
   if (!(half > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt l = 0; l < p->layers; l++) bottom += p->thickness[l];
-  *thick = (double)(p->thickness[SamPlasticFind(p, FIRST * half)] / half);
+  for (PetscInt b = 0; b < p->bodies; b++)
+    *thick = PetscMax(*thick, (double)(p->thickness[SamPlasticFind(p, FIRST * half - p->body[b].top)] / half));
   PetscCall(VecGetArrayRead(state, &now));
   PetscCall(VecGetArrayRead(pressure, &by_p));
   PetscCall(VecGetArrayRead(shear, &by_q));
-  for (PetscInt k = 0; k < PLACES; k++) {
-    const PetscReal depth = places[k] * half;
+  for (PetscInt k = 0; k < PLACES; k++)
+    for (PetscInt b = 0; b < p->bodies; b++) {
+      const PetscReal depth = places[k] * half, below = depth - p->body[b].top;
 
-    if (depth < bottom && (*thick <= SAM_PLASTIC_THICK || places[k] > DEEP)) continue;
-    if (!residual) {
-      PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * cells, &residual));
-      PetscCall(SamPlasticStress(p, state, NULL, NULL, residual, NULL));
-    }
-    for (PetscInt b = 0; b < p->bodies; b++)
+      if (below < 0 || (below < bottom && (*thick <= SAM_PLASTIC_THICK || places[k] > DEEP))) continue;
+      if (!residual) {
+        PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * cells, &residual));
+        PetscCall(SamPlasticStress(p, state, NULL, NULL, residual, NULL));
+      }
       PetscCall(Look(p, b, depth, now, residual, (const double *const[3]){by_p, by_q, by_q + cells}, excess));
-  }
+    }
   PetscCall(VecRestoreArrayRead(shear, &by_q));
   PetscCall(VecRestoreArrayRead(pressure, &by_p));
   PetscCall(VecRestoreArrayRead(state, &now));

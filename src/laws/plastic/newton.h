@@ -8,6 +8,7 @@
 /* A body that yields, and the place of its layers among the layers of both bodies */
 typedef struct {
   PetscInt    body; /* 0 or 1 */
+  PetscReal   top;  /* depth at which its layers begin, m */
   SamMises    material;
   SamResidual residual;
   PetscInt    first;

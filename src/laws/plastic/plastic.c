@@ -161,10 +161,18 @@ static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns the depth at which the layers of plastic strain of body 0 or 1 begin: below layers of other materials, m. */
+static PetscReal TopOf(SamLaw law, PetscInt body)
+{
+  const SamBody of = SamPairBody(SamElasticityGetPair(law->elasticity), body);
+
+  return SamBodyTop(of, SamBodyCount(of) - 1);
+}
+
 static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt body, const char option[], double stress)
 {
   const SamPair pair  = SamElasticityGetPair(law->elasticity);
-  const double  young = (double)SamBodyMaterialAt(SamPairBody(pair, body), 0)->young;
+  const double  young = (double)SamBodySubstrate(SamPairBody(pair, body))->young;
   char          why[160];
 
   PetscFunctionBegin;
@@ -196,7 +204,7 @@ static PetscErrorCode SetInitial(SamLaw law, const SamOptions *from, PetscInt bo
   Plastic *const  x   = (Plastic *)law->data;
   Material *const m   = &x->material[body];
   const SamBody   of  = SamPairBody(SamElasticityGetPair(law->elasticity), body);
-  PetscReal       top = 0;
+  PetscReal       top = TopOf(law, body);
 
   PetscFunctionBegin;
   PetscCall(PetscFree(m->initial));
@@ -307,7 +315,8 @@ static PetscErrorCode SetUp(SamLaw law)
     if (!isfinite(x->material[b].yield)) continue;
     PetscCall(SamResidualCreate(law->elasticity, b + 1, x->layers, p->thickness, PETSC_TRUE, &body->residual));
     body->body     = b;
-    body->material = MaterialOf(&x->material[b], SamBodyMaterialAt(SamPairBody(pair, b), 0));
+    body->top      = TopOf(law, b);
+    body->material = MaterialOf(&x->material[b], SamBodySubstrate(SamPairBody(pair, b)));
     body->initial  = x->material[b].initial;
     body->first    = p->bodies++ * x->layers;
   }
@@ -444,8 +453,8 @@ static PetscErrorCode OfferLayers(SamLaw law, SamState state)
     const PetscReal middle = top + x->thickness[l] / 2;
 
     top += x->thickness[l];
-    if (count > l + Above(x)) z[l + Above(x)] = middle;
-    if (Above(x)) z[Above(x) - 1 - l] = -middle;
+    if (count > l + Above(x)) z[l + Above(x)] = TopOf(law, 1) + middle;
+    if (Above(x)) z[Above(x) - 1 - l] = -TopOf(law, 0) - middle;
   }
   PetscCall(SamStateSetLayers(state, &(SamStateLayers){.group    = "plastic",
                                                        .count    = {Above(x), count - Above(x)},
@@ -466,8 +475,9 @@ static PetscErrorCode OfferLayers(SamLaw law, SamState state)
 }
 
 /* Declares the depths up to which the strain has been moved, of bodies that wear: a law of wear offers its depth. */
-static PetscErrorCode DeclareRemoved(const Plastic *x, SamState state)
+static PetscErrorCode DeclareRemoved(SamLaw law, SamState state)
 {
+  const Plastic  *x = (const Plastic *)law->data;
   PetscReal       slide[2];
   const PetscBool own = SamFramesGetSlide(state, SAM_TRIED, slide); /* then depths are at the body's own points */
   PetscInt        id;
@@ -481,8 +491,13 @@ static PetscErrorCode DeclareRemoved(const Plastic *x, SamState state)
                                  .motion      = own ? SAM_STAYS : SAM_MOVES,
                                  .separates   = PETSC_TRUE};
 
-    if (isfinite(x->material[b].yield) && SamStateFindResult(state, depths[b]) >= 0)
-      PetscCall(SamStateDeclareField(state, &field, &id));
+    if (!isfinite(x->material[b].yield) || SamStateFindResult(state, depths[b]) < 0) continue;
+    PetscCheck(TopOf(law, b) == 0, law->grid->comm, SAM_ERR_USER,
+               "-body%" PetscInt_FMT
+               "_yield: the body has layers and wears: not supported: wear thins layers, which the "
+               "elastic displacements do not follow",
+               b + 1);
+    PetscCall(SamStateDeclareField(state, &field, &id));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -544,7 +559,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 
   PetscFunctionBegin;
   PetscCall(SamStateDeclareField(state, &field, &id));
-  PetscCall(DeclareRemoved(x, state));
+  PetscCall(DeclareRemoved(law, state));
   for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
   for (PetscInt k = 0; k < 4; k++) {
     SamStateResult result = fields[k];
@@ -563,7 +578,8 @@ PetscReal SamPlasticGetYieldStress(SamLaw law)
   const SamPlastic *p     = &((const Plastic *)law->data)->plastic;
   PetscReal         least = PETSC_INFINITY;
 
-  for (PetscInt b = 0; b < p->bodies; b++) least = PetscMin(least, (PetscReal)p->body[b].material.yield);
+  for (PetscInt b = 0; b < p->bodies; b++)
+    if (p->body[b].top == 0) least = PetscMin(least, (PetscReal)p->body[b].material.yield);
   return least;
 }
 

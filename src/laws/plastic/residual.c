@@ -6,12 +6,18 @@
   each plane of the stress. For bodies that are not periodic, the waves have a padded period, and the images of the
   window are subtracted again (images.c). For them the stress by tractions comes from the cells' kernels at the middle
   of each layer, and the displacement by plastic strain from the transpose of these.
+
+  If the body has layers of other materials on its surface, the layers of plastic strain begin below them. The layers
+  above are bonded to the waves' surface: with the compliances C of both sides of this interface (layered/symbols.c),
+  they answer the displacement u that the strain would cause without them by tractions -u/C. Their images are those of a
+  half-space without them, since long waves bend thin layers freely.
 */
 #include "images.h"
 #include "waves.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/body.h>
+#include <petsam/private/layered.h>
 
 struct _n_SamResidual {
   SamGrid         grid;
@@ -27,6 +33,7 @@ struct _n_SamResidual {
   PetscInt        phases, waves;  /* phases and waves of a column: see SamFourierBlock */
   SamFourierBlock block;          /* all columns of this rank, without data */
   double         *ky;             /* wave numbers of these waves along y, 1/m */
+  double         *hold;           /* (4, columns, waves): stiffness of the layers above; NULL: there are none */
   PetscInt        nyquist;        /* index of the wave of two cells along y, which is also the wave of -ky; -1: none */
   double complex *spectra;        /* (planes, columns, waves) */
   double complex *surface;        /* (3, columns, waves): of the displacement or of the tractions */
@@ -131,16 +138,44 @@ static PetscErrorCode CreateSpectra(SamResidual r)
 PetscErrorCode SamResidualCheckBodies(SamElasticity e, PetscInt body)
 {
   const SamElasticityType type = SamElasticityGetType(e);
+  const SamBody           of   = SamPairBody(e->pair, body - 1);
 
   PetscFunctionBegin;
   PetscCheck(!strcmp(type, SAM_ELASTICITY_HALFSPACE) || !strcmp(type, SAM_ELASTICITY_PERIODIC) ||
                !strcmp(type, SAM_ELASTICITY_PLANE) || !strcmp(type, SAM_ELASTICITY_PLANE_PERIODIC),
              e->grid->comm, SAM_ERR_USER, "-body%" PetscInt_FMT "_yield: not supported with bodies of type %s", body,
              type);
-  PetscCheck(SamPairIsUniform(e->pair), e->grid->comm, SAM_ERR_USER,
-             "-body%" PetscInt_FMT "_yield: not supported with layers", body);
-  PetscCheck(!SamBodyIsRigid(SamPairBody(e->pair, body - 1)), e->grid->comm, SAM_ERR_USER,
-             "-body%" PetscInt_FMT "_yield: the body is rigid", body);
+  PetscCheck(!isinf(SamBodySubstrate(of)->young), e->grid->comm, SAM_ERR_USER,
+             "-body%" PetscInt_FMT "_yield: the body%s is rigid", body,
+             SamBodyCount(of) > 1 ? " below its layers" : "");
+  PetscCheck(SamBodyCount(of) == 1 || !strcmp(type, SAM_ELASTICITY_HALFSPACE), e->grid->comm, SAM_ERR_USER,
+             "-body%" PetscInt_FMT
+             "_yield: not supported below layers of bodies of type %s, only of type " SAM_ELASTICITY_HALFSPACE,
+             body, type);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Creates the stiffness of the layers above. The mean and what these do not resist to the digits stay free. */
+static PetscErrorCode CreateHold(SamResidual r, SamBody body)
+{
+  const ptrdiff_t n = (ptrdiff_t)r->columns * r->waves;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(4 * n, &r->hold));
+  for (ptrdiff_t m = 0; m < n; m++) {
+    const double k =
+      hypot(2 * PETSC_PI / (r->period * (double)r->grid->dx) * (double)(r->first + m / r->waves), r->ky[m % r->waves]);
+    double c[SAM_LAYERED_SYMBOLS], det;
+
+    if (k == 0) continue;
+    SamBodyInterfaceSymbols(body, k, c);
+    det = c[SAM_LAYERED_ZZ] * c[SAM_LAYERED_RR] - c[SAM_LAYERED_ZR] * c[SAM_LAYERED_ZR];
+    if (!(det > 0) || !(c[SAM_LAYERED_TT] > 0) || isinf(det)) continue;
+    r->hold[m]         = k * c[SAM_LAYERED_RR] / det;
+    r->hold[n + m]     = k * c[SAM_LAYERED_ZR] / det;
+    r->hold[2 * n + m] = k * c[SAM_LAYERED_ZZ] / det;
+    r->hold[3 * n + m] = k / c[SAM_LAYERED_TT];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,7 +183,8 @@ PetscErrorCode SamResidualCheckBodies(SamElasticity e, PetscInt body)
 static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body, PetscBool images)
 {
   const PetscReal period[2] = {r->period * r->grid->dx, (PetscReal)r->waves * r->grid->dy};
-  PetscReal       top       = 0;
+  const SamBody   of        = SamPairBody(e->pair, body - 1);
+  PetscReal       top       = SamBodyTop(of, SamBodyCount(of) - 1);
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(r->body.layers, &r->stress));
@@ -158,6 +194,7 @@ static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body
     top += r->thickness[l];
   }
   PetscCall(SamGridCreateVec(r->grid, PARTS, &r->plane));
+  if (SamBodyCount(of) > 1) PetscCall(CreateHold(r, of));
   if (images) PetscCall(SamImagesCreate(r->grid, period, &r->body, &r->images));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -177,7 +214,7 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscCall(SamGridReference(r->grid));
   r->elasticity = e; /* borrowed: the law that owns this object has a reference */
   r->number     = body;
-  material      = SamBodyMaterialAt(SamPairBody(e->pair, body - 1), 0);
+  material      = SamBodySubstrate(SamPairBody(e->pair, body - 1));
   PetscCall(PetscMalloc1(layers, &r->thickness));
   PetscCall(PetscArraycpy(r->thickness, thickness, layers));
   r->body = (SamWaveBody){layers, r->thickness, material->young / (2 * (1 + material->poisson)), material->poisson};
@@ -205,6 +242,7 @@ PetscErrorCode SamResidualDestroy(SamResidual *residual)
   PetscCall(VecDestroy(&r->plane));
   PetscCall(PetscFree(r->thickness));
   PetscCall(PetscFree(r->ky));
+  PetscCall(PetscFree(r->hold));
   SamFree(r->spectra);
   PetscCall(SamFourierDestroy(&r->fourier));
   PetscCall(SamGridDestroy(&r->grid));
@@ -236,14 +274,20 @@ static double WaveOf(SamResidual r, PetscInt b)
 /* Response that is computed in a column of waves: to eigenstrains, or to tractions */
 typedef enum { RESPOND, DISPLACE, LOAD } Task;
 
-static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double kx, const double ky[],
+/* `first`: the first wave among all of this rank. */
+static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, ptrdiff_t first, double kx, const double ky[],
                                   double complex *const column[], double complex *const surface[3])
 {
+  const ptrdiff_t   all  = (ptrdiff_t)r->columns * r->waves;
+  const double     *of   = r->hold + (r->hold ? first : 0);
+  const SamWaveHold hold = {of, of + all, of + 2 * all, of + 3 * all};
+
   PetscFunctionBegin;
   if (task == LOAD)
     PetscCall(SamWavesLoad(&r->body, n, kx, ky, (const double complex *const *)surface, column));
   else
-    PetscCall(SamWavesApply(&r->body, n, kx, ky, column, task == RESPOND, task == DISPLACE ? surface : NULL));
+    PetscCall(SamWavesApply(&r->body, n, kx, ky, column, task == RESPOND, task == DISPLACE ? surface : NULL,
+                            r->hold ? &hold : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -261,8 +305,8 @@ static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double 
     at[k] = &kept[k];
     if (m >= 0) kept[k] = k < planes ? column[k][m] : surface[k - planes][m];
   }
-  PetscCall(WorkOnWaves(r, task, r->waves, WaveOf(r, b), r->ky, column, surface));
-  if (m >= 0) PetscCall(WorkOnWaves(r, task, 1, WaveOf(r, b), &back, at, at + planes));
+  PetscCall(WorkOnWaves(r, task, r->waves, b * (ptrdiff_t)r->waves, WaveOf(r, b), r->ky, column, surface));
+  if (m >= 0) PetscCall(WorkOnWaves(r, task, 1, b * (ptrdiff_t)r->waves + m, WaveOf(r, b), &back, at, at + planes));
   for (PetscInt k = 0; m >= 0 && k < planes + 3; k++) {
     double complex *to = k < planes ? &column[k][m] : &surface[k - planes][m];
 

@@ -6,8 +6,8 @@
   m being the direction of the wave vector and t that across it. So two sweeps through the layers, one down (s = 1) and
   one up (s = -1), carry the integrals x0 = int k exp X dc, x1 = int k r exp X dc, y0 and t0 to each layer, at a cost
   that is linear in the number of layers. The integrals of the upward sweep at the surface determine the reflection from
-  the free surface, and its displacement. The mean is taken over the source and over the target layer, which makes the
-  operator symmetric.
+  the free surface, and its displacement. What is bonded to the surface answers this displacement by tractions, whose
+  stress is added. The mean is taken over the source and over the target layer, which makes the operator symmetric.
 
   Source: the waves are combinations of those of Papkovich and Neuber; for the eigenstrains T. Mura, Micromechanics of
   Defects in Solids (1987), sections 15 and 20.
@@ -287,41 +287,87 @@ static inline Wave WaveAt(const double parts[], PetscInt m)
   return ((const Wave *)parts)[m];
 }
 
-/* Computes the displacement of the surface from the upward sweep; for the mean, from the strains. */
-static void GetDisplacement(const Column *w, Wave *const u[3])
+/* Displacement of the surface in a wave, or traction on it, along the wave, across it and down */
+typedef struct {
+  Wave along, across, down;
+} Vector;
+
+/* Computes the displacement of the free surface from the upward sweep; for the mean, from the strains. */
+static Vector DisplacementOf(const Column *w, PetscInt m)
 {
   const PetscInt n       = w->n;
-  const double   lateral = w->body->poisson / (1 - w->body->poisson);
+  const double   lateral = w->body->poisson / (1 - w->body->poisson), k = w->v[K][2 * m];
+  const Wave     rest = WaveAt(w->state[Y0], m) - WaveAt(w->state[X1], m);
+  Vector         u    = {0, 0, 0};
 
-  for (PetscInt m = 0; m < n / 2; m++) {
-    const double k = w->v[K][2 * m], c = w->v[COS][2 * m], s = w->v[SIN][2 * m];
-    const Wave   rest  = WaveAt(w->state[Y0], m) - WaveAt(w->state[X1], m);
-    Wave         along = Turned(-1 / k, rest), across = Turned(-2 / k, WaveAt(w->state[T0], m)),
-         down = (WaveAt(w->state[X0], m) - rest) / k;
+  if (k > 0)
+    u = (Vector){Turned(-1 / k, rest), Turned(-2 / k, WaveAt(w->state[T0], m)), (WaveAt(w->state[X0], m) - rest) / k};
+  for (PetscInt l = 0; k == 0 && l < w->body->layers; l++) {
+    const double *e = w->e + l * PARTS * n;
+    const double  h = w->body->thickness[l];
 
-    if (k == 0) along = across = down = 0;
-    for (PetscInt l = 0; k == 0 && l < w->body->layers; l++) {
-      const double *e = w->e + l * PARTS * n;
-      const double  h = w->body->thickness[l];
+    u.down -= h * (WaveAt(e + ZZ * n, m) + lateral * (WaveAt(e + MM * n, m) + WaveAt(e + TT * n, m)));
+    u.along += Turned(2 * h, WaveAt(e + MZ * n, m));
+    u.across += Turned(2 * h, WaveAt(e + TZ * n, m));
+  }
+  return u;
+}
 
-      down -= h * (WaveAt(e + ZZ * n, m) + lateral * (WaveAt(e + MM * n, m) + WaveAt(e + TT * n, m)));
-      along += Turned(2 * h, WaveAt(e + MZ * n, m));
-      across += Turned(2 * h, WaveAt(e + TZ * n, m));
-    }
-    u[0][m] = c * along - s * across;
-    u[1][m] = s * along + c * across;
-    u[2][m] = down;
+static void GetDisplacement(const Column *w, Wave *const to[3])
+{
+  for (PetscInt m = 0; m < w->n / 2; m++) {
+    const double c = w->v[COS][2 * m], s = w->v[SIN][2 * m];
+    const Vector u = DisplacementOf(w, m);
+
+    to[0][m] = c * u.along - s * u.across;
+    to[1][m] = s * u.along + c * u.across;
+    to[2][m] = u.down;
+  }
+}
+
+/*
+  Adds the stress in a layer by a traction on the surface. A mean pressure causes no lateral strain.
+*/
+static void AddTraction(const Column *w, PetscInt m, Vector q, double to[])
+{
+  const PetscInt  n  = w->n / 2;
+  const double    nu = w->body->poisson, e0 = w->v[E0][2 * m], e1 = w->v[E1][2 * m];
+  const PetscBool mean = w->v[K][2 * m] == 0;
+  const Wave      p    = q.down;
+  Wave *const     s    = (Wave *)to + m;
+
+  s[ZZ * n] += Turned(e1, q.along) - (e0 + e1) * p;
+  s[MM * n] += mean ? -nu / (1 - nu) * p : Turned(2 * e0 - e1, q.along) - (e0 - e1) * p;
+  s[TT * n] += mean ? -nu / (1 - nu) * p : Turned(2 * nu * e0, q.along) - 2 * nu * e0 * p;
+  s[MZ * n] += e1 * p + Turned(e0 - e1, q.along);
+  s[MT * n] += mean ? 0 : Turned(e0, q.across);
+  s[TZ * n] += Turned(e0, q.across);
+}
+
+/* Computes the tractions by what is bonded to the surface. */
+static void GetHold(const Column *w, const SamWaveHold *hold, Vector q[])
+{
+  for (PetscInt m = 0; m < w->n / 2; m++) {
+    const Vector u = DisplacementOf(w, m);
+
+    q[m].down   = Turned(hold->pq[m], u.along) - hold->pp[m] * u.down;
+    q[m].along  = -hold->qq[m] * u.along - Turned(hold->pq[m], u.down);
+    q[m].across = -hold->tt[m] * u.across;
   }
 }
 
 /* ---- a column ---- */
 
-static void ApplyColumn(Column *w, Wave *const planes[], PetscBool stress, Wave *const u[3])
+static PetscErrorCode ApplyColumn(Column *w, Wave *const planes[], PetscBool stress, Wave *const u[3],
+                                  const SamWaveHold *hold)
 {
   const PetscInt layers = w->body->layers, step = PARTS * w->n;
   const double   mu = w->body->shear, nu = w->body->poisson;
   double         top = 0;
+  Vector        *q;
 
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(w->n / 2, &q));
   SetLayers(w);
   for (PetscInt l = 0; l < layers; l++) {
     TakeStrain(w, planes + l * PARTS, w->e + l * step);
@@ -334,50 +380,30 @@ static void ApplyColumn(Column *w, Wave *const planes[], PetscBool stress, Wave 
   for (PetscInt l = layers - 1; l >= 0; l--)
     Pass(w->n, -1, mu, nu, w->layer[l], w->e + l * step, w->state, w->s + l * step);
   if (u) GetDisplacement(w, u);
+  if (hold) GetHold(w, hold, q);
   for (PetscInt l = 0; stress && l < layers; l++) {
     SetDecay(w, l, top);
+    for (PetscInt m = 0; hold && m < w->n / 2; m++) AddTraction(w, m, q[m], w->s + l * step);
     AddFreeSurface(w->n, mu, nu, w->v[E0], w->v[E1], w->state, w->s + l * step);
     PutStress(w, w->s + l * step, planes + l * PARTS);
     top += w->body->thickness[l];
   }
+  PetscCall(PetscFree(q));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamWavesApply(const SamWaveBody *body, PetscInt n, double kx, const double ky[],
-                             double complex *const planes[], PetscBool stress, double complex *const u[3])
+                             double complex *const planes[], PetscBool stress, double complex *const u[3],
+                             const SamWaveHold *hold)
 {
   Column w;
 
   PetscFunctionBegin;
   PetscCall(CreateColumn(body, n, &w));
   SetWaves(&w, kx, ky);
-  ApplyColumn(&w, planes, stress, u);
+  PetscCall(ApplyColumn(&w, planes, stress, u, hold));
   PetscCall(DestroyColumn(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Computes the stress in a layer by tractions p, and q along and across the wave. A mean pressure causes no lateral
-  strain.
-*/
-static void SetTractions(const Column *w, const Wave *const traction[3], double to[])
-{
-  const PetscInt n  = w->n / 2;
-  const double   nu = w->body->poisson;
-  Wave *const    s  = (Wave *)to;
-
-  for (PetscInt m = 0; m < n; m++) {
-    const double e0 = w->v[E0][2 * m], e1 = w->v[E1][2 * m], c = w->v[COS][2 * m], r = w->v[SIN][2 * m];
-    const Wave   p = traction[0][m], along = c * traction[1][m] + r * traction[2][m],
-               across    = c * traction[2][m] - r * traction[1][m];
-    const PetscBool mean = w->v[K][2 * m] == 0;
-
-    s[ZZ * n + m] = Turned(e1, along) - (e0 + e1) * p;
-    s[MM * n + m] = mean ? -nu / (1 - nu) * p : Turned(2 * e0 - e1, along) - (e0 - e1) * p;
-    s[TT * n + m] = mean ? -nu / (1 - nu) * p : Turned(2 * nu * e0, along) - 2 * nu * e0 * p;
-    s[MZ * n + m] = e1 * p + Turned(e0 - e1, along);
-    s[MT * n + m] = mean ? 0 : Turned(e0, across);
-    s[TZ * n + m] = Turned(e0, across);
-  }
 }
 
 PetscErrorCode SamWavesLoad(const SamWaveBody *body, PetscInt n, double kx, const double ky[],
@@ -392,7 +418,13 @@ PetscErrorCode SamWavesLoad(const SamWaveBody *body, PetscInt n, double kx, cons
   SetLayers(&w);
   for (PetscInt l = 0; l < body->layers; l++) {
     SetDecay(&w, l, top);
-    SetTractions(&w, traction, w.s);
+    PetscCall(PetscArrayzero(w.s, PARTS * w.n));
+    for (PetscInt m = 0; m < n; m++) {
+      const double c = w.v[COS][2 * m], s = w.v[SIN][2 * m];
+      const Wave   x = traction[1][m], y = traction[2][m];
+
+      AddTraction(&w, m, (Vector){c * x + s * y, c * y - s * x, traction[0][m]}, w.s);
+    }
     PutStress(&w, w.s, planes + l * PARTS);
     top += body->thickness[l];
   }

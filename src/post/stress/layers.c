@@ -2,9 +2,11 @@
   Stresses in layers: those that laws add to the stresses by tractions, for instance by plastic strain. They are means
   over the layers, and are interpolated linearly between the middles of layers, as smooth strain has an error of second
   order in the thickness anyway. At the surface zz, xz and yz are zero; the others are extrapolated from the first two
-  layers.
+  layers. If the body has layers of other materials on its substrate, these stresses are those of the substrate only,
+  and all of them are extrapolated to its top.
 */
 #include "evaluationimpl.h"
+#include <petsam/private/body.h>
 #include <petsam/private/grid.h>
 #include <math.h>
 
@@ -29,10 +31,18 @@ static double MiddleOf(SamEvaluation e, PetscInt g, PetscInt layer)
   return fabs((double)e->source.group[g]->z[PlaceOf(e, g, layer)]);
 }
 
+/* Returns the depth at which the substrate, and with it the layers of all groups, begin. */
+static double TopOf(SamEvaluation e)
+{
+  const SamBody body = SamEvaluationBody(e);
+
+  return (double)SamBodyTop(body, SamBodyCount(body) - 1);
+}
+
 /* Returns the depth of the bottom of the last layer. */
 static double BottomOf(SamEvaluation e, PetscInt g)
 {
-  double bottom = 0;
+  double bottom = TopOf(e);
 
   for (PetscInt l = 0; l < CountLayers(e, g); l++) bottom += 2 * (MiddleOf(e, g, l) - bottom);
   return bottom;
@@ -59,6 +69,12 @@ PetscErrorCode SamLayersSetUp(SamEvaluation e)
                e->body);
     PetscCheck(!e->source.slides || e->body == 1, e->comm, SAM_ERR_USER,
                "-body 2: its points slide through the layers of %s: not supported", group->group);
+    PetscCheck(!e->depths || ((double)e->depth[0] >= TopOf(e) * (1 - 1e-9) && (TopOf(e) == 0 || e->side[0] >= 0)),
+               e->comm, SAM_ERR_USER,
+               "-depths: %.6g m is above the substrate of body %" PetscInt_FMT
+               ", which begins at %.6g m: the stress of "
+               "%s is not known there: give depths from %.6g+ on",
+               e->depths ? (double)e->depth[0] : 0.0, e->body, TopOf(e), group->group, TopOf(e));
     PetscCheck(depth <= BottomOf(e, g) * (1 + 1e-9), e->comm, SAM_ERR_USER,
                "-depths: %.6g m is below the layers of %s, which end at %.6g m, where their stresses are not known: "
                "give depths down to it, or petsam deeper layers (petsam -help %s)",
@@ -88,7 +104,8 @@ static double Weight(SamEvaluation e, PetscInt g, PetscReal depth, PetscInt l, P
   PetscInt       below = 1; /* the second of the two layers with a weight */
   double         part;
 
-  if ((double)depth < MiddleOf(e, g, 0) && (c == SAM_STRESS_ZZ || c == SAM_STRESS_XZ || c == SAM_STRESS_YZ))
+  if (TopOf(e) == 0 && (double)depth < MiddleOf(e, g, 0) &&
+      (c == SAM_STRESS_ZZ || c == SAM_STRESS_XZ || c == SAM_STRESS_YZ))
     return l ? 0 : (double)depth / MiddleOf(e, g, 0);
   while (below < last && (double)depth > MiddleOf(e, g, below)) below++;
   part = ((double)depth - MiddleOf(e, g, below - 1)) / (MiddleOf(e, g, below) - MiddleOf(e, g, below - 1));

@@ -89,21 +89,25 @@ static Matrix Decay(double x)
   return (Matrix){{{exp(-x), x * exp(-x)}, {0, exp(-x)}}};
 }
 
+/* `below` NULL: a free surface. */
 static Reflection ReflectionOf(const Surface *below, const Material *m, double kh)
 {
-  Reflection r = {.F   = Decay(kh),
-                  .R   = Times(Inverse(Plus(Times(below->compliance, m->mirror_A), -1, m->mirror_D)),
-                               Plus(m->D, -1, Times(below->compliance, m->A))),
-                  .rho = (below->across - 1 / m->mu) / (below->across + 1 / m->mu)};
+  Reflection r = {.F = Decay(kh), .rho = 1};
 
+  if (below) {
+    r.R   = Times(Inverse(Plus(Times(below->compliance, m->mirror_A), -1, m->mirror_D)),
+                  Plus(m->D, -1, Times(below->compliance, m->A)));
+    r.rho = (below->across - 1 / m->mu) / (below->across + 1 / m->mu);
+  } else
+    r.R = Plus((Matrix){{{0}}}, -1, Times(Inverse(m->mirror_A), m->A));
   r.P = Times(r.F, Times(r.R, r.F));
   r.g = r.rho * exp(-2 * kh);
   return r;
 }
 
-static void AddLayer(Surface *s, const Material *m, double kh)
+static void AddLayer(Surface *s, const Surface *below, const Material *m, double kh)
 {
-  const Reflection r = ReflectionOf(s, m, kh);
+  const Reflection r = ReflectionOf(below, m, kh);
 
   s->difference        = Times(Times(Plus(m->mirror_D, -1, Times(m->half_space, m->mirror_A)), r.P),
                                Inverse(Plus(m->A, 1, Times(m->mirror_A, r.P))));
@@ -134,9 +138,18 @@ static Surface SurfaceOf(SamBody body, double k, Surface below[])
     const Material m = MaterialOf(&body->material[n - 1]);
 
     if (below) below[n] = s;
-    AddLayer(&s, &m, k * body->material[n - 1].thickness);
+    AddLayer(&s, &s, &m, k * body->material[n - 1].thickness);
   }
   return s;
+}
+
+/* Adds the symbols of a compliance in the plane of the wave and across it. */
+static void AddSymbols(const Matrix *m, double across, double sign, double to[SAM_LAYERED_SYMBOLS])
+{
+  to[SAM_LAYERED_ZZ] -= m->m[1][1];
+  to[SAM_LAYERED_ZR] -= sign * m->m[1][0];
+  to[SAM_LAYERED_RR] -= m->m[0][0];
+  to[SAM_LAYERED_TT] += across;
 }
 
 void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERED_SYMBOLS],
@@ -144,15 +157,23 @@ void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERE
 {
   const Surface s = SurfaceOf(body, k, NULL);
 
-  for (int part = 0; part < 2; part++) {
-    const Matrix *m  = part ? &s.difference : &s.compliance;
-    double       *to = part ? difference : total;
+  AddSymbols(&s.compliance, s.across, sign, total);
+  AddSymbols(&s.difference, s.difference_across, sign, difference);
+}
 
-    to[SAM_LAYERED_ZZ] -= m->m[1][1];
-    to[SAM_LAYERED_ZR] -= sign * m->m[1][0];
-    to[SAM_LAYERED_RR] -= m->m[0][0];
-    to[SAM_LAYERED_TT] += part ? s.difference_across : s.across;
+void SamBodyInterfaceSymbols(SamBody body, double k, double total[SAM_LAYERED_SYMBOLS])
+{
+  const Material base = MaterialOf(SamBodySubstrate(body));
+  Surface        film = {.across = 0};
+
+  for (PetscInt n = 0; n < body->count - 1; n++) { /* from the free surface to the substrate */
+    const Material m = MaterialOf(&body->material[n]);
+
+    AddLayer(&film, n ? &film : NULL, &m, k * body->material[n].thickness);
   }
+  for (int c = 0; c < SAM_LAYERED_SYMBOLS; c++) total[c] = 0;
+  AddSymbols(&film.compliance, film.across, -1, total);
+  AddSymbols(&base.half_space, 1 / base.mu, 1, total);
 }
 
 void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS], double difference[SAM_LAYERED_SYMBOLS])
