@@ -235,7 +235,7 @@ def hardening(rng, young, limit):
 
 
 def yields(rng, seed, folder):
-    """A cylinder, mostly, or a ball on a body that yields; pressed, unloaded, loaded again, and fretted."""
+    """A cylinder, mostly, or a ball on a body that yields, often coated; pressed, unloaded, loaded again, and fretted."""
     plane = rng.random() < 0.8
     case = bodies(rng, alike=rng.random() < 0.6)
     if rng.random() < 0.15:
@@ -262,6 +262,11 @@ def yields(rng, seed, folder):
     )
     header = "time,load_n,load_tx" if any(t) else "time,load_n"
     steps = int(rng.choice([1, 2, 4] if plane else [1, 2]))
+    if not plane and rng.random() < 0.5:  # coated
+        young = float(case["body2_young"] * 10 ** rng.uniform(-0.5, 0.5))
+        case.update(
+            body2_layer_young=young, body2_layer_poisson=0.25, body2_layer_thickness=half * rng.uniform(0.02, 0.3)
+        )
     return Problem(
         f"{'cylinder' if plane else 'ball'} {shape}", case, header, rows, (cells,) if plane else (cells, cells), steps,
         most=4 if plane else YIELD_FINER,
