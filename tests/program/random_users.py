@@ -235,7 +235,7 @@ def hardening(rng, young, limit):
 
 
 def yields(rng, seed, folder):
-    """A cylinder, mostly, or a ball on a body that yields, often coated; pressed, unloaded, loaded again, and fretted."""
+    """A cylinder, mostly, or a ball on a body that yields, often coated; pressed, unloaded, loaded again, fretted."""
     plane = rng.random() < 0.8
     case = bodies(rng, alike=rng.random() < 0.6)
     if rng.random() < 0.15:
