@@ -130,6 +130,7 @@ bench: all bench-programs venv peers ## run the benchmark, or go on with an unfi
 	$(B)/venv/bin/python tests/bench/edges.py --build $(B)
 	$(PYTHON) tests/bench/rolling.py --build $(B)
 	[ ! -e $(B)/peers/done ] || $(PYTHON) tests/bench/paired.py --build $(B)
+	[ ! -e $(B)/peers/done ] || $(PYTHON) tests/bench/plastic.py --build $(B)
 	$(if $(CONTACT),$(B)/venv/bin/python tests/bench/contact.py --build $(B) --contact '$(CONTACT)')
 
 reference: all $(B)/venv/tests-done ## petsam's answers to the problems of examples/reference, and their digits: ARGS="CASE ..." for some; PEERS="tamaas aspher contact calculix" for those of other programs
