@@ -85,7 +85,7 @@ def test_unloading_is_elastic_and_leaves_a_dent(solve, tmp_path):
     run = solve(sphere(16, 10, **steps(tmp_path / "loads.csv", load_n=loads)))
     results = all_steps(run)
     assert list(results["plastic_newton"][1:]) == [0, 0, 0]
-    assert results["plastic_max"][0] == results["plastic_max"][3]
+    assert results["plastic_max"][0] == pytest.approx(results["plastic_max"][3], rel=1e-6)  # -yield_rtol
     assert numbers(results, 3) == pytest.approx(numbers(results, 0), rel=1e-7)
     assert 0.5 < results["disp_z"][2] / APPROACH < 0.7  # an elastic sphere: 0.046
     assert np.all(results["yield_error"][:] < 1e-5)
@@ -689,8 +689,8 @@ def test_shear_that_no_body_without_hardening_bears_is_named(petsam, tmp_path):
     """On the surface the stress is at least the shear, and von Mises' stress sqrt(3) times that."""
     case = dict(
         elasticity="plane_periodic", body1_young=600e9, body1_poisson=0.34, body2_young=210e9, body2_poisson=0.3,
-        gap_type="ellipsoid", gap_radius_x=2.2e-3, gap_radius_y="inf", grid_n=64, grid_size=4.5e-4, friction=0.68,
-        body2_yield=363e6, yield_layers=16, **steps(tmp_path / "h.csv", load_n=(65375, 65375), load_tx=(0, 37800)),
+        gap_type="ellipsoid", gap_radius_x=2.2e-3, gap_radius_y="inf", grid_n=192, grid_size=4.5e-4, friction=0.68,
+        body2_yield=363e6, **steps(tmp_path / "h.csv", load_n=(65375, 65375), load_tx=(0, 37800)),
     )  # fmt: skip
     done = petsam(case, check=10)
     said = re.search(r"the shear is ([\d.]+) times what the body bears without hardening", done.stderr)

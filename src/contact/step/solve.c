@@ -161,12 +161,14 @@ static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *cont
   PetscBool again;
 
   PetscFunctionBegin;
-  w->holds = PETSC_TRUE;
+  contact->stands = !SamSolveSetsAside(w); /* the field has changed since the last solution */
+  w->holds        = PETSC_TRUE;
   do {
     again           = PETSC_FALSE;
     contact->solved = w->step->status == SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
     PetscCall(law->ops.follow(law, contact, &again));
     if (again) PetscCall(SolveAgain(w));
+    contact->stands = PETSC_TRUE;
   } while (again);
   w->holds = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);

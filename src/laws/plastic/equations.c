@@ -1,5 +1,5 @@
 /*
-  The equations (1 - Q Bc Q) y = Q r of newton.c, on a box of cells, by conjugate gradients.
+  The equations (1 - Q Bc Q) y = Q r of newton.c, on a box of cells, by conjugate gradients, or if cells slip by GMRES.
 
   Q, the root of the tangent, is 0 where nothing yields. So the unknowns are those of the yielding cells alone, and the
   operators are needed on a box that contains these and the contact. The images of the box are left in its waves, which
@@ -13,9 +13,8 @@
 
 #define PRODUCTS 200   /* maximum number in one step */
 #define ROUNDING 1e-12 /* of a product relative to the square of its vector */
-/* A box has this margin of cells and layers, and is replaced if it is this much larger than necessary. */
-#define MARGIN 2
-#define SLACK  1.7
+#define BASIS    20    /* number of directions between restarts of GMRES */
+#define LINES    4     /* a box ends at multiples of so many columns, rows and layers */
 
 /* The cells that yield, in the order of rows, layers, columns; x is a list of PARTS values per cell. */
 typedef struct {
@@ -80,14 +79,13 @@ static PetscErrorCode FindBox(const SamPlastic *p, const SamLawContact *contact,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Widens a range of n lines by a margin, to an even number of at least two of all. */
+/* Widens a range of n lines to multiples of LINES, of all at least two. */
 static void Widen(PetscInt all, PetscInt *first, PetscInt *n)
 {
-  PetscInt last = PetscMin(*first + *n + MARGIN, all);
+  const PetscInt end = (*first + *n + LINES - 1) / LINES * LINES;
 
-  *first = PetscMax(*first - MARGIN, 0);
-  *n     = PetscMax(last - *first, PetscMin(2, all));
-  if (*n % 2 && *n < all) *n += 1;
+  *first = *first / LINES * LINES;
+  *n     = PetscMax(PetscMin(end, all) - *first, PetscMin(2, all));
   *first = PetscMin(*first, all - *n);
 }
 
@@ -114,26 +112,26 @@ static PetscErrorCode Create(const SamPlastic *p, const PetscInt first[2], const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets the box for these tangents, unless the present one suits them. Periodic bodies need the whole grid. */
+/* Sets the box for these tangents, which depends on nothing else, so that a restart has the same. Periodic bodies need
+   the whole grid. */
 static PetscErrorCode SetBox(SamPlastic *p, const SamLawContact *contact, const SamTangent *t)
 {
-  const PetscInt all[2] = {p->grid->nx, p->grid->ny};
-  const PetscInt layers = PetscMin(t->active + MARGIN, p->layers);
-  PetscInt       first[2], n[2];
-  SamEquations   q = p->equations;
+  const PetscInt     all[2] = {p->grid->nx, p->grid->ny};
+  const SamEquations q      = p->equations;
+  PetscInt           first[2], n[2], layers, at[2] = {0}, size[2] = {0};
 
   PetscFunctionBegin;
   PetscCall(FindBox(p, contact, t, first, n));
-  for (PetscInt k = 0; k < 2; k++) {
-    if (!SamElasticityGetTraits(p->elasticity).parts) {
+  for (PetscInt k = 0; k < 2; k++)
+    if (SamElasticityGetTraits(p->elasticity).parts)
+      Widen(all[k], &first[k], &n[k]);
+    else {
       first[k] = 0;
       n[k]     = all[k];
-    } else if (!q || !SamWindowCovers(q->window, first, n))
-      Widen(all[k], &first[k], &n[k]);
-  }
-  if (q && SamWindowCovers(q->window, first, n) && q->layers >= t->active &&
-      SLACK * (double)n[0] * (double)n[1] * (double)layers >=
-        (double)q->grid->nx * (double)q->grid->ny * (double)q->layers)
+    }
+  layers = PetscMin((PetscMax(t->active, 1) + LINES - 1) / LINES * LINES, p->layers);
+  if (q) PetscCall(SamWindowGetPlace(q->window, at, size));
+  if (q && first[0] == at[0] && first[1] == at[1] && n[0] == size[0] && n[1] == size[1] && q->layers == layers)
     PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamEquationsDestroy(&p->equations));
   PetscCall(Create(p, first, n, layers, &p->equations));
@@ -377,9 +375,21 @@ static PetscErrorCode MultiplyAll(SamPlastic *p, const Cells *y, SamReaction rea
 
 /* ---- the solution ---- */
 
+/* Computes the list v = (1 - Q Bc Q) z. */
+static PetscErrorCode Apply(SamPlastic *p, const Cells *cells, SamReaction reaction, const double z[], double v[])
+{
+  PetscFunctionBegin;
+  ApplyRoot(cells, z, v);
+  PetscCall(Multiply(p, cells, reaction, v, v));
+  p->products++;
+  ApplyRoot(cells, v, v);
+  for (PetscInt i = 0; i < PARTS * cells->count; i++) v[i] = z[i] - v[i];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solves for the list y with the right side `rest`, which is overwritten, by conjugate gradients. */
-static PetscErrorCode Iterate(SamPlastic *p, const Cells *cells, SamReaction reaction, double part, double rest[],
-                              double y[])
+static PetscErrorCode SolveSymmetric(SamPlastic *p, const Cells *cells, SamReaction reaction, double part,
+                                     double rest[], double y[])
 {
   const PetscInt n = PARTS * cells->count;
   double        *z, *v, first, size, before, step, square;
@@ -391,17 +401,12 @@ static PetscErrorCode Iterate(SamPlastic *p, const Cells *cells, SamReaction rea
   PetscCall(Dot(p, cells, rest, rest, &first));
   size = first;
   for (PetscInt k = 0; k < PRODUCTS && size > part * part * first; k++) {
-    ApplyRoot(cells, z, v);
-    PetscCall(Multiply(p, cells, reaction, v, v));
-    p->products++;
-    ApplyRoot(cells, v, v);
-    for (PetscInt i = 0; i < n; i++) v[i] = z[i] - v[i];
+    PetscCall(Apply(p, cells, reaction, z, v));
     PetscCall(Dot(p, cells, z, v, &step));
     PetscCall(Dot(p, cells, z, z, &square));
-    PetscCheck(step > -ROUNDING * square || SamReactionSlips(reaction), p->grid->comm, PETSC_ERR_PLIB,
+    PetscCheck(step > -ROUNDING * square, p->grid->comm, PETSC_ERR_PLIB,
                "The operators of plastic strain are not symmetric");
-    if (!(step > ROUNDING * square))
-      break; /* slip is not symmetric, or plastic flow has no stiffness: the step so far is used */
+    if (!(step > ROUNDING * square)) break; /* plastic flow has no stiffness: the step so far is used */
     step = size / step;
     for (PetscInt i = 0; i < n; i++) {
       y[i] += step * z[i];
@@ -412,6 +417,93 @@ static PetscErrorCode Iterate(SamPlastic *p, const Cells *cells, SamReaction rea
     for (PetscInt i = 0; i < n; i++) z[i] = rest[i] + size / before * z[i];
   }
   PetscCall(PetscFree2(z, v));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The triangular system of GMRES: H by columns, its rotations, and the rotated right side. */
+typedef struct {
+  double h[BASIS][BASIS + 1], turned[BASIS][BASIS + 1], cosine[BASIS], sine[BASIS], g[BASIS + 1];
+} Hessenberg;
+
+/* Rotates column k of H; g[k + 1] becomes the norm of the residual. */
+static void Rotate(Hessenberg *s, PetscInt k)
+{
+  double *const column = s->turned[k], size;
+
+  for (PetscInt i = 0; i <= k + 1; i++) column[i] = s->h[k][i];
+  for (PetscInt i = 0; i < k; i++) {
+    const double upper = column[i];
+
+    column[i]     = s->cosine[i] * upper + s->sine[i] * column[i + 1];
+    column[i + 1] = s->cosine[i] * column[i + 1] - s->sine[i] * upper;
+  }
+  size         = hypot(column[k], column[k + 1]);
+  s->cosine[k] = size > 0 ? column[k] / size : 1;
+  s->sine[k]   = size > 0 ? column[k + 1] / size : 0;
+  column[k]    = size;
+  s->g[k + 1]  = -s->sine[k] * s->g[k];
+  s->g[k] *= s->cosine[k];
+}
+
+/* Adds the solution in the space of k directions to y, and subtracts its product from the residual `rest`. */
+static void AddSolution(Hessenberg *s, PetscInt k, PetscInt n, const double basis[], double rest[], double y[])
+{
+  double c[BASIS], product[BASIS + 1] = {0};
+
+  for (PetscInt i = k - 1; i >= 0; i--) {
+    c[i] = s->g[i];
+    for (PetscInt j = i + 1; j < k; j++) c[i] -= s->turned[j][i] * c[j];
+    c[i] = s->turned[i][i] > 0 ? c[i] / s->turned[i][i] : 0;
+  }
+  for (PetscInt j = 0; j < k; j++)
+    for (PetscInt i = 0; i <= j + 1; i++) product[i] += s->h[j][i] * c[j];
+  for (PetscInt j = 0; j <= k; j++)
+    for (PetscInt i = 0; i < n; i++) {
+      if (j < k) y[i] += c[j] * basis[j * (ptrdiff_t)n + i];
+      rest[i] -= product[j] * basis[j * (ptrdiff_t)n + i];
+    }
+}
+
+/*
+  The same for a matrix that is not symmetric, because cells slip, by the generalised minimal residual method with
+  restarts (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856).
+*/
+static PetscErrorCode SolveUnsymmetric(SamPlastic *p, const Cells *cells, SamReaction reaction, double part,
+                                       double rest[], double y[])
+{
+  const PetscInt n = PARTS * cells->count;
+  double        *basis, first, size;
+  Hessenberg     s;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1((BASIS + 1) * n, &basis));
+  PetscCall(PetscArrayzero(y, n));
+  PetscCall(Dot(p, cells, rest, rest, &first));
+  first = size = sqrt(first);
+  for (PetscInt products = 0; products < PRODUCTS && size > part * first;) {
+    PetscInt k = 0;
+
+    s.g[0] = size;
+    for (PetscInt i = 0; i < n; i++) basis[i] = rest[i] / size;
+    do {
+      double *const z = basis + k * (ptrdiff_t)n, *const v = z + n;
+
+      PetscCall(Apply(p, cells, reaction, z, v));
+      products++;
+      for (PetscInt j = 0; j <= k; j++) {
+        PetscCall(Dot(p, cells, basis + j * (ptrdiff_t)n, v, &s.h[k][j]));
+        for (PetscInt i = 0; i < n; i++) v[i] -= s.h[k][j] * basis[j * (ptrdiff_t)n + i];
+      }
+      PetscCall(Dot(p, cells, v, v, &s.h[k][k + 1]));
+      s.h[k][k + 1] = sqrt(s.h[k][k + 1]);
+      for (PetscInt i = 0; i < n; i++) v[i] = s.h[k][k + 1] > 0 ? v[i] / s.h[k][k + 1] : 0;
+      Rotate(&s, k++);
+    } while (k < BASIS && products < PRODUCTS && fabs(s.g[k]) > part * first);
+    AddSolution(&s, k, n, basis, rest, y);
+    PetscCall(Dot(p, cells, rest, rest, &size));
+    size = sqrt(size);
+  }
+  PetscCall(PetscFree(basis));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -441,7 +533,7 @@ PetscErrorCode SamEquationsSolve(SamPlastic *p, const SamLawContact *contact, Sa
   PetscCall(PetscMalloc2(PARTS * cells.count, &rest, PARTS * cells.count, &y));
   PetscCall(TakeList(p, &cells, r, rest));
   ApplyRoot(&cells, rest, rest);
-  PetscCall(Iterate(p, &cells, reaction, part, rest, y));
+  PetscCall((SamReactionSlips(reaction) ? SolveUnsymmetric : SolveSymmetric)(p, &cells, reaction, part, rest, y));
   ApplyRoot(&cells, y, y);
   PetscCall(MultiplyAll(p, &cells, reaction, y, step));
   for (PetscInt i = 0; i < PARTS * p->bodies * p->layers * p->grid->cells; i++) step[i] += r[i];

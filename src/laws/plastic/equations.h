@@ -17,7 +17,7 @@ typedef struct {
 
 /*
   SamEquations - the equations and their operators, on a box of cells that contains all cells with a tangent and the
-  contact; the box is kept from step to step, and replaced when it is too small or much too large.
+  contact; they are kept while the box stays the same.
 
   SamEquationsSolve - computes a step of Newton's method, whose equations are solved to a `part` of their right side.
   The residual r and the step are fields of all layers; outside of the box the step is r. Collective. Errors:

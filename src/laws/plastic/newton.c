@@ -9,8 +9,8 @@
   step solves (1 - Bc P) delta = r in the symmetric form
       (1 - Q Bc Q) y = Q r,  delta = r + Bc Q y,  Q = root of P,
   by conjugate gradients in the product sum 2 mu h a:b (equations.c). The matrix is positive definite: 0 <= P < 1, R is
-  negative semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite; only slipping cells make S unsymmetric,
-  which conjugate gradients tolerate. A step is halved until the residual falls.
+  negative semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite; only slipping cells make S unsymmetric. A
+  step is halved until the residual falls.
 
   Source: J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3, for the tangent; A. Frerot, M.
   Bonnet, J.-F. Molinari and G. Anciaux, Comput. Methods Appl. Mech. Engrg. 351 (2019) 951, for the integral equation.
@@ -23,7 +23,7 @@
 #define ROUGH    0.1  /* a step's equations are solved at least to this part, */
 #define FORCING  0.3  /* and to this part of the residual relative to its first value, */
 #define ENOUGH   0.1  /* but not below this part of the largest residual's tolerance, */
-#define SLIPPING 1e-3 /* nor below this part where cells slip: conjugate gradients reach no less there */
+#define SLIPPING 1e-3 /* nor below this part where cells slip: the reaction is solved to it */
 
 /* An iteration under way; its fields are of all layers. */
 typedef struct _n_SamPlasticWork {
@@ -381,6 +381,32 @@ static Vec StateOf(const SamLawContact *contact)
   return SamStateReadField(contact->state, SamStateFindField(contact->state, SAM_PLASTIC_FIELD));
 }
 
+/* Finds out if any cell yields with the driver. */
+static PetscErrorCode Yields(const Solve *w, PetscBool *any)
+{
+  const SamPlastic *p     = w->plastic;
+  const PetscInt    cells = p->grid->cells;
+  const double     *from;
+  double            yields = 0;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(p->last, &from));
+  for (PetscInt l = 0; l < p->bodies * p->layers && !(yields > 0); l++)
+    for (PetscInt k = 0; k < cells; k++) {
+      SamMisesAt      at;
+      SamMisesTangent t;
+      double          d[PARTS];
+
+      SamPlasticRead(p, from, l, k, &at);
+      Take(p, w->d, l, k, d);
+      if (SamMisesReturn(&BodyOf(p, l)->material, d, &at, &t)) yields = 1;
+    }
+  PetscCall(VecRestoreArrayRead(p->last, &from));
+  PetscCall(SamMax(p->grid->comm, 1, &yields));
+  *any = yields > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Sets the strain of the driver as the tried one, with which the contact is solved next. */
 static PetscErrorCode Propose(Solve *w)
 {
@@ -594,6 +620,7 @@ PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact, PetscBool 
     w = p->work;
     PetscCall(TakeStrain(p, StateOf(contact), w->e));
     PetscCall(GetDriver(w, StateOf(contact), w->d));
+    if (contact->stands && p->last && StateOf(contact) == p->last) PetscCall(Yields(w, again));
   } else if (contact->solved) {
     PetscCall(Measure(w));
     PetscCall(Continue(w, again));
