@@ -713,6 +713,18 @@ def test_plastic_strain_of_dissimilar_bodies_converges(solve, friction):
     assert run["yield_error"][0] <= 1e-6
 
 
+def test_the_place_where_slip_begins_need_not_be_found_for_a_start(solve):
+    """It jumps between cells at the edge of this contact; the tractions with the plastic strain follow for one that
+    stays."""
+    case = dict(
+        body1_young="inf", body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, gap_type="ellipsoid",
+        gap_radius_x=0.004071961950128045, gap_radius_y="inf", body2_yield=467206100.1912031,
+        body2_backstress="30230805623.682407,236.2833709858906", friction=0.3349112539903514, grid_n=824,
+        grid_size=0.00048451091546271774, elasticity="plane_periodic", load_n=73609.44531616679, steps=8,
+    )  # fmt: skip
+    assert all_steps(solve(case))["yield_error"].max() <= 1e-6
+
+
 def test_dent_of_dissimilar_bodies_does_not_depend_on_the_steps(petsam, tmp_path):
     """The shear of one step was three times too large, as cells that stick were pushed into slip, and the dent 16 %."""
     case = dict(

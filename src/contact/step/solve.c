@@ -155,14 +155,16 @@ static PetscErrorCode SolveAgain(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds a law's state and the tractions together, while the field `aside` stays. */
-static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *contact)
+/* Finds a law's state and the tractions together, while the field `aside` stays. `start`: solves for the tractions
+   first. */
+static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, PetscBool start, SamLawContact *contact)
 {
   PetscBool again;
 
   PetscFunctionBegin;
   contact->stands = !SamSolveSetsAside(w); /* the field has changed since the last solution */
   w->holds        = PETSC_TRUE;
+  if (start) PetscCall(SolveAgain(w));
   do {
     again           = PETSC_FALSE;
     contact->solved = w->step->status == SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
@@ -174,17 +176,26 @@ static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *cont
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same with the field `aside` that is predicted, and then with that of the solution. */
+/*
+  The same with the field `aside` that is predicted, and then with that of the solution. The tractions so far are a start
+  only: if they were not found together with the place where slip begins, they are found for a place that stays.
+*/
 static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
+  const PetscBool start = w->step->status == SAM_STATUS_NOT_CONVERGED && SamSolveFindsTouching(w);
+
   PetscFunctionBegin;
+  if (start) {
+    w->step->status     = SAM_STATUS_CONVERGED;
+    w->step->message[0] = w->step->setting[0] = '\0';
+  }
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_PREDICTED));
-  PetscCall(FollowHolding(w, law, contact));
+  PetscCall(FollowHolding(w, law, start, contact));
   if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
     PetscFunctionReturn(PETSC_SUCCESS);
   if (w->touching) PetscCall(SamSolveFindTouching(w, w->touching));
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
-  PetscCall(FollowHolding(w, law, contact));
+  PetscCall(FollowHolding(w, law, PETSC_FALSE, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -206,7 +217,7 @@ static PetscErrorCode FollowTractions(SamSolve *w)
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetLaws(w->task->problem, &count, &laws));
-  for (PetscInt k = 0; k < count && w->step->status == SAM_STATUS_CONVERGED; k++)
+  for (PetscInt k = 0; k < count && w->step->status != SAM_STATUS_NO_EQUILIBRIUM; k++)
     if (laws[k]->ops.follow) PetscCall(Follow(w, laws[k], &contact));
   if (contact.failed[0]) PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, contact.failed));
   PetscFunctionReturn(PETSC_SUCCESS);
