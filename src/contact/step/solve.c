@@ -177,8 +177,8 @@ static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, PetscBool start, Sa
 }
 
 /*
-  The same with the field `aside` that is predicted, and then with that of the solution. The tractions so far are a start
-  only: if they were not found together with the place where slip begins, they are found for a place that stays.
+  The same with the field `aside` that is predicted, and then with that of the solution. The tractions so far are only a
+  start: if they were not found together with the place where slip begins, they are found for a place that stays.
 */
 static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
