@@ -12,7 +12,8 @@
      wear are interpolated, too.
   3. The pressure of the outer three cells stays as it is; within them the normal problem is solved under the same load
      and without rotation.
-  4. While the peak changes, the patch about the new peak is solved on cells half as wide again.
+  4. While the peak changes, the patch about the new peak is solved on cells half as wide again; at least twice if the
+     peak is in the last cell of the contact, where the first change may be small by chance.
 
   Heights that are interpolated may miss a tip or an edge between two cells. So the first patch is interpolated in two
   ways, which differ at an edge, and the larger change counts. Neither reveals a tip in the contact, but the fourth
@@ -53,6 +54,7 @@ typedef struct {
   double    g[FINE * FINE];     /* m, times `scale` */
   double    scale;              /* ratio of the cell width of the first patch to that of this one */
   double    tip;                /* m: fourth differences of the heights on the first patch */
+  PetscBool last;               /* true: a cell beside the first peak is open */
 } Patch;
 
 /* Operators of the first patch, coarse and fine, and the solver. */
@@ -327,9 +329,11 @@ static PetscErrorCode FillPatch(const SamSetup *s, const Local *l, const PetscIn
     a->corner[k] = (k ? SamGridY(s->grid, at[k]) : SamGridX(s->grid, at[k])) - before * cell[k];
   }
   PetscCall(Gather(l, l->solution->pressure, at, a->p));
-  p      = a->p + PeakOf(a);
-  least  = a->axes == 1 ? p[0] : PetscMin(p[-WIDE], p[WIDE]);
-  *level = PetscMin(least, PetscMin(p[-1], p[1])) >= LEVEL * p[0] ? PETSC_TRUE : PETSC_FALSE;
+  p       = a->p + PeakOf(a);
+  least   = a->axes == 1 ? p[0] : PetscMin(p[-WIDE], p[WIDE]);
+  least   = PetscMin(least, PetscMin(p[-1], p[1]));
+  *level  = least >= LEVEL * p[0] ? PETSC_TRUE : PETSC_FALSE;
+  a->last = !SamIsPressed(least);
   if (*level) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(s->grid, 1, &gap));
   PetscCall(SamContactGetField(s->contact, "gap", gap));
@@ -345,19 +349,21 @@ static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *e
   const PetscInt n    = PetscMax(s->grid->nx, s->grid->ny);
   const double   most = a->p[PeakOf(a)], cell = s->grid->side[0];
   double         before = most, change = 1, other = 0, tip;
+  PetscInt       finer = 1; /* number of cells of a patch to one of the grid */
   PetscBool      solved;
   Patch         *b;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&b));
   *b = *a;
-  while (fabs(change) > SETTLED && extent->finer) {
+  while ((fabs(change) > SETTLED || (finer == 2 && a->last)) && extent->finer) {
     PetscCall(Refine(l, VARYING, a, &solved));
     if (!solved) break;
     change = TakePeak(a) / before - 1;
     before *= 1 + change;
-    if (extent->finer == 1) extent->change = change;
-    if (fabs(change) > SETTLED) extent->finer = extent->finer * n > SAM_LARGEST_ROW / 2 ? 0 : 2 * extent->finer;
+    if (finer == 1 || fabs(extent->change) <= SETTLED) extent->change = change;
+    finer *= 2;
+    if (fabs(change) > SETTLED) extent->finer = finer * n > SAM_LARGEST_ROW ? 0 : finer;
   }
   PetscCall(Refine(l, CENTRAL, b, &solved));
   if (solved) other = PetscMin(TakePeak(b) / most - 1, SHARP);

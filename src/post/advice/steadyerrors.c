@@ -20,7 +20,7 @@
 
 #define ALLOWED 0.02 /* error, relative to the number */
 #define GOOD    0.015
-#define SMALL   0.1 /* part of a moment over the radius of contact that counts as a force, and so on */
+#define SMALL   0.05 /* part of a moment over the radius of contact that counts as a force, and so on */
 #define LEAST   1.25
 #define CLEAR   0.65  /* cells: w of a slip zone whose maximum velocity is accurate */
 #define WIDE    0.8   /* w on a grid that is advised for the velocity */
