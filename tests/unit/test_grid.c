@@ -435,6 +435,12 @@ static void test_support_is_the_smallest_rectangle_of_positive_cells(void **stat
   sam_assert(first[0] == 4 && n[0] == 8 && first[1] == 3 && n[1] == 7);
   sam_call(SamGridGetSupport(grid, field, PETSC_TRUE, first, n)); /* from column 11 on over the border, and row 9 */
   sam_assert(first[0] == 11 && n[0] == 7 && first[1] == 9 && n[1] == 6);
+  sam_call(VecGetArray(field, &a)); /* what is left out lies across both borders */
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < 13; i++) a[j * 13 + i] = (i == 4 || i == 8) && (grid->row_start + j) % 2 ? 1 : 0;
+  sam_call(VecRestoreArray(field, &a));
+  sam_call(SamGridGetSupport(grid, field, PETSC_TRUE, first, n));
+  sam_assert(first[0] == 4 && n[0] == 5 && first[1] == 1 && n[1] == 9);
   sam_call(VecSet(field, 1));
   sam_call(SamGridGetSupport(grid, field, PETSC_TRUE, first, n));
   sam_assert(first[0] == 0 && n[0] == 13 && first[1] == 0 && n[1] == 11);
