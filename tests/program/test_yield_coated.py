@@ -130,5 +130,7 @@ def test_stresses_are_those_of_the_substrate(petsam, stress, tmp_path):
     assert "-depths" in said and "above the substrate of body 2" in said
     depths = f"{top}+,{top + 0.3 * RADIUS},{top + 0.6 * RADIUS}"
     stress(dict(input=out, output=tmp_path / "s.h5", depths=depths, quantities="mises"))
+    deep = stress(dict(input=out, output=tmp_path / "d.h5", depths=f"{top}+,{20 * RADIUS}"), check=2).stderr
+    assert f"which end at {top + sphere(20, 12)['yield_depth']:.6g} m" in deep
     mises = h5py.File(tmp_path / "s.h5")["mises"][:]
     assert 0.9 * YIELD < mises.max() < 1.1 * YIELD

@@ -155,16 +155,14 @@ static PetscErrorCode SolveAgain(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds a law's state and the tractions together, while the field `aside` stays. `start`: solves for the tractions
-   first. */
-static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, PetscBool start, SamLawContact *contact)
+/* Finds a law's state and the tractions together, while the field `aside` stays. */
+static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
   PetscBool again;
 
   PetscFunctionBegin;
   contact->stands = !SamSolveSetsAside(w); /* the field has changed since the last solution */
   w->holds        = PETSC_TRUE;
-  if (start) PetscCall(SolveAgain(w));
   do {
     again           = PETSC_FALSE;
     contact->solved = w->step->status == SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
@@ -182,20 +180,18 @@ static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, PetscBool start, Sa
 */
 static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
-  const PetscBool start = w->step->status == SAM_STATUS_NOT_CONVERGED && SamSolveFindsTouching(w);
-
   PetscFunctionBegin;
-  if (start) {
+  if (w->step->status == SAM_STATUS_NOT_CONVERGED && SamSolveFindsTouching(w)) {
     w->step->status     = SAM_STATUS_CONVERGED;
     w->step->message[0] = w->step->setting[0] = '\0';
   }
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_PREDICTED));
-  PetscCall(FollowHolding(w, law, start, contact));
+  PetscCall(FollowHolding(w, law, contact));
   if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
     PetscFunctionReturn(PETSC_SUCCESS);
   if (w->touching) PetscCall(SamSolveFindTouching(w, w->touching));
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
-  PetscCall(FollowHolding(w, law, PETSC_FALSE, contact));
+  PetscCall(FollowHolding(w, law, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
