@@ -30,8 +30,8 @@ static void Apply(SamResidual r, Vec e, Vec s, Vec u)
   sam_call(VecGetArray(u, &at));
   sam_call(VecGetLocalSize(u, &n));
   for (int c = 0; c < 3; c++) shift[c] = at + c * (n / 3);
-  sam_call(SamResidualBegin(r, from, PARTS, shift));
-  sam_call(SamResidualEnd(r, NULL, to));
+  sam_call(SamResidualBegin(1, &r, from, PARTS, shift));
+  sam_call(SamResidualEnd(1, &r, NULL, to));
   sam_call(VecRestoreArray(u, &at));
   sam_call(VecRestoreArray(s, &to));
   sam_call(VecRestoreArrayRead(e, &from));
@@ -47,8 +47,8 @@ static void Load(SamResidual r, Vec q, Vec s)
   sam_call(VecGetArray(s, &to));
   sam_call(VecGetLocalSize(q, &n));
   for (int c = 0; c < 3; c++) traction[c] = from + ((c + 2) % 3) * (n / 3); /* p last, as u_z */
-  sam_call(SamResidualBegin(r, NULL, 0, NULL));
-  sam_call(SamResidualEnd(r, traction, to));
+  sam_call(SamResidualBegin(1, &r, NULL, 0, NULL));
+  sam_call(SamResidualEnd(1, &r, traction, to));
   sam_call(VecRestoreArray(s, &to));
   sam_call(VecRestoreArrayRead(q, &from));
 }
@@ -321,14 +321,10 @@ static void test_plane_has_reference_stress(void **state)
 static void SetHold(SamBody body, PetscInt n, const double k[], double hold[4][8])
 {
   for (PetscInt m = 0; m < n; m++) {
-    double c[SAM_LAYERED_SYMBOLS], det;
+    double s[4];
 
-    SamBodyInterfaceSymbols(body, k[m], c);
-    det        = c[SAM_LAYERED_ZZ] * c[SAM_LAYERED_RR] - c[SAM_LAYERED_ZR] * c[SAM_LAYERED_ZR];
-    hold[0][m] = k[m] * c[SAM_LAYERED_RR] / det;
-    hold[1][m] = k[m] * c[SAM_LAYERED_ZR] / det;
-    hold[2][m] = k[m] * c[SAM_LAYERED_ZZ] / det;
-    hold[3][m] = k[m] / c[SAM_LAYERED_TT];
+    SamBodyInterfaceStiffness(body, k[m], s);
+    for (int c = 0; c < 4; c++) hold[c][m] = s[c];
   }
 }
 

@@ -14,6 +14,7 @@ PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
   SamBodyMaterialAt - returns the material at a depth; borrowed.
   SamBodyTop - returns the depth (m) at which the n-th material begins; infinite for n = SamBodyCount().
   SamBodySubstrate - returns the last material; borrowed.
+  SamBodySubstrateTop - returns the depth (m) at which it begins.
   SamBodyIsRigid - returns true if the whole body is rigid.
   None is collective.
 */
@@ -22,6 +23,7 @@ PETSC_INTERN PetscInt           SamBodyAt(SamBody body, PetscReal depth);
 PETSC_EXTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);
 PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
 PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
+PETSC_INTERN PetscReal          SamBodySubstrateTop(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
 
 /*

@@ -31,13 +31,14 @@ typedef enum { SAM_LAYERED_ZZ, SAM_LAYERED_ZR, SAM_LAYERED_RR, SAM_LAYERED_TT, S
   exp(-2 k h). `sign`: the sign of zr.
   SamPairSymbols - computes the symbols of a pair: zz, rr, tt are sums over both bodies, zr is that of body 2 minus that
   of body 1.
-  SamBodyInterfaceSymbols - computes the symbols of the surfaces on both sides of a body's last interface, as of a pair:
-  the layers, free at the surface of the body, are body 1, and the substrate is body 2. They are not bonded.
+  SamBodyInterfaceStiffness - computes the stiffness (Pa/m) against an opening of a body's last interface by (u_x, u_y,
+  u_z) of its lower side, for a wave along x: p = -(s[0] u_z - i s[1] u_x), q_x = -(s[2] u_x + i s[1] u_z), q_y = -s[3]
+  u_y between the layers, which are free at the surface of the body, and the substrate. 0 where rounding hides it.
   None is collective.
 */
 PETSC_INTERN void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERED_SYMBOLS],
                                  double difference[SAM_LAYERED_SYMBOLS]);
-PETSC_INTERN void SamBodyInterfaceSymbols(SamBody body, double k, double total[SAM_LAYERED_SYMBOLS]);
+PETSC_INTERN void SamBodyInterfaceStiffness(SamBody body, double k, double s[4]);
 PETSC_INTERN void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS],
                                  double difference[SAM_LAYERED_SYMBOLS]);
 

@@ -103,6 +103,11 @@ PetscReal SamBodyTop(SamBody body, PetscInt n)
   return depth;
 }
 
+PetscReal SamBodySubstrateTop(SamBody body)
+{
+  return SamBodyTop(body, body->count - 1);
+}
+
 PetscInt SamBodyAt(SamBody body, PetscReal depth)
 {
   PetscInt n = 0;

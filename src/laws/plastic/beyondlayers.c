@@ -26,7 +26,7 @@ static PetscErrorCode Look(SamPlastic *p, PetscInt b, PetscReal depth, const dou
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(PARTS * cells, &s));
-  PetscCall(SamResidualLoadAt(body->residual, depth, traction, s));
+  PetscCall(SamResidualLoadAt(p->residual[b], depth, traction, s));
   for (PetscInt k = 0; k < cells; k++) {
     SamMisesAt at;
     double     stress[PARTS];

@@ -140,41 +140,39 @@ static PetscErrorCode SetBox(SamPlastic *p, const SamLawContact *contact, const 
 
 /* ---- moving fields ---- */
 
+/* Copies planes between two grids, of which `in` and `out` are planes, by SamWindowTake() or SamWindowPut(). */
+static PetscErrorCode MovePlanes(SamEquations q, PetscErrorCode (*move)(SamWindow, Vec, Vec), Vec in, Vec out,
+                                 PetscInt planes, const double from[], double to[])
+{
+  PetscInt here, there;
+  double  *plane;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(in, &here));
+  PetscCall(VecGetLocalSize(out, &there));
+  for (PetscInt c = 0; c < planes; c++) {
+    PetscCall(VecGetArrayWrite(in, &plane));
+    PetscCall(PetscArraycpy(plane, from + (ptrdiff_t)c * here, here));
+    PetscCall(VecRestoreArrayWrite(in, &plane));
+    PetscCall((*move)(q->window, in, out));
+    PetscCall(VecGetArray(out, &plane));
+    PetscCall(PetscArraycpy(to + (ptrdiff_t)c * there, plane, there));
+    PetscCall(VecRestoreArray(out, &plane));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Copy planes of the plastic's grid to the box, and back; outside of the box they become 0. */
 static PetscErrorCode TakePlanes(SamEquations q, PetscInt planes, const double from[], double to[])
 {
-  double  *plane;
-  PetscInt cells;
-
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(q->whole, &cells));
-  for (PetscInt c = 0; c < planes; c++) {
-    PetscCall(VecGetArrayWrite(q->whole, &plane));
-    PetscCall(PetscArraycpy(plane, from + (ptrdiff_t)c * cells, cells));
-    PetscCall(VecRestoreArrayWrite(q->whole, &plane));
-    PetscCall(SamWindowTake(q->window, q->whole, q->part));
-    PetscCall(VecGetArray(q->part, &plane));
-    PetscCall(PetscArraycpy(to + (ptrdiff_t)c * q->grid->cells, plane, q->grid->cells));
-    PetscCall(VecRestoreArray(q->part, &plane));
-  }
+  PetscCall(MovePlanes(q, SamWindowTake, q->whole, q->part, planes, from, to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 static PetscErrorCode PutPlanes(SamEquations q, PetscInt planes, const double from[], double to[])
 {
-  double  *plane;
-  PetscInt cells;
-
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(q->whole, &cells));
-  for (PetscInt c = 0; c < planes; c++) {
-    PetscCall(VecGetArrayWrite(q->part, &plane));
-    PetscCall(PetscArraycpy(plane, from + (ptrdiff_t)c * q->grid->cells, q->grid->cells));
-    PetscCall(VecRestoreArrayWrite(q->part, &plane));
-    PetscCall(SamWindowPut(q->window, q->part, q->whole));
-    PetscCall(VecGetArray(q->whole, &plane));
-    PetscCall(PetscArraycpy(to + (ptrdiff_t)c * cells, plane, cells));
-    PetscCall(VecRestoreArray(q->whole, &plane));
-  }
+  PetscCall(MovePlanes(q, SamWindowPut, q->part, q->whole, planes, from, to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -300,30 +298,16 @@ static PetscErrorCode Respond(SamPlastic *p, const Cells *y, SamReaction reactio
 {
   const SamEquations q     = p->equations;
   const PetscInt     cells = q->grid->cells;
-  double *const      u     = q->surface[1];
-  double            *own[3], *more;
+  double *const u = q->surface[1], *const in_x = u + ALONG_X * cells, *const in_y = u + ALONG_Y * cells,
+                *const in_z = u + ALONG_Z * cells;
 
   PetscFunctionBegin;
   PetscCall(Spread(p, y, x));
-  PetscCall(PetscArrayzero(u, DIRECTIONS * cells));
-  PetscCall(PetscMalloc1(3 * cells, &more));
-  for (PetscInt c = 0; c < 3; c++) own[c] = more + c * cells;
-  for (PetscInt b = 0; b < p->bodies; b++) {
-    PetscCall(SamResidualBegin(q->residual[b], q->field + (ptrdiff_t)PlaneOf(b, 0, q->layers) * cells, PARTS, own));
-    for (PetscInt k = 0; k < cells; k++) {
-      u[ALONG_X * cells + k] += own[0][k];
-      u[ALONG_Y * cells + k] += own[1][k];
-      u[ALONG_Z * cells + k] += own[2][k];
-    }
-  }
-  PetscCall(PetscFree(more));
+  PetscCall(SamResidualBegin(p->bodies, q->residual, q->field, PARTS, (double *const[3]){in_x, in_y, in_z}));
   PetscCall(PutPlanes(q, DIRECTIONS, u, q->surface[0]));
   PetscCall(SamReactionApply(reaction, q->surface[0]));
   PetscCall(TakePlanes(q, DIRECTIONS, q->surface[0], u));
-  for (PetscInt b = 0; b < p->bodies; b++)
-    PetscCall(SamResidualEnd(q->residual[b],
-                             (const double *const[3]){u + ALONG_Z * cells, u + ALONG_X * cells, u + ALONG_Y * cells},
-                             q->field + (ptrdiff_t)PlaneOf(b, 0, q->layers) * cells));
+  PetscCall(SamResidualEnd(p->bodies, q->residual, (const double *const[3]){in_z, in_x, in_y}, q->field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

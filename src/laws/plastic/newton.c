@@ -83,21 +83,9 @@ static inline void Put(const SamPlastic *p, const double from[PARTS], PetscInt l
    (NULL: not wanted). */
 static PetscErrorCode Displace(SamPlastic *p, const double e[], PetscInt step, double *const u[3])
 {
-  const PetscInt cells = p->grid->cells;
-  double        *own[3], *more;
-
   PetscFunctionBegin;
   p->begun.spectra = PETSC_FALSE;
-  PetscCall(PetscMalloc1(3 * cells, &more));
-  for (PetscInt c = 0; c < 3; c++) own[c] = more + c * cells;
-  for (PetscInt c = 0; u && c < 3; c++) PetscCall(PetscArrayzero(u[c], cells));
-  for (PetscInt b = 0; b < p->bodies; b++) {
-    const ptrdiff_t at = (ptrdiff_t)p->body[b].first * step * cells;
-
-    PetscCall(SamResidualBegin(p->body[b].residual, e ? e + at : NULL, step, u ? own : NULL));
-    for (PetscInt k = 0; u && k < 3 * cells; k++) u[k / cells][k % cells] += more[k];
-  }
-  PetscCall(PetscFree(more));
+  PetscCall(SamResidualBegin(p->bodies, p->residual, e, step, u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -106,8 +94,7 @@ static PetscErrorCode Respond(SamPlastic *p, const double *const traction[3], do
 {
   PetscFunctionBegin;
   p->begun.spectra = PETSC_FALSE;
-  for (PetscInt b = 0; b < p->bodies; b++)
-    PetscCall(SamResidualEnd(p->body[b].residual, traction, s + (ptrdiff_t)p->body[b].first * PARTS * p->grid->cells));
+  PetscCall(SamResidualEnd(p->bodies, p->residual, traction, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -215,7 +202,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
   PetscCall(Respond(p, NULL, e));
   if (energy) PetscCall(SamPlasticWork(p, stress, e, energy));
   if (energy) *energy *= -0.5;
-  PetscCall(PetscArrayzero(stress, n));
+  if (!pressure) PetscCall(PetscArrayzero(stress, n));
   if (pressure) {
     PetscCall(VecGetArrayRead(pressure, &by_p));
     PetscCall(VecGetArrayRead(shear, &by_q));

@@ -7,13 +7,12 @@
 
 /* A body that yields, and the place of its layers among the layers of both bodies */
 typedef struct {
-  PetscInt    body; /* 0 or 1 */
-  PetscReal   top;  /* depth at which its layers begin, m */
-  SamMises    material;
-  SamResidual residual;
-  PetscInt    first;
-  double     *initial; /* stress before any load, xx and yy of each layer (Pa); NULL: none; borrowed */
-  double      bulk[SAM_STRESS_COMPONENTS]; /* bulk stress of the step (Pa) */
+  PetscInt  body; /* 0 or 1 */
+  PetscReal top;  /* depth at which its layers begin, m */
+  SamMises  material;
+  PetscInt  first;
+  double   *initial; /* stress before any load, xx and yy of each layer (Pa); NULL: none; borrowed */
+  double    bulk[SAM_STRESS_COMPONENTS]; /* bulk stress of the step (Pa) */
 } SamPlasticBody;
 
 /*
@@ -38,7 +37,8 @@ typedef struct {
   PetscInt                  bodies, layers; /* number of layers of each body */
   PetscInt                  size;
   SamPlasticBody            body[2];
-  PetscReal                *thickness; /* thicknesses of a body's layers, m; borrowed */
+  SamResidual               residual[2]; /* of these bodies */
+  PetscReal                *thickness;   /* thicknesses of a body's layers, m; borrowed */
   PetscReal                 rtol;
   Vec                       last; /* strain before the step, of the points that now lie under the cells; NULL: none */
   PetscInt                  newton, products; /* counts of the last step */

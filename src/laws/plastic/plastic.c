@@ -164,9 +164,7 @@ static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *
 /* Returns the depth at which the layers of plastic strain of body 0 or 1 begin: below layers of other materials, m. */
 static PetscReal TopOf(SamLaw law, PetscInt body)
 {
-  const SamBody of = SamPairBody(SamElasticityGetPair(law->elasticity), body);
-
-  return SamBodyTop(of, SamBodyCount(of) - 1);
+  return SamBodySubstrateTop(SamPairBody(SamElasticityGetPair(law->elasticity), body));
 }
 
 static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt body, const char option[], double stress)
@@ -313,7 +311,7 @@ static PetscErrorCode SetUp(SamLaw law)
     SamPlasticBody *body = &p->body[p->bodies];
 
     if (!isfinite(x->material[b].yield)) continue;
-    PetscCall(SamResidualCreate(law->elasticity, b + 1, x->layers, p->thickness, PETSC_TRUE, &body->residual));
+    PetscCall(SamResidualCreate(law->elasticity, b + 1, x->layers, p->thickness, PETSC_TRUE, &p->residual[p->bodies]));
     body->body     = b;
     body->top      = TopOf(law, b);
     body->material = MaterialOf(&x->material[b], SamBodySubstrate(SamPairBody(pair, b)));
@@ -592,7 +590,7 @@ static PetscErrorCode Destroy(SamLaw law)
   PetscCall(SamPlasticAbandon(p));
   PetscCall(SamEquationsDestroy(&p->equations));
   PetscCall(SamPlasticForget(p));
-  for (PetscInt b = 0; b < p->bodies; b++) PetscCall(SamResidualDestroy(&p->body[b].residual));
+  for (PetscInt b = 0; b < p->bodies; b++) PetscCall(SamResidualDestroy(&p->residual[b]));
   for (PetscInt b = 0; b < 2; b++) PetscCall(PetscFree(((Plastic *)law->data)->material[b].initial));
   PetscCall(PetscFree(((Plastic *)law->data)->thickness));
   PetscCall(DropStress((Plastic *)law->data));

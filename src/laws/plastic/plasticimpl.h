@@ -30,16 +30,18 @@ PETSC_INTERN PetscErrorCode SamResidualCreate(SamElasticity elasticity, PetscInt
                                               const PetscReal thickness[], PetscBool images, SamResidual *residual);
 PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);
 /*
-  SamResidualBegin - begins a product with e (NULL: none), whose layers are `step` fields apart, the first PARTS of
-  which are e. It computes the displacement u of the surface (m; NULL: not wanted), the body's contribution to the
-  relative displacement of the surfaces along x, y, and z into the body.
+  SamResidualBegin - begins products of one or both bodies with e (NULL: none), of the bodies one after the other, whose
+  layers are `step` fields apart, the first PARTS of which are e. It computes the displacement u of the surfaces (m;
+  NULL: not wanted), their relative displacement along x, y, and z into the body.
   SamResidualEnd - computes the stress s (Pa) by e and by the pressure p and the shear q_x, q_y between the bodies (Pa;
   NULL: none), which may be those that u causes. s may be e.
   SamResidualLoadAt - computes the stress by p and q at a depth (m), PARTS fields; it takes the time of about ten
   layers. All are collective.
 */
-PETSC_INTERN PetscErrorCode SamResidualBegin(SamResidual residual, const double e[], PetscInt step, double *const u[3]);
-PETSC_INTERN PetscErrorCode SamResidualEnd(SamResidual residual, const double *const traction[3], double s[]);
+PETSC_INTERN PetscErrorCode SamResidualBegin(PetscInt bodies, const SamResidual residual[], const double e[],
+                                             PetscInt step, double *const u[3]);
+PETSC_INTERN PetscErrorCode SamResidualEnd(PetscInt bodies, const SamResidual residual[],
+                                           const double *const traction[3], double s[]);
 PETSC_INTERN PetscErrorCode SamResidualLoadAt(SamResidual residual, PetscReal depth, const double *const traction[3],
                                               double s[]);
 

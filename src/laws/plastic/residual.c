@@ -40,7 +40,6 @@ struct _n_SamResidual {
   PetscBool       strained;       /* true: a product with a strain has begun */
   /* only if not periodic */
   SamStress *stress; /* kernels of each layer */
-  Vec        plane;  /* scratch, PARTS components */
   SamImages  images;
 };
 
@@ -155,7 +154,7 @@ PetscErrorCode SamResidualCheckBodies(SamElasticity e, PetscInt body)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates the stiffness of the layers above. The mean and what these do not resist to the digits stay free. */
+/* Creates the stiffness of the layers above; the mean stays free. */
 static PetscErrorCode CreateHold(SamResidual r, SamBody body)
 {
   const ptrdiff_t n = (ptrdiff_t)r->columns * r->waves;
@@ -165,16 +164,10 @@ static PetscErrorCode CreateHold(SamResidual r, SamBody body)
   for (ptrdiff_t m = 0; m < n; m++) {
     const double k =
       hypot(2 * PETSC_PI / (r->period * (double)r->grid->dx) * (double)(r->first + m / r->waves), r->ky[m % r->waves]);
-    double c[SAM_LAYERED_SYMBOLS], det;
+    double s[4] = {0};
 
-    if (k == 0) continue;
-    SamBodyInterfaceSymbols(body, k, c);
-    det = c[SAM_LAYERED_ZZ] * c[SAM_LAYERED_RR] - c[SAM_LAYERED_ZR] * c[SAM_LAYERED_ZR];
-    if (!(det > 0) || !(c[SAM_LAYERED_TT] > 0) || isinf(det)) continue;
-    r->hold[m]         = k * c[SAM_LAYERED_RR] / det;
-    r->hold[n + m]     = k * c[SAM_LAYERED_ZR] / det;
-    r->hold[2 * n + m] = k * c[SAM_LAYERED_ZZ] / det;
-    r->hold[3 * n + m] = k / c[SAM_LAYERED_TT];
+    if (k > 0) SamBodyInterfaceStiffness(body, k, s);
+    for (PetscInt c = 0; c < 4; c++) r->hold[c * n + m] = s[c];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -184,7 +177,7 @@ static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body
 {
   const PetscReal period[2] = {r->period * r->grid->dx, (PetscReal)r->waves * r->grid->dy};
   const SamBody   of        = SamPairBody(e->pair, body - 1);
-  PetscReal       top       = SamBodyTop(of, SamBodyCount(of) - 1);
+  PetscReal       top       = SamBodySubstrateTop(of);
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(r->body.layers, &r->stress));
@@ -193,7 +186,6 @@ static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body
     PetscCall(SamStressSetDepth(r->stress[l], top + r->thickness[l] / 2));
     top += r->thickness[l];
   }
-  PetscCall(SamGridCreateVec(r->grid, PARTS, &r->plane));
   if (SamBodyCount(of) > 1) PetscCall(CreateHold(r, of));
   if (images) PetscCall(SamImagesCreate(r->grid, period, &r->body, &r->images));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -239,7 +231,6 @@ PetscErrorCode SamResidualDestroy(SamResidual *residual)
   for (PetscInt l = 0; r->stress && l < r->body.layers; l++) PetscCall(SamStressDestroy(&r->stress[l]));
   PetscCall(PetscFree(r->stress));
   PetscCall(SamImagesDestroy(&r->images));
-  PetscCall(VecDestroy(&r->plane));
   PetscCall(PetscFree(r->thickness));
   PetscCall(PetscFree(r->ky));
   PetscCall(PetscFree(r->hold));
@@ -278,11 +269,12 @@ typedef enum { RESPOND, DISPLACE, LOAD } Task;
 static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, ptrdiff_t first, double kx, const double ky[],
                                   double complex *const column[], double complex *const surface[3])
 {
-  const ptrdiff_t   all  = (ptrdiff_t)r->columns * r->waves;
-  const double     *of   = r->hold + (r->hold ? first : 0);
-  const SamWaveHold hold = {of, of + all, of + 2 * all, of + 3 * all};
+  const ptrdiff_t all  = (ptrdiff_t)r->columns * r->waves;
+  SamWaveHold     hold = {0};
 
   PetscFunctionBegin;
+  if (r->hold)
+    hold = (SamWaveHold){r->hold + first, r->hold + all + first, r->hold + 2 * all + first, r->hold + 3 * all + first};
   if (task == LOAD)
     PetscCall(SamWavesLoad(&r->body, n, kx, ky, (const double complex *const *)surface, column));
   else
@@ -386,19 +378,38 @@ static PetscErrorCode Displace(SamResidual r, double *const u[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResidualBegin(SamResidual r, const double e[], PetscInt step, double *const u[3])
+/* Begins the product of one body. */
+static PetscErrorCode Begin(SamResidual r, const double e[], PetscInt step, double *const u[3])
 {
   const double **at;
 
   PetscFunctionBegin;
   r->strained = e ? PETSC_TRUE : PETSC_FALSE;
-  for (PetscInt c = 0; u && !e && c < 3; c++) PetscCall(PetscArrayzero(u[c], r->grid->cells));
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(GetPlanes(r, e, step, &at));
   PetscCall(Transform(r, PARTS * r->body.layers, at, NULL, r->spectra));
   PetscCall(PetscFree(at));
   if (r->images) PetscCall(SamImagesReduce(r->images, e, step));
   if (u) PetscCall(Displace(r, u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResidualBegin(PetscInt bodies, const SamResidual r[], const double e[], PetscInt step,
+                                double *const u[3])
+{
+  const PetscInt cells = r[0]->grid->cells;
+  double        *own[3], *more;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(3 * cells, &more));
+  for (PetscInt c = 0; c < 3; c++) own[c] = more + c * cells;
+  for (PetscInt c = 0; u && c < 3; c++) PetscCall(PetscArrayzero(u[c], cells));
+  for (PetscInt b = 0; b < bodies; b++) {
+    PetscCall(Begin(r[b], e, step, u ? own : NULL));
+    for (PetscInt k = 0; u && k < 3 * cells; k++) u[k / cells][k % cells] += more[k];
+    if (e) e += (ptrdiff_t)r[b]->body.layers * step * cells;
+  }
+  PetscCall(PetscFree(more));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -421,7 +432,8 @@ static PetscErrorCode WorkOnColumns(SamResidual r, PetscBool loaded)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResidualEnd(SamResidual r, const double *const traction[3], double s[])
+/* Ends the product of one body. */
+static PetscErrorCode End(SamResidual r, const double *const traction[3], double s[])
 {
   const PetscInt plane = r->columns * r->waves;
   const double **at;
@@ -437,22 +449,35 @@ PetscErrorCode SamResidualEnd(SamResidual r, const double *const traction[3], do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamResidualEnd(PetscInt bodies, const SamResidual r[], const double *const traction[3], double s[])
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < bodies; b++) {
+    PetscCall(End(r[b], traction, s));
+    s += (ptrdiff_t)r[b]->body.layers * PARTS * r[b]->grid->cells;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Computes the stress by tractions at the depth of such kernels. */
 static PetscErrorCode LoadPlane(SamResidual r, SamStress stress, const double *const traction[3], double s[])
 {
   const PetscInt cells = r->grid->cells;
   double        *part;
+  Vec            plane;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArray(r->plane, &part));
+  PetscCall(SamGridCreateVec(r->grid, PARTS, &plane));
+  PetscCall(VecGetArray(plane, &part));
   PetscCall(PetscArraycpy(part + SAM_STRESS_ZZ * cells, traction[0], cells));
   PetscCall(PetscArraycpy(part + SAM_STRESS_XZ * cells, traction[1], cells));
   PetscCall(PetscArraycpy(part + SAM_STRESS_YZ * cells, traction[2], cells));
-  PetscCall(VecRestoreArray(r->plane, &part));
-  PetscCall(SamStressApply(stress, r->plane));
-  PetscCall(VecGetArray(r->plane, &part));
+  PetscCall(VecRestoreArray(plane, &part));
+  PetscCall(SamStressApply(stress, plane));
+  PetscCall(VecGetArray(plane, &part));
   PetscCall(PetscArraycpy(s, part, PARTS * cells));
-  PetscCall(VecRestoreArray(r->plane, &part));
+  PetscCall(VecRestoreArray(plane, &part));
+  PetscCall(VecDestroy(&plane));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -469,8 +494,8 @@ static PetscErrorCode LoadWavesAt(SamResidual r, PetscReal depth, const double *
   PetscCall(PetscMalloc1(2 * n, &both));
   r->body.layers    = 2;
   r->body.thickness = thickness;
-  PetscCall(SamResidualBegin(r, NULL, 0, NULL));
-  PetscCall(SamResidualEnd(r, traction, both));
+  PetscCall(Begin(r, NULL, 0, NULL));
+  PetscCall(End(r, traction, both));
   r->body = own;
   PetscCall(PetscArraycpy(s, both + n, n));
   PetscCall(PetscFree(both));

@@ -241,7 +241,7 @@ static PetscErrorCode SplitInterfaces(SamEvaluation e)
 {
   const SamBody   body = SamEvaluationBody(e);
   const PetscInt  last = SamBodyCount(body) - 1;
-  const PetscReal base = isinf(SamBodySubstrate(body)->young) ? SamBodyTop(body, last) : INFINITY; /* it is rigid */
+  const PetscReal base = isinf(SamBodySubstrate(body)->young) ? SamBodySubstrateTop(body) : INFINITY; /* it is rigid */
   PetscReal      *depth;
   int            *side;
   PetscInt        n = 0;

@@ -34,9 +34,7 @@ static double MiddleOf(SamEvaluation e, PetscInt g, PetscInt layer)
 /* Returns the depth at which the substrate, and with it the layers of all groups, begin. */
 static double TopOf(SamEvaluation e)
 {
-  const SamBody body = SamEvaluationBody(e);
-
-  return (double)SamBodyTop(body, SamBodyCount(body) - 1);
+  return (double)SamBodySubstrateTop(SamEvaluationBody(e));
 }
 
 /* Returns the depth of the bottom of the last layer. */

@@ -262,7 +262,7 @@ PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *se
   PetscCall(SamStressCreate(grid, settings, number, stress));
   PetscCall(PetscNew(&l));
   PetscCall(SamBodyReference(body));
-  *l                 = (Layered){.body = body, .depth = -1, .base = (double)SamBodyTop(body, body->count - 1)};
+  *l                 = (Layered){.body = body, .depth = -1, .base = (double)SamBodySubstrateTop(body)};
   thick              = body->material[0].thickness >= THICK * grid->side[1];
   (*stress)->data    = l;
   (*stress)->poisson = body->material[0].poisson;

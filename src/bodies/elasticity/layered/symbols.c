@@ -161,19 +161,27 @@ void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERE
   AddSymbols(&s.difference, s.difference_across, sign, difference);
 }
 
-void SamBodyInterfaceSymbols(SamBody body, double k, double total[SAM_LAYERED_SYMBOLS])
+/* The inverse of the compliance of a pair of which the layers, upside down, are body 1, and the substrate is body 2. */
+void SamBodyInterfaceStiffness(SamBody body, double k, double s[4])
 {
-  const Material base = MaterialOf(SamBodySubstrate(body));
-  Surface        film = {.across = 0};
+  const Material base                   = MaterialOf(SamBodySubstrate(body));
+  Surface        film                   = {.across = 0};
+  double         c[SAM_LAYERED_SYMBOLS] = {0}, det;
 
   for (PetscInt n = 0; n < body->count - 1; n++) { /* from the free surface to the substrate */
     const Material m = MaterialOf(&body->material[n]);
 
     AddLayer(&film, n ? &film : NULL, &m, k * body->material[n].thickness);
   }
-  for (int c = 0; c < SAM_LAYERED_SYMBOLS; c++) total[c] = 0;
-  AddSymbols(&film.compliance, film.across, -1, total);
-  AddSymbols(&base.half_space, 1 / base.mu, 1, total);
+  AddSymbols(&film.compliance, film.across, -1, c);
+  AddSymbols(&base.half_space, 1 / base.mu, 1, c);
+  det  = c[SAM_LAYERED_ZZ] * c[SAM_LAYERED_RR] - c[SAM_LAYERED_ZR] * c[SAM_LAYERED_ZR];
+  s[0] = s[1] = s[2] = s[3] = 0;
+  if (!(det > 0) || !(c[SAM_LAYERED_TT] > 0) || isinf(det)) return;
+  s[0] = k * c[SAM_LAYERED_RR] / det;
+  s[1] = k * c[SAM_LAYERED_ZR] / det;
+  s[2] = k * c[SAM_LAYERED_ZZ] / det;
+  s[3] = k / c[SAM_LAYERED_TT];
 }
 
 void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS], double difference[SAM_LAYERED_SYMBOLS])
