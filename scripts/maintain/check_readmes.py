@@ -147,6 +147,17 @@ def differences_of_table(text, output, but=(), by_row=False):
     return out
 
 
+def nearest(line, output):
+    """Returns the line of the output that has most of a line's words and figures."""
+    words, wanted = set(line.split()), figures(line)
+
+    def alike(printed):
+        values = [float(word) for word in figures(printed)]
+        return (len(wanted) == len(values)) + len(words & set(printed.split())) - len(missing(wanted, values))
+
+    return max(output.splitlines(), key=alike, default="")
+
+
 # ---------------------------------------------------------------- running
 
 
@@ -231,7 +242,8 @@ class Checker:
         else:
             left = differences_of_text(piece.text, output, but)
         if left:
-            self.fail(file, piece, "not as printed:", *left)
+            pairs = [(line, f"  printed: {nearest(line, output).strip()}") for line in left]
+            self.fail(file, piece, "not as printed:", *(text for pair in pairs for text in pair))
 
     def check(self, file):
         """Runs and compares all blocks of one file, once; returns its output."""

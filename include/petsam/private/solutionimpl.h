@@ -177,11 +177,14 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamSta
 PETSC_INTERN PetscErrorCode SamSolutionFindSlip(SamProblem problem, SamState state, const SamSolution *now,
                                                 double *most);
 /*
+  SamSolutionDeclareShear - declares the numbers that the following function stores.
   SamSolutionFindShear - raises the largest shear (Pa) of cells to that at the stick-slip boundary between cells
-  (peak.c); `stick`: the reconstruction of this boundary. Collective.
+  (peak.c), also of an earlier step, for the tried generation of a state; `stick`: the reconstruction of this boundary,
+  NULL: nothing slips. Collective.
 */
-PETSC_INTERN PetscErrorCode SamSolutionFindShear(SamProblem problem, const SamSolution *solution, const SamEdge *stick,
-                                                 double *most);
+PETSC_INTERN PetscErrorCode SamSolutionDeclareShear(SamState state);
+PETSC_INTERN PetscErrorCode SamSolutionFindShear(SamProblem problem, SamState state, const SamSolution *solution,
+                                                 const SamEdge *stick, double *most);
 /*
   SamSolutionDeclareSpots, SamSolutionComputeSpots - declare and compute the number of contact spots, and the mean gap.
 */

@@ -65,6 +65,7 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     where contact is made or left                  CROSSES b/10 ds            0.5 of the bounds instead of 0.4
     of dissimilar bodies, where contact is made    TOUCHES w^2/(w + dissipated)   w is what was slip before they touch
     of the first step of others                    all of it: loads in proportion need not slide at all
+    of a first step in which bodies yield          all of it: the displacements do not grow in proportion
 
   f is the part of the contact that sticks. The smaller it is, the farther each error of the slip moves the bodies. If
   the bound changes, other errors cancel this effect; between both cases the estimate is a mean of the two terms.
@@ -190,6 +191,7 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
   PetscFunctionBegin;
   PetscCall(SamStateDeclareNumber(state, &contact_edge, &id));
   PetscCall(SamSolutionDeclareClosed(state));
+  PetscCall(SamSolutionDeclareShear(state));
   for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamMotionDeclareNumber(motion, state, &declared[k], &id));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -238,10 +240,12 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 /* ---- edges ---- */
 
 /* Computes the areas within the edges of contact and stick, and the largest shear, which is between stick and slip. */
-static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
+static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSolution *s, double contact[EDGE],
+                                double numbers[NUMBERS])
 {
-  SamEdge       edge;
-  const SamGrid grid = SamProblemGetGrid(problem);
+  const PetscBool both = numbers[STICK_CELLS] > 0 && numbers[STICK_CELLS] < numbers[CONTACT_CELLS];
+  SamEdge         edge;
+  const SamGrid   grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
   if (contact[KNOWN] == 0) {
@@ -253,8 +257,7 @@ static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double
     PetscCall(SamEdgeDestroy(&edge));
   }
   PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, NULL, &edge));
-  if (numbers[STICK_CELLS] > 0 && numbers[STICK_CELLS] < numbers[CONTACT_CELLS])
-    PetscCall(SamSolutionFindShear(problem, s, &edge, &numbers[SHEAR_MAX]));
+  PetscCall(SamSolutionFindShear(problem, state, s, both ? &edge : NULL, &numbers[SHEAR_MAX]));
   numbers[CONTACT_AREA] = contact[AREA];
   numbers[STICK_AREA]   = edge.area;
   numbers[SLIP_WIDTH]   = NAN; /* flat periodic bodies have no edge */
@@ -284,11 +287,12 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
     numbers[ENERGY_ERROR] = NAN; /* it is estimated elsewhere */
   PetscCall(SamProblemDisplace(problem, state, &s->control, NULL, NULL, NULL, &offset));
   if (offset) numbers[STORED_ENERGY] = NAN; /* the tractions alone do not cause the displacements */
+  if (offset && !before) numbers[ENERGY_ERROR] = fabs(numbers[DISSIPATED_ENERGY]); /* nor in proportion to the load */
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
   numbers[SLIP_WIDTH]    = NAN;
   if (!same_pressure) contact[KNOWN] = 0;
-  if (edges) PetscCall(FindEdges(problem, s, contact, numbers));
+  if (edges) PetscCall(FindEdges(problem, state, s, contact, numbers));
   if (edges && friction && SamProblemGetRolled(problem, &s->control, NULL) == 0)
     PetscCall(SamSolutionFindSlip(problem, state, s, &numbers[SLIP_MAX]));
   if (!friction) numbers[SLIP_MAX] = NAN; /* nothing opposes it, and at the edge it is not resolved */

@@ -17,12 +17,19 @@
 
   For spheres and cylinders the first is accurate within 3e-3, and the second within 4 % in slip zones wider than 0.8
   cells, about 20 % in those wider than 0.05.
+
+  3. After a reversal all sticks about that place, and its shear is still the largest until it is overcome. It then
+  changes as the shear of the cell beside it does, since a change without slip is smooth there: the state keeps the
+  difference of both. It is dropped when the cell or one beside it slips again. The shear stays within its bound, which
+  has the same ratio to that of the cell as before.
 */
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/motionimpl.h>
+#include <petsam/private/state.h>
 
 #define BEHIND   2     /* cells about a point of the reconstructed edge that must be in contact */
 #define FARTHEST 0.825 /* in cells: an edge farther away belongs to the next cell */
@@ -33,6 +40,37 @@ typedef struct {
   SamGrid grid;
   SamHalo p, b, q, cell;
 } Seen;
+
+/* The largest shear found so far (Pa), and the grid's cell beside which it is; -1: it is the mean of a cell */
+typedef struct {
+  double   shear;
+  PetscInt cell;
+} Peak;
+
+static void Raise(Peak *peak, double shear, PetscInt cell)
+{
+  if (shear > peak->shear) *peak = (Peak){shear, cell};
+}
+
+/* A peak between cells that the state keeps */
+typedef struct {
+  double cell;     /* number of the cell beside it, from 1; 0: there is none */
+  double above[2]; /* its shear minus that of the cell (Pa) */
+  double bound;    /* its bound relative to that of the cell */
+} Kept;
+#define VALUES ((PetscInt)(sizeof(Kept) / sizeof(double)))
+
+static const SamStateNumber kept_peak = {"kept_peak", "1",           NULL, SAM_NUMBER_REAL, VALUES, PETSC_TRUE,
+                                         PETSC_FALSE, SAM_JOIN_LAST, 0};
+
+PetscErrorCode SamSolutionDeclareShear(SamState state)
+{
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateDeclareOptional(state, &kept_peak, 0, &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 /* True if cell i of row j of the grid and its neighbours are in contact, so that the contact edge is farther away. */
 static PetscBool IsInside(const SamHalo *p, PetscInt i, PetscInt j)
@@ -63,7 +101,7 @@ static double SquareAt(const SamHalo *p, double x, double y)
 }
 
 /* Finds the largest shear at the reconstructed points of the edge, and marks their cells as known. */
-static void FindAtPoints(const Seen *s, const SamEdge *stick, double cell[], double *most)
+static void FindAtPoints(const Seen *s, const SamEdge *stick, double cell[], Peak *peak)
 {
   const double *b = s->b.own;
 
@@ -72,12 +110,10 @@ static void FindAtPoints(const Seen *s, const SamEdge *stick, double cell[], dou
     /* coordinates from the grid's first row, since sums from the rank's first row would round differently */
     const double x = (double)((stick->x[n] - SamGridX(s->grid, 0)) / s->grid->dx),
                  y = (double)((stick->y[n] - SamGridY(s->grid, 0)) / s->grid->dy);
-    double shear   = 0;
 
     if (!IsInside(&s->p, i, j)) continue;
     cell[k] = KNOWN;
-    shear   = b[k] / s->p.own[k] * sqrt(SquareAt(&s->p, x, y));
-    *most   = PetscMax(*most, shear);
+    Raise(peak, b[k] / s->p.own[k] * sqrt(SquareAt(&s->p, x, y)), j * s->grid->nx + i);
   }
 }
 
@@ -134,47 +170,136 @@ static double ShearBeside(const Seen *s, PetscInt i, PetscInt j)
   return most;
 }
 
-/* Creates a field of the cells' states, by which neighbours are known without their fields. */
-static PetscErrorCode CreateCells(const Seen *s, const SamEdge *stick, const double q[], Vec *cells, double *most)
+/* Creates a field of the cells' states. */
+static PetscErrorCode CreateCells(const Seen *s, Vec *cells)
 {
-  double *cell;
+  const double *q = s->q.own;
+  double       *cell;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(s->grid, 1, cells));
   PetscCall(VecGetArrayWrite(*cells, &cell));
   for (PetscInt k = 0; k < s->grid->cells; k++)
     cell[k] = SamCellStateOf(s->p.own[k], q[k], q[k + s->grid->cells], s->b.own[k]);
-  FindAtPoints(s, stick, cell, most);
   PetscCall(VecRestoreArrayWrite(*cells, &cell));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolutionFindShear(SamProblem problem, const SamSolution *solution, const SamEdge *stick, double *most)
+/* Finds the largest shear of this rank at the edge of stick, where it is reconstructed and where it is not. */
+static PetscErrorCode FindAtEdge(Seen *s, const SamEdge *stick, double film, Vec cells, PetscBool wraps, Peak *peak)
+{
+  double *cell;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(cells, &cell));
+  FindAtPoints(s, stick, cell, peak);
+  PetscCall(VecRestoreArray(cells, &cell));
+  PetscCall(SamHaloBegin(s->grid, cells, 1, 1, wraps, &s->cell));
+  for (PetscInt k = 0; k < s->grid->cells && !(film > 0); k++) {
+    const PetscInt i = k % s->grid->nx, j = s->grid->row_start + k / s->grid->nx;
+
+    if (s->cell.own[k] == SAM_CELL_STICK) Raise(peak, ShearBeside(s, i, j), j * s->grid->nx + i);
+  }
+  PetscCall(SamHaloEnd(&s->cell));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Makes the largest shear of any rank that of all; of cells with the same the first one counts. */
+static PetscErrorCode Agree(const Seen *s, Peak *peak)
+{
+  double most = peak->shear, first;
+
+  PetscFunctionBegin;
+  PetscCall(SamMax(s->grid->comm, 1, &most));
+  first = peak->shear == most ? -(double)peak->cell : -INFINITY;
+  PetscCall(SamMax(s->grid->comm, 1, &first));
+  *peak = (Peak){most, (PetscInt)-first};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Returns this rank's place of a cell of the grid; -1: it is another rank's. */
+static PetscInt PlaceOf(const Seen *s, PetscInt cell)
+{
+  const PetscInt k = cell - s->grid->row_start * s->grid->nx;
+
+  return cell >= 0 && k >= 0 && k < s->grid->cells ? k : -1;
+}
+
+/* Returns the shear of a kept peak if this rank has its cell, and all about that sticks; else 0. Collective. */
+static PetscErrorCode ShearOfKept(Seen *s, const Kept *kept, Vec cells, PetscBool wraps, double *shear)
+{
+  const PetscInt k = PlaceOf(s, (PetscInt)kept->cell - 1), rows = s->grid->axes - 1;
+
+  PetscFunctionBegin;
+  *shear = 0;
+  PetscCall(SamHaloBegin(s->grid, cells, 1, 1, wraps, &s->cell));
+  if (k >= 0) {
+    const PetscInt i = k % s->grid->nx, j = s->grid->row_start + k / s->grid->nx;
+
+    *shear = hypot(s->q.own[k] + kept->above[0], s->q.own[k + s->grid->cells] + kept->above[1]);
+    *shear = PetscMin(*shear, kept->bound * s->b.own[k]);
+    for (PetscInt b = j - rows; b <= j + rows; b++)
+      for (PetscInt a = i - 1; a <= i + 1; a++)
+        if (SamHaloAt(&s->cell, 0, a, b) != SAM_CELL_STICK) *shear = 0;
+  }
+  PetscCall(SamHaloEnd(&s->cell));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Describes a peak beside a cell, on all ranks. */
+static PetscErrorCode Keep(const Seen *s, const Peak *peak, Kept *kept)
+{
+  const PetscInt k         = PlaceOf(s, peak->cell);
+  SamTotal       totals[3] = {{0}};
+  double         found[3]  = {0};
+
+  PetscFunctionBegin;
+  if (k >= 0) {
+    const double q[2] = {s->q.own[k], s->q.own[k + s->grid->cells]}, size = hypot(q[0], q[1]);
+
+    for (int c = 0; c < 2; c++) found[c] = size > 0 ? q[c] / size * (peak->shear - size) : 0;
+    found[2] = peak->shear / s->b.own[k];
+  }
+  SamAddAll(3, totals, found);
+  PetscCall(SamSumTotals(s->grid->comm, 3, totals, found));
+  *kept = (Kept){(double)peak->cell + 1, {found[0], found[1]}, found[2]};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionFindShear(SamProblem problem, SamState state, const SamSolution *solution,
+                                    const SamEdge *stick, double *most)
 {
   const SamGrid       grid  = SamProblemGetGrid(problem);
   const SamElasticity e     = SamProblemGetElasticity(problem);
   const PetscBool     wraps = SamElasticityGetTraits(e).periodic;
   const double        film  = (double)SamPairFilm(SamElasticityGetPair(e));
+  const PetscInt      id    = SamStateFindNumber(state, kept_peak.name);
+  const PetscBool     moves = SamMotionOf(e)->streams || SamProblemGetRolled(problem, &solution->control, NULL) != 0;
   Seen                s     = {.grid = grid};
+  Peak                peak  = {*most, -1};
+  Kept                kept;
+  double              shear = 0;
   Vec                 cells;
 
   PetscFunctionBegin;
+  memcpy(&kept, SamStateNumbers(state, id, SAM_COMMITTED), sizeof(kept));
+  if (moves) kept.cell = 0;
+  if (!stick && kept.cell == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamHaloBegin(grid, solution->pressure, 1, BEHIND + 1, wraps, &s.p));
   PetscCall(SamHaloBegin(grid, solution->bound, 1, 1, wraps, &s.b));
   PetscCall(SamHaloBegin(grid, solution->shear, 2, 1, wraps, &s.q));
-  PetscCall(CreateCells(&s, stick, s.q.own, &cells, most));
-  PetscCall(SamHaloBegin(grid, cells, 1, 1, wraps, &s.cell));
-  for (PetscInt k = 0; k < grid->cells && !(film > 0); k++) {
-    const double shear =
-      s.cell.own[k] == SAM_CELL_STICK ? ShearBeside(&s, k % grid->nx, grid->row_start + k / grid->nx) : 0;
-
-    *most = PetscMax(*most, shear);
-  }
-  PetscCall(SamHaloEnd(&s.cell));
+  PetscCall(CreateCells(&s, &cells));
+  if (kept.cell > 0) PetscCall(ShearOfKept(&s, &kept, cells, wraps, &shear));
+  if (stick) PetscCall(FindAtEdge(&s, stick, film, cells, wraps, &peak));
+  PetscCall(Agree(&s, &peak));
+  PetscCall(SamMax(grid->comm, 1, &shear));
+  if (shear == 0) kept.cell = 0;
+  if (peak.shear >= shear && peak.cell >= 0 && !moves) PetscCall(Keep(&s, &peak, &kept));
+  *most = PetscMax(peak.shear, shear);
+  memcpy(SamStateNumbers(state, id, SAM_TRIED), &kept, sizeof(kept));
   PetscCall(VecDestroy(&cells));
   PetscCall(SamHaloEnd(&s.q));
   PetscCall(SamHaloEnd(&s.b));
   PetscCall(SamHaloEnd(&s.p));
-  PetscCall(SamMax(grid->comm, 1, most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
