@@ -263,7 +263,7 @@ def test_largest_shear_stays_where_slip_ended_before_a_reversal(petsam, tmp_path
     """From T = 0.6 mu N back: at the edge of the stick zone of 0.6 mu N, where all sticks, or at that of now."""
     rows = [(0.6 * MU * LOAD,), ((0.6 + back) / 2 * MU * LOAD,), (back * MU * LOAD,), (0.8 * MU * LOAD,)]
     petsam(SPHERE, history(tmp_path, "load_tx", *rows),
-           dict(load_n=LOAD, grid_n=n, grid_size=2.6 * RADIUS, output="one.h5", output_every=1, overwrite=True))  # fmt: skip
+           dict(load_n=LOAD, grid_n=n, grid_size=2.6 * RADIUS, output="one.h5"))  # fmt: skip
     with h5py.File(tmp_path / "one.h5") as f:
         found = f["history/shear_max"][:]
     first, second = ((1 - t) ** (1 / 3) for t in (0.6, (0.6 - back) / 2))
@@ -272,6 +272,18 @@ def test_largest_shear_stays_where_slip_ended_before_a_reversal(petsam, tmp_path
     assert found[2] == pytest.approx(true, rel=0.015)
     assert found[0] == pytest.approx(peak * bound, rel=0.01)
     assert found[3] == pytest.approx(peak * math.sqrt(1 - 0.2 ** (2 / 3)), rel=0.01)
+
+
+@pytest.mark.parametrize("n", [26, 37])
+def test_largest_shear_follows_the_edge_of_stick_within_a_cell(petsam, tmp_path, n):
+    """That of the step before is not kept where its cell or one beside it slips on."""
+    parts = [0.5 + 0.01 * k for k in range(16)]
+    petsam(SPHERE, history(tmp_path, "load_tx", *[(t * MU * LOAD,) for t in parts]),
+           dict(load_n=LOAD, grid_n=n, grid_size=2.6 * RADIUS, output="one.h5", overwrite=True))  # fmt: skip
+    with h5py.File(tmp_path / "one.h5") as f:
+        found = f["history/shear_max"][:]
+    peak = MU * 1.5 * LOAD / (math.pi * RADIUS**2)
+    assert found == pytest.approx([peak * math.sqrt(1 - (1 - t) ** (2 / 3)) for t in parts], rel=0.01)
 
 
 @pytest.mark.parametrize("n", [40, 56])

@@ -6,6 +6,9 @@
   mean of the slopes to both neighbours, or none at a maximum (van Leer's limiter), and the mean of this profile over
   the moved layer is the new value. Below the last layer there is no strain.
 
+  The limiter is not linear: so that the strain does not change the volume, its zz is minus the sum of xx and yy. The
+  same holds for backstresses.
+
   Along the surface the grid moves over both bodies if they roll, which the state does, and over body 2 if it slides;
   steps of whole cells are without error, others interpolate.
 
@@ -66,10 +69,18 @@ static void Shift(const SamPlastic *p, const Place at[], double slope[], double 
   }
 }
 
+/* True if value c of a layer is the component zz of a tensor. */
+static PetscBool IsAcross(PetscInt c)
+{
+  if (c == PARTS) return PETSC_FALSE; /* the accumulated strain */
+  return (c < PARTS ? c : (c - PARTS - 1) % PARTS) == SAM_STRESS_ZZ ? PETSC_TRUE : PETSC_FALSE;
+}
+
 PetscErrorCode SamPlasticRaise(const SamPlastic *p, PetscInt body, const double removed[], double strain[])
 {
   const PetscInt cells = p->grid->cells, n = p->layers;
   double *const  of = strain + (ptrdiff_t)body * n * p->size * cells;
+  const PetscInt xx = SAM_STRESS_XX - SAM_STRESS_ZZ, yy = SAM_STRESS_YY - SAM_STRESS_ZZ;
   double        *f, *slope;
   Place         *at;
 
@@ -79,9 +90,16 @@ PetscErrorCode SamPlasticRaise(const SamPlastic *p, PetscInt body, const double 
     if (!(removed[k] > 0)) continue;
     FindPlaces(p, removed[k], at);
     for (PetscInt c = 0; c < p->size; c++) {
+      if (IsAcross(c)) continue;
       for (PetscInt l = 0; l < n; l++) f[l] = of[((ptrdiff_t)l * p->size + c) * cells + k];
       Shift(p, at, slope, f);
       for (PetscInt l = 0; l < n; l++) of[((ptrdiff_t)l * p->size + c) * cells + k] = f[l];
+    }
+    for (PetscInt l = 0; l < n; l++) {
+      double *const layer = of + (ptrdiff_t)l * p->size * cells + k;
+
+      for (PetscInt c = 0; c < p->size; c++)
+        if (IsAcross(c)) layer[c * cells] = -(layer[(c + xx) * cells] + layer[(c + yy) * cells]);
     }
   }
   PetscCall(PetscFree3(f, slope, at));
