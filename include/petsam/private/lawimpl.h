@@ -59,7 +59,7 @@ typedef struct {
   Vec               pressure, shear, bound; /* Pa: the last solution */
   PetscBool         solved;                 /* false: there is no solution with the offset of the tried state */
   PetscBool         stands;      /* false: the contact has to be solved again even if the tried state is right */
-  char              failed[128]; /* set by a law that finds no solution: the reason */
+  char              failed[192]; /* set by a law that finds no solution: the reason */
 } SamLawContact;
 
 /*
@@ -87,7 +87,7 @@ struct _n_SamLawStep {
   Vec               bound;           /* bound of the shear, Pa */
   const PetscReal  *rigid;           /* m, rad: the displacements of the step, by SamComponent */
   PetscBool         known_pressure;  /* true: pressure of an earlier step, whose yielding the gap already contains */
-  char              failed[128];     /* set by a law whose check of the step fails: the reason */
+  char              failed[192];     /* set by a law whose check of the step fails: the reason */
   PetscBool         moves;           /* set by a law that changes the separation, so that the pressure changes */
   Vec               field[SAM_USES]; /* fields that laws use, by SamLawUse; NULL: no law uses it */
 };

@@ -540,7 +540,7 @@ static PetscErrorCode DescribeFailure(Solve *w, double largest)
   else
     (void)snprintf(w->contact->failed, size,
                    "the plastic strain did not converge within %" PetscInt_FMT
-                   " iterations, residual %.2g, tolerance %.2g",
+                   " iterations, residual %.2g, tolerance %.2g: use -step_rtol, more rows, or a larger -steps",
                    w->plastic->newton, largest, (double)w->plastic->rtol);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
