@@ -740,3 +740,12 @@ def test_dent_of_dissimilar_bodies_does_not_depend_on_the_steps(petsam, tmp_path
         told.append(any("plastic strain that it causes" in line for line in done.complaint))
         dent.append(all_steps(support.Results(tmp_path / "o.h5"))["residual_z_max"][-1])
     assert told == [False, False, True] and dent[0] == pytest.approx(dent[1], rel=0.04)
+
+
+@pytest.mark.parametrize("part, yields", [(0.5, False), (1.6, True)])
+def test_energy_of_a_first_step_that_yields_is_not_known(solve, part, yields):
+    """The surfaces of dissimilar bodies then do not move in proportion to the load, as in a step of elastic ones."""
+    found = all_steps(solve(line(part * 1.794 * YIELD, friction=0.1)))
+    energy, error = (found[name][0] for name in ("dissipated_energy", "energy_error"))
+    assert (found["plastic_work"][0] > 0) == yields and energy > 0
+    assert error == pytest.approx(energy, rel=1e-12) if yields else error < 0.5 * energy

@@ -770,12 +770,14 @@ static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *con
   const PetscInt cells = law->grid->cells;
   const Vec      field = SamStateReadField(state, SamStateFindField(state, SAM_PLASTIC_FIELD));
   double        *u, *to, *at[3];
+  PetscReal      most = 0;
 
   PetscFunctionBegin;
   (void)control;
   (void)e;
   if (!field) PetscFunctionReturn(PETSC_SUCCESS);
-  if (adds) *adds = PETSC_TRUE;
+  if (adds) PetscCall(VecNorm(field, NORM_INFINITY, &most));
+  if (adds && most > 0) *adds = PETSC_TRUE;
   if (!u_z && !u_t) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SetUp(law));
   PetscCall(PetscMalloc1(3 * cells, &u));
