@@ -90,7 +90,7 @@ def sphere(of):
     return shell.nodes, shell.blocks[0].nodes
 
 
-def deck(name, mesh, top, size):
+def deck(name, mesh, top, size, parts):
     """Lines of the deck; and the elements beside the surface."""
     of, count, elements = BODIES[name], len(mesh.nodes), mesh.blocks[0].nodes
     beside = np.flatnonzero(np.any(top[elements], axis=1))
@@ -123,7 +123,7 @@ def deck(name, mesh, top, size):
     out += ["*BOUNDARY", *held, "NSPHERE, 1, 2"]
     middle = np.setdiff1d(mesh.node_sets["MIDDLE"], held_nodes(name, mesh))
     out += ["*NSET, NSET=SYMMETRY", *numbers(middle + 1), "*BOUNDARY", "SYMMETRY, 2, 2"]
-    return out + steps(name, of), beside
+    return out + steps(name, of, parts), beside
 
 
 def held_nodes(name, mesh):
@@ -132,8 +132,8 @@ def held_nodes(name, mesh):
     return np.concatenate([mesh.node_sets[title] for title in sets])
 
 
-def steps(name, of):
-    """The load history."""
+def steps(name, of, parts):
+    """The load history, with so many load steps a row."""
     prints = [
         "*NODE PRINT, NSET=NSPHERE, TOTALS=ONLY",
         "RF",
@@ -142,7 +142,8 @@ def steps(name, of):
         "*EL PRINT, ELSET=BESIDE",
         "S",
     ]
-    start = ["*STEP, INC=200", "*STATIC, SOLVER=ITERATIVE CHOLESKY", "0.5, 1.", *CONTROLS, "*BOUNDARY"]
+    time = f"{1 / parts:g}, 1., , {1 / parts:g}"
+    start = ["*STEP, INC=200", "*STATIC, SOLVER=ITERATIVE CHOLESKY", time, *CONTROLS, "*BOUNDARY"]
     out = [
         *start,
         f"NSPHERE, 3, 3, {of['down']}",
@@ -174,9 +175,10 @@ def main():
     parser.add_argument("--size", type=float, default=0.1, help="of the elements at the contact, mm (0.1)")
     parser.add_argument("--far", type=float, default=0.5, help="of the largest elements, mm (0.5)")
     parser.add_argument("--last", type=float, help="of the elements at the supports, mm (--far)")
+    parser.add_argument("--steps", type=int, default=2, help="load steps of each row of the history (2)")
     options = parser.parse_args()
     mesh, top = body_mesh(options.body, options.size, options.far, options.last)
-    lines, beside = deck(options.body, mesh, top, options.size)
+    lines, beside = deck(options.body, mesh, top, options.size, options.steps)
     base = Path(options.out)
     Path(f"{base}.inp").write_text("\n".join(lines) + "\n", encoding="ascii")
     before = os.times()

@@ -266,40 +266,51 @@ static PetscErrorCode Keep(const Seen *s, const Peak *peak, Kept *kept)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Begin(const SamSolution *solution, PetscBool wraps, Seen *s, Vec *cells)
+{
+  PetscFunctionBegin;
+  PetscCall(SamHaloBegin(s->grid, solution->pressure, 1, BEHIND + 1, wraps, &s->p));
+  PetscCall(SamHaloBegin(s->grid, solution->bound, 1, 1, wraps, &s->b));
+  PetscCall(SamHaloBegin(s->grid, solution->shear, 2, 1, wraps, &s->q));
+  PetscCall(CreateCells(s, cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode End(Seen *s, Vec *cells)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(cells));
+  PetscCall(SamHaloEnd(&s->q));
+  PetscCall(SamHaloEnd(&s->b));
+  PetscCall(SamHaloEnd(&s->p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolutionFindShear(SamProblem problem, SamState state, const SamSolution *solution,
                                     const SamEdge *stick, double *most)
 {
-  const SamGrid       grid  = SamProblemGetGrid(problem);
-  const SamElasticity e     = SamProblemGetElasticity(problem);
-  const PetscBool     wraps = SamElasticityGetTraits(e).periodic;
-  const double        film  = (double)SamPairFilm(SamElasticityGetPair(e));
   const PetscInt      id    = SamStateFindNumber(state, kept_peak.name);
+  const SamElasticity e     = SamProblemGetElasticity(problem);
   const PetscBool     moves = SamMotionOf(e)->streams || SamProblemGetRolled(problem, &solution->control, NULL) != 0;
-  Seen                s     = {.grid = grid};
+  const PetscBool     wraps = SamElasticityGetTraits(e).periodic;
+  Kept *const         kept  = (Kept *)SamStateNumbers(state, id, SAM_TRIED);
+  Seen                s     = {.grid = SamProblemGetGrid(problem)};
   Peak                peak  = {*most, -1};
-  Kept                kept;
   double              shear = 0;
   Vec                 cells;
 
   PetscFunctionBegin;
-  memcpy(&kept, SamStateNumbers(state, id, SAM_COMMITTED), sizeof(kept));
-  if (moves) kept.cell = 0;
-  if (!stick && kept.cell == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamHaloBegin(grid, solution->pressure, 1, BEHIND + 1, wraps, &s.p));
-  PetscCall(SamHaloBegin(grid, solution->bound, 1, 1, wraps, &s.b));
-  PetscCall(SamHaloBegin(grid, solution->shear, 2, 1, wraps, &s.q));
-  PetscCall(CreateCells(&s, &cells));
-  if (kept.cell > 0) PetscCall(ShearOfKept(&s, &kept, cells, wraps, &shear));
-  if (stick) PetscCall(FindAtEdge(&s, stick, film, cells, wraps, &peak));
+  memcpy(kept, SamStateNumbers(state, id, SAM_COMMITTED), sizeof(*kept));
+  if (moves) kept->cell = 0;
+  if (!stick && kept->cell == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Begin(solution, wraps, &s, &cells));
+  if (kept->cell > 0) PetscCall(ShearOfKept(&s, kept, cells, wraps, &shear));
+  if (stick) PetscCall(FindAtEdge(&s, stick, (double)SamPairFilm(SamElasticityGetPair(e)), cells, wraps, &peak));
   PetscCall(Agree(&s, &peak));
-  PetscCall(SamMax(grid->comm, 1, &shear));
-  if (shear == 0) kept.cell = 0;
-  if (peak.shear >= shear && peak.cell >= 0 && !moves) PetscCall(Keep(&s, &peak, &kept));
+  PetscCall(SamMax(s.grid->comm, 1, &shear));
+  if (shear == 0) kept->cell = 0;
+  if (peak.shear >= shear && peak.cell >= 0 && !moves) PetscCall(Keep(&s, &peak, kept));
   *most = PetscMax(peak.shear, shear);
-  memcpy(SamStateNumbers(state, id, SAM_TRIED), &kept, sizeof(kept));
-  PetscCall(VecDestroy(&cells));
-  PetscCall(SamHaloEnd(&s.q));
-  PetscCall(SamHaloEnd(&s.b));
-  PetscCall(SamHaloEnd(&s.p));
+  PetscCall(End(&s, &cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
