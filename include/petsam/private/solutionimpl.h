@@ -62,6 +62,8 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   the start to slip[0] and slip[1]; in new contact, the slip of the step begins when the cells touch. Creation and
   destruction are collective.
 
+  SamIncrementFindSpan - finds the cells of row j between which all contact before and after the step is: from span[0] to
+  before span[1], which are the same if there is none. Not collective.
   SamIncrementTurnRow - rotates the slip of row j by the angle from the mean direction of the shear in the step to that
   at its end, and writes it to `to`; to be called after ComputeRow, and only if there is a solution before. Not
   collective.
@@ -86,6 +88,7 @@ PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolu
 PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
 PETSC_INTERN PetscErrorCode SamIncrementMeasure(SamIncrement *increment);
 PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);
+PETSC_INTERN void           SamIncrementFindSpan(const SamIncrement *increment, PetscInt j, PetscInt span[2]);
 PETSC_INTERN void           SamIncrementTurnRow(const SamIncrement *increment, PetscInt j, double *const to[2]);
 PETSC_INTERN void           SamIncrementOpposeRow(const SamIncrement *increment, PetscInt j);
 

@@ -179,6 +179,18 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
   }
 }
 
+void SamIncrementFindSpan(const SamIncrement *s, PetscInt j, PetscInt span[2])
+{
+  const ptrdiff_t first = (ptrdiff_t)j * s->grid->nx;
+  const double   *after = s->at_now.p + first, *before = s->solutions[0] ? s->at_before.p + first : after;
+  PetscInt        from = 0, to = s->grid->nx;
+
+  while (from < to && !SamIsPressed(after[from]) && !SamIsPressed(before[from])) from++;
+  while (to > from && !SamIsPressed(after[to - 1]) && !SamIsPressed(before[to - 1])) to--;
+  span[0] = from;
+  span[1] = to;
+}
+
 void SamIncrementOpposeRow(const SamIncrement *s, PetscInt j)
 {
   const ptrdiff_t cells = s->grid->cells, first = (ptrdiff_t)j * s->grid->nx;

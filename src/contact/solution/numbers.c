@@ -25,14 +25,16 @@ static double WorkBeforeTouch(const SamIncrement *increment, ptrdiff_t k, double
   return b[k] * (0.5 * hypot(dx + aside[k], dy + aside[k + increment->grid->cells]) - share[1] * hypot(dx, dy));
 }
 
-static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[SUMS], double most[MOSTS])
+static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt span[2], double sums[SUMS],
+                   double most[MOSTS])
 {
-  const SamValues *v  = &increment->at_now;
-  const PetscInt   nx = increment->grid->nx, cells = increment->grid->cells;
+  const SamValues *v     = &increment->at_now;
+  const PetscInt   cells = increment->grid->cells;
+  const ptrdiff_t  first = (ptrdiff_t)j * increment->grid->nx;
   const double    *p = v->p, *b = v->b, *q = v->q, *sx = increment->slip[0], *sy = increment->slip[1],
                *dx = increment->row[0], *dy = increment->row[1];
 
-  for (PetscInt i = 0; i < nx; i++) {
+  for (PetscInt i = span[0]; i < span[1]; i++) {
     const ptrdiff_t    k = first + i, l = k + cells;
     const SamCellState state = SamCellStateOf(p[k], q[k], q[l], b[k]);
     double             share[2];
@@ -91,7 +93,8 @@ static double ErrorOfBegin(const SamIncrement *increment, SamSlide slide, const 
   return slide == SAM_SLIDE_ENTERS ? 0 : RETURNS * (0.5 - share[0]);
 }
 
-static void AddErrors(const SamIncrement *increment, PetscInt j, double *const turned[2], double sums[SUMS])
+static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt span[2], double *const turned[2],
+                      double sums[SUMS])
 {
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
                *sy = increment->row[1];
@@ -99,7 +102,7 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, double *const t
   if (!increment->solutions[0] && !increment->solutions[1]->touches) sums[ERROR] = fabs(sums[DISSIPATED]);
   if (!increment->solutions[0]) return;
   SamIncrementTurnRow(increment, j, turned);
-  for (PetscInt i = 0; i < increment->grid->nx; i++) {
+  for (PetscInt i = span[0]; i < span[1]; i++) {
     const ptrdiff_t k = (ptrdiff_t)j * increment->grid->nx + i;
     double          share[2];
     const SamSlide  slide  = SamIncrementGetSlide(increment, k, share);
@@ -209,11 +212,14 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   PetscCall(SamIncrementMeasure(&increment));
   PetscCall(PetscMalloc2(grid->nx, &turned[0], grid->nx, &turned[1]));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    double row[SUMS] = {0};
+    double   row[SUMS] = {0};
+    PetscInt span[2];
 
+    SamIncrementFindSpan(&increment, j, span);
+    if (span[0] == span[1]) continue;
     SamIncrementComputeRow(&increment, j);
-    SumRow(&increment, (ptrdiff_t)j * grid->nx, row, most);
-    AddErrors(&increment, j, turned, row);
+    SumRow(&increment, j, span, row, most);
+    AddErrors(&increment, j, span, turned, row);
     SamAddAll(SUMS, totals, row);
   }
   PetscCall(PetscFree2(turned[0], turned[1]));
