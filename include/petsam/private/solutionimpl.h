@@ -62,7 +62,7 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   the start to slip[0] and slip[1]; in new contact, the slip of the step begins when the cells touch. Creation and
   destruction are collective.
 
-  SamIncrementFindSpan - finds the cells of row j between which all contact before and after the step is: from span[0] to
+  SamIncrementFindSpan - finds the part of row j that has all contact before and after the step: from column span[0] to
   before span[1], which are the same if there is none. Not collective.
   SamIncrementTurnRow - rotates the slip of row j by the angle from the mean direction of the shear in the step to that
   at its end, and writes it to `to`; to be called after ComputeRow, and only if there is a solution before. Not
