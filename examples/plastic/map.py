@@ -2,10 +2,9 @@
 
     build/venv/bin/python examples/plastic/map.py [folder]
 
-The steel does not harden. On one period each point is passed in each of the passes. The limit is Melan's: residual
-stress of a half-plane, the same at each place along x, has no shear, so the shear that a pass makes must stay below that
-at yield, k (K. L. Johnson, Contact Mechanics (1985), section 9.2). Run from the root of the repository, or with
-PYTHONPATH=scripts.
+The steel does not harden. On one period each point is rolled over again and again. The limit is Melan's: residual
+stress of a half-plane that is the same at each place along x has no shear, so the shear by the contact must stay
+below that at yield, k (K. L. Johnson, Contact Mechanics (1985), section 9.2).
 """
 
 import os
@@ -24,13 +23,13 @@ SHEAR = 100e6  # k, Pa
 HALF = 1e-3  # half width of the elastic contact, m
 PERIOD = 10 * HALF
 CELLS = 120  # of a period
-PASSES = 5
+TIMES = 5
 POISSON = 0.3
 YOUNG = 260e9  # so that strains are small
 FRICTIONS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5)
 PARTS = (0.75, 0.93, 1.07, 1.25)  # pressures over the limit
 SLIDING = 0.99  # T over friction times N
-STEADY = 0.1  # work of the last pass over that of the second: less of it falls to nothing
+STEADY = 0.1  # work of the last time over that of the second: less of it falls to nothing
 
 
 def stresses(friction):
@@ -60,11 +59,11 @@ def first_yield(friction):
     return 1 / np.sqrt(np.max(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 6 + xz**2))
 
 
-def passes(case):
-    """Plastic work (J/m) of each pass under a friction and a pressure over k."""
+def works_of(case):
+    """Plastic work (J/m) of each time under a friction and a pressure over k."""
     friction, pressure = case
     load = np.pi / 2 * HALF * pressure * SHEAR
-    rows = 1 + PASSES * CELLS
+    rows = 1 + TIMES * CELLS
     history = dict(load_n=np.full(rows, load), load_tx=np.full(rows, SLIDING * friction * load))
     history["roll"] = np.append(0.0, np.full(rows - 1, -PERIOD / CELLS))
     radius = YOUNG / (1 - POISSON**2) * HALF / 2 / (pressure * SHEAR)
@@ -76,11 +75,11 @@ def passes(case):
             body2_yield=np.sqrt(3) * SHEAR, yield_depth=2.5 * HALF, yield_layers=24, output_every=rows, history=history,
         )  # fmt: skip
     work = np.asarray(results.history["plastic_work"])[1:]
-    return work.reshape(PASSES, CELLS).sum(axis=1)
+    return work.reshape(TIMES, CELLS).sum(axis=1)
 
 
 def kind_of(work):
-    """0 elastic, 1 shakes down, 2 yields in each pass."""
+    """0 elastic, 1 shakes down, 2 yields every time."""
     if not work.any():
         return 0
     return 2 if work[-1] > STEADY * work[1] else 1
@@ -88,7 +87,7 @@ def kind_of(work):
 
 def draw(cases, kinds, folder):
     """The map: closed limits as lines, the runs as points."""
-    names = ("elastic", "shakes down", "yields in each pass")
+    names = ("elastic", "shakes down", "yields every time")
     fine = np.linspace(0.0, max(FRICTIONS) + 0.05, 56)
     figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
     axes.plot(fine, [limit(f) for f in fine], color=COLORS[0], label="Melan's limit")
@@ -108,11 +107,9 @@ def main():
     os.makedirs(folder, exist_ok=True)
     cases = [(friction, part * limit(friction)) for friction in FRICTIONS for part in PARTS]
     with Pool(2) as pool:
-        works = pool.map(passes, cases, chunksize=1)
+        works = pool.map(works_of, cases, chunksize=1)
     kinds = [kind_of(work) for work in works]
-    print(
-        "friction  p_0/k of first yield, of the limit; work of the last pass over that of the first, by p_0 over the limit"
-    )
+    print("friction  p_0/k: first yield, limit; work of the last time over the first's, at p_0 over the limit")
     for k, friction in enumerate(FRICTIONS):
         own = works[k * len(PARTS) : (k + 1) * len(PARTS)]
         shares = "  ".join(f"{part:g}: {w[-1] / w[0] if w[0] else 0:.2g}" for part, w in zip(PARTS, own))
