@@ -6,7 +6,7 @@
 
 #include "../../src/laws/plastic/newton.h"
 
-#define SIZE  7
+#define SIZE  (7 + 6) /* strain, its accumulated size and a backstress */
 #define DEPTH 1.0
 #define PEAK  0.6 /* depth of the profile's maximum */
 #define WIDE  0.15
@@ -22,6 +22,14 @@ static double MeanOver(double top, double thickness)
   return (Integral(top + thickness) - Integral(top)) / thickness;
 }
 
+/* The factor of value v of a layer on the profile: the components zz of both tensors are minus the sum of xx and yy. */
+static double FactorOf(PetscInt v)
+{
+  if (v == 2) return -(FactorOf(0) + FactorOf(1));
+  if (v == 7 + 2) return -(FactorOf(7) + FactorOf(8));
+  return (double)(v + 1);
+}
+
 typedef struct {
   SamPlastic p;
   PetscReal *thickness;
@@ -29,7 +37,7 @@ typedef struct {
   PetscInt   body; /* of two, the one that is moved */
 } Case;
 
-/* The profile in all cells of both bodies; the value number c has the factor c + 1. */
+/* The profile in all cells of both bodies. */
 static Case NewProfiles(SamGrid grid, PetscInt layers, double first)
 {
   Case c = {.p = {.grid = grid, .bodies = 2, .layers = layers, .size = SIZE}, .body = 1};
@@ -43,8 +51,7 @@ static Case NewProfiles(SamGrid grid, PetscInt layers, double first)
 
     for (PetscInt m = 0; m < l % layers; m++) top += (double)c.thickness[m];
     for (PetscInt k = 0; k < SIZE * grid->cells; k++)
-      c.strain[l * SIZE * grid->cells + k] =
-        (double)(k / grid->cells + 1) * MeanOver(top, (double)c.thickness[l % layers]);
+      c.strain[l * SIZE * grid->cells + k] = FactorOf(k / grid->cells) * MeanOver(top, (double)c.thickness[l % layers]);
   }
   return c;
 }
@@ -77,7 +84,7 @@ static double ErrorOf(const Case *c, double depth, PetscInt cell)
     for (PetscInt v = 0; v < SIZE && top + depth + (double)c->thickness[l] < DEPTH; v++) {
       const double found = c->strain[((c->body * c->p.layers + l) * SIZE + v) * cells + cell];
 
-      most = PetscMax(most, fabs(found / (double)(v + 1) - MeanOver(top + depth, (double)c->thickness[l])));
+      most = PetscMax(most, fabs(found / FactorOf(v) - MeanOver(top + depth, (double)c->thickness[l])));
     }
   return most;
 }
@@ -115,24 +122,36 @@ static void test_many_small_depths_are_their_sum(void **state)
   sam_assert(fine < 0.5 * coarse);
 }
 
-/* A strain in single layers keeps between its least and largest value, however it is moved. */
+/* A strain in single layers keeps between its least and largest value, however it is moved, and does not change the
+   volume. */
 static void test_no_value_leaves_the_range_of_the_profile(void **state)
 {
-  SamGrid        grid     = NewGrid(4, 3, 1, 1);
-  Case           c        = NewProfiles(grid, 12, DEPTH / 20);
-  const PetscInt count    = 2 * c.p.layers * SIZE * grid->cells;
-  double         range[2] = {1, 0};
+  SamGrid        grid  = NewGrid(4, 3, 1, 1);
+  Case           c     = NewProfiles(grid, 12, DEPTH / 20);
+  const PetscInt cells = grid->cells, count = 2 * c.p.layers * SIZE * cells;
+  double         range[2] = {1, 0}, volume = 0;
 
   (void)state;
-  for (PetscInt k = 0; k < count; k++) c.strain[k] = k / (SIZE * grid->cells) % 5 == 2 ? 1 : 0;
+  for (PetscInt k = 0; k < count; k++) {
+    const PetscInt v = k / cells % SIZE, layer = k / (SIZE * cells) % 5;
+
+    c.strain[k] = layer == (v == 1 || v == 7 + 1 ? 3 : 2) ? 1 : 0; /* yy elsewhere than the others */
+    if (v == 2 || v == 7 + 2) c.strain[k] = -(c.strain[k - cells] + c.strain[k - 2 * cells]);
+  }
   for (int n = 0; n < 7; n++) {
     Remove(&c, 0.02, 1);
     for (PetscInt k = 0; k < count; k++) {
-      range[0] = PetscMin(range[0], c.strain[k]);
-      range[1] = PetscMax(range[1], c.strain[k]);
+      const PetscInt v = k / cells % SIZE;
+
+      if (v == 2 || v == 7 + 2) {
+        volume = PetscMax(volume, fabs(c.strain[k] + (c.strain[k - cells] + c.strain[k - 2 * cells])));
+      } else {
+        range[0] = PetscMin(range[0], c.strain[k]);
+        range[1] = PetscMax(range[1], c.strain[k]);
+      }
     }
   }
-  sam_assert(range[0] >= -1e-15 && range[1] <= 1 + 1e-15);
+  sam_assert(range[0] >= -1e-15 && range[1] <= 1 + 1e-15 && volume == 0);
   DestroyProfiles(&c);
   sam_call(SamGridDestroy(&grid));
 }
