@@ -742,10 +742,11 @@ def test_dent_of_dissimilar_bodies_does_not_depend_on_the_steps(petsam, tmp_path
     assert told == [False, False, True] and dent[0] == pytest.approx(dent[1], rel=0.04)
 
 
-@pytest.mark.parametrize("part, yields", [(0.5, False), (1.6, True)])
-def test_energy_of_a_first_step_that_yields_is_not_known(solve, part, yields):
+@pytest.mark.parametrize("yields", [False, True])
+def test_energy_of_a_first_step_that_yields_is_not_known(solve, yields):
     """The surfaces of dissimilar bodies then do not move in proportion to the load, as in a step of elastic ones."""
-    found = all_steps(solve(line(part * 1.794 * YIELD, friction=0.1)))
+    case = dict(cylinder(1, elasticity="plane_periodic", friction=0.06), grid_n=96, body1_young=1.5, body1_poisson=0.34)
+    found = all_steps(solve(dict(case, body2_yield=YIELD if yields else 10 * YIELD)))
     energy, error = (found[name][0] for name in ("dissipated_energy", "energy_error"))
     assert (found["plastic_work"][0] > 0) == yields and energy > 0
-    assert error == pytest.approx(energy, rel=1e-12) if yields else error < 0.5 * energy
+    assert error == pytest.approx(energy, rel=1e-12, abs=0) if yields else error < 0.5 * energy

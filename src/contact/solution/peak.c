@@ -20,8 +20,8 @@
 
   3. After a reversal all sticks about that place, and its shear is still the largest until it is overcome. It then
   changes as the shear of the cell beside it does, since a change without slip is smooth there: the state keeps the
-  difference of both. It is dropped when the cell or one beside it slips again. The shear stays within its bound, which
-  has the same ratio to that of the cell as before.
+  difference of both, until the cell slips again. The shear stays within its bound, which has the same ratio to that of
+  the cell as before.
 */
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/rows.h>
@@ -225,25 +225,14 @@ static PetscInt PlaceOf(const Seen *s, PetscInt cell)
   return cell >= 0 && k >= 0 && k < s->grid->cells ? k : -1;
 }
 
-/* Returns the shear of a kept peak if this rank has its cell, and all about that sticks; else 0. Collective. */
-static PetscErrorCode ShearOfKept(Seen *s, const Kept *kept, Vec cells, PetscBool wraps, double *shear)
+/* Returns the shear of a kept peak if this rank has its cell, and it sticks; else 0. */
+static double ShearOfKept(const Seen *s, const Kept *kept)
 {
-  const PetscInt k = PlaceOf(s, (PetscInt)kept->cell - 1), rows = s->grid->axes - 1;
+  const PetscInt k = PlaceOf(s, (PetscInt)kept->cell - 1), l = k + s->grid->cells;
+  const double  *q = s->q.own;
 
-  PetscFunctionBegin;
-  *shear = 0;
-  PetscCall(SamHaloBegin(s->grid, cells, 1, 1, wraps, &s->cell));
-  if (k >= 0) {
-    const PetscInt i = k % s->grid->nx, j = s->grid->row_start + k / s->grid->nx;
-
-    *shear = hypot(s->q.own[k] + kept->above[0], s->q.own[k + s->grid->cells] + kept->above[1]);
-    *shear = PetscMin(*shear, kept->bound * s->b.own[k]);
-    for (PetscInt b = j - rows; b <= j + rows; b++)
-      for (PetscInt a = i - 1; a <= i + 1; a++)
-        if (SamHaloAt(&s->cell, 0, a, b) != SAM_CELL_STICK) *shear = 0;
-  }
-  PetscCall(SamHaloEnd(&s->cell));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (k < 0 || SamCellStateOf(s->p.own[k], q[k], q[l], s->b.own[k]) != SAM_CELL_STICK) return 0;
+  return PetscMin(hypot(q[k] + kept->above[0], q[l] + kept->above[1]), kept->bound * s->b.own[k]);
 }
 
 /* Describes a peak beside a cell, on all ranks. */
@@ -296,7 +285,7 @@ PetscErrorCode SamSolutionFindShear(SamProblem problem, SamState state, const Sa
   Kept *const         kept  = (Kept *)SamStateNumbers(state, id, SAM_TRIED);
   Seen                s     = {.grid = SamProblemGetGrid(problem)};
   Peak                peak  = {*most, -1};
-  double              shear = 0;
+  double              shear;
   Vec                 cells;
 
   PetscFunctionBegin;
@@ -304,7 +293,7 @@ PetscErrorCode SamSolutionFindShear(SamProblem problem, SamState state, const Sa
   if (moves) kept->cell = 0;
   if (!stick && kept->cell == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Begin(solution, wraps, &s, &cells));
-  if (kept->cell > 0) PetscCall(ShearOfKept(&s, kept, cells, wraps, &shear));
+  shear = ShearOfKept(&s, kept);
   if (stick) PetscCall(FindAtEdge(&s, stick, (double)SamPairFilm(SamElasticityGetPair(e)), cells, wraps, &peak));
   PetscCall(Agree(&s, &peak));
   PetscCall(SamMax(s.grid->comm, 1, &shear));
