@@ -50,8 +50,10 @@
 #define SAME 1e-9
 /* Columns by which the stored part of a row exceeds the contact, which may grow by a cell */
 #define MARGIN 1
-/* An upper bound of the influence of single cells' shear on their neighbours, in units of the self-influence. */
+/* An upper bound of the influence of a single cell's shear on all others, in units of the self-influence: of a cell of a
+   surface, and of one of n cells in a row, over n^(1/2): there it falls with the logarithm of the distance only. */
 #define SPREAD 4
+#define ALONG  0.6
 #define UNITS  1073741824.0
 /* Least and largest weight of the last of two repetitions. */
 #define LEAST_WEIGHT (-1.0)
@@ -722,10 +724,11 @@ PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticit
   PetscReal         self;
   double           *q, *u, open = 0, lost;
   const double     *b;
-  ptrdiff_t         at[2] = {0, 0};
-  SamTotal          total = {0};
-  const Part *const parts = kept->part;
-  const SamGrid     grid  = SamElasticityGetGrid(elasticity);
+  ptrdiff_t         at[2]  = {0, 0};
+  SamTotal          total  = {0};
+  const Part *const parts  = kept->part;
+  const SamGrid     grid   = SamElasticityGetGrid(elasticity);
+  const double      spread = SamGridIsRow(grid) ? PetscMax(SPREAD, ALONG * sqrt((double)grid->nx)) : SPREAD;
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetSelfInfluence(elasticity, NULL, &self));
@@ -756,10 +759,10 @@ PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticit
   product->first[0] = product->first[1] = 0;
   product->n[0]                         = grid->nx;
   product->n[1]                         = grid->ny;
-  product->rounding                     = SPREAD * sqrt(lost);
+  product->rounding                     = spread * sqrt(lost);
   for (int n = 0; n < 2 && parts[n].fields; n++)
     product->rounding += fabs(parts[n].weight) * sqrt(parts[n].numbers[CELLS]) *
-                         (parts[n].numbers[UNIT_PRODUCT] / (double)self + SPREAD * parts[n].numbers[UNIT_SHEAR]);
+                         (parts[n].numbers[UNIT_PRODUCT] / (double)self + spread * parts[n].numbers[UNIT_SHEAR]);
   *found = open > 0 ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
