@@ -50,8 +50,10 @@
 #define SAME 1e-9
 /* Columns by which the stored part of a row exceeds the contact, which may grow by a cell */
 #define MARGIN 1
-/* An upper bound of the influence of a single cell's shear on all others, in units of the self-influence: of a cell of a
-   surface, and of one of n cells in a row, over n^(1/2): there it falls with the logarithm of the distance only. */
+/*
+  An upper bound of the influence of a single cell's shear on all others, in units of the self-influence: of a cell of a
+  surface, and of one of n cells in a row over the root of n, as it falls with the logarithm of the distance only.
+*/
 #define SPREAD 4
 #define ALONG  0.6
 #define UNITS  1073741824.0
