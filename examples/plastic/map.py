@@ -11,13 +11,11 @@ import os
 import sys
 import warnings
 from multiprocessing import Pool
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-import petsam  # noqa: E402
-from petsam.plot.style import COLORS, frame, plt, save  # noqa: E402
+import petsam
+from petsam.plot.style import COLORS, frame, plt, save
 
 SHEAR = 100e6  # k, Pa
 HALF = 1e-3  # half width of the elastic contact, m

@@ -40,9 +40,7 @@ def random_problem(rng, folder):
     half, normal, peak = random_users.hertz(rng, case, plane, -2.6, -1.9)
     across = 10 ** rng.uniform(0, 1.7 if plane else 1.0)
     cells = int(rng.integers(48, 161)) if plane else int(rng.integers(14, 25))
-    side = 2 * half / across
-    if across > 0.6 * cells:
-        side = 2 * half / (0.6 * cells)
+    side = 2 * half / min(across, 0.6 * cells)
     case.update(grid_n=cells if plane else (cells, cells + int(rng.integers(0, 3))), elasticity=elasticity)
     size = side * np.array([case["grid_n"]]).ravel()
     case.update(grid_size=tuple(map(float, size)) if not plane else float(size[0]))
@@ -130,7 +128,7 @@ def stress_of_waves(folder, case, body, depths):
     """The same of a periodic row, whose half-plane bears a wave of p and q as in any textbook, by means over layers."""
     with h5py.File(folder / "out.h5") as f:
         places = layers_of(f, body)[1]
-        p, q = f["pressure"][:, 0], f["shear_x"][:, 0] if "shear_x" in f else 0 * f["pressure"][:, 0]
+        p, q = (traction_of(f, name)[:, 0] for name in ("pressure", "shear_x"))
         residual = np.array([field_of(f, f"plastic/residual_stress_{part}", places) for part in PARTS])
         bulk = f["history/bulk2_stress_xx"][()] if body == 2 and "bulk2_stress_xx" in f["history"] else np.zeros(len(p))
     poisson, count = case[f"body{body}_poisson"], p.shape[1]
@@ -168,6 +166,11 @@ def edges_of(depths):
     for depth in depths:
         edges.append(2 * depth - edges[-1])
     return edges
+
+
+def traction_of(file, name):
+    """A traction (steps, y, x); zeros where the run has no friction."""
+    return file[name][()] if name in file else np.zeros(file["pressure"].shape)
 
 
 def field_of(file, name, places):
@@ -222,18 +225,13 @@ def sum_of_backstresses(material, last, change, grown):
 def faults_of_contact(folder, friction, area):
     """What is wrong on the surface."""
     with h5py.File(folder / "out.h5") as f:
-        p, x, y = (
-            (f[name][()] for name in ("pressure", "shear_x", "shear_y"))
-            if "shear_x" in f
-            else (f["pressure"][()], 0 * f["pressure"][()], 0 * f["pressure"][()])
-        )
+        p, x, y = (traction_of(f, name) for name in ("pressure", "shear_x", "shear_y"))
         table = {name: f[f"history/{name}"][()] for name in ("load_n", "load_tx", "load_ty", "yield_error")}
     out = dict(
         tension=np.max(-p) / (1e-12 * p.max()), friction=np.max(np.hypot(x, y) - friction * p) / (1e-9 * p.max())
     )
-    for name, field, sign in (("load_n", p, 1), ("load_tx", x, 1), ("load_ty", y, 1)):
-        sums = sign * field.sum(axis=(1, 2)) * area
-        out[name] = np.max(np.abs(sums - table[name])) / (FORCES * np.max(table["load_n"]))
+    for name, field in (("load_n", p), ("load_tx", x), ("load_ty", y)):
+        out[name] = np.max(np.abs(field.sum(axis=(1, 2)) * area - table[name])) / (FORCES * np.max(table["load_n"]))
     out["yield_error"] = np.max(table["yield_error"]) / 1e-5
     return out
 
@@ -258,9 +256,8 @@ def examine(seed):
             found.update({f"{key}{body}": value for key, value in more.items()})
         with h5py.File(folder / "out.h5") as f:
             text += f"{f['history/plastic_max'][-1]:.2g}, "
-            text += (
-                f"{int(f['history/contact_cells'][()].min())} to {int(f['history/contact_cells'][()].max())} cells: "
-            )
+            contact = f["history/contact_cells"][()]
+        text += f"{contact.min()} to {contact.max()} cells: "
         worst = sorted(found.items(), key=lambda item: -item[1])[:4]
         return text + ", ".join(f"{key} {value:.2g}" for key, value in worst), worst[0][1] > 1
 

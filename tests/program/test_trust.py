@@ -158,7 +158,8 @@ def test_shear_of_a_slip_zone_narrower_than_a_cell_is_warned_of_with_its_size(pe
             shear.append(f["history/shear_max"][-1])
         if times == 1:
             told = [LAST.search(line) for line in done.complaint if LAST.search(line)]
-    assert abs(shear[0] / shear[1] - 1) > (0.05 if "bulk" in head else 0.01)
+    wrong = abs(shear[0] / shear[1] - 1)
+    assert wrong > 0.05 if "bulk" in head else wrong < 0.02  # after a reversal the peak before it is known
     assert len(told) == 1 and float(told[0][1]) == pytest.approx(shear[1], rel=0.4)
     assert int(told[0][2]) > options["grid_n"]
 
@@ -276,7 +277,7 @@ def test_largest_shear_stays_where_slip_ended_before_a_reversal(petsam, tmp_path
 
 @pytest.mark.parametrize("n", [31, 37])
 def test_largest_shear_follows_the_edge_of_stick_within_a_cell(petsam, tmp_path, n):
-    """That of the step before is not kept where its cell or one beside it slips on."""
+    """That of the step before is not kept above the bound, where slip goes on beside its cell."""
     parts = [0.5 + 0.01 * k for k in range(16)]
     petsam(SPHERE, history(tmp_path, "load_tx", *[(t * MU * LOAD,) for t in parts]),
            dict(load_n=LOAD, grid_n=n, grid_size=2.6 * RADIUS, output="one.h5", overwrite=True))  # fmt: skip

@@ -170,136 +170,115 @@ static double ShearBeside(const Seen *s, PetscInt i, PetscInt j)
   return most;
 }
 
-/* Creates a field of the cells' states. */
-static PetscErrorCode CreateCells(const Seen *s, Vec *cells)
-{
-  const double *q = s->q.own;
-  double       *cell;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(s->grid, 1, cells));
-  PetscCall(VecGetArrayWrite(*cells, &cell));
-  for (PetscInt k = 0; k < s->grid->cells; k++)
-    cell[k] = SamCellStateOf(s->p.own[k], q[k], q[k + s->grid->cells], s->b.own[k]);
-  PetscCall(VecRestoreArrayWrite(*cells, &cell));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Finds the largest shear of this rank at the edge of stick, where it is reconstructed and where it is not. */
-static PetscErrorCode FindAtEdge(Seen *s, const SamEdge *stick, double film, Vec cells, PetscBool wraps, Peak *peak)
+static PetscErrorCode FindAtEdge(SamProblem problem, const SamSolution *solution, const SamEdge *stick, Peak *peak)
 {
-  double *cell;
+  const SamElasticity e     = SamProblemGetElasticity(problem);
+  const PetscBool     wraps = SamElasticityGetTraits(e).periodic;
+  const double        film  = (double)SamPairFilm(SamElasticityGetPair(e));
+  const SamGrid       grid  = SamProblemGetGrid(problem);
+  Seen                s     = {.grid = grid};
+  double             *cell;
+  Vec                 cells;
 
   PetscFunctionBegin;
+  PetscCall(SamHaloBegin(grid, solution->pressure, 1, BEHIND + 1, wraps, &s.p));
+  PetscCall(SamHaloBegin(grid, solution->bound, 1, 1, wraps, &s.b));
+  PetscCall(SamHaloBegin(grid, solution->shear, 2, 1, wraps, &s.q));
+  PetscCall(SamGridCreateVec(grid, 1, &cells));
+  PetscCall(SamSolutionComputeStates(solution, cells));
   PetscCall(VecGetArray(cells, &cell));
-  FindAtPoints(s, stick, cell, peak);
+  FindAtPoints(&s, stick, cell, peak);
   PetscCall(VecRestoreArray(cells, &cell));
-  PetscCall(SamHaloBegin(s->grid, cells, 1, 1, wraps, &s->cell));
-  for (PetscInt k = 0; k < s->grid->cells && !(film > 0); k++) {
-    const PetscInt i = k % s->grid->nx, j = s->grid->row_start + k / s->grid->nx;
+  PetscCall(SamHaloBegin(grid, cells, 1, 1, wraps, &s.cell));
+  for (PetscInt k = 0; k < grid->cells && !(film > 0); k++) {
+    const PetscInt i = k % grid->nx, j = grid->row_start + k / grid->nx;
 
-    if (s->cell.own[k] == SAM_CELL_STICK) Raise(peak, ShearBeside(s, i, j), j * s->grid->nx + i);
+    if (s.cell.own[k] == SAM_CELL_STICK) Raise(peak, ShearBeside(&s, i, j), j * grid->nx + i);
   }
-  PetscCall(SamHaloEnd(&s->cell));
+  PetscCall(SamHaloEnd(&s.cell));
+  PetscCall(VecDestroy(&cells));
+  PetscCall(SamHaloEnd(&s.q));
+  PetscCall(SamHaloEnd(&s.b));
+  PetscCall(SamHaloEnd(&s.p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Makes the largest shear of any rank that of all; of cells with the same the first one counts. */
-static PetscErrorCode Agree(const Seen *s, Peak *peak)
+static PetscErrorCode Agree(SamGrid grid, Peak *peak)
 {
   double most = peak->shear, first;
 
   PetscFunctionBegin;
-  PetscCall(SamMax(s->grid->comm, 1, &most));
+  PetscCall(SamMax(grid->comm, 1, &most));
   first = peak->shear == most ? -(double)peak->cell : -INFINITY;
-  PetscCall(SamMax(s->grid->comm, 1, &first));
+  PetscCall(SamMax(grid->comm, 1, &first));
   *peak = (Peak){most, (PetscInt)-first};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Returns this rank's place of a cell of the grid; -1: it is another rank's. */
-static PetscInt PlaceOf(const Seen *s, PetscInt cell)
+static PetscInt PlaceOf(SamGrid grid, PetscInt cell)
 {
-  const PetscInt k = cell - s->grid->row_start * s->grid->nx;
+  const PetscInt k = cell - grid->row_start * grid->nx;
 
-  return cell >= 0 && k >= 0 && k < s->grid->cells ? k : -1;
+  return cell >= 0 && k >= 0 && k < grid->cells ? k : -1;
 }
 
 /* Returns the shear of a kept peak if this rank has its cell, and it sticks; else 0. */
-static double ShearOfKept(const Seen *s, const Kept *kept)
+static double ShearOfKept(SamGrid grid, const SamValues *v, const Kept *kept)
 {
-  const PetscInt k = PlaceOf(s, (PetscInt)kept->cell - 1), l = k + s->grid->cells;
-  const double  *q = s->q.own;
+  const PetscInt k = PlaceOf(grid, (PetscInt)kept->cell - 1), l = k + v->cells;
+  const double  *q = v->q;
 
-  if (k < 0 || SamCellStateOf(s->p.own[k], q[k], q[l], s->b.own[k]) != SAM_CELL_STICK) return 0;
-  return PetscMin(hypot(q[k] + kept->above[0], q[l] + kept->above[1]), kept->bound * s->b.own[k]);
+  if (k < 0 || SamCellStateOf(v->p[k], q[k], q[l], v->b[k]) != SAM_CELL_STICK) return 0;
+  return PetscMin(hypot(q[k] + kept->above[0], q[l] + kept->above[1]), kept->bound * v->b[k]);
 }
 
 /* Describes a peak beside a cell, on all ranks. */
-static PetscErrorCode Keep(const Seen *s, const Peak *peak, Kept *kept)
+static PetscErrorCode Keep(SamGrid grid, const SamValues *v, const Peak *peak, Kept *kept)
 {
-  const PetscInt k         = PlaceOf(s, peak->cell);
+  const PetscInt k         = PlaceOf(grid, peak->cell);
   SamTotal       totals[3] = {{0}};
   double         found[3]  = {0};
 
   PetscFunctionBegin;
   if (k >= 0) {
-    const double q[2] = {s->q.own[k], s->q.own[k + s->grid->cells]}, size = hypot(q[0], q[1]);
+    const double q[2] = {v->q[k], v->q[k + v->cells]}, size = hypot(q[0], q[1]);
 
     for (int c = 0; c < 2; c++) found[c] = size > 0 ? q[c] / size * (peak->shear - size) : 0;
-    found[2] = peak->shear / s->b.own[k];
+    found[2] = peak->shear / v->b[k];
   }
   SamAddAll(3, totals, found);
-  PetscCall(SamSumTotals(s->grid->comm, 3, totals, found));
+  PetscCall(SamSumTotals(grid->comm, 3, totals, found));
   *kept = (Kept){(double)peak->cell + 1, {found[0], found[1]}, found[2]};
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Begin(const SamSolution *solution, PetscBool wraps, Seen *s, Vec *cells)
-{
-  PetscFunctionBegin;
-  PetscCall(SamHaloBegin(s->grid, solution->pressure, 1, BEHIND + 1, wraps, &s->p));
-  PetscCall(SamHaloBegin(s->grid, solution->bound, 1, 1, wraps, &s->b));
-  PetscCall(SamHaloBegin(s->grid, solution->shear, 2, 1, wraps, &s->q));
-  PetscCall(CreateCells(s, cells));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode End(Seen *s, Vec *cells)
-{
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(cells));
-  PetscCall(SamHaloEnd(&s->q));
-  PetscCall(SamHaloEnd(&s->b));
-  PetscCall(SamHaloEnd(&s->p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolutionFindShear(SamProblem problem, SamState state, const SamSolution *solution,
                                     const SamEdge *stick, double *most)
 {
-  const PetscInt      id    = SamStateFindNumber(state, kept_peak.name);
-  const SamElasticity e     = SamProblemGetElasticity(problem);
-  const PetscBool     moves = SamMotionOf(e)->streams || SamProblemGetRolled(problem, &solution->control, NULL) != 0;
-  const PetscBool     wraps = SamElasticityGetTraits(e).periodic;
-  Kept *const         kept  = (Kept *)SamStateNumbers(state, id, SAM_TRIED);
-  Seen                s     = {.grid = SamProblemGetGrid(problem)};
-  Peak                peak  = {*most, -1};
-  double              shear;
-  Vec                 cells;
+  const PetscInt  id    = SamStateFindNumber(state, kept_peak.name);
+  const SamGrid   grid  = SamProblemGetGrid(problem);
+  const PetscBool moves = SamMotionOf(SamProblemGetElasticity(problem))->streams ||
+                          SamProblemGetRolled(problem, &solution->control, NULL) != 0;
+  Kept *const kept = (Kept *)SamStateNumbers(state, id, SAM_TRIED);
+  Peak        peak = {*most, -1};
+  double      shear;
+  SamValues   values;
 
   PetscFunctionBegin;
   memcpy(kept, SamStateNumbers(state, id, SAM_COMMITTED), sizeof(*kept));
   if (moves) kept->cell = 0;
   if (!stick && kept->cell == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Begin(solution, wraps, &s, &cells));
-  shear = ShearOfKept(&s, kept);
-  if (stick) PetscCall(FindAtEdge(&s, stick, (double)SamPairFilm(SamElasticityGetPair(e)), cells, wraps, &peak));
-  PetscCall(Agree(&s, &peak));
-  PetscCall(SamMax(s.grid->comm, 1, &shear));
+  if (stick) PetscCall(FindAtEdge(problem, solution, stick, &peak));
+  PetscCall(Agree(grid, &peak));
+  PetscCall(SamValuesGet(solution, &values));
+  shear = ShearOfKept(grid, &values, kept);
+  PetscCall(SamMax(grid->comm, 1, &shear));
   if (shear == 0) kept->cell = 0;
-  if (peak.shear >= shear && peak.cell >= 0 && !moves) PetscCall(Keep(&s, &peak, kept));
+  if (peak.shear >= shear && peak.cell >= 0 && !moves) PetscCall(Keep(grid, &values, &peak, kept));
   *most = PetscMax(peak.shear, shear);
-  PetscCall(End(&s, &cells));
+  PetscCall(SamValuesRestore(solution, &values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

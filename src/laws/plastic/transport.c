@@ -78,28 +78,27 @@ static PetscBool IsAcross(PetscInt c)
 
 PetscErrorCode SamPlasticRaise(const SamPlastic *p, PetscInt body, const double removed[], double strain[])
 {
-  const PetscInt cells = p->grid->cells, n = p->layers;
-  double *const  of = strain + (ptrdiff_t)body * n * p->size * cells;
-  const PetscInt xx = SAM_STRESS_XX - SAM_STRESS_ZZ, yy = SAM_STRESS_YY - SAM_STRESS_ZZ;
-  double        *f, *slope;
-  Place         *at;
+  const PetscInt  cells = p->grid->cells, n = p->layers;
+  double *const   of   = strain + (ptrdiff_t)body * n * p->size * cells;
+  const ptrdiff_t next = (ptrdiff_t)p->size * cells; /* from a layer to the next */
+  const PetscInt  xx = SAM_STRESS_XX - SAM_STRESS_ZZ, yy = SAM_STRESS_YY - SAM_STRESS_ZZ;
+  double         *f, *slope;
+  Place          *at;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(n, &f, n, &slope, n + 1, &at));
   for (PetscInt k = 0; k < cells; k++) {
     if (!(removed[k] > 0)) continue;
     FindPlaces(p, removed[k], at);
-    for (PetscInt c = 0; c < p->size; c++) {
-      if (IsAcross(c)) continue;
-      for (PetscInt l = 0; l < n; l++) f[l] = of[((ptrdiff_t)l * p->size + c) * cells + k];
-      Shift(p, at, slope, f);
-      for (PetscInt l = 0; l < n; l++) of[((ptrdiff_t)l * p->size + c) * cells + k] = f[l];
-    }
-    for (PetscInt l = 0; l < n; l++) {
-      double *const layer = of + (ptrdiff_t)l * p->size * cells + k;
+    for (PetscInt c = 0; c < p->size; c++) { /* xx and yy of a tensor come before its zz */
+      double *const value = of + c * cells + k;
 
-      for (PetscInt c = 0; c < p->size; c++)
-        if (IsAcross(c)) layer[c * cells] = -(layer[(c + xx) * cells] + layer[(c + yy) * cells]);
+      for (PetscInt l = 0; l < n && IsAcross(c); l++)
+        value[l * next] = -(value[l * next + xx * cells] + value[l * next + yy * cells]);
+      if (IsAcross(c)) continue;
+      for (PetscInt l = 0; l < n; l++) f[l] = value[l * next];
+      Shift(p, at, slope, f);
+      for (PetscInt l = 0; l < n; l++) value[l * next] = f[l];
     }
   }
   PetscCall(PetscFree3(f, slope, at));
