@@ -106,6 +106,16 @@ class Popen(subprocess.Popen):
 subprocess.Popen = Popen
 
 
+def approx(expected, rel=None, abs=None, nan_ok=False, compare=pytest.approx):
+    """pytest's own adds an absolute tolerance of 1e-12, within which all slips and energies in SI units are alike."""
+    if abs is None:
+        rel, abs = rel or 1e-6, 0.0
+    return compare(expected, rel=rel, abs=abs, nan_ok=nan_ok)
+
+
+pytest.approx = approx
+
+
 def environment():
     """Open MPI refuses to run as root, as a container does, unless told twice; PETSC_OPTIONS would add options.
 

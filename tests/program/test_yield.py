@@ -668,6 +668,23 @@ def test_strain_that_is_largest_at_the_surface_is_named(petsam, tmp_path, fricti
         assert strain > 20 and slip == pytest.approx(strain / 3, abs=1) and "the maximum slip may be wrong" in line
 
 
+def test_strain_below_slip_zones_narrower_than_two_cells_is_named(petsam, tmp_path):
+    """Its maximum is below them on finer cells, elsewhere on these; the area of the stick zone counts cells."""
+    case = dict(
+        body1_young=320e9, body1_poisson=0.34, body2_young=210e9, body2_poisson=0.3, elasticity="plane_periodic",
+        gap_type="ellipsoid", gap_radius_x=0.0143, gap_radius_y="inf", grid_size=2.37e-3, friction=0.573,
+        body2_yield=320e6, body2_hardening="voce", body2_voce_stress=186e6, body2_voce_rate=222, steps=4,
+    )  # fmt: skip
+    case.update(steps(tmp_path / "h.csv", load_n=[274.3e3, 274.3e3], load_tx=[0, 34.3e3]), grid_n=178)
+    most, told = [], []
+    for more in {}, dict(grid_n=356), dict(history=None, load_n=274.3e3):
+        done = petsam({**case, **more}, dict(output="o.h5", overwrite=True))
+        most.append(all_steps(support.Results(tmp_path / "o.h5"))["plastic_max"][-1])
+        told.append([line for line in done.complaint if "plastic_max may be too small" in line])
+    assert "below slip zones" in told[0][0] and most[1] > 1.05 * most[0]
+    assert not told[2]
+
+
 @pytest.mark.parametrize("harder", [1, 9])
 @pytest.mark.parametrize("part", [0.1, pytest.param(0.6, marks=pytest.mark.slow)])
 def test_area_of_few_cells_after_unloading_is_named(petsam, tmp_path, part, harder):

@@ -59,9 +59,12 @@ PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, c
 PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);
 /*
   SamAdviceAddYielding - adds the plastic work of a step. SamAdviceYielding - advises, after the last step and after
-  SamAdviceSlip(), on plastic strain that cells, layers or steps do not resolve (yielding.c). Both are collective.
+  SamAdviceSlip(), on plastic strain that cells, layers or steps do not resolve (yielding.c). SamAdviceCountsCells -
+  true if areas are those of whole cells in a row: the edges of bodies that may yield differ from those of elastic
+  bodies, and are not reconstructed. All are collective.
 */
 PETSC_INTERN PetscErrorCode SamAdviceAddYielding(SamAdvice *advice);
 PETSC_INTERN void           SamAdviceYielding(SamAdvice *advice);
+PETSC_INTERN PetscBool      SamAdviceCountsCells(SamAdvice *advice);
 
 #endif

@@ -515,5 +515,5 @@ void SamAdviceSlip(SamAdvice *a)
                  "slip and shear");
   if (zone > 0 || !((double)a->slip.widest < PEAKED)) LastPeak(a, width, a->slip.high);
   LastSlip(a);
-  SamAdviceStick(a, STUCK);
+  SamAdviceStick(a, SamAdviceCountsCells(a) ? SAM_ADVICE_CELLS : STUCK);
 }

@@ -35,6 +35,10 @@
 /* The same from which on the slip and its energy are wrong, too, and by which part of it (random rows: 0.15 to 0.45) */
 #define DEEP  0.2
 #define SLIPS 0.33
+/* Part of the maximum plastic strain at the surface, below slip zones up to UNSEEN cells wide, from which on another
+   grid may have it elsewhere */
+#define NEAR   0.8
+#define UNSEEN 2
 /* Edges are known to a fraction of a cell if at least this share of them is reconstructed. */
 #define KNOWN 0.9
 /* Relative error of the peak pressure at s w = 1, in plane strain and for other contacts */
@@ -63,6 +67,23 @@ static void Coarse(SamAdvice *a)
 }
 
 /*
+  Advises on plastic strain below a narrow slip zone, whose shear is not resolved: there it may be larger than the found
+  maximum. `part`: plastic strain at the surface, relative to that maximum.
+*/
+static void Narrow(SamAdvice *a, double part)
+{
+  const double width = a->slip.energy > 0 ? (double)a->slip.narrow[0] : 0;
+  char         better[SAM_ADVICE_GRIDS];
+
+  if (a->error || !(part > NEAR) || !(width > 0 && width < UNSEEN)) return;
+  SamAdviceGrids(a, 2 * UNSEEN / width, better);
+  SamAdviceSay(a, better[0] ? "" : "grid_n",
+               "plastic strain below slip zones that are %.2g times as wide as a cell is not resolved: plastic_max may "
+               "be too small%s",
+               width, better);
+}
+
+/*
   Advises on plastic strain that is largest at the surface and decays within the first layers, as under friction. Much
   of it shears the surface, on which the slip depends.
 */
@@ -74,7 +95,10 @@ static void Shallow(SamAdvice *a, double most)
 
   a->error = SamContactGetNumber(a->setup->contact, "plastic_surface", &surface);
   error    = 1 - most / (double)surface;
-  if (a->error || !(error > SHALLOW)) return;
+  if (a->error || !(error > SHALLOW)) {
+    Narrow(a, (double)surface / most);
+    return;
+  }
   if (a->slip.energy > 0 && error > DEEP)
     (void)snprintf(slip, sizeof(slip),
                    ", and plastic_work, the dissipated energy and the maximum slip may be wrong by %.0f %%",
@@ -106,18 +130,24 @@ static void Begun(SamAdvice *a)
     (double)layers, 100 * error, SamAdviceRoundUp(sqrt(error / SHORT)));
 }
 
-/*
-  Advises on the area of a row of few cells after the largest load. Edges of bodies that may yield differ from those of
-  elastic bodies, and are not reconstructed.
-*/
+PetscBool SamAdviceCountsCells(SamAdvice *a)
+{
+  PetscReal accepted = 1;
+
+  if (a->error || !SamGridIsRow(a->setup->grid) || !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC))
+    return PETSC_FALSE;
+  a->error = SamContactGetNumber(a->setup->contact, "edge_accepted", &accepted);
+  return !a->error && accepted < KNOWN ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Advises on the area of a row of few cells after the largest load. */
 static void Unloaded(SamAdvice *a)
 {
-  PetscReal cells = 0, accepted = 1;
+  PetscReal cells = 0;
 
-  if (a->error || !SamGridIsRow(a->setup->grid) || a->extent.across < SAM_ADVICE_CELLS) return;
+  if (!SamAdviceCountsCells(a) || a->extent.across < SAM_ADVICE_CELLS) return;
   a->error = SamContactGetNumber(a->setup->contact, "contact_cells", &cells);
-  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "edge_accepted", &accepted);
-  if (a->error || !(cells > 0 && cells < SAM_ADVICE_CELLS) || accepted >= KNOWN) return;
+  if (a->error || !(cells > 0 && cells < SAM_ADVICE_CELLS)) return;
   SamAdviceSay(a, "grid_n",
                "the contact of the last step is %.0f cells across, fewer than %d, and its edges are not reconstructed: "
                "contact_area may be wrong by %.0f %%",
@@ -135,10 +165,12 @@ static void Sudden(SamAdvice *a, double strain)
   const double error = full * scale * part;
 
   if (!(STORED * error > SHORT)) return; /* NaN: none of these steps has a contact */
-  SamAdviceSay(a, "steps",
-               "%.0f %% of the plastic work is done in one step: pressure_max and plastic_work may be too large by "
-               "about %.2g %%, residual_energy by %.0f %%, and plastic_max and residual_z may be wrong by half as much",
-               100 * part, 100 * error, STORED * 100 * error);
+  SamAdviceSay(
+    a, "steps",
+    "%.0f %% of the plastic work is done in one step: pressure_max and plastic_work may be too large by "
+    "about %.2g %%, residual_energy by %.0f %%, and contact_area too small, plastic_max and residual_z wrong, "
+    "by half as much",
+    100 * part, 100 * error, STORED * 100 * error);
 }
 
 /* Advises on the shear by plastic strain alone, without a tangential load, if its slip zone is narrower than a cell. */
