@@ -58,10 +58,15 @@ STRIPS = {
 
 
 def lines(name, coarse, kind):
-    """The deck: body 2 is the mesh turned about y by half a turn, without its height."""
-    strips = STRIPS[name]
-    x, y, z = strips.edges(coarse)
-    out, first, sets = [f"*HEADING\n{name} joint, mm, N, MPa, t"], 0, []
+    """The deck of one of STRIPS."""
+    return strip_lines(f"{name} joint", STRIPS[name], STRIPS[name].edges(coarse), kind)
+
+
+def strip_lines(title, strips, edges, kind):
+    """The deck of strips with these planes of elements. Body 2 is the mesh turned about y by half a turn, without its
+    height. The far ends are the sets CLAMP of body 2 and END of body 1."""
+    x, y, z = edges
+    out, first, sets = [f"*HEADING\n{title}, mm, N, MPa, t"], 0, []
     for body in (1, 2):
         mesh = grid_mesh((x, y, z), kind, *STEEL)
         # body 2 lies below, with its long end at negative x; both turns keep the orientation of the elements
@@ -82,7 +87,7 @@ def lines(name, coarse, kind):
             sets += ["*NSET, NSET=CLAMP", *numbers(end + 1 + first)]
         else:
             middle = end[np.argmin(np.abs(mesh.nodes[end]) @ [0.0, 1.0, 1.0])]
-            sets += ["*NSET, NSET=TIP", f"{middle + 1 + first}"]
+            sets += ["*NSET, NSET=TIP", f"{middle + 1 + first}", "*NSET, NSET=END", *numbers(end + 1 + first)]
         first += max(len(mesh.nodes), len(block.numbers))
     out += ["*MATERIAL, NAME=STEEL", "*ELASTIC", "{}, {}".format(*STEEL), "*DENSITY", f"{DENSITY}"]
     return out + sets

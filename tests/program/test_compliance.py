@@ -83,7 +83,7 @@ def test_shear_of_a_layer(number, solve, layer):
     assert l2(r.pressure, own.pressure) < 5e-4
     for name in ("shear_x", "shear_y", "displacement_x", "displacement_y"):
         assert l2(getattr(r, name), getattr(own, name)) < 4e-3, name
-    assert r["coupling_iterations"] <= 8
+    assert r["coupling_iterations"] <= 14
 
 
 def test_shear_of_two_layers(solve, layer):
@@ -166,7 +166,7 @@ def beam(path, softer):
     return compliances.write(path, np.einsum("iak,kl,jbl->iajb", r, c, r) * 210e3 / half, half=half, young=210e3)
 
 
-@few("softer, friction, most", [(1, 0.5, 10), (10, 0.5, 16), (10, 1, 18), (30, 1, 30)], 2)
+@few("softer, friction, most", [(1, 0.5, 16), (10, 0.5, 20), (10, 1, 20), (30, 1, 45)], 2)
 def test_soft_bodies_converge_with_rotations_held(softer, friction, most, petsam, tmp_path):
     """What the bending by shear couples: pressed, sheared and reversed."""
     z, x = 0.0057 + 0.0363 * softer, 0.004 * softer + 0.001

@@ -206,7 +206,7 @@ def test_friction_holds_back_the_softer_body(solve):
     """Under N alone pressure draws the softer body 2 inwards; friction holds it back: q on body 2 points outwards."""
     case = dict(ball(64), body1_young=200e9, body1_poisson=0.3, body2_young=5e9, body2_poisson=0.35, load_n=30.0)
     s = solve(case)
-    inside = (s.pressure > 0) & (s.r > 3 * s.dx)
+    inside = (s.pressure > 0) & (s.r > 3 * s.dx) & (s.r < 0.98 * s.r[s.pressure > 0].max())  # the edge is of cells
     radial = (s.xx * s.shear_x + s.yy * s.shear_y)[inside]
     assert np.all(radial > 0)
     assert np.all(solve(dict(case, coupling="none")).shear == 0)

@@ -343,7 +343,7 @@ def test_closed_form_is_in_the_history_with_the_same_bits_on_ranks_and_after_a_r
     case = dict(SPHERE, **loaded(tmp_path, 0.0625), grid_n=32, grid_size=3 * RADIUS, output_every=1000)
     done = petsam(case, dict(output="1.h5"))
     closed = closed_by_steps(tmp_path / "1.h5")
-    assert closed.sum() == pytest.approx(energies(done)[1], rel=1e-5)
+    assert closed.sum() == pytest.approx(energies(done)[1], rel=1e-4)  # printed with four digits
     assert closed[4:8].sum() == pytest.approx(mindlin(0.0625) / 5, rel=0.006)
     assert (closed[8:] > 0).all() and closed[:4].tolist() == [0, 0, 0, 0]
     for ranks in (2, 3):

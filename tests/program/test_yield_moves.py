@@ -30,7 +30,7 @@ def test_a_rolling_ball_leaves_the_groove_of_a_sliding_one_without_friction(solv
     loads = [4 * LOAD] * len(places)
     rolled = solve(moving(tmp_path / "roll.csv", load_n=loads, roll=[0.0] + [CELL] * 6))
     slid = solve(moving(tmp_path / "slide.csv", load_n=loads, disp_x=places, friction=1e-9, slide=True))
-    assert all_steps(slid)["slide_x"] == pytest.approx(places, rel=1e-12)
+    assert all_steps(slid)["slide_x"] == pytest.approx(places, rel=1e-10)
     for name in "disp_z", "pressure_max", "plastic_max", "plastic_work", "residual_z_max":
         assert all_steps(slid)[name] == pytest.approx(all_steps(rolled)[name], rel=1e-5)
     for name in STRAIN, "plastic/plastic_strain_xz", "residual_z":

@@ -254,7 +254,7 @@ def _at(contact, pressure, area, friction, parts, steps):
         raise Error(
             f"pressures: {pressure:.6g} Pa: all of the surface touches, and its stiffness is infinite: give less"
         )
-    k = contact.stiffness(reversal=True) / area
+    k, pressed = contact.stiffness(reversal=True) / area, contact.number("disp_x")  # N alone moves dissimilar bodies
     closure, fraction = contact.number("disp_z"), contact.number("contact_fraction")
     contact.commit()
     with contact.copy() as trial:
@@ -264,7 +264,7 @@ def _at(contact, pressure, area, friction, parts, steps):
         energy, swing = _loop(trial, pressure * area, friction * float(parts[steps - 1]), steps)
     secant = friction * parts[steps - 1] * pressure / swing
     row = pressure, closure, k[0, 0], pressure / closure, k[1, 1], k[2, 2], fraction, swing, energy / area, secant
-    return row, np.array(start + rest)
+    return row, np.array(start + rest) - pressed
 
 
 def _shear(contact, normal, parts):

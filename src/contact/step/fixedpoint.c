@@ -10,9 +10,8 @@
 #include "stepimpl.h"
 #include <math.h>
 
-/* Number of last iterates that are stored, and of fields of several components */
-#define DEPTH   6
-#define DEPTH_3 4
+/* Number of last iterates that are stored. With four, soft finite bodies do not converge. */
+#define DEPTH 6
 /* Smaller eigenvalues of the scaled matrix of products are rounding. */
 #define LEAST 1e-10
 /* Largest sum of the absolute weights of the combined results; it bounds the amplification of their errors */
@@ -20,7 +19,7 @@
 
 typedef struct {
   SamGrid  grid;
-  PetscInt components, depth, count, newest;
+  PetscInt components, count, newest;
   Vec      result[DEPTH], change[DEPTH]; /* change: result minus argument, in cells that count */
   double   products[DEPTH][DEPTH];       /* of the changes */
 } Mixing;
@@ -28,8 +27,8 @@ typedef struct {
 /* Adds the newest result, and the products of its change with all others. */
 static PetscErrorCode Add(Mixing *m, Vec weight, Vec result, Vec argument)
 {
-  const PetscInt k = m->count < m->depth ? m->count : (m->newest + 1) % m->depth, cells = m->grid->cells,
-                 nx = m->grid->nx, rows = m->components * m->grid->rows;
+  const PetscInt k = m->count < DEPTH ? m->count : (m->newest + 1) % DEPTH, cells = m->grid->cells, nx = m->grid->nx,
+                 rows         = m->components * m->grid->rows;
   SamTotal      totals[DEPTH] = {{0}};
   double        sums[DEPTH], *change;
   const double *w, *x, *g, *other;
@@ -40,7 +39,7 @@ static PetscErrorCode Add(Mixing *m, Vec weight, Vec result, Vec argument)
     PetscCall(SamGridCreateVec(m->grid, m->components, &m->change[k]));
   }
   m->newest = k;
-  m->count  = PetscMin(m->count + 1, m->depth);
+  m->count  = PetscMin(m->count + 1, DEPTH);
   PetscCall(VecCopy(result, m->result[k]));
   PetscCall(VecGetArrayRead(weight, &w));
   PetscCall(VecGetArrayRead(argument, &x));
@@ -136,7 +135,7 @@ static PetscErrorCode CutNegative(SamGrid grid, Vec field)
 PetscErrorCode SamSolveFixedPoint(SamSolve *w, const SamFixedPoint *f, void *context, Vec argument, SamPassEnd *end)
 {
   const SamGrid grid = w->task->grid;
-  Mixing        m    = {.grid = grid, .components = f->components, .depth = f->components > 1 ? DEPTH_3 : DEPTH};
+  Mixing        m    = {.grid = grid, .components = f->components};
   Vec           result;
 
   PetscFunctionBegin;
