@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The lap joint moved to and fro, by petsam and by full contact in CalculiX: force and energy of a cycle.
+"""A cyclic motion of the lap joint, by petsam and by full contact in CalculiX: force and energy of a cycle.
 
     full.py OUT --size 2           elements of 2 mm at the contact
 
