@@ -167,4 +167,4 @@ class Floating(Solver):
 
     def rigid_frequencies(self):
         """Angular frequencies (6) of the rigid motions, rising: 0 to rounding."""
-        return np.sqrt(np.abs(linalg.eigvalsh(self.rigid.T @ (self.matrix @ self.rigid))))
+        return np.sort(np.sqrt(np.abs(linalg.eigvalsh(self.rigid.T @ (self.matrix @ self.rigid)))))
