@@ -8,10 +8,10 @@ from scipy import linalg
 from petsam import joint
 from petsam.compliance import bolts, cases, command, images, model, modes, solve, stiffness
 from petsam.compliance.halfspace import opposite, projected
+from petsam.joint import sweep
 from test_compliance_command import compliance  # noqa: F401
 from test_compliance_pair import (
     FRAME,
-    HELD,
     OTHER,
     PAIR,
     SQUARE,
@@ -28,6 +28,7 @@ from test_compliance_pair import (
 from test_compliance_tool import CCX, needs_calculix
 
 FREE = ["--free", *STEEL]
+SMALL = ["--patch", "1.2", "--degree", "3"]
 
 
 class Pseudo:
@@ -57,15 +58,14 @@ def read(words):
     return found, stiffness.assembled(found.mesh) + tie, tie
 
 
-def test_the_compliance_is_that_of_the_pseudo_inverse_whatever_the_hold(pair, monkeypatch):  # noqa: F811
-    found = pair(*FREE, "--degree", "3")
-    body, whole, tie = read([*PAIR, *FREE, "--degree", "3"])
+def test_the_compliance_is_that_of_the_pseudo_inverse_whatever_the_hold(pair, tmp_path, monkeypatch):  # noqa: F811
+    write(tmp_path / "pair.inp", both("C3D8"))
+    found = pair(*FREE, *SMALL)
+    body, whole, tie = read([*PAIR, *FREE, *SMALL])
     mass = modes.mass(body.mesh)
     pseudo = Pseudo(whole.toarray(), body.mesh.nodes, mass.toarray())
     exact = images.solved(body.sides(), pseudo, body.supported, tie=tie).compliance
     close(found["matrix"], exact, 1e-8)
-    held = pair(*HELD, *STEEL, "--degree", "3")["matrix"]
-    assert np.linalg.norm(found["matrix"] - held, 2) > 1e-3 * np.linalg.norm(held, 2)
     middle = np.argsort(np.linalg.norm(body.mesh.nodes - [0.5, 0.5, 2.0], axis=1))[:3]
     others = [3 * middle[0], 3 * middle[0] + 1, 3 * middle[0] + 2]
     motions = stiffness.rigid_motions(body.mesh.nodes)
@@ -75,41 +75,39 @@ def test_the_compliance_is_that_of_the_pseudo_inverse_whatever_the_hold(pair, mo
             others.append(one)
     assert len(others) == 6 and not set(others) & set(solve.isostatic(motions))
     monkeypatch.setattr(solve, "isostatic", lambda motions: others)
-    close(pair(*FREE, "--degree", "3")["matrix"], found["matrix"], 1e-8)
+    close(pair(*FREE, *SMALL)["matrix"], found["matrix"], 1e-8)
 
 
 def test_loads_in_equilibrium_move_the_patch_as_with_any_pseudo_inverse(tmp_path, monkeypatch):
     """And tractions on the pair are nearly in equilibrium, so inertia does next to nothing."""
     monkeypatch.chdir(tmp_path)
-    write(tmp_path / "pair.inp", both())
+    write(tmp_path / "pair.inp", both("C3D8"))
     body, whole, tie = read([*PAIR, *FREE, "--degree", "3"])
-    force = Direct(SQUARE, ["END1", "END2"], True).force
+    force = Direct(SQUARE, ["END1", "END2"], True, kind="C3D8").force
     floating = solve.Floating(whole, body.mesh.nodes, modes.mass(body.mesh))
     nothing = np.zeros((0, force.shape[1]))
     exact = force.T @ linalg.pinvh(whole.toarray(), rtol=1e-10) @ force
     close(force.T @ floating(force, nothing), exact, 1e-8)
     found = images.solved(body.sides(), floating, body.supported, tie=tie).compliance
     local = projected(SQUARE, 1.0, 0.3) + opposite(projected(SQUARE, *OTHER))
-    close(found, exact - local, 2e-3)  # the local error of the direct solution
+    close(found, exact - local, 1e-2)  # the local error of the direct solution
     monkeypatch.setattr(floating, "inertia", 0.0 * floating.inertia)
     close(images.solved(body.sides(), floating, body.supported, tie=tie).compliance, found, 1e-5)
 
 
 def test_a_load_case_is_balanced_by_inertia(compliance, pair, tmp_path):  # noqa: F811
     """A force on one node accelerates the pair; the field of the file is that of the pseudo-inverse."""
-    node = int(np.argmin(np.linalg.norm(both().nodes - [3.0, 2.5, 3.0], axis=1)))
-    write(tmp_path / "pair.inp", both(), "*STEP", "*STATIC", "*CLOAD", f"{node + 1}, 1, 2.0", "*END STEP")
+    node = int(np.argmin(np.linalg.norm(both("C3D8").nodes - [3.0, 2.5, 3.0], axis=1)))
+    write(tmp_path / "pair.inp", both("C3D8"), "*STEP", "*STATIC", "*CLOAD", f"{node + 1}, 1, 2.0", "*END STEP")
     found = pair(*FREE, "--degree", "6", "--case", "pull=1")
     body, whole, _ = read([*PAIR, *FREE, "--degree", "6"])
     pseudo = Pseudo(whole.toarray(), body.mesh.nodes, modes.mass(body.mesh).toarray())
-    force = np.zeros((len(whole.toarray()), 1))
+    force = np.zeros((len(pseudo.project), 1))
     force[3 * node] = 2.0
-    v = pseudo(force, None)
     jump = cases.Jump(body.parts, body.patch, [9, 9])
-    sampled = jump(v)
+    exact = jump(pseudo(force, None))
     mine = body.patch.values(*jump.points.T) @ found["cases/pull/displacement"]
-    assert np.max(np.abs(mine - sampled)) < 1e-2 * np.max(np.abs(sampled))
-    assert np.linalg.norm(pseudo.project @ force) > 0.1 and np.linalg.norm(force.ravel() - pseudo.project @ force[:, 0]) > 0.1
+    assert np.max(np.abs(mine - exact)) < 1e-2 * np.max(np.abs(exact))
 
 
 def bolted(found):
@@ -137,7 +135,7 @@ def test_elastic_frequencies_and_shapes_are_calculixs(compliance, tmp_path, kind
     (tmp_path / "pair.inp").write_text("\n".join(text) + "\n")
     words = [word for word in PAIR if word not in ("--stiffness", "own", *FRAME)] + ["--frame", "0,0,0:0,1,0:0,0,1"]
     node = int(np.argmin(np.linalg.norm(both(kind).nodes - [3.0, 2.5, 3.0], axis=1))) + 1
-    words += [*FREE, "--degree", "4", "--modes", "4", "--sensor", f"TIP={node}"]
+    words += [*FREE, *SMALL, "--modes", "4", "--sensor", f"TIP={node}"]
     printed = compliance(*words, "-o", "pair.h5")
     step = ["*STEP", "*FREQUENCY", "10", "*NODE PRINT, NSET=TIP", "U", "*END STEP"]
     sets = ["*NSET, NSET=TIP", f"{node},"]
@@ -148,7 +146,6 @@ def test_elastic_frequencies_and_shapes_are_calculixs(compliance, tmp_path, kind
     with h5py.File("pair.h5", "r") as file:
         omega, rigid, tip = file["/modes/omega"][:], file["/modes/rigid"][:], file["/modes/sensors"][:, 0]
         assert file["/modes/mass_error"][()] < 1e-9
-    print(every, omega, rigid)
     assert omega == pytest.approx(every[6:], rel=1e-5)
     assert rigid.shape == (6,) and np.all(rigid < 1e-3 * omega[0])
     sign = np.sign(np.sum(tip * exact, axis=1))
@@ -157,17 +154,17 @@ def test_elastic_frequencies_and_shapes_are_calculixs(compliance, tmp_path, kind
 
 
 def test_backbone_takes_the_file(pair, tmp_path):  # noqa: F811
-    """A crowned contact between the bodies; the modes while it sticks are those of the dense elements with it."""
+    """A crowned contact under the bolt. Rayleigh: what sticks raises each frequency."""
     (tmp_path / "pair.inp").write_text("\n".join(light(both())) + "\n")
-    pair(*FREE, "--degree", "6", "--modes", "16", "--sensor", "TIP=1")
+    pair(*FREE, "--center", "0.5,0.5", "--patch", "1.4", "--degree", "6", "--modes", "12", "--sensor", "TIP=1")
     given = dict(grid_n=24, friction=0.3, gap_type="sphere", gap_radius1=20.0, gap_radius2="inf")
     found = joint.Pair("pair.h5", dict(B=0.02), **given)
-    stuck, shapes = found.structure.stuck_modes()
-    body, whole, _ = read([*PAIR, *FREE, "--degree", "6", "--modes", "1"])
-    print(found.omega[:4], stuck[:4], found.tensions)
-    one = joint.backbone(found.structure, [1e-6], sensor=found.sensors["TIP"][:, 2], steps=3)
-    print(one.table())
-    assert one.linear == pytest.approx(stuck[0] / (2.0 * np.pi))
+    assert 0.0 < found.tensions["B"] < 0.02 and found.structure.rigid.size == 0
+    with pytest.warns(sweep.BackboneWarning, match="fewer than 100 cells slip"):
+        one = joint.backbone(found.structure, [1e-6], sensor=found.sensors["TIP"][:, 2], steps=3)
+    free = found.omega / (2.0 * np.pi)
+    print(free, one.stuck)
+    assert one.linear == one.stuck[0] > 1.1 * free[0] and np.all(one.stuck[:6] > free[:6])
 
 
 # ---------------------------------------------------------------- what is rejected
@@ -191,6 +188,7 @@ def test_one_body_that_nothing_holds_is_rejected(compliance):  # noqa: F811
     words = ["--mesh", "a.inp", "--contact", "TOP", "--patch", "1", "--free"]
     said = compliance(*words, check=2)[0]
     assert "--free is for a pair: a body alone moves away under the loads of its contact: hold it by --fixed" in said
-    assert "--free is not for --matrix: remove it" in compliance(
-        *"--matrix a --nodes b --young 1 --poisson 0.3 --patch 1 --free".split(), check=2
-    )[0]
+    assert (
+        "--free is not for --matrix: remove it"
+        in compliance(*"--matrix a --nodes b --young 1 --poisson 0.3 --patch 1 --free".split(), check=2)[0]
+    )

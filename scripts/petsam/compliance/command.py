@@ -230,13 +230,19 @@ def parser():
     return found
 
 
-def _check_cases(reader, options):
-    """Checks --pair and what belongs to it, and the names and the number of load cases."""
-    if options.free and not options.pair:
+def _check_free(reader, options):
+    """Checks what belongs to --free."""
+    if options.fixed:
+        reader.error("--free holds nothing: remove it, or --fixed")
+    if not options.pair:
         reader.error(
             "--free is for a pair: a body alone moves away under the loads of its contact: hold it by --fixed, or give "
             "the surface of body 1 by --pair"
         )
+
+
+def _check_cases(reader, options):
+    """Checks --pair and what belongs to it, and the names and the number of load cases."""
     if not options.pair:
         for name in PAIR_ONLY:
             if getattr(options, name):
@@ -268,8 +274,8 @@ def arguments(words):
     options = reader.parse_args(joined(words))
     if bool(options.mesh) == bool(options.matrix):
         reader.error("give either --mesh or --matrix")
-    if options.free and options.fixed:
-        reader.error("--free holds nothing: remove it, or --fixed")
+    if options.free and options.mesh:
+        _check_free(reader, options)
     needed = ("contact",) if options.free else ("contact", "fixed")
     needed = needed if options.mesh else ("nodes", "young", "poisson")
     for name in needed:
@@ -349,7 +355,9 @@ def _joint(body):
     if body.modes:
         lines.append("modes, Hz   " + ", ".join(f"{omega / (2.0 * math.pi):.6g}" for omega in body.modes.omega))
         if body.modes.rigid is not None:
-            lines.append(f"            six rigid motions are left out, at most {body.modes.rigid[-1] / (2.0 * math.pi):.1e} Hz")
+            lines.append(
+                f"            six rigid motions are left out, at most {body.modes.rigid[-1] / (2.0 * math.pi):.1e} Hz"
+            )
         lines.append(
             f"            orthonormal within {body.modes.mass_error:.1e}, smallest eigenvalue without them "
             f"{body.checks['residual_eigenvalue']:.3g}"

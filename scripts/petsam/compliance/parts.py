@@ -91,8 +91,8 @@ class Components:
         if np.any(group != group[0]):
             x, y = (self.mesh.nodes[mask].mean(axis=0) for mask in (group == group[0], group != group[0]))
             raise Error(
-                "--free: the bodies about x = {:.3g}, y = {:.3g}, z = {:.3g} m and x = {:.3g}, y = {:.3g}, z = {:.3g} m "
-                "of the frame float against each other, as no bolt joins them: join them by --bolt, or hold both by "
+                "--free: the bodies about x = {:.3g}, y = {:.3g}, z = {:.3g} m and x = {:.3g}, y = {:.3g}, z = {:.3g} "
+                "m of the frame float against each other, as no bolt joins them: join them by --bolt, or hold both by "
                 "--fixed instead of --free".format(*x, *y)
             )
 

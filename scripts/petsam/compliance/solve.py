@@ -138,9 +138,9 @@ def isostatic(motions):
 class Floating(Solver):
     """K of bodies that are joined to each other, and held by nothing: inertia relief.
 
-    With R, the rigid motions of unit mass, and A = 1 - M R R', forces f give the displacements A' C A f, C being the
-    inverse of K with an isostatic hold, whichever. That is the sum over all elastic modes; in the motions R the body has
-    no stiffness, and their inertia balances f.
+    With R, the rigid motions of unit modal mass, and A = 1 - M R R', forces f give the displacements A' C A f, C being
+    the inverse of K with an isostatic hold, whichever. That is the sum over all elastic modes; the inertia of the
+    motions R balances f.
     """
 
     def __init__(self, matrix, nodes, mass, hold=None):
