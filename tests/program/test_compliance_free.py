@@ -96,7 +96,8 @@ def test_loads_in_equilibrium_move_the_patch_as_with_any_pseudo_inverse(tmp_path
 
 
 def test_a_load_case_is_balanced_by_inertia(compliance, pair, tmp_path):  # noqa: F811
-    """A force on one node accelerates the pair; the field of the file is that of the pseudo-inverse."""
+    """A force on one node accelerates the pair; the field of the file is that of the pseudo-inverse. Without the
+    inertia it differs by 2e-3."""
     node = int(np.argmin(np.linalg.norm(both("C3D8").nodes - [3.0, 2.5, 3.0], axis=1)))
     write(tmp_path / "pair.inp", both("C3D8"), "*STEP", "*STATIC", "*CLOAD", f"{node + 1}, 1, 2.0", "*END STEP")
     found = pair(*FREE, "--degree", "6", "--case", "pull=1")
@@ -107,7 +108,7 @@ def test_a_load_case_is_balanced_by_inertia(compliance, pair, tmp_path):  # noqa
     jump = cases.Jump(body.parts, body.patch, [9, 9])
     exact = jump(pseudo(force, None))
     mine = body.patch.values(*jump.points.T) @ found["cases/pull/displacement"]
-    assert np.max(np.abs(mine - exact)) < 1e-2 * np.max(np.abs(exact))
+    assert np.max(np.abs(mine - exact)) < 6e-4 * np.max(np.abs(exact))
 
 
 def bolted(found):
