@@ -173,8 +173,8 @@ def test_a_washer_moves_with_a_rigid_motion_and_the_mean_of_any_other():
 class Direct:
     """The same finite elements with consistent forces of the tractions on both surfaces, dense."""
 
-    def __init__(self, patch, held, bolted, diameter=0.5, young=40.0, poisson=0.25):
-        self.mesh, self.patch = both(), patch
+    def __init__(self, patch, held, bolted, diameter=0.5, young=40.0, poisson=0.25, kind="C3D20"):
+        self.mesh, self.patch = both(kind), patch
         matrix = stiffness.assembled(self.mesh).toarray()
         centers, motions = [], []
         for name in ("WASHER1", "WASHER2"):

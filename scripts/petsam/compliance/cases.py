@@ -17,6 +17,7 @@ from .images import FLAT
 from .remainder import scatter
 
 REST = 1e-2  # part of the field's range; largest deviation of the polynomials
+NOTHING = 1e-12  # relative to the largest; forces on nodes that are rounding
 FACE_POINTS = 4  # Gauss points along the side of a loaded face
 CHANGING = {"AMPLITUDE", "SECTOR", "SUBMODEL", "TIME DELAY", "USER"}  # parameters that change the meaning of the lines
 
@@ -142,8 +143,9 @@ def cases(found, solver, remainder, jumps):
         raise Error(f"load case {found.name}: node {number} is prescribed but not in --fixed: add its set to --fixed")
     given = found.moved[solver.held]
     v = solver(found.force, given)
-    loaded = np.flatnonzero(np.any(found.force.reshape(-1, 3), axis=1))
-    coefficients = np.einsum("nic,ni->c", remainder.total(loaded), found.force.reshape(-1, 3)[loaded])
+    force = solver.balanced(found.force).reshape(-1, 3)
+    loaded = np.flatnonzero(np.any(np.abs(force) > NOTHING * np.abs(force).max(), axis=1))
+    coefficients = np.einsum("nic,ni->c", remainder.total(loaded), force[loaded])
     coefficients -= (remainder.support.T @ given)[:, 0]
     parts = np.split(coefficients.reshape(-1, 3), np.cumsum([jump.patch.count for jump in jumps])[:-1])
     name = f"load case {found.name}"

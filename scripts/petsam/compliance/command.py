@@ -16,7 +16,9 @@ the body is a substructure of another program, whose retained nodes are the patc
 
 With --pair the deck has both bodies, and bolts join them. The file is the compliance of both, for -body2_compliance:
 displacement of body 2 minus that of body 1. Unit initial tension of a bolt is the load case bolt_NAME, and a mode
-without contact the load case modeK.
+without contact the load case modeK. With --free instead of --fixed nothing holds the pair, as a structure that hangs on
+strings: the bolts must join the bodies. Rigid motions of the whole do not move the contact and are left out, their
+inertia balances load cases, and modes are elastic ones. Each material needs *DENSITY.
 """
 
 import argparse
@@ -43,7 +45,7 @@ NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
 Bolt = collections.namedtuple("Bolt", "name surfaces diameter young")
 MOST_CASES, MOST_OF_PAIR = 8, 40
 LONGEST = 20  # letters of the name of a load case
-MESH_ONLY = ("contact", "fixed", "symmetry", "case", "coarse_mesh", "depth", "pair", "bolt", "modes", "sensor")
+MESH_ONLY = ("contact", "fixed", "free", "symmetry", "case", "coarse_mesh", "depth", "pair", "bolt", "modes", "sensor")
 PAIR_ONLY = ("bolt", "modes", "sensor")
 RESERVED = ("closing", "closing_by")  # names beside those of bolts in the file
 PROGRAM = "petsam-compliance"
@@ -170,6 +172,9 @@ def _pair_options(parser):
         help="bolt from washer surface S1 on body 1 to S2 on body 2, its diameter and its modulus, Pa (the bodies'); "
         "may be repeated",
     )
+    pair.add_argument(
+        "--free", action="store_true", default=None, help="instead of --fixed: nothing holds the bodies; needs *DENSITY"
+    )
     pair.add_argument("--modes", type=modes, metavar="N", help="number of modes without contact; needs *DENSITY")
     pair.add_argument(
         "--sensor",
@@ -225,6 +230,17 @@ def parser():
     return found
 
 
+def _check_free(reader, options):
+    """Checks what belongs to --free."""
+    if options.fixed:
+        reader.error("--free holds nothing: remove it, or --fixed")
+    if not options.pair:
+        reader.error(
+            "--free is for a pair: a body alone moves away under the loads of its contact: hold it by --fixed, or give "
+            "the surface of body 1 by --pair"
+        )
+
+
 def _check_cases(reader, options):
     """Checks --pair and what belongs to it, and the names and the number of load cases."""
     if not options.pair:
@@ -258,7 +274,10 @@ def arguments(words):
     options = reader.parse_args(joined(words))
     if bool(options.mesh) == bool(options.matrix):
         reader.error("give either --mesh or --matrix")
-    needed = ("contact", "fixed") if options.mesh else ("nodes", "young", "poisson")
+    if options.free and options.mesh:
+        _check_free(reader, options)
+    needed = ("contact",) if options.free else ("contact", "fixed")
+    needed = needed if options.mesh else ("nodes", "young", "poisson")
     for name in needed:
         if getattr(options, name) is None:
             reader.error(f"{'--mesh' if options.mesh else '--matrix'} needs --{name}")
@@ -267,7 +286,7 @@ def arguments(words):
         if getattr(options, name) is not None:
             reader.error(f"--{name.replace('_', '-')} is not for {'--mesh' if options.mesh else '--matrix'}: remove it")
     options.frame = options.frame or [[0.0, 0.0, 0.0]]
-    options.case, options.symmetry = options.case or [], options.symmetry or []
+    options.case, options.symmetry, options.fixed = options.case or [], options.symmetry or [], options.fixed or []
     _check_cases(reader, options)
     if options.degree is None:
         options.degree = 6 if options.mesh else 1
@@ -335,6 +354,10 @@ def _joint(body):
         )
     if body.modes:
         lines.append("modes, Hz   " + ", ".join(f"{omega / (2.0 * math.pi):.6g}" for omega in body.modes.omega))
+        if body.modes.rigid is not None:
+            lines.append(
+                f"            six rigid motions are left out, at most {body.modes.rigid[-1] / (2.0 * math.pi):.1e} Hz"
+            )
         lines.append(
             f"            orthonormal within {body.modes.mass_error:.1e}, smallest eigenvalue without them "
             f"{body.checks['residual_eigenvalue']:.3g}"

@@ -11,7 +11,7 @@ from . import cases as load_cases
 from .basis import Patch
 from .halfspace import Fields, Mirrored, Several
 from .remainder import Side
-from .solve import Solver, plane_normal
+from .solve import Floating, Solver, plane_normal
 from .stiffness import stiffness
 
 GAUSS_MORE = 3  # Gauss points along the patch in addition to its degree, for sampling fields
@@ -111,9 +111,8 @@ class Model:
             block.young *= units.stress
             block.density *= units.density
         deck.need_set(mesh.surfaces, options.contact, "surface", path)
-        self.supported = np.unique(
-            np.concatenate([deck.need_set(mesh.node_sets, name, "node set", path) for name in options.fixed])
-        )
+        held = [deck.need_set(mesh.node_sets, name, "node set", path) for name in options.fixed]
+        self.supported = np.unique(np.concatenate([np.zeros(0, dtype=int), *held]))
         symmetric = [deck.need_set(mesh.node_sets, name, "node set", path) for name in options.symmetry]
         for name, nodes in zip(options.symmetry, symmetric):
             if not np.setdiff1d(nodes, self.supported).size:
@@ -149,14 +148,23 @@ class Model:
             if first == second:
                 raise Error(f"bolt {one.name}: both washers are on one body: name a surface of each body")
         self.parts = parts.pair(components, options.contact, options.pair, links)
-        components.need_held(self.supported, links)
+        if options.free:
+            components.need_one(links)
+            self.need_densities("--free")
+        else:
+            components.need_held(self.supported, links)
         self.bolts = [bolts.bolt(self.mesh, *one) for one in options.bolt]
 
     def prepare_modes(self):
         """Finds what the modes need: densities, and the nodes of the sensors."""
+        self.need_densities("--modes")
+        self.sensors = [self._sensor(*one) for one in self.options.sensor]
+
+    def need_densities(self, name):
+        """Raises Error unless all materials have a density that can be one; name: the option that needs it."""
         if self.deck.weightless:
             raise Error(
-                f"{self.path}: material {self.deck.weightless[0]} has no *DENSITY, which --modes needs: give it in "
+                f"{self.path}: material {self.deck.weightless[0]} has no *DENSITY, which {name} needs: give it in "
                 f"{self.units.density_name}"
             )
         for block in self.mesh.blocks:
@@ -166,7 +174,6 @@ class Model:
                     f"{self.path}: a density is {block.density[wrong][0]:.3g} kg/m3, limits {DENSITIES[0]:g} and "
                     f"{DENSITIES[1]:g}: give it in {self.units.density_name}"
                 )
-        self.sensors = [self._sensor(*one) for one in self.options.sensor]
 
     def _sensor(self, name, node):
         """Index of the node of a sensor, a number or a set."""
@@ -280,7 +287,11 @@ def remainder(model, method, plane, progress):
     fixed = np.zeros((len(mesh.nodes), 3), dtype=bool)
     fixed[supported] = True
     progress("factorization")
-    solver = Solver(matrix if tie is None else matrix + tie, mesh.nodes, fixed.ravel(), model.planes)
+    whole = matrix if tie is None else matrix + tie
+    if model.options.free:
+        solver = Floating(whole, mesh.nodes, modes.mass(mesh))
+    else:
+        solver = Solver(whole, mesh.nodes, fixed.ravel(), model.planes)
     if method == "image":
         found = images.solved(sides, solver, supported, progress, tie)
         if len(model.patches) > 1:

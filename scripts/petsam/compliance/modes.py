@@ -1,4 +1,5 @@
-"""Modes of a pair without contact: K phi = omega^2 M phi with the consistent mass, phi'M phi = 1, supports held."""
+"""Modes of a pair without contact: K phi = omega^2 M phi with the consistent mass, phi'M phi = 1, supports held; of a
+pair that nothing holds the elastic ones."""
 
 from dataclasses import dataclass
 
@@ -8,23 +9,26 @@ from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from ..errors import Error
 from .cases import Case, Jump, rest
+from .solve import Floating
 from .stiffness import rule
 
 UNIT = "m/(m kg^0.5)"  # of a mode at factor 1, the factor being in m kg^0.5
 EQUAL = 1e-6  # relative difference of components that count as equally large
 POINTS = 2  # Gauss points on the patch by degree, and as many more
 MORE = 8
+ZERO = 1e-2  # highest frequency of a rigid motion, relative to the first elastic one
 
 
 @dataclass
 class Modes:
     """omega (n), rad/s; the modes (3 nodes, n), kg^-1/2, those at the sensors (n, sensors, 3) in the deck's directions,
-    and the maximum error of phi'M phi."""
+    the maximum error of phi'M phi, and omega of the rigid motions, which are left out, where nothing is held."""
 
     omega: np.ndarray
     shapes: np.ndarray
     sensors: np.ndarray
     mass_error: float
+    rigid: np.ndarray = None
 
 
 def mass(mesh):
@@ -49,7 +53,7 @@ def found(model, solver, count, sensors):
     size = free.shape[0]
     if count >= size - 1:
         raise Error(f"--modes {count}: the mesh has {size} free unknowns: use a finer mesh, or fewer modes")
-    inverse = LinearOperator(free.shape, matvec=solver.factor.solve, dtype=float)
+    inverse = LinearOperator(free.shape, matvec=solver.inverse, dtype=float)
     start = np.cos(np.arange(size))  # the same in each run
     try:
         squares, shapes = eigsh(stiffness, count, free, sigma=0.0, OPinv=inverse, v0=start)
@@ -61,7 +65,19 @@ def found(model, solver, count, sensors):
     deviation = shapes.T @ matrix @ shapes - np.eye(count)
     at = shapes.reshape(-1, 3, count)[sensors]
     turned = np.einsum("sik,ij->ksj", at, model.frame.axes)
-    return Modes(np.sqrt(squares[order]), shapes, turned, float(np.max(np.abs(deviation))))
+    rigid = _without_rigid(solver, np.sqrt(squares[order][0])) if isinstance(solver, Floating) else None
+    return Modes(np.sqrt(squares[order]), shapes, turned, float(np.max(np.abs(deviation))), rigid)
+
+
+def _without_rigid(solver, first):
+    """Angular frequencies of the rigid motions, after a check that they are far below the first elastic one."""
+    rigid = solver.rigid_frequencies()
+    if not rigid.max() <= ZERO * first:
+        raise Error(
+            f"a rigid motion of the pair has {rigid.max() / (2.0 * np.pi):.3g} Hz, limit {ZERO:g} of the first elastic "
+            f"mode, {first / (2.0 * np.pi):.6g} Hz: remove what holds it from the deck, or use --fixed"
+        )
+    return rigid
 
 
 def _signs(shapes):

@@ -85,6 +85,17 @@ class Components:
                 "the contact holds it: hold it by --fixed, or join it to the other body by --bolt"
             )
 
+    def need_one(self, links):
+        """Raises Error unless links join all components."""
+        group = self._groups(links)[self.of_node]
+        if np.any(group != group[0]):
+            x, y = (self.mesh.nodes[mask].mean(axis=0) for mask in (group == group[0], group != group[0]))
+            raise Error(
+                "--free: the bodies about x = {:.3g}, y = {:.3g}, z = {:.3g} m and x = {:.3g}, y = {:.3g}, z = {:.3g} "
+                "m of the frame float against each other, as no bolt joins them: join them by --bolt, or hold both by "
+                "--fixed instead of --free".format(*x, *y)
+            )
+
     def need_joined(self, first, second, links):
         """Raises Error if a part of the mesh is neither one of two components nor joined to one by links."""
         group = self._groups([*links, (first, second)])

@@ -1,7 +1,7 @@
-"""One sparse factorization of the supported stiffness, and its solutions."""
+"""One sparse factorization of the supported stiffness, or of one that nothing holds, and its solutions."""
 
 import numpy as np
-from scipy import sparse
+from scipy import linalg, sparse
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
@@ -111,12 +111,60 @@ class Solver:
                 "support the whole body by --fixed, or use a coarser mesh"
             ) from error
 
+    def inverse(self, force):
+        """Values of the free unknowns by forces on them."""
+        return self.factor.solve(force)
+
+    def balanced(self, force):
+        """The forces (3 n, columns) that deform the body."""
+        return force
+
     def __call__(self, force, prescribed):
         """Displacements (3 n, columns): forces (3 n, columns) on free unknowns, prescribed values (held, columns)."""
         u = np.zeros_like(force)
         u[self.held] = prescribed
-        return u + self.moves @ self.factor.solve(self.moves.T @ (force - self.matrix @ u))
+        return u + self.moves @ self.inverse(self.moves.T @ (force - self.matrix @ u))
 
     def reaction(self, u, force):
         """Forces (held, columns) of the supports: K u - force."""
         return (self.matrix @ u - force)[self.held]
+
+
+def isostatic(motions):
+    """Six unknowns (of 3 n) that hold a body which moves by motions (3 n, 6): those that bear least."""
+    return linalg.qr(motions.T, mode="r", pivoting=True)[1][:6]
+
+
+class Floating(Solver):
+    """K of bodies that are joined to each other, and held by nothing: inertia relief.
+
+    With R, the rigid motions of unit modal mass, and A = 1 - M R R', forces f give the displacements A' C A f, C being
+    the inverse of K with an isostatic hold, whichever. That is the sum over all elastic modes; the inertia of the
+    motions R balances f.
+    """
+
+    def __init__(self, matrix, nodes, mass, hold=None):
+        """hold: six unknowns; None: those of isostatic()."""
+        motions = rigid_motions(nodes)
+        fixed = np.zeros(len(motions), dtype=bool)
+        fixed[isostatic(motions) if hold is None else hold] = True
+        super().__init__(matrix, nodes, fixed)
+        self.isostatic = self.moves
+        self.moves = sparse.identity(len(motions), format="csr")
+        self.fixed, self.held = np.zeros_like(fixed), np.zeros(0, dtype=int)
+        gram = motions.T @ (mass @ motions)
+        self.rigid = linalg.solve_triangular(np.linalg.cholesky(gram), motions.T, lower=True).T
+        self.inertia = mass @ self.rigid
+
+    def balanced(self, force):
+        """A f: with the inertia of the rigid motions, in equilibrium."""
+        return force - self.inertia @ (self.rigid.T @ force)
+
+    def inverse(self, force):
+        """A' C A f."""
+        u = self.isostatic @ self.factor.solve(self.isostatic.T @ self.balanced(force))
+        return u - self.rigid @ (self.inertia.T @ u)
+
+    def rigid_frequencies(self):
+        """Angular frequencies (6) of the rigid motions, rising: 0 to rounding."""
+        return np.sort(np.sqrt(np.abs(linalg.eigvalsh(self.rigid.T @ (self.matrix @ self.rigid)))))

@@ -98,6 +98,8 @@ def _put_stress(put, body):
 def _put_modes(file, put, body):
     put("modes/omega", body.modes.omega, "rad/s", "angular frequencies without contact")
     put("modes/mass_error", body.modes.mass_error, "1", "maximum error of the modes' orthonormality")
+    if body.modes.rigid is not None:
+        put("modes/rigid", body.modes.rigid, "rad/s", "angular frequencies of the rigid motions, which are left out")
     if body.mesh.sensors:
         text = "mass-normalised modes at the sensors, in the deck's directions"
         put("modes/sensors", body.modes.sensors, MODE, text)
