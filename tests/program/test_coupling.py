@@ -455,6 +455,55 @@ def test_monitor_prints_a_line_a_pass(petsam, tmp_path):
     assert max(lines[-1][1:]) <= 1e-6 < max(lines[-2][1:])
 
 
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_motion_until_cells_touch_that_does_not_settle_stays(petsam, tmp_path, ranks):
+    """With much friction passes for it do not end; with that which changes the shear least they do."""
+    case = dict(
+        bodies(200e9, 0.3, 5e9, 0.35), gap_type="punch", gap_flat_radius=0.3e-3, gap_edge_radius=0.01, grid_n=32,
+        grid_size=2e-3, friction=1.0, load_n=0.4, steps=3, coupling_monitor=True,
+    )  # fmt: skip
+    done = petsam(case, dict(output="r.h5"), ranks=ranks)
+    held = re.findall(r"until cells touch stays, change of q (\S+)", done.stdout)
+    assert 1 <= len(held) <= 2 and all(float(change) < 1e-2 for change in held)
+    with h5py.File(tmp_path / "r.h5") as f:
+        assert f["history/tangential_residual"][:].max() < 1e-6 and f["history/coupling_iterations"][:].max() < 40
+        shear = f["history/shear_max"][-1]
+    petsam(dict(case, steps=4), dict(output="r.h5", overwrite=True))
+    with h5py.File(tmp_path / "r.h5") as f:
+        assert f["history/shear_max"][-1] == pytest.approx(shear, rel=0.05)
+
+
+RANDOM = [("inf", 0.3, 210e9, 0.3), (210e9, 0.3, 20e9, 0.1), (200e9, 0.3, 5e9, 0.35), ("inf", 0.3, 3e9, 0.0)]
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_random_problems_with_much_friction_converge(petsam, tmp_path, seed):
+    """Rough and round, periodic and not; loads in long steps."""
+    rng = np.random.default_rng(seed)
+    young1, poisson1, young2, poisson2 = RANDOM[seed % 4]
+    n, friction, radius, a = int(rng.choice([24, 32, 48])), float(rng.choice([0.6, 1.0, 1.6])), 0.1, 0.5e-3
+    one = [0.0 if young == "inf" else (1 - nu**2) / young for young, nu in ((young1, poisson1), (young2, poisson2))]
+    case = dict(bodies(young1, poisson1, young2, poisson2), grid_n=n, grid_size=2e-3, friction=friction)
+    waves = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(n, 1 / n)])).clip(1)
+    heights = np.fft.ifft2(np.fft.fft2(rng.standard_normal((n, n))) * (waves <= n / 8) / waves**1.8).real
+    heights *= 0.3 * a**2 / radius / np.ptp(heights)
+    load = 4 / 3 * a**3 / radius / sum(one)
+    if seed % 3:
+        x = ((np.arange(n) + 0.5) / n - 0.5) * 2e-3
+        heights += (x[:, None] ** 2 + x**2) / 2 / radius
+    else:
+        case["elasticity"], load = "periodic", 2e-3 * heights.std() / sum(one)
+    with h5py.File(tmp_path / "h.h5", "w") as f:
+        f["height"] = heights - heights.min()
+    rows, tangential = [], 0.0
+    for k in range(3):
+        normal = load * rng.uniform(0.4, 1.0)
+        rows.append((float(k), float(normal), float(tangential), 0.0))
+        tangential = rng.uniform(-0.9, 0.9) * friction * 0.4 * load
+    case |= dict(gap_type="file", gap_file="h.h5", allow_edge_contact=True, steps=int(rng.integers(1, 4)))
+    petsam(case, history(tmp_path / "t.csv", "time,load_n,load_tx,load_ty", *rows))
+
+
 def test_monitor_of_uncoupled_bodies_prints_nothing(petsam):
     assert changes(petsam(similar(STEEL), dict(load_tx=20.0, coupling_monitor=True))) == []
 

@@ -9,6 +9,8 @@
     3. The lift by q should be d, and the motion that follows from p and q should be m. If they are, d within the error
        of the normal problem with this lift, the step is solved: the same p and q then solve both problems.
     4. Else Anderson's method makes the next d and m of this and the last passes (fixedpoint.c).
+  With much friction m need not settle: which cells stick at the edge changes with it, and that changes m. Then the m
+  that the shear changed least with stays, which is accurate to this change, and passes go on for d alone.
   Plain passes (Panagiotopoulos 1975, Ing.-Arch. 44, 421) would shrink the error by friction times Dundurs' beta a pass,
   and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
   imaginary eigenvalues, for which Anderson's method is made.
@@ -42,6 +44,10 @@
 #define WAITS      8
 #define WAITS_NEXT 4
 #define SHARPER    0.01
+/* The motion until cells touch does not settle if for so many passes the shear does not change less than CALMER times
+   the least change so far. */
+#define RESTLESS 6
+#define CALMER   0.5
 /* Parts of the last error, and of the tolerances, to which the problems of a pass are solved. */
 #define NORMAL_PART      0.1
 #define NORMAL_FINAL     0.3
@@ -61,6 +67,11 @@ typedef struct {
   PetscReal sharper; /* factor on the tolerance of the shear */
   PetscBool rough;   /* the slip's direction is not known yet */
   PetscBool turns;   /* its guess is that of the step one cycle before */
+  Vec       calm;    /* the motion until cells touch with which the shear changed least; NULL: none yet */
+  PetscReal calmest; /* that relative change, and the one at which the passes were last counted from 0 */
+  PetscReal mark;
+  PetscInt  restless; /* number of passes since then */
+  PetscInt  earlier;  /* number of passes before that motion was made to stay */
 } Passes;
 
 /* Copies the unknown to the lift and, where it is found, to the motion until cells touch, a part of `aside`. */
@@ -206,6 +217,22 @@ static PetscErrorCode ComputeChange(SamGrid grid, Vec now, Vec previous, PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Keeps the motion until cells touch with which the shear changed least. */
+static PetscErrorCode KeepCalm(Passes *p, PetscReal change)
+{
+  PetscFunctionBegin;
+  p->restless++;
+  if (change < CALMER * p->mark) {
+    p->restless = 0;
+    p->mark     = change;
+  }
+  if (change >= p->calmest) PetscFunctionReturn(PETSC_SUCCESS);
+  p->calmest = change;
+  if (!p->calm) PetscCall(SamGridCreateVec(p->s->task->grid, 2, &p->calm));
+  PetscCall(VecCopy(p->s->touching, p->calm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Finds out if the passes end because neither p nor q changes any more. */
 static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
 {
@@ -220,6 +247,7 @@ static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
     PetscCall(PetscPrintf(s->task->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n",
                           pass, (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
   *solved = *solved && (pass == 1 || PetscMax(change[0], change[1]) <= set->coupling_rtol);
+  if (SamSolveFindsTouching(s) && pass > 1) PetscCall(KeepCalm(p, change[1]));
   if (*solved && p->slides) PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -232,7 +260,7 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
 
   PetscFunctionBegin;
   PetscCall(Solve(p, pass));
-  p->s->counts[SAM_COUNT_COUPLING] = (double)pass;
+  p->s->counts[SAM_COUNT_COUPLING] = (double)(p->earlier + pass);
   if (step->status == SAM_STATUS_CONVERGED) PetscCall(Measure(p, result, &solved));
   *end = SAM_PASS_FAILED;
   if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
@@ -244,6 +272,7 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
     p->least = INFINITY;
     *end     = SAM_PASS_RESTARTS;
   }
+  if (*end == SAM_PASS_GOES_ON && SamSolveFindsTouching(p->s) && p->restless >= RESTLESS) *end = SAM_PASS_FAILED;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -313,24 +342,75 @@ static PetscErrorCode Start(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Makes the motion until cells touch with which the shear changed least the one that stays, for passes from the last
+   tractions on. */
+static PetscErrorCode HoldCalm(Passes *p)
+{
+  SamSolve *const s = p->s;
+
+  PetscFunctionBegin;
+  if (s->task->set->coupling_monitor)
+    PetscCall(PetscPrintf(s->task->grid->comm, "      the motion until cells touch stays, change of q %.6e\n",
+                          (double)p->calmest));
+  if (p->rough) PetscCall(SamSolveSetAside(s, SAM_ASIDE_SOLVED));
+  PetscCall(VecAXPY(s->s->aside, -1, s->touching));
+  PetscCall(VecCopy(p->calm, s->touching));
+  PetscCall(VecAXPY(s->s->aside, 1, s->touching));
+  s->step->status     = SAM_STATUS_CONVERGED;
+  s->step->message[0] = s->step->setting[0] = '\0';
+  s->has_pressure = s->has_shear = s->holds = PETSC_TRUE;
+  p->rough                                  = PETSC_FALSE;
+  p->least                                  = INFINITY;
+  p->sharper                                = 1;
+  p->stuck = p->waits   = 0;
+  p->looks              = PETSC_TRUE;
+  s->shear_product.n[0] = 0; /* at first the shear is scaled with the pressure */
+  p->earlier            = (PetscInt)s->counts[SAM_COUNT_COUPLING];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Makes passes until they end; `more`: a motion until cells touch that does not settle shall stay. */
+static PetscErrorCode Iterate(Passes *p, PetscBool *more)
+{
+  SamSolve *const     s         = p->s;
+  const PetscBool     touching  = SamSolveFindsTouching(s);
+  const SamFixedPoint iteration = {.components = touching ? 3 : 1, .most = s->task->set->coupling_max_it, .pass = Pass};
+  SamPassEnd          end;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(s->task->grid, iteration.components, &p->unknown));
+  PetscCall(Pack(s->task->grid, s->lift, touching ? s->touching : NULL, p->unknown));
+  PetscCall(SamSolveFixedPoint(s, &iteration, p, p->unknown, &end));
+  PetscCall(VecDestroy(&p->unknown));
+  *more = p->calm && !s->holds && end != SAM_PASS_SOLVED && s->step->status != SAM_STATUS_NO_EQUILIBRIUM;
+  if (end == SAM_PASS_GOES_ON && !*more) PetscCall(Fail(p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolveCoupled(SamSolve *s)
 {
-  const SamStepTask  *task   = s->task;
-  const SamSolver     normal = SamNormalAsSolver(task->normal), tangential = SamTangentialAsSolver(task->tangential);
-  const SamFixedPoint iteration = {
-    .components = SamSolveFindsTouching(s) ? 3 : 1, .most = task->set->coupling_max_it, .pass = Pass};
-  Passes     p = {.s = s, .looks = PETSC_TRUE, .least = INFINITY, .sharper = 1, .rough = SamSolveIsTwice(s)};
-  SamPassEnd end;
+  const SamSolver normal = SamNormalAsSolver(s->task->normal), tangential = SamTangentialAsSolver(s->task->tangential);
+  const PetscBool held = s->holds;
+  Passes          p    = {.s       = s,
+                          .looks   = PETSC_TRUE,
+                          .least   = INFINITY,
+                          .calmest = INFINITY,
+                          .mark    = INFINITY,
+                          .sharper = 1,
+                          .rough   = SamSolveIsTwice(s)};
+  PetscBool       more;
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(normal, &p.rtol[0], NULL));
   PetscCall(SamSolverGetTolerances(tangential, &p.rtol[1], NULL));
   PetscCall(Start(&p));
-  PetscCall(SamGridCreateVec(task->grid, iteration.components, &p.unknown));
-  PetscCall(Pack(task->grid, s->lift, SamSolveFindsTouching(s) ? s->touching : NULL, p.unknown));
-  PetscCall(SamSolveFixedPoint(s, &iteration, &p, p.unknown, &end));
-  PetscCall(VecDestroy(&p.unknown));
-  if (end == SAM_PASS_GOES_ON) PetscCall(Fail(&p));
+  PetscCall(Iterate(&p, &more));
+  if (more) {
+    PetscCall(HoldCalm(&p));
+    PetscCall(Iterate(&p, &more));
+    s->holds = held;
+  }
+  PetscCall(VecDestroy(&p.calm));
   SamSolverSetEffort(normal, 0, SAM_EFFORT_FULL);
   SamSolverSetEffort(tangential, 0, SAM_EFFORT_FULL);
   PetscFunctionReturn(PETSC_SUCCESS);
