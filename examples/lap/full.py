@@ -43,13 +43,14 @@ def growing(start, end, size, most):
 
 
 def planes(size, half):
-    """Planes of elements along x and z of body 1 and y of both; `half`: of half of the width."""
+    """Planes of elements along x and z of body 1 and y of both; `half`: of half of the width, with elements of at most
+    6 mm between joint and clamp, since linear ones bend too stiffly."""
     count = round(WASHER / size)
     near = np.arange(1, round(NEAR / WASHER * count) + 1) * WASHER / count  # the washers' edges are planes
     x = [*near, *growing(near[-1], HALF, size, 2 * size)]
     y = [*near, *growing(near[-1], WIDTH, size, 2 * size)]
     z = [0.0, *growing(0.0, HEIGHT, size, 3 * size)]
-    x = [*(-v for v in x[::-1]), 0.0, *x, *growing(HALF, END, 2 * size, 16.0)]
+    x = [*(-v for v in x[::-1]), 0.0, *x, *growing(HALF, END, 2 * size, 6.0 if half else 16.0)]
     return np.array(x), np.array([0.0, *y] if half else [*(-v for v in y[::-1]), 0.0, *y]), np.array(z)
 
 
@@ -130,9 +131,9 @@ def calculix(base, size):
 # ---------------------------------------------------------------- petsam
 
 
-def petsam(base, size, degree, cells):
+def petsam(base, size, kind, degree, cells):
     """The same of petsam, and the energy (N mm) that each load step dissipates."""
-    out, press = deck(size, "C3D20R", False)
+    out, press = deck(size, kind, False)
     static = ["*STEP", "*STATIC"]
     out += [*static, *press, "*END STEP", *static, "*BOUNDARY", "END, 3, 3, -1.", "*END STEP"]
     Path(f"{base}-pair.inp").write_text("\n".join(out) + "\n", encoding="ascii")
@@ -183,6 +184,7 @@ def main():
     parser.add_argument("out", help="base of the files' names")
     parser.add_argument("--size", type=float, default=2.0, help="of the elements at the contact, mm (2)")
     parser.add_argument("--pair-size", type=float, default=3.0, help="the same of petsam-compliance, mm (3)")
+    parser.add_argument("--kind", default="C3D20R", help="the type of its elements (C3D20R)")
     parser.add_argument("--degree", default="10,8", help="of petsam's polynomials (10,8)")
     parser.add_argument("--cells", type=int, nargs=2, default=(110, 96), help="of petsam (110 96)")
     parser.add_argument("--only", choices=("petsam", "calculix"), help="one of both")
@@ -190,7 +192,7 @@ def main():
     base = Path(given.out).resolve()
     table = {}
     if given.only != "calculix":
-        place, force, energy, cpu = petsam(base, given.pair_size, given.degree, given.cells)
+        place, force, energy, cpu = petsam(base, given.pair_size, given.kind, given.degree, given.cells)
         table["petsam"] = (
             [
                 (secant, area, float(np.sum(energy[(5 * k + 3) * PARTS : 5 * (k + 1) * PARTS])))

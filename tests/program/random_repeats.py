@@ -23,9 +23,10 @@ LINE = dict(STEEL, elasticity="plane", plane_datum=0.05, gap_type="ellipsoid", g
 LINE.update(grid_n=96, grid_size=2.4e-3, friction=0.3)
 MEAN = {"load_n": 900.0}
 PRESSURE = 6e8  # of the ball under 1.2 times that, about
-# relative differences, of columns and of the 2-norms of fields; shears differ near edges by more than their tolerance
+# Relative differences, of columns and of the 2-norms of fields. Shears differ near edges by more than their tolerance;
+# that across the load, of cross contraction, also by the direction of slip, which is found to second order in a step.
 COLUMNS = dict(default=1e-4, dissipated_energy=2e-3, friction_work=2e-3)
-FIELDS = dict(pressure=1e-5, shear_x=2e-3, shear_y=2e-3, plastic_depth=1e-5, wear_depth1=1e-4, wear_depth2=1e-4)
+FIELDS = dict(pressure=1e-5, shear_x=2e-3, shear_y=1e-2, plastic_depth=1e-5, wear_depth1=1e-4, wear_depth2=1e-4)
 NAMES = ("load_n", "load_tx", "disp_z", "disp_x", "contact_area", "pressure_max", "dissipated_energy", "wear_volume1",
          "wear_volume2", "plastic_depth_max", "plastic_area", "hardness_work", "plastic_max")  # fmt: skip
 
