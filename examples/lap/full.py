@@ -6,7 +6,7 @@
 The strips of mesh.py are both clamped at their far ends, without a bolt; 12 kN press the washers together. Then body
 1's end moves up and down by each of DOWN. CalculiX has half of the width (y <= 0) in C3D8I elements and penalty
 contact; petsam has the compliance of the whole strips in C3D20R elements of --pair-size at the contact. Writes OUT.inp,
-OUT-pair.inp, OUT.h5 and others beside them, and prints a table.
+OUT.dat, OUT-pair.inp, OUT-pair.h5 and others beside them, and prints a table.
 """
 
 import argparse
@@ -131,9 +131,9 @@ def calculix(base, size):
 # ---------------------------------------------------------------- petsam
 
 
-def petsam(base, size, kind, degree, cells):
+def petsam(base, size, degree, cells):
     """The same of petsam, and the energy (N mm) that each load step dissipates."""
-    out, press = deck(size, kind, False)
+    out, press = deck(size, "C3D20R", False)
     static = ["*STEP", "*STATIC"]
     out += [*static, *press, "*END STEP", *static, "*BOUNDARY", "END, 3, 3, -1.", "*END STEP"]
     Path(f"{base}-pair.inp").write_text("\n".join(out) + "\n", encoding="ascii")
@@ -158,7 +158,6 @@ def petsam(base, size, kind, degree, cells):
         held = dict(body2_case_press=min(time + 1, 1.0), body2_case_move=place)
         structure.step([], [held])
         numbers = [patch.number(name) for name in ("body2_case_move_load", "dissipated_energy")]
-
         found.append((place, -1e3 * numbers[0], 1e3 * numbers[1]))  # J for a motion by 1 mm
     after = os.times()
     cpu = sum(after[:4]) - sum(before[:4])
@@ -184,7 +183,6 @@ def main():
     parser.add_argument("out", help="base of the files' names")
     parser.add_argument("--size", type=float, default=2.0, help="of the elements at the contact, mm (2)")
     parser.add_argument("--pair-size", type=float, default=3.0, help="the same of petsam-compliance, mm (3)")
-    parser.add_argument("--kind", default="C3D20R", help="the type of its elements (C3D20R)")
     parser.add_argument("--degree", default="10,8", help="of petsam's polynomials (10,8)")
     parser.add_argument("--cells", type=int, nargs=2, default=(110, 96), help="of petsam (110 96)")
     parser.add_argument("--only", choices=("petsam", "calculix"), help="one of both")
@@ -192,7 +190,7 @@ def main():
     base = Path(given.out).resolve()
     table = {}
     if given.only != "calculix":
-        place, force, energy, cpu = petsam(base, given.pair_size, given.kind, given.degree, given.cells)
+        place, force, energy, cpu = petsam(base, given.pair_size, given.degree, given.cells)
         table["petsam"] = (
             [
                 (secant, area, float(np.sum(energy[(5 * k + 3) * PARTS : 5 * (k + 1) * PARTS])))

@@ -280,7 +280,8 @@ def arguments(words):
     needed = needed if options.mesh else ("nodes", "young", "poisson")
     for name in needed:
         if getattr(options, name) is None:
-            reader.error(f"{'--mesh' if options.mesh else '--matrix'} needs --{name}")
+            other = ", or --free for a pair that nothing holds" if name == "fixed" and options.pair else ""
+            reader.error(f"{'--mesh' if options.mesh else '--matrix'} needs --{name}{other}")
     useless = ("nodes", "young", "poisson") if options.mesh else MESH_ONLY
     for name in useless:
         if getattr(options, name) is not None:

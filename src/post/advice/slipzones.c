@@ -59,6 +59,7 @@
 #define ALIKE    1e-6  /* smaller couplings of bodies, or relative changes of a load, count as none */
 #define REVERSED 1.02  /* increase of the part of cells that stick, relative to the step before, at a reversal */
 #define ROUNDING 1e-16 /* energy, relative to the normal work, that is rounding of the shear */
+#define UNPUSHED 1e-9  /* the same that is of no interest where only dissimilar bodies are pressed */
 #define NOTHING  1e-6  /* energy, relative to the tangential work, that counts as none */
 #define SLIVER   1e-3  /* the same if N and T grow in proportion; cut cells cause such energies */
 #define UNSURE   0.5  /* error of a step's energy by its length, relative to it, above which cells are not questioned */
@@ -319,7 +320,7 @@ static double WorkOf(const SamStep *step)
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt c = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
-    work += fabs((double)(step->load[c] * step->rigid[c]));
+    if (step->control.value[c] != 0) work += fabs((double)(step->load[c] * step->rigid[c])); /* others are rounding */
   }
   return work;
 }
@@ -364,7 +365,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   Measure(s, &n, slip);
   PetscCall(Join(a, step, &n));
   PetscCall(AddStuck(s, step, n.stick_cells == n.contact_cells ? PETSC_TRUE : PETSC_FALSE, slip));
-  if (n.energy < ROUNDING * normal) n.energy = 0;
+  if (n.energy < (pushed ? ROUNDING : UNPUSHED) * normal) n.energy = 0;
   if (GrowTogether(slip, step) && pushed && n.energy < SLIVER * pushes) {
     n.energy     = 0;
     slip->unsure = PETSC_TRUE;
