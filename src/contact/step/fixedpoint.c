@@ -10,7 +10,7 @@
 #include "stepimpl.h"
 #include <math.h>
 
-/* Number of last iterates that are stored. With four, soft finite bodies do not converge. */
+/* Number of last iterates that are stored */
 #define DEPTH 6
 /* Smaller eigenvalues of the scaled matrix of products are rounding. */
 #define LEAST 1e-10
