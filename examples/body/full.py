@@ -10,13 +10,12 @@ balance the stresses in the elements beside the surface, over the area of each n
 """
 
 import argparse
-import os
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 
+from petsam.compliance.example import run_calculix
 from petsam.compliance.mesh import grid_mesh
 from petsam.compliance.stiffness import numbers
 
@@ -181,20 +180,9 @@ def main():
     lines, beside = deck(options.body, mesh, top, options.size, options.steps)
     base = Path(options.out)
     Path(f"{base}.inp").write_text("\n".join(lines) + "\n", encoding="ascii")
-    before = os.times()
-    with open(f"{base}.log", "w", encoding="utf-8") as log:
-        threads = {"OMP_NUM_THREADS": "1", "CCX_NPROC_STIFFNESS": "1"}
-        done = subprocess.run(
-            [os.environ.get("CCX", "ccx"), base.name],
-            cwd=base.parent,
-            stdout=log,
-            stderr=log,
-            env={**os.environ, **threads},
-        )
-    if done.returncode:
+    whole, cpu = run_calculix(base)
+    if not whole:
         sys.exit(f"full.py: CalculiX failed, see {base}.log")
-    after = os.times()
-    cpu = after.children_user + after.children_system - before.children_user - before.children_system
     moved, stresses = np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.blocks[0].nodes), 8, 6))
     reaction = read_dat(f"{base}.dat", moved, stresses)
     elements = mesh.blocks[0].nodes[beside]

@@ -12,8 +12,6 @@ examples/fe-comparison.
 """
 
 import argparse
-import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -21,6 +19,7 @@ import h5py
 import numpy as np
 from mesh import BELOW, BEYOND, THICKNESS, TITANIUM, Body, graded, nearest, strip
 
+from petsam.compliance.example import run_calculix
 from petsam.compliance.stiffness import numbers
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fe-comparison"))
@@ -200,15 +199,9 @@ def main():
     print(f"{count} elements", flush=True)
     if options.dry:
         return
-    before = os.times()
-    with open(f"{base}.log", "w", encoding="utf-8") as log:
-        threads = {"OMP_NUM_THREADS": "1", "CCX_NPROC_STIFFNESS": "1"}
-        command = [os.environ.get("CCX", "ccx"), base.name]
-        done = subprocess.run(command, cwd=base.parent, stdout=log, stderr=log, env={**os.environ, **threads})
-    if done.returncode:
+    whole, cpu = run_calculix(base)
+    if not whole:
         print(f"full.py: CalculiX stopped, see {base}.log; its finished steps are used", file=sys.stderr)
-    after = os.times()
-    cpu = after.children_user + after.children_system - before.children_user - before.children_system
     reaction, stresses = read_steps(f"{base}.dat", disc.first_element, len(disc.elements), len(rises))
     pressure, shear, nodes, area = fields(disc, stresses)
     force = -2.0 * reaction[:, [0, 2]]  # on the disc, of both halves

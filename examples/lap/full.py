@@ -21,6 +21,7 @@ import numpy as np
 from mesh import WASHER, Strips, strip_lines
 
 from petsam import Contact, joint
+from petsam.compliance.example import run_calculix
 from petsam.joint.pair import without_rigid
 from petsam.joint.structure import DISPLACEMENTS
 
@@ -73,11 +74,7 @@ def turns():
 def full_deck(size):
     """Half of the joint with contact: pressed in a step, then two cycles of each motion in steps of half a cycle."""
     out, press = deck(size, "C3D8I", True)
-    nodes = np.array([line.split(",") for line in node_lines(out)], dtype=float)
-    clamped = {int(n) for title in ("CLAMP", "END") for n in members(out, title)}
-    middle = [int(n) for n, _, y, _ in nodes if abs(y) < 1e-9 and int(n) not in clamped]
     stiffness = PENALTY * YOUNG / size
-    out += ["*NSET, NSET=MIDDLE", *map(str, middle)]
     out += ["*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{stiffness:.12g}"]
     out += ["*FRICTION", f"{FRICTION}, {stiffness:.12g}"]
     out += ["*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "CONTACT1, CONTACT2"]
@@ -92,40 +89,17 @@ def full_deck(size):
     return out
 
 
-def node_lines(out):
-    """The lines of all nodes."""
-    found, inside = [], False
-    for line in out:
-        inside = line == "*NODE" if line.startswith("*") else inside
-        if inside and not line.startswith("*"):
-            found.append(line)
-    return found
-
-
-def members(out, title):
-    """The numbers of a set of nodes."""
-    first = out.index(f"*NSET, NSET={title}") + 1
-    last = next((k for k in range(first, len(out)) if out[k].startswith("*")), len(out))
-    return [n for line in out[first:last] for n in line.split(",") if n.strip()]
-
-
 def calculix(base, size):
     """Forces (N) of body 1's end upwards in all increments after the press, their places (mm), and CPU seconds."""
     Path(f"{base}.inp").write_text("\n".join(full_deck(size)) + "\n", encoding="ascii")
-    before = os.times()
-    with open(f"{base}.log", "w", encoding="utf-8") as log:
-        alone = {**os.environ, "OMP_NUM_THREADS": "1"}
-        done = subprocess.run(
-            [os.environ.get("CCX", "ccx"), base.name], cwd=base.parent, stdout=log, stderr=log, env=alone
-        )
-    if done.returncode:
+    whole, cpu = run_calculix(base)
+    if not whole:
         sys.exit(f"full.py: CalculiX failed, see {base}.log")
-    after = os.times()
     text = Path(f"{base}.dat").read_text(encoding="ascii")
     found = re.findall(r"set END and time +(\S+)\s+(\S+) +(\S+) +(\S+)", text)
     time, force = np.array([[float(row[0]), 2 * float(row[3])] for row in found if float(row[0]) > 1 + 1e-9]).T
     place = np.interp(time - 1, np.arange(len(turns())), turns())
-    return place, -force, after.children_user + after.children_system - before.children_user - before.children_system
+    return place, -force, cpu
 
 
 # ---------------------------------------------------------------- petsam

@@ -64,9 +64,10 @@ def lines(name, coarse, kind):
 
 def strip_lines(title, strips, edges, kind):
     """The deck of strips with these planes of elements. Body 2 is the mesh turned about y by half a turn, without its
-    height. The far ends are the sets CLAMP of body 2 and END of body 1."""
+    height. The far ends are the sets CLAMP of body 2 and END of body 1; of strips from y = 0 on, their half, the other
+    nodes at y = 0 are the set MIDDLE."""
     x, y, z = edges
-    out, first, sets = [f"*HEADING\n{title}, mm, N, MPa, t"], 0, []
+    out, first, sets, plane = [f"*HEADING\n{title}, mm, N, MPa, t"], 0, [], []
     for body in (1, 2):
         mesh = grid_mesh((x, y, z), kind, *STEEL)
         # body 2 lies below, with its long end at negative x; both turns keep the orientation of the elements
@@ -88,9 +89,11 @@ def strip_lines(title, strips, edges, kind):
         else:
             middle = end[np.argmin(np.abs(mesh.nodes[end]) @ [0.0, 1.0, 1.0])]
             sets += ["*NSET, NSET=TIP", f"{middle + 1 + first}", "*NSET, NSET=END", *numbers(end + 1 + first)]
+        if y[0] == 0.0:
+            plane += [n + 1 + first for n in np.setdiff1d(np.flatnonzero(mesh.nodes[:, 1] == 0.0), end)]
         first += max(len(mesh.nodes), len(block.numbers))
     out += ["*MATERIAL, NAME=STEEL", "*ELASTIC", "{}, {}".format(*STEEL), "*DENSITY", f"{DENSITY}"]
-    return out + sets
+    return out + sets + (["*NSET, NSET=MIDDLE", *numbers(plane)] if plane else [])
 
 
 def washer(mesh, points, center, height, first):

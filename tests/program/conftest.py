@@ -109,7 +109,7 @@ subprocess.Popen = Popen
 def approx(expected, rel=None, abs=None, nan_ok=False, compare=pytest.approx):
     """pytest's own adds an absolute tolerance of 1e-12, within which all slips and energies in SI units are alike."""
     if abs is None:
-        rel, abs = rel or 1e-6, 0.0
+        rel, abs = 1e-6 if rel is None else rel, 0.0
     return compare(expected, rel=rel, abs=abs, nan_ok=nan_ok)
 
 

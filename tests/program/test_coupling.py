@@ -24,13 +24,18 @@ PERIODIC = dict(
 )
 
 
-def write_rough(path, size, lengths=32):
-    """Pseudo-random heights of that standard deviation (m) in `lengths` waves at most."""
-    waves = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(32, 1 / 32)])).clip(1)
-    heights = np.fft.fft2(np.random.default_rng(0).standard_normal((32, 32))) * (waves <= lengths)
-    heights *= 1 if lengths == 32 else waves**-1.8
+def rough(rng, n, lengths):
+    """Pseudo-random heights in `lengths` waves at most, the higher the longer, all alike if there are n."""
+    waves = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(n, 1 / n)])).clip(1)
+    heights = np.fft.fft2(rng.standard_normal((n, n))) * (waves <= lengths)
+    heights *= 1 if lengths == n else waves**-1.8
     heights[0, 0] = 0
-    heights = np.fft.ifft2(heights).real
+    return np.fft.ifft2(heights).real
+
+
+def write_rough(path, size, lengths=32):
+    """Those of that standard deviation (m) on 32 x 32 cells; returns their mean."""
+    heights = rough(np.random.default_rng(0), 32, lengths)
     heights *= size / heights.std()
     with h5py.File(path, "w") as f:
         f["height"] = heights - heights.min()
@@ -484,8 +489,7 @@ def test_random_problems_with_much_friction_converge(petsam, tmp_path, seed):
     n, friction, radius, a = int(rng.choice([24, 32, 48])), float(rng.choice([0.6, 1.0, 1.6])), 0.1, 0.5e-3
     one = [0.0 if young == "inf" else (1 - nu**2) / young for young, nu in ((young1, poisson1), (young2, poisson2))]
     case = dict(bodies(young1, poisson1, young2, poisson2), grid_n=n, grid_size=2e-3, friction=friction)
-    waves = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(n, 1 / n)])).clip(1)
-    heights = np.fft.ifft2(np.fft.fft2(rng.standard_normal((n, n))) * (waves <= n / 8) / waves**1.8).real
+    heights = rough(rng, n, n / 8)
     heights *= 0.3 * a**2 / radius / np.ptp(heights)
     load = 4 / 3 * a**3 / radius / sum(one)
     if seed % 3:

@@ -1,6 +1,8 @@
-"""What the scripts that make an example's meshes share: the lines of a deck, and the command line."""
+"""What the scripts that make an example's meshes share: the lines of a deck, the command line, CalculiX's run."""
 
 import argparse
+import os
+import subprocess
 
 from .stiffness import model_lines, numbers
 
@@ -23,3 +25,18 @@ def write_deck(description, bodies, lines):
     options = parser.parse_args()
     with open(options.file, "w", encoding="ascii") as file:
         file.write("\n".join(lines(options.body, options.coarse, options.type)) + "\n")
+
+
+def run_calculix(base):
+    """Runs CalculiX (the program in CCX, or ccx) on one core on BASE.inp, base being a Path; its output is in BASE.log.
+
+    Returns True if it ended well, and its CPU seconds.
+    """
+    before = os.times()
+    with open(f"{base}.log", "w", encoding="utf-8") as log:
+        threads = {"OMP_NUM_THREADS": "1", "CCX_NPROC_STIFFNESS": "1"}
+        command = [os.environ.get("CCX", "ccx"), base.name]
+        done = subprocess.run(command, cwd=base.parent, stdout=log, stderr=log, env={**os.environ, **threads})
+    after = os.times()
+    cpu = after.children_user + after.children_system - before.children_user - before.children_system
+    return done.returncode == 0, cpu

@@ -252,6 +252,16 @@ static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Sets the slip's direction by the shear so far, if it is not known yet. */
+static PetscErrorCode FindDirection(Passes *p)
+{
+  PetscFunctionBegin;
+  if (p->rough) PetscCall(SamSolveSetAside(p->s, SAM_ASIDE_SOLVED));
+  p->rough = PETSC_FALSE;
+  p->least = INFINITY;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd *end)
 {
   Passes *const  p      = (Passes *)context;
@@ -267,10 +277,8 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
   PetscCall(Compare(p, pass, &solved));
   *end = solved ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
   if (p->rough && !p->slides && !p->stuck && p->error <= SAM_ROUGH * p->rtol[1]) {
-    PetscCall(SamSolveSetAside(p->s, SAM_ASIDE_SOLVED));
-    p->rough = PETSC_FALSE;
-    p->least = INFINITY;
-    *end     = SAM_PASS_RESTARTS;
+    PetscCall(FindDirection(p));
+    *end = SAM_PASS_RESTARTS;
   }
   if (*end == SAM_PASS_GOES_ON && SamSolveFindsTouching(p->s) && p->restless >= RESTLESS) *end = SAM_PASS_FAILED;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -352,20 +360,17 @@ static PetscErrorCode HoldCalm(Passes *p)
   if (s->task->set->coupling_monitor)
     PetscCall(PetscPrintf(s->task->grid->comm, "      the motion until cells touch stays, change of q %.6e\n",
                           (double)p->calmest));
-  if (p->rough) PetscCall(SamSolveSetAside(s, SAM_ASIDE_SOLVED));
+  PetscCall(FindDirection(p));
   PetscCall(VecAXPY(s->s->aside, -1, s->touching));
   PetscCall(VecCopy(p->calm, s->touching));
   PetscCall(VecAXPY(s->s->aside, 1, s->touching));
-  s->step->status     = SAM_STATUS_CONVERGED;
-  s->step->message[0] = s->step->setting[0] = '\0';
-  s->has_pressure = s->has_shear = s->holds = PETSC_TRUE;
-  p->rough                                  = PETSC_FALSE;
-  p->least                                  = INFINITY;
-  p->sharper                                = 1;
-  p->stuck = p->waits   = 0;
-  p->looks              = PETSC_TRUE;
-  s->shear_product.n[0] = 0; /* at first the shear is scaled with the pressure */
-  p->earlier            = (PetscInt)s->counts[SAM_COUNT_COUPLING];
+  SamSolveForgetFailure(s);
+  SamSolveStartFromLast(s);
+  s->holds   = PETSC_TRUE;
+  p->sharper = 1;
+  p->stuck = p->waits = 0;
+  p->looks            = PETSC_TRUE;
+  p->earlier          = (PetscInt)s->counts[SAM_COUNT_COUPLING];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -390,14 +395,13 @@ static PetscErrorCode Iterate(Passes *p, PetscBool *more)
 PetscErrorCode SamSolveCoupled(SamSolve *s)
 {
   const SamSolver normal = SamNormalAsSolver(s->task->normal), tangential = SamTangentialAsSolver(s->task->tangential);
-  const PetscBool held = s->holds;
-  Passes          p    = {.s       = s,
-                          .looks   = PETSC_TRUE,
-                          .least   = INFINITY,
-                          .calmest = INFINITY,
-                          .mark    = INFINITY,
-                          .sharper = 1,
-                          .rough   = SamSolveIsTwice(s)};
+  Passes          p = {.s       = s,
+                       .looks   = PETSC_TRUE,
+                       .least   = INFINITY,
+                       .calmest = INFINITY,
+                       .mark    = INFINITY,
+                       .sharper = 1,
+                       .rough   = SamSolveIsTwice(s)};
   PetscBool       more;
 
   PetscFunctionBegin;
@@ -408,7 +412,7 @@ PetscErrorCode SamSolveCoupled(SamSolve *s)
   if (more) {
     PetscCall(HoldCalm(&p));
     PetscCall(Iterate(&p, &more));
-    s->holds = held;
+    s->holds = PETSC_FALSE;
   }
   PetscCall(VecDestroy(&p.calm));
   SamSolverSetEffort(normal, 0, SAM_EFFORT_FULL);

@@ -149,8 +149,7 @@ static PetscErrorCode SolveProblems(SamSolve *w)
 static PetscErrorCode SolveAgain(SamSolve *w)
 {
   PetscFunctionBegin;
-  w->has_pressure = w->has_shear = PETSC_TRUE;
-  w->shear_product.n[0]          = 0; /* at first the shear is scaled with the pressure */
+  SamSolveStartFromLast(w);
   PetscCall(SolveProblems(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -181,10 +180,7 @@ static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *cont
 static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
   PetscFunctionBegin;
-  if (w->step->status == SAM_STATUS_NOT_CONVERGED && SamSolveFindsTouching(w)) {
-    w->step->status     = SAM_STATUS_CONVERGED;
-    w->step->message[0] = w->step->setting[0] = '\0';
-  }
+  if (w->step->status == SAM_STATUS_NOT_CONVERGED && SamSolveFindsTouching(w)) SamSolveForgetFailure(w);
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_PREDICTED));
   PetscCall(FollowHolding(w, law, contact));
   if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
