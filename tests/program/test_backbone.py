@@ -343,6 +343,16 @@ def test_bolts_are_tightened_though_displacements_are_tried_first(tmp_path, monk
     assert found.tensions["B"] == pytest.approx(plain.tensions["B"], rel=1e-6)
 
 
+def test_cells_of_a_patch_have_their_place_in_the_frame_of_the_mesh(tmp_path):
+    file = pair_file(tmp_path / "pair.h5", 1.0)
+    with h5py.File(file, "a") as data:
+        data["patch/center"][...] = (-3.0, 0.25)
+    found = joint.backbone(joint.Pair(file, PRELOAD, **OPTIONS | dict(grid_n=8)).structure.copy(), [1e-9], steps=2)
+    x, y = found.axes[0]
+    assert (x.mean(), y.mean()) == pytest.approx((-3.0, 0.25))
+    assert x[-1] - x[0] == pytest.approx(7 / 4)
+
+
 def test_a_copy_of_a_structure_outlives_its_pair(tmp_path):
     pair = joint.Pair(pair_file(tmp_path / "pair.h5", 1.0), PRELOAD, **OPTIONS | dict(grid_n=8))
     copy = pair.structure.copy()

@@ -341,6 +341,19 @@ def test_an_entry_of_the_stiffness_is_a_scalar(solve, draw):
         assert code == 3 and f"--scalar {name}: " in error and says in error
 
 
+def test_numbers_of_a_logarithmic_axis_stand_in_a_row():
+    with style.plt.rc_context(style.STYLE):
+        figure, axes = style.plt.subplots()
+        style.logarithmic(axes, "xy")
+        axes.set(xlim=(5.0, 60.0), ylim=(5.0, 60.0))
+        figure.canvas.draw()
+        for axis, upper in ((axes.xaxis, lambda box: box.y1), (axes.yaxis, lambda box: box.x1)):
+            labels = [*axis.get_majorticklabels(), *axis.get_minorticklabels()]
+            at = [upper(label.get_window_extent()) for label in labels if label.get_text()]
+            assert len(at) > 3 and max(at) - min(at) < 0.6  # pixels; antialiasing
+        style.plt.close(figure)
+
+
 def test_numbers_of_a_logarithmic_axis_are_plain():
     figure, axes = plt.subplots()
     axes.plot([30.0, 60.0], [1e-7, 1e7])

@@ -52,7 +52,7 @@ class Backbone(Numbers):
     names     names of the patches
     pressure  field of each patch in the preload, Pa
     states    field of each patch at the largest amplitude, before the reversal: 0 open, 1 stick, 2 slip
-    axes      x and y (m) of each patch's cells
+    axes      x and y (m) of each patch's cells, in the structure's frame
     modes_change  relative change of `linear` without the inertia of the highest quarter of the structure's modes; NaN
                   where there are fewer than four
     """
@@ -195,7 +195,7 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
         unit,
         [patch.contact.field("pressure") for patch in structure.patches],
         states,
-        [(patch.contact.x, patch.contact.y) for patch in structure.patches],
+        [(patch.contact.x + patch.center[0], patch.contact.y + patch.center[1]) for patch in structure.patches],
     )
     _warn(found)
     return found

@@ -82,7 +82,7 @@ class Pair:
         for k, (contact, far) in enumerate(zip(contacts, self.far), 1):
             names = [*DISPLACEMENTS, *(f"body2_case_{name}" for name in far)]
             name = "contact" if len(contacts) == 1 else f"patch{k}"
-            patches.append(Patch(contact, [*names, *modes], by_load=by_load, name=name))
+            patches.append(Patch(contact, [*names, *modes], by_load=by_load, name=name, center=self.centers[k - 1]))
             static += [True] * len(names) + [False] * len(modes)
             moved += [np.zeros((len(names), len(modes))), np.eye(len(modes))]
         coupling, static = np.zeros(2 * (len(static),)), np.flatnonzero(static)
@@ -96,6 +96,7 @@ class Pair:
             raise ValueError("it has no body 1, or no modes: make it with --pair and --modes")
         self.coupling = file["coupling" if "coupling" in file else "rigid/compliance"][()]
         self.far = [_far(group) for group in patches_of(file)] if "coupling" in file else [[]]
+        self.centers = [group["patch/center"][()] for group in patches_of(file)]
         if len(self.coupling) != sum(6 + len(names) for names in self.far):
             raise ValueError(f"the coupling of its patches has the shape {self.coupling.shape}")
         self.omega = file["modes/omega"][()].astype(float)

@@ -56,11 +56,13 @@ class Patch:
     by_load      names of those coordinates, displacements of body 1, whose load a step prescribes instead: where the
                  structure is softer than the contact, this converges better
     name         of the patch in tables
+    center       x and y (m) of the contact's origin in the structure's frame
     """
 
-    def __init__(self, contact, coordinates, held=None, by_load=(), name=""):
+    def __init__(self, contact, coordinates, held=None, by_load=(), name="", center=(0.0, 0.0)):
         self.contact, self.coordinates, self.held, self.name = contact, list(coordinates), dict(held or {}), name
         self.by_load = np.array([name in by_load for name in self.coordinates])
+        self.center = np.asarray(center, dtype=float)
         self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
         self.given = {}  # what the last step prescribed, and the coordinates that it found
         self.outgrown = False
@@ -132,7 +134,7 @@ class Patch:
     def copy(self):
         """Another patch in the committed state of this one."""
         names = [name for name, load in zip(self.coordinates, self.by_load) if load]
-        return Patch(self.contact.copy(), self.coordinates, self.held, names, self.name)
+        return Patch(self.contact.copy(), self.coordinates, self.held, names, self.name, self.center)
 
 
 class Structure:

@@ -193,6 +193,9 @@ def logarithmic(panel, axes):
         axis = getattr(panel, name + "axis")
         axis.set_major_formatter(_Plain())
         axis.set_minor_formatter(_Plain())
+        long, short = (matplotlib.rcParams[f"{name}tick.{size}.size"] for size in ("major", "minor"))
+        pad = matplotlib.rcParams[f"{name}tick.major.pad"]
+        axis.set_tick_params(which="minor", pad=pad + long - short)  # all numbers as far from the axis
 
 
 def over_cycles(panel, cycles):
