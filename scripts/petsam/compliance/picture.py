@@ -70,31 +70,29 @@ def _unit_load(body, direction):
     return (0.5 * (body.compliance + body.compliance.T) @ load.ravel()).reshape(m, 3)
 
 
-def _spectrum(axes, body):
+def _spectrum(axes, body, title):
     values = np.sort(np.abs(body.eigenvalues))[::-1]
     axes.semilogy(1 + np.arange(len(values)), np.maximum(values, 1e-300), ".", color=COLORS[0])
     axes.set_ylim(max(values[0] * 1e-12, values[-1] * 0.5, 1e-300), 2.0 * values[0])
-    frame(axes, "eigenvalues relative to the half-space", "number", "magnitude")
+    frame(axes, title, "number", "magnitude")
 
 
-def _convergence(axes, body):
+def _convergence(axes, body, title):
     changes = np.maximum(body.changes, 1e-16)
     axes.semilogy(np.arange(len(changes)), changes, "o-", color=COLORS[2], markersize=4)
-    frame(
-        axes, "correction under a Hertzian pressure", "degree", f"difference from degree {written(body.patch.degree)}"
-    )
+    frame(axes, title, "degree", f"difference from degree {written(body.patch.degree)}")
 
 
 def _panels(body, unit, name=""):
     """What is drawn of a patch; of one of several, without load cases."""
-    title = "{}correction under {} = 1 N".format(f"{name}, " if name else "", "{}")
+    of = f"{name}, " if name else ""
     panels = [
-        lambda axes: _map(axes, body, _unit_load(body, 2), title.format("N"), unit),
-        lambda axes: _map(axes, body, _unit_load(body, 0), title.format("T_x"), unit),
-        lambda axes: _spectrum(axes, body),
+        lambda axes: _map(axes, body, _unit_load(body, 2), f"{of}correction under N = 1 N", unit),
+        lambda axes: _map(axes, body, _unit_load(body, 0), f"{of}correction under T_x = 1 N", unit),
+        lambda axes: _spectrum(axes, body, f"{of}eigenvalues relative to the half-space"),
     ]
     if len(body.changes) > 1:
-        panels.append(lambda axes: _convergence(axes, body))
+        panels.append(lambda axes: _convergence(axes, body, f"{of}correction under a Hertzian pressure"))
     for case, one in {} if name else body.cases.items():
         panels.append(lambda axes, c=one, n=case: _map(axes, body, c.coefficients, f"load case {n}", unit, c.unit))
     return panels

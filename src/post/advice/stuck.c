@@ -44,7 +44,7 @@ static double FindOpen(const Seen *s, SamGrid grid, PetscInt i, PetscInt j)
   for (PetscInt side = -1; side <= 1; side += 2) {
     if (i + side >= 0 && i + side < grid->nx && !SamIsPressed(SamHaloAt(&s->p, 0, i + side, j)))
       open += (double)grid->dx;
-    if (grid->axes == 2 && j + side >= 0 && j + side < grid->ny && !SamIsPressed(SamHaloAt(&s->p, 0, i, j + side)))
+    if (j + side >= 0 && j + side < grid->ny && !SamIsPressed(SamHaloAt(&s->p, 0, i, j + side)))
       open += (double)grid->dy;
   }
   return open;
