@@ -414,6 +414,7 @@ def test_modes_need_the_density_of_each_material(pair, tmp_path):
         (["--modes", "1", "--sensor", "TIP="], "expected NAME=NODE"),
         (["--method", "cutoff"], "--method cutoff is not for a pair"),
         (["--depth", "1"], "--depth is not for a pair"),
+        (["--symmetry", "SIDE"], "--symmetry: a pair is given as a whole"),
     ],
 )
 def test_options_of_a_pair_that_make_no_sense_are_rejected(pair, words, text):

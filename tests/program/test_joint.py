@@ -3,6 +3,7 @@
 import csv
 import functools
 import json
+import re
 import warnings
 
 import h5py
@@ -222,7 +223,20 @@ def test_warnings_of_all_solutions_are_one():
     with pytest.warns(petsam.AdviceWarning) as found:
         joint.of_windows(waves(64, 9), 1e-5, [8e6, 16e6], steps=1, **PAIR)
     assert len(found) == 1 and found[0].filename == __file__
-    assert "solutions have a warning, the first: " in str(found[0].message) and "-grid" not in str(found[0].message)
+    text = str(found[0].message)
+    assert re.match(
+        r"\d+ solutions have a warning, the first at 8e\+06 Pa in window 1 with its mirror images: the ", text
+    )
+    assert "-grid" not in text
+
+
+def test_the_first_warning_has_its_place():
+    with pytest.warns(petsam.AdviceWarning) as found, joint.interface._gathered() as begins:
+        for place in "abc":
+            begins(place)
+            for one in {"b": ["x: use y", "z"], "c": ["z"]}.get(place, []):
+                warnings.warn(one, petsam.AdviceWarning, stacklevel=1)
+    assert [str(one.message).partition(";")[0] for one in found] == ["3 solutions have a warning, the first at b: x"]
 
 
 def test_windows_of_unlike_stiffness_do_not_seem_to_slip():

@@ -250,6 +250,8 @@ def _check_cases(reader, options):
     elif options.depth or options.method == "cutoff":
         name = "--depth" if options.depth else "--method cutoff"
         reader.error(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
+    elif options.symmetry:
+        reader.error("--symmetry: a pair is given as a whole: remove it, or give one body alone, without --pair")
     options.bolt, options.sensor = options.bolt or [], options.sensor or []
     options.center = options.center or [(0.0, 0.0)]
     if len(options.center) > 1 and not options.pair:

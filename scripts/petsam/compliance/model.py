@@ -221,8 +221,6 @@ def choose(model, plane):
         ("the body has several materials", not all(one.uniform() for one in model.parts)),
         ("the body has a plane of symmetry", bool(model.planes)),
     ]
-    if model.planes and len(model.parts) > 1:
-        raise Error("--symmetry: a pair is given as a whole: remove it, or give one body alone, without --pair")
     reason = ", ".join(text for text, holds in reasons if holds)
     wanted = model.options.method
     if reason and len(model.parts) > 1:

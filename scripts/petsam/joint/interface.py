@@ -180,18 +180,20 @@ class Interface:
 
 @contextlib.contextmanager
 def _gathered():
-    """Gives one warning for all those of the steps within."""
+    """Gives one warning for all those of the steps within; what it yields is called with the place of the next steps."""
+    places = []
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", AdviceWarning)
-        yield
+        yield lambda place: places.append((len(found), place))
     said = []
-    for one in found:
+    for k, one in enumerate(found):
         if issubclass(one.category, AdviceWarning):
-            said.append(str(one.message).partition(": use ")[0])
+            place = [place for before, place in places if before <= k][-1]
+            said.append(f"{place}: {str(one.message).partition(': use ')[0]}")
         else:
             warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
     if said:
-        text = f"{len(said)} solutions have a warning, the first: {said[0]}; finer points of the surface resolve more"
+        text = f"{len(said)} solutions have a warning, the first at {said[0]}; finer points of the surface resolve more"
         warnings.warn(text, AdviceWarning, stacklevel=4)
 
 
@@ -213,11 +215,12 @@ def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8
     Raises Error for wrong values, and for a pressure that closes the interface; and the errors of Contact. Warnings of
     its solutions are gathered in one.
     """
-    with _gathered():
-        return _of_interface(separation, spacing, pressures, friction, shear, steps, bodies)
+    with _gathered() as begins:
+        return _of_interface(separation, spacing, pressures, friction, shear, steps, bodies, begins)
 
 
-def _of_interface(separation, spacing, pressures, friction, shear, steps, bodies):
+def _of_interface(separation, spacing, pressures, friction, shear, steps, bodies, begins):
+    """begins is called with each pressure, in words, before its steps."""
     separation = np.asarray(separation, float)
     pressures = np.atleast_1d(np.asarray(pressures, float))
     if separation.ndim != 2 or not np.isfinite(separation).all():
@@ -240,6 +243,7 @@ def _of_interface(separation, spacing, pressures, friction, shear, steps, bodies
     ) as contact:
         contact.gap = separation - separation.min()
         for pressure in pressures:
+            begins(f"{pressure:.6g} Pa")
             row, first = _at(contact, float(pressure), size[0] * size[1], friction, parts, steps)
             rows.append(row)
             loading.append(first)
@@ -252,7 +256,8 @@ def _at(contact, pressure, area, friction, parts, steps):
     contact.try_step(time=pressure, load_n=pressure * area)
     if contact.number("contact_cells") == contact.n[0] * contact.n[1]:
         raise Error(
-            f"pressures: {pressure:.6g} Pa: all of the surface touches, and its stiffness is infinite: give less"
+            f"pressures: {pressure:.6g} Pa: all of the surface touches, and its stiffness is infinite: give less, or "
+            "check the units of heights and moduli"
         )
     k, pressed = contact.stiffness(reversal=True) / area, contact.number("disp_x")  # N alone moves dissimilar bodies
     closure, fraction = contact.number("disp_z"), contact.number("contact_fraction")
@@ -305,10 +310,11 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
     y, x = separation.shape[0] - ny, separation.shape[1] - nx
     places = [(0, 0), (0, x), (y, 0), (y, x), (y // 2, x // 2)]
     found = []
-    with _gathered():
-        for j, i in places:
+    with _gathered() as begins:
+        for k, (j, i) in enumerate(places, 1):
             window = mirrored(separation[j : j + ny, i : i + nx])
-            found.append(_of_interface(window, spacing, pressures, friction, shear, steps, bodies))
+            place = lambda pressure, k=k: begins(f"{pressure} in window {k} with its mirror images")  # noqa: E731
+            found.append(_of_interface(window, spacing, pressures, friction, shear, steps, bodies, place))
             if report:
                 report(len(found), len(places))
     numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in COMPUTED}
