@@ -10,6 +10,7 @@ import contextlib
 import csv
 import json
 import warnings
+from typing import NamedTuple
 
 import numpy as np
 
@@ -38,6 +39,14 @@ COLUMNS = {
 }
 FITTED = [name for name in COLUMNS if name.startswith("iwan")]
 COMPUTED = [name for name in COLUMNS if name not in FITTED]
+
+
+class Loop(NamedTuple):
+    """A loop of the shear: coefficient of friction, amplitude over friction times pressure, steps of a quarter."""
+
+    friction: float
+    shear: float
+    steps: int
 
 
 class Interface:
@@ -216,11 +225,12 @@ def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8
     its solutions are gathered in one.
     """
     with _gathered() as begins:
-        return _of_interface(separation, spacing, pressures, friction, shear, steps, bodies, begins)
+        return _of_interface(separation, spacing, pressures, Loop(friction, shear, steps), bodies, begins)
 
 
-def _of_interface(separation, spacing, pressures, friction, shear, steps, bodies, begins):
+def _of_interface(separation, spacing, pressures, loop, bodies, begins):
     """begins is called with each pressure, in words, before its steps."""
+    friction, shear, steps = loop
     separation = np.asarray(separation, float)
     pressures = np.atleast_1d(np.asarray(pressures, float))
     if separation.ndim != 2 or not np.isfinite(separation).all():
@@ -314,7 +324,7 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
         for k, (j, i) in enumerate(places, 1):
             window = mirrored(separation[j : j + ny, i : i + nx])
             place = lambda pressure, k=k: begins(f"{pressure} in window {k} with its mirror images")  # noqa: E731
-            found.append(_of_interface(window, spacing, pressures, friction, shear, steps, bodies, place))
+            found.append(_of_interface(window, spacing, pressures, Loop(friction, shear, steps), bodies, place))
             if report:
                 report(len(found), len(places))
     numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in COMPUTED}
