@@ -189,7 +189,7 @@ class Interface:
 
 @contextlib.contextmanager
 def _gathered():
-    """Gives one warning for all those of the steps within; what it yields is called with the place of the next steps."""
+    """Gives one warning for all those of the steps within; what it yields is called with the place of the next ones."""
     places = []
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", AdviceWarning)
