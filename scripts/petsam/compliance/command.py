@@ -241,8 +241,8 @@ def _check_free(reader, options):
         )
 
 
-def _check_cases(reader, options):
-    """Checks --pair and what belongs to it, and the names and the number of load cases."""
+def _check_pair(reader, options):
+    """Checks --pair and what belongs to it, or to one body alone."""
     if not options.pair:
         for name in PAIR_ONLY:
             if getattr(options, name):
@@ -252,6 +252,10 @@ def _check_cases(reader, options):
         reader.error(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
     elif options.symmetry:
         reader.error("--symmetry: a pair is given as a whole: remove it, or give one body alone, without --pair")
+
+
+def _check_cases(reader, options):
+    """Checks the names and the numbers of load cases, patches, bolts and sensors."""
     options.bolt, options.sensor = options.bolt or [], options.sensor or []
     options.center = options.center or [(0.0, 0.0)]
     if len(options.center) > 1 and not options.pair:
@@ -290,6 +294,7 @@ def arguments(words):
             reader.error(f"--{name.replace('_', '-')} is not for {'--mesh' if options.mesh else '--matrix'}: remove it")
     options.frame = options.frame or [[0.0, 0.0, 0.0]]
     options.case, options.symmetry, options.fixed = options.case or [], options.symmetry or [], options.fixed or []
+    _check_pair(reader, options)
     _check_cases(reader, options)
     if options.degree is None:
         options.degree = 6 if options.mesh else 1
