@@ -34,6 +34,8 @@ CYCLE = (
     "pressure_max", "computed",
 )  # fmt: skip
 UNREADABLE, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 3, 10, 11, 12
+ROUNDING = 1e-10  # parts of their scale below which numbers are shown as 0
+SHORT = 1e-5  # m: the levers of forces whose moments are rounding are this times ROUNDING
 _MISSING = f": cannot be read: {os.strerror(errno.ENOENT)}"  # end of the library's message about a missing file
 _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
 
@@ -95,6 +97,12 @@ class CycleWarning(UserWarning):
     """The recorded steps are not a closed cycle, or not a steady one."""
 
 
+def _shown(values, scales):
+    """An array of the values, 0 where they are rounding beside their scale."""
+    values = np.asarray(values, dtype=float)
+    return np.where(np.abs(values) <= ROUNDING * scales, 0.0, values)
+
+
 class Step:
     """A tried step: time (s), load (N, Tx, Ty, Mx, My, Mz) and rigid in this order, each of them by its name, and the
     further numbers of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none. In steady
@@ -110,7 +118,12 @@ class Step:
         self.__dict__.update(self.numbers)
 
     def __repr__(self):
-        pairs = [f"{name}={value:.6g}" for name, value in zip(self._names, [*self.load, *self.rigid])]
+        sizes = [
+            np.nanmax(np.abs([*some, 0.0])) for some in (self.load[:3], self.load[3:], self.rigid[:3], self.rigid[3:])
+        ]
+        sizes[1], sizes[3] = max(sizes[1], SHORT * sizes[0]), max(sizes[3], SHORT * sizes[2])
+        values = _shown([*self.load, *self.rigid], np.repeat(sizes, 3))
+        pairs = [f"{name}={value:.6g}" for name, value in zip(self._names, values)]
         return f"Step(time={self.time:g}, status={self.status}, {', '.join(pairs)})"
 
 
@@ -257,7 +270,8 @@ class Stiffness(np.ndarray):
             return repr(np.asarray(self))
         columns = [_over(name, unit) for name, unit in self.displacements.items()]
         rows = [_over(name.removeprefix("load_").capitalize(), unit) for name, unit in self.loads.items()]
-        lines = [[f"{value:.5g}" for value in row] for row in self.tolist()]
+        own = np.sqrt(np.abs(np.diag(np.asarray(self))))  # of the stiffness by which a load moves its own displacement
+        lines = [[f"{value:.5g}" for value in row] for row in _shown(self, np.outer(own, own))]
         widths = [max(map(len, column)) for column in zip(columns, *lines)]
         first = max(map(len, rows))
         table = zip(["", *rows], [columns, *lines])

@@ -23,6 +23,15 @@ def complaints(notebook):
     return [one for one in outputs if one["output_type"] == "error" or one.get("name") == "stderr"]
 
 
+def written(notebook):
+    """What its cells print and show as text, with # for numbers; and the numbers."""
+    outputs = [one for cell in notebook["cells"] for one in cell.get("outputs", ())]
+    texts = ["".join(one.get("text") or one.get("data", {}).get("text/plain", "")) for one in outputs]
+    number = r"(?<![\w.])-?\d+(?:\.\d*)?(?:e[+-]?\d+)?"
+    words = [re.sub(r"\s+", " ", re.sub(number, "#", text)) for text in texts]
+    return words, [float(one) for text in texts for one in re.findall(number, text)]
+
+
 def test_there_are_five():
     assert [file.stem for file in NOTEBOOKS] == ["blade-root", "coating", "joint", "life", "loop"]
 
@@ -41,7 +50,7 @@ def test_outputs_are_stored_small_and_of_no_machine(file):
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)
-def test_notebook_runs_and_shows_the_pictures_that_are_stored(file, tmp_path, monkeypatch):
+def test_notebook_runs_and_shows_what_is_stored(file, tmp_path, monkeypatch):
     nbclient = pytest.importorskip("nbclient", reason="nbclient is not installed: tests/requirements-optional.txt")
     pytest.importorskip("ipykernel", reason="ipykernel is not installed: tests/requirements-optional.txt")
     nbformat = pytest.importorskip("nbformat")
@@ -50,4 +59,8 @@ def test_notebook_runs_and_shows_the_pictures_that_are_stored(file, tmp_path, mo
     monkeypatch.delenv("MPLBACKEND", raising=False)  # which petsam sets in a process that has no notebook
     notebook = nbformat.read(file, as_version=4)
     nbclient.NotebookClient(notebook, timeout=60, resources={"metadata": {"path": str(tmp_path)}}).execute()
-    assert pictures(notebook) == pictures(json.loads(file.read_text())) and not complaints(notebook)
+    stored = json.loads(file.read_text())
+    assert pictures(notebook) == pictures(stored) and not complaints(notebook)
+    (words, numbers), (expected, values) = written(notebook), written(stored)
+    assert words == expected
+    assert numbers == pytest.approx(values, rel=0.02)  # they are rounded
