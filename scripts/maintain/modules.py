@@ -89,7 +89,7 @@ def arguments(args, is_method):
 def paragraph(text):
     """Returns a paragraph of a docstring as Markdown, one with columns unchanged."""
     if COLUMNS.search(text) or re.search(r"^ ", text, re.M):
-        return "\n".join(["```text", *text.split("\n"), "```"])
+        return "\n".join(["```{.text .wrapped}", *text.split("\n"), "```"])
     return functions.escape(" ".join(text.split()))
 
 

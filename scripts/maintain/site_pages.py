@@ -7,11 +7,13 @@ The pages stay where they are and link to each other and to files of the reposit
 they name are copied to the same places beside each other, and MkDocs checks every link: a link to no page, file or
 heading is an error. README.md is the index of its folder. The pages of the C library and of the Python package are no
 files of the repository: functions.py makes the first from the headers, modules.py the second from the docstrings.
+Notebooks are pages with what is stored in them, by notebooks.py.
 
-The folder theme has the page for wrong addresses, and a script with which the search finds options by their names with
-the dash. The page for wrong addresses appears at any address, so its links are absolute: --url names the folder of the
-server if the site is not at its top. Material was chosen because its search needs no server, it fits a phone, and it
-takes the pages as they are. Its fixes end in May 2027; its successor Zensical reads its settings.
+The folder theme has the page for wrong addresses, the style of wide blocks and of names of options, and a script with
+which the search finds options by their names with the dash. The page for wrong addresses appears at any address, so its
+links are absolute: --url names the folder of the server if the site is not at its top. Material was chosen because its
+search needs no server, it fits a phone, and it takes the pages as they are. Its fixes end in May 2027; its successor
+Zensical reads its settings.
 """
 
 import argparse
@@ -25,6 +27,7 @@ from pathlib import Path
 
 import functions
 import modules
+import notebooks
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,27 +35,35 @@ MAINTAIN = Path(__file__).resolve().parent
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 COMMAND = ("-m", "mkdocs", "build", "--strict", "-f")  # strict: a warning is an error
 # factors of pages in the order of what the search finds: first where an option is explained, last the paper
-BOOSTS = {"examples/manual/OPTIONS.md": 30, "scripts/README.md": 3, "scripts/packaging/paper.md": 0.1}
+BOOSTS = {
+    "examples/manual/OPTIONS.md": 30,
+    "examples/manual/GLOSSARY.md": 20,
+    "examples/joint/README.md": 20,
+    "scripts/README.md": 3,
+    "scripts/packaging/paper.md": 0.01,
+}
 MANUAL_BOOST = 3
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 # the reference problems, in the order of their intervals
 CASES = dict.fromkeys(row["case"] for row in json.loads((ROOT / "examples/reference/cases.json").read_text("utf-8")))
+NOTEBOOKS = ("loop", "coating", "life", "joint", "blade-root")
 # the parts of the site and their pages in the order of work
 PARTS = (
     ("petsam", ("README.md",)),
     (
         "First run",
         (
+            "scripts/README.md",
             "examples/README.md",
             "examples/manual/GALLERY.md",
             "examples/manual/RESULTS.md",
             "examples/sphere/README.md",
             "examples/edges/README.md",
-            "examples/manual/GLOSSARY.md",
-            "examples/manual/ABAQUS.md",
-            "examples/manual/CONTACT.md",
-            "examples/fe-comparison/README.md",
         ),
+    ),
+    (
+        "From other programs",
+        ("examples/manual/ABAQUS.md", "examples/manual/CONTACT.md", "examples/fe-comparison/README.md"),
     ),
     (
         "Loads",
@@ -97,9 +108,12 @@ PARTS = (
             *(f"examples/reference/cases/{case}.md" for case in CASES),
         ),
     ),
-    ("Python and scripts", ("scripts/README.md", "scripts/PYTHON.md", "examples/study/README.md")),
+    ("Options and words", ("examples/manual/OPTIONS.md", "examples/manual/INDEX.md", "examples/manual/GLOSSARY.md")),
+    (
+        "Python",
+        ("scripts/PYTHON.md", "examples/study/README.md", *(f"examples/notebooks/{one}.md" for one in NOTEBOOKS)),
+    ),
     ("C and other programs", ("examples/embed/README.md", "include/FUNCTIONS.md")),
-    ("Options", ("examples/manual/OPTIONS.md", "examples/manual/INDEX.md")),
     (
         "Developing",
         (
@@ -116,7 +130,15 @@ PARTS = (
 GENERATED = {"include/FUNCTIONS.md": functions.page, "scripts/PYTHON.md": modules.page}
 
 
+def notebook_of(name):
+    """Returns the notebook of a page, or None."""
+    path = (ROOT / name).with_suffix(".ipynb")
+    return path if path.parent.name == "notebooks" else None
+
+
 def text_of(name):
+    if notebook_of(name):
+        return notebooks.page(notebook_of(name))[0]
     return GENERATED[name]() if name in GENERATED else (ROOT / name).read_text(encoding="utf-8")
 
 
@@ -145,7 +167,7 @@ def copies():
     for name in pages():
         for link in LINK.findall(FENCE.sub("", text_of(name))):
             path = (ROOT / name).parent / link
-            if not re.match(r"\w+:", link) and path.is_file() and path.suffix != ".md":
+            if not re.match(r"\w+:", link) and path.is_file() and path.suffix not in (".md", ".ipynb"):
                 files.add(str(path.resolve().relative_to(ROOT)))
     return files
 
@@ -158,8 +180,9 @@ def boosted(name, text):
 
 
 def page(name):
-    """Returns a page's text with links to folders as text: the site shows only pages and files."""
-    text, parent = text_of(name), (ROOT / name).parent
+    """Returns a page's text with links to folders as text, since the site shows only pages and files, and links to the
+    pages of notebooks."""
+    text, parent = text_of(name).replace(".ipynb)", ".md)"), (ROOT / name).parent
 
     def folder(match):
         return match.group(1) if (parent / match.group(2)).is_dir() else match.group(0)
@@ -176,6 +199,8 @@ def stage(target):
     for name in pages():
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         (target / name).write_text(boosted(name, page(name)), encoding="utf-8")
+        for picture, data in notebooks.page(notebook_of(name))[1].items() if notebook_of(name) else ():
+            (target / name).with_name(picture).write_bytes(data)
 
 
 def version():

@@ -217,7 +217,8 @@ with petsam.Contact(**case) as contact:
     assert names == ["disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z"] and "disp_x / m " in head
     assert [row.split()[0] for row in rows] == ["N", "Tx", "Ty", "Mx", "My", "Mz"] and rows[3].startswith("Mx / (N m) ")
     assert float(rows[1].split()[4]) == float(f"{full[1, 1]:.5g}") and isinstance(full, np.ndarray)
-    small = petsam.contact.Stiffness([[1e8, 1e-9], [2e-3, 1e2]], {"load_n": "N", "load_mx": "N m"}, {"disp_z": "m", "rot_x": "rad"})
+    units = {"load_n": "N", "load_mx": "N m"}, {"disp_z": "m", "rot_x": "rad"}
+    small = petsam.contact.Stiffness([[1e8, 1e-9], [2e-3, 1e2]], *units)
     assert [line.split()[-2:] for line in repr(small).splitlines()[1:]] == [["1e+08", "0"], ["0.002", "100"]]
     assert "load_tx=10.2, load_ty=0, " in repr(step) and step.load_ty != 0
     plain = np.linalg.inv(full), full[:, ::-1], 2 * full, full.T, full @ np.ones(6), full.sum(axis=0)

@@ -36,7 +36,16 @@ def staged(tmp_path_factory):
 def test_every_page_is_on_the_site_once():
     folders = ("examples", "include", "scripts", "src", "tests")
     there = {str(path.relative_to(ROOT)) for folder in folders for path in ROOT.glob(f"{folder}/**/*.md")}
+    there |= {str(path.relative_to(ROOT).with_suffix(".md")) for path in ROOT.glob("examples/notebooks/*.ipynb")}
     assert sorted(site_pages.pages()) == sorted(there | {"README.md", "CHANGES.md", *site_pages.GENERATED})
+
+
+def test_notebooks_are_pages_with_what_they_store(staged):
+    text = (staged / "examples/notebooks/loop.md").read_text()
+    assert "\n# A fretting loop\n" in text and "```python\nimport petsam\n" in text and "```text\npetsam 13." in text
+    for name in re.findall(r"\]\((loop-[0-9]+\.png)\)", text):
+        assert (staged / "examples/notebooks" / name).read_bytes().startswith(b"\x89PNG")
+    assert text.count(".png)") == 2 and "(../notebooks/loop.md)" in (staged / "examples/manual/RESULTS.md").read_text()
 
 
 def test_pages_are_in_the_order_of_work():
@@ -44,11 +53,11 @@ def test_pages_are_in_the_order_of_work():
         "examples/README.md",
         *(f"examples/manual/{name}.md" for name in ("LOADS", "SURFACES", "WEAR", "STRESSES")),
     )
-    order += ("examples/joint/README.md", "scripts/PYTHON.md", "include/FUNCTIONS.md", "examples/manual/OPTIONS.md")
+    order += ("examples/joint/README.md", "examples/manual/OPTIONS.md", "scripts/PYTHON.md", "include/FUNCTIONS.md")
     places = [site_pages.pages().index(name) for name in (*order, "src/README.md")]
     assert places == sorted(places)
     listed = site_pages.navigation()
-    assert listed[0] == {"petsam": "README.md"} and listed[1]["First run"][0] == {
+    assert listed[0] == {"petsam": "README.md"} and listed[1]["First run"][1] == {
         "Tutorial and examples": "examples/README.md"
     }
 
