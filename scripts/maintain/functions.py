@@ -176,7 +176,7 @@ def paragraph_of(text):
     """Returns a further paragraph for Markdown: a table or a formula unchanged."""
     lines = [line[2:] if line.startswith("  ") else line for line in text.split("\n")]
     if any(line.startswith(" ") for line in lines):
-        return "\n".join(["```{.text .wrapped}", *lines, "```"])
+        return "\n".join(["```text", *lines, "```"])
     return escape(" ".join(" ".join(lines).split()))
 
 

@@ -87,9 +87,14 @@ def arguments(args, is_method):
 
 
 def paragraph(text):
-    """Returns a paragraph of a docstring as Markdown, one with columns unchanged."""
+    """Returns a paragraph of a docstring as Markdown: one of names and their texts as a list, others with columns
+    unchanged."""
+    entries = re.sub(r"\n +", " ", text).split("\n")
+    pairs = [re.fullmatch(r"(\S+(?: \S+)*) {2,}(\S.*)", entry) for entry in entries]
+    if all(pairs):
+        return "\n".join(f"- `{pair.group(1)}`: {functions.escape(pair.group(2))}" for pair in pairs)
     if COLUMNS.search(text) or re.search(r"^ ", text, re.M):
-        return "\n".join(["```{.text .wrapped}", *text.split("\n"), "```"])
+        return "\n".join(["```text", *text.split("\n"), "```"])
     return functions.escape(" ".join(text.split()))
 
 

@@ -9,7 +9,7 @@ heading is an error. README.md is the index of its folder. The pages of the C li
 files of the repository: functions.py makes the first from the headers, modules.py the second from the docstrings.
 Notebooks are pages with what is stored in them, by notebooks.py.
 
-The folder theme has the page for wrong addresses, the style of wide blocks and of names of options, and a script with
+The folder theme has the page for wrong addresses, the style of blocks and of names of options, and a script with
 which the search finds options by their names with the dash. The page for wrong addresses appears at any address, so its
 links are absolute: --url names the folder of the server if the site is not at its top. Material was chosen because its
 search needs no server, it fits a phone, and it takes the pages as they are. Its fixes end in May 2027; its successor
