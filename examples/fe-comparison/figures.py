@@ -201,7 +201,7 @@ def draw_shear(axes, results):
     points(
         axes, mesh.x[line] / a, mesh.shear_x[line] / unit, COLOUR_FE, "s", markersize=4.2, zorder=4, label="CalculiX"
     )
-    title = rf"Shear at $T_x = {results.level:.3f}\,\mu N$"
+    title = rf"Shear at $T_x/(\mu N) = {results.level:.3f}$"
     frame(axes, title, "$x/a$", r"$q_x/(\mu p_0)$", (-1.3, 1.3), (-0.03, 1.0))
     axes.legend(loc="lower center")
 

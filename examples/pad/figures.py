@@ -70,7 +70,7 @@ class Comparison:
         colors = ListedColormap([color for _, color in STATES.values()])
         image = self._map(panel, self.step, self.step["state"], low=-0.5, high=2.5, color_map=colors)
         bar(panel, image, "", ticks=range(3)).set_ticks(range(3), labels=[text for text, _ in STATES.values()])
-        frame(panel, "stick and slip at $T_x = 0.6\\,\\mu N$", "$x$, mm", "$y$, mm", WINDOW[:2], WINDOW[2:])
+        frame(panel, "stick and slip at $T_x/(\\mu N) = 0.6$", "$x$, mm", "$y$, mm", WINDOW[:2], WINDOW[2:])
 
     def _loop(self, panel):
         load, way = self.cycle.history["load_tx"], 1e6 * self.cycle.history["disp_x"]

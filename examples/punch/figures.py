@@ -275,7 +275,7 @@ def figure_tangential(directory, cases, exact_cases, less):
         panels,
         chosen,
         lambda case: case["shear_x"] / unit,
-        [rf"$T_x = {case.load_ratio:g}\,\mu N$" for case in chosen],
+        [rf"$T_x/(\mu N) = {case.load_ratio:g}$" for case in chosen],
         height,
         label,
         (-1.3, 1.3),
@@ -329,7 +329,7 @@ def figure_stress(directory, cases, stresses):
     )
     panel.clabel(lines, fmt="%.2f", fontsize=7)
     figure.colorbar(image, ax=panel, label=r"$\sigma_M\,2R/(E^*c)$", format="%.3f")
-    frame(panel, f"von Mises, $T_x$ = {cases[-1].load_ratio:g} $\\mu N$", "$x/c$", "$z/c$", (-1.3, 1.3), (1.2, 0.0))
+    frame(panel, rf"von Mises, $T_x/(\mu N) = {cases[-1].load_ratio:g}$", "$x/c$", "$z/c$", (-1.3, 1.3), (1.2, 0.0))
     for case, one in zip(cases, stresses):
         values = one.field("stress_xx")[0, 0] / unit
         axes[1].plot(one.x / c, values, color=ratio_tint(case), linewidth=1.4, label=f"{case.load_ratio:g}")

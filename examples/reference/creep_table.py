@@ -136,19 +136,20 @@ def second(count, seed, path, cells=(32, 64, 128)):
 
 def picture(table_path, path):
     """T_x over xi, and T_y over phi, for some contacts."""
-    import matplotlib.pyplot as plt
+    from petsam.plot.style import STYLE, plt
 
     table = creep.read(table_path)
+    plt.rcParams.update(STYLE)
     figure, panels = plt.subplots(1, 2, figsize=(7, 2.9), layout="constrained", sharey=True)
     for ratio in (0.1, 0.35, 1, 3.5, 10):
         for axes, name, values, force in zip(panels, ("xi", "phi"), (CREEPS, SPINS), (0, 1)):
             points = [{"xi": 0, "eta": 0, "phi": 0, name: value} for value in values[1:]]
             ends = np.array([creep.find(table, ratio, **point)[:, force] for point in points])
             axes.plot(values, [0, *ends.mean(axis=1)], "o-", markersize=3, label=f"a/b = {ratio:g}")
-    panels[0].set(xlabel="xi G c$^2$/(mu N)", ylabel="T$_x$/(mu N)", title="creepage along x")
-    panels[1].set(xlabel="phi G c$^3$/(mu N)", ylabel="T$_y$/(mu N)", title="spin")
+    panels[0].set(xlabel=r"$\xi G c^2/(\mu N)$", ylabel=r"$T_x/(\mu N)$", title="creepage along x")
+    panels[1].set(xlabel=r"$\varphi G c^3/(\mu N)$", ylabel=r"$T_y/(\mu N)$", title="spin")
     panels[1].legend(fontsize="small")
-    figure.savefig(path, dpi=90)
+    figure.savefig(path, dpi=130)
 
 
 def main():

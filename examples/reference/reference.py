@@ -112,18 +112,19 @@ def write_page(name, rows):
 
 
 def pictures(names, _):
-    """Draws the pictures of these cases, in 48 colors, so that they are small."""
+    """Draws the pictures of these cases, in 64 colors, so that they are small."""
     from PIL import Image
 
-    from petsam.plot.style import plt
+    from petsam.plot.style import STYLE, plt
 
     for name in names:
-        figure = plt.figure(figsize=(6.4, 3.2), layout="constrained")
-        module(name).draw(figure)
         picture = CASES / f"{name}.png"
-        figure.savefig(picture, dpi=90)
-        plt.close(figure)
-        Image.open(picture).convert("RGB").quantize(48).save(picture, optimize=True)
+        with plt.rc_context({**STYLE, "axes.grid": False}):
+            figure = plt.figure(figsize=(6.4, 3.2), layout="constrained")
+            module(name).draw(figure)
+            figure.savefig(picture, dpi=120)
+            plt.close(figure)
+        Image.open(picture).convert("RGB").quantize(64).save(picture, optimize=True)
 
 
 def main():

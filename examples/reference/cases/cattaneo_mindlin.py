@@ -78,13 +78,13 @@ def draw(figure):
     left, right = figure.subplots(1, 2)
     for step, text in ((1, "T = 150 N"), (2, "T = 0"), (3, "T = -150 N")):
         left.plot(results.x * 1e3, results["shear_x"][step][len(results.y) // 2] * 1e-6, label=text)
-    left.set_xlabel("x (mm)")
-    left.set_ylabel("q_x (MPa)")
+    left.set_xlabel("x, mm")
+    left.set_ylabel("$q_x$, MPa")
     left.set_ylim(-170, 320)
-    left.legend(loc="upper center", fontsize="small")
+    left.legend(loc="upper center", fontsize="x-small")
     turns = np.array([1, -1, 1]) * float(T)
     loads = np.concatenate([np.linspace(a, b, 41)[1:] for a, b in zip([0, *turns], turns)])
     loop = petsam.run(OPTIONS, grid_n=128, output_fields="none", history={"load_tx": [0, *loads]}).history
     right.plot(loop["disp_x"] * 1e6, loop["load_tx"])
-    right.set_xlabel("d_x (µm)")
-    right.set_ylabel("T (N)")
+    right.set_xlabel("$d_x$, µm")
+    right.set_ylabel("T, N")

@@ -100,13 +100,13 @@ def answers():
 
 
 def draw(figure):
-    figure.set_size_inches(5.6, 3.1)
+    figure.set_size_inches(6.8, 3.1)
     axes = figure.subplots()
     results = solve(160, 48)
     full, state, a, _ = rings(200)
     unit = MODULUS * a / (2 * RADIUS) * 1e-6
     r, bound = state.r[: state.k] * a * 1e3, FRICTION * state.p[: state.k] * unit
-    axes.plot(r, bound, lw=0.8, color="0.5", label="friction times p, and its negative")
+    axes.plot(r, bound, lw=0.8, color="0.5", label=r"$\pm\mu p$")
     axes.plot(r, -bound, lw=0.8, color="0.5")
     axes.plot(r, state.q[: state.k] * unit, label="outward q on the plane, rings")
     axes.plot(full.r * a * 1e3, full.q * unit, "--", lw=0.9, label="outward q at full load")
@@ -118,8 +118,8 @@ def draw(figure):
         axes.text((at / state.n + 0.01) * a * 1e3, 1.1 * bound.max(), name, fontsize="x-small")
     for at in changes:
         axes.axvline(at / state.n * a * 1e3, lw=0.5, color="0.7")
-    axes.set_xlabel("r (mm)")
-    axes.set_ylabel("MPa")
+    axes.set_xlabel("r, mm")
+    axes.set_ylabel("shear, MPa")
     axes.set_xlim(0)
     axes.set_ylim(-1.1 * bound.max(), 1.25 * bound.max())
-    axes.legend(fontsize="x-small", loc="center left", bbox_to_anchor=(0.01, 0.27))
+    figure.legend(*axes.get_legend_handles_labels(), fontsize="x-small", loc="outside right center")

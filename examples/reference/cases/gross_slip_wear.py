@@ -100,6 +100,6 @@ def draw(figure):
     for cycle in (0, EARLY, LATE):
         pressure = results.field("pressure", results.of_cycle(cycle))[row, row:]
         axes.plot(results.x[row:] * 1e3, pressure * 1e-6, label=f"{cycle} cycles")
-    axes.set_xlabel("x (mm)")
-    axes.set_ylabel("p (MPa)")
+    axes.set_xlabel("x, mm")
+    axes.set_ylabel("p, MPa")
     axes.legend(frameon=False)

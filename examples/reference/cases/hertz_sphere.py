@@ -52,5 +52,5 @@ def draw(figure):
     axes = figure.subplots()
     results = solve()
     axes.plot(results.x * 1e3, results["pressure"][-1][len(results.y) // 2] * 1e-6)
-    axes.set_xlabel("x (mm)")
-    axes.set_ylabel("p (MPa)")
+    axes.set_xlabel("x, mm")
+    axes.set_ylabel("p, MPa")

@@ -141,8 +141,8 @@ def draw(figure):
     axes = figure.subplots()
     results = solve_cells()
     x = results.x * 1e3
-    axes.plot(x, float(FRICTION) * results["pressure"][-1][0] * 1e-6, "--", label="mu p")
+    axes.plot(x, float(FRICTION) * results["pressure"][-1][0] * 1e-6, "--", label=r"$\mu p$")
     axes.plot(x, results["shear_x"][-1][0] * 1e-6, label="q")
-    axes.set_xlabel("x (mm)")
-    axes.set_ylabel("shear (MPa)")
+    axes.set_xlabel("x, mm")
+    axes.set_ylabel("shear, MPa")
     axes.legend(loc="upper center")

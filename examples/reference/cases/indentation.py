@@ -105,13 +105,13 @@ def draw(figure):
     near, deep = fields["r"] < 0.1e-3, fields["z"] < 0.2e-3
     left.plot(1e3 * fields["r"][near], 1e-6 * fields["pressure"][near])
     left.set(
-        xlabel="r (mm)",
-        ylabel="p under 20 N (MPa)",
+        xlabel="r, mm",
+        ylabel="p under 20 N, MPa",
         ylim=(0, None),
         xlim=(0, 0.1),
         xticks=[0, 0.05, 0.1],
         yticks=[0, 500, 1000],
     )
     right.plot(1e-6 * fields["stress"][deep], 1e3 * fields["z"][deep])
-    right.set(xlabel="sigma_rr after it, r = 0 (MPa)", ylabel="depth z (mm)", ylim=(0.2, 0))
+    right.set(xlabel=r"$\sigma_{rr}$ after it, r = 0, MPa", ylabel="depth z, mm", ylim=(0.2, 0))
     right.set(xticks=[-200, 0], yticks=[0, 0.1, 0.2])

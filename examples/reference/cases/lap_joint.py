@@ -179,10 +179,10 @@ def draw(figure):
     left.annotate("", (69, 12), (58, 12), arrowprops={"arrowstyle": "->", "color": "C1"})
     left.annotate("body 1", (32, 3.5))
     left.annotate("body 2", (-46, -6.5))
-    left.set(xlabel="x (mm)", ylabel="z (mm)", xlim=(-70, 72), ylim=(-24, 24), aspect="equal")
+    left.set(xlabel="x, mm", ylabel="z, mm", xlim=(-70, 72), ylim=(-24, 24), aspect="equal")
     places = []
     solve(0, seen=lambda _, distance, force: places.append((distance, force)))
     distance, force = np.transpose(places[-4 * STEPS - 1 :])
     line = force[2 * STEPS] + (force[-1] - force[2 * STEPS]) * distance / LARGE
     right.plot(1e6 * distance, force - line)
-    right.set(xlabel="d (µm)", ylabel="T less a line (N)")
+    right.set(xlabel="d, µm", ylabel="T less the straight line of its ends, N")

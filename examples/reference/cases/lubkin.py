@@ -78,13 +78,13 @@ def draw(figure):
     middle = len(results.y) // 2
     x = results.x[middle:] * 1e3
     left.plot(x, results["shear_y"][-1][middle, middle:] * 1e-6, label="q")
-    left.plot(x, float(FRICTION) * results["pressure"][-1][middle, middle:] * 1e-6, "--", label="mu p")
-    left.set_xlabel("r (mm)")
-    left.set_ylabel("q around the axis (MPa)")
+    left.plot(x, float(FRICTION) * results["pressure"][-1][middle, middle:] * 1e-6, "--", label=r"$\mu p$")
+    left.set_xlabel("r, mm")
+    left.set_ylabel("q around the axis, MPa")
     left.legend()
     curve = petsam.run(
         OPTIONS, grid_n=64, history={"load_mz": np.linspace(0, float(MOMENT), 31)}, output_fields="none"
     ).history
     right.plot(curve["rot_z"] * 1e3, curve["load_mz"])
-    right.set_xlabel("r_z (mrad)")
-    right.set_ylabel("M_z (N m)")
+    right.set_xlabel("$r_z$, mrad")
+    right.set_ylabel("$M_z$, N m")

@@ -115,6 +115,6 @@ def draw(figure):
         axes.plot(results.x * 1e3, results.field(f"wear_depth{body}").ravel() * 1e6, label=name)
     axes.set_xlim(0, 0.31)
     axes.set_yticks([0, 1, 2])
-    axes.set_xlabel("x of the body's own surface (mm)")
-    axes.set_ylabel("removed depth (µm)")
+    axes.set_xlabel("x of the body's own surface, mm")
+    axes.set_ylabel("removed depth, µm")
     axes.legend(frameon=False)

@@ -153,16 +153,17 @@ def draw(figure):
     for row, (n, t) in enumerate(ROWS):
         at = path["disp_x"][20 * row + 19] * 1e6
         left.plot(at, t, "k.")
-        left.annotate(f"N = {n} N", (at, t), xytext=(5, -10), textcoords="offset points", fontsize="x-small")
-    left.set_xlim(-2.6, 4)
+        if row != 0:  # its place is that of the last row, which has the same loads
+            left.annotate(f"{n} N", (at, t), xytext=(5, -10), textcoords="offset points", fontsize="x-small")
+    left.set_xlim(-2.6, 4.6)
     left.set_ylim(-310, 450)
-    left.set_xlabel("d_x (µm)")
-    left.set_ylabel("T_x (N)")
+    left.set_xlabel("$d_x$, µm")
+    left.set_ylabel("$T_x$, N")
     results = solve(grid_n=128, output_at="history")
     for row in (2, 3, 4, 5):
         shear = results["shear_x"][row][len(results.y) // 2] * 1e-6
-        right.plot(results.x * 1e3, shear, label=f"N = {ROWS[row][0]} N, T_x = {ROWS[row][1]} N")
+        right.plot(results.x * 1e3, shear, label=f"N = {ROWS[row][0]} N, $T_x$ = {ROWS[row][1]} N")
     right.set_ylim(-280, 430)
-    right.set_xlabel("x (mm)")
-    right.set_ylabel("q_x (MPa)")
+    right.set_xlabel("x, mm")
+    right.set_ylabel("$q_x$, MPa")
     right.legend(loc="upper center", fontsize="x-small")

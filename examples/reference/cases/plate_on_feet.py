@@ -186,7 +186,7 @@ def draw(figure):
     left.plot(x, -(x**2) / 50, color="C1")
     left.annotate("rigid sphere (not to scale)", (0, -1.6), ha="center")
     left.annotate("foot: a ring", (0, 3.7), ha="center")
-    left.set(xlabel="r (mm)", ylabel="depth z (mm)", xlim=(-11, 11), ylim=(4.6, -2.4))
+    left.set(xlabel="r, mm", ylabel="depth z, mm", xlim=(-11, 11), ylim=(4.6, -2.4))
     near = r < 1.2e-3
     right.plot(1e3 * r[near], 1e-6 * pressure[near])
-    right.set(xlabel="r (mm)", ylabel="p (MPa)", xlim=(0, 1.2), ylim=(0, None))
+    right.set(xlabel="r, mm", ylabel="p, MPa", xlim=(0, 1.2), ylim=(0, None))

@@ -109,6 +109,6 @@ def draw(figure):
     for cycle in (CYCLES, END):
         depth = results.field("wear_depth1", results.of_cycle(cycle))[row, row:]
         axes.plot(results.x[row:] * 1e3, depth * 1e6, label=f"{cycle} cycles")
-    axes.set_xlabel("x (mm)")
-    axes.set_ylabel("removed depth (µm)")
+    axes.set_xlabel("x, mm")
+    axes.set_ylabel("removed depth, µm")
     axes.legend(frameon=False)

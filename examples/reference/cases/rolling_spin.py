@@ -57,7 +57,7 @@ def answers():
 
 
 def draw(figure):
-    figure.set_size_inches(5.2, 2.9)
+    figure.set_size_inches(6.0, 2.9)
     results = solve(64)
     x, y = results.x * 1e3, results.y * 1e3
     p, qx, qy = (results[name][-1] for name in ("pressure", "shear_x", "shear_y"))
@@ -67,8 +67,8 @@ def draw(figure):
     axes.pcolormesh(x, y, sticks, cmap="Greys", vmin=-0.5, vmax=3)
     arrows = [np.where(inside, q, np.nan)[some] * 1e-6 for q in (qx, qy)]
     drawn = axes.quiver(x[2::5], y[2::5], *arrows)
-    axes.quiverkey(drawn, 1.2, 0.9, 300, "q = 300 MPa")
+    axes.quiverkey(drawn, 1.2, 0.88, 300, "q = 300 MPa", labelpos="E")
     axes.text(1.06, 0.7, "darker: stick", transform=axes.transAxes)
     axes.set_aspect("equal")
-    axes.set_xlabel("x (mm), rolling to the right")
-    axes.set_ylabel("y (mm)")
+    axes.set_xlabel("x, mm, rolling to the right")
+    axes.set_ylabel("y, mm")

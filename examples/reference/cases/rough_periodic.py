@@ -182,10 +182,11 @@ def answers():
 
 
 def draw(figure):
+    figure.set_size_inches(4.0, 3.2)
     axes, results = figure.subplots(), solve(128)
     x, pressure = results.x * 1e3, results["pressure"][-1] * 1e-9
-    image = axes.contourf(x, x, pressure, [0.01, 1, 2, 3], colors=["0.8", "0.5", "0.1"], antialiased=False)
+    image = axes.contourf(x, x, pressure, [1e-9, 1, 2, 3], colors=["0.8", "0.5", "0.1"], antialiased=False)
     axes.set_aspect("equal")
-    axes.set_xlabel("x (mm)")
-    axes.set_ylabel("y (mm)")
-    figure.colorbar(image, label="p (GPa)")
+    axes.set_xlabel("x, mm")
+    axes.set_ylabel("y, mm")
+    figure.colorbar(image, label="p, GPa", format="%.0f")

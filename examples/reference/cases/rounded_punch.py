@@ -80,12 +80,12 @@ def draw(figure):
     left, right = figure.subplots(1, 2, width_ratios=(1, 1.25))
     x, y = results.x * 1e3, results.y * 1e3
     left.plot(x, results["pressure"][-1][len(y) // 2] * 1e-6)
-    left.set(xlabel="x (mm)", ylabel="p on y = 0 (MPa)", ylim=(0, None))
+    left.set(xlabel="x, mm", ylabel="p on y = 0, MPa", ylim=(0, None))
     qx, qy = results["shear_x"][-1], results["shear_y"][-1]
     state = results["state"][-1]
     image = right.contourf(x, y, np.where(state > 0, np.hypot(qx, qy) * 1e-6, np.nan), 8)
     every = slice(4, None, 10)
     right.quiver(x[every], y[every], qx[every, every], qy[every, every], color="white")
     right.contour(x, y, state == 1, [0.5], colors="k", linewidths=0.8)
-    figure.colorbar(image, ax=right, label="|q| (MPa)")
-    right.set(xlabel="x (mm)", ylabel="y (mm)", aspect="equal")
+    figure.colorbar(image, ax=right, label="|q|, MPa")
+    right.set(xlabel="x, mm", ylabel="y, mm", aspect="equal")

@@ -153,7 +153,7 @@ def draw(figure):
     for row, depth in enumerate(DEPTHS):
         left.plot(x * 1e3, found["stress_xx"][0, row, 0] * 1e-6, label=f"z = {depth * 1e3:.1f} mm")
         right.plot(x * 1e3, found["mises"][0, row, 0] * 1e-6, label=f"z = {depth * 1e3:.1f} mm")
-    for axes, name in ((left, "sigma_xx (MPa)"), (right, "von Mises stress (MPa)")):
-        axes.set_xlabel("x (mm)")
+    for axes, name in ((left, r"$\sigma_{xx}$, MPa"), (right, "von Mises stress, MPa")):
+        axes.set_xlabel("x, mm")
         axes.set_ylabel(name)
         axes.legend()

@@ -74,12 +74,12 @@ def draw(figure):
     row, half = len(results.y) // 2, results.x > 0
     state, found = rings(160)
     unit = MODULUS * found["contact_radius"] / (2 * RADIUS) * 1e-6
-    axes.plot(state.r * found["contact_radius"] * 1e3, FRICTION * state.p * unit, label="friction times p")
+    axes.plot(state.r * found["contact_radius"] * 1e3, FRICTION * state.p * unit, label=r"$\mu p$")
     axes.plot(state.r * found["contact_radius"] * 1e3, state.q * unit, label="outward q on the sphere")
     cells = np.abs(results["shear_x"][-1][row][half]) * 1e-6
     axes.plot(results.x[half][:50:2] * 1e3, cells[:50:2], "k.", ms=3, label="q, petsam, 128 cells")
     axes.axvline(found["stick_radius"] * 1e3, lw=0.6, color="0.5")
-    axes.set_xlabel("r (mm)")
-    axes.set_ylabel("MPa")
+    axes.set_xlabel("r, mm")
+    axes.set_ylabel("shear, MPa")
     axes.set_ylim(0)
-    axes.legend()
+    axes.legend(loc="upper right")

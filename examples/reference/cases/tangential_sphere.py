@@ -75,10 +75,10 @@ def draw(figure):
     shown = np.where(state > 0, shear, np.nan)
     image = left.contourf(x, y, shown, np.linspace(-most, most, 12), cmap="RdBu_r")
     left.contour(x, y, state == 1, [0.5], colors="0.2", linewidths=0.8)
-    figure.colorbar(image, ax=left, label="$q_y$ (MPa)")
-    left.set(xlabel="x (mm)", ylabel="y (mm)", aspect="equal")
+    figure.colorbar(image, ax=left, label="$q_y$, MPa", format="%.1f")
+    left.set(xlabel="x, mm", ylabel="y, mm", aspect="equal")
     middle = len(y) // 2
     right.plot(x, results["shear_x"][-1][middle] * 1e-6, label="$q_x$")
     right.plot(x, FRICTION * results["pressure"][-1][middle] * 1e-6, "--", color="0.5", label=r"$\mu p$")
-    right.set(xlabel="x (mm)", ylabel="on y = 0 (MPa)")
+    right.set(xlabel="x, mm", ylabel="on y = 0, MPa")
     right.legend()

@@ -62,7 +62,7 @@ def draw(figure):
     history = results.history
     left, right = figure.subplots(1, 2, width_ratios=(1, 1.1))
     left.plot(history["disp_x"] * 1e6, history["disp_y"] * 1e6, ".-")
-    left.set(xlabel="$d_x$ (µm)", ylabel="$d_y$ (µm)", aspect="equal")
+    left.set(xlabel="$d_x$, µm", ylabel="$d_y$, µm", aspect="equal")
     x, y = results.x * 1e3, results.y * 1e3
     shear = np.hypot(results["shear_x"][-1], results["shear_y"][-1]) * 1e-6
     state = results["state"][-1]
@@ -72,5 +72,5 @@ def draw(figure):
         x[every], y[every], results["shear_x"][-1][every, every], results["shear_y"][-1][every, every], color="white"
     )
     right.contour(x, y, state == 1, [0.5], colors="k", linewidths=0.8)
-    figure.colorbar(image, ax=right, label="|q| (MPa)")
-    right.set(xlabel="x (mm)", ylabel="y (mm)", aspect="equal")
+    figure.colorbar(image, ax=right, label="|q|, MPa")
+    right.set(xlabel="x, mm", ylabel="y, mm", aspect="equal")
