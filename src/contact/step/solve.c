@@ -173,14 +173,10 @@ static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *cont
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  The same with the field `aside` that is predicted, and then with that of the solution. The tractions so far are only a
-  start: if they were not found together with the place where slip begins, they are found for a place that stays.
-*/
+/* The same with the field `aside` that is predicted, and then with that of the solution. */
 static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
   PetscFunctionBegin;
-  if (w->step->status == SAM_STATUS_NOT_CONVERGED && SamSolveFindsTouching(w)) SamSolveForgetFailure(w);
   PetscCall(SamSolveSetAside(w, SAM_ASIDE_PREDICTED));
   PetscCall(FollowHolding(w, law, contact));
   if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
