@@ -34,14 +34,16 @@ ROOT = Path(__file__).resolve().parents[2]
 MAINTAIN = Path(__file__).resolve().parent
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 COMMAND = ("-m", "mkdocs", "build", "--strict", "-f")  # strict: a warning is an error
-# factors of pages in the order of what the search finds: first where an option is explained, last the paper
+# factors of pages in the order of what the search finds: an option where it is explained, a word in the glossary
 BOOSTS = {
-    "examples/manual/OPTIONS.md": 30,
-    "examples/manual/GLOSSARY.md": 20,
-    "examples/joint/README.md": 20,
+    "examples/manual/OPTIONS.md": 12,
+    "examples/manual/GLOSSARY.md": 12,
+    "README.md": 8,
+    "examples/lap/README.md": 5,
+    "examples/joint/README.md": 5,
     "scripts/README.md": 3,
-    "scripts/packaging/paper.md": 0.01,
 }
+HIDDEN = "scripts/packaging/paper.md"  # from the search: it says briefly what all pages say
 MANUAL_BOOST = 3
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 # the reference problems, in the order of their intervals
@@ -173,9 +175,9 @@ def copies():
 
 
 def boosted(name, text):
-    """Returns a page's text with its factor for the search in the lines before it."""
+    """Returns a page's text with what the search makes of it in the lines before it."""
     boost = BOOSTS.get(name, MANUAL_BOOST if name.startswith("examples/manual/") else 1)
-    lines = f"---\nsearch:\n  boost: {boost}\n"
+    lines = f"---\nsearch:\n  {'exclude: true' if name == HIDDEN else f'boost: {boost}'}\n"
     return lines + (text[4:] if text.startswith("---\n") else f"---\n\n{text}")
 
 
