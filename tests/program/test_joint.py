@@ -237,6 +237,8 @@ def test_the_first_warning_has_its_place():
             for one in {"b": ["x: use y", "z"], "c": ["z"]}.get(place, []):
                 warnings.warn(one, petsam.AdviceWarning, stacklevel=1)
     assert [str(one.message).partition(";")[0] for one in found] == ["3 solutions have a warning, the first at b: x"]
+    with pytest.warns(petsam.AdviceWarning, match="the first at the start: z"), joint.interface._gathered():
+        warnings.warn("z", petsam.AdviceWarning, stacklevel=1)
 
 
 def test_windows_of_unlike_stiffness_do_not_seem_to_slip():

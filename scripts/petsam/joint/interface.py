@@ -41,7 +41,7 @@ FITTED = [name for name in COLUMNS if name.startswith("iwan")]
 COMPUTED = [name for name in COLUMNS if name not in FITTED]
 
 
-class Loop(NamedTuple):
+class _Loop(NamedTuple):
     """A loop of the shear: coefficient of friction, amplitude over friction times pressure, steps of a quarter."""
 
     friction: float
@@ -190,7 +190,7 @@ class Interface:
 @contextlib.contextmanager
 def _gathered():
     """Gives one warning for all those of the steps within; what it yields is called with the place of the next ones."""
-    places = []
+    places = [(0, "the start")]
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", AdviceWarning)
         yield lambda place: places.append((len(found), place))
@@ -225,7 +225,7 @@ def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8
     its solutions are gathered in one.
     """
     with _gathered() as begins:
-        return _of_interface(separation, spacing, pressures, Loop(friction, shear, steps), bodies, begins)
+        return _of_interface(separation, spacing, pressures, _Loop(friction, shear, steps), bodies, begins)
 
 
 def _of_interface(separation, spacing, pressures, loop, bodies, begins):
@@ -324,7 +324,7 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
         for k, (j, i) in enumerate(places, 1):
             window = mirrored(separation[j : j + ny, i : i + nx])
             place = lambda pressure, k=k: begins(f"{pressure} in window {k} with its mirror images")  # noqa: E731
-            found.append(_of_interface(window, spacing, pressures, Loop(friction, shear, steps), bodies, place))
+            found.append(_of_interface(window, spacing, pressures, _Loop(friction, shear, steps), bodies, place))
             if report:
                 report(len(found), len(places))
     numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in COMPUTED}
