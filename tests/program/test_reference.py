@@ -50,7 +50,8 @@ def test_there_are_24_cases_with_their_files():
     assert re.findall(r'"(.*?)"', names) == CASES and len(CASES) == 24
     for name in CASES:
         text = (FOLDER / "cases" / f"{name}.md").read_text()
-        assert f"![]({name}.png)" in text and (FOLDER / "cases" / f"{name}.png").stat().st_size < 30e3
+        title = re.match(r"# (.*)\n", text)[1]
+        assert f"![{title}]({name}.png)" in text and (FOLDER / "cases" / f"{name}.png").stat().st_size < 30e3
         for head in "## Given", "## Required", "## Known by":
             assert head in text
     links = (FOLDER / "README.md").read_text()
