@@ -180,7 +180,7 @@ static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, ch
   const SamGrid grid = law->grid;
 
   PetscFunctionBegin;
-  if (grid->axes < 2 || SamControlWay(control, SAM_COMPONENT_MZ) != SAM_BY_RIGID ||
+  if (SamControlWay(control, SAM_COMPONENT_MZ) != SAM_BY_RIGID ||
       fabs(control->value[SAM_COMPONENT_MZ]) <= MostTurn(grid))
     PetscFunctionReturn(PETSC_SUCCESS);
   *wrong = SAM_COMPONENT_MZ;
@@ -210,14 +210,14 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   PetscFunctionBegin;
   (void)duration;
   PetscCheck(
-    grid->axes < 2 || turn <= most, grid->comm, SAM_ERR_USER,
+    turn <= most, grid->comm, SAM_ERR_USER,
     "%s of %.6g with -slide, found for %s in the step before: expected at most %.6g, a cell at the border of the grid: "
     "surfaces slide without turning over each other: give rot_z = 0 instead",
     SamComponentNames[SAM_COMPONENT_MZ].rigid, turn,
     SamComponentNameOf(SAM_COMPONENT_MZ, SamControlWay(control, SAM_COMPONENT_MZ)), most);
   Pull(by, before[SAM_FRAME_LIMIT], to);
-  for (int k = 0; k < grid->axes; k++) moves = moves || fabs(to[k] - before[k]) >= SLIDES * (double)cell[k];
-  for (int k = 0; k < 2; k++) now[k] = moves && k < grid->axes ? to[k] : before[k];
+  for (int k = 0; k < 2; k++) moves = moves || fabs(to[k] - before[k]) >= SLIDES * (double)cell[k];
+  for (int k = 0; k < 2; k++) now[k] = moves ? to[k] : before[k];
   for (int k = 0; k < 2; k++) now[SAM_FRAME_ROLLED_X + k] = before[SAM_FRAME_ROLLED_X + k] + (double)roll[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -307,7 +307,7 @@ static PetscErrorCode GetLoss(SamLaw law, const PetscReal offset[2], Vec surface
   Vec             heights, seen;
 
   PetscFunctionBegin;
-  for (int k = 0; k < law->grid->axes; k++)
+  for (int k = 0; k < 2; k++)
     if (fabs(remainder(offset[k], cell[k])) > SLIDES * cell[k]) half[k] = cell[k] / 2;
   PetscCall(VecDuplicate(surface, &heights));
   PetscCall(VecDuplicate(surface, &seen));

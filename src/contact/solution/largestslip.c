@@ -139,7 +139,7 @@ static PetscBool FindPlace(const Seen *s, Face *face, double p, double *u)
   const PetscInt x = face->step[0], y = face->step[1], a = face->i + x, b = face->j + y;
   const double   side = (double)(x ? s->grid->dx : s->grid->dy), other = (double)(x ? s->grid->dy : s->grid->dx);
   const double   along  = GapOf(s, a + x, b + y) / side;
-  const double   across = s->grid->axes > 1 ? (GapOf(s, a + y, b + x) - GapOf(s, a - y, b - x)) / other : 0;
+  const double   across = (GapOf(s, a + y, b + x) - GapOf(s, a - y, b - x)) / other;
   double         ratio;
 
   if (!(along >= fabs(across)) || along == 0) return PETSC_FALSE;
@@ -177,7 +177,7 @@ static double SlipAtEdge(const Seen *s, PetscInt i, PetscInt j, ptrdiff_t k)
 {
   double most = -1;
 
-  for (PetscInt n = 0; n < 2 * s->grid->axes; n++) {
+  for (PetscInt n = 0; n < 4; n++) {
     const PetscInt sign = n % 2 ? 1 : -1;
     Face           face = {.i = i, .j = j, .step = {n < 2 ? sign : 0, n < 2 ? 0 : sign}};
     const PetscInt a = i + face.step[0], b = j + face.step[1];

@@ -344,13 +344,13 @@ static PetscErrorCode Locate(SamLife l, PetscReal at[2])
 */
 static PetscErrorCode Rewind(SamLife l, const PetscReal from[2])
 {
-  PetscReal to[2], by[2] = {0, 0};
+  PetscReal to[2] = {0, 0}, by[2] = {0, 0};
 
   PetscFunctionBegin;
   if (!SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).periodic || !l->start.passes)
     PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Locate(l, to));
-  for (PetscInt k = 0; k < l->grid->axes; k++) by[k] = l->grid->width[k] * rint((to[k] - from[k]) / l->grid->width[k]);
+  for (PetscInt k = 0; k < 2; k++) by[k] = l->grid->width[k] * rint((to[k] - from[k]) / l->grid->width[k]);
   if (by[0] != 0 || by[1] != 0) PetscCall(SamContactRewind(l->contact, by));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -40,7 +40,7 @@ PetscErrorCode SamWearGetStride(SamElasticity elasticity, Vec pressure, const Pe
   PetscFunctionBegin;
   *stride = 0;
   PetscCall(SamGridGetSupport(grid, pressure, SamElasticityGetTraits(elasticity).periodic, first, n));
-  for (PetscInt k = 0; k < grid->axes; k++)
+  for (PetscInt k = 0; k < 2; k++)
     if (n[k] > 0) *stride = PetscMax(*stride, fabs(to[k] - from[k]) / ((PetscReal)n[k] * cell[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

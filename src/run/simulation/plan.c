@@ -199,14 +199,13 @@ static PetscReal Apart(SamProblem problem, const SamControl *last, const SamCont
 {
   const SamElasticity bodies = SamProblemGetElasticity(problem);
   const SamGrid       grid   = SamElasticityGetGrid(bodies);
-  const PetscInt      axis   = c == SAM_COMPONENT_TX ? 0 : c == SAM_COMPONENT_TY ? 1 : grid->axes;
   const PetscReal     apart  = SamControlPart(last, SamProblemGetConditions(problem), c) -
                           SamControlPart(first, SamProblemGetConditions(problem), c);
 
-  if (axis >= grid->axes || !SamElasticityGetTraits(bodies).periodic || !SamProblemGetLaw(problem, SAM_LAW_SLIDE) ||
-      SamControlWay(first, c) != SAM_BY_RIGID)
+  if ((c != SAM_COMPONENT_TX && c != SAM_COMPONENT_TY) || !SamElasticityGetTraits(bodies).periodic ||
+      !SamProblemGetLaw(problem, SAM_LAW_SLIDE) || SamControlWay(first, c) != SAM_BY_RIGID)
     return fabs(apart);
-  return fabs(remainder(apart, grid->width[axis]));
+  return fabs(remainder(apart, grid->width[c == SAM_COMPONENT_TY]));
 }
 
 PetscErrorCode SamLifeOptionsCheckCycle(const SamLifeOptions *w, SamHistory history, SamProblem problem,
