@@ -1,6 +1,7 @@
 """Writes a notebook of examples/notebooks as a page of Markdown with the pictures that are stored in it."""
 
 import base64
+import functools
 import json
 
 
@@ -8,6 +9,7 @@ def _fenced(word, text):
     return f"```{word}\n{text.rstrip()}\n```\n"
 
 
+@functools.cache
 def page(path):
     """Returns the Markdown of a notebook and its pictures, {name of a file beside the page: bytes}."""
     parts, pictures = [], {}

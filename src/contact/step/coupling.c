@@ -364,7 +364,8 @@ static PetscErrorCode HoldCalm(Passes *p)
   PetscCall(VecAXPY(s->s->aside, -1, s->touching));
   PetscCall(VecCopy(p->calm, s->touching));
   PetscCall(VecAXPY(s->s->aside, 1, s->touching));
-  SamSolveForgetFailure(s);
+  s->step->status     = SAM_STATUS_CONVERGED; /* the passes go on */
+  s->step->message[0] = s->step->setting[0] = '\0';
   SamSolveStartFromLast(s);
   s->holds   = PETSC_TRUE;
   p->sharper = 1;

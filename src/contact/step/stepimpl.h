@@ -99,7 +99,6 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   SamSolveFindGaps - computes the gap (m) before the step in cells that were open, 0 in others; in a step from no
   contact the distance of the undeformed bodies, 0 where it is least. Collective.
   SamSolveStartFromLast - lets the next solution of both problems start from the tractions of the last one.
-  SamSolveForgetFailure - lets the step go on after a solution that failed. Not collective.
   SamSolveIsTwice - true if the tangential problem has to be solved twice for the tried pressure. Not collective.
   SamSolveBound - computes a bound of the shear, from the pressure and the last slip. Collective.
   SamSolveShear - solves the tangential problem under the bound of the tried solution. If the bound depends on the slip,
@@ -124,11 +123,6 @@ static inline void SamSolveStartFromLast(SamSolve *solve)
 {
   solve->has_pressure = solve->has_shear = PETSC_TRUE;
   solve->shear_product.n[0]              = 0; /* at first the shear is scaled with the pressure */
-}
-static inline void SamSolveForgetFailure(SamSolve *solve)
-{
-  solve->step->status     = SAM_STATUS_CONVERGED;
-  solve->step->message[0] = solve->step->setting[0] = '\0';
 }
 PETSC_INTERN PetscBool      SamSolveIsTwice(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
