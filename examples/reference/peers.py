@@ -587,6 +587,14 @@ def calculix_hertz_sphere(n=8):
     return {"contact_radius": scale * surface.contact_radius(1 / 4), "pressure_max": scale * surface.pressure.max()}
 
 
+def calculix_indentation():
+    """Axisymmetric elements of 3 um in the contact."""
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
+    from calculix_dent import answers
+
+    return answers()
+
+
 # ---------------------------------------------------------------- the command
 
 

@@ -101,7 +101,15 @@ PARTS = (
         ),
     ),
     ("Stresses and fatigue", ("examples/manual/STRESSES.md", "examples/stress/README.md")),
-    ("Joints", ("examples/lap/README.md", "examples/joint/README.md", "examples/vibrating-joint/README.md")),
+    (
+        "Joints",
+        (
+            "examples/lap/README.md",
+            "examples/joint/README.md",
+            "examples/damper/README.md",
+            "examples/vibrating-joint/README.md",
+        ),
+    ),
     (
         "Reference problems",
         (

@@ -7,6 +7,7 @@ import h5py
 import numpy as np
 import pytest
 
+import petsam
 from petsam.compliance import cases, deck, mesh, model, stiffness
 from test_compliance_tool import CCX, EVEN, clamped, condensed, needs_calculix, retained, written_abaqus
 from test_plot import pixels
@@ -483,6 +484,94 @@ def test_a_deck_is_read_with_generated_sets_continued_lines_and_included_files(t
     assert found.mesh.node_numbers.tolist() == [1, 2, 3, 4] and found.mesh.node_sets["M"].tolist() == [0, 2, 3]
     assert found.mesh.surfaces["S"] == [(7, 0)] and found.mesh.blocks[0].young.tolist() == [1.0]
     assert len(found.steps) == 1 and found.steps[0][0].lines == [["N", "1", "2."]]
+
+
+PARTS = """*Heading
+*Part, name=Bar
+*Node
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 0., 1., 0.
+4, 0., 0., 1.
+*Element, type=C3D4
+1, 1, 2, 3, 4
+*Elset, elset=ALL, generate
+1, 1, 1
+*Nset, nset=FOOT
+1, 2
+*Surface, type=ELEMENT, name=BASE
+ALL, S1
+*Solid Section, elset=ALL, material=Steel
+,
+*End Part
+*Assembly, name=Assembly
+*Instance, name=Low, part=Bar
+*End Instance
+*Instance, name=High, part=Bar
+10., 0., 2.
+10., 0., 0., 10., 0., 1., 90.
+*End Instance
+*Nset, nset=BOTH, instance=Low
+3, FOOT
+*Nset, nset=BOTH, instance=High
+3
+*Elset, elset=_TOP_S1, internal, instance=High, generate
+1, 1, 1
+*Surface, type=ELEMENT, name=TOP
+_TOP_S1, S2
+*End Assembly
+*Material, name=Steel
+*Elastic
+210e3, 0.3
+*Step
+*Cload
+BOTH, 1, 2.
+*End Step
+"""
+
+
+def read_text(path, text):
+    path.write_text(text)
+    return deck.read(str(path))
+
+
+def test_a_deck_of_parts_is_that_of_its_instances(tmp_path):
+    """Labels of two instances are the same; each is turned about its axis after it has been moved."""
+    found = read_text(tmp_path / "parts.inp", PARTS)
+    one = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    other = np.stack([10 - one[:, 1], one[:, 0], one[:, 2] + 2], axis=1)
+    assert found.mesh.nodes == pytest.approx(np.concatenate([one, other]), abs=1e-12)
+    assert found.mesh.blocks[0].nodes.tolist() == [[0, 1, 2, 3], [4, 5, 6, 7]]
+    sets = {name: numbers.tolist() for name, numbers in found.mesh.node_sets.items()}
+    assert sets == {"LOW.FOOT": [0, 1], "HIGH.FOOT": [4, 5], "BOTH": [0, 1, 2, 6]}
+    high = found.mesh.blocks[0].numbers[1]
+    assert found.mesh.surfaces["TOP"] == [(high, 1)] and found.mesh.surfaces["HIGH.BASE"] == [(high, 0)]
+    assert found.steps[0][0].lines == [["BOTH", "1", "2."]]
+
+
+def test_a_deck_of_one_instance_keeps_the_names_of_its_part(tmp_path):
+    first = PARTS.index("*Instance, name=High")
+    single = PARTS[:first] + PARTS[PARTS.index("*Nset, nset=BOTH, instance=Low") :].replace("=High", "=Low")
+    found = read_text(tmp_path / "one.inp", single)
+    assert set(found.mesh.node_sets) == {"FOOT", "BOTH"} and set(found.mesh.surfaces) == {"BASE", "TOP"}
+
+
+@pytest.mark.parametrize(
+    "old, new, text",
+    [
+        ("part=Bar\n10.", "part=Bra\n10.", "parts.inp:22: no part BRA: is BAR meant?"),
+        ("instance=High\n3", "instance=Hihg\n3", "no instance HIHG: is HIGH meant?"),
+        ("10., 0., 2.", "10., 0.", "expected a line of 3 numbers, the translation"),
+        ("10., 0., 1., 90.", "10., 0., 0., 90.", "the two points of the axis of rotation are the same"),
+        ("10., 0., 2.", "10., O., 2.", "O. in *INSTANCE is no number"),
+        ("2, 1., 0., 0.", "2, 1., x, 0.", "x in *NODE is no number"),
+    ],
+)
+def test_instances_that_make_no_sense_are_named(tmp_path, old, new, text):
+    assert old in PARTS
+    with pytest.raises(petsam.Error) as caught:
+        read_text(tmp_path / "parts.inp", PARTS.replace(old, new, 1))
+    assert text in str(caught.value)
 
 
 def test_a_plane_of_symmetry_that_is_held_is_rejected(compliance, tmp_path):

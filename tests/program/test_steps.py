@@ -204,3 +204,27 @@ def test_energy_of_a_contact_that_sticks_is_not_warned_of(petsam, tmp_path):
         energy, error = (np.sum(table[name][:]) for name in ("dissipated_energy", "energy_error"))
         work = table["load_tx"][-1] * table["disp_x"][-1]
     assert error > 0.5 * energy and error < 1e-5 * work
+
+
+@pytest.mark.parametrize("control", [{}, {"rot_y": 0.0}])
+def test_spots_slip_on_the_way_only_if_the_bodies_tilt(petsam, tmp_path, control):
+    """N and T grow together on unlike spots: without tilt the shear is a part of the pressure in any steps."""
+    x = (np.arange(150) + 0.5) / 150 - 0.5
+    with h5py.File(tmp_path / "rough.h5", "w") as file:
+        file["height"] = (2e-8 * np.sin(2 * np.pi * (4.5 * x + 0.3)) - 1e-8 * np.sin(2 * np.pi * 6 * x))[None, :]
+    case = dict(
+        elasticity="plane", body1_young=3e9, body1_poisson=0.0, body2_young=3e9, body2_poisson=0.0, friction=0.17,
+        gap_type="ellipsoid", gap_radius_x=0.01, gap_radius_y="inf", grid_n=150, grid_size=1.7e-4, output="r.h5",
+        gap_rough_file="rough.h5", overwrite=True, **control,
+    )  # fmt: skip
+    case.update(history(tmp_path / "h.csv", "time,load_n,load_tx", (1.0, 240.0, 17.0)))
+    shear, told = {}, {}
+    for steps in 2, 16, 64:
+        told[steps] = [line for line in petsam(case, dict(steps=steps)).complaint if "before they merge" in line]
+        with h5py.File(tmp_path / "r.h5") as f:
+            shear[steps] = f["history/shear_max"][-1] / (f["history/pressure_max"][-1] * 17 / 240) - 1
+    if control:
+        assert max(map(abs, shear.values())) < 1e-4 and not any(told.values())
+    else:
+        assert abs(shear[2] - shear[64]) > 0.08 and "in 2 steps, and the bodies tilt" in told[2][0]
+        assert "may be wrong by 25 %" in told[2][0] and "wrong by 8 %" in told[16][0] and not told[64]

@@ -2,14 +2,15 @@
 
 import numpy as np
 from axisymmetric import Body, boussinesq, edge, growing, halved
-from common import all_covered
+from common import all_covered, over_places
 
 import petsam
 
 N, RADIUS, YOUNG, POISSON, YIELD, HARDENING = 20.0, 5e-3, 210e9, 0.3, 600e6, 10e9
 DEPTH = 50e-6  # of the residual stress
+CONTACT = 75e-6  # its radius, about
+WIDTH, ELEMENT = 0.3e-3, 12e-6  # of the grid and of the largest elements at the contact
 OPTIONS = {
-    "grid_size": 0.3e-3,
     "body1_young": "inf",
     "body1_poisson": POISSON,
     "body2_young": YOUNG,
@@ -32,9 +33,10 @@ UNITS = {
 }
 
 
-def solve(grid_n, steps, layers):
+def solve(grid_n, steps, layers, factor=1.0):
     loads = [*(N * np.arange(1, steps + 1) / steps), 0.0]
-    return petsam.run(OPTIONS, grid_n=grid_n, yield_layers=layers, history={"load_n": loads})
+    more = {"grid_n": grid_n, "grid_size": factor * WIDTH, "yield_layers": layers}
+    return petsam.run({**OPTIONS, **more}, history={"load_n": loads})
 
 
 def at_axis(field):
@@ -56,9 +58,9 @@ def numbers(results):
     }
 
 
-def elements(times, steps):
+def elements(times, steps, factor=1.0):
     """The same by axisymmetric elements, whose outer nodes move as those of a half-space under a point force."""
-    lines = halved(growing(96e-6, 12e-6, 4e-3, 1.25), times)
+    lines = halved(growing(8 * factor * ELEMENT, factor * ELEMENT, 4e-3, 1.25), times)
     body = Body(lines, lines, YOUNG, POISSON, YIELD, HARDENING)
     body.fixed |= np.repeat(np.any(body.nodes == lines[-1], axis=1), 2)
     outer, gap, closed = boussinesq(body.nodes, YOUNG, POISSON), lines**2 / (2.0 * RADIUS), lines < 40e-6
@@ -86,11 +88,17 @@ def elements(times, steps):
 
 def evidence():
     """petsam and axisymmetric elements, each with cells, layers, elements and load steps twice as fine every time."""
-    ours = [numbers(solve(16 * 2**k, 2 * 2**k, 8 * 2**k)) for k in range(3)]
-    others = [elements(k, 4 * 2**k)[0] for k in range(3)]
+
+    def ours(k):
+        n = 16 * 2**k
+        return over_places(lambda f: numbers(solve(n, 2 * 2**k, n // 2, f)), CONTACT * n / WIDTH)
+
+    def others(k):
+        return over_places(lambda f: elements(k, 4 * 2**k, f)[0], CONTACT * 2**k / ELEMENT)
+
     ways = {
-        "petsam, 16, 32, 64 cells, 8, 16, 32 layers, 2, 4, 8 load steps": ours,
-        "axisymmetric elements of 12, 6, 3 um, 4, 8, 16 load steps": others,
+        "petsam, 16, 32, 64 cells, 8, 16, 32 layers, 2, 4, 8 load steps, means of four widths": [*map(ours, range(3))],
+        "axisymmetric elements of 12 to 1.5 um, 4 to 32 load steps, means of four widths": [*map(others, range(4))],
     }
     return all_covered(UNITS, ways)
 

@@ -4,7 +4,7 @@ import functools
 
 import mpmath as mp
 import numpy as np
-from common import all_covered, closed
+from common import all_covered, closed, over_places
 
 import petsam
 
@@ -25,10 +25,10 @@ OPTIONS = {
     "wear_coefficient1": WEAR1,
     "wear_coefficient2": WEAR2,
     "wear_cycles": CYCLES,
-    "grid_size": 6.4e-4,
     "slide": True,
 }
 TURNS = np.interp(np.arange(17), [0, 8, 16], [1, -1, 1])
+HALF, WIDTH = 2.6e-4, 6.4e-4  # half width of the scar, about; of the grid
 SHOWN = 0.01  # part of the depth at which a scar begins
 
 
@@ -43,25 +43,26 @@ def scars(x, depth1, depth2):
 
 
 @functools.lru_cache
-def solve(cells, rtol):
-    more = {"output_every": len(TURNS) - 1, "wear_rtol": rtol, "grid_n": (cells, 1)}
+def solve(cells, rtol, factor=1.0):
+    more = {"output_every": len(TURNS) - 1, "wear_rtol": rtol, "grid_n": (cells, 1), "grid_size": factor * WIDTH}
     return petsam.run(OPTIONS, history={"disp_x": TURNS * float(STROKE)}, **more)
 
 
-def measured(cells=320, rtol=0.1):
+def measured(cells=320, rtol=0.1, factor=1.0):
     """petsam's numbers."""
-    results = solve(cells, rtol)
+    results = solve(cells, rtol, factor)
     found = scars(results.x, *(results.field(f"wear_depth{body}").ravel() for body in (1, 2)))
     return {"flat_area": results.wear["volume2"][-1], **found}
 
 
-def strips(count, cycles):
+def strips(count, cycles, aside=0.0):
     """The same by strips, `count` of them in the stroke u, and so many cycles, each magnified to a longer time.
+    `aside`: how far the middle of the problem is from that of a strip, in strips.
 
     A step moves by a strip and wears by the pressure at its end, which is found together with the wear."""
     h, e_star = float(STROKE) / count, YOUNG / (1 - POISSON**2) / 2
     half = int(3.3e-4 / h)
-    x = np.arange(-half, half + 1) * h
+    x = (np.arange(-half, half + 1) + aside) * h
     edge = (np.arange(2 * half + 2) - 0.5) * h
     flamant = -2 / (np.pi * e_star) * np.diff(edge * np.log(np.abs(edge)) - edge)  # by a strip at each distance
     matrix = flamant[np.abs(np.subtract.outer(np.arange(len(x)), np.arange(len(x))))]
@@ -89,16 +90,23 @@ def strips(count, cycles):
                 touching = touching ^ wrong
             worn1 += rate1 * pressure
             worn2[under] += rate2 * pressure
-    places = np.arange(-half - count, half + count + 1) * h
+    places = (np.arange(-half - count, half + count + 1) + aside) * h
     return scars(places, worn1, worn2)
 
 
 def evidence():
-    finer = [measured(80 * 2**level, 0.1 / 2**level) for level in range(3)]
-    own = [strips(3 * 2**level, 20 * 2**level) for level in range(3)]
+    finer = [
+        over_places(lambda f, n=80 * 2**level: measured(n, 8 / n, f), HALF * 80 * 2**level / WIDTH)
+        for level in range(3)
+    ]
+    # widths of strips divide the stroke: a factor of over_places() moves them by parts of a strip instead
+    own = [over_places(lambda f, k=level: strips(3 * 2**k, 20 * 2**k, f - 1), 1) for level in range(3)]
     with mp.workdps(30):
         area = mp.mpf(WEAR2) * mp.mpf(N) * 4 * mp.mpf(STROKE) * CYCLES
-    ways = {"strips, 3 to 12 in the stroke": own, "petsam, 80 to 320 cells, error of jumps 0.1 to 0.025": finer}
+    ways = {
+        "strips, 3 to 12 in the stroke, means of four places": own,
+        "petsam, 80 to 320 cells, error of jumps 0.1 to 0.025, means of four widths": finer,
+    }
     units = dict.fromkeys(("flat_depth", "flat_width", "cylinder_depth"), "m")
     how = "closed form: k N times the path, 4 u in a cycle"
     return [closed("flat_area", "m2", area, how), *all_covered(units, ways)]

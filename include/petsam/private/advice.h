@@ -60,6 +60,7 @@ typedef struct {
   PetscBool pushed;        /* true: the last step prescribes no tangential displacement */
   PetscBool together;      /* true: N and T have grown in proportion from zero */
   double    part[2];       /* T over N in that case */
+  double    tilt;          /* largest displacement of the contact's edge by tilting, relative to the approach */
   PetscBool joined;        /* true: the normal load has begun to grow */
   double    coupling;      /* coupling over friction if N of dissimilar bodies grows in one step; else 0 */
   double    before_touch;  /* extra work of slip if the cells of dissimilar bodies had touched before each step, J */

@@ -1,4 +1,5 @@
-"""Reading a CalculiX deck (.inp): nodes, solid elements, sets, surfaces, elastic materials, loads of its steps."""
+"""Reading a deck of CalculiX or Abaqus (.inp): nodes, solid elements, sets, surfaces, elastic materials, loads of its
+steps."""
 
 import os
 from dataclasses import dataclass, field
@@ -7,6 +8,7 @@ import numpy as np
 
 from ..errors import Error, short, there_are
 from ..files import need_regular
+from .assembly import flat
 from .mesh import Block, Mesh
 from .shapes import KINDS, SHAPES
 
@@ -95,7 +97,7 @@ class Reader:
         self.node_sets, self.element_sets, self.surfaces = {}, {}, {}
         self.materials, self.densities, self.sections, self.steps, self.supports = {}, {}, [], [], []
         self._material, self._in_step = None, False
-        for card in cards(path):
+        for card in flat(cards(path)):
             self._take(card)
 
     def _take(self, card):

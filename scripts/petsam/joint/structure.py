@@ -26,6 +26,7 @@ from ..errors import Error
 TOLERANCE = 1e-7  # of the work and of the energy of the errors, relative to the work of the loads
 ROUGH = 1e-5  # the same where the contact's own tolerance ends the iteration
 SLOW = 0.3  # ratio of successive errors above which the contacts' stiffness is computed
+STIFF = 1e-3  # part of the stiffness of sticking contacts that those which slide seem to have
 MOST, FEWER = 25, 12  # iterations; of those that others may follow
 SLIDING = ("disp_x", "disp_y", "rot_z")  # displacements whose loads friction limits
 # the displacements of body 1 as a step prescribes them, in the order of a contact's stiffness, with their loads
@@ -220,6 +221,11 @@ class Structure:
             at += len(block)
         return found
 
+    def _slope(self, stiff):
+        """The tangent for continued loading, and this part of that of sticking contacts."""
+        slope = self.tangent(False)
+        return slope + stiff * self.tangent() if stiff else slope
+
     def response_of(self, tangent):
         """d(what steps find)/d(what steps prescribe): loads by coordinates, and the reverse where patches are
         by_load."""
@@ -346,7 +352,7 @@ class Structure:
         """
         limited = [patch for patch in self.patches if patch.limited]
         if not limited:
-            return self._iterate(driven, free, held, response, scale)
+            return self._either(driven, free, held, response, scale)
         try:
             return self._iterate(driven, free, held, response, scale, FEWER)
         except ENDS as error:
@@ -365,7 +371,7 @@ class Structure:
         for patch in limited:
             patch.by_load = patch.by_load & ~np.isin(patch.coordinates, SLIDING)
         try:
-            self._iterate(driven, free, held, None, scale)
+            self._either(driven, free, held, None, scale)
             inside = not any(patch.outgrown for patch in self.patches)
         except ENDS:
             inside = False
@@ -376,8 +382,20 @@ class Structure:
             self.z, self.a, self.loads = state
         return inside
 
-    def _iterate(self, driven, free, held, response, scale, most=MOST):
-        """Broyden's method for what steps prescribe, and for a; returns its last response."""
+    def _either(self, driven, free, held, response, scale):
+        """_iterate(), and once more with a little stiffness, where contacts slide that leave the structure a motion
+        without any."""
+        try:
+            return self._iterate(driven, free, held, response, scale)
+        except ENDS as error:
+            first = error
+        try:
+            return self._iterate(driven, free, held, None, scale, stiff=STIFF)
+        except ENDS:
+            raise first from None
+
+    def _iterate(self, driven, free, held, response, scale, most=MOST, stiff=0.0):
+        """Broyden's method for what steps prescribe, and for a; returns its last response. stiff: see _slope()."""
         z, loads, size = self.z, self.loads, np.inf
         base = np.concatenate([np.where(self.by_load, loads, z), self.a])
         change, moved = np.zeros(base.size), None
@@ -397,7 +415,7 @@ class Structure:
                 continue
             error = self._error(z, a, loads, driven, free)
             if response is None:
-                response = self.response_of(self.tangent(False))
+                response = self.response_of(self._slope(stiff))
             size = max(_work(error, scale or (z, loads, a)), self._energy(error, response, z, loads))
             if size <= TOLERANCE or (SLOW * last <= size <= ROUGH):
                 break
@@ -407,7 +425,7 @@ class Structure:
                     f"{TOLERANCE:g}: use more steps"
                 )
             if size > SLOW * last:
-                response = self.response_of(self.tangent(False))
+                response = self.response_of(self._slope(stiff))
             elif moved is not None:
                 response = self._updated(response, change[: z.size], np.where(self.by_load, z, loads) - before)
             base, moved = base + change, True

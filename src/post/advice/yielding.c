@@ -91,7 +91,7 @@ static void Shallow(SamAdvice *a, double most)
 {
   PetscReal surface = 0;
   double    error;
-  char      slip[112] = "";
+  char      slip[128] = "";
 
   a->error = SamContactGetNumber(a->setup->contact, "plastic_surface", &surface);
   error    = 1 - most / (double)surface;
@@ -100,9 +100,10 @@ static void Shallow(SamAdvice *a, double most)
     return;
   }
   if (a->slip.energy > 0 && error > DEEP)
-    (void)snprintf(slip, sizeof(slip),
-                   ", and plastic_work, the dissipated energy and the maximum slip may be wrong by %.0f %%",
-                   100 * SLIPS * error);
+    (void)snprintf(
+      slip, sizeof(slip),
+      ", and plastic_work, the dissipated energy, the stick area and the maximum slip may be wrong by %.0f %%",
+      100 * SLIPS * error);
   SamAdviceSay(a, "grid_n",
                "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
                "small by %.0f %%%s",

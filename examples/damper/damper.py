@@ -1,0 +1,175 @@
+"""Two turbine blades and the friction damper under their platforms: damping over amplitude, and the best mass.
+
+    build/venv/bin/python examples/damper/damper.py build/run/damper
+
+prints the tables of README.md and draws damper.png to a folder. `--quick` computes two masses at three amplitudes.
+"""
+
+import argparse
+import os
+import sys
+
+import numpy as np
+
+import petsam
+from petsam import joint
+from petsam.plot.style import COLORS, STYLE, frame, logarithmic, plt, save, tint
+
+STEEL = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+FRICTION = 0.3
+RADIUS, CROWN = 5e-3, 1.5  # of the damper's section and of its generatrix, m
+ANGLE = np.radians(35.0)  # of the platforms to the circumference
+SPEED, ORBIT = 2 * np.pi * 50.0, 0.5  # rad/s; distance of the damper from the axis of rotation, m
+BLADE, TIP_MASS, PLATFORM = 250.0, 0.15, 0.03  # Hz alone; modal mass for the tip, kg; motion of platform over tip
+MATERIAL = 5e-4  # damping of the blades' material and of the flow, part of critical
+MOTIONS = {"circumferential": (1.0, 0.0), "radial": (0.0, 1.0)}  # of the platforms
+MASSES = np.array([2.5, 5.0, 10.0, 20.0, 40.0]) * 1e-3  # kg
+AMPLITUDES = np.geomspace(1e-5, 2e-3, 12)  # of a tip, m
+FORCES = (1.0, 2.0, 4.0)  # at each tip, N
+# half axes of the contact and load (m, N): Hertz's ellipse of these radii, which grows as the cube root of the load
+HALF, LOAD = (7.1e-5, 2.3e-3), 300.0
+ROOM = 1.5  # half width of the grid over half axis
+TIP = 1.0 / np.sqrt(TIP_MASS)
+HELD = dict(disp_y=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0)
+
+
+def centrifugal(mass):
+    """Force on the damper, N."""
+    return mass * ORBIT * SPEED**2
+
+
+def contact(load, n):
+    """Damper (body 1) below a platform (body 2), apart."""
+    size = [2.0 * ROOM * half * np.cbrt(load / LOAD) for half in HALF]
+    return petsam.Contact(
+        grid_n=n,
+        grid_size=size,
+        gap_type="ellipsoid",
+        gap_radius_x=RADIUS,
+        gap_radius_y=CROWN,
+        friction=FRICTION,
+        **STEEL,
+    )
+
+
+def motions(direction):
+    """Displacements (n, t) of the damper against each platform, left and right, four rows: by the modes of the two
+    blades (two columns), and by the damper's x, z and rotation about y (three columns)."""
+    blades, damper = np.zeros((4, 2)), np.zeros((4, 3))
+    for k, side in enumerate((-1.0, 1.0)):
+        axes = np.array([[side * np.sin(ANGLE), np.cos(ANGLE)], [np.cos(ANGLE), -side * np.sin(ANGLE)]])
+        damper[2 * k : 2 * k + 2, :2] = axes
+        damper[2 * k + 1, 2] = RADIUS
+        blades[2 * k : 2 * k + 2, k] = -PLATFORM * TIP * axes @ np.array(MOTIONS[direction])
+    return blades, damper
+
+
+def structure(mass, direction, n):
+    """Blades, and the damper of this mass that its centrifugal force presses against their platforms.
+
+    The shear of the preload is zero, as if vibrations had settled the damper. The blades are at rest where the damper
+    has pushed them: a force of their own holds them there.
+    """
+    blades, damper = motions(direction)
+    load, patches = 0.5 * centrifugal(mass) / np.cos(ANGLE), []
+    for name, (lift, along) in zip(("left", "right"), damper[:, 1].reshape(2, 2)):  # n and t by z of the damper
+        one = contact(load, n)
+        approach = one.try_step(load_n=load).disp_z
+        one.commit()
+        one.try_step(load_n=load, disp_x=along / lift * approach, friction_scale=0.0, **HELD)
+        one.commit()
+        patches.append(joint.Patch(one, ["disp_z", "disp_x"], HELD, ["disp_z"], name))
+    rigid = damper / np.sqrt([mass, mass, 0.5 * mass * RADIUS**2])
+    omega = 2 * np.pi * BLADE
+    found = joint.Structure(patches, [omega, omega], blades, blades @ blades.T / omega**2, rigid, MATERIAL)
+    found.z, found.loads = (np.concatenate(parts) for parts in zip(*(patch.state() for patch in patches)))
+    found.a = np.linalg.lstsq(rigid, found.z, rcond=None)[0]
+    found.step(-np.concatenate([blades.T, rigid.T]) @ found.loads)
+    return found
+
+
+def backbone(mass, direction, amplitudes, n, **more):
+    """Frequency and damping of the mode in which the blades move against each other, over the amplitude of a tip."""
+    tip = [TIP, 0.0, 0.0, 0.0, 0.0]
+    return joint.backbone(structure(mass, direction, n), amplitudes, mode=2, sensor=tip, **more)
+
+
+def excitations(found):
+    """Forces (N) at both tips, opposite to each other, whose resonances have the amplitudes of a backbone."""
+    gain = 2.0 * TIP * abs(found.shape[0])  # modal force by a unit of both
+    return 2.0 * (found.damping + found.viscous) * (2 * np.pi * found.frequency) ** 2 * found.modal_amplitude / gain
+
+
+def resonance(found, force):
+    """Amplitude (m) of a tip at the resonance under a force; NaN outside of the computed amplitudes."""
+    given = excitations(found)
+    return np.exp(np.interp(np.log(force), np.log(given), np.log(found.amplitude), np.nan, np.nan))
+
+
+def sketch(ax):
+    """The damper below its platforms, and the force on it."""
+    c, s = np.cos(ANGLE), np.sin(ANGLE)
+    turn = np.linspace(0.0, 2.0 * np.pi, 100)
+    ax.fill(np.cos(turn), np.sin(turn), color=COLORS[1], alpha=0.6)
+    for side in (-1.0, 1.0):
+        at, along, out = np.array([side * s, c]), np.array([side * c, -s]), np.array([side * s, c])
+        corners = [at - 0.5 * along, at + 1.2 * along, at + 1.2 * along + 0.5 * out, at - 0.5 * along + 0.5 * out]
+        ax.fill(*np.transpose(corners), color="0.75")
+        ax.annotate("", (side * 2.3, 1.0), (side * 1.6, 1.0), arrowprops=dict(arrowstyle="<->", color="k", lw=1.2))
+    ax.annotate("", (0.0, 0.8), (0.0, 0.0), arrowprops=dict(arrowstyle="-|>", color="k", lw=1.2))
+    ax.text(0.0, -0.3, "centrifugal\nforce", ha="center", va="center")
+    ax.text(0.0, 1.75, "platforms move against each other", ha="center", va="center")
+    ax.set(xlim=(-2.4, 2.4), ylim=(-1.1, 1.9), aspect="equal")
+    ax.axis("off")
+
+
+def draw(found, folder):
+    """The damper, damping over amplitude for all masses, and the amplitude at resonance over the mass."""
+    with plt.rc_context(STYLE):
+        figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12.5, 3.8), layout="constrained")
+        sketch(left)
+        for k, (mass, one) in enumerate(found.items()):
+            label, color = f"{1e3 * mass:g} g, {centrifugal(mass):.0f} N", tint(k, len(found))
+            middle.plot(1e6 * one.amplitude, 100.0 * one.damping, "o-", color=color, label=label, markersize=4.0)
+        frame(middle, "Damping by friction", "amplitude of a tip, µm", "damping, % of critical")
+        logarithmic(middle, "xy")
+        middle.legend()
+        for k, force in enumerate(FORCES):
+            reach = [1e6 * resonance(one, force) for one in found.values()]
+            right.plot(1e3 * np.array(list(found)), reach, "o-", color=COLORS[k], label=f"{force:g} N", markersize=4.0)
+        frame(right, "Amplitude at resonance", "mass of the damper, g", "amplitude of a tip, µm")
+        logarithmic(right, "xy")
+        right.legend(title="force at each tip")
+        right.set_xticks(1e3 * np.array(list(found)), labels=[f"{1e3 * mass:g}" for mass in found])
+        right.minorticks_off()
+        save(figure, folder, "damper.png")
+
+
+def main():
+    """Computes all masses, prints the tables and draws the picture."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", help="where damper.png is written")
+    parser.add_argument("--grid-n", type=int, default=48, help="cells of a contact in each direction (48)")
+    parser.add_argument("--quick", action="store_true", help="two masses, three amplitudes")
+    args = parser.parse_args()
+    masses, amplitudes = (MASSES[1::2], AMPLITUDES[2::4]) if args.quick else (MASSES, AMPLITUDES)
+    os.makedirs(args.folder, exist_ok=True)
+    circumferential = {mass: backbone(mass, "circumferential", amplitudes, args.grid_n) for mass in masses}
+    for mass, one in circumferential.items():
+        print(f"\ndamper of {1e3 * mass:g} g, {centrifugal(mass):.0f} N, platforms move along the circumference")
+        print("\n".join(one.table()[1:]))
+    omega, _ = structure(masses[0], "radial", args.grid_n).stuck_modes()
+    told = " and ".join(f"{one / (2 * np.pi):.4g}" for one in omega[:2])
+    print(f"\nplatforms that move radially: {told} Hz while all that touches sticks: the damper rolls")
+    print("\namplitude of a tip at resonance, um, by the force at each tip")
+    print(f"{'mass/g':>8}" + "".join(f"{force:>9g} N" for force in FORCES))
+    for mass, one in circumferential.items():
+        print(f"{1e3 * mass:8g}" + "".join(f"{1e6 * resonance(one, force):11.4g}" for force in FORCES))
+    draw(circumferential, args.folder)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except petsam.Error as error:
+        sys.exit(f"damper: {error}")
