@@ -188,33 +188,42 @@ static void AddBulk(const SamPlastic *p, double s[])
     }
 }
 
-PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shear, double stress[], double *energy)
+/* The same by tractions (NULL: none) and the bulk stress that belongs to them. */
+static PetscErrorCode RespondToAll(SamPlastic *p, Vec pressure, Vec shear, double s[])
 {
-  const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
-  const double  *by_p, *by_q;
-  double        *e;
+  const double *by_p, *by_q;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &e));
-  PetscCall(TakeStrain(p, state, e));
-  PetscCall(PetscArraycpy(stress, e, n));
-  PetscCall(Displace(p, e, PARTS, NULL));
-  PetscCall(Respond(p, NULL, e));
-  if (energy) PetscCall(SamPlasticWork(p, stress, e, energy));
-  if (energy) *energy *= -0.5;
-  if (!pressure) PetscCall(PetscArrayzero(stress, n));
-  if (pressure) {
-    PetscCall(VecGetArrayRead(pressure, &by_p));
-    PetscCall(VecGetArrayRead(shear, &by_q));
+  if (!pressure) PetscCall(Respond(p, NULL, s));
+  if (!pressure) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(pressure, &by_p));
+  PetscCall(VecGetArrayRead(shear, &by_q));
+  PetscCall(Respond(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, s));
+  PetscCall(VecRestoreArrayRead(shear, &by_q));
+  PetscCall(VecRestoreArrayRead(pressure, &by_p));
+  AddBulk(p, s);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shear, double stress[], double *energy)
+{
+  const PetscInt n   = PARTS * p->bodies * p->layers * p->grid->cells;
+  double        *own = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(TakeStrain(p, state, stress));
+  PetscCall(Displace(p, stress, PARTS, NULL));
+  if (energy) {
+    PetscCall(PetscMalloc1(n, &own));
+    PetscCall(Respond(p, NULL, own));
+    PetscCall(SamPlasticWork(p, stress, own, energy));
+    *energy *= -0.5;
     PetscCall(Displace(p, NULL, 0, NULL));
-    PetscCall(Respond(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
-    PetscCall(VecRestoreArrayRead(shear, &by_q));
-    PetscCall(VecRestoreArrayRead(pressure, &by_p));
-    AddBulk(p, stress);
   }
-  for (PetscInt k = 0; k < n; k++) stress[k] += e[k];
+  PetscCall(RespondToAll(p, pressure, shear, stress));
+  for (PetscInt k = 0; k < n && own; k++) stress[k] += own[k];
   AddInitial(p, stress);
-  PetscCall(PetscFree(e));
+  PetscCall(PetscFree(own));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -313,20 +322,13 @@ static PetscErrorCode Return(Solve *w, Vec last, Vec tried)
 /* Computes the driver from the strains w->e, which are those of the state (NULL: 0), and the tractions. */
 static PetscErrorCode GetDriver(Solve *w, Vec state, double d[])
 {
-  const PetscInt cells = w->plastic->grid->cells;
-  const double  *p, *q;
-  PetscBool      is;
+  PetscBool is;
 
   PetscFunctionBegin;
   PetscCall(IsBegun(w->plastic, state, &is));
   if (!is || !w->plastic->begun.spectra) PetscCall(Displace(w->plastic, w->e, PARTS, NULL));
-  PetscCall(VecGetArrayRead(w->contact->pressure, &p));
-  PetscCall(VecGetArrayRead(w->contact->shear, &q));
-  PetscCall(Respond(w->plastic, (const double *const[3]){p, q, q + cells}, w->s));
-  PetscCall(VecRestoreArrayRead(w->contact->shear, &q));
-  PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
+  PetscCall(RespondToAll(w->plastic, w->contact->pressure, w->contact->shear, w->s));
   AddInitial(w->plastic, w->s);
-  AddBulk(w->plastic, w->s);
   AddDeviator(w->plastic, w->e, w->s, d);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -440,10 +442,9 @@ static PetscErrorCode CreateWork(SamPlastic *p, SamLawContact *contact, Solve **
   PetscCall(PetscNew(work));
   w  = *work;
   *w = (Solve){.plastic = p, .contact = contact, .n = PARTS * p->bodies * p->layers * p->grid->cells};
-  PetscCall(PetscCalloc7(w->n, &w->d, w->n, &w->r, w->n, &w->e, w->n, &w->s, w->n, &w->y, w->n, &w->start, w->n,
+  PetscCall(PetscMalloc7(w->n, &w->d, w->n, &w->r, w->n, &w->e, w->n, &w->s, w->n, &w->y, w->n, &w->start, w->n,
                          &w->tangent.n));
-  PetscCall(PetscCalloc2(w->n / PARTS, &w->tangent.along, w->n / PARTS, &w->tangent.across));
-  PetscCall(SamReactionCreate(p->elasticity, contact, &w->reaction));
+  PetscCall(PetscMalloc2(w->n / PARTS, &w->tangent.along, w->n / PARTS, &w->tangent.across));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -558,6 +559,7 @@ static PetscErrorCode BeginStep(Solve *w)
   double      part;
 
   PetscFunctionBegin;
+  if (!w->reaction) PetscCall(SamReactionCreate(p->elasticity, w->contact, &w->reaction));
   PetscCall(SamReactionFreeze(w->reaction));
   part = PetscMax(PetscMin(ROUGH, FORCING * w->norm / w->first), ENOUGH * (double)p->rtol / w->largest);
   if (SamReactionSlips(w->reaction)) part = PetscMax(part, SLIPPING);
@@ -595,19 +597,22 @@ static PetscErrorCode Continue(Solve *w, PetscBool *again)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A second solve of a step begins with the strain of the first. */
+/* A second solve of a step begins with the strain of the first. While none has grown in this step, the contact is first
+   solved with the strain that it has, and looked at once it stands: often no cell yields. */
 PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact, PetscBool *again)
 {
-  Solve *w = p->work;
+  const PetscBool grown = p->last && StateOf(contact) == p->last ? PETSC_FALSE : PETSC_TRUE;
+  Solve          *w     = p->work;
 
   PetscFunctionBegin;
   *again = contact->solved;
+  if (!w && contact->solved && !grown && !contact->stands) PetscFunctionReturn(PETSC_SUCCESS);
   if (!w && contact->solved) {
     PetscCall(CreateWork(p, contact, &p->work));
     w = p->work;
     PetscCall(TakeStrain(p, StateOf(contact), w->e));
     PetscCall(GetDriver(w, StateOf(contact), w->d));
-    if (contact->stands && p->last && StateOf(contact) == p->last) PetscCall(Yields(w, again));
+    if (!grown) PetscCall(Yields(w, again));
   } else if (contact->solved) {
     PetscCall(Measure(w));
     PetscCall(Continue(w, again));

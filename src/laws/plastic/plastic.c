@@ -54,7 +54,7 @@ static const char *const removed[2] = {"plastic_removed1", "plastic_removed2"};
 static const char *const depths[2]  = {"wear_depth1", "wear_depth2"};
 
 /* The numbers of a step, in this order from MOST on */
-enum {
+typedef enum {
   MOST,
   CELLS,
   WORK,
@@ -71,7 +71,9 @@ enum {
   DENT,
   SURFACE,
   NUMBERS
-};
+} Number;
+/* Those that depend on the strain alone, and are found anew only where it grows */
+static const Number OF_STRAIN[] = {LAYERS, LEFT, SURFACE};
 
 #define REAL_ROW(body, option, text, what, range_, ...) \
   { \
@@ -965,29 +967,33 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   const Vec      tried  = SamStateReadField(step->state, SamStateFindField(step->state, SAM_PLASTIC_FIELD));
   const Vec      before = p->last;
   const PetscInt n      = PARTS * p->bodies * p->layers * p->grid->cells;
-  double        *stress, *numbers, energy, work[2];
-  const double  *now, *last = NULL;
+  const double  *now, *last = NULL, *committed = SamStateNumbers(step->state, first, SAM_COMMITTED);
+  double        *stress, *numbers, work[2]     = {0};
 
   PetscFunctionBegin;
   if (!tried) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0));
   PetscCall(PetscMalloc1(n, &stress));
-  PetscCall(SamPlasticStress(p, tried, step->pressure, step->shear, stress, &energy));
+  numbers = SamStateNumbers(step->state, first, SAM_TRIED);
+  /* no cell yields in this step: what depends on the strain alone stays */
+  numbers[ENERGY] = committed[ENERGY];
+  PetscCall(SamPlasticStress(p, tried, step->pressure, step->shear, stress, tried == before ? NULL : &numbers[ENERGY]));
   PetscCall(VecGetArrayRead(tried, &now));
   if (before) PetscCall(VecGetArrayRead(before, &last));
-  numbers = SamStateNumbers(step->state, first, SAM_TRIED);
   PetscCall(Judge(p, last, now, stress, numbers));
-  PetscCall(Extent(p, now, SamElasticityGetTraits(law->elasticity).periodic, numbers));
-  PetscCall(FindSurface(p, now, numbers));
+  for (PetscInt k = 0; k < 3; k++) numbers[OF_STRAIN[k]] = committed[OF_STRAIN[k]];
+  if (tried != before) {
+    PetscCall(Extent(p, now, SamElasticityGetTraits(law->elasticity).periodic, numbers));
+    PetscCall(FindSurface(p, now, numbers));
+    PetscCall(SumWork(p, last, now, work));
+  }
   PetscCall(SamPlasticLookOutside(p, tried, step->pressure, step->shear, &numbers[THICK], &numbers[OUTSIDE]));
-  KeepLargest(SamStateNumbers(step->state, first, SAM_COMMITTED), numbers);
-  PetscCall(FindDent(p, tried, SamStateNumbers(step->state, first, SAM_COMMITTED)[DENT], numbers));
-  numbers[ENERGY] = energy;
-  PetscCall(SumWork(p, last, now, work));
+  KeepLargest(committed, numbers);
+  PetscCall(FindDent(p, tried, committed[DENT], numbers));
   numbers[WORK]   = work[0];
   numbers[UNSURE] = work[1];
   numbers[NEWTON] = (double)p->newton;
-  numbers[STILL] *= 1 + SamStateNumbers(step->state, first, SAM_COMMITTED)[STILL];
+  numbers[STILL] *= 1 + committed[STILL];
   numbers[PRODUCTS] = (double)p->products;
   if (!(numbers[ERROR] <= PetscMax(EXCESS, MARGIN * p->rtol)))
     (void)snprintf(step->failed, sizeof(step->failed), "the check of the plastic strain: the yield function is %.2g Y",
