@@ -251,6 +251,17 @@ def test_bulk_stress_above_yield_is_refused(petsam, more, limit):
     assert not limit or limit in done.stderr
 
 
+def test_steps_without_yield_keep_what_depends_on_the_strain(solve, tmp_path):
+    """N within what has yielded, and T below it, in both of which each step is solved twice."""
+    rows = dict(load_n=[4 * LOAD, 3 * LOAD, 3.5 * LOAD, 3.2 * LOAD], load_tx=[0.0, 0.0, 0.01 * LOAD, -0.01 * LOAD])
+    run = all_steps(solve({**sphere(14, 8), **steps(tmp_path / "h.csv", **rows), "friction": 0.5, "coupling": "none"}))
+    for name in ("residual_energy", "plastic_max", "plastic_surface", "yielded_layers", "residual_z_max"):
+        assert run[name][0] > 0 and np.all(run[name][1:] == run[name][0]), name
+    assert run["plastic_work"][0] > 0 and np.all(run["plastic_work"][1:] == 0)
+    assert np.all(run["plastic_newton"][1:] == 0) and list(run["steps_without_yield"]) == [0, 1, 2, 3]
+    assert np.all(run["yield_error"][1:] == 0)
+
+
 def test_fretting_above_yield_shakes_down(solve, tmp_path):
     parts = [0] + [0.6, -0.6] * 5
     case = pushed(14, 8, tmp_path / "h.csv", parts, coupling="none", body2_backstress="0.3,800,0.02,100")

@@ -188,7 +188,7 @@ static void AddBulk(const SamPlastic *p, double s[])
     }
 }
 
-/* The same by tractions (NULL: none) and the bulk stress that belongs to them. */
+/* Respond() by the tractions of a contact (NULL: none), with the bulk stress of the step if there are any. */
 static PetscErrorCode RespondToAll(SamPlastic *p, Vec pressure, Vec shear, double s[])
 {
   const double *by_p, *by_q;
