@@ -90,14 +90,14 @@ def evidence():
     """petsam and axisymmetric elements, each with cells, layers, elements and load steps twice as fine every time."""
 
     def ours(k):
-        n = 16 * 2**k
-        return over_places(lambda f: numbers(solve(n, 2 * 2**k, n // 2, f)), CONTACT * n / WIDTH)
+        n = 32 * 2**k
+        return over_places(lambda f: numbers(solve(n, 4 * 2**k, n // 2, f)), CONTACT * n / WIDTH)
 
     def others(k):
         return over_places(lambda f: elements(k, 4 * 2**k, f)[0], CONTACT * 2**k / ELEMENT)
 
     ways = {
-        "petsam, 16, 32, 64 cells, 8, 16, 32 layers, 2, 4, 8 load steps, means of four widths": [*map(ours, range(3))],
+        "petsam, 32, 64, 128 cells, 16, 32, 64 layers, 4, 8, 16 load steps, means of four widths": [*map(ours, range(3))],
         "axisymmetric elements of 12 to 1.5 um, 4 to 32 load steps, means of four widths": [*map(others, range(4))],
     }
     return all_covered(UNITS, ways)

@@ -58,8 +58,7 @@ typedef struct {
   const SamBalance *normal, *tangential;
   Vec               pressure, shear, bound; /* Pa: the last solution */
   PetscBool         solved;                 /* false: there is no solution with the offset of the tried state */
-  PetscBool         stands;      /* false: the contact has to be solved again even if the tried state is right */
-  char              failed[192]; /* set by a law that finds no solution: the reason */
+  char              failed[192];            /* set by a law that finds no solution: the reason */
 } SamLawContact;
 
 /*

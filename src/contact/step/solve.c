@@ -154,36 +154,47 @@ static PetscErrorCode SolveAgain(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds a law's state and the tractions together, while the field `aside` stays. */
-static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *contact)
+/* Asks a law for its next state, with the solution that there is; `again`: it has one. */
+static PetscErrorCode AskLaw(SamSolve *w, SamLaw law, SamLawContact *contact, PetscBool *again)
 {
-  PetscBool again;
+  PetscFunctionBegin;
+  *again          = PETSC_FALSE;
+  contact->solved = w->step->status == SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(law->ops.follow(law, contact, again));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves again with a law's next state, until it has no other, while the field `aside` is one that a solution gives. */
+static PetscErrorCode FollowHolding(SamSolve *w, SamLaw law, SamLawContact *contact, SamAsideFrom aside)
+{
+  PetscBool again = PETSC_TRUE;
 
   PetscFunctionBegin;
-  contact->stands = !SamSolveSetsAside(w); /* the field has changed since the last solution */
-  w->holds        = PETSC_TRUE;
-  do {
-    again           = PETSC_FALSE;
-    contact->solved = w->step->status == SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
-    PetscCall(law->ops.follow(law, contact, &again));
-    if (again) PetscCall(SolveAgain(w));
-    contact->stands = PETSC_TRUE;
-  } while (again);
+  PetscCall(SamSolveSetAside(w, aside));
+  w->holds = PETSC_TRUE;
+  while (again) {
+    PetscCall(SolveAgain(w));
+    PetscCall(AskLaw(w, law, contact, &again));
+  }
   w->holds = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same with the field `aside` that is predicted, and then with that of the solution. */
+/* Finds a law's state and the tractions together, with the field `aside` that is predicted, and then with that of the
+   solution. */
 static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
+  PetscBool again;
+
   PetscFunctionBegin;
-  PetscCall(SamSolveSetAside(w, SAM_ASIDE_PREDICTED));
-  PetscCall(FollowHolding(w, law, contact));
+  PetscCall(AskLaw(w, law, contact, &again));
+  if (!again) PetscFunctionReturn(PETSC_SUCCESS); /* the state before the step stands */
+  PetscCall(FollowHolding(w, law, contact, SAM_ASIDE_PREDICTED));
   if (w->step->status != SAM_STATUS_CONVERGED || contact->failed[0] || !SamSolveSetsAside(w))
     PetscFunctionReturn(PETSC_SUCCESS);
   if (w->touching) PetscCall(SamSolveFindTouching(w, w->touching));
-  PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
-  PetscCall(FollowHolding(w, law, contact));
+  PetscCall(AskLaw(w, law, contact, &again));
+  PetscCall(FollowHolding(w, law, contact, SAM_ASIDE_SOLVED));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -597,8 +597,8 @@ static PetscErrorCode Continue(Solve *w, PetscBool *again)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A second solve of a step begins with the strain of the first. While none has grown in this step, the contact is first
-   solved with the strain that it has, and looked at once it stands: often no cell yields. */
+/* A second solve of a step begins with the strain of the first. Before the first one it is found out if any cell yields
+   by the tractions with the strain before the step. */
 PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact, PetscBool *again)
 {
   const PetscBool grown = p->last && StateOf(contact) == p->last ? PETSC_FALSE : PETSC_TRUE;
@@ -606,7 +606,6 @@ PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact, PetscBool 
 
   PetscFunctionBegin;
   *again = contact->solved;
-  if (!w && contact->solved && !grown && !contact->stands) PetscFunctionReturn(PETSC_SUCCESS);
   if (!w && contact->solved) {
     PetscCall(CreateWork(p, contact, &p->work));
     w = p->work;
