@@ -97,7 +97,9 @@ def evidence():
         return over_places(lambda f: elements(k, 4 * 2**k, f)[0], CONTACT * 2**k / ELEMENT)
 
     ways = {
-        "petsam, 32, 64, 128 cells, 16, 32, 64 layers, 4, 8, 16 load steps, means of four widths": [*map(ours, range(3))],
+        "petsam, 32, 64, 128 cells, 16, 32, 64 layers, 4, 8, 16 load steps, means of four widths": [
+            *map(ours, range(3))
+        ],
         "axisymmetric elements of 12 to 1.5 um, 4 to 32 load steps, means of four widths": [*map(others, range(4))],
     }
     return all_covered(UNITS, ways)
