@@ -975,13 +975,14 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0));
   PetscCall(PetscMalloc1(n, &stress));
   numbers = SamStateNumbers(step->state, first, SAM_TRIED);
-  /* no cell yields in this step: what depends on the strain alone stays */
+  /* where no cell yields, `tried` is `before`, and what depends on the strain alone stays */
   numbers[ENERGY] = committed[ENERGY];
   PetscCall(SamPlasticStress(p, tried, step->pressure, step->shear, stress, tried == before ? NULL : &numbers[ENERGY]));
   PetscCall(VecGetArrayRead(tried, &now));
   if (before) PetscCall(VecGetArrayRead(before, &last));
   PetscCall(Judge(p, last, now, stress, numbers));
-  for (PetscInt k = 0; k < 3; k++) numbers[OF_STRAIN[k]] = committed[OF_STRAIN[k]];
+  for (PetscInt k = 0; k < (PetscInt)PETSC_STATIC_ARRAY_LENGTH(OF_STRAIN); k++)
+    numbers[OF_STRAIN[k]] = committed[OF_STRAIN[k]];
   if (tried != before) {
     PetscCall(Extent(p, now, SamElasticityGetTraits(law->elasticity).periodic, numbers));
     PetscCall(FindSurface(p, now, numbers));

@@ -300,7 +300,8 @@ static void Few(SamAdvice *a)
 /*
   Advises more steps if N and T of alike bodies grow in proportion on a rough surface. If they do not tilt, nothing
   slips: the shear is a part of the pressure everywhere. If they do, spots slip before they merge, and the end of a long
-  step shows nothing of it. Measured on rows of two to four spots, 2 to 64 steps against 256.
+  step shows nothing of it. On eight random rows of one to six spots the maximum shear of 2, 4, 8 and 16 steps was wrong
+  by up to 33, 35, 25 and 16 %, against 64.
 */
 static void Merging(SamAdvice *a)
 {
