@@ -2,7 +2,8 @@
 
     build/venv/bin/python examples/damper/damper.py build/run/damper
 
-prints the tables of README.md and draws damper.png to a folder. `--quick` computes two masses at three amplitudes.
+prints the tables of README.md and draws damper.png to a folder. `--quick` computes two masses at three amplitudes, too
+few for the amplitudes at resonance.
 """
 
 import argparse
@@ -70,6 +71,12 @@ def structure(mass, direction, n):
     The shear of the preload is zero, as if vibrations had settled the damper. The blades are at rest where the damper
     has pushed them: a force of their own holds them there.
     """
+    if not mass > 0.0:
+        raise petsam.Error(f"a mass of {mass:g} kg: expected one above 0")
+    if FRICTION * np.tan(ANGLE) >= 1.0:
+        raise petsam.Error(
+            f"with friction {FRICTION:g} the damper locks between platforms at {np.degrees(ANGLE):g} degrees"
+        )
     blades, damper = motions(direction)
     load, patches = 0.5 * centrifugal(mass) / np.cos(ANGLE), []
     for name, (lift, along) in zip(("left", "right"), damper[:, 1].reshape(2, 2)):  # n and t by z of the damper
@@ -164,7 +171,8 @@ def main():
     print("\namplitude of a tip at resonance, um, by the force at each tip")
     print(f"{'mass/g':>8}" + "".join(f"{force:>9g} N" for force in FORCES))
     for mass, one in circumferential.items():
-        print(f"{1e3 * mass:8g}" + "".join(f"{1e6 * resonance(one, force):11.4g}" for force in FORCES))
+        print(f"{1e3 * mass:8g}" + "".join(f"{1e6 * resonance(one, force):11.3g}" for force in FORCES))
+    print("nan: not within the computed amplitudes" + (", and --quick has too few of them" if args.quick else ""))
     draw(circumferential, args.folder)
 
 

@@ -816,3 +816,18 @@ def test_an_amplitude_that_slides_is_named():
         joint.backbone(one, [2 * FRICTION * LOAD / stiffness], steps=2)
     with pytest.raises(petsam.Error, match="the vibration after 0 cycles or more: gross slip: load_tx.* mu p$"):
         joint.wear(one, 2 * FRICTION * LOAD / stiffness, [10.0], steps=2)
+
+
+@pytest.mark.parametrize("by_load", [(), ("disp_x",)])
+def test_the_first_step_of_a_structure_at_rest_is_in_equilibrium(by_load):
+    """Without loads before it there is no work to which an error would be relative: zeros were taken for a solution."""
+    (first, k1), (second, k2) = sphere(LOAD), sphere(LOAD / 2)
+    patches = [joint.Patch(c, ["disp_x"], dict(load_n=n), by_load) for c, n in ((first, LOAD), (second, LOAD / 2))]
+    one = joint.Structure(patches, rigid=2 * [[0.5]])
+    one.step([0.5 * 0.9 * FRICTION * LOAD])
+    pairs = [(LOAD, k1), (LOAD / 2, k2)]
+    q = brentq(lambda q: sum(shear(q, *pair) for pair in pairs) - 0.9 * FRICTION * LOAD, 0.0, 1e-5, xtol=1e-20)
+    assert -one.loads == pytest.approx([shear(q, *pair) for pair in pairs], rel=1e-3)
+    assert one.z == pytest.approx([q, q], rel=1e-3)
+    with pytest.raises(joint.structure.ENDS):
+        one.step([0.5 * 1.6 * FRICTION * LOAD])

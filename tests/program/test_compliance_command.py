@@ -511,6 +511,10 @@ ALL, S1
 10., 0., 2.
 10., 0., 0., 10., 0., 1., 90.
 *End Instance
+*Node
+1, 5., 5., 5.
+*Nset, nset=POINT
+1
 *Nset, nset=BOTH, instance=Low
 3, FOOT
 *Nset, nset=BOTH, instance=High
@@ -526,6 +530,7 @@ _TOP_S1, S2
 *Step
 *Cload
 BOTH, 1, 2.
+High.1, 1, 2.
 *End Step
 """
 
@@ -543,17 +548,32 @@ def test_a_deck_of_parts_is_that_of_its_instances(tmp_path):
     assert found.mesh.nodes == pytest.approx(np.concatenate([one, other]), abs=1e-12)
     assert found.mesh.blocks[0].nodes.tolist() == [[0, 1, 2, 3], [4, 5, 6, 7]]
     sets = {name: numbers.tolist() for name, numbers in found.mesh.node_sets.items()}
-    assert sets == {"LOW.FOOT": [0, 1], "HIGH.FOOT": [4, 5], "BOTH": [0, 1, 2, 6]}
+    assert sets == {"LOW.FOOT": [0, 1], "HIGH.FOOT": [4, 5], "BOTH": [0, 1, 2, 6], "POINT": []}
     high = found.mesh.blocks[0].numbers[1]
     assert found.mesh.surfaces["TOP"] == [(high, 1)] and found.mesh.surfaces["HIGH.BASE"] == [(high, 0)]
-    assert found.steps[0][0].lines == [["BOTH", "1", "2."]]
+    assert found.steps[0][0].lines == [["BOTH", "1", "2."], [str(found.mesh.node_numbers[4]), "1", "2."]]
 
 
 def test_a_deck_of_one_instance_keeps_the_names_of_its_part(tmp_path):
     first = PARTS.index("*Instance, name=High")
-    single = PARTS[:first] + PARTS[PARTS.index("*Nset, nset=BOTH, instance=Low") :].replace("=High", "=Low")
+    single = PARTS[:first] + PARTS[PARTS.index("*Node\n1, 5.") :].replace("=High", "=Low").replace("High.", "Low.")
     found = read_text(tmp_path / "one.inp", single)
-    assert set(found.mesh.node_sets) == {"FOOT", "BOTH"} and set(found.mesh.surfaces) == {"BASE", "TOP"}
+    assert set(found.mesh.node_sets) == {"LOW.FOOT", "FOOT", "BOTH", "POINT"}
+    assert set(found.mesh.surfaces) == {"LOW.BASE", "BASE", "TOP"}
+    twice = single.replace("nset=BOTH", 'nset="FOOT"')  # a set of the assembly with the name of one of the part
+    found = read_text(tmp_path / "twice.inp", twice)
+    assert found.mesh.node_sets["FOOT"].tolist() == [0, 1, 2] and found.mesh.node_sets["LOW.FOOT"].tolist() == [0, 1]
+
+
+def test_a_mesh_inside_an_instance_is_moved_with_it(tmp_path):
+    """An independent instance, whose part is empty."""
+    end = PARTS.index("*End Part")
+    mesh_lines, head = PARTS[PARTS.index("*Node") : end], "*Heading\n*Part, name=Bar\n"
+    rest = PARTS[end:].replace("part=Bar\n*End", f"part=Bar\n{mesh_lines}*End")
+    rest = rest.replace("1., 90.\n*End", f"1., 90.\n{mesh_lines}*End")
+    one, other = (read_text(tmp_path / "a.inp", text).mesh for text in (PARTS, head + rest))
+    assert np.array_equal(one.nodes, other.nodes) and np.array_equal(one.node_numbers, other.node_numbers)
+    assert one.surfaces == other.surfaces
 
 
 @pytest.mark.parametrize(
@@ -565,6 +585,15 @@ def test_a_deck_of_one_instance_keeps_the_names_of_its_part(tmp_path):
         ("10., 0., 1., 90.", "10., 0., 0., 90.", "the two points of the axis of rotation are the same"),
         ("10., 0., 2.", "10., O., 2.", "O. in *INSTANCE is no number"),
         ("2, 1., 0., 0.", "2, 1., x, 0.", "x in *NODE is no number"),
+        ("name=High", "name=Low", "parts.inp:22: *INSTANCE LOW is given twice"),
+        ("*End Part", "", "parts.inp:2: *PART has no *END PART"),
+        ("*End Part", "*End Part\n*Part, name=Bar\n*End Part", "*PART BAR is given twice"),
+        (
+            PARTS[PARTS.index("*Instance, name=Low") : PARTS.index("*Material")],
+            "",
+            "has parts, but no *INSTANCE of them",
+        ),
+        ("nset=POINT\n1", "nset=POINT\n2", "*NSET has 2, which is no label of the assembly: give instance="),
     ],
 )
 def test_instances_that_make_no_sense_are_named(tmp_path, old, new, text):

@@ -1,8 +1,8 @@
 """Decks with parts and instances, as Abaqus/CAE writes them: flat().
 
 Each instance of a part has labels of nodes and elements of its own, moved by the instance's translation and rotation.
-The flat deck has one range of labels for each instance. Where there are several instances, sets and surfaces of a part
-are named `INSTANCE.NAME`, as in Abaqus; those of the assembly keep their names.
+The flat deck has one range of labels for each instance, and one for the nodes of the assembly. Sets and surfaces of a
+part are named `INSTANCE.NAME`, as in Abaqus; those of the assembly keep their names.
 """
 
 import numpy as np
@@ -11,50 +11,55 @@ from ..errors import Error, short, there_are
 
 SETS = ("NSET", "ELSET", "NAME")  # parameters that name what a part has
 NAMING = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "SOLID SECTION")  # cards that name or use these
-LABELS = 10**8  # range of labels of an instance
+LABELS = 10**12  # range of labels of an instance
 
 
 def flat(cards):
     """The cards of the deck without parts and instances; decks without them as they are."""
-    if not any(card.name == "INSTANCE" for card in cards):
+    if not any(card.name in ("PART", "INSTANCE") for card in cards):
         return cards
-    parts, rest = _split(cards)
-    names = [card.need("NAME").upper() for card in rest if card.name == "INSTANCE"]
-    ranges = {name: LABELS * k for k, name in enumerate(names)}
+    parts, instances, rest = _split(cards)
+    ranges = {name: LABELS * k for k, name in enumerate(instances)}
     found = []
-    for card in rest:
-        if card.name == "INSTANCE":
-            part = card.need("PART").upper()
-            if part not in parts:
-                raise Error(f"{card.place}: no part {short(part)}{there_are(part, sorted(parts))}")
-            name = card.need("NAME").upper()
-            prefix = name + "." if len(names) > 1 else ""
-            move = _motion(card)
-            found += [_instance(one, ranges[name], prefix, move) for one in parts[part]]
-        elif card.parameters.get("INSTANCE"):
-            name = card.parameters["INSTANCE"].upper()
-            if name not in ranges:
-                raise Error(f"{card.place}: no instance {short(name)}{there_are(name, names)}")
-            prefix = name + "." if len(names) > 1 else ""
-            found.append(_relabelled(card, ranges[name], prefix))
-        else:
-            found.append(card)
-    return found
+    for name, (head, own) in instances.items():
+        part = head.need("PART").upper()
+        if part not in parts:
+            raise Error(f"{head.place}: no part {short(part)}{there_are(part, sorted(parts))}")
+        move = _motion(head)
+        found += [_instance(card, ranges[name], name + ".", move) for card in parts[part] + own]
+    own = {words[0] for card in rest if card.name in ("NODE", "ELEMENT") for words in card.lines if words}
+    return found + [_of_assembly(card, ranges, own) for card in rest]
 
 
 def _split(cards):
-    """The cards of each part, by its name, and those outside of parts."""
-    parts, rest, inside = {}, [], None
+    """The cards of each part by its name, each instance with the cards inside it, and the cards outside of both."""
+    parts, instances, rest, inside, head = {}, {}, [], None, None
     for card in cards:
-        if card.name == "PART":
-            inside = parts.setdefault(card.need("NAME").upper(), [])
-        elif card.name == "END PART":
+        if card.name in ("END PART", "END INSTANCE"):
             inside = None
-        elif inside is not None:
-            inside.append(card)
+        elif card.name in ("PART", "INSTANCE", "ASSEMBLY", "STEP"):
+            if inside is not None:
+                raise Error(f"{head.place}: *{head.name} has no *END {head.name}")
+            if card.name in ("PART", "INSTANCE"):
+                head, inside = card, []
+                _add(parts if card.name == "PART" else instances, card, inside)
+            else:
+                rest.append(card)
         else:
-            rest.append(card)
-    return parts, rest
+            (rest if inside is None else inside).append(card)
+    if inside is not None:
+        raise Error(f"{head.place}: *{head.name} has no *END {head.name}")
+    if not instances:
+        raise Error(f"{cards[0].place.rpartition(':')[0]}: has parts, but no *INSTANCE of them")
+    return parts, instances, rest
+
+
+def _add(known, card, inside):
+    """Adds a part or an instance, whose name must be new."""
+    name = card.need("NAME").upper()
+    if name in known:
+        raise Error(f"{card.place}: *{card.name} {short(name)} is given twice")
+    known[name] = inside if card.name == "PART" else (card, inside)
 
 
 def _instance(card, first, prefix, move):
@@ -68,6 +73,27 @@ def _instance(card, first, prefix, move):
     if card.name == "NODE":
         found.lines = [[words[0], *move(card, words[1:])] for words in found.lines]
     return found
+
+
+def _of_assembly(card, ranges, own):
+    """A card outside of all instances, which may name one (instance=), or its labels as INSTANCE.LABEL; own: labels of
+    the assembly, those of reference points."""
+    if card.parameters.get("INSTANCE"):
+        name = card.parameters["INSTANCE"].upper()
+        if name not in ranges:
+            raise Error(f"{card.place}: no instance {short(name)}{there_are(name, list(ranges))}")
+        return _relabelled(card, ranges[name], name + ".")
+    if card.name in NAMING:
+        for word in (word for words in card.lines for word in words[: 1 if "GENERATE" in card.parameters else None]):
+            if card.name in ("NSET", "ELSET") and word.isdecimal() and word not in own:
+                raise Error(f"{card.place}: *{card.name} has {word}, which is no label of the assembly: give instance=")
+        card = _relabelled(card, LABELS * len(ranges), "")
+
+    def label(word):
+        name, _, number = word.rpartition(".")
+        return str(ranges[name.upper()] + int(number)) if name.upper() in ranges and number.isdecimal() else word
+
+    return type(card)(card.name, card.parameters, card.place, [[*map(label, words)] for words in card.lines])
 
 
 def _relabelled(card, first, prefix):

@@ -64,11 +64,11 @@ def cards(path, depth=0):
                 continue
             if not line.startswith("*"):
                 if found:
-                    found[-1].lines.append([word.strip() for word in line.split(",")])
+                    found[-1].lines.append([word.strip().strip('"') for word in line.split(",")])
                 continue
             name, *words = [word.strip() for word in line[1:].split(",")]
             pairs = [word.partition("=") for word in words if word]
-            parameters = {key.strip().upper(): value.strip() for key, _, value in pairs}
+            parameters = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
             card = Card(" ".join(name.upper().split()), parameters, f"{path}:{number}")
             if card.name == "INCLUDE":
                 inner = os.path.join(os.path.dirname(path), card.need("INPUT").strip('"'))
@@ -88,6 +88,15 @@ def _value(card, word, kind=float):
     return value
 
 
+def _shorten(sets):
+    """Names of one instance only, INSTANCE.NAME, are known as NAME as well, unless the assembly has this name."""
+    short_names = [name.partition(".")[2] for name in sets]
+    for name in [name for name in sets if name.partition(".")[2]]:
+        one = name.partition(".")[2]
+        if one not in sets and short_names.count(one) == 1:
+            sets[one] = sets[name]
+
+
 class Reader:
     """Gathers a deck, card by card."""
 
@@ -99,6 +108,8 @@ class Reader:
         self._material, self._in_step = None, False
         for card in flat(cards(path)):
             self._take(card)
+        for sets in (self.node_sets, self.element_sets, self.surfaces):
+            _shorten(sets)
 
     def _take(self, card):
         if card.name in UNSUPPORTED:

@@ -422,7 +422,7 @@ class Structure:
             if self.iterations[-1] == most:
                 raise NoSolution(
                     f"patches and structure found no equilibrium in {most} iterations, error {size:.2g}, limit "
-                    f"{TOLERANCE:g}: use more steps"
+                    f"{TOLERANCE:g}: use more steps, or smaller loads if the contacts slide as a whole"
                 )
             if size > SLOW * last:
                 response = self.response_of(self._slope(stiff))
@@ -451,9 +451,9 @@ class Structure:
             soft = np.where(self.by_load, own, 1.0 / own)  # compliance of each coordinate of the contacts
             stiff = 1.0 / (soft + np.abs(np.diag(self.coupling)))
         moved, forces = np.split(error, [z.size])
-        energy = stiff @ moved**2 + np.sum(forces**2 / (stiff @ self.rigid**2))
-        whole = np.abs(z) @ np.abs(loads)
-        return float(np.sqrt(energy / whole)) if whole else 0.0
+        held = stiff @ self.rigid**2
+        energy = stiff @ moved**2 + np.sum(np.where(forces == 0.0, 0.0, forces**2 / np.where(held > 0.0, held, 1e-300)))
+        return np.sqrt(_part(energy, np.abs(z) @ np.abs(loads)))
 
     def _error(self, z, a, loads, driven, free):
         moved = z - driven - self.coupling @ loads - self.rigid @ a
@@ -463,8 +463,13 @@ class Structure:
 def _work(error, scale):
     """The work of the errors of coordinates and of equilibrium, relative to that of the loads."""
     z, loads, a = (np.abs(one) for one in scale)
-    whole = z @ loads
-    return float(np.abs(error) @ np.concatenate([loads, a]) / whole) if whole else 0.0
+    wrong = np.abs(error) @ np.concatenate([loads, a])
+    return _part(wrong, z @ loads) if z @ loads else _part(np.abs(error).max(initial=0.0), 0.0)
+
+
+def _part(value, whole):
+    """A number relative to another one; of 0 all but 0 is infinite."""
+    return float(value / whole) if whole else np.inf if value else 0.0
 
 
 def _solved(matrix, right, fails="structure and sticking contacts leave a motion without stiffness: support it"):
