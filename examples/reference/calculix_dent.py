@@ -108,7 +108,7 @@ def means(rows, column):
     return numbers, np.bincount(at, rows[:, column]) / np.bincount(at)
 
 
-def answers(size=3e-3, steps=8):
+def answers(size=3e-3, steps=24):
     """The numbers by elements of `size` at the contact.
 
     The place of the sphere under 20 N is found from a run of few steps; beyond FAR the displacement of a point force is
