@@ -93,12 +93,17 @@ def read(text):
     return list(steps.values())
 
 
+def run(folder):
+    """Runs case.inp in a folder."""
+    done = subprocess.run(["ccx", "case"], cwd=folder, capture_output=True, text=True)
+    if "Job finished" not in done.stdout:
+        raise SystemExit(f"ccx: {done.stdout[-500:]}")
+
+
 def solve(lines, places):
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "case.inp").write_text(deck(lines, places), encoding="ascii")
-        done = subprocess.run(["ccx", "case"], cwd=folder, capture_output=True, text=True)
-        if "Job finished" not in done.stdout:
-            raise RuntimeError(f"ccx: {done.stdout[-500:]}")
+        run(folder)
         return read(Path(folder, "case.dat").read_text(encoding="ascii"))
 
 

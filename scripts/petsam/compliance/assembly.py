@@ -8,6 +8,7 @@ part are named `INSTANCE.NAME`, as in Abaqus; those of the assembly keep their n
 import numpy as np
 
 from ..errors import Error, short, there_are
+from .cards import Card, number_of
 
 SETS = ("NSET", "ELSET", "NAME")  # parameters that name what a part has
 NAMING = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "SOLID SECTION")  # cards that name or use these
@@ -93,7 +94,7 @@ def _of_assembly(card, ranges, own):
         name, _, number = word.rpartition(".")
         return str(ranges[name.upper()] + int(number)) if name.upper() in ranges and number.isdecimal() else word
 
-    return type(card)(card.name, card.parameters, card.place, [[*map(label, words)] for words in card.lines])
+    return Card(card.name, card.parameters, card.place, [[*map(label, words)] for words in card.lines])
 
 
 def _relabelled(card, first, prefix):
@@ -108,14 +109,14 @@ def _relabelled(card, first, prefix):
     for words in card.lines:
         count = 2 if generated else counts.get(card.name, len(words))
         lines.append([*map(label, words[:count]), *words[count:]])
-    return type(card)(card.name, dict(card.parameters), card.place, lines)
+    return Card(card.name, dict(card.parameters), card.place, lines)
 
 
 def _motion(card):
     """The function (card, words) that moves the coordinates of a node as the instance: its first data line is the
     translation, its second one two points of an axis and an angle in degrees, about which it is turned afterwards."""
     lines = [[word for word in words if word] for words in card.lines]
-    numbers = [np.array([_number(card, word) for word in words]) for words in lines]
+    numbers = [np.array([number_of(card, word) for word in words]) for words in lines]
     if len(numbers) > 2 or any(len(one) != count for one, count in zip(numbers, (3, 7))):
         raise Error(
             f"{card.place}: *INSTANCE: expected a line of 3 numbers, the translation, and one of 7, the rotation"
@@ -134,14 +135,7 @@ def _motion(card):
         words = [word for word in words if word]
         if len(words) < 2:
             return words  # the reader of the flat deck has a message
-        at = np.array([_number(node, word) for word in (words + ["0."])[:3]])
+        at = np.array([number_of(node, word) for word in (words + ["0."])[:3]])
         return [repr(float(value)) for value in start + turn @ (at + shift - start)]
 
     return move
-
-
-def _number(card, word):
-    try:
-        return float(word.replace("D", "E").replace("d", "e"))
-    except ValueError:
-        raise Error(f"{card.place}: {short(word)} in *{card.name} is no number") from None

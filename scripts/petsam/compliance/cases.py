@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import Error, short
+from .cards import number_of
 from .checks import deviation
-from .deck import UNSUPPORTED_LOADS, _value
+from .deck import UNSUPPORTED_LOADS
 from .images import FLAT
 from .remainder import scatter
 
@@ -47,14 +48,14 @@ class Loads:
     def _nodes(self, card, word):
         if word.upper() in self.mesh.node_sets:
             return self.mesh.node_sets[word.upper()]
-        number = _value(card, word, int)
+        number = number_of(card, word, int)
         index = np.searchsorted(self.mesh.node_numbers, number)
         if index == len(self.mesh.node_numbers) or self.mesh.node_numbers[index] != number:
             raise Error(f"{card.place}: no node {number} in the mesh")
         return np.array([index])
 
     def _direction(self, card, word):
-        direction = _value(card, word, int)
+        direction = number_of(card, word, int)
         if not 1 <= direction <= 3:
             raise Error(f"{card.place}: direction {direction}: use 1 to 3")
         return self.frame.axes[:, direction - 1]
@@ -62,16 +63,16 @@ class Loads:
     def cload(self, card):
         """Forces on nodes."""
         for words in card.lines:
-            vector = self._direction(card, words[1]) * _value(card, words[2]) * self.units.force
+            vector = self._direction(card, words[1]) * number_of(card, words[2]) * self.units.force
             self.force.reshape(-1, 3)[self._nodes(card, words[0])] += vector
 
     def boundary(self, card):
         """Displacements of nodes."""
         for words in card.lines:
             nodes = self._nodes(card, words[0])
-            first = _value(card, words[1], int)
-            last = _value(card, words[2], int) if len(words) > 2 and words[2] else first
-            value = _value(card, words[3]) if len(words) > 3 and words[3] else 0.0
+            first = number_of(card, words[1], int)
+            last = number_of(card, words[2], int) if len(words) > 2 and words[2] else first
+            value = number_of(card, words[3]) if len(words) > 3 and words[3] else 0.0
             self.prescribed.reshape(-1, 3)[nodes] = True
             for direction in range(first, last + 1):
                 self.moved.reshape(-1, 3)[nodes] += self._direction(card, str(direction)) * value * self.units.length
@@ -81,7 +82,7 @@ class Loads:
         for words in card.lines:
             if len(words) < 3 or words[1][:1].upper() != "P" or not words[1][1:].isdecimal():
                 raise Error(f"{card.place}: {short(', '.join(words))}: only pressure P1 to P6 is supported")
-            self._pressure(self.deck.faces(card, words), _value(card, words[2]))
+            self._pressure(self.deck.faces(card, words), number_of(card, words[2]))
 
     def dsload(self, card):
         """Pressure on a surface."""
@@ -89,7 +90,7 @@ class Loads:
             name = words[0].upper()
             if name not in self.mesh.surfaces or len(words) < 3 or words[1].upper() != "P":
                 raise Error(f"{card.place}: {short(', '.join(words))}: expected `surface, P, value`")
-            self._pressure(self.mesh.surfaces[name], _value(card, words[2]))
+            self._pressure(self.mesh.surfaces[name], number_of(card, words[2]))
 
     def _pressure(self, faces, value):
         loaded = type(self.mesh)(self.mesh.nodes, self.mesh.blocks, surfaces={"": faces})

@@ -1,18 +1,16 @@
 """Reading a deck of CalculiX or Abaqus (.inp): nodes, solid elements, sets, surfaces, elastic materials, loads of its
 steps."""
 
-import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import Error, short, there_are
-from ..files import need_regular
 from .assembly import flat
+from .cards import number_of, read_cards
 from .mesh import Block, Mesh
 from .shapes import KINDS, SHAPES
 
-DEPTH = 10  # depth of files that include files
 # keywords that change the stiffness or the meaning of directions, which are not supported
 UNSUPPORTED = (
     "BEAM SECTION", "COUPLING", "CYCLIC SYMMETRY MODEL", "DASHPOT", "DISTRIBUTING COUPLING", "EQUATION", "GAP",
@@ -21,22 +19,6 @@ UNSUPPORTED = (
 )  # fmt: skip
 LOADS = ("CLOAD", "DLOAD", "DSLOAD", "BOUNDARY")
 UNSUPPORTED_LOADS = ("TEMPERATURE", "CFLUX", "DFLUX", "CHANGE CONTACT PAIR", "MODEL CHANGE")
-
-
-@dataclass
-class Card:
-    """A keyword with its parameters and data lines."""
-
-    name: str
-    parameters: dict
-    place: str
-    lines: list = field(default_factory=list)
-
-    def need(self, name):
-        """Returns a parameter that must exist."""
-        if not self.parameters.get(name):
-            raise Error(f"{self.place}: *{self.name} has no {name}=")
-        return self.parameters[name]
 
 
 @dataclass
@@ -49,43 +31,6 @@ class Deck:
     steps: list
     supports: list
     weightless: list
-
-
-def cards(path, depth=0):
-    """Returns the deck's cards, with included files in their places."""
-    if depth > DEPTH:
-        raise Error(f"{path}: decks include each other more than {DEPTH} deep")
-    need_regular(path)
-    found = []
-    with open(path, encoding="utf-8", errors="replace") as file:
-        for number, line in enumerate(file, 1):
-            line = line.strip()
-            if not line or line.startswith("**"):
-                continue
-            if not line.startswith("*"):
-                if found:
-                    found[-1].lines.append([word.strip().strip('"') for word in line.split(",")])
-                continue
-            name, *words = [word.strip() for word in line[1:].split(",")]
-            pairs = [word.partition("=") for word in words if word]
-            parameters = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
-            card = Card(" ".join(name.upper().split()), parameters, f"{path}:{number}")
-            if card.name == "INCLUDE":
-                inner = os.path.join(os.path.dirname(path), card.need("INPUT").strip('"'))
-                found += cards(inner, depth + 1)
-            else:
-                found.append(card)
-    return found
-
-
-def _value(card, word, kind=float):
-    try:
-        value = kind(word.replace("D", "E").replace("d", "e") if kind is float else word)
-    except ValueError:
-        raise Error(f"{card.place}: {short(word)} in *{card.name} is no number") from None
-    if kind is float and not np.isfinite(value):
-        raise Error(f"{card.place}: {short(word)} in *{card.name} is not finite")
-    return value
 
 
 def _shorten(sets):
@@ -106,7 +51,7 @@ class Reader:
         self.node_sets, self.element_sets, self.surfaces = {}, {}, {}
         self.materials, self.densities, self.sections, self.steps, self.supports = {}, {}, [], [], []
         self._material, self._in_step = None, False
-        for card in flat(cards(path)):
+        for card in flat(read_cards(path)):
             self._take(card)
         for sets in (self.node_sets, self.element_sets, self.surfaces):
             _shorten(sets)
@@ -136,8 +81,8 @@ class Reader:
             words = [word for word in words if word]
             if len(words) < 3:
                 raise Error(f"{card.place}: a node has {len(words) - 1} coordinates: give three")
-            numbers.append(_value(card, words[0], int))
-            self.nodes[numbers[-1]] = [_value(card, word) for word in (words[1:] + ["0."])[:3]]
+            numbers.append(number_of(card, words[0], int))
+            self.nodes[numbers[-1]] = [number_of(card, word) for word in (words[1:] + ["0."])[:3]]
         self._add(self.node_sets, card.parameters.get("NSET"), numbers)
 
     def take_element(self, card):
@@ -145,7 +90,7 @@ class Reader:
         if kind not in KINDS:
             raise Error(f"{card.place}: elements of type {short(kind)} are not supported; use {', '.join(KINDS)}")
         count = len(SHAPES[KINDS[kind]].family.nodes) + 1
-        words = [_value(card, word, int) for line in card.lines for word in line if word]
+        words = [number_of(card, word, int) for line in card.lines for word in line if word]
         if len(words) % count:
             raise Error(f"{card.place}: elements of type {kind} need {count - 1} nodes each")
         table = np.array(words).reshape(-1, count)
@@ -162,11 +107,11 @@ class Reader:
         for words in card.lines:
             words = [word for word in words if word]
             if generate:
-                first, last, *stride = [_value(card, word, int) for word in words]
+                first, last, *stride = [number_of(card, word, int) for word in words]
                 numbers += range(first, last + 1, *(stride or [1]))
                 continue
             for word in words:
-                numbers += sets[word.upper()] if word.upper() in sets else [_value(card, word, int)]
+                numbers += sets[word.upper()] if word.upper() in sets else [number_of(card, word, int)]
         return numbers
 
     def take_nset(self, card):
@@ -181,7 +126,7 @@ class Reader:
         if len(words) < 2 or words[1][:1].upper() not in ("S", "P") or not words[1][1:].isdecimal():
             raise Error(f"{card.place}: expected `element or set, S1` to S6: only element surfaces are supported")
         name = words[0].upper()
-        elements = self.element_sets[name] if name in self.element_sets else [_value(card, words[0], int)]
+        elements = self.element_sets[name] if name in self.element_sets else [number_of(card, words[0], int)]
         return [(element, int(words[1][1:]) - 1) for element in elements]
 
     def take_surface(self, card):
@@ -200,7 +145,7 @@ class Reader:
             raise Error(f"{card.place}: *ELASTIC needs E and nu")
         if len(card.lines) > 1:
             raise Error(f"{card.place}: *ELASTIC depends on the temperature: give one line, E and nu")
-        young, poisson = (_value(card, word) for word in words[:2])
+        young, poisson = (number_of(card, word) for word in words[:2])
         if not (young > 0.0 and -1.0 < poisson < 0.5):
             raise Error(f"{card.place}: E = {young:g}, nu = {poisson:g}: use E > 0 and -1 < nu < 0.5")
         self.materials[self._material] = (young, poisson)
@@ -209,7 +154,7 @@ class Reader:
         words = [word for word in card.lines[0] if word] if card.lines else []
         if len(words) != 1 or len(card.lines) > 1:
             raise Error(f"{card.place}: *DENSITY needs one value, which does not depend on the temperature")
-        density = _value(card, words[0])
+        density = number_of(card, words[0])
         if not density > 0.0:
             raise Error(f"{card.place}: density {density:g}: use a value above 0")
         self.densities[self._material] = density

@@ -463,8 +463,8 @@ class Structure:
 def _work(error, scale):
     """The work of the errors of coordinates and of equilibrium, relative to that of the loads."""
     z, loads, a = (np.abs(one) for one in scale)
-    wrong = np.abs(error) @ np.concatenate([loads, a])
-    return _part(wrong, z @ loads) if z @ loads else _part(np.abs(error).max(initial=0.0), 0.0)
+    whole = z @ loads
+    return _part(np.abs(error) @ np.concatenate([loads, a]) if whole else np.abs(error).max(initial=0.0), whole)
 
 
 def _part(value, whole):
