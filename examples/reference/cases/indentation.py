@@ -91,13 +91,13 @@ def evidence():
 
     def ours(k):
         n = 32 * 2**k
-        return over_places(lambda f: numbers(solve(n, 4 * 2**k, n // 2, f)), CONTACT * n / WIDTH)
+        return over_places(lambda f: numbers(solve(n, 8 * 2**k, n // 2, f)), CONTACT * n / WIDTH)
 
     def others(k):
         return over_places(lambda f: elements(k, 4 * 2**k, f)[0], CONTACT * 2**k / ELEMENT)
 
     ways = {
-        "petsam, 32, 64, 128 cells, 16, 32, 64 layers, 4, 8, 16 load steps, means of four widths": [
+        "petsam, 32, 64, 128 cells, 16, 32, 64 layers, 8, 16, 32 load steps, means of four widths": [
             *map(ours, range(3))
         ],
         "axisymmetric elements of 12 to 1.5 um, 4 to 32 load steps, means of four widths": [*map(others, range(4))],
