@@ -269,17 +269,33 @@ def test_no_write_of_a_step_harms_the_steps_before(deadly, folder):
     HDF5 writes some hundred pieces a step; a run that is killed before any of them leaves the steps that were told.
     """
     (folder / "history.csv").write_text("\n".join((folder / "history.csv").read_text().splitlines()[:69]) + "\n")
-    die(deadly, folder, DIE_LOG="log")
+    each = dict(output_flush=0)  # steps of a millisecond would be written together
+    die(deadly, folder, each, DIE_LOG="log")
     # the superblock is the last that HDF5 writes of a step
     ends = [k for k, line in enumerate((folder / "log").read_text().split(), 1) if line == "0"][-68:]
     for step, stride in ((66, 4), (31, 9)):
         for n in range(ends[step - 2] + 1, ends[step - 1] + 3, stride):
-            steps, code = die(deadly, folder, DIE_AT=str(n))
+            steps, code = die(deadly, folder, each, DIE_AT=str(n))
             assert code == -signal.SIGKILL and steps >= step - 2
             with h5py.File(folder / "out" / "out.h5") as f:  # all that is there can be read
                 for name in (*FIELDS, "time", *(f"history/{column}" for column in f["history"])):
                     assert len(f[name][:]) >= steps, (n, name)
             assert_intact(folder / "out" / "out.h5", steps)
+
+
+def test_no_write_of_many_steps_harms_the_steps_before(deadly, folder):
+    """Steps that take a millisecond are written together; only those in the file have been told."""
+    (folder / "history.csv").write_text("\n".join((folder / "history.csv").read_text().splitlines()[:300]) + "\n")
+    options, most = dict(grid_n=10), 0
+    die(deadly, folder, options, DIE_LOG="log")
+    writes = len((folder / "log").read_text().split())
+    for n in range(writes // 4, writes, max(1, writes // 20)):
+        steps, code = die(deadly, folder, options, DIE_AT=str(n))
+        if code == 0 or not steps:
+            continue
+        most = max(most, steps)
+        assert_intact(folder / "out" / "out.h5", steps)
+    assert most >= 2
 
 
 @pytest.mark.parametrize("more", [dict(output_fields="none"), dict(output_every=1000)], ids=["none", "later"])

@@ -167,12 +167,45 @@ def test_steps_wait_for_no_checkpoint(tmp_path, petsam):
     assert not differences(tmp_path / "out.h5", tmp_path / "whole.h5")
 
 
+@pytest.mark.parametrize("every", [70, 1], ids=["few fields", "all fields"])
 @pytest.mark.parametrize("ranks", [1, 2])
-def test_waiting_changes_no_value(tmp_path, petsam, ranks):
-    write_history(tmp_path, 300)
-    case = dict(CASE, grid_n=16, output_every=70, stiffness=True)
+def test_waiting_changes_no_value(tmp_path, petsam, ranks, every):
+    write_history(tmp_path, 300 if every > 1 else 40)
+    case = dict(
+        CASE,
+        grid_n=16,
+        output_every=every,
+        stiffness=True,
+        output_fields="all",
+        output_single="true" if every == 1 else "false",
+    )
     petsam(case, dict(output_flush=0, output="at_once.h5"))
     petsam(case, dict(output_flush=1000), ranks=ranks)
+    assert not differences(tmp_path / "out.h5", tmp_path / "at_once.h5")
+
+
+def test_steps_with_fields_are_written_together(tmp_path, petsam):
+    """Steps of a row of cells, which take less time than to write them; none is told before it is in the file."""
+    rows = "".join(f"{k + 1},1e5,{8e3 * np.sin(k / 20):.9g}\n" for k in range(600))
+    (tmp_path / "history.csv").write_text("time,load_n,load_tx\n" + rows)
+    case = dict(CASE, elasticity="plane", gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=0.1)
+    case.update(gap_radius_y="inf", grid_n=64, grid_size=5e-3)
+    run = conftest.start([], tmp_path, [case])
+    steps = []
+    for line in run.stdout:
+        if found := re.match(r" *(\d+) +\S+ +\S+ +\S+ ", line):
+            steps.append(int(found[1]))
+        if len(steps) == 200:
+            break
+    run.send_signal(signal.SIGSTOP)
+    told = len(steps)
+    with h5py.File(tmp_path / "out.h5", locking=False) as f:
+        written = min(len(f[name]) for name in ("time", "pressure", "shear_x", "history/load_tx"))
+        assert written >= told and np.array_equal(f["time"][:told], np.arange(told) + 1.0)
+    run.send_signal(signal.SIGCONT)
+    run.communicate()
+    assert run.returncode == 0
+    petsam(case, dict(output="at_once.h5", output_flush=0))
     assert not differences(tmp_path / "out.h5", tmp_path / "at_once.h5")
 
 

@@ -20,11 +20,12 @@ typedef struct {
   PetscInt    compress;                               /* deflate level of the fields, 0 (none) to 9 */
   PetscInt    chunk[2];                               /* most cells of an HDF5 chunk in x, y */
   PetscBool   single;                                 /* true: fields of cells are in single precision */
-  PetscBool   sums;        /* true: sums over the steps begin if `names` has them: SamOutputSettingsAddLaws() */
-  PetscReal   flush;       /* longest time that steps without fields wait to be written together, s; 0: none */
-  SamContact  contact;     /* contact whose state gives the fields and /history; borrowed */
-  SamState    cycles;      /* state whose numbers give a second series; borrowed */
-  const char *cycles_name; /* group of the second series; borrowed; NULL: none */
+  PetscBool   sums;         /* true: sums over the steps begin if `names` has them: SamOutputSettingsAddLaws() */
+  PetscReal   flush;        /* longest time that steps without fields wait to be written together, s; 0: none */
+  PetscReal   flush_fields; /* the same of steps with fields; they wait while each takes less than a fiftieth of it */
+  SamContact  contact;      /* contact whose state gives the fields and /history; borrowed */
+  SamState    cycles;       /* state whose numbers give a second series; borrowed */
+  const char *cycles_name;  /* group of the second series; borrowed; NULL: none */
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (the usual fields, no compression, chunks of 1024 x 256 cells,
@@ -61,8 +62,8 @@ PETSC_INTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
 /*
   SamOutputWriteStep - appends the numbers of the contact's state (SamStateReadNumbers()) to /history and, with
   `fields`, the time and the fields. The file is then complete up to this step, whatever happens later. If the settings
-  allow it (`flush`), steps without fields first wait in memory, since many are written in the time of one: for the time
-  `flush`, which is checked as more steps are written, or until they fill a chunk. Collective. Errors: SAM_ERR_FILE,
+  allow it (`flush`), steps first wait in memory, since many are written in the time of one: for that time, which is
+  checked as more steps are written, or until they fill a chunk or, with fields, 8 MB. Collective. Errors: SAM_ERR_FILE,
   also if another program has replaced the file, or changed its size, since it was written last. If the disk is full,
   nothing is written and the file can be closed. If writing fails in the middle of a step, the file cannot be closed:
   SamOutputDestroy() then leaves it open, and the program should end with MPI_Abort(), since HDF5 would try to close the
@@ -71,6 +72,8 @@ PETSC_INTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
 */
 PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, PetscBool fields);
 PETSC_EXTERN PetscErrorCode SamOutputFlush(SamOutput output);
+/* SamOutputWaits - returns true if fields wait to be written. Not collective. */
+PETSC_INTERN PetscBool SamOutputWaits(SamOutput output);
 /*
   SamOutputWriteFields - appends only the fields of a step whose numbers are already in the file; `time` (s) is that of
   the step. All else is as in SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE.

@@ -74,6 +74,7 @@ typedef struct {
   const SamSlip            *slip;
   const SamGridCheck       *check;
   const char               *text, *setting;
+  PetscBool                 waits; /* the step will be written to the results together with a later one */
 } SamSimulationEvent;
 
 /*

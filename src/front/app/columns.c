@@ -49,6 +49,29 @@ void SamReportSeconds(double seconds, SamReportCell cell)
   (void)snprintf(cell, sizeof(SamReportCell), "%.*f", seconds < 1000 ? 2 : 0, seconds);
 }
 
+/* Adds a line to those that wait to be printed. */
+static PetscErrorCode Hold(SamReport r, const char line[])
+{
+  const size_t size = strlen(line) + 1;
+
+  PetscFunctionBegin;
+  if (r->held_length + size > r->held_size) {
+    r->held_size = 2 * (r->held_length + size);
+    PetscCall(PetscRealloc(r->held_size, &r->held));
+  }
+  PetscCall(PetscArraycpy(r->held + r->held_length, line, size));
+  r->held_length += size - 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportPrintHeld(SamReport r)
+{
+  PetscFunctionBegin;
+  if (r->held_length) PetscCall(PetscPrintf(r->comm, "%s", r->held));
+  r->held_length = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamReportLine(SamReport r, PetscInt count, const SamReportColumn columns[], SamReportCell cells[])
 {
   char   line[512];
@@ -57,6 +80,8 @@ PetscErrorCode SamReportLine(SamReport r, PetscInt count, const SamReportColumn 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < count; k++)
     if (cells[k][0]) used += (size_t)snprintf(line + used, sizeof(line) - used, "%*s", columns[k].width, cells[k]);
-  PetscCall(PetscPrintf(r->comm, "%s\n", line));
+  PetscCall(PetscStrlcat(line, "\n", sizeof(line)));
+  PetscCall(Hold(r, line));
+  if (!r->holds) PetscCall(SamReportPrintHeld(r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -57,6 +57,7 @@ PetscErrorCode SamReportDestroy(SamReport *report)
     PetscCall(PetscFree((*report)->name[k]));
     PetscCall(PetscFree((*report)->content[k]));
   }
+  PetscCall(PetscFree((*report)->held));
   PetscCall(PetscFree(*report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -365,6 +366,7 @@ static PetscErrorCode Say(SamReport r, const SamSimulationEvent *news)
 {
   PetscFunctionBegin;
   SamProgressErase(r);
+  PetscCall(SamReportPrintHeld(r));
   if (news->kind == SAM_NOTIFY_MESSAGE)
     PrintMessage(r, news->text, news->result);
   else if (news->kind == SAM_NOTIFY_ADVICE)
@@ -396,6 +398,7 @@ static PetscErrorCode PrintGridCheck(SamReport r, const SamGridCheck *check)
 PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulationEvent *news)
 {
   PetscFunctionBegin;
+  r->holds = news->waits;
   switch (news->kind) {
   case SAM_NOTIFY_BEGIN:
     break;

@@ -68,6 +68,10 @@ struct _n_SamReport {
   PetscInt       extent_step; /* from 1; 0: unknown */
   SamSlip        slip;        /* of all steps; unknown without steps */
   PetscBool      edge_told;   /* true once a contact at the grid's edge, which is allowed, has been reported */
+  /* lines of steps that are not in the results yet */
+  PetscBool holds; /* lines wait */
+  char     *held;
+  size_t    held_length, held_size;
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;
@@ -109,11 +113,13 @@ PETSC_INTERN double SamReportNumber(SamState state, const char name[]);
   SamReportHeading - writes the heading of a column, with the unit that its number has on the grid.
   SamReportValue - writes a number, with fewer digits where the column is too narrow for them and a space.
   SamReportSeconds - writes seconds, as an integer from 1000 on.
-  SamReportLine - prints the cells of a line except empty ones. Collective.
+  SamReportLine - prints the cells of a line except empty ones, after those that wait; while lines wait, it waits, too.
+  SamReportPrintHeld - prints the lines that wait. Both are collective.
 */
 PETSC_INTERN void SamReportHeading(SamGrid grid, SamState state, const SamReportColumn *column, SamReportCell cell);
 PETSC_INTERN void SamReportValue(const SamReportColumn *column, double value, SamReportCell cell);
 PETSC_INTERN void SamReportSeconds(double seconds, SamReportCell cell);
+PETSC_INTERN PetscErrorCode SamReportPrintHeld(SamReport report);
 PETSC_INTERN PetscErrorCode SamReportLine(SamReport report, PetscInt count, const SamReportColumn columns[],
                                           SamReportCell cells[]);
 /* Prints a step as a line, the first below the heading; `left`: estimated time (s) of the other steps. Collective. */

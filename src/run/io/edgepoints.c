@@ -44,7 +44,7 @@ hid_t SamOutputCreatePoints(SamOutput o, const SamLabel *label)
   return SamFileCreateDataset(o->f, o->f->id, label, H5T_IEEE_F64LE, &shape, 0);
 }
 
-PetscErrorCode SamOutputGatherPoints(SamOutput o, const SamEdge *edge)
+PetscErrorCode SamOutputGatherPoints(SamOutput o, const SamEdge *edge, SamOutputPoints *points)
 {
   double  *own;
   PetscInt total;
@@ -55,30 +55,38 @@ PetscErrorCode SamOutputGatherPoints(SamOutput o, const SamEdge *edge)
     own[2 * k]     = (double)edge->x[k];
     own[2 * k + 1] = (double)edge->y[k];
   }
-  PetscCall(PetscFree(o->points.xy));
-  PetscCall(SamGather(o->f->comm, MPI_DOUBLE, 2 * edge->count, own, &total, &o->points.xy));
-  o->points.count = (hsize_t)total / 2;
+  PetscCall(SamGather(o->f->comm, MPI_DOUBLE, 2 * edge->count, own, &total, &points->xy));
+  points->count = (hsize_t)total / 2;
   PetscCall(PetscFree(own));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the block of the first `count` points of a step; only rank 0 transfers any. */
-static SamBlock BlockOf(SamOutput o, hsize_t step, hsize_t count)
+/* Puts the points of steps side by side, each step filled up with NaN to `most` points. Only rank 0 has any. */
+static void Align(SamOutput o, hsize_t count, hsize_t most, const SamOutputPoints points[], double xy[])
 {
-  return (SamBlock){3, {step, 0, 0}, {1, o->f->rank ? 0 : count, 2}};
+  for (hsize_t k = 0; k < count && o->f->rank == 0; k++)
+    for (hsize_t i = 0; i < 2 * most; i++) xy[2 * most * k + i] = i < 2 * points[k].count ? points[k].xy[i] : NAN;
 }
 
-void SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t step, const SamOutputPoints *points)
+PetscErrorCode SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t count, const SamOutputPoints points[])
 {
-  const SamBlock block = BlockOf(o, step, points->count);
-  hsize_t        size[3], scale[1];
+  hsize_t  most = 0, size[3], scale[1];
+  SamBlock block;
+  double  *xy;
 
+  PetscFunctionBegin;
+  for (hsize_t k = 0; k < count; k++) most = PetscMax(most, points[k].count);
+  PetscCall(PetscMalloc1(2 * most * count, &xy));
+  Align(o, count, most, points, xy);
   (void)SamFileGetSize(o->f, dataset, 3, size);
-  size[0] = step + 1;
-  size[1] = PetscMax(size[1], points->count);
+  size[0] = o->saved + count;
+  size[1] = PetscMax(size[1], most);
   size[2] = 2;
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
   (void)SamFileGetSize(o->f, o->point, 1, scale); /* as long as the longest edge */
   if (scale[0] < size[1]) (void)SamFileNote(o->f, H5Dset_extent(o->point, &size[1]));
-  SamFileWriteBlock(o->f, dataset, H5T_NATIVE_DOUBLE, &block, points->xy);
+  block = (SamBlock){3, {o->saved, 0, 0}, {count, o->f->rank ? 0 : most, 2}};
+  SamFileWriteBlock(o->f, dataset, H5T_NATIVE_DOUBLE, &block, xy);
+  PetscCall(PetscFree(xy));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

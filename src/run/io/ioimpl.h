@@ -26,8 +26,8 @@ typedef enum { SAM_SERIES_HISTORY, SAM_SERIES_CYCLES, SAM_SERIES } SamSeries;
   functions note their failures. Collective.
   SamOutputCreatePoints - creates their dataset, without a step.
   SamOutputCreatePointScales - creates the scales of all such datasets, which must exist, and attaches them.
-  SamOutputGatherPoints - gathers the points of all ranks in the output, in the order of their rows.
-  SamOutputAppendPoints - writes the points of the next step.
+  SamOutputGatherPoints - gathers the points of all ranks, in the order of their rows; the caller frees xy.
+  SamOutputAppendPoints - writes the points of the next `count` steps.
 */
 typedef struct {
   hsize_t count;
@@ -35,8 +35,31 @@ typedef struct {
 } SamOutputPoints;
 PETSC_INTERN hid_t          SamOutputCreatePoints(SamOutput output, const SamLabel *label);
 PETSC_INTERN void           SamOutputCreatePointScales(SamOutput output);
-PETSC_INTERN PetscErrorCode SamOutputGatherPoints(SamOutput output, const SamEdge *edge);
-PETSC_INTERN void SamOutputAppendPoints(SamOutput output, hid_t dataset, hsize_t step, const SamOutputPoints *points);
+PETSC_INTERN PetscErrorCode SamOutputGatherPoints(SamOutput output, const SamEdge *edge, SamOutputPoints *points);
+PETSC_INTERN PetscErrorCode SamOutputAppendPoints(SamOutput output, hid_t dataset, hsize_t count,
+                                                  const SamOutputPoints points[]);
+
+/* The fields of steps that are not in the file yet (frames.c); NULL where nothing has waited. */
+typedef struct {
+  PetscInt         most, count; /* number of steps that may wait, 1: each is written at once; number that wait */
+  double          *times;       /* of these steps, s */
+  char            *values[SAM_STATE_MOST]; /* of a field of cells: this rank's values, step by step */
+  SamOutputPoints *points[SAM_STATE_MOST];
+} SamOutputFrames;
+/*
+  SamOutputCreateFrames, SamOutputDestroyFrames - prepare the frames, and free them. Neither is collective.
+  SamOutputHoldFrame - adds the fields of the present step to those that wait. Collective.
+  SamOutputAppendFrames - appends the fields that wait to the file; `present`: instead those of the present step at that
+  time, as none waits. Notes its failures. Collective.
+  SamOutputAppendNumbers - appends `count` numbers to a series, or square matrices of n rows; rank 0 writes them. Notes
+  its failures. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamOutputCreateFrames(SamOutput output);
+PETSC_INTERN PetscErrorCode SamOutputDestroyFrames(SamOutput output);
+PETSC_INTERN PetscErrorCode SamOutputHoldFrame(SamOutput output, PetscReal time);
+PETSC_INTERN PetscErrorCode SamOutputAppendFrames(SamOutput output, PetscBool present, PetscReal time);
+PETSC_INTERN void SamOutputAppendNumbers(SamOutput output, hid_t dataset, hid_t type, hsize_t index, hsize_t count,
+                                         hsize_t n, const void *numbers);
 
 #define SAM_IDENTITY "results-%016" PRIx64 /* identity of a file, as text */
 
@@ -58,17 +81,15 @@ struct _n_SamOutput {
   PetscInt        values[SAM_SERIES];    /* number of values in a row */
   PetscBool       wants[SAM_STATE_MOST]; /* true for the results of the state that are saved */
   hid_t           time, point, fields[SAM_STATE_MOST], columns[SAM_SERIES][SAM_STATE_DECLARED];
-  signed char    *states;  /* cell states of this rank's cells */
-  float          *singles; /* values of this rank's cells; NULL until fields in single precision are written */
-  Vec             work;    /* for computed fields; NULL until the first one */
-  SamOutputPoints points;  /* points of the edge that is being written */
+  Vec             work;   /* for computed fields; NULL until the first one */
+  SamOutputFrames frames; /* fields that are not in the file yet */
   /* status */
   double   *waiting; /* numbers of steps that are not in the file yet, memory for SAM_OUTPUT_WAIT steps; NULL: none */
   PetscInt  waits;   /* number of these steps */
-  double    flushed; /* MPI_Wtime() when the file was last complete */
+  double    flushed, called;  /* MPI_Wtime() when the file was last complete, and when a step was last added */
   hsize_t   rows[SAM_SERIES]; /* rows in the file: load steps in the history, computed cycles */
-  hsize_t   saved;            /* number of steps with fields */
-  PetscReal saved_time;       /* time of the last step with fields */
+  hsize_t   saved;            /* number of steps with fields in the file */
+  PetscReal saved_time;       /* time of the last step with fields, in the file or waiting */
   PetscBool broken;           /* a step could not be written: no collective call on the file may follow */
 };
 

@@ -170,11 +170,11 @@ PetscErrorCode SamOutputAllocate(SamGrid grid, SamFile file, const SamOutputSett
   o->time = o->point = o->vtk_steps = o->closed = -1;
   o->hold.file                                  = -1;
   o->saved_time                                 = PETSC_NINFINITY;
-  o->flushed                                    = MPI_Wtime();
+  o->flushed = o->called = MPI_Wtime();
   for (PetscInt f = 0; f < SAM_STATE_MOST; f++) o->fields[f] = -1;
   for (PetscInt k = 0; k < SAM_SERIES; k++)
     for (PetscInt c = 0; c < SAM_STATE_DECLARED; c++) o->columns[k][c] = -1;
-  PetscCall(PetscMalloc1(grid->cells, &o->states));
+  PetscCall(SamOutputCreateFrames(o));
   *output = o;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -187,9 +187,7 @@ PetscErrorCode SamOutputFree(SamOutput *output)
   *output = NULL;
   PetscCall(SamGridDestroy(&o->grid));
   PetscCall(VecDestroy(&o->work));
-  PetscCall(PetscFree(o->points.xy));
-  PetscCall(PetscFree(o->states));
-  PetscCall(PetscFree(o->singles));
+  PetscCall(SamOutputDestroyFrames(o));
   PetscCall(PetscFree(o->waiting));
   PetscCall(PetscFree(o->name));
   PetscCall(PetscFree(o));
@@ -318,7 +316,7 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
 
   PetscFunctionBegin;
   if (o && o->f && !o->broken) {
-    changed = o->waits ? SamOutputFlush(o) : SamOutputPublish(o);
+    changed = o->waits || o->frames.count ? SamOutputFlush(o) : SamOutputPublish(o);
     if (!changed) changed = SamFileLockCheck(o->grid, "output", o->f->filename, &o->hold);
   }
   if (o && o->f) ierr = Close(output);

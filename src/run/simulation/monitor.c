@@ -9,9 +9,15 @@ PetscErrorCode SamSimulationSetMonitor(SamSimulation s, SamSimulationMonitor mon
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Steps that wait are written before anything but the next step is told, so that all that has been told is in the
+   file. */
 PetscErrorCode SamSimulationNotify(SamSimulation s, const SamSimulationEvent *news)
 {
+  const PetscBool speaks =
+    news->kind == SAM_NOTIFY_MESSAGE || news->kind == SAM_NOTIFY_ADVICE || news->kind == SAM_NOTIFY_STOPPED;
+
   PetscFunctionBegin;
+  if (speaks && s->output && SamOutputWaits(s->output)) PetscCall(SamOutputFlush(s->output));
   if (s->monitor) PetscCall(s->monitor(s->context, s->setup.contact, news));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -8,7 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-#define FLUSH 2.0 /* seconds that steps without fields may wait to be written */
+#define FLUSH        2.0 /* seconds that steps without fields may wait to be written */
+#define FLUSH_FIELDS 0.1 /* the same of steps with fields, whose lines wait, too */
 
 /* Rejects moments and rotations that the bodies do not have, and components that laws reject, by the name that the user
    gave. */
@@ -112,6 +113,7 @@ static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
   PetscCall(SamOutputSettingsSetFromOptions(&s->output_settings, from));
   s->output_settings.flush = FLUSH;
   PetscCall(SamOptionsRead(from, NULL, 1, &flush, s, NULL));
+  s->output_settings.flush_fields = PetscMin(s->output_settings.flush, FLUSH_FIELDS);
   PetscCall(SamOutputSettingsAddLaws(&s->output_settings, s->setup.problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

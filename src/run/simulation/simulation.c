@@ -274,7 +274,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
 {
   const PetscInt k = s->point.steps, last = s->needs.steps - 1;
   SamStep        step;
-  PetscBool      due;
+  PetscBool      due, waits;
 
   PetscFunctionBegin;
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP_BEGINS, .step = k}));
@@ -283,8 +283,11 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
   due    = (PetscBool)(SamSimulationSaves(s, k + 1, last + 1) || *ended);
   PetscCall(SamSimulationWriteStep(s, &step, due));
+  if (s->output && (k == last || *ended || step.message[0])) PetscCall(SamOutputFlush(s->output));
+  waits = s->output && SamOutputWaits(s->output) ? PETSC_TRUE : PETSC_FALSE;
   /* After writing, so that a reported step is in the file. */
-  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP, .step = k, .result = &step}));
+  PetscCall(
+    SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP, .step = k, .result = &step, .waits = waits}));
   if (k == last && SamProblemMoves(s->setup.problem)) SamAdviceRenew(&s->advice, "in the last step: ");
   PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
   if (!*ended) PetscCall(SamSimulationCommitStep(s, &step, NULL, 0));
