@@ -17,7 +17,7 @@ static PetscErrorCode FillSquares(const SamSolution *s, SamEdgeOf which, Vec w)
   PetscCall(VecGetArrayWrite(w, &square));
   for (PetscInt k = 0; k < v.cells; k++) {
     const double p = v.p[k], b = v.b[k], qx = v.q[k], qy = v.q[k + v.cells];
-    const double slack = stick && b > 0 ? p * (1 - hypot(qx, qy) / b) : p;
+    const double slack = stick && b > 0 ? p * (1 - sqrt(qx * qx + qy * qy) / b) : p;
 
     square[k] = p > 0 && (!stick || SamCellStateOf(p, qx, qy, b) == SAM_CELL_STICK) ? slack * slack : 0;
   }

@@ -50,11 +50,11 @@ static inline double SamFitAt(const double fit[SAM_FIT_TERMS], double x, double 
   SamFitWindow - the cells that a fit uses: all within `half` cells in both directions, at most
   SAM_FIT_HALF, whose squared distance is at least `least`.
 */
-enum { SAM_FIT_HALF = 5, SAM_FIT_CELLS = (2 * SAM_FIT_HALF + 1) * (2 * SAM_FIT_HALF + 1), SAM_FIT_PRODUCTS = 21 };
+enum { SAM_FIT_HALF = 5, SAM_FIT_SUMS = 8 };
 typedef struct {
   PetscInt half;
   int      least;
-  double   terms[SAM_FIT_CELLS][SAM_FIT_TERMS], products[SAM_FIT_CELLS][SAM_FIT_PRODUCTS];
+  double   terms[2 * SAM_FIT_HALF + 1][SAM_FIT_SUMS]; /* of each column: 1, x, x^2, x^3, x^4 and 1, x, x^2 */
 } SamFitWindow;
 PETSC_INTERN void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window);
 #define SAM_FIT_LEAST      9 /* least number of cells of a fit */

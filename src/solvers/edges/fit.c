@@ -2,25 +2,21 @@
 #include "edgesimpl.h"
 #include <math.h>
 
-#define TERMS    SAM_FIT_TERMS
-#define PRODUCTS SAM_FIT_PRODUCTS
-#define SUB      16 /* number of sub-cells in each direction */
+#define TERMS SAM_FIT_TERMS
+#define SUMS  SAM_FIT_SUMS
+#define SUB   16 /* number of sub-cells in each direction */
+/* Entries of a symmetric matrix as the rows of its lower triangle; sums of x^m y^n with m + n up to 4 */
+enum { ENTRIES = TERMS * (TERMS + 1) / 2, POWERS = 5 };
 
 void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window)
 {
-  PetscInt cell = 0;
-
   *window = (SamFitWindow){.half = half, .least = least};
-  for (PetscInt b = -half; b <= half; b++)
-    for (PetscInt a = -half; a <= half; a++, cell++) {
-      const double x = (double)a / (double)half, y = (double)b / (double)half;
-      const double terms[TERMS] = {1, x, y, x * x, x * y, y * y};
+  for (PetscInt a = -half; a <= half; a++) {
+    double *terms = window->terms[a + half], x = 1;
 
-      for (int k = 0, n = 0; k < TERMS; k++) {
-        window->terms[cell][k] = terms[k];
-        for (int l = 0; l <= k; l++) window->products[cell][n++] = terms[k] * terms[l];
-      }
-    }
+    for (int m = 0; m < POWERS; m++, x *= (double)a / (double)half) terms[m] = x;
+    for (int m = 0; m + POWERS < SUMS; m++) terms[m + POWERS] = terms[m];
+  }
 }
 
 /* Part of a fit's window that lies in the zone's window */
@@ -35,11 +31,11 @@ static Range RangeOf(const SamZone *z, PetscInt half, PetscInt i, PetscInt j)
 }
 
 /*
-  Computes Cholesky's factor of a symmetric positive matrix, both as rows of their lower triangles; returns false if the
-  matrix is singular. (The eigenvalues of SamSolveSymmetric() would take longer than the fit.) `line`: terms that are
+  Computes Cholesky's factor of a symmetric positive matrix, both as rows of their lower triangles, with the inverse of
+  its diagonal; returns false if the matrix is singular. (The eigenvalues of SamSolveSymmetric() would take longer than the fit.) `line`: terms that are
   zero everywhere remain zero.
 */
-static PetscBool Factor(PetscBool line, double A[PRODUCTS])
+static PetscBool Factor(PetscBool line, double A[ENTRIES])
 {
   double *row[TERMS];
 
@@ -53,97 +49,114 @@ static PetscBool Factor(PetscBool line, double A[PRODUCTS])
     }
     for (int k = 0; k < j; k++) row[j][j] -= row[j][k] * row[j][k];
     if (!(row[j][j] > 1e-10 * whole)) return PETSC_FALSE;
-    row[j][j] = sqrt(row[j][j]);
+    row[j][j] = 1 / sqrt(row[j][j]);
     for (int i = j + 1; i < TERMS; i++) {
       for (int k = 0; k < j; k++) row[i][j] -= row[i][k] * row[j][k];
-      row[i][j] /= row[j][j];
+      row[i][j] *= row[j][j];
     }
   }
   return PETSC_TRUE;
 }
 
-static void Solve(const double L[PRODUCTS], double b[TERMS])
+static void Solve(const double L[ENTRIES], double b[TERMS])
 {
   const double *row[TERMS];
 
   for (int j = 0, n = 0; j < TERMS; n += ++j) row[j] = L + n;
   for (int i = 0; i < TERMS; i++) {
     for (int k = 0; k < i; k++) b[i] -= row[i][k] * b[k];
-    b[i] /= row[i][i];
+    b[i] *= row[i][i];
   }
   for (int i = TERMS - 1; i >= 0; i--) {
     for (int k = i + 1; k < TERMS; k++) b[i] -= row[k][i] * b[k];
-    b[i] /= row[i][i];
+    b[i] *= row[i][i];
   }
 }
 
-/* Adds the normal equations of the row's n cells that take part in the fit; returns their number. */
-SAM_VECTORIZED static PetscInt AddProducts(PetscInt n, const signed char *distance, int least,
-                                           const double (*restrict products)[PRODUCTS], double *restrict sums)
+/* Sums over the cells of a fit */
+typedef struct {
+  PetscInt count;
+  double   moments[POWERS][POWERS]; /* of x^m y^n */
+  double   right[TERMS], squares;   /* of the values times the terms, of their squares */
+} Sums;
+
+/*
+  Sums over a row's n cells that take part in the fit: 1, x, x^2, x^3, x^4 and, times their values, 1, x, x^2; and the
+  squares of the values. Returns their number.
+*/
+SAM_VECTORIZED static PetscInt AddRow(PetscInt n, const signed char *distance, int least,
+                                      const double (*restrict terms)[SUMS], const double *restrict values,
+                                      double *restrict sums, double *squares)
 {
   PetscInt count = 0;
 
   for (PetscInt a = 0; a < n; a++) {
+    const double v = values[a];
+
     if (distance[a] < least) continue;
     count++;
-    for (int k = 0; k < PRODUCTS; k++) sums[k] += products[a][k];
+    *squares += v * v;
+    for (int k = 0; k < SUMS; k++) sums[k] += terms[a][k] * (k < POWERS ? 1 : v);
   }
   return count;
 }
 
-/* Computes the factor of the fit's matrix; returns the number of cells in the fit, 0 if the matrix is singular. */
-static PetscInt FactorOf(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double factor[PRODUCTS])
+/* Adds the sums of the row at y. */
+static void AddMoments(const double row[SUMS], double y, Sums *sums)
+{
+  const double *v = row + POWERS, right[TERMS] = {v[0], v[1], y * v[0], v[2], y * v[1], y * y * v[0]};
+  double        power = 1;
+
+  for (int n = 0; n < POWERS; n++, power *= y)
+    for (int m = 0; m + n < POWERS; m++) sums->moments[m][n] += row[m] * power;
+  for (int k = 0; k < TERMS; k++) sums->right[k] += right[k];
+}
+
+static void Sum(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, Sums *sums)
 {
   const PetscInt half  = window->half;
   const Range    range = RangeOf(z, half, i, j);
-  const PetscInt least = SamGridIsRow(z->grid) ? SAM_FIT_LEAST_LINE : SAM_FIT_LEAST;
-  PetscInt       count = 0;
 
-  for (int n = 0; n < PRODUCTS; n++) factor[n] = 0;
-  for (PetscInt b = range.low; b <= range.high; b++)
-    count += AddProducts(range.right - range.left + 1, z->distance + SamZoneAt(z, range.left, b), window->least,
-                         window->products + (b - j + half) * (2 * half + 1) + range.left - i + half, factor);
-  return count >= least && Factor(SamGridIsRow(z->grid), factor) ? count : 0;
+  *sums = (Sums){.count = 0};
+  for (PetscInt b = range.low; b <= range.high; b++) {
+    const ptrdiff_t k         = SamZoneAt(z, range.left, b);
+    double          row[SUMS] = {0};
+    const PetscInt  count     = AddRow(range.right - range.left + 1, z->distance + k, window->least,
+                                       window->terms + range.left - i + half, z->w + k, row, &sums->squares);
+
+    if (count) AddMoments(row, (double)(b - j) / (double)half, sums);
+    sums->count += count;
+  }
 }
 
-/* Right-hand side of the normal equations of a fit, and the sum of the squared values */
-typedef struct {
-  double right[TERMS], squares;
-} Values;
-
-SAM_VECTORIZED static void AddValues(PetscInt n, const signed char *distance, int least,
-                                     const double (*restrict terms)[TERMS], const double *restrict values,
-                                     Values *restrict sums)
+/* Computes the factor of the fit's matrix; returns false if there are too few cells or the matrix is singular. */
+static PetscBool FactorOf(const SamZone *z, const Sums *sums, double factor[ENTRIES])
 {
-  for (PetscInt a = 0; a < n; a++) {
-    if (distance[a] < least) continue;
-    sums->squares += values[a] * values[a];
-    for (int k = 0; k < TERMS; k++) sums->right[k] += terms[a][k] * values[a];
-  }
+  static const int x[TERMS] = {0, 1, 0, 2, 1, 0}, y[TERMS] = {0, 0, 1, 0, 1, 2}; /* powers in the terms */
+
+  const PetscBool line  = SamGridIsRow(z->grid);
+  const PetscInt  least = line ? SAM_FIT_LEAST_LINE : SAM_FIT_LEAST;
+
+  if (sums->count < least) return PETSC_FALSE;
+  for (int k = 0, n = 0; k < TERMS; k++)
+    for (int l = 0; l <= k; l++) factor[n++] = sums->moments[x[k] + x[l]][y[k] + y[l]];
+  return Factor(line, factor);
 }
 
 PetscBool SamFit(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double fit[TERMS], double *bent)
 {
-  const PetscInt half  = window->half;
-  const double   scale = (double)half;
-  const Range    range = RangeOf(z, half, i, j);
-  Values         sums  = {.squares = 0};
-  double         factor[PRODUCTS];
-  const PetscInt count = FactorOf(z, window, i, j, factor);
+  const double scale = (double)window->half;
+  Sums         sums;
+  double       factor[ENTRIES];
 
-  if (!count) return PETSC_FALSE;
-  for (PetscInt b = range.low; b <= range.high; b++) {
-    const ptrdiff_t k = SamZoneAt(z, range.left, b);
-
-    AddValues(range.right - range.left + 1, z->distance + k, window->least,
-              window->terms + (b - j + half) * (2 * half + 1) + range.left - i + half, z->w + k, &sums);
-  }
+  Sum(z, window, i, j, &sums);
+  if (!FactorOf(z, &sums, factor)) return PETSC_FALSE;
   for (int k = 0; k < TERMS; k++) fit[k] = sums.right[k];
   Solve(factor, fit);
   /* The squares of the deviations follow, since the function minimises them. */
   for (int k = 0; k < TERMS; k++) sums.squares -= fit[k] * sums.right[k];
   for (int k = 1; k < TERMS; k++) fit[k] /= k < 3 ? scale : scale * scale;
-  *bent = sqrt(PetscMax(sums.squares, 0) / (double)count);
+  *bent = sqrt(PetscMax(sums.squares, 0) / (double)sums.count);
   return PETSC_TRUE;
 }
 
