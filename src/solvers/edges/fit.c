@@ -31,9 +31,9 @@ static Range RangeOf(const SamZone *z, PetscInt half, PetscInt i, PetscInt j)
 }
 
 /*
-  Computes Cholesky's factor of a symmetric positive matrix, both as rows of their lower triangles, with the inverse of
-  its diagonal; returns false if the matrix is singular. (The eigenvalues of SamSolveSymmetric() would take longer than the fit.) `line`: terms that are
-  zero everywhere remain zero.
+  Computes Cholesky's factor of a symmetric positive matrix, both as rows of their lower triangles, the factor with the
+  inverse of its diagonal; returns false if the matrix is singular. (The eigenvalues of SamSolveSymmetric() would take
+  longer than the fit.) `line`: terms that are zero everywhere remain zero.
 */
 static PetscBool Factor(PetscBool line, double A[ENTRIES])
 {
