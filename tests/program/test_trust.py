@@ -4,6 +4,7 @@ import math
 import re
 
 import h5py
+import mpmath as mp
 import numpy as np
 import pytest
 
@@ -353,6 +354,28 @@ def test_closed_form_is_in_the_history_with_the_same_bits_on_ranks_and_after_a_r
     petsam(case, dict(restart="c2.h5.1", output="4.h5"))
     again = closed_by_steps(tmp_path / "4.h5")
     assert 0 < len(again) < len(closed) and again.tobytes() == closed[-len(again) :].tobytes()
+
+
+@pytest.mark.parametrize("plane", [False, True], ids=["sphere", "plane"])
+def test_closed_form_of_changes_of_t_by_rounding_and_more(petsam, tmp_path, plane):
+    """It is a difference of numbers that are nearly the same; of a change of 1e-16 it was infinite."""
+    cylinder = dict(elasticity="plane", gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=0.1)
+    case = {**SPHERE, **dict(cylinder, gap_radius_y="inf", grid_size=1.1e-3)} if plane else dict(SPHERE)
+    load, size = (1e5, dict(grid_n=128)) if plane else (LOAD, dict(grid_n=64, grid_size=3 * RADIUS))
+    parts = [1e-16, 1e-12, 1e-8, 5e-4, 9.9e-4, 1.01e-3, 2e-3, 0.02]  # of the change of T over 2 mu N
+    rows = [(load, t * MU * load) for t in (0.0, 0.3, *(0.3 - 2 * part for part in parts))]
+    petsam(case, size, history(tmp_path, "load_n,load_tx", *rows), dict(output="n.h5", tangential_rtol=1e-9))
+    closed = closed_by_steps(tmp_path / "n.h5")[-len(parts) :].cumsum()
+
+    def exact(t):
+        with mp.workdps(40):
+            x = 1 - mp.mpf(t)
+            if plane:
+                return float(x * mp.log(x) + (1 - x**2) / 2)
+            return float(1 - x ** (mp.mpf(5) / 3) - 5 * (1 - x) / 6 * (1 + x ** (mp.mpf(2) / 3)))
+
+    assert np.all(np.isfinite(closed)) and np.all(np.diff(closed) >= 0) and 0 <= closed[2] < 0.01 * closed[3]
+    assert closed[3:] / closed[-1] == pytest.approx([exact(part) / exact(parts[-1]) for part in parts[3:]], rel=0.02)
 
 
 @pytest.mark.parametrize(

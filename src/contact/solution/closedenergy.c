@@ -9,7 +9,8 @@
   Both are doubled after a reversal. The second equation gives c from the solution's displacement, which is accurate to
   1e-3 where the energy is wrong by half. In plane strain the displacement has no limit, and the approach of two
   cylinders gives the energy per length: E = (mu N)^2/(pi E*) (x ln(x) + (1 - x^2)/2), x = 1 - t. Both forms hold while
-  all steps since the first one meet these conditions.
+  all steps since the first one meet these conditions. Where t is small they are differences of numbers that are nearly
+  the same, and are replaced by their series, mu N disp t^2/18 (1 + t/2) and (mu N)^2/(6 pi E*) t^3 (1 + t/2).
 
   Source: R. D. Mindlin, H. Deresiewicz, J. Appl. Mech. 20 (1953) 327.
 */
@@ -25,6 +26,8 @@
 #include <math.h>
 
 #define ALIKE 1e-6 /* smaller couplings of bodies, or changes of a load relative to the largest load, count as none */
+
+#define SMALL 1e-3 /* t below which the series is used, within about t^2 */
 
 /* Numbers that the state keeps of the load path so far, in a plane of T */
 typedef struct {
@@ -99,7 +102,8 @@ static double ClosedOf(SamProblem p, double bound, double t, double moved, Petsc
   if (SamGridIsRow(SamProblemGetGrid(p)))
     return (reversed ? 2 : 1) * bound * bound /
            (PETSC_PI * (double)SamPairModulus(SamElasticityGetPair(SamProblemGetElasticity(p)))) *
-           (x * log(x) + 0.5 * (1 - x * x));
+           (t < SMALL ? t * t * t / 6 * (1 + t / 2) : x * log(x) + 0.5 * (1 - x * x));
+  if (t < SMALL) return bound * moved * t * t / 18 * (1 + t / 2);
   return 1.2 * bound * moved / (1 - pow(x, 2. / 3)) * (1 - pow(x, 5. / 3) - 5 * t / 6 * (1 + pow(x, 2. / 3)));
 }
 
