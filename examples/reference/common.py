@@ -5,7 +5,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 TOOL = Path(__file__).resolve().parents[2] / "scripts" / "petsam-compliance"
-MEASURED = (0.5, 5.0)  # orders of convergence that are believed; others say that the sequence is not regular yet
+# orders of convergence that are believed: others say that the sequence is not regular yet, as all ways are of first or
+# second order, but for those that are exact to their last digit
+MEASURED = (0.5, 2.5)
 
 
 class Interval(NamedTuple):
@@ -39,11 +41,12 @@ class Way(NamedTuple):
         return found
 
     def interval(self):
-        """Limit -+ half its distance from the finest value and from the limit before, or, without an order, the range
-        of the last two values on either side of the finest."""
-        limits, last = self.limits(), self.values[-1]
+        """Limit -+ half its distance from the finest value and from the limit before. Without an order, the range of
+        the last two values on either side of the finest; of the last one, where the sequence closes in too fast."""
+        limits, (one, two, last) = self.limits(), self.values[-3:]
         if limits[-1] is None:
-            spread = max(abs(last - value) for value in self.values[-3:-1])
+            fast = (one - two) / (two - last) > 2 ** MEASURED[1]
+            spread = max(abs(last - two), 0 if fast else abs(last - one))
             return last - spread, last + spread
         limit = limits[-1][0]
         before = [other[0] for other in limits[:-1] if other is not None][-1:]
