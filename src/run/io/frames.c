@@ -60,16 +60,6 @@ typedef struct {
   void         *other; /* values of another type */
 } Frame;
 
-/* Returns the number of planes of cells of a field: 1, or one for each layer. */
-static PetscInt PlanesOf(SamOutput o, PetscInt f)
-{
-  const SamStateResult *field = SamOutputResult(o, f);
-  const SamStateLayers *of =
-    field->kind == SAM_FIELD_LAYERS ? SamStateLayersOf(o->state[SAM_SERIES_HISTORY], field->name) : NULL;
-
-  return of ? of->count[0] + of->count[1] : 1;
-}
-
 /* Returns the type of a field's values in memory, and its size. */
 static hid_t TypeOf(SamOutput o, PetscInt f, size_t *size)
 {
@@ -117,7 +107,7 @@ static PetscErrorCode GetPoints(SamOutput o, PetscInt f, Frame *frame)
 static PetscErrorCode GetLayers(SamOutput o, PetscInt f, Frame *frame)
 {
   const SamStateResult *field  = SamOutputResult(o, f);
-  const PetscInt        planes = PlanesOf(o, f);
+  const PetscInt        planes = (PetscInt)SamOutputPlanes(o, f);
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(o->grid, planes, &frame->below));
@@ -178,7 +168,7 @@ PetscErrorCode SamOutputHoldFrame(SamOutput o, PetscReal time)
       frame.points.xy        = NULL;
     } else {
       (void)TypeOf(o, f, &size);
-      size *= (size_t)(PlanesOf(o, f) * o->grid->cells);
+      size *= (size_t)SamOutputPlanes(o, f) * (size_t)o->grid->cells;
       if (!w->values[f]) PetscCall(PetscMalloc(size * (size_t)w->most, &w->values[f]));
       memcpy(w->values[f] + size * (size_t)w->count, frame.values, size);
     }
@@ -193,7 +183,7 @@ PetscErrorCode SamOutputHoldFrame(SamOutput o, PetscReal time)
 static void AppendCells(SamOutput o, PetscInt f, hsize_t count, const void *values)
 {
   const SamGrid   g      = o->grid;
-  const hsize_t   planes = (hsize_t)PlanesOf(o, f), rows = (hsize_t)g->rows, first = (hsize_t)g->row_start;
+  const hsize_t   planes = SamOutputPlanes(o, f), rows = (hsize_t)g->rows, first = (hsize_t)g->row_start;
   const PetscBool layers = SamOutputResult(o, f)->kind == SAM_FIELD_LAYERS ? PETSC_TRUE : PETSC_FALSE;
   const hsize_t   all = o->saved + count, nx = (hsize_t)g->nx, ny = (hsize_t)g->ny;
   const SamBlock  flat     = {3, {o->saved, first, 0}, {count, rows, nx}},

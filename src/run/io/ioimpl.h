@@ -98,6 +98,8 @@ struct _n_SamOutput {
   mark of the file. Notes its failures. Collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputCreateLayout(SamOutput output);
+/* SamOutputPlanes - returns the number of planes of cells that a field has per step. Not collective. */
+PETSC_INTERN hsize_t SamOutputPlanes(SamOutput output, PetscInt field);
 /* SamOutputFieldBytes - returns the size of the fields of one step, uncompressed. Not collective. */
 PETSC_INTERN off_t SamOutputFieldBytes(SamOutput output);
 /* SamOutputResult - returns field f of the state. Not collective. */

@@ -92,8 +92,7 @@ static const SamStateLayers *LayersOf(SamOutput o, PetscInt f)
   return field->kind == SAM_FIELD_LAYERS ? SamStateLayersOf(o->state[SAM_SERIES_HISTORY], field->name) : NULL;
 }
 
-/* Returns the number of planes of cells that a field has per step. */
-static hsize_t PlanesOf(SamOutput o, PetscInt f)
+hsize_t SamOutputPlanes(SamOutput o, PetscInt f)
 {
   const SamStateLayers *layers = LayersOf(o, f);
 
@@ -111,7 +110,7 @@ off_t SamOutputFieldBytes(SamOutput o)
     if (SamOutputResult(o, f)->kind == SAM_FIELD_POINTS)
       points += EDGE * (shape.size[1] + shape.size[2]) * 2 * sizeof(double);
     else
-      bytes += H5Tget_size(StoredType(SamOutputResult(o, f), o->set.single)) * PlanesOf(o, f);
+      bytes += H5Tget_size(StoredType(SamOutputResult(o, f), o->set.single)) * SamOutputPlanes(o, f);
   }
   return (off_t)(cells * bytes + points);
 }
@@ -133,7 +132,8 @@ PetscErrorCode SamOutputForecast(SamOutput o, double steps, double saved, double
   PetscFunctionBegin;
   for (int d = 1; d < 3; d++) index *= (double)((shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d]);
   *bytes = STRUCTURE + SeriesBytes(saved, CHUNK_STEPS, 1) + saved * (double)SamOutputFieldBytes(o);
-  for (PetscInt f = 0; f < SamOutputCount(o); f++) *bytes += o->wants[f] ? saved * index * (double)PlanesOf(o, f) : 0;
+  for (PetscInt f = 0; f < SamOutputCount(o); f++)
+    *bytes += o->wants[f] ? saved * index * (double)SamOutputPlanes(o, f) : 0;
   for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {
     const SamStateNumber *n      = SamStateNumberOf(state, c, NULL);
     const PetscBool       matrix = n->kind == SAM_NUMBER_MATRIX;
@@ -171,7 +171,7 @@ static PetscErrorCode CreateLayers(SamOutput o, PetscInt f, LayerGroup *group)
 {
   const SamStateLayers *layers = LayersOf(o, f);
   const SamStateResult *field  = SamOutputResult(o, f);
-  const hsize_t         count  = PlanesOf(o, f);
+  const hsize_t         count  = SamOutputPlanes(o, f);
   const SamShape        shape  = LayersShape(o->grid, &o->set, (PetscInt)count);
   const SamShape        column = {1, {count}, {count}, {0}, NULL};
   const SamLabel        label  = {strchr(field->name, '/') + 1, field->unit, field->text};

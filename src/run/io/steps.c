@@ -176,6 +176,16 @@ static PetscErrorCode End(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Writes all steps that wait, and with `present` the present step's fields, and completes the file. */
+static PetscErrorCode Complete(SamOutput o, PetscBool present, PetscReal time)
+{
+  PetscFunctionBegin;
+  PetscCall(Begin(o, present));
+  PetscCall(WriteWaiting(o, present, time));
+  PetscCall(End(o));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A step with fields waits only if it took less than this part of the time that it may wait, as may the next one. */
 #define FAST 0.02
 
@@ -219,11 +229,7 @@ static PetscErrorCode Write(SamOutput o, const double step[], PetscReal time, Pe
   if (step) PetscCall(PetscArraycpy(o->waiting + n * o->waits++, step, n));
   if (fields && !present) PetscCall(SamOutputHoldFrame(o, time));
   if (!due) PetscCall(IsDue(o, &due));
-  if (due) {
-    PetscCall(Begin(o, present));
-    PetscCall(WriteWaiting(o, present, time));
-    PetscCall(End(o));
-  }
+  if (due) PetscCall(Complete(o, present, time));
   o->called = MPI_Wtime();
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -232,10 +238,7 @@ PetscErrorCode SamOutputFlush(SamOutput o)
 {
   PetscFunctionBegin;
   PetscCall(CheckWhole(o));
-  if (!o->waits && !o->frames.count) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Begin(o, PETSC_FALSE));
-  PetscCall(WriteWaiting(o, PETSC_FALSE, 0));
-  PetscCall(End(o));
+  if (o->waits || o->frames.count) PetscCall(Complete(o, PETSC_FALSE, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
