@@ -47,7 +47,7 @@ static void Load(SamResidual r, Vec q, Vec s)
   sam_call(VecGetArray(s, &to));
   sam_call(VecGetLocalSize(q, &n));
   for (int c = 0; c < 3; c++) traction[c] = from + ((c + 2) % 3) * (n / 3); /* p last, as u_z */
-  sam_call(SamResidualBegin(1, &r, NULL, 0, NULL));
+  SamResidualBeginWithout(1, &r);
   sam_call(SamResidualEnd(1, &r, traction, to));
   sam_call(VecRestoreArray(s, &to));
   sam_call(VecRestoreArrayRead(q, &from));

@@ -79,8 +79,8 @@ static inline void Put(const SamPlastic *p, const double from[PARTS], PetscInt l
 
 /* ---- the operators of all bodies ---- */
 
-/* Begins products with a strain (NULL: none), whose layers are `step` fields apart, and computes the displacement by it
-   (NULL: not wanted). */
+/* Begins products with a strain, whose layers are `step` fields apart, and computes the displacement by it (NULL: not
+   wanted). */
 static PetscErrorCode Displace(SamPlastic *p, const double e[], PetscInt step, double *const u[3])
 {
   PetscFunctionBegin;
@@ -218,7 +218,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
     PetscCall(Respond(p, NULL, own));
     PetscCall(SamPlasticWork(p, stress, own, energy));
     *energy *= -0.5;
-    PetscCall(Displace(p, NULL, 0, NULL));
+    SamResidualBeginWithout(p->bodies, p->residual);
   }
   PetscCall(RespondToAll(p, pressure, shear, stress));
   for (PetscInt k = 0; k < n && own; k++) stress[k] += own[k];

@@ -28,7 +28,8 @@ typedef struct {
   PetscInt         layers;
   PetscReal       *thickness; /* thickness of each layer, m */
   SamPlastic       plastic;
-  double          *stress;    /* by the strain of a vector at a revision, for the results; NULL: none */
+  PetscBool        stressed;  /* true: `stress` is known; a rank without cells has no array */
+  double          *stress;    /* by the strain of a vector at a revision, for the results */
   Vec              stress_of; /* this vector */
   PetscObjectState stress_revision;
 } Plastic;
@@ -369,6 +370,7 @@ static PetscInt Above(const Plastic *x)
 static PetscErrorCode DropStress(Plastic *x)
 {
   PetscFunctionBegin;
+  x->stressed = PETSC_FALSE;
   PetscCall(PetscFree(x->stress));
   PetscCall(VecDestroy(&x->stress_of));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -382,11 +384,12 @@ static PetscErrorCode TakeStress(Plastic *x, Vec now, const double **stress)
 
   PetscFunctionBegin;
   if (now) PetscCall(PetscObjectStateGet((PetscObject)now, &revision));
-  if (!x->stress || x->stress_of != now || x->stress_revision != revision) {
+  if (!x->stressed || x->stress_of != now || x->stress_revision != revision) {
     PetscCall(DropStress(x));
     PetscCall(PetscMalloc1(PARTS * BodiesOf(x) * x->layers * x->plastic.grid->cells, &x->stress));
     PetscCall(SamPlasticStress(&x->plastic, now, NULL, NULL, x->stress, NULL));
     if (now) PetscCall(PetscObjectReference((PetscObject)now));
+    x->stressed        = PETSC_TRUE;
     x->stress_of       = now;
     x->stress_revision = revision;
   }

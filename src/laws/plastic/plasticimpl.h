@@ -30,9 +30,11 @@ PETSC_INTERN PetscErrorCode SamResidualCreate(SamElasticity elasticity, PetscInt
                                               const PetscReal thickness[], PetscBool images, SamResidual *residual);
 PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);
 /*
-  SamResidualBegin - begins products of one or both bodies with e (NULL: none), of the bodies one after the other, whose
-  layers are `step` fields apart, the first PARTS of which are e. It computes the displacement u of the surfaces (m;
-  NULL: not wanted), their relative displacement along x, y, and z into the body.
+  SamResidualBegin - begins products of one or both bodies with e, of the bodies one after the other, whose layers are
+  `step` fields apart, the first PARTS of which are e. It computes the displacement u of the surfaces (m; NULL: not
+  wanted), their relative displacement along x, y, and z into the body.
+  SamResidualBeginWithout - begins products without a strain. It is a function of its own because a rank without cells
+  has no array e: NULL cannot mean that there is no strain.
   SamResidualEnd - computes the stress s (Pa) by e and by the pressure p and the shear q_x, q_y between the bodies (Pa;
   NULL: none), which may be those that u causes. s may be e.
   SamResidualLoadAt - computes the stress by p and q at a depth (m), PARTS fields; it takes the time of about ten
@@ -40,6 +42,7 @@ PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);
 */
 PETSC_INTERN PetscErrorCode SamResidualBegin(PetscInt bodies, const SamResidual residual[], const double e[],
                                              PetscInt step, double *const u[3]);
+PETSC_INTERN void           SamResidualBeginWithout(PetscInt bodies, const SamResidual residual[]);
 PETSC_INTERN PetscErrorCode SamResidualEnd(PetscInt bodies, const SamResidual residual[],
                                            const double *const traction[3], double s[]);
 PETSC_INTERN PetscErrorCode SamResidualLoadAt(SamResidual residual, PetscReal depth, const double *const traction[3],

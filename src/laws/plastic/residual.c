@@ -37,7 +37,7 @@ struct _n_SamResidual {
   PetscInt        nyquist;        /* index of the wave of two cells along y, which is also the wave of -ky; -1: none */
   double complex *spectra;        /* (planes, columns, waves) */
   double complex *surface;        /* (3, columns, waves): of the displacement or of the tractions */
-  PetscBool       strained;       /* true: a product with a strain has begun */
+  PetscBool       strained;       /* true: the product that has begun is one with a strain */
   /* only if not periodic */
   SamStress *stress; /* kernels of each layer */
   SamImages  images;
@@ -384,8 +384,7 @@ static PetscErrorCode Begin(SamResidual r, const double e[], PetscInt step, doub
   const double **at;
 
   PetscFunctionBegin;
-  r->strained = e ? PETSC_TRUE : PETSC_FALSE;
-  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  r->strained = PETSC_TRUE;
   PetscCall(GetPlanes(r, e, step, &at));
   PetscCall(Transform(r, PARTS * r->body.layers, at, NULL, r->spectra));
   PetscCall(PetscFree(at));
@@ -407,10 +406,15 @@ PetscErrorCode SamResidualBegin(PetscInt bodies, const SamResidual r[], const do
   for (PetscInt b = 0; b < bodies; b++) {
     PetscCall(Begin(r[b], e, step, u ? own : NULL));
     for (PetscInt k = 0; u && k < 3 * cells; k++) u[k / cells][k % cells] += more[k];
-    if (e) e += (ptrdiff_t)r[b]->body.layers * step * cells;
+    e += (ptrdiff_t)r[b]->body.layers * step * cells;
   }
   PetscCall(PetscFree(more));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamResidualBeginWithout(PetscInt bodies, const SamResidual r[])
+{
+  for (PetscInt b = 0; b < bodies; b++) r[b]->strained = PETSC_FALSE;
 }
 
 /* Computes the spectra of the stress from those of the strain, and of the tractions if `loaded`. */
@@ -494,7 +498,7 @@ static PetscErrorCode LoadWavesAt(SamResidual r, PetscReal depth, const double *
   PetscCall(PetscMalloc1(2 * n, &both));
   r->body.layers    = 2;
   r->body.thickness = thickness;
-  PetscCall(Begin(r, NULL, 0, NULL));
+  r->strained       = PETSC_FALSE;
   PetscCall(End(r, traction, both));
   r->body = own;
   PetscCall(PetscArraycpy(s, both + n, n));
