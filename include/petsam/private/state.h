@@ -16,7 +16,8 @@ PETSC_INTERN PetscErrorCode SamStateCreateLike(SamState state, SamState *other);
 PETSC_INTERN PetscErrorCode SamStateDestroy(SamState *state);
 /*
   SamStateBegin - begins a try: it creates a tried generation without fields, in which real numbers that are results are
-  NaN, integers 0, and numbers that are no results as in the committed generation. Not collective.
+  NaN, integers 0, and numbers that are no results as in the committed generation. During the try, numbers that are not
+  kept have no value in the committed generation, as after a restart. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamStateBegin(SamState state);
 /*
@@ -47,10 +48,10 @@ PETSC_INTERN PetscErrorCode SamStateReset(SamState state);
 */
 PETSC_INTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distance[2], PetscBool wraps);
 /*
-  SamStateSwapMoved - exchanges the fields of the committed generation before and after SamStateMove(), for code that
-  saves the state: the first call restores the fields before the move, the next one those after it. Not collective.
+  SamStateSwapTried - exchanges what a try has changed in the committed generation, for code that saves the state: the
+  first call restores the fields before SamStateMove() and all numbers, the next one takes this back. Not collective.
 */
-PETSC_INTERN void SamStateSwapMoved(SamState state);
+PETSC_INTERN void SamStateSwapTried(SamState state);
 /* SamStateNumbers - returns the address of numbers in a generation. Not collective. */
 PETSC_EXTERN double *SamStateNumbers(SamState state, PetscInt id, SamGeneration generation);
 /*

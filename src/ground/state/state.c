@@ -31,6 +31,7 @@ struct _n_SamState {
   char           names[SAM_STATE_MOST][48];   /* names of results that are components of fields */
   char           texts[SAM_STATE_MOST][96];   /* texts of the same */
   double        *generation[SAM_GENERATIONS]; /* the numbers */
+  double        *hidden;                      /* during a try: the committed numbers, with those that are not kept */
   PetscBool      tried;
 };
 
@@ -46,6 +47,7 @@ PetscErrorCode SamStateCreate(SamGrid grid, SamState *state)
   PetscCall(SamGridReference(grid));
   s->grid = grid;
   for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(PetscCalloc1(SAM_STATE_NUMBERS, &s->generation[g]));
+  PetscCall(PetscCalloc1(SAM_STATE_NUMBERS, &s->hidden));
   *state = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -89,6 +91,7 @@ PetscErrorCode SamStateDestroy(SamState *state)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DestroyFields(s));
   for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(PetscFree(s->generation[g]));
+  PetscCall(PetscFree(s->hidden));
   PetscCall(SamGridDestroy(&s->grid));
   for (PetscInt k = 0; k < SAM_LAYER_GROUPS; k++) PetscCall(PetscFree(s->layers[k].z));
   s->class_id = SAM_CLASSID_NONE;
@@ -275,10 +278,33 @@ PetscErrorCode SamStateOfferNumber(SamState s, const char name[], double before)
 
 /* ---- generations ---- */
 
+/*
+  Shows a try the committed numbers as a restart would have them: those that checkpoints do not contain are none. So a
+  step that depends on one of them differs from the expected result at once, and not only after a restart.
+*/
+static PetscErrorCode HideNumbers(SamState s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(s->hidden, s->generation[SAM_COMMITTED], s->values));
+  for (PetscInt k = 0; k < s->numbers; k++)
+    if (!s->number[k].declared.kept) SetInitial(s, &s->number[k], SAM_COMMITTED);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Exchanges the committed numbers as a try sees them and all of them. */
+static void SwapHidden(SamState s)
+{
+  double *const committed = s->generation[SAM_COMMITTED];
+
+  s->generation[SAM_COMMITTED] = s->hidden;
+  s->hidden                    = committed;
+}
+
 PetscErrorCode SamStateBegin(SamState s)
 {
   PetscFunctionBegin;
   PetscCall(SamStateReject(s));
+  PetscCall(HideNumbers(s));
   s->tried = PETSC_TRUE;
   PetscCall(PetscArraycpy(s->generation[SAM_TRIED], s->generation[SAM_COMMITTED], s->values));
   for (PetscInt k = 0; k < s->numbers; k++)
@@ -286,7 +312,8 @@ PetscErrorCode SamStateBegin(SamState s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamStateSwapMoved(SamState s)
+/* Exchanges the fields of the committed generation before and after a move of the grid. */
+static void SwapMovedFields(SamState s)
 {
   for (PetscInt k = 0; k < s->fields; k++) {
     Field *f     = &s->field[k];
@@ -298,10 +325,16 @@ void SamStateSwapMoved(SamState s)
   }
 }
 
+void SamStateSwapTried(SamState s)
+{
+  SwapMovedFields(s);
+  if (s->tried) SwapHidden(s);
+}
+
 PetscErrorCode SamStateForgetFields(SamState s)
 {
   PetscFunctionBegin;
-  SamStateSwapMoved(s);
+  SwapMovedFields(s);
   for (PetscInt k = 0; k < s->fields; k++) {
     PetscCall(VecDestroy(&s->field[k].other));
     s->field[k].set = PETSC_FALSE;
@@ -323,13 +356,14 @@ PetscErrorCode SamStateMove(SamState s, const PetscReal distance[2], PetscBool w
                                                                       : SAM_BORDER_ZERO,
                           f->value[SAM_COMMITTED], f->other));
   }
-  SamStateSwapMoved(s);
+  SwapMovedFields(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamStateReject(SamState s)
 {
   PetscFunctionBegin;
+  if (s->tried) SwapHidden(s);
   s->tried = PETSC_FALSE;
   PetscCall(SamStateForgetFields(s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -362,6 +396,8 @@ PetscErrorCode SamStateCommit(SamState s)
 
   PetscFunctionBegin;
   PetscCheck(s->tried, s->grid->comm, PETSC_ERR_ORDER, "There is no tried generation");
+  SwapHidden(s);
+  s->tried = PETSC_FALSE;
   for (PetscInt k = 0; k < s->fields; k++) PetscCall(VecDestroy(&s->field[k].other));
   for (PetscInt k = 0; k < s->fields; k++)
     if (s->field[k].set) Rotate(&s->field[k]);
@@ -461,7 +497,7 @@ PetscErrorCode SamStateCopy(SamState from, SamState to)
              " cells: expected %" PetscInt_FMT " x %" PetscInt_FMT,
              from->grid->nx, from->grid->ny, to->grid->nx, to->grid->ny);
   PetscCall(SamStateReject(to));
-  SamStateSwapMoved(from);
+  SamStateSwapTried(from);
   for (PetscInt k = 0; k < from->fields; k++) {
     const char *name = from->field[k].declared.name;
 
@@ -491,7 +527,7 @@ PetscErrorCode SamStateCopy(SamState from, SamState to)
       else
         PetscCall(PetscArraycpy(to->generation[g] + n->id, from->generation[g] + other, n->declared.count));
   }
-  SamStateSwapMoved(from);
+  SamStateSwapTried(from);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

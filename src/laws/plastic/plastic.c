@@ -523,7 +523,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"yielding_cells", "1", "cells of layers that yield in the step", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
     {"plastic_work", "J", "work of plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 2},
-    {"residual_energy", "J", "elastic energy of the residual stress", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+    {"residual_energy", "J", "elastic energy of the residual stress", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
     {"yield_error", "1", "maximum error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_GREATEST, 0},
@@ -532,11 +532,11 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"plastic_products", "1", "operator applications of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_SUM, 0},
     {"steps_without_yield", "1", "steps in a row, up to this one, in which plastic strain grew by less than 1e-6",
-     SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+     SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"yielded_layers", "1", "layers of a body with more than 1 % of the maximum plastic strain, the fewest",
-     SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+     SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"yield_margin", "1", "layers or cells from there to the last layer or the border of the grid, the fewest",
-     SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+     SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"layer_thickness", "1", "thickness of the layer that yields first over the largest half width of the contact",
      SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"yield_outside", "1", "maximum stress beyond yield below the layers or inside thick ones, over the yield stress",
@@ -546,7 +546,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"residual_z_max", "m", "maximum displacement into the bodies by plastic strain", SAM_NUMBER_REAL, 1, PETSC_TRUE,
      PETSC_TRUE, SAM_JOIN_LAST, 2},
     {"plastic_surface", "1", "maximum plastic strain of the first layer, and as much more as it exceeds the second",
-     SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
+     SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
   static const SamStateResult fields[4] = {
     {.name = "residual_x", .unit = "m", .text = "displacement along x by plastic strain", .use = SAM_RESULT_OFFERED},
     {.name = "residual_y", .unit = "m", .text = "displacement along y by plastic strain", .use = SAM_RESULT_OFFERED},

@@ -211,9 +211,9 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
   SamFileWriteTextAttribute(f, f->id, "fields", list);
   ListConditions(state, list, sizeof(list));
   if (list[0]) SamFileWriteTextAttribute(f, f->id, "conditions", list);
-  SamStateSwapMoved(state); /* a tried step is not saved */
+  SamStateSwapTried(state); /* a tried step is not saved */
   ierr = MoveFields(f, state);
-  SamStateSwapMoved(state);
+  SamStateSwapTried(state);
   PetscCall(ierr);
   PetscCall(SamKeptWrite(f, SamContactGetCache(contact)));
   (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
