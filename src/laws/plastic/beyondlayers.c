@@ -45,6 +45,7 @@ PetscErrorCode SamPlasticLookOutside(SamPlastic *p, Vec state, Vec pressure, Vec
   const PetscInt cells = p->grid->cells;
   PetscReal      across, half, bottom = 0;
   double        *residual = NULL;
+  PetscBool      known    = PETSC_FALSE; /* the residual stress; a rank without cells has no array of it */
   const double  *now, *by_p, *by_q;
 
   PetscFunctionBegin;
@@ -63,7 +64,8 @@ PetscErrorCode SamPlasticLookOutside(SamPlastic *p, Vec state, Vec pressure, Vec
       const PetscReal depth = places[k] * half, below = depth - p->body[b].top;
 
       if (below < 0 || (below < bottom && (*thick <= SAM_PLASTIC_THICK || places[k] > DEEP))) continue;
-      if (!residual) {
+      if (!known) {
+        known = PETSC_TRUE;
         PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * cells, &residual));
         PetscCall(SamPlasticStress(p, state, NULL, NULL, residual, NULL));
       }
