@@ -378,9 +378,9 @@ class Contact:
 
     def _call(self, name, *arguments):
         """Calls a function of the library and returns its code; raises an exception if it fails."""
-        if not self._contact:
-            raise ContactError(2, "the contact is closed")
         with _lock:
+            if not self._contact:
+                raise ContactError(2, "the contact is closed")
             code = getattr(self._c, f"petsam_{name}")(self._contact, *arguments)
             self._check(code)
         return code
@@ -410,27 +410,28 @@ class Contact:
         """
         values = np.array([_real(number, f"try_step: {name}").value for name, number in given.items()])
         seconds, load, rigid = _real(time, "try_step: time"), np.full(6, np.nan), np.full(6, np.nan)
-        code, words = 0, [_joined("try_step", given), _pointer(values), _pointer(load), _pointer(rigid)]
-        try:
-            code = self._call("try", seconds, *words)
-        except (NotConverged, NoEquilibrium) as error:
-            error.step = self._step(time, load, rigid, error.code, str(error))
-            raise
-        except ContactError as error:
-            if error.code != 2 or not self._contact:
+        words = _joined("try_step", given), _pointer(values), _pointer(load), _pointer(rigid)
+        with _lock:  # another thread's step must not come before the numbers and warnings of this one
+            try:
+                code = self._call("try", seconds, *words)
+            except (NotConverged, NoEquilibrium) as error:
+                error.step = self._step(time, load, rigid, error.code, str(error))
                 raise
-            raise PrescribedError(error.code, f"try_step: {error.message}") from None
-        step = self._step(time, load, rigid, code, self._message())
-        if code == EDGE:
-            warnings.warn(step.message, EdgeContactWarning, stacklevel=2)
-        self._advise()
+            except ContactError as error:
+                if error.code != 2 or not self._contact:
+                    raise
+                raise PrescribedError(error.code, f"try_step: {error.message}") from None
+            step = self._step(time, load, rigid, code, self._message())
+            if code == EDGE:
+                warnings.warn(step.message, EdgeContactWarning, stacklevel=2)
+            self._advise()
         return step
 
     def _advise(self):
         """Warns of numbers that the grid does not resolve, once per kind: warnings of a kind differ only in numbers."""
         count = ctypes.c_int()
-        self._call("advise", ctypes.byref(count))
         with _lock:
+            self._call("advise", ctypes.byref(count))
             lines = [self._c.petsam_warning(self._contact, k).decode(errors="replace") for k in range(count.value)]
         for line in lines:
             kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", line)
@@ -456,8 +457,9 @@ class Contact:
 
         WearWarning if the step wears more than the limit of a step.
         """
-        self._call("commit")
-        message = self._message()
+        with _lock:
+            self._call("commit")
+            message = self._message()
         if message:
             warnings.warn(message, WearWarning, stacklevel=2)
 
@@ -528,25 +530,26 @@ class Contact:
                 failed.append(error)
                 return 1
 
-        try:
-            code = self._call(
-                name,
-                *first,
-                _joined("run" if name == "history" else name, columns),
-                ctypes.c_int(len(values)),
-                _pointer(values),
-                _MONITOR(tell),
-                None,
-            )
-        except (NotConverged, NoEquilibrium) as error:
-            error.steps = found[:-1] if name == "history" else found  # the monitor is called for a failed step, too
-            error.step = self._last_step(error.code, str(error))
-            raise
-        if failed:
-            raise failed[0]
-        if code == EDGE:
-            warnings.warn(self._message(), EdgeContactWarning, stacklevel=2)
-        self._advise()
+        with _lock:  # as in try_step()
+            try:
+                code = self._call(
+                    name,
+                    *first,
+                    _joined("run" if name == "history" else name, columns),
+                    ctypes.c_int(len(values)),
+                    _pointer(values),
+                    _MONITOR(tell),
+                    None,
+                )
+            except (NotConverged, NoEquilibrium) as error:
+                error.steps = found[:-1] if name == "history" else found  # the monitor is called for a failed step, too
+                error.step = self._last_step(error.code, str(error))
+                raise
+            if failed:
+                raise failed[0]
+            if code == EDGE:
+                warnings.warn(self._message(), EdgeContactWarning, stacklevel=2)
+            self._advise()
         return found
 
     def _last_step(self, status=0, message=""):
@@ -707,11 +710,11 @@ class Contact:
 
     def close(self):
         """Frees the contact."""
-        if self._contact:
-            with _lock:
+        with _lock:
+            if self._contact:
                 self._c.petsam_destroy(ctypes.byref(self._contact))
-                if self._contact:  # not within the function of a run
-                    raise ContactError(2, self._message())
+            if self._contact:  # not within the function of a run
+                raise ContactError(2, self._message())
 
     def __copy__(self):
         raise TypeError("a contact is copied by its copy(), and cannot be pickled; save() and load() pass its state on")

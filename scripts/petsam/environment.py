@@ -4,9 +4,11 @@ It uses the standard library only, as it is imported before it is known that the
 """
 
 import contextlib
+import ctypes
 import importlib
 import importlib.util
 import os
+import re
 import shlex
 import shutil
 import signal
@@ -21,6 +23,7 @@ SCRIPTS = Path(__file__).resolve().parents[1]
 TREE = SCRIPTS.parent  # the repository, prefix/share/petsam, or prefix/lib/pythonX.Y of an installed wheel
 PREFIX = TREE.parents[1]
 ENTERED = "PETSAM_ENTERED"
+PR_SET_PDEATHSIG = 1  # of Linux's prctl
 VERSION, SECONDS = 4096, 60.0  # characters of what a launcher says about itself, and how long it may take
 
 
@@ -155,6 +158,22 @@ def _version(command):
         process.wait()
 
 
+def cores():
+    """Number of cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+ELSEWHERE = re.compile(r"--?(host|machine|node|f$)")  # options of an mpirun that name machines
+NODES = "SLURM_JOB_NUM_NODES", "PBS_NODEFILE", "LSB_HOSTS", "PE_HOSTFILE"  # of a job that may have several machines
+
+
+def is_local(words):
+    """Whether a launcher's words start all ranks on this machine."""
+    mpirun = bool(words) and os.path.basename(words[0]).startswith("mpi")
+    alone = all(os.environ.get(name, "1") == "1" for name in NODES)
+    return mpirun and alone and not any(ELSEWHERE.match(word) for word in words[1:])
+
+
 def run_environment():
     """The environment of a run: one thread a rank, and Open MPI's consent to the superuser, whom a container has."""
     variables = dict(os.environ)
@@ -162,3 +181,21 @@ def run_environment():
     if os.geteuid() == 0:
         variables.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return variables
+
+
+def end_with_parent(number):
+    """Asks the system for a signal to this process when the thread that has made it ends, whatever ends that."""
+    with contextlib.suppress(OSError, AttributeError):  # not available on systems other than Linux
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, number)
+
+
+def following():
+    """What a child process calls before its program begins: a signal that ends this process then ends the program."""
+    parent = os.getpid()
+
+    def begin():
+        end_with_parent(signal.SIGTERM)
+        if os.getppid() != parent:  # it has ended already
+            os._exit(128 + signal.SIGTERM)
+
+    return begin

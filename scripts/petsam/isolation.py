@@ -1,7 +1,6 @@
 """Work in a child process: HDF5 follows the addresses in a file, and on a damaged one it may crash or never end."""
 
 import contextlib
-import ctypes
 import math
 import mmap
 import os
@@ -12,13 +11,13 @@ import stat
 import sys
 import warnings
 
+from .environment import end_with_parent
 from .errors import Error
 
 SECONDS = 20  # of CPU time for one reading
 EXAMINING = 5  # of CPU time for the names and attributes of a file, before this process opens it
 MEMORY = 4 << 30  # bytes that one reading may need; it reads by blocks
 NAME = 4096  # maximum bytes of a file's name that are noted
-PR_SET_PDEATHSIG = 1  # of Linux's prctl
 # signals that end a child that reads a damaged file
 DAMAGE = {
     getattr(signal, name)
@@ -138,8 +137,7 @@ def reading(path, seconds=None):
 def _work(function, items, pipe):
     """Runs in the child: writes the results of the items, one after another, to the pipe."""
     resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
-    with contextlib.suppress(OSError, AttributeError):  # not available on systems other than Linux
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)  # a signal that ends the parent ends the child, too
+    end_with_parent(signal.SIGKILL)
     for number in DAMAGE:
         signal.signal(number, signal.SIG_DFL)
     with os.fdopen(pipe, "wb") as out:

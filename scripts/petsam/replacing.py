@@ -8,6 +8,7 @@ import h5py
 from .errors import Error
 from .files import need_replaceable
 from .isolation import reading
+from .results import DAMAGED
 
 
 def need_own(path, sign, command):
@@ -18,7 +19,7 @@ def need_own(path, sign, command):
     try:
         with reading(path), h5py.File(path, "r") as file:
             own = sign in file.attrs
-    except OSError:
+    except DAMAGED:
         own = False
     if not own:
         raise Error(f"{path}: exists and was not written by {command}; choose another name by --output")

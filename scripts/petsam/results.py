@@ -1,5 +1,6 @@
 """Reading of petsam's results files, of any size: scalars whole, fields by step, window and stride. SI units."""
 
+import contextlib
 import importlib
 import os
 import re
@@ -12,9 +13,10 @@ import h5py
 import numpy as np
 
 from . import parts
-from .errors import Error, Missing, MissingFile, one_line, short, there_are
+from .errors import Error, Missing, one_line, short, there_are
 from .files import need_regular
 from .isolation import reading
+from .opening import fresh
 
 OPEN, STICK, SLIP = 0, 1, 2  # /state
 DEPTHS = ("wear_depth1", "wear_depth2")  # removed of body 1 and 2
@@ -63,25 +65,43 @@ class History(Named):
 class Datafile:
     """What files of petsam and of petsam-stress share; open for reading, Error where it cannot be read."""
 
+    file = _state = None  # of HDF5, and what _state() has found when it was opened
+
     def __init__(self, path, label=None):
         self.path = str(path)
         self.label = label or os.path.splitext(os.path.basename(self.path))[0]
-        with reading(self.path):
-            try:
-                need_regular(self.path)
-                self.file = h5py.File(self.path, "r")
-            except MissingFile:
-                raise
-            except DAMAGED as error:
-                raise self._error(error) from error
+        with self._reading():
+            need_regular(self.path)
+            self._open()
             try:
                 self._read()
-            except DAMAGED as error:
-                self.close()
-                raise self._error(error) from error
-            except Error:
+            except BaseException:
                 self.close()
                 raise
+
+    @contextlib.contextmanager
+    def _reading(self):
+        """Context in which the file is read: exceptions of HDF5, and of a layout that is not petsam's, become Error."""
+        try:
+            with reading(self.path):
+                self._renew()
+                yield
+        except Error:
+            raise
+        except DAMAGED as error:
+            raise self._error(error) from error
+
+    def _open(self):
+        self._state, self.file = _state(self.path), fresh(self.path)
+
+    def _renew(self):
+        """Opens the file once more where a run has written to it since: nodes of indices, which are read when they are
+        needed, may lie beyond the end that HDF5 noted when it opened the file."""
+        if not self.file or self.parameters.get("closed", 1):
+            return
+        now = _state(self.path)
+        if now and now != self._state and now[:2] == self._state[:2]:
+            self._open()
 
     def _read_axes(self, names, fewest):
         """The coordinates, each of at least so many numbers that increase; then /history and the parameters."""
@@ -158,7 +178,8 @@ class Datafile:
         self.file.close()
 
     def _error(self, error):
-        return Error(f"{self.path}: {_reason(error)}")
+        changed = self._state not in (None, _state(self.path))
+        return Error(f"{self.path}: {'has changed since it was opened: open it again' if changed else _reason(error)}")
 
     def nearest(self, saved, wanted, what="time"):
         """Index of the saved time (s), or of what else rises from step to step, that is nearest to the one wanted."""
@@ -471,7 +492,7 @@ class Results(Datafile):
     @cached_property
     def depths(self):
         """Names of the fields of removed depth that the file has."""
-        with reading(self.path):
+        with self._reading():
             return [name for name in DEPTHS if self._all_have(name)]
 
     # ------------------------------------------------------------ fields
@@ -479,7 +500,7 @@ class Results(Datafile):
     @cached_property
     def fields(self):
         """Names of all fields that the file has."""
-        with reading(self.path):
+        with self._reading():
             return [name for name, node in _nodes(self.file).items() if self._is_field(node) and self._all_have(name)]
 
     def _is_field(self, node):
@@ -493,7 +514,7 @@ class Results(Datafile):
     @cached_property
     def layered(self):
         """Names GROUP/NAME of the fields in layers below the cells (bodies that yield): field() has (nz, ny, nx)."""
-        with reading(self.path):
+        with self._reading():
             names = [f"{place}/{name}" for place, group in self._layer_groups().items() for name in group]
             return [name for name in names if getattr(self.file[name], "ndim", 0) == 4 and self._all_have(name)]
 
@@ -507,7 +528,7 @@ class Results(Datafile):
         if not self.layered:
             raise Error(f"{self.path}: has no layers (petsam -body2_yield, -output_fields usual,plastic)")
         place = name.partition("/")[0] + "/z"
-        with reading(self.path):
+        with self._reading():
             return self._row(_own(self.file, place), place)
 
     def _all_have(self, name):
@@ -538,29 +559,23 @@ class Results(Datafile):
         if name in self.products:
             return "Pa", "frictional power per area over the rolling speed"
         name = name if name in self.fields else name + "_x"
-        try:
-            with reading(self.path):
-                attributes = self._saved(name).attrs
-                unit = self._unit(self._saved(name), name)
-                text = attributes.get("long_name", name.replace("_", " "))
-                return unit, short(text.decode(errors="replace") if isinstance(text, bytes) else str(text))
-        except DAMAGED as error:
-            raise self._error(error) from error
+        with self._reading():
+            attributes = self._saved(name).attrs
+            unit = self._unit(self._saved(name), name)
+            text = attributes.get("long_name", name.replace("_", " "))
+            return unit, short(text.decode(errors="replace") if isinstance(text, bytes) else str(text))
 
     def flags(self, name):
         """Words for the values of a field of flags (flag_values, flag_meanings); none of a field of numbers."""
         if name not in self.fields:
             return {}
-        try:
-            with reading(self.path):
-                attributes = self._saved(name).attrs
-                if "flag_values" not in attributes or "flag_meanings" not in attributes:
-                    return {}
-                words = attributes["flag_meanings"]
-                words = (words.decode(errors="replace") if isinstance(words, bytes) else str(words)).split()
-                return {int(value): short(word) for value, word in zip(np.ravel(attributes["flag_values"]), words)}
-        except DAMAGED as error:
-            raise self._error(error) from error
+        with self._reading():
+            attributes = self._saved(name).attrs
+            if "flag_values" not in attributes or "flag_meanings" not in attributes:
+                return {}
+            words = attributes["flag_meanings"]
+            words = (words.decode(errors="replace") if isinstance(words, bytes) else str(words)).split()
+            return {int(value): short(word) for value, word in zip(np.ravel(attributes["flag_values"]), words)}
 
     def quantity(self, name, *part, **window):
         """A field, the magnitude of a vector whose components the file has, or a product; arguments of field()."""
@@ -625,47 +640,41 @@ class Results(Datafile):
         low, high, _ = rows.indices(self.y.size)
         need_index(self, index)
         source, index = self._place(index)
-        try:
-            with reading(source.path):
-                data = self._saved(name, source)
+        layers = (self.z_of(name).size,) if name in self.layered else ()
+        with source._reading():
+            data = self._saved(name, source)
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
-            layers = (self.z_of(name).size,) if name in self.layered else ()
             if not source._has_saved(data) or data.shape[1:] != (*layers, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
-            block = stride * max(1, BLOCK // stride)
-            blocks = []
-            for k in range(low, high, block):
-                with reading(source.path):
-                    part = data[index, ..., k : min(k + block, high), columns][..., ::stride, ::stride]
-                    blocks.append(part.astype(float) if part.dtype == np.float32 else part)  # of -output_single
-        except DAMAGED as error:
-            raise source._error(error) from error
+        block = stride * max(1, BLOCK // stride)
+        blocks = []
+        for k in range(low, high, block):
+            with source._reading():
+                part = data[index, ..., k : min(k + block, high), columns][..., ::stride, ::stride]
+                blocks.append(part.astype(float) if part.dtype == np.float32 else part)  # of -output_single
         return np.concatenate(blocks, axis=-2)
 
     def edge(self, name, index=-1):
         """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""
         need_index(self, index)
         source, index = self._place(index)
-        try:
-            with reading(source.path):
-                data = self._saved(name, source)
-                if data.dtype.kind != "f" or data.ndim != 3 or not source._has_saved(data) or data.shape[2] != 2:
-                    raise ValueError(f"/{name} is no edge: its shape is {data.shape}")
-                points = data[index]
-        except DAMAGED as error:
-            raise source._error(error) from error
+        with source._reading():
+            data = self._saved(name, source)
+            if data.dtype.kind != "f" or data.ndim != 3 or not source._has_saved(data) or data.shape[2] != 2:
+                raise ValueError(f"/{name} is no edge: its shape is {data.shape}")
+            points = data[index]
         return points[np.isfinite(points).all(axis=1)]
 
     def has(self, names):
         """True if the file has all datasets of these names."""
-        with reading(self.path):
+        with self._reading():
             return all(self._all_have(name) for name in names)
 
     @cached_property
     def edges(self):
         """Which of contact_edge and stick_edge the file has."""
-        with reading(self.path):
+        with self._reading():
             return [name for name in EDGES if self._all_have(name)]
 
     def contact_window(self, index, margin=0.15):
@@ -749,6 +758,13 @@ def _library(name):
         return importlib.import_module(name)
     except ImportError as error:
         raise Missing(f"{name} is not installed: {sys.executable} -m pip install {name}") from error
+
+
+def _state(path):
+    """What changes when a file is written to; None if there is none."""
+    with contextlib.suppress(OSError):
+        status = os.stat(path)
+        return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
 
 
 def _own(group, name):

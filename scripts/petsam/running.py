@@ -80,6 +80,10 @@ def _command(ranks):
     if isinstance(ranks, bool) or not isinstance(ranks, (int, np.integer)) or ranks < 1:
         raise Error(f"ranks {short(repr(ranks))}: expected an integer >= 1")
     launcher = [*environment.launcher(), "-n", str(ranks)] if ranks > 1 else []
+    cores = environment.cores()
+    if ranks > cores and environment.is_local(launcher):
+        text = f"ranks={ranks}: this process may use {cores} cores; more ranks take turns, and are slower: use fewer"
+        warnings.warn(text, AdviceWarning, stacklevel=3)
     return [*launcher, environment.petsam()]
 
 
@@ -121,7 +125,7 @@ def _execute(words, report):
         try:
             process = subprocess.Popen(
                 words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=complaint, text=True, errors="replace",
-                env=environment.run_environment(),
+                env=environment.run_environment(), preexec_fn=environment.following(),
             )  # fmt: skip
         except (OSError, ValueError) as error:
             raise Error(f"{short(words[0])} cannot be started: {getattr(error, 'strerror', None) or error}") from error

@@ -3,8 +3,7 @@
 import numpy as np
 
 from .errors import Error, short, there_are
-from .isolation import reading
-from .results import DAMAGED, WHOLE, Datafile, NotSaved, Results, _own, _some, need_index
+from .results import WHOLE, Datafile, NotSaved, Results, _own, _some, need_index
 from .studies import Study, is_study
 
 # parameters of a cycle; the critical plane's normal is in NAME_normal_x, _y, _z
@@ -35,20 +34,22 @@ class Stresses(Datafile):
     def __str__(self):
         """What the file holds: steps, points, and the names, shapes and units of stresses and numbers."""
         what = f"a section along {self.along}" if self.along else "maps"
+        with self._reading():
+            body = int(self.parameters["body"])
+            shapes = {name: self.file[name].shape for name in self.file if getattr(self.file[name], "ndim", 0) > 2}
         lines = [
-            f"{self.path}: stresses of petsam-stress in body {int(self.parameters['body'])}",
+            f"{self.path}: stresses of petsam-stress in body {body}",
             f"  steps     {_some(self.steps)}",
             f"  points    {what}: x, y, z of {self.x.size}, {self.y.size}, {self.z.size}",
         ]
-        with reading(self.path):
-            shapes = {name: self.file[name].shape for name in self.file if getattr(self.file[name], "ndim", 0) > 2}
         for kind, shape in (("stresses", self.shape), ("cycle", self.shape[1:])):
             names = [(name, self.unit(name)) for name in shapes if shapes[name] == shape]
             lines += self._lines(kind, str(shape), names)
         return "\n".join(lines + self._lines("history", f"({self.times.size},)", self.units.items()))
 
     def __contains__(self, name):
-        return name in self.file and name not in AXES
+        with self._reading():
+            return name in self.file and name not in AXES
 
     @property
     def fatigue(self):
@@ -57,7 +58,7 @@ class Stresses(Datafile):
 
     def unit(self, name):
         """Unit of a dataset."""
-        with reading(self.path):
+        with self._reading():
             return self._unit(_own(self.file, name), name)
 
     def of_last(self):
@@ -108,28 +109,26 @@ class Stresses(Datafile):
                 raise Error(f"{self.path}: has no {name} (petsam-stress -quantities){self._there_are(name)}")
 
     def _there_are(self, name):
-        names = [name for name in self.file if name not in (*AXES, "history")]
+        with self._reading():
+            names = [name for name in self.file if name not in (*AXES, "history")]
         return there_are(name, names, "it has")
 
     def field(self, name, index=-1, depths=slice(None), rows=slice(None), columns=slice(None)):
         """A quantity (z, y, x) of a step, or a fatigue parameter, which has no steps; on a window of slices."""
         need_index(self, index)
-        try:
-            with reading(self.path):
-                if name not in self:
-                    raise Error(f"{self.path}: has no {short(name)}{self._there_are(name)}")
-                data = _own(self.file, name)
-                timeless = name in FATIGUE or "_normal_" in name
-                shape = self.shape[1:] if timeless else self.shape
-                if data.shape != shape or data.dtype.kind != "f":
-                    raise ValueError(f"/{name} has the shape {data.shape}")
-                sizes = (len(range(*part.indices(n))) for part, n in zip((depths, rows, columns), shape[-3:]))
-                if np.prod(list(sizes)) > WHOLE:
-                    raise ValueError(f"/{name} is too large to be read whole: take a part of it")
-                part = (depths, rows, columns)
-                return data[part if timeless else (index % self.shape[0], *part)]
-        except DAMAGED as error:
-            raise self._error(error) from error
+        with self._reading():
+            if name not in self:
+                raise Error(f"{self.path}: has no {short(name)}{self._there_are(name)}")
+            data = _own(self.file, name)
+            timeless = name in FATIGUE or "_normal_" in name
+            shape = self.shape[1:] if timeless else self.shape
+            if data.shape != shape or data.dtype.kind != "f":
+                raise ValueError(f"/{name} has the shape {data.shape}")
+            sizes = (len(range(*part.indices(n))) for part, n in zip((depths, rows, columns), shape[-3:]))
+            if np.prod(list(sizes)) > WHOLE:
+                raise ValueError(f"/{name} is too large to be read whole: take a part of it")
+            part = (depths, rows, columns)
+            return data[part if timeless else (index % self.shape[0], *part)]
 
 
 def open_any(path, label=None):

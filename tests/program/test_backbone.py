@@ -744,10 +744,33 @@ def test_numbers_that_make_no_sense_are_refused():
         (dict(amplitudes=[1e-7, 0.0]), "amplitudes: expected lengths above 0"),
         (dict(amplitudes=[1e-7], sensor=[1.0, 2.0]), r"sensor: has the shape \(2,\): expected a number for each of 1"),
         (dict(amplitudes=[1e-7], harmonics=5), "steps 8: with 5 harmonics use 10 or more"),
-        (dict(amplitudes=[1e-7], harmonics=-1), "harmonics -1: expected 1 or more"),
+        (dict(amplitudes=[1e-7], harmonics=-1), "harmonics -1: expected an integer >= 0"),
+        (dict(amplitudes=[1e-7], harmonics=1.5), "harmonics 1.5: expected an integer >= 0"),
+        (dict(amplitudes=[1e-7], steps=0), "steps 0: expected an integer >= 1"),
+        (dict(amplitudes=[1e-7], steps=2.5), "steps 2.5: expected an integer >= 1"),
+        (dict(amplitudes=[1e-7], mode=1.5), "mode 1.5: expected an integer >= 1"),
+        (dict(amplitudes=[1e-7], mode="1"), "mode '1': expected an integer >= 1"),
+        (dict(amplitudes="1um"), "amplitudes: expected lengths above 0, not '1um'"),
+        (dict(amplitudes=[1e-7], sensor=["TIP"]), "sensor: expected a number for each of 1 modes"),
+        (dict(amplitudes=[1e-7], sensor=[np.nan]), "sensor: expected finite numbers"),
     ):
         with pytest.raises(petsam.Error, match=says):
             joint.backbone(one, **given)
+    with pytest.raises(petsam.Error, match="structure: expected a Structure, .* not Patch"):
+        joint.backbone(one.patches[0], [1e-7])
+    for given, says in (
+        (dict(amplitude=[1e-7, 2e-7]), "amplitudes: expected lengths above 0"),
+        (dict(amplitude=1e-7, steps=0), "steps 0"),
+        (dict(amplitude=1e-7, mode=0), "mode 0"),
+    ):
+        with pytest.raises(petsam.Error, match=says):
+            joint.shake(one, **given)
+    with pytest.raises(petsam.Error, match="cycles: expected rising whole numbers above 0, not 'many'"):
+        joint.wear(one, 1e-7, "many")
+    with pytest.raises(petsam.Error, match="by_load 'disp_y': is none of the coordinates disp_x"):
+        joint.Patch(contact, ["disp_x"], by_load=["disp_y"])
+    with pytest.raises(petsam.Error, match="coordinates 'disp_x': expected a list of names"):
+        joint.Patch(contact, "disp_x")
     with pytest.raises(petsam.Error, match="omega: expected frequencies above 0"):
         joint.Structure(one.patches, [np.nan], [[1.0]])
     with pytest.raises(petsam.Error, match="damping -0.1: expected a part"):
@@ -756,9 +779,28 @@ def test_numbers_that_make_no_sense_are_refused():
         (dict(force=[1.0, 2.0], frequencies=[1.0]), r"force: has the shape \(2,\): expected a number for each of 1"),
         (dict(force=[1.0], frequencies=[0.0]), "frequencies: expected numbers above 0, Hz"),
         (dict(force=[0.0], frequencies=[1.0]), "force: moves no mode"),
+        (dict(force=["up"], frequencies=[1.0]), "force: expected a number for each of 1 modes"),
+        (dict(force=[1.0], frequencies=[1.0], harmonics=2.0), "harmonics 2.0: expected an integer >= 1"),
     ):
         with pytest.raises(petsam.Error, match=says):
             joint.forced(one, **given, sensor=[1.0])
+
+
+@pytest.mark.parametrize(
+    "given, says",
+    [
+        (dict(press=0), "press 0: expected an integer >= 1"),
+        (dict(press=2.0), "press 2.0: expected an integer >= 1"),
+        (dict(lower=-1), "lower -1: expected an integer >= 0"),
+        (dict(damping="high"), "damping 'high': expected a part of critical damping"),
+        (dict(friction_scale=-1.0), "friction_scale -1.0: expected a factor from 0 on"),
+        (dict(preload=0.02), "preload 0.02: expected {bolt: tension in N}"),
+        (dict(preload=dict(B="much")), "preload B 'much': expected a tension from 0 on, in N"),
+    ],
+)
+def test_arguments_of_a_pair_are_named(given, says, tmp_path):
+    with pytest.raises(petsam.Error, match=re.escape(says)):
+        joint.Pair(pair_file(tmp_path / "pair.h5", 1.0), **{"preload": PRELOAD, **OPTIONS, "grid_n": 8, **given})
 
 
 def test_files_that_are_no_pair_are_named(command, tmp_path):

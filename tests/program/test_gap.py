@@ -1,5 +1,6 @@
 """Gaps and roughness from files."""
 
+import shutil
 import signal
 import struct
 import sys
@@ -198,6 +199,27 @@ def test_damage_is_found_where_the_ends_of_processes_are_ignored(tmp_path):
 
     done = finished(command, check=3, preexec_fn=ignore, env=environment(), cwd=tmp_path)
     assert f"-gap_file {tmp_path / 'gap.h5'}: cannot be read: it is damaged" in done.stderr
+
+
+@pytest.mark.slow
+def test_a_program_that_examines_for_ever_is_ended(tmp_path):
+    """As where a disk does not answer; it is found beside a copy of the library."""
+    write(tmp_path / "gap.h5", np.zeros((71, 84)), chunks=(16, 16))
+    library = shutil.copy(PROGRAM.parents[1] / "lib" / "libpetsam.so", tmp_path)
+    (tmp_path / "petsam").mkdir()
+    sleeper = tmp_path / "petsam" / "petsam-examine"
+    sleeper.write_text("#!/bin/sh\necho -n -\nexec sleep 300\n")
+    sleeper.chmod(0o755)
+    case = dict(FILE, gap_file=tmp_path / "gap.h5", load_n=None, load_tx=None, output_fields=None)
+    lines = f"""
+import ctypes
+library = ctypes.CDLL({library!r}, mode=ctypes.RTLD_GLOBAL)
+contact = ctypes.c_void_p()
+code = library.petsam_create(-1, {" ".join(words(case))!r}.encode(), ctypes.byref(contact))
+library.petsam_message.restype = ctypes.c_char_p
+assert code == 3 and b"has read it for 60 s without an end" in library.petsam_message(contact)
+"""
+    finished([sys.executable, "-c", lines], check=0, env=environment(), cwd=tmp_path)
 
 
 def test_damage_is_found_by_a_library_that_was_loaded_by_a_relative_name(tmp_path):

@@ -555,3 +555,61 @@ print(contact)
     new, tried, closed = text.splitlines()
     assert new.startswith("Contact(45 x 40 cells of 6.667e-05 m x 7e-05 m; no step")
     assert "Step(time=2.5, status=0, load_n=900, " in tried and closed.endswith("; closed)")
+
+
+def test_results_of_a_run_that_goes_on_have_its_steps_so_far(tmp_path):
+    """Though older results of the same file, and the user's own h5py, are alive in the process. Results that were
+    opened first find their fields when the index of the chunks has grown beyond the end that the file had then."""
+    run_python(
+        BEGIN
+        + """
+import h5py
+held, own, count = [], [], 0
+def look(contact, step):
+    global count
+    count += 1
+    if count % 40 != 3:
+        return
+    results = petsam.open("h.h5")
+    held.append(results)
+    own.append(h5py.File("h.h5", "r"))
+    assert count - 1 <= len(results.steps) <= count, (count, results)
+    assert all(old.field("pressure").max() == old.history["pressure_max"][-1] for old in held[1:])
+with petsam.Contact(**dict(case, grid_n=16), steps=30, output="h.h5", output_flush=0) as contact:
+    steps = contact.run(history, each=look)
+assert len(held) == 3 and len(steps) == 120
+assert len(held[0].steps) < 4 and held[0]["pressure"].shape[0] == len(held[0].steps)
+assert len(petsam.open("h.h5").steps) == len(steps)
+""",
+        tmp_path,
+    )
+
+
+def test_threads_share_a_contact(tmp_path):
+    """The numbers of a step are its own, though steps, reversals and warnings of other threads come between."""
+    run_python(
+        BEGIN
+        + """
+import threading, warnings
+warnings.simplefilter("ignore")
+wrong = []
+def work(contact, shear):
+    try:
+        for load in np.linspace(500.0, 900.0, 25):
+            step = contact.try_step(load_n=load, load_tx=shear)
+            if abs(step.load_n - load) > 1e-3 * load or abs(step.load_tx - shear) > 1e-3 * load:
+                wrong.append(str(step))
+            contact.stiffness(reversal=True), contact.number("contact_area"), contact.reject(), repr(contact)
+            if shear == 10.0:
+                contact.run(dict(time=[1.0], load_n=[load]))
+    except Exception as error:
+        wrong.append(repr(error))
+with petsam.Contact(**dict(case, grid_n=16)) as contact:
+    contact.try_step(load_n=500.0)
+    contact.commit()
+    threads = [threading.Thread(target=work, args=(contact, shear)) for shear in (0.0, 10.0, 20.0, 30.0)]
+    [thread.start() for thread in threads], [thread.join() for thread in threads]
+    assert not wrong, wrong[:3]
+""",
+        tmp_path,
+    )

@@ -277,6 +277,11 @@ def test_mirror_images_join_without_a_step():
         (dict(friction=0.0), "a coefficient > 0"),
         (dict(pressures=[1e6, 1e12]), "1e.12 Pa: all of the surface touches"),
         (dict(shear=1.0), "below 1"),
+        (dict(shear="half"), "shear 'half': expected a part"),
+        (dict(steps=0), "steps 0: expected an integer >= 1"),
+        (dict(spacing=[1e-5] * 3), "spacing .*: expected the distance of points"),
+        (dict(spacing=0.0), "spacing: expected lengths above 0"),
+        (dict(pressures="1MPa"), "pressures: expected numbers, not '1MPa'"),
         (dict(body1_yung=1.0), "body1_young"),
     ],
 )

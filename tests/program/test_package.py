@@ -107,6 +107,33 @@ def test_a_snapshot_has_the_fields_and_scalars_of_its_step(path):
         assert results.parameters["gap_radius1"] == CASE["gap_radius1"]
 
 
+def read_all(results):
+    """Asks results for all that they have."""
+    print(results, results.products, results.depths)
+    for name in results.keys():
+        assert results[name].shape[0] in (results.times.size, results.time.size)
+    for name in results.fields:
+        results.about(name), results.flags(name)
+    for name in results.edges:
+        results.edge(name)
+    results.contact_window(-1), results.friction(-1), results.title(-1), results.of_time(results.times[-1])
+    results.between(1, 1), package.Snapshot(results)["pressure"]
+
+
+def test_whatever_is_damaged_is_read_or_an_error_of_petsam(path, tmp_path):
+    """500 bytes at one place after another of the descriptions of groups, columns and fields."""
+    data, noise, errors, name = path.read_bytes(), np.random.default_rng(3), 0, tmp_path / "damaged.h5"
+    for place in range(4000, 24000, 500):
+        name.write_bytes(data[:place] + noise.bytes(500) + data[place + 500 :])
+        try:
+            with package.open(name) as results:
+                read_all(results)
+        except package.Error as error:
+            assert str(error).startswith(str(name))
+            errors += 1
+    assert errors > 10
+
+
 def test_a_file_that_keeps_hdf5_busy_for_ever_is_damaged(path, tmp_path):
     """Zeros over the names of its datasets, at several places: each is listed, or told of within seconds."""
     data, damaged = path.read_bytes(), []

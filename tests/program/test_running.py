@@ -5,6 +5,10 @@ import errno
 import gc
 import os
 import pickle
+import signal
+import subprocess
+import sys
+import time
 import warnings
 
 import h5py
@@ -12,8 +16,9 @@ import numpy as np
 import pytest
 
 import petsam as package
-from conftest import PROGRAM
-from support import ball, slide_limit
+from conftest import PROGRAM, environment
+from petsam import running
+from support import ROOT, ball, slide_limit
 
 CASE = ball(n=32)
 LIMIT = slide_limit(CASE)[0]
@@ -234,3 +239,49 @@ def test_a_program_that_gives_nothing_is_an_error(monkeypatch, tmp_path):
         monkeypatch.setenv("PETSAM", str(program))
         with pytest.raises(package.Error, match=says):
             package.run(CASE)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_a_signal_that_ends_python_ends_the_run(tmp_path, ranks, number):
+    """A program that never ends stands for petsam; it notes its process."""
+    program = tmp_path / "petsam"
+    program.write_text(f"#!/bin/sh\necho $$ >> {tmp_path}/started\necho running\nexec sleep 600")
+    program.chmod(0o755)
+    lines = f"import petsam; petsam.run(grid_n=8, ranks={ranks}, report=lambda line: print(line, flush=True))"
+    given = dict(environment(), PETSAM=str(program), PYTHONPATH=str(ROOT / "scripts"))
+    with subprocess.Popen([sys.executable, "-c", lines], stdout=subprocess.PIPE, env=given) as python:
+        for _ in range(ranks):
+            assert python.stdout.readline() == b"running\n"
+        python.send_signal(number)
+        python.wait(10)
+    runs = [int(line) for line in (tmp_path / "started").read_text().split()]
+    end = time.monotonic() + 10
+    try:
+        while any(map(alive, runs)) and time.monotonic() < end:
+            time.sleep(0.05)
+        assert not any(map(alive, runs))
+    finally:
+        for run in filter(alive, runs):
+            os.kill(run, signal.SIGKILL)
+
+
+def alive(process):
+    """Whether a process runs; one that has ended may wait for its parent."""
+    try:
+        with open(f"/proc/{process}/stat", encoding="ascii") as file:
+            return file.read().rpartition(")")[2].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
+def test_more_ranks_than_cores_are_warned_of(monkeypatch):
+    monkeypatch.setattr(package.environment, "cores", lambda: 2)
+    monkeypatch.setattr(package.environment, "NODES", ())
+    for launcher, warned in (("mpirun", True), ("mpiexec", True), ("mpirun --host a,b", False), ("srun", False)):
+        monkeypatch.setattr(package.environment, "launcher", launcher.split)
+        with warnings.catch_warnings(record=True) as found:
+            warnings.simplefilter("always")
+            assert running._command(3)[:-3] == launcher.split() and running._command(2)
+        said = ["ranks=3: this process may use 2 cores; more ranks take turns, and are slower: use fewer"] * warned
+        assert [str(one.message) for one in found if one.category is package.AdviceWarning] == said

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from scipy import sparse
 
+from .. import environment
 from ..errors import Error, Missing, one_line
 
 OWN = ("C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20", "C3D20R")  # element types that are assembled here
@@ -115,7 +116,13 @@ def run(lines, folder, name, ccx=CCX):
     threads = {"OMP_NUM_THREADS": "1", "CCX_NPROC_STIFFNESS": "1"}
     with open(folder / f"{name}.log", "w+", encoding="utf-8", errors="replace") as log:
         done = subprocess.run(
-            [program, name], cwd=folder, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env={**os.environ, **threads}
+            [program, name],
+            cwd=folder,
+            stdout=log,
+            stderr=log,
+            stdin=subprocess.DEVNULL,
+            env={**os.environ, **threads},
+            preexec_fn=environment.following(),
         )
         log.seek(0)
         text = log.read()

@@ -16,6 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import Error
+from .arguments import integer, positive
+from .arguments import modal as as_modal
 from .balance import Balance
 from .numbers import Numbers, energies, solved
 from .sweep import CYCLES, STEPS, BackboneWarning, Sweep
@@ -139,19 +141,14 @@ class Backbone(Numbers):
 
 def modal_amplitudes(sweep, amplitudes, sensor):
     """Modal amplitudes (m kg^0.5) by those at a sensor, m, or modal ones where it is None."""
-    found = np.atleast_1d(np.asarray(amplitudes, dtype=float))
-    if not (found.ndim == 1 and found.size and np.all((found > 0.0) & np.isfinite(found))):
-        raise Error("amplitudes: expected lengths above 0")
-    return found / _moved(sensor, sweep.shape)
+    return positive("amplitudes", amplitudes, "lengths above 0") / _moved(sensor, sweep.shape)
 
 
 def _moved(sensor, shape):
     """Displacement of the sensor by a unit of the mode; 1 without sensor."""
     if sensor is None:
         return 1.0
-    sensor = np.asarray(sensor, dtype=float)
-    if sensor.shape != shape.shape:
-        raise Error(f"sensor: has the shape {sensor.shape}: expected a number for each of {len(shape)} modes")
+    sensor = as_modal("sensor", sensor, len(shape))
     moved = abs(float(sensor @ shape))
     if moved <= UNMOVED * np.linalg.norm(sensor) * np.linalg.norm(shape):
         raise Error("sensor: the mode does not move it in this direction: take another direction, sensor or mode")
@@ -170,6 +167,7 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
                 force along the mode, with the inertia of all modes and harmonics. The amplitudes are then those found
     report      called with the number of the amplitude and of all of them
     """
+    harmonics = integer("harmonics", harmonics, 0)
     sweep = Balance(structure, mode, steps, harmonics) if harmonics else Sweep(structure, mode, steps)
     modal, factor = modal_amplitudes(sweep, amplitudes, sensor), _moved(sensor, sweep.shape)
     rows, patches = [], []
@@ -205,7 +203,7 @@ def shake(structure, amplitude, mode=1, sensor=None, steps=STEPS):
     """Vibrates a structure at an amplitude, as of backbone(), until its cycles settle, and lets it come to rest in four
     cycles; its state is then that after the vibration."""
     sweep = Sweep(structure, mode, steps)
-    point = sweep.point(*modal_amplitudes(sweep, amplitude, sensor))
+    point = sweep.point(float(modal_amplitudes(sweep, [amplitude], sensor)[0]))
     ends = 0.125 * np.arange(8.0, -1.0, -1.0) * (-1.0) ** np.arange(9)
     parts = np.concatenate([np.linspace(*two, steps + 1)[1:] for two in zip(ends, ends[1:])])
     sweep.follow(point.alpha * np.outer(parts, sweep.shape), sweep.scale_of(point.alpha))

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import Error
+from .arguments import integer, modal, positive
 from .numbers import Numbers, energies, solved
 from .structure import BEYOND, NoSolution
 from .sweep import STEPS, Point, Sweep
@@ -36,8 +37,7 @@ class Balance(Sweep):
     """Motions with H harmonics about the preload of a structure."""
 
     def __init__(self, structure, mode=1, steps=STEPS, harmonics=3):
-        if harmonics < 1:
-            raise Error(f"harmonics {harmonics}: expected 1 or more")
+        harmonics, steps = integer("harmonics", harmonics), integer("steps", steps)
         if 2 * steps < PER_HARMONIC * harmonics:
             raise Error(f"steps {steps}: with {harmonics} harmonics use {PER_HARMONIC * harmonics // 2} or more")
         super().__init__(structure, mode, steps)
@@ -284,24 +284,19 @@ def forced(structure, force, frequencies, sensor, steps=2 * STEPS, harmonics=3, 
     report       called with the number of the frequency and of all of them
     """
     balance = Balance(structure, 1, steps, harmonics)
-    force, frequencies = np.asarray(force, dtype=float), np.atleast_1d(np.asarray(frequencies, dtype=float))
-    sensor = np.asarray(sensor, dtype=float)
-    for name, values in (("force", force), ("sensor", sensor)):
-        if values.shape != balance.shape.shape:
-            raise Error(f"{name}: has the shape {values.shape}: expected a number for each of {structure.modes} modes")
-    if frequencies.ndim != 1 or not np.all((frequencies > 0.0) & np.isfinite(frequencies)):
-        raise Error("frequencies: expected numbers above 0, Hz")
+    force, sensor = (modal(name, one, structure.modes) for name, one in (("force", force), ("sensor", sensor)))
+    frequencies = positive("frequencies", frequencies, "numbers above 0, Hz")
     rows, motions, patches = [], [], []
     respond = lambda frequency: balance.respond(force, 2.0 * np.pi * frequency)  # noqa: E731
     place = lambda frequency: f"{frequency:.6g} Hz"  # noqa: E731
     for frequency, (motion, cycle) in solved(frequencies, respond, place, report):
-        modal = motion @ balance.shapes.T
-        moved = modal @ sensor
+        moves = motion @ balance.shapes.T
+        moved = moves @ sensor
         rows.append(
             [frequency, abs(moved[0]), np.angle(moved[0]), np.abs(moved[1:]).sum(), cycle.energies.sum()]
             + [cycle.slipping, balance.least]
         )
-        motions.append(modal)
+        motions.append(moves)
         patches.append(cycle.energies)
     numbers = {name: np.array(column) for name, column in zip(RESPONSE, np.transpose(rows))}
     return Response(numbers, np.array(motions), np.array(patches), structure.names)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import Error, short
+from .arguments import positive, real
 from .backbone import COLUMNS, Backbone, backbone, shake
 from .numbers import heads, reason
 from .structure import ENDS, NoSolution
@@ -129,7 +130,7 @@ def band(make, preload, amplitudes, sensor, scatter=None, report=None, **given):
     report      called with the name of each assembly
     given       mode, steps, harmonics of backbone()
     """
-    reached = np.atleast_1d(np.asarray(amplitudes, dtype=float))
+    reached = positive("amplitudes", amplitudes, "lengths above 0")
 
     def one(name, preload=preload, shaken=False, **changes):
         if report:
@@ -174,8 +175,8 @@ def _scattered(name, value, sign, preload):
     """Changes of make() by a standard deviation of a parameter."""
     if name not in ("friction", "preload"):
         raise Error(f"scatter {short(name)}: expected friction or preload")
-    if not 0.0 <= value < 1.0:
-        raise Error(f"scatter {name}={value:g}: expected a standard deviation as a part of it, from 0 to below 1")
+    what = "a standard deviation as a part of it, from 0 to below 1"
+    value = real(f"scatter {name}", value, what, lambda part: 0.0 <= part < 1.0)
     if name == "friction":
         return dict(friction_scale=1.0 + sign * value)
     return dict(preload={bolt: (1.0 + sign * value) * force for bolt, force in preload.items()})

@@ -17,6 +17,7 @@ import numpy as np
 from ..contact import AdviceWarning, Contact
 from ..errors import Error
 from . import elements
+from .arguments import array, integer, positive, real
 
 HALVES = 4  # half cycles of the loop; the last two count
 NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
@@ -231,17 +232,21 @@ def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8
 def _of_interface(separation, spacing, pressures, loop, bodies, begins):
     """begins is called with each pressure, in words, before its steps."""
     friction, shear, steps = loop
-    separation = np.asarray(separation, float)
-    pressures = np.atleast_1d(np.asarray(pressures, float))
+    separation = array("separation", separation)
+    pressures = np.atleast_1d(array("pressures", pressures))
     if separation.ndim != 2 or not np.isfinite(separation).all():
         raise Error("separation: expected a field (ny, nx) of finite numbers")
     if pressures.ndim != 1 or not (np.diff(pressures, prepend=0.0) > 0).all():
         raise Error("pressures: expected positive pressures that rise")
-    if not friction > 0:
-        raise Error(f"friction {friction!r}: expected a coefficient > 0, without which nothing resists a shear")
-    if not 0 < shear < 1:
-        raise Error(f"shear {shear!r}: expected a part of friction times pressure, above 0 and below 1")
-    step = np.broadcast_to(np.asarray(spacing, float), 2)
+    steps = integer("steps", steps)
+    what = "a coefficient > 0, without which nothing resists a shear"
+    friction = real("friction", friction, what, lambda one: 0.0 < one < np.inf)
+    what = "a part of friction times pressure, above 0 and below 1"
+    shear = real("shear", shear, what, lambda part: 0.0 < part < 1.0)
+    step = positive("spacing", spacing, "lengths above 0")
+    if step.size > 2:
+        raise Error(f"spacing {spacing!r}: expected the distance of points along x and y, or one for both")
+    step = np.broadcast_to(step, 2)
     n = separation.shape[::-1]
     size = tuple(float(n[k] * step[k]) for k in range(2))
     parts = shear * np.arange(1, steps + 1) / steps

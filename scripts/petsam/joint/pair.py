@@ -3,6 +3,7 @@
 import os
 import re
 import tempfile
+from collections.abc import Mapping
 
 import h5py
 import numpy as np
@@ -10,6 +11,9 @@ import numpy as np
 from ..contact import Contact
 from ..errors import FILE, Error, short, there_are
 from ..files import need_regular
+from ..isolation import reading
+from ..results import DAMAGED
+from .arguments import integer, real
 from .structure import DISPLACEMENTS, Patch, Structure
 
 PRESS = 4  # steps in which each bolt is tightened
@@ -48,14 +52,16 @@ class Pair:
     def __init__(
         self, path, preload, press=PRESS, frictionless=False, lower=0, damping=0.0, friction_scale=1.0, **options
     ):
+        press, lower = integer("press", press), integer("lower", lower, 0)
+        friction_scale = real("friction_scale", friction_scale, "a factor from 0 on", lambda one: 0.0 <= one < np.inf)
         need_regular(path)
         self.path = path
         self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
         try:
-            with h5py.File(path) as file:
+            with reading(path), h5py.File(path) as file:
                 self._read(file)
                 own = [self._patch_file(k, group, lower) for k, group in enumerate(patches_of(file), 1)]
-        except (OSError, LookupError, ValueError, TypeError) as error:
+        except DAMAGED as error:
             raise Unreadable(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
         self._check(preload)
         # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
@@ -116,11 +122,12 @@ class Pair:
         }
 
     def _check(self, preload):
+        if not isinstance(preload, Mapping):
+            raise Error(f"preload {short(repr(preload))}: expected {{bolt: tension in N}}")
         for name, force in preload.items():
             if name not in self.bolts:
                 raise Error(f"preload {short(name)}: is no bolt of {self.path}{there_are(name, self.bolts)}")
-            if not 0.0 <= force < np.inf:
-                raise Error(f"preload {name}={force:g}: expected a tension from 0 on, in N")
+            real(f"preload {name}", force, "a tension from 0 on, in N", lambda one: 0.0 <= one < np.inf)
         if not self.bolts:
             raise Error(f"{self.path}: has no bolt, so nothing presses the bodies together: make it with --bolt")
         if not preload:

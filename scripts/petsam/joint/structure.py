@@ -21,7 +21,8 @@ import warnings
 import numpy as np
 
 from ..contact import AdviceWarning, ContactError, EdgeContactWarning, NoEquilibrium, NotConverged, PrescribedError
-from ..errors import Error
+from ..errors import Error, short
+from .arguments import array, real
 
 TOLERANCE = 1e-7  # of the work and of the energy of the errors, relative to the work of the loads
 ROUGH = 1e-5  # the same where the contact's own tolerance ends the iteration
@@ -61,6 +62,11 @@ class Patch:
     """
 
     def __init__(self, contact, coordinates, held=None, by_load=(), name="", center=(0.0, 0.0)):
+        if isinstance(coordinates, str):
+            raise Error(f"coordinates {short(repr(coordinates))}: expected a list of names")
+        for one in by_load:
+            if one not in coordinates:
+                raise Error(f"by_load {short(repr(one))}: is none of the coordinates {', '.join(coordinates)}")
         self.contact, self.coordinates, self.held, self.name = contact, list(coordinates), dict(held or {}), name
         self.by_load = np.array([name in by_load for name in self.coordinates])
         self.center = np.asarray(center, dtype=float)
@@ -151,11 +157,12 @@ class Structure:
     """
 
     def __init__(self, patches, omega=(), shapes=None, coupling=None, rigid=None, damping=0.0):
-        if not 0.0 <= damping < 1.0:
-            raise Error(f"damping {damping:g}: expected a part of critical damping, from 0 to below 1")
+        damping = real(
+            "damping", damping, "a part of critical damping, from 0 to below 1", lambda part: 0.0 <= part < 1.0
+        )
         self.patches, self.damping = list(patches), damping
         n = sum(len(patch.coordinates) for patch in self.patches)
-        self.omega = np.asarray(omega, dtype=float)
+        self.omega = array("omega", omega)
         self.shapes = self._matrix(shapes, (n, self.omega.size), "shapes")
         self.rigid = self._matrix(rigid, (n, None), "rigid")
         self.coupling = self._matrix(coupling, (n, n), "coupling")
@@ -172,7 +179,7 @@ class Structure:
     @staticmethod
     def _matrix(values, shape, name):
         rows, columns = shape
-        found = np.zeros((rows, columns or 0)) if values is None else np.asarray(values, dtype=float)
+        found = np.zeros((rows, columns or 0)) if values is None else array(name, values)
         if found.ndim != 2 or found.shape[0] != rows or columns not in (None, found.shape[1]):
             raise Error(f"{name}: has the shape {found.shape}: expected ({rows}, {columns or 'modes'})")
         return found

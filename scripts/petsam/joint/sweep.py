@@ -8,6 +8,8 @@ from numpy.linalg import norm
 
 from ..errors import Error
 from ..results import SLIP
+from .arguments import integer
+from .structure import Structure
 
 STEPS = 8  # load steps of a half cycle
 SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
@@ -67,10 +69,13 @@ class Sweep:
     """The cycles of a structure along one of its stuck modes, from the preload in which the structure is."""
 
     def __init__(self, structure, mode=1, steps=STEPS):
-        self.preload, self.work, self.steps = structure, structure.copy(), steps
+        if not isinstance(structure, Structure):
+            raise Error(f"structure: expected a Structure, such as a Pair's structure, not {type(structure).__name__}")
+        mode, self.steps = integer("mode", mode), integer("steps", steps)
+        self.preload, self.work = structure, structure.copy()
         self.tangent = structure.tangent()
         self.omegas, self.shapes = structure.stuck_modes(self.tangent)  # rad/s; in modal coordinates, as columns
-        if not 1 <= mode <= len(self.omegas):
+        if mode > len(self.omegas):
             raise Error(f"mode {mode}: the structure has modes 1 to {len(self.omegas)}")
         self.omega, self.shape = self.omegas[mode - 1], self.shapes[:, mode - 1]
         self.unit = structure.respond(self.tangent, self.shape)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..contact import ContactError
 from ..errors import Error
+from .arguments import array
 from .backbone import modal_amplitudes
 from .numbers import Numbers, reason
 from .structure import DISPLACEMENTS, ENDS, NoSolution
@@ -83,16 +84,16 @@ def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure
     cycles     rising whole numbers of cycles at which the numbers are wanted, the first above 0
     measure    measure(structure) returns {name: number} of a structure at rest, such as Pair.left
     """
-    cycles = np.atleast_1d(np.asarray(cycles, dtype=float))
+    cycles = np.atleast_1d(array("cycles", cycles, "rising whole numbers above 0"))
     if not (cycles.size and rising(cycles)):
         raise Error("cycles: expected rising whole numbers above 0")
+    first = Sweep(structure, mode, steps)
     if not any(_wears(patch) for patch in structure.patches):
         raise Error(
             "no contact wears: give -wear_coefficient1, -wear_coefficient2, -wear_energy1 or -wear_energy2 among its "
             "options"
         )
     measure = measure or (lambda _: {})
-    first = Sweep(structure, mode, steps)
     modal = float(modal_amplitudes(first, [amplitude], sensor)[0])
     alpha = first.omega**2 * modal
     given = alpha, cycles, (mode, steps), measure

@@ -141,11 +141,6 @@ def arguments():
     return options
 
 
-def available_cores():
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def due(options, cases):
     """Returns the cases that have to be run, in order."""
     wanted = cases if options.case is None else cases[options.case - 1 : options.case]
@@ -161,7 +156,7 @@ def due(options, cases):
 
 def run(options, cases, waiting):
     """Runs the waiting cases; returns the number of the signal that ended the study, or 0."""
-    cores = options.cores or available_cores()
+    cores = options.cores or environment.cores()
     words = environment.launcher(options.launcher)
     program = environment.petsam()
     for case in waiting:

@@ -6,6 +6,7 @@
 #include "fileimpl.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdint.h>
@@ -14,9 +15,14 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 extern char **environ;
+
+/* Outcomes of a run of the program beside the number of characters that it has written; and how long it may take: it
+   limits its own CPU time, but may sleep, or wait for a disk. */
+enum { NOT_STARTED = -1, TOO_LATE = -2, SECONDS = 60 };
 
 /* A question about a file. */
 typedef struct {
@@ -62,6 +68,7 @@ static const char *FindFault(const char option[], const char filename[])
 }
 
 static const char damaged[] = "it is damaged";
+static const char late[]    = "petsam-examine has read it for 60 s without an end; copy it to a faster disk";
 
 /*
   Gets the folder of the file that the library's code lies in, with a slash: the shared library, or a program that is
@@ -148,25 +155,52 @@ static int Start(const char program[], const char *const words[], int output, pi
   return error;
 }
 
+/* Returns the time, ms. */
+static long long GetTime(void)
+{
+  struct timespec now;
+
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  return 1000LL * now.tv_sec + now.tv_nsec / 1000000;
+}
+
+/* Counts the characters that arrive until the other end closes; returns TOO_LATE if it does not. */
+static int CountCharacters(int input)
+{
+  const long long end     = GetTime() + 1000LL * SECONDS;
+  struct pollfd   wanted  = {.fd = input, .events = POLLIN};
+  int             written = 0;
+
+  for (;;) {
+    const long long left = end - GetTime();
+    char            text[2];
+    ssize_t         count;
+
+    if (left <= 0) return TOO_LATE;
+    if (poll(&wanted, 1, (int)left) <= 0) continue; /* interrupted, or the time is over */
+    count = read(input, text, sizeof(text));
+    if (count == 0 || (count < 0 && errno != EINTR)) return written;
+    if (count > 0) written += (int)count;
+  }
+}
+
 /*
   Runs the program and returns the number of characters that it has written: one when it begins, and one when it ends;
-  or -1 where it cannot be started. Its exit status is no evidence: the system drops it where the process ignores
-  SIGCHLD, and another part of the process may take it.
+  or NOT_STARTED or TOO_LATE. Its exit status is no evidence: the system drops it where the process ignores SIGCHLD, and
+  another part of the process may take it.
 */
 static int Run(const char program[], const char *const words[])
 {
-  int     ends[2], written = 0;
-  pid_t   child;
-  ssize_t count;
-  char    text[2];
+  int   ends[2], written = NOT_STARTED, error;
+  pid_t child;
 
-  if (pipe2(ends, O_CLOEXEC)) return -1;
-  if (Start(program, words, ends[1], &child)) written = -1;
+  if (pipe2(ends, O_CLOEXEC)) return NOT_STARTED;
+  error = Start(program, words, ends[1], &child);
   (void)close(ends[1]);
-  while (written >= 0 && ((count = read(ends[0], text, sizeof(text))) > 0 || (count < 0 && errno == EINTR)))
-    if (count > 0) written += (int)count;
+  if (!error) written = CountCharacters(ends[0]);
   (void)close(ends[0]);
-  while (written >= 0 && waitpid(child, NULL, 0) < 0 && errno == EINTR) continue;
+  if (written == TOO_LATE) (void)kill(child, SIGKILL);
+  while (!error && waitpid(child, NULL, 0) < 0 && errno == EINTR) continue;
   return written;
 }
 
@@ -204,19 +238,22 @@ static PetscBool IsSame(const Seen *a, const Seen *b)
            : PETSC_FALSE;
 }
 
-/* Returns false if HDF5 crashes on the file, or does not end; true if the examining program is missing. */
-static PetscBool Survives(const char filename[], const char *const objects[])
+/* Returns why the file cannot be opened: HDF5 crashes on it, or does not end. NULL also if the program is missing. */
+static const char *FindDamage(const char filename[], const char *const objects[])
 {
   static Seen last; /* the last file that passed: a surface is read twice, for its grid and for its heights */
   const Seen  now                             = TakeSeen(filename, objects);
   const char *words[2 + SAM_FILE_OBJECTS + 1] = {"petsam-examine", filename};
   char        program[PETSC_MAX_PATH_LEN];
+  int         written;
 
-  if (IsSame(&now, &last)) return PETSC_TRUE;
+  if (IsSame(&now, &last)) return NULL;
   for (int k = 0; objects && objects[k] && k < SAM_FILE_OBJECTS; k++) words[2 + k] = objects[k];
-  if (FindProgram(program) && Run(program, words) == 1) return PETSC_FALSE;
+  written = FindProgram(program) ? Run(program, words) : NOT_STARTED;
+  if (written == TOO_LATE) return late;
+  if (written == 1) return damaged;
   last = now;
-  return PETSC_TRUE;
+  return NULL;
 }
 
 static PetscErrorCode OpenAndLook(const Case *c, void *answer)
@@ -226,7 +263,7 @@ static PetscErrorCode OpenAndLook(const Case *c, void *answer)
   PetscErrorCode ierr, ended;
 
   PetscFunctionBegin;
-  if (!fault && !Survives(c->filename, c->objects)) fault = damaged;
+  if (!fault) fault = FindDamage(c->filename, c->objects);
   PetscCheck(!fault, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, fault);
   ierr = SamFileOpen(NULL, SAM_EVENT_OUTPUT, c->option, c->filename, SAM_FILE_READ, &file);
   PetscCheck(!ierr, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, damaged);

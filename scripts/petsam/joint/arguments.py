@@ -1,0 +1,50 @@
+"""Checks of arguments: an Error names the argument, its value, and what is expected."""
+
+import numpy as np
+
+from ..errors import Error, short
+
+
+def integer(name, value, least=1):
+    """The value, an integer of `least` or more."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or value < least:
+        raise Error(f"{name} {short(repr(value))}: expected an integer >= {least}")
+    return int(value)
+
+
+def real(name, value, what, good):
+    """The value, a real number for which good(value) is true; `what` says so in words."""
+    try:
+        number = float(value)
+        if good(number):
+            return number
+    except (TypeError, ValueError):
+        pass
+    raise Error(f"{name} {short(repr(value))}: expected {what}")
+
+
+def positive(name, values, what):
+    """The values, one or more finite numbers above 0, as an array of one dimension."""
+    found = array(name, values, what)
+    found = np.atleast_1d(found)
+    if not (found.ndim == 1 and found.size and np.all((found > 0.0) & np.isfinite(found))):
+        raise Error(f"{name}: expected {what}")
+    return found
+
+
+def array(name, values, what="numbers"):
+    """The values as an array of real numbers."""
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise Error(f"{name}: expected {what}, not {short(repr(values))}") from None
+
+
+def modal(name, values, count):
+    """The values, a finite number for each of so many modes."""
+    found = array(name, values, f"a number for each of {count} modes")
+    if found.shape != (count,):
+        raise Error(f"{name}: has the shape {found.shape}: expected a number for each of {count} modes")
+    if not np.all(np.isfinite(found)):
+        raise Error(f"{name}: expected finite numbers")
+    return found

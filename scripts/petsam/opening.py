@@ -1,0 +1,63 @@
+"""Opening of an HDF5 file in its present state: fresh().
+
+While a process has a file open, HDF5 opens it once more in the state of the first time: steps that a run has written
+since are missing, or lie beyond the end that HDF5 has noted. HDF5 compares files by their numbers in the system, but
+never takes two objects of Python for the same file.
+"""
+
+import atexit
+import os
+import weakref
+
+import h5py
+
+_files = weakref.WeakValueDictionary()  # those that are open
+
+
+class _Bytes:
+    """The bytes of a file for h5py. The position is its own: that of the system would be shared with a forked child."""
+
+    def __init__(self, path):
+        self._number = None
+        self._number, self._at = os.open(path, os.O_RDONLY | os.O_CLOEXEC), 0
+
+    def __del__(self):
+        if self._number is not None:
+            os.close(self._number)
+
+    def seek(self, offset, whence=os.SEEK_SET):
+        """Sets the position."""
+        base = {os.SEEK_SET: 0, os.SEEK_CUR: self._at}
+        self._at = offset + (base[whence] if whence in base else os.fstat(self._number).st_size)
+        return self._at
+
+    def tell(self):
+        """The position."""
+        return self._at
+
+    def readinto(self, target):
+        """Fills the target from the position on, or as far as the file reaches; returns the number of bytes."""
+        target, done = memoryview(target).cast("B"), 0
+        while done < len(target) and (count := os.preadv(self._number, [target[done:]], self._at + done)):
+            done += count
+        self._at += done
+        return done
+
+    def read(self, size):
+        """Bytes from the position on."""
+        target = bytearray(size)
+        return bytes(target[: self.readinto(target)])
+
+
+def fresh(path):
+    """An open h5py.File of the file as it is now, for reading."""
+    file = h5py.File(_Bytes(path), "r")
+    _files[id(file)] = file
+    return file
+
+
+@atexit.register
+def _close():
+    """Closes all files before Python ends: HDF5 would read from objects of an interpreter that is no more."""
+    for file in list(_files.values()):
+        file.close()
