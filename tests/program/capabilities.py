@@ -1,7 +1,7 @@
 """Small cases of all capabilities, for tests that hold for each of them: on ranks without cells, after a restart.
 
-A case is options and a history: of a contact on a row of cells in plane strain, or on 16 x 3
-cells, with a history of three rows, of which the last one unloads. Each differs from friction on a ball or cylinder by what its name says.
+A case is options and a history of a contact on a row of cells in plane strain, or on 16 x 3 cells. The history has
+three rows, of which the last one unloads. Each case differs from friction on a ball or cylinder by what its name says.
 """
 
 from support import bodies
