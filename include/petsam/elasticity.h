@@ -43,6 +43,8 @@ typedef struct {
   PetscBool patch;  /* the bodies are fixed in space, and do not roll */
   PetscInt  outside[2][2]; /* columns and rows at the low and high end of x, y that lie outside of the patches */
   PetscBool stress;        /* stresses in the bodies are available; set by the class */
+  PetscReal datum; /* m: distance, by default, of the points that displacements in plane strain are relative to; 0: they
+                      do not depend on it, or it is given */
 } SamElasticityTraits;
 
 /*

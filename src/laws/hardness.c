@@ -58,7 +58,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
     young = b ? PetscMin(young, of) : of;
   }
-  SamExplainStress(limit, young, SAM_LEAST_CONSTANT, INFINITY, why, sizeof(why));
+  SamExplainStress(limit, young, SAM_LEAST_CONSTANT, isinf(limit) ? INFINITY : SAM_MOST_STRENGTH, why, sizeof(why));
   PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s %.6g: %s", SamOptionsPrefix(from), limit_row.name, limit, why);
   *asked = isfinite(limit) != 0;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -254,3 +254,25 @@ def test_nor_does_one_in_a_warning(petsam, tmp_path):
     (tmp_path / "n.opts").write_text("-load_n 100\n")
     done = petsam({**DRIVEN, "history": "a\nb.csv"}, dict(options_file="n.opts"))
     assert done.stderr == "petsam: warning: -load_n of the options file is not used: a\\nb.csv has the column load_n\n"
+
+
+@pytest.mark.parametrize(
+    "name, line", [("grid_n:", "-grid_n: 64"), ("grid_n,", "-grid_n, 64"), ("-grid_n", "--grid_n 3")]
+)
+def test_unknown_option_is_told_with_its_own_file_and_line(launcher, tmp_path, name, line):
+    """Not with those of an option in an earlier file whose name begins like it."""
+    (tmp_path / "f1").write_text("-grid_n 64\n")
+    files = ["-options_file", "f1", "-options_file", "f2"]
+    (tmp_path / "f2").write_text(f"# more\n{line}\n")
+    done = execute(launcher, tmp_path, [{**SPHERE, "grid_n": None}, *files], 1, 2)
+    assert f"f2, line 2: -{name} " in done.stderr and "f1" not in done.stderr
+
+
+@pytest.mark.parametrize("variable, value, told", [
+    ("SLURM_STEP_NUM_TASKS", "4", 4), ("PMI_SIZE", "2", 2), ("PMIX_RANK", "2", 3), ("OMPI_COMM_WORLD_SIZE", "1", 0)
+])  # fmt: skip
+def test_copies_by_another_launcher_are_told(petsam, monkeypatch, variable, value, told):
+    monkeypatch.setenv(variable, value)
+    said = [line for line in petsam(SPHERE, dict(load_n=60.0, grid_n=32)).complaint if "copy of the whole run" in line]
+    assert len(said) == (1 if told else 0)
+    assert not told or f"started {told} processes or more ({variable}), but MPI has 1 rank" in said[0]

@@ -192,6 +192,22 @@ def test_datum_moves_displacements_only(solve):
     assert near.attributes["plane_datum"] == WIDTH and far.attributes["plane_datum"] == 1000 * WIDTH
 
 
+@pytest.mark.parametrize("given, load", [("disp_z", "load_n"), ("disp_x", "load_tx"), ("disp_y", "load_ty")])
+def test_displacement_without_a_datum_is_told(petsam, given, load):
+    """Its load follows from the size of the grid; not so if the datum is given, or in periodic bodies."""
+
+    def told(**more):
+        case = dict(CYLINDER, friction=0.5, grid_n=64, **{given: 2e-7}, **more)
+        if given == "disp_z":
+            case["load_n"] = None
+        return [line for line in petsam(case).complaint if f"{load} depends on it: give {load}, or" in line]
+
+    assert len(told()) == 1 and f"warning: {given} is prescribed in plane strain" in told()[0]
+    assert not told(plane_datum=0.1) and not told(elasticity="plane_periodic")
+    base = dict(body1_young="inf", body2_young="inf", body2_layer_young=2e11, body2_layer_poisson=0.3)
+    assert not told(**base, body2_layer_thickness=WIDTH)
+
+
 def test_datum_of_stiff_layers_is_farther(solve, petsam):
     """Relative to a near point, loads would pull them: by default the datum is where problems have solutions."""
     layers = dict(body2_layer_young=5e12, body2_layer_poisson=0.3, body2_layer_thickness=WIDTH / 2)

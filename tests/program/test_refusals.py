@@ -117,7 +117,7 @@ def write_heights(folder):
         f.create_group("measured")
     rough = np.cos(np.arange(42.0).reshape(6, 7))
     wave = np.cos(4 * np.pi * (np.arange(64) + 0.5) / 64)
-    heights = dict(um=0.9 * rough, mm=5e-4 * rough, tilt=1e-6 * (rough + np.arange(6.0)[:, None]))
+    heights = dict(um=0.9 * rough, tilt=1e-6 * (rough + np.arange(6.0)[:, None]))
     for name, values in dict(heights, steep=9e-5 * (wave + wave[:, None])).items():
         with h5py.File(folder / f"{name}.h5", "w") as f:
             f["height"] = values

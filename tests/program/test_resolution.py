@@ -158,3 +158,40 @@ def test_step_outside_of_contact_and_roughness_are_no_step(petsam, tmp_path):
     for height in (far, rough):
         case = dict(BODIES, gap_type="file", gap_file=surface(tmp_path, 64, height), grid_n=64, grid_size=4e-3)
         assert not any(STEP.search(line) for line in petsam(case, dict(load_n=300.0)).complaint)
+
+
+@pytest.mark.parametrize("n", [255, 256, 512])
+@pytest.mark.parametrize("apex", [0.0, 0.25])
+def test_peak_of_a_wedge_from_a_file_has_no_limit(petsam, tmp_path, n, apex):
+    """With its tip between two cells, at a centre, or elsewhere; each third of the cells adds as much pressure."""
+    peaks, told = [], []
+    for k in (n, 3 * n):
+        x = ((np.arange(k) + 0.5) / k - 0.5) * 4e-3 - apex * 4e-3 / n
+        with h5py.File(tmp_path / "wedge.h5", "w") as f:
+            f["height"] = 0.01 * abs(x)[None]
+        case = dict(BODIES, elasticity="plane", gap_type="file", gap_file="wedge.h5", grid_size=4e-3, load_n=1.1e6)
+        done = petsam(case)
+        peaks.append(peak(done)[0])
+        told += [float(SAID.search(line)[1]) for line in done.complaint if SAID.search(line)][:1] if k == n else []
+    change = (peaks[1] / peaks[0] - 1) * np.log(2) / np.log(3)
+    assert len(told) == 1 and told[0] / 100 == pytest.approx(change, rel=0.7)
+
+
+def test_warnings_of_heights_hide_none_of_the_contact(petsam, tmp_path):
+    """Slopes, few cells across the spots, and the pressure: all are told."""
+    rough = surface(tmp_path, 64, lambda x, y: 2e-6 * np.random.default_rng(3).standard_normal(x.shape))
+    case = dict(BODIES, elasticity="periodic", gap_type="file", gap_file=rough, grid_n=64, grid_size=2e-4, load_n=60.0)
+    said = "\n".join(petsam(case).complaint)
+    for words in (
+        "rms slope of the heights",
+        "check the unit of the dataset",
+        "the contact is in",
+        "of E*, linear elasticity holds",
+    ):
+        assert words in said, words
+
+
+def test_large_contact_hides_no_pressure(petsam):
+    case = dict(BODIES, gap_type="sphere", gap_radius1=1e-3, gap_radius2="inf", grid_n=48, grid_size=3e-3, load_n=2e4)
+    said = "\n".join(petsam(case).complaint)
+    assert "too large for half-space theory" in said and "of E*, linear elasticity holds" in said

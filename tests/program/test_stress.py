@@ -1,5 +1,7 @@
 """petsam-stress: stresses from a results file, as maps and sections, on any number of ranks, and its refusals."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -78,7 +80,7 @@ def test_largest_tension_of_sliding_is_found_at_the_edge(launcher, tmp_path, bod
     found = []
     for ranks in (1, 3):
         options = dict(input="c.h5", output="s.h5", depths=0.0, body=body)
-        conftest.execute(launcher, tmp_path, [options], ranks, 0, program=PROGRAM)
+        done = conftest.execute(launcher, tmp_path, [options], ranks, 0, program=PROGRAM)
         found.append(read(tmp_path / "s.h5"))
     exact = ((1 - 2 * nu) / 3 + mu * np.pi * (4 + nu) / 8) * h.pressure + bulk
     s = found[0]
@@ -86,6 +88,9 @@ def test_largest_tension_of_sliding_is_found_at_the_edge(launcher, tmp_path, bod
     assert s["history/edge_principal_1_max"][0] == pytest.approx(exact, rel=5e-3)
     assert s["history/edge_stress_xx_max_x"][0] == pytest.approx((1 if body == 1 else -1) * h.radius, rel=2e-3)
     assert s["stress_xx"].max() < 0.95 * exact
+    for name in ("stress xx", "principal stress"):
+        printed = re.search(rf"{name} at the contact edge (\S+) Pa .*in step 1$", done.stdout, re.M)
+        assert float(printed[1]) == pytest.approx(exact, rel=5e-3)
     for name in ("edge_stress_xx_max", "edge_stress_xx_max_x", "edge_stress_xx_max_y", "edge_principal_1_max"):
         assert np.array_equal(found[0]["history/" + name], found[1]["history/" + name])
 

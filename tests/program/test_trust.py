@@ -237,6 +237,21 @@ def test_slip_and_shear_of_a_pad_are_right(petsam, tmp_path, pad):
         assert coarse == pytest.approx(fine, rel=0.03)
 
 
+ROLLER = dict(STEEL, body2_young=210e9, body2_poisson=0.3, gap_type="roller", gap_roller_radius=0.05,
+              gap_roller_half_length=2e-3, gap_roller_drop=5e-6, friction=0.69, load_n=622.0)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "crown, width, along", [(4.29e-7, 0.937e-3, True), (4.29e-7, 0.84e-3, True), (4.29e-7, 1.1e-3, False)]
+)
+def test_slip_at_a_rollers_end_is_bounded_by_its_neighbours(petsam, tmp_path, crown, width, along):
+    """The surface falls off beside the last cell in contact, by far more than surfaces bend."""
+    case = dict(ROLLER, gap_roller_crown=crown, grid_size=f"{width},4.4e-3")
+    case.update({"load_tx" if along else "load_ty": 373.387})
+    coarse, fine = (number(petsam, tmp_path, case, dict(grid_n=n), name="slip_max") for n in (64, 128))
+    assert coarse == pytest.approx(fine, rel=0.03)
+
+
 def bounded(c, r):
     """The gap of a sphere of 0.1 m at r, pressed against a circle of radius c."""
     bulge = ((2 * c**2 - r**2) * math.asin(c / r) + c * math.sqrt(r**2 - c**2)) / math.pi

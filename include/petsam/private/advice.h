@@ -25,12 +25,13 @@ typedef struct {
   PetscReal normal;   /* largest normal load (N) or approach (m) */
   PetscReal lever[2]; /* largest distance of the centre of pressure from the origin by the moments, along x and y, m */
   PetscReal slide;    /* largest prescribed tangential displacement, m */
-  PetscReal rotation; /* largest prescribed rotation, rad */
-  PetscReal creep, spin;   /* largest prescribed creepage along x or y, and spin (1/m) */
-  PetscReal stress;        /* largest prescribed stress, Pa */
-  const char *stress_name; /* group of conditions that it belongs to; borrowed */
-  PetscReal   friction;    /* largest factor on the coefficient of friction */
-  PetscBool   open;        /* rotations or moments may make the contact larger than the closed-form solution */
+  PetscBool moved[SAM_COMPONENTS]; /* components with a prescribed displacement or rotation that is not 0 */
+  PetscReal rotation;              /* largest prescribed rotation, rad */
+  PetscReal creep, spin;           /* largest prescribed creepage along x or y, and spin (1/m) */
+  PetscReal stress;                /* largest prescribed stress, Pa */
+  const char *stress_name;         /* group of conditions that it belongs to; borrowed */
+  PetscReal   friction;            /* largest factor on the coefficient of friction */
+  PetscBool   open;                /* rotations or moments may make the contact larger than the closed-form solution */
 } SamLoadRange;
 
 /*
@@ -103,7 +104,7 @@ typedef struct {
   PetscInt          steps; /* number of steps of the run */
   SamLoadRange      most;
   PetscInt          largest;   /* step of the largest normal load or approach, from 0 */
-  PetscBool         doubtful;  /* true: the heights seem tilted or of another unit; the contact is not examined */
+  PetscBool         doubtful;  /* true: no surface has such heights; the contact is not examined */
   PetscBool         examined;  /* true: the size of the contact has been examined */
   PetscBool         stepped;   /* true: heights from a file have a step in contact, and the user was warned of it */
   char              after[48]; /* "after 1e6 cycles: " in a repeated examination; empty in the first */
@@ -122,7 +123,8 @@ typedef struct {
   SamAdviceAddLoads - raises the largest loads (`most`) to those of step k. Not collective.
   SamAdviceBegin - warns, before the first step, of heights and options that are unlikely to be intended. Collective.
   SamAdviceStep - examines step k, which must have a solution. Once, at the largest load, it warns of motions that are
-  not small, bodies that do not touch, a contact of fewer than 20 cells across (14 if a closed-form solution describes
+  not small, displacements that need a datum, bodies that do not touch,
+  a contact of fewer than 20 cells across (14 if a closed-form solution describes
   it), a peak pressure that cells half as wide change by more than 5 % (10 % after wear), a contact that is wider than a
   tenth of a radius of curvature, and a pressure above 0.2 E*. `found`: the size of the contact, NULL if it was not
   examined in this step. With `of_laws` it also passes on the warning of each law, once. Collective.

@@ -44,7 +44,8 @@ PETSC_INTERN void SamArgumentsSeparate(char text[]);
 PETSC_INTERN void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *arguments);
 /*
   SamArgumentsFindPlace - returns the file and line of an option's value, with a colon; "" for an option on the command
-  line or in PETSC_OPTIONS, and on ranks other than 0. `name` ends at a space, colon or comma. Not collective.
+  line or in PETSC_OPTIONS, and on ranks other than 0. `name` ends at a space, or at a colon
+  or comma that belongs to no given name. Not collective.
 */
 PETSC_EXTERN const char *SamArgumentsFindPlace(const SamArguments *arguments, const char name[]);
 PETSC_EXTERN void        SamArgumentsFree(SamArguments *arguments);

@@ -75,10 +75,14 @@ PETSC_INTERN PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *
   SamPrepareMPI - returns true if an MPI launcher has started the process; it must be called before MPI_Init(). Without
   a launcher no network is needed, and it keeps Open MPI from searching for one and starting a daemon, which takes
   longer than a small problem and is not possible everywhere. Settings of the user are not changed. Not collective.
+  SamFindCopies - returns the number of processes that a launcher has started, stated by the variable `name` of its
+  environment, if MPI has one rank; 0: no other process. Each process is then a copy of the whole run. It must be called
+  after MPI_Init(). Not collective.
   SamForgetPreparation - restores the settings after MPI_Init(), so that programs that the process starts can be
   launched with MPI. Not collective.
 */
 PETSC_EXTERN PetscBool SamPrepareMPI(void);
+PETSC_EXTERN int       SamFindCopies(const char **name);
 PETSC_INTERN void      SamForgetPreparation(void);
 
 /* ---- memory ---- */
@@ -179,6 +183,7 @@ PETSC_INTERN void        SamAddUnit(const char text[], const char unit[], char w
   the body is rigid, the text is empty.
 */
 #define SAM_LEAST_CONSTANT 1e-6 /* smallest plausible ratio for the constants of a material; solids have larger ones */
+#define SAM_MOST_STRENGTH  1    /* largest plausible ratio for a stress that a material bears: all are far below */
 PETSC_INTERN void SamExplainStress(double stress, double young, double least, double most, char why[], size_t size);
 
 /* ---- checksums ---- */

@@ -55,10 +55,12 @@ PETSC_INTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[
 /*
   SamGapAdvise - writes a warning if the heights of the gap's file, or of its roughness, seem to have another unit, or,
   with `periodic`, to be those of a tilted surface; else an empty text. `h`: the separation (m). Collective.
+  `certain`: no surface has such heights, and what else may be wrong follows from their unit.
   SamGapAdviseStep - writes a warning if the heights have a step in the contact that is high relative to the elastic
   deformation under this pressure (Pa); `modulus`: E* at the surface (Pa). Collective.
 */
-PETSC_INTERN PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, char text[], size_t size);
+PETSC_INTERN PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, PetscBool *certain,
+                                         char text[], size_t size);
 PETSC_INTERN PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Vec pressure, double modulus, char text[],
                                              size_t size);
 

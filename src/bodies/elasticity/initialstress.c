@@ -81,7 +81,7 @@ static PetscErrorCode CheckStress(const SamOptions *from, SamBody body)
              "-%s" NAME " has no effect: -%syoung inf is a rigid body: omit it", prefix, prefix);
   for (PetscInt k = 0; k < body->rows; k++)
     for (int c = XX; c <= YY; c++) most = PetscMax(most, fabs((double)body->initial[k][c]));
-  SamExplainStress(most, (double)body->material[0].young, SAM_LEAST_CONSTANT, INFINITY, why, sizeof(why));
+  SamExplainStress(most, (double)body->material[0].young, SAM_LEAST_CONSTANT, SAM_MOST_STRENGTH, why, sizeof(why));
   PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s" NAME ": the maximum stress %.6g: %s", prefix, most, why);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

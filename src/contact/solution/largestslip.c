@@ -149,6 +149,17 @@ static PetscBool FindPlace(const Seen *s, Face *face, double p, double *u)
   return PETSC_TRUE;
 }
 
+/*
+  Returns a value at the edge, bounded by those of the cells on both sides of it: where the surface falls off beside the
+  contact, as at a roller's end, the gap outside is not the bend of the surfaces, and what is outside is not smooth.
+*/
+static double BoundAt(double u, double behind, double in, double out, double value)
+{
+  const double other = u < 0 ? behind : in + PetscMax(u, 1) * (out - in);
+
+  return PetscClipInterval(value, PetscMin(in, other), PetscMax(in, other));
+}
+
 /* Computes the slip at the edge at a face of a cell in contact; false: another face has to be used. */
 static PetscBool SlipAtFace(const Seen *s, Face *face, ptrdiff_t k, double *size)
 {
@@ -162,11 +173,15 @@ static PetscBool SlipAtFace(const Seen *s, Face *face, ptrdiff_t k, double *size
   u += 0.5 * (double)shift;
   SmoothOf(s, face, i, face->j, in);
   SmoothOf(s, face, i + face->step[0], face->j + face->step[1], out);
-  for (PetscInt c = 0; c < 2; c++) value[c] = in[c] + u * (out[c] - in[c]);
+  for (PetscInt c = 0; c < 2; c++) {
+    value[c]  = in[c] + u * (out[c] - in[c]);
+    behind[c] = in[c];
+  }
   if (Touches(s, i - face->step[0], face->j - face->step[1])) {
     SmoothOf(s, face, i - face->step[0], face->j - face->step[1], behind);
     for (PetscInt c = 0; c < 2; c++) value[c] += 0.5 * u * (u - 1) * (out[c] - 2 * in[c] + behind[c]);
   }
+  for (PetscInt c = 0; c < 2; c++) value[c] = BoundAt(u, behind[c], in[c], out[c], value[c]);
   *size = hypot(in[0], in[1]);
   if (*size > LEAST * hypot(out[0], out[1])) *size = hypot(value[0], value[1]);
   return PETSC_TRUE;

@@ -353,10 +353,13 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
     char              step[32] = "", unit[16] = "";
     double            number = 0;
 
+    const PetscBool edge = of.places == 2 ? PETSC_TRUE : PETSC_FALSE;
+
     if (!of.shown[0] || (of.material && materials > SHOWN && !IsLargestOfMaterials(run, &of))) continue;
+    if (edge && most < 0) continue; /* a warning has told why */
     if (strcmp(of.unit, "1")) (void)snprintf(unit, sizeof(unit), " %s", of.unit);
-    if (!k) PetscCall(ReadNumber(run, PetscMax(most, 0), SAM_STEP_NUMBER, &number));
-    if (!k) (void)snprintf(step, sizeof(step), " in step %.0f", number);
+    if (!k || edge) PetscCall(ReadNumber(run, PetscMax(most, 0), SAM_STEP_NUMBER, &number));
+    if (!k || edge) (void)snprintf(step, sizeof(step), " in step %.0f", number);
     if (strstr(of.name, "_tension") && at->value <= 0) { /* compression all over the interface */
       PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s: none\n", k ? "" : "maximum", of.shown));
       continue;

@@ -135,6 +135,20 @@ static PetscErrorCode StartPetsc(int *argc, char ***argv)
 
 /* ---- the program ---- */
 
+/* Warns of another MPI's launcher, which starts programs that do not know of each other. */
+static void WarnOfCopies(void)
+{
+  const char *name;
+  const int   copies = SamFindCopies(&name);
+
+  if (copies)
+    SamPrintMessage(
+      program->name,
+      "warning: the launcher has started %d processes or more (%s), but MPI has 1 rank: each process is a "
+      "copy of the whole run: use the mpirun of the MPI that petsam is linked to",
+      copies, name);
+}
+
 static PetscErrorCode Run(void)
 {
   PetscFunctionBegin;
@@ -152,6 +166,7 @@ static PetscErrorCode Run(void)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (arguments.warning[0]) SamPrintMessage(program->name, "warning: %s", arguments.warning);
+  WarnOfCopies();
   PetscCall(program->setup(program->context, &arguments));
   PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD, &arguments));
   PetscCall(program->run(program->context));

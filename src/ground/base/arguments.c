@@ -353,14 +353,25 @@ void SamArgumentsFree(SamArguments *a)
   a->count = a->givens = 0;
 }
 
-const char *SamArgumentsFindPlace(const SamArguments *a, const char name[])
+/* Returns the place of the option whose name has these characters; NULL: it is not given. */
+static const char *PlaceOf(const SamArguments *a, const char name[], size_t length)
 {
-  const size_t length = strcspn(name, " :,");
-  const char  *place  = NULL;
+  const char *place = NULL;
 
   for (int k = 0; a && k < a->givens; k++)
     if (!strncasecmp(a->given[k].name, name, length) && !a->given[k].name[length] && !(place && !place[0]))
       place = a->given[k].place;
+  return place;
+}
+
+const char *SamArgumentsFindPlace(const SamArguments *a, const char name[])
+{
+  size_t      length = strcspn(name, " ");
+  const char *place  = PlaceOf(a, name, length);
+
+  /* a colon or comma may end the name in a message, or belong to a name that is mistyped */
+  while (!place && length && strchr(":,", name[length - 1])) place = PlaceOf(a, name, --length);
+  if (!place) place = PlaceOf(a, name, strcspn(name, " :,"));
   return place ? place : "";
 }
 

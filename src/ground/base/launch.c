@@ -1,6 +1,38 @@
 /* Sets the environment of a process before MPI starts, and restores it. */
 #include <petsam/private/baseimpl.h>
+#include <limits.h>
 #include <stdlib.h>
+
+/* Processes that the launcher has started, and the variable that states it; MPI_Init() may change it. */
+static int         processes = 0;
+static const char *stated_by = NULL;
+
+static void NoteProcesses(void)
+{
+  static const struct {
+    const char *name;
+    int         more; /* processes besides its number: ranks are from 0 */
+  } numbers[] = {{"OMPI_COMM_WORLD_SIZE", 0}, {"PMI_SIZE", 0},    {"PMIX_SIZE", 0}, {"SLURM_STEP_NUM_TASKS", 0},
+                 {"MV2_COMM_WORLD_SIZE", 0},  {"PALS_NRANKS", 0}, {"PMIX_RANK", 1}, {"PMI_RANK", 1}};
+
+  for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]) && !stated_by; k++) {
+    const char *text  = getenv(numbers[k].name);
+    const long  count = text ? strtol(text, NULL, 10) + numbers[k].more : 0;
+
+    if (count <= 1 || count > INT_MAX) continue;
+    processes = (int)count;
+    stated_by = numbers[k].name;
+  }
+}
+
+int SamFindCopies(const char **name)
+{
+  int ranks = 1;
+
+  *name = stated_by;
+  (void)MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks == 1 ? processes : 0;
+}
 
 #if defined(OPEN_MPI)
 /* Settings for running without a network; concurrent programs would share a session's folder. */
@@ -26,6 +58,7 @@ static PetscBool IsLaunched(void)
 
 PetscBool SamPrepareMPI(void)
 {
+  NoteProcesses();
   (void)setenv("OMPI_MCA_sharedfp", "^sm", 0); /* its semaphores fail if /dev/shm is full */
   if (IsLaunched()) return PETSC_TRUE;
   for (int k = 0; k < ALONE; k++) {
@@ -45,6 +78,7 @@ void SamForgetPreparation(void)
 #else
 PetscBool SamPrepareMPI(void)
 {
+  NoteProcesses();
   return PETSC_TRUE;
 }
 

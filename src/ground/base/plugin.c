@@ -44,6 +44,8 @@ PetscErrorCode SamOptionsPlugins(const SamOptions *from)
   SamValidPointer(from, 1);
   PetscCall(SamOptionsRead(from, "Plugins", 1, &row, files, NULL));
   PetscCall(PetscStrToArray(files, ',', &count, &file));
+  PetscCheck(count || !files[0], from->comm, SAM_ERR_USER, "-%splugin %s: expected the name of a file",
+             SamOptionsPrefix(from), files);
   for (int k = 0; k < count; k++) {
     const Register function = Load(file[k], fault, sizeof(fault));
 

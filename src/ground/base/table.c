@@ -156,12 +156,14 @@ static PetscErrorCode ReadRow(Reader *r, char *text)
     PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)r->room, &t->line));
   }
   for (; (field = NextField(&rest, r->separator)); fields++) {
-    char  *end, why[192];
-    double value = strtod(field, &end);
+    char        why[192];
+    const char *end;
+    double      value;
+    PetscBool   unit, is = SamReadReal(NULL, field, &end, &value, &unit);
 
     if (fields >= t->columns) continue;
     SamExplainNumber(field, NULL, why, sizeof(why));
-    PetscCheck(end != field && !*end && isfinite(value), r->comm, SAM_ERR_USER,
+    PetscCheck(is && !*end && isfinite(value), r->comm, SAM_ERR_USER,
                "%s, line %d: column %s: \"%s\" is not a finite number%s", r->file, (int)r->line, t->name[fields], field,
                strchr(field, ';') ? "; separate columns as in the line of their names" : why);
     t->value[t->rows * t->columns + fields] = value;

@@ -58,9 +58,9 @@ PetscBool SamReadReal(const char si[], const char text[], const char **end, doub
   length = strcspn(name, ",");
   *end   = name + length;
   *unit  = length ? PETSC_TRUE : PETSC_FALSE;
-  if (!size || (errno == ERANGE && isinf(*value))) return PETSC_FALSE;
+  if (!size || errno == ERANGE || memchr(text, 'x', size) || memchr(text, 'X', size)) return PETSC_FALSE;
   if (!length) return PETSC_TRUE;
-  if (size > 64 || strspn(text, "+-.0123456789eE") != size) return PETSC_FALSE; /* excludes inf and 0x1p3 */
+  if (size > 64 || strspn(text, "+-.0123456789eE") != size) return PETSC_FALSE; /* excludes inf */
   for (int k = 0; kind && k < MOST && kind->name[k]; k++)
     if (strlen(kind->name[k]) == length && !strncmp(kind->name[k], name, length)) {
       *value = ReadScaled(text, size, kind->power[k]);

@@ -48,6 +48,7 @@ typedef struct {
 /* A plastic strain below this part of the maximum does not count for the extent. */
 #define COUNTS 0.01
 /* Largest depth that may yield, relative to the width of the grid */
+#define LOOSEST 0.05 /* largest tolerance of the plastic strain */
 #define DEEPEST 2
 
 /* The fields of the depth removed of each body up to which the strain has been moved */
@@ -170,14 +171,15 @@ static PetscReal TopOf(SamLaw law, PetscInt body)
   return SamBodySubstrateTop(SamPairBody(SamElasticityGetPair(law->elasticity), body));
 }
 
-static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt body, const char option[], double stress)
+static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt body, const char option[], double stress,
+                                  double most)
 {
   const SamPair pair  = SamElasticityGetPair(law->elasticity);
   const double  young = (double)SamBodySubstrate(SamPairBody(pair, body))->young;
   char          why[160];
 
   PetscFunctionBegin;
-  SamExplainStress(stress, young, SAM_LEAST_CONSTANT, INFINITY, why, sizeof(why));
+  SamExplainStress(stress, young, SAM_LEAST_CONSTANT, most, why, sizeof(why));
   PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s %.6g: %s", SamOptionsPrefix(from), option, stress, why);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -191,11 +193,11 @@ static PetscErrorCode CheckUnits(SamLaw law, const SamOptions *from, PetscInt bo
   const Material *const    m          = &x->material[body];
 
   PetscFunctionBegin;
-  PetscCall(CheckStress(law, from, body, yielding[body], (double)m->yield));
-  PetscCall(CheckStress(law, from, body, modulus[body], (double)m->modulus));
-  PetscCall(CheckStress(law, from, body, voce[body], (double)m->voce_stress));
+  PetscCall(CheckStress(law, from, body, yielding[body], (double)m->yield, SAM_MOST_STRENGTH));
+  PetscCall(CheckStress(law, from, body, modulus[body], (double)m->modulus, INFINITY));
+  PetscCall(CheckStress(law, from, body, voce[body], (double)m->voce_stress, SAM_MOST_STRENGTH));
   for (PetscInt k = 0; k < m->count; k += 2)
-    PetscCall(CheckStress(law, from, body, backstress[body], (double)m->back[k]));
+    PetscCall(CheckStress(law, from, body, backstress[body], (double)m->back[k], INFINITY));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -254,6 +256,9 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
     *asked      = PETSC_TRUE;
     law->option = yielding[b];
   }
+  PetscCheck(x->rtol <= LOOSEST, from->comm, SAM_ERR_USER,
+             "-%syield_rtol %.6g: the limit is %.6g, beyond which the plastic work is wrong by per cents: give less",
+             SamOptionsPrefix(from), (double)x->rtol, LOOSEST);
   law->bytes = BYTES * x->layers * BodiesOf(x);
   PetscCall(SetLayers(x, law, from));
   for (PetscInt b = 0; b < 2; b++) {

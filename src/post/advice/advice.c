@@ -20,13 +20,6 @@
   all numbers of 9 random contacts were within 2 % of their limit unless a slip zone was narrow.
 */
 #define FEW_CLOSED 14
-/* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
-#define STEEPEST 0.1
-/* and linear elasticity up to this pressure over E*. */
-#define HARDEST 0.2
-/* Ratio of a stress to Young's modulus below which it has no effect; grid width (m) that suggests wrong units */
-#define SLIGHT 1e-8
-#define WIDEST 100.0
 /* Part of the period above which the contact of a round body is affected by its periodic images */
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius suggests that the radius is in another unit. */
@@ -38,59 +31,11 @@
 */
 #define PEAK      0.05
 #define WORN_PEAK 0.1
-/* A coefficient of friction from the first of these on is likely to be in percent; from the second on it means
-   stick. */
-#define PERCENT  5
-#define STICKING 100
-
-#define NARROW 0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
-#define BORDER 4    /* margin in cells of a sufficient grid */
-#define SAME   2    /* cells by which two widths, one counted and one computed, may differ */
-#define ABSURD 4096 /* number of cells per row that wrong units may ask for */
-#define BLIND  0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
-#define STROKE 0.02 /* ratio of displacement to half width of a worn contact, above which surfaces should slide */
-
-/* ---- loads ---- */
-
-void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
-{
-  SamLoadRange *const most = &a->most;
-  const PetscReal    *v = control->value, normal = v[SAM_COMPONENT_N];
-  const PetscBool    *force      = control->force;
-  const PetscBool    *creep      = control->creep;
-  const PetscReal     x          = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
-  const PetscReal     y          = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
-  const SamConditions conditions = SamProblemGetConditions(a->setup->problem);
-
-  for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) {
-    const SamCondition *one    = SamConditionsGet(conditions, k);
-    const double        stress = strcmp(one->unit, "Pa") ? 0 : fabs((double)SamControlGet(control, one));
-
-    if (stress > most->stress) most->stress_name = one->group;
-    most->stress = PetscMax(most->stress, stress);
-    if (!strcmp(one->name, SAM_FRICTION_SCALE)) most->friction = PetscMax(most->friction, SamControlGet(control, one));
-  }
-  most->force = force[SAM_COMPONENT_N];
-  most->slide = PetscMax(most->slide, hypot(x, y));
-  for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
-    if (!force[c] && !creep[c]) most->rotation = PetscMax(most->rotation, fabs(v[c]));
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    PetscReal *const own = c == SAM_COMPONENT_MZ ? &most->spin : &most->creep;
-
-    if (creep[c]) *own = PetscMax(*own, fabs(v[c]));
-  }
-  if (!most->steps || normal > most->normal) a->largest = step;
-  if (!most->steps++ || normal > most->normal) most->normal = normal;
-  for (PetscInt k = 0; k < 2; k++) {
-    const SamComponent c = k ? SAM_COMPONENT_MX : SAM_COMPONENT_MY; /* My tips along x */
-
-    if (v[c] == 0) continue;
-    if (force[c] && most->force && normal > 0)
-      most->lever[k] = PetscMax(most->lever[k], fabs(v[c]) / normal);
-    else
-      most->open = PETSC_TRUE;
-  }
-}
+#define NARROW    0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
+#define BORDER    4    /* margin in cells of a sufficient grid */
+#define SAME      2    /* cells by which two widths, one counted and one computed, may differ */
+#define ABSURD    4096 /* number of cells per row that wrong units may ask for */
+#define BLIND     0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
 
 /* ---- the extent ---- */
 
@@ -165,13 +110,13 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   PetscFunctionBegin;
   text[0] = '\0';
   PetscCall(SamGapGetSteepness(s->gap, half, &steepness));
-  *large = steepness.ratio > STEEPEST ? PETSC_TRUE : PETSC_FALSE;
+  *large = steepness.ratio > SAM_ADVICE_STEEPEST ? PETSC_TRUE : PETSC_FALSE;
   if (!(steepness.ratio > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(text, size, "is %.2g times -%s %g (in m)", (double)steepness.ratio, steepness.option,
                  (double)steepness.radius);
   if (*large)
     (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa%s",
-                   STEEPEST, steepness.concave ? "; conforming bodies need finite elements" : "");
+                   SAM_ADVICE_STEEPEST, steepness.concave ? "; conforming bodies need finite elements" : "");
   else if (steepness.ratio < FLATTEST)
     (void)snprintf(text + strlen(text), size - strlen(text), ", and less than %g of it is rare: check the unit, m",
                    FLATTEST);
@@ -179,64 +124,6 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
 }
 
 /* ---- a step ---- */
-
-/* True if the surface of body 2 varies from place to place, so that its position matters. */
-static PetscBool HasPlace(SamAdvice *a)
-{
-  PetscBool     has = PETSC_FALSE;
-  const SamLaw *laws;
-  PetscInt      count = 0;
-
-  if (!a->error) a->error = SamProblemGetLaws(a->setup->problem, &count, &laws);
-  for (PetscInt k = 0; !a->error && k < count; k++) has = has || laws[k]->of_body[1];
-  return has;
-}
-
-/* Advises on displacements, rotations and creepages that are not small, as the theory assumes. */
-static void Motion(SamAdvice *a)
-{
-  const SamExtent    *extent = &a->extent;
-  const SamLoadRange *most   = &a->most;
-  const double        width  = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
-  const SamProblem    p      = a->setup->problem;
-  const PetscBool     wears  = SamProblemGetLaw(p, SAM_LAW_ARCHARD) || SamProblemGetLaw(p, SAM_LAW_ENERGY);
-
-  if (most->rotation > STEEPEST)
-    SamAdviceSay(a, "",
-                 "a rotation of %g is prescribed: rotations must be small, up to about %g rad (a degree is 0.0175)",
-                 (double)most->rotation, STEEPEST);
-  else if (most->creep > STEEPEST)
-    SamAdviceSay(
-      a, "", "a creepage of %g is prescribed: it is the slip over the rolled distance, up to about %g (1 %% is 0.01)",
-      (double)most->creep, STEEPEST);
-  else if (0.5 * (double)most->spin * width > STEEPEST)
-    SamAdviceSay(
-      a, "",
-      "creep_spin %g 1/m is prescribed: its slip at the contact's edge is %.2g of the rolled distance, the limit is "
-      "about %g: check the unit, 1/m",
-      (double)most->spin, 0.5 * (double)most->spin * width, STEEPEST);
-  else if (extent->zones && (double)most->slide > width && (!wears || HasPlace(a)) &&
-           !SamProblemGetLaw(p, SAM_LAW_SLIDE))
-    SamAdviceSay(
-      a, "",
-      "the prescribed tangential displacement, %g m, exceeds the width of the contact, %.3g m: without -slide surfaces "
-      "are not moved past each other, so it must be small: give -slide, or check the unit, m",
-      (double)most->slide, width);
-}
-
-/*
-  Advises on the error of the worn depth of surfaces that are not moved past each other, as measured on worn cylinders.
-*/
-static void Stroke(SamAdvice *a)
-{
-  const double ratio = (double)(a->most.slide / PetscMax(a->extent.half[0], a->extent.half[1]));
-
-  if (HasPlace(a) && ratio > STROKE && !SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE))
-    SamAdviceSay(a, "",
-                 "%sthe surfaces move by %.3g m, %.2g times the half width of the contact, and body 2 wears, but "
-                 "without -slide they are not moved past each other: the depth is wrong by about %.2g %%: give -slide",
-                 a->after, (double)a->most.slide, ratio, 100 * PetscMin(9 * ratio * ratio, 0.66 * ratio));
-}
 
 static void Touch(SamAdvice *a)
 {
@@ -334,41 +221,15 @@ static void Cells(SamAdvice *a)
                sharp ? "" : better, absurd ? "; or check the units, N, m, Pa" : "");
 }
 
-/* Compares the largest prescribed stress with the moduli of both bodies; `why` is empty if the unit may be right. */
-static void ExplainLargest(const SamAdvice *a, char why[], size_t size)
-{
-  double young[2], stress = (double)a->most.stress;
-
-  for (PetscInt b = 0; b < 2; b++) young[b] = (double)SamBodySubstrate(SamPairBody(a->setup->pair, b))->young;
-  SamExplainStress(stress, PetscMin(young[0], young[1]), SLIGHT, INFINITY, why, size);
-  if (!why[0] && isinf(young[0])) young[0] = young[1];
-  if (!why[0] && isinf(young[1])) young[1] = young[0];
-  if (!why[0]) SamExplainStress(stress, PetscMax(young[0], young[1]), 0, HARDEST, why, size);
-}
-
-/* Advises on a prescribed stress or a grid that suggests another unit. */
-static void Units(SamAdvice *a)
-{
-  const SamSetup     *s     = a->setup;
-  const SamLoadRange *most  = &a->most;
-  const double        width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
-  char                why[160];
-
-  ExplainLargest(a, why, sizeof(why));
-  if (why[0]) SamAdviceSay(a, "", "the largest %s, %g Pa, %s", most->stress_name, (double)most->stress, why);
-  if (width > WIDEST) SamAdviceSay(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
-}
-
-/* Advises on heights in another unit; then the grid is not questioned. */
+/* Advises on heights in another unit, or tilted. If no surface has such heights, the grid is not questioned. */
 static void Surfaces(SamAdvice *a)
 {
   const SamSetup *s                              = a->setup;
-  char            text[PETSC_MAX_PATH_LEN + 400] = "";
+  char            text[PETSC_MAX_PATH_LEN + 500] = "";
 
   a->error = SamGapAdvise(s->gap, s->grid, SamProblemGetGap(s->problem), SamElasticityGetTraits(s->elasticity).periodic,
-                          text, sizeof(text));
-  a->doubtful = text[0] ? PETSC_TRUE : PETSC_FALSE;
-  if (!a->error && a->doubtful) SamAdviceSay(a, "", "%s", text);
+                          &a->doubtful, text, sizeof(text));
+  if (!a->error && text[0]) SamAdviceSay(a, "", "%s", text);
 }
 
 /*
@@ -440,38 +301,25 @@ static void Size(SamAdvice *a)
 
   if (!a->error) a->error = Compare(a->setup, a->half, ratio, sizeof(ratio), &large);
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "pressure_max", &most);
-  if (!a->error && large)
-    SamAdviceSay(a, "", "contact too large for half-space theory: its half width %s", ratio);
-  else if (!a->error && most > HARDEST * modulus && !a->stepped)
+  if (!a->error && large) SamAdviceSay(a, "", "contact too large for half-space theory: its half width %s", ratio);
+  if (!a->error && most > SAM_ADVICE_HARDEST * modulus && !a->stepped)
     SamAdviceSay(a, "",
                  "the maximum pressure, %.3g Pa, is %.2g of E*, linear elasticity holds up to about %g: check the %s",
-                 (double)most, (double)most / modulus, HARDEST,
+                 (double)most, (double)most / modulus, SAM_ADVICE_HARDEST,
                  SamAdviceIsFromFile(a->setup) ? "unit of the dataset, and N, m, Pa" : "units, N, m, Pa");
-}
-
-/* Advises on a coefficient of friction, or a factor on it, in percent. */
-static void Friction(SamAdvice *a)
-{
-  PetscReal    friction;
-  const double scale = (double)a->most.friction;
-
-  a->error = SamLawGetFriction(SamProblemGetLaw(a->setup->problem, SAM_LAW_COULOMB), &friction);
-  if (!a->error && friction < PERCENT && scale >= PERCENT && scale * (double)friction >= 1)
-    SamAdviceSay(a, "",
-                 SAM_FRICTION_SCALE " of %g makes the coefficient of friction %g: give a ratio, %g for %g percent",
-                 scale, scale * (double)friction, scale / 100, scale);
-  if (a->error || friction < PERCENT || friction > STICKING) return;
-  SamAdviceSay(a, "friction", "the coefficient of friction is %g: give a ratio, %g for %g percent", (double)friction,
-               (double)friction / 100, (double)friction);
 }
 
 /* All advice, in this order: before the first step, on the largest load, on a contact, and on a worn contact */
 static const struct {
   enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
-} advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {LARGEST, Units}, {LARGEST, Motion},
-               {LARGEST, Touch},   {CONTACT, Steps},   {CONTACT, Cells}, {CONTACT, Bodies},
-               {CONTACT, Images},  {CONTACT, Size},    {WORN, Cells},    {WORN, Stroke}};
+} advices[] = {{BEFORE, Surfaces},        {BEFORE, SamAdviceFriction},
+               {LARGEST, SamAdviceUnits}, {LARGEST, SamAdviceMotion},
+               {LARGEST, SamAdviceDatum}, {LARGEST, Touch},
+               {CONTACT, Steps},          {CONTACT, Cells},
+               {CONTACT, Bodies},         {CONTACT, Images},
+               {CONTACT, Size},           {WORN, Cells},
+               {WORN, SamAdviceStroke}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
 {

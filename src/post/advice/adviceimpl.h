@@ -9,6 +9,10 @@
 #define SAM_ADVICE_CELLS  20  /* a contact with fewer cells across is not resolved, but for closed-form solutions */
 #define SAM_ADVICE_MARGIN 1.1 /* ratio of the width of a sufficient grid to that of the contact */
 #define SAM_ADVICE_TEXT   64  /* characters of numbers in messages */
+/* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
+#define SAM_ADVICE_STEEPEST 0.1
+/* and linear elasticity up to this pressure over E*. */
+#define SAM_ADVICE_HARDEST 0.2
 /*
   SamAdviceSay - passes on advice, with a format of printf(); `setting`: see SamAdviceFunction.
   SamAdviceGrids - writes the end of a message, such as ": -grid_n 64", that proposes a grid with this many times more
@@ -66,5 +70,14 @@ PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddYielding(SamAdvice *advice);
 PETSC_INTERN void           SamAdviceYielding(SamAdvice *advice);
 PETSC_INTERN PetscBool      SamAdviceCountsCells(SamAdvice *advice);
+/*
+  Advice on what is prescribed (prescribed.c): Friction in percent; Units of stresses and of the grid; Motion that is
+  not small; Datum: displacements that need one; Stroke: moves of a worn body 2 without -slide. Not collective.
+*/
+PETSC_INTERN void SamAdviceFriction(SamAdvice *advice);
+PETSC_INTERN void SamAdviceUnits(SamAdvice *advice);
+PETSC_INTERN void SamAdviceMotion(SamAdvice *advice);
+PETSC_INTERN void SamAdviceDatum(SamAdvice *advice);
+PETSC_INTERN void SamAdviceStroke(SamAdvice *advice);
 
 #endif

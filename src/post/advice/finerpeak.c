@@ -18,7 +18,9 @@
   Heights that are interpolated may miss a tip or an edge between two cells. So the first patch is interpolated in two
   ways, which differ at an edge, and the larger change counts. Neither reveals a tip in the contact, but the fourth
   differences of the heights do: a wave two cells long, with 0.08 of their height, changes the pressure by about E*
-  times its height over the cells' width. The factor 0.08 was found by trials.
+  times its height over the cells' width. The factor 0.08 was found by trials. A ridge whose slope changes by s has
+  a pressure without limit, that of a wedge: it grows by E* s ln 2/(2 pi) with each halving of the cells. Between two
+  cells its fourth differences are small, and its s is the second differences of both cells, minus those beside them.
 
   Lengths of the patch are in units of its cells: displacements under the same pressure are proportional to the cells'
   width, so operators and solver are created once. All ranks solve the same problem; the results of the first rank are
@@ -42,7 +44,8 @@
 #define LEVEL   0.9               /* a peak is resolved if a cell beside it has at least this part of it */
 #define CENTRAL 6                 /* number of places of an interpolation, */
 #define VARYING 4                 /* number of places of an interpolation that avoids edges */
-#define TIP     0.08              /* part of the fourth differences that counts */
+#define TIP     0.08              /* part of the fourth differences that counts, */
+#define RIDGE   0.1103            /* and of the change of slope at a ridge: ln 2/(2 pi) */
 #define SHARP   0.4               /* change at a sharp edge, the largest that interpolation can detect */
 #define SETTLED 0.03              /* change of the peak on cells half as wide as those of an advised grid */
 
@@ -53,7 +56,7 @@ typedef struct {
   double    p[FINE * FINE];     /* Pa */
   double    g[FINE * FINE];     /* m, times `scale` */
   double    scale;              /* ratio of the cell width of the first patch to that of this one */
-  double    tip;                /* m: fourth differences of the heights on the first patch */
+  double    tip;                /* m: wave two cells long, or ridge, that may be hidden on the first patch */
   PetscBool last;               /* true: a cell beside the first peak is open */
 } Patch;
 
@@ -216,25 +219,48 @@ static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns fourth differences of the patch's interpolated heights about the peak if all its cells are in contact. */
+/* True if the cells from `first` to `last`, counted from one with pressure p, are in contact. */
+static PetscBool IsClosed(const double p[], PetscInt stride, PetscInt first, PetscInt last)
+{
+  for (PetscInt c = first; c <= last; c++)
+    if (!SamIsPressed(p[c * stride])) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+static double FourthDifference(const double h[], PetscInt stride)
+{
+  return Difference(h - 2 * stride, stride, 4);
+}
+
+/*
+  Returns the second differences of a cell and of the next one together, minus those of a smooth surface: interpolated
+  by a parabola from the two cells on both sides.
+*/
+static double FoldAt(const double h[], PetscInt stride)
+{
+  double second[6];
+
+  for (PetscInt c = 0; c < 6; c++) second[c] = Difference(h + (c - 3) * stride, stride, 2);
+  return second[2] + second[3] - 1.5 * (second[1] + second[4]) + 0.5 * (second[0] + second[5]);
+}
+
+/* Returns the height of what may be hidden between the cells about the peak, if all of them are in contact. */
 static double FindTip(const Patch *a, const double heights[])
 {
   const PetscInt beside = a->axes - 1;
-  double         most   = 0;
+  double         tip = 0, ridge = 0;
 
   for (PetscInt j = -beside; j <= beside; j++)
     for (PetscInt i = -1; i <= 1; i++)
       for (PetscInt k = 0; k < a->axes; k++) {
         const PetscInt stride = k ? WIDE : 1, at = PeakOf(a) + j * WIDE + i;
         const double  *h = heights + at, *p = a->p + at;
-        PetscBool      closed = PETSC_TRUE;
 
-        for (PetscInt c = -2; c <= 2; c++)
-          if (!SamIsPressed(p[c * stride])) closed = PETSC_FALSE;
-        if (!closed) return 0;
-        most = PetscMax(most, fabs(6 * h[0] - 4 * (h[stride] + h[-stride]) + h[2 * stride] + h[-2 * stride]));
+        if (!IsClosed(p, stride, -2, 2)) return 0;
+        tip = PetscMax(tip, fabs(FourthDifference(h, stride)));
+        if (IsClosed(p, stride, -3, 4)) ridge = PetscMax(ridge, fabs(FoldAt(h, stride)));
       }
-  return most;
+  return PetscMax(TIP * tip, RIDGE * ridge);
 }
 
 /* Refines WIDE cells in each direction to FINE cells in their place, with another pressure within the outer cells. */
@@ -367,7 +393,7 @@ static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *e
   }
   PetscCall(Refine(l, CENTRAL, b, &solved));
   if (solved) other = PetscMin(TakePeak(b) / most - 1, SHARP);
-  tip = PetscMin(TIP * b->tip * SamPairModulus(s->pair) / (cell * most), SHARP);
+  tip = PetscMin(b->tip * SamPairModulus(s->pair) / (cell * most), SHARP);
   if (fabs(other) > fabs(extent->change)) extent->change = other;
   if (tip > fabs(extent->change)) extent->change = tip;
   if (fabs(extent->change) > SETTLED && extent->finer == 1) extent->finer = 2;

@@ -103,7 +103,7 @@ static PetscErrorCode CheckConstants(SamEvaluation e)
     const double young = (double)SamBodyMaterialAt(body, SamBodyTop(body, m + 1))->young;
     char         why[160];
 
-    SamExplainStress(yield, young, SAM_LEAST_CONSTANT, INFINITY, why, sizeof(why));
+    SamExplainStress(yield, young, SAM_LEAST_CONSTANT, SAM_MOST_STRENGTH, why, sizeof(why));
     PetscCheck(!why[0], e->comm, SAM_ERR_USER, "-fatigue_yield %.6g: %s", yield, why);
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -180,9 +180,10 @@ static const struct {
 } kinds[SAM_LARGEST_OWN] =
   {[SAM_LARGEST_MISES]          = {"mises", "maximum von Mises stress", "von Mises stress"},
    [SAM_LARGEST_PRINCIPAL]      = {"principal_1", "maximum principal stress", ""},
-   [SAM_LARGEST_EDGE_XX]        = {"edge_stress_xx", "maximum stress xx at the contact edge, on the surface", ""},
+   [SAM_LARGEST_EDGE_XX]        = {"edge_stress_xx", "maximum stress xx at the contact edge, on the surface",
+                                   "stress xx at the contact edge"},
    [SAM_LARGEST_EDGE_PRINCIPAL] = {"edge_principal_1", "maximum principal stress at the contact edge, on the surface",
-                                   ""}},
+                                   "principal stress at the contact edge"}},
   of_material[SAM_OWN] = {[SAM_OWN_MISES]     = {"mises", "von Mises stress", "von Mises stress"},
                           [SAM_OWN_PRINCIPAL] = {"principal_1", "principal stress", "principal stress"},
                           [SAM_OWN_TENSION]   = {"tension", "tension across the interface below, sigma_zz,",

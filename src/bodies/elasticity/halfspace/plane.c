@@ -42,6 +42,16 @@ static double LeastDatum(SamElasticity e)
   return width * farthest / (2 * half_plane);
 }
 
+/* True if displacements have no limit far away: but for bodies on rigid bases. */
+static PetscBool HasDatum(SamElasticity e)
+{
+  double limit[SAM_LAYERED_SYMBOLS], waves[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
+
+  SamPairSymbols(e->pair, exp(2 * LONG) / (double)e->grid->width[0], limit, difference);
+  SamPairSymbols(e->pair, 1 / (double)e->grid->width[0], waves, difference);
+  return limit[SAM_LAYERED_ZZ] > exp(LONG) * waves[SAM_LAYERED_ZZ] ? PETSC_TRUE : PETSC_FALSE;
+}
+
 static PetscErrorCode CheckDatum(SamElasticity e, PetscErrorCode error, const char source[], const char before[])
 {
   const double datum = (double)*SamHalfSpaceDatum(e), least = LeastDatum(e);
@@ -61,7 +71,10 @@ static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *fr
   PetscFunctionBegin;
   PetscCall(SamOptionsReal(from, DATUM, "plane: datum's distance (), 0: grid width, more with layers", "m",
                            SAM_RANGE_NONNEGATIVE, &datum, NULL));
-  if (datum > 0) *SamHalfSpaceDatum(e) = datum;
+  if (datum > 0) {
+    *SamHalfSpaceDatum(e) = datum;
+    e->traits.datum       = 0;
+  }
   PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));
   PetscCall(CheckDatum(e, SAM_ERR_USER, "", before));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -88,6 +101,7 @@ PetscErrorCode SamElasticityCreate_Plane(SamElasticity e)
   PetscCall(SamElasticityCreate_HalfSpace(e));
   *SamHalfSpaceDatum(e)  = 2 * LeastDatum(e);
   e->traits.plane        = PETSC_TRUE;
+  e->traits.datum        = HasDatum(e) ? *SamHalfSpaceDatum(e) : 0;
   e->traits.rotations[0] = e->traits.rotations[2] = PETSC_FALSE;
   e->ops.setfromoptions                           = SetFromOptions_Plane;
   e->ops.addparameters                            = AddParameters_Plane;

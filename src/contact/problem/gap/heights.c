@@ -118,24 +118,28 @@ static PetscErrorCode Measure(SamGrid grid, Vec heights, Heights *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void Describe(const Heights *h, SamGrid grid, PetscBool periodic, char text[], size_t size)
+/* Describes what is doubtful; `certain`: the heights are of another unit, whatever the bodies. */
+static void Describe(const Heights *h, SamGrid grid, PetscBool periodic, PetscBool *certain, char text[], size_t size)
 {
   static const char unit[] = "check the unit of the dataset: its attribute units (mm, um); without it, m";
 
   const double   width = (double)PetscMax(grid->width[0], grid->width[1]);
   const PetscInt axis  = h->rise[1] > h->rise[0];
+  size_t         used;
 
-  if (h->range > width)
+  *certain = h->range > width ? PETSC_TRUE : PETSC_FALSE;
+  if (*certain)
     (void)snprintf(text, size, "the heights vary by %.3g m, more than the grid's width of %.3g m: %s", h->range, width,
                    unit);
   else if (h->slope > STEEPEST)
     (void)snprintf(text, size, "the rms slope of the heights is %.2g, half-spaces allow about %g: %s", h->slope,
                    STEEPEST, unit);
-  else if (periodic && h->rise[axis] > h->rms)
-    (void)snprintf(text, size,
-                   "the heights rise by %.2g m along %s, a step at the border of the period, and have an rms of %.2g "
+  used = strlen(text);
+  if (periodic && h->rise[axis] > h->rms)
+    (void)snprintf(text + used, size - used,
+                   "%sthe heights rise by %.2g m along %s, a step at the border of the period, and have an rms of %.2g "
                    "m: remove the tilt by petsam-surface --level tilt",
-                   h->rise[axis], axis ? "y" : "x", h->rms);
+                   used ? "; " : "", h->rise[axis], axis ? "y" : "x", h->rms);
 }
 
 /* Computes the heights without the shape; NULL if no heights are from a file. */
@@ -163,19 +167,21 @@ static void Blame(SamGap gap, const char doubt[], char text[], size_t size)
   (void)snprintf(text, size, "-%s%s %s, %s: %s", gap->prefix, file->file_option, file->file, file->dataset, doubt);
 }
 
-PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, char text[], size_t size)
+PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, PetscBool *certain, char text[],
+                            size_t size)
 {
   Vec     heights;
   Heights found      = {.range = 0};
-  char    doubt[320] = "";
+  char    doubt[400] = "";
 
   PetscFunctionBegin;
-  text[0] = '\0';
+  *certain = PETSC_FALSE;
+  text[0]  = '\0';
   PetscCall(CreateHeights(gap, grid, h, &heights));
   if (!heights) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Measure(grid, heights, &found));
   PetscCall(VecDestroy(&heights));
-  Describe(&found, grid, periodic, doubt, sizeof(doubt));
+  Describe(&found, grid, periodic, certain, doubt, sizeof(doubt));
   if (doubt[0]) Blame(gap, doubt, text, size);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
