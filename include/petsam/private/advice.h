@@ -35,6 +35,18 @@ typedef struct {
 } SamLoadRange;
 
 /*
+  SamRing - the slip of dissimilar bodies in a ring at the edge of contact while N grows, of these steps (slipring.c).
+*/
+typedef struct {
+  PetscInt steps;
+  double   energy, error; /* J: dissipated, and its error by the cells, estimated after the last step */
+  double   width, moves;  /* sums of the ring's width and of the motion of the edge in a step, in cells, each times the
+                              energy of the step */
+  double   unsure;        /* error of the area of stick, relative to the area of contact, after the last step */
+  double   stick, worst;  /* the same relative to the area of stick, and its largest value at the end of such growth */
+} SamRing;
+
+/*
   SamSlip - the dissipated energy of the steps so far, and how well the cells resolve it (slipzones.c). A branch is the
   loading between two load reversals; lengths are in cells.
 */
@@ -68,6 +80,7 @@ typedef struct {
   PetscInt  growing;       /* number of steps in which cells come into contact */
   double    share;         /* largest T over mu N before the first reversal */
   double    first;         /* energy of the first branch once it has ended, J; 0: not yet */
+  SamRing   ring;          /* the slip of dissimilar bodies while N grows */
 } SamSlip;
 
 /* SamRollingError - the largest error of a computed load or creepage in steady rolling (steadyerrors.c). */

@@ -151,10 +151,15 @@ static PetscBool HasEnergy(SamReport r)
 
 static PetscErrorCode PrintEnergy(SamReport r)
 {
+  const double cells    = r->slip.steps && !r->living ? r->slip.ring.error / (double)r->energy[0] : 0;
+  char         more[48] = "";
+
   PetscFunctionBegin;
+  if (cells > 0) (void)snprintf(more, sizeof(more), ", by the cells about %.2g %%", 100 * cells);
   if (HasEnergy(r))
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, error by the length of the load steps about %.2g %%\n",
-                          "energy", (double)r->energy[0], r->energy_unit, 100 * (double)(r->energy[1] / r->energy[0])));
+    PetscCall(
+      PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, error by the length of the load steps about %.2g %%%s\n",
+                  "energy", (double)r->energy[0], r->energy_unit, 100 * (double)(r->energy[1] / r->energy[0]), more));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

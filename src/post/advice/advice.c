@@ -401,7 +401,7 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
   SamAdviceSlip(a);
   SamAdviceRolling(a);
   SamAdviceYielding(a);
-  *found = a->slip.energy > 0 ? &a->slip : NULL;
+  *found = PetscMax(a->slip.energy, a->slip.ring.energy) > 0 ? &a->slip : NULL;
   PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -54,6 +54,19 @@ typedef struct {
   double work, shear; /* J: energy at share 1 (grows as share^3); Pa: shear at its end (as the root) */
 } SamStuck;
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStuck(const SamSetup *setup, double *share, SamStuck *stuck);
+/*
+  SamAdviceAddRing - adds a step to the ring of slip of dissimilar bodies. Collective. SamAdviceRing - advises, after
+  the last step, on an energy above `least` (J) that cells or steps do not resolve, and on the area of stick. Not
+  collective (slipring.c).
+*/
+typedef struct {
+  PetscBool touches;     /* slip counts from when cells touch */
+  double    energy;      /* J */
+  double    edge, width; /* cells: length of the contact's edge, and mean width of the slip zone */
+  double    sticks;      /* part of the contact that sticks */
+} SamRingStep;
+PETSC_INTERN PetscErrorCode SamAdviceAddRing(SamAdvice *advice, const SamRingStep *now);
+PETSC_INTERN void           SamAdviceRing(SamAdvice *advice, double least);
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
 PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[]);

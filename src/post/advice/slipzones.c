@@ -61,6 +61,7 @@
 #define ROUNDING 1e-16 /* energy, relative to the normal work, that is rounding of the shear */
 #define UNPUSHED 1e-9  /* the same that is of no interest where only dissimilar bodies are pressed */
 #define NOTHING  1e-6  /* energy, relative to the tangential work, that counts as none */
+#define LITTLE   1e-4  /* the same of dissimilar bodies while N grows: less is that of single cells */
 #define SLIVER   1e-3  /* the same if N and T grow in proportion; cut cells cause such energies */
 #define UNSURE   0.5  /* error of a step's energy by its length, relative to it, above which cells are not questioned */
 #define ROUND    4    /* ratio of the length of a round edge without reconstruction to the part that counts */
@@ -131,16 +132,24 @@ static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns the length of the contact's edge in cells. */
+static double EdgeOf(const SamSetup *s, const Numbers *n)
+{
+  const PetscBool row  = SamGridIsRow(s->grid);
+  const double    cell = sqrt((double)(s->grid->dx * s->grid->dy));
+
+  if (n->known > 0) return SamContactEdgeLength(s->grid, n->faces) / (row ? 1 : cell);
+  return row ? 2 : 2 * sqrt(PETSC_PI * (double)n->contact) / cell;
+}
+
 /*
-  Computes width of the zone and length of the edge, in cells; flat periodic bodies have no edge, and an infinite width.
+  Computes width of the zone and the part of the edge's length that counts, in cells; flat periodic bodies have no edge,
+  and an infinite width.
 */
-static void Measure(const SamSetup *s, const Numbers *n, SamSlip *slip)
+static void Measure(const SamSetup *s, const Numbers *n, double edge, SamSlip *slip)
 {
   const PetscBool row  = SamGridIsRow(s->grid);
   const double    cell = row ? (double)s->grid->dx : sqrt((double)(s->grid->dx * s->grid->dy));
-  const double    edge = n->known > 0 ? SamContactEdgeLength(s->grid, n->faces) / (row ? 1 : cell)
-                         : row        ? 2
-                                      : 2 * sqrt(PETSC_PI * (double)n->contact) / cell;
   const double    area = (double)(n->contact - n->stick) / (row ? cell : cell * cell);
   if (n->known > 0)
     slip->width = n->faces > 0 ? n->width / cell : INFINITY;
@@ -381,7 +390,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   SamSlip        *slip   = &a->slip;
   const double    pushes = WorkOf(step);
   const PetscBool pushed = pushes > NOTHING * NOTHING * normal ? PETSC_TRUE : PETSC_FALSE;
-  double          work   = pushes, sticks;
+  double          work   = pushes, sticks, edge;
   Numbers         n;
 
   PetscFunctionBegin;
@@ -395,11 +404,17 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
     EndBranch(slip);
     slip->turned = slip->slipped;
   }
-  Measure(s, &n, slip);
+  edge = EdgeOf(s, &n);
+  Measure(s, &n, edge, slip);
   PetscCall(Join(a, step, &n));
   slip->tilt = PetscMax(slip->tilt, TiltOf(s, step, &n));
   PetscCall(AddStuck(s, step, n.stick_cells == n.contact_cells ? PETSC_TRUE : PETSC_FALSE, slip));
   if (n.energy < (pushed ? ROUNDING : UNPUSHED) * normal) n.energy = 0;
+  PetscCall(SamAdviceAddRing(a, &(SamRingStep){.touches = n.touching > 0 ? PETSC_TRUE : PETSC_FALSE,
+                                               .energy  = (double)n.energy,
+                                               .edge    = edge,
+                                               .width   = (double)slip->width,
+                                               .sticks  = sticks}));
   if (GrowTogether(slip, step) && pushed && n.energy < SLIVER * pushes) {
     n.energy     = 0;
     slip->unsure = PETSC_TRUE;
@@ -416,7 +431,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
     n.energy     = 0;
     slip->unsure = PETSC_TRUE;
   }
-  slip->branch += (double)n.energy;
+  slip->branch += n.touching > 0 ? 0 : (double)n.energy; /* the rest is in the ring */
   if (!pushed) PetscCall(GetStrained(s, step, (double)n.contact, &work));
   if (slip->width < INFINITY && step->load[SAM_COMPONENT_N] != 0 && work > NOTHING * NOTHING * normal)
     slip->work = PetscMax(slip->work, work);
@@ -546,6 +561,7 @@ void SamAdviceSlip(SamAdvice *a)
   Long(a);
   Few(a);
   Merging(a);
+  SamAdviceRing(a, LITTLE * a->slip.work);
   Energy(a);
   SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
                  "slip and shear");
