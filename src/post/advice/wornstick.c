@@ -19,7 +19,7 @@
     volume: (x - 1) j + 1.1 s/w,   energy of a cycle: 1.5 (x - 1) j + 5 s/w,   s = min(1, (x - 1)^2),
 
   and in a narrow scar that of its slip zone without a step (slipzones.c) besides. That of the maximum depth, which may
-  lie between two cells, is that of the volume and 1.4/(w^2 + 4), as of the crest of a wave.
+  lie between two cells, is that of the step and 1.4/(w^2 + 4), as of the crest of a wave.
 
   The first term is that of a young step, a part of the first cells, the second that of a late one. The factors were
   found on 46 random lives of cylinders and pads with 80 to 320 cells against four times finer ones. Of 24 energies that
