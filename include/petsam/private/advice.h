@@ -126,6 +126,7 @@ typedef struct {
   const SamStep    *step;              /* step under examination */
   SamExtent         extent;            /* size of its contact */
   SamRollingError   rolling;           /* largest error so far */
+  PetscBool         cycles;            /* true: computed cycles of a wear simulation, not all steps, are examined */
   SamSlip           slip;              /* energy of the steps so far, or of the last computed cycle */
   SamYielding       yielding;          /* plastic work of the steps so far */
   PetscReal         half[2], across;   /* half widths (m) and cells across; by the closed-form solution if `closed` */
@@ -147,8 +148,10 @@ typedef struct {
   this cycle's energy counts. Not collective.
   SamAdviceEnd - warns, after the last step, of a dissipated energy that is wrong by more than 5 % because the slip
   zones are only few cells wide, or by more than 2 % because N grows in one step on dissimilar bodies; in steady rolling
-  of a load or a creepage that finer cells change by more than 2 %; and of a maximum slip, shear or slip velocity and an
-  area of stick if the zones are few cells wide. `found`: the energy, NULL if there is none. Collective.
+  of a load or a creepage that finer cells change by more than 2 %; of a maximum slip, shear or slip velocity and an
+  area of stick if the zones are few cells wide; and of volumes, depths, the energy of the last cycle and a pressure
+  that are wrong by more than 5 % because the wear ends at a stick zone. `found`: the energy, NULL if there is none.
+  Collective.
   SamAdviceEdge - appends to the message of a step whose contact reached the grid's edge a grid that is large enough for
   these loads. Not collective.
 */

@@ -24,18 +24,13 @@
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius suggests that the radius is in another unit. */
 #define FLATTEST 1e-3
-/*
-  Allowed relative changes of the peak pressure on cells half as wide, without and after wear. The second is larger,
-  since a surface worn on finer cells is smoother than heights interpolated between wide ones: in 7 random lives the
-  change on four times finer cells was a fourteenth to three quarters of the prediction by interpolated heights.
-*/
-#define PEAK      0.05
-#define WORN_PEAK 0.1
-#define NARROW    0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
-#define BORDER    4    /* margin in cells of a sufficient grid */
-#define SAME      2    /* cells by which two widths, one counted and one computed, may differ */
-#define ABSURD    4096 /* number of cells per row that wrong units may ask for */
-#define BLIND     0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
+/* Allowed relative change of the peak pressure on cells half as wide, without wear */
+#define PEAK   0.05
+#define NARROW 0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
+#define BORDER 4    /* margin in cells of a sufficient grid */
+#define SAME   2    /* cells by which two widths, one counted and one computed, may differ */
+#define ABSURD 4096 /* number of cells per row that wrong units may ask for */
+#define BLIND  0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
 
 /* ---- the extent ---- */
 
@@ -194,10 +189,11 @@ static void Cells(SamAdvice *a)
   const SamExtent *extent = &a->extent;
   PetscBool        ends[2];
   /* In periodic bodies all cells may be in contact; the contact then has no width. */
-  const PetscBool whole  = !SamAdviceIsStrip(a, ends) && extent->whole;
-  const int       fewest = Fewest(a);
-  const PetscBool few    = !whole && extent->across < fewest;
-  const PetscBool steep = fabs(extent->change) > (a->after[0] ? WORN_PEAK : PEAK), sharp = steep && !extent->finer;
+  const PetscBool whole                  = !SamAdviceIsStrip(a, ends) && extent->whole;
+  const int       fewest                 = Fewest(a);
+  const PetscBool few                    = !whole && extent->across < fewest;
+  const PetscBool steep                  = fabs(extent->change) > (a->after[0] ? SAM_ADVICE_WORN_PEAK : PEAK),
+                  sharp                  = steep && !extent->finer;
   const double    more                   = few ? (fewest + SAME) / (double)a->across : 0;
   const double    factor                 = PetscMax(more, steep ? (double)extent->finer : 0);
   const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
@@ -357,7 +353,8 @@ static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
 
 void SamAdviceBeginCycle(SamAdvice *a)
 {
-  a->slip = (SamSlip){.joined = PETSC_TRUE};
+  a->slip   = (SamSlip){.joined = PETSC_TRUE};
+  a->cycles = PETSC_TRUE;
 }
 
 void SamAdviceRenew(SamAdvice *a, const char after[])
@@ -399,6 +396,7 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
   a->error = PETSC_SUCCESS;
   PetscCall(SamAdviceMeasureStick(a));
   SamAdviceSlip(a);
+  PetscCall(SamAdviceWornStick(a));
   SamAdviceRolling(a);
   SamAdviceYielding(a);
   *found = PetscMax(a->slip.energy, a->slip.ring.energy) > 0 ? &a->slip : NULL;

@@ -159,8 +159,7 @@ static void Measure(const SamSetup *s, const Numbers *n, double edge, SamSlip *s
   slip->length = row ? LINE : PetscMax(slip->length, 1);
 }
 
-/* Returns the error of a branch's energy, relative to it, at most 1. */
-static double ErrorOf(PetscReal width, PetscReal length)
+double SamAdviceZoneError(PetscReal width, PetscReal length)
 {
   return WRONG / ((double)(width * width) * sqrt((double)length));
 }
@@ -169,7 +168,7 @@ static double ErrorOf(PetscReal width, PetscReal length)
 static void EndBranch(SamSlip *slip)
 {
   const double error =
-    PetscMin(slip->width > 0 ? ErrorOf(slip->width, slip->length) : 1, 1) * PetscMax(slip->branch, 0);
+    PetscMin(slip->width > 0 ? SamAdviceZoneError(slip->width, slip->length) : 1, 1) * PetscMax(slip->branch, 0);
 
   slip->error += error;
   if (error >= slip->worst) {
@@ -506,7 +505,7 @@ static void Energy(SamAdvice *a)
   error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer && !slip->unsure ? 1 : 0;
   if (error <= ALLOWED) return;
   width = slip->missing > 0 && slip->missing >= slip->worst ? slip->narrow[0] : PetscMax(slip->narrow[0], NARROW);
-  times = ErrorOf(width, slip->narrow[1]) / GOOD;
+  times = SamAdviceZoneError(width, slip->narrow[1]) / GOOD;
   SamAdviceGrids(a, PetscMax(pow(times, slip->narrow[1] > 1 ? 0.4 : 0.5), LEAST), better);
   if (known)
     (void)snprintf(wrong, sizeof(wrong), "is %.3g %s in closed form", slip->closed, unit);

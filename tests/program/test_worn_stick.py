@@ -1,0 +1,85 @@
+"""Scars that end at a stick zone: what their cells do not resolve is told, with the numbers that it concerns."""
+
+import re
+
+import h5py
+import pytest
+
+from support import bodies, history
+
+STEEL = bodies(210e9, 0.3)
+# a cylinder on a flat in partial slip
+LIFE = dict(
+    STEEL, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.05, gap_radius_y=float("inf"), friction=0.53,
+    grid_size=3.36e-3, wear_coefficient1=1e-13, wear_coefficient2=1e-13, steps=8, output_every=10000,
+)  # fmt: skip
+ROWS = [(float(k), 5.7e5, 90630.0 * x) for k, x in enumerate((0, 1, -1, 0))]
+TOLD = re.compile("the scar is (.*) cells wide and ends at the edge of a stick zone")
+NAMES = {"energy of the last cycle": "dissipated_energy", "worn volumes": "volume1", "maximum depths": "depth_max1"}
+
+
+@pytest.fixture
+def life(petsam, tmp_path):
+    """life(n, cycles): numbers of the last cycle, errors that are told by name, and the advised cells or None."""
+
+    def run(n, cycles, **options):
+        loads = history(tmp_path / "loads.csv", "time,load_n,load_tx", *ROWS)
+        done = petsam(LIFE, loads, dict(grid_n=n, wear_cycles=cycles, output="life.h5"), options)
+        said = " ".join(line for line in done.complaint if TOLD.search(line))
+        errors = {NAMES[name]: float(part) / 100 for part, name in re.findall(r"(\d+) % in the ([a-z ]+)[,:;]", said)}
+        if peak := re.search(r"pressure is about (\d+) % higher", said):
+            errors["pressure_max"] = float(peak[1]) / 100
+        advised = re.search(r"-grid_n (\d+)$", said)
+        with h5py.File(tmp_path / "life.h5") as file:
+            numbers = {name: column[-1] for name, column in file["wear"].items()}
+        return numbers, errors, int(advised[1]) if advised else None
+
+    return run
+
+
+def wrong(numbers, true):
+    return {name: abs(numbers[name] / true[name] - 1) for name in ("dissipated_energy", "volume1")}
+
+
+@pytest.mark.parametrize("cycles, n", [(1e4, 160), (3e4, 200)])
+def test_energy_and_volume_of_a_scar_of_few_cells_are_told_with_cells_that_do(life, cycles, n):
+    numbers, errors, advised = life(n, cycles)
+    true, _, _ = life(1280, cycles)
+    for name, error in wrong(numbers, true).items():
+        assert error < 0.05 or error / 2 < errors[name] < 1, name
+    assert advised > 2 * n
+    better, left, _ = life(advised, cycles)
+    assert all(error < max(0.05, 2 * left.get(name, 0)) for name, error in wrong(better, true).items())
+
+
+def test_all_numbers_of_a_late_cycle_are_told(life):
+    numbers, errors, _ = life(140, 4e4)
+    true, _, _ = life(560, 4e4)
+    assert all(0.15 < error < 2 * errors[name] for name, error in wrong(numbers, true).items())
+
+
+def test_a_life_without_a_step_is_not_questioned(life):
+    numbers, errors, advised = life(320, 100)
+    true, _, _ = life(1280, 100)
+    assert max(wrong(numbers, true).values()) < 0.01
+    assert not errors and advised is None
+
+
+def test_the_pressure_at_the_edge_of_stick_is_told_though_it_is_not_the_maximum(life):
+    """On these cells the maximum lies in the middle of the contact, on finer ones at the edge of the stick zone."""
+    numbers, errors, _ = life(160, 1.5e4)
+    true, _, _ = life(640, 1.5e4)
+    assert true["pressure_max"] > 1.1 * numbers["pressure_max"]
+    assert errors["pressure_max"] > 0.05
+
+
+def test_any_number_of_ranks_says_the_same(life, petsam, tmp_path):
+    """In three dimensions, where rows of the edge lie on different ranks."""
+    ball = dict(
+        STEEL, gap_type="sphere", gap_radius1=0.05, gap_radius2=float("inf"), friction=0.5, grid_n=32, grid_size=1e-3,
+        wear_coefficient2=2e-12, wear_cycles=2000, wear_rtol=0.1, steps=4,
+    )  # fmt: skip
+    loads = history(tmp_path / "ball.csv", "time,load_n,load_tx", *((k, 100.0, 25.0 * x) for k, _, x in zip(
+        range(4), ROWS, (0, 1, -1, 0))))  # fmt: skip
+    said = [[line for line in petsam(ball, loads, ranks=ranks).complaint if TOLD.search(line)] for ranks in (1, 3)]
+    assert said[0] and said[0] == said[1]
