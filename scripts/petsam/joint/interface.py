@@ -17,6 +17,7 @@ import numpy as np
 from ..contact import AdviceWarning, Contact
 from ..errors import Error
 from . import elements
+from .surfaces import need_fitting
 
 HALVES = 4  # half cycles of the loop; the last two count
 NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
@@ -242,6 +243,7 @@ def _of_interface(separation, spacing, pressures, loop, bodies, begins):
     if not 0 < shear < 1:
         raise Error(f"shear {shear!r}: expected a part of friction times pressure, above 0 and below 1")
     step = np.broadcast_to(np.asarray(spacing, float), 2)
+    need_fitting(separation, step, pressures, friction, bodies)
     n = separation.shape[::-1]
     size = tuple(float(n[k] * step[k]) for k in range(2))
     parts = shear * np.arange(1, steps + 1) / steps
