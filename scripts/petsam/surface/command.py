@@ -25,7 +25,7 @@ import numpy as np
 
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, short
-from ..files import same
+from ..files import need_replaceable, same
 from ..plot.saving import add_choice
 from ..replacing import need_own
 from . import generation, levels, picture, writing
@@ -333,6 +333,8 @@ def carry_out(options, words):
         if any(same(name, path) for path in options.files):
             raise Error(f"{name}: is an input file; choose another name by --output")
     need_own(options.output, writing.SIGN, "petsam-surface")
+    if not options.no_picture:
+        need_replaceable(options.picture)
     quantities = options.body or ["separation" if options.separation else None] * len(options.files)
     maps = [prepared(path, options, quantity) for path, quantity in zip(options.files, quantities)]
     maps = maps or [random_map(options)]

@@ -17,8 +17,8 @@ FEW = 1e-3  # share of the points that outliers are at most
 
 def _list(path, what, more):
     return Error(
-        f"{path}: {what}: a map has one line per y and one number per x{more}; a true map that is as narrow is read "
-        "from HDF5 with its axes x and y beside it"
+        f"{path}: {what}: a map has one line per y and one number per x{more}; write a true map that is as "
+        "narrow as HDF5 with its axes x and y"
     )
 
 

@@ -223,7 +223,9 @@ def _read_instrument(path, options):
     except Exception as error:  # of a library that raises whatever a reader meets
         reason = type(error).__name__
         if reason == "CannotDetectFileFormat":  # its text is that of each of its readers
-            raise Error(f"{path}: has no format known to {LIBRARY}") from error
+            raise Error(
+                f"{path}: has no format known to {LIBRARY}: write the heights as a text of one line per y, or as HDF5"
+            ) from error
         raise Error(f"{path}: {LIBRARY} cannot read it: {error or reason}") from error
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
     unit = None if text is None else metres(THEIRS.get(text, text))
