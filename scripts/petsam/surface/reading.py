@@ -212,7 +212,7 @@ def _read_instrument(path, options):
             kind = type(reader).__name__
             channel = _channel(path, reader, options.channel)
             if channel.dim != 2:
-                raise Error(f"{path}: {short(channel.name)} is a line, not a map")
+                raise Error(f"{path}: {short(channel.name)} is a line, not a map: use another file or --channel")
             sizes = channel.physical_sizes
             unknown = {} if sizes is not None else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}
             topography = channel.topography(**unknown)
