@@ -16,8 +16,8 @@ BODY = ["--mesh", "b.inp", "--units", "mm", "--contact", "T", "--fixed", "B", "-
 PAIR = ["pair.h5", "--contact", "c.opts", "--preload", "B1=1e3", "--sensor", "T:z"]
 COMMANDS = {
     "petsam-surface -o": [*MAP, "-o", "{}/z.h5"], "petsam-surface --picture": [*MAP, "--picture", "{}/z.png"],
-    "petsam-joint stiffness": ["z.h5", "--pressure", "10MPa", "--friction", ".3", "--body1", "steel", "--body2", "steel",
-                               "-o", "{}/j"],
+    "petsam-joint stiffness": ["z.h5", "--pressure", "10MPa", "--friction", ".3", "--body1", "steel",
+                               "--body2", "steel", "-o", "{}/j"],
     "petsam-joint backbone": [*PAIR, "--amplitudes", "1um", "-o", "{}/j"],
     "petsam-joint band": [*PAIR, "--amplitudes", "1um", "-o", "{}/j"],
     "petsam-joint wear": [*PAIR, "--amplitudes", "1um", "--cycles", "1e3", "-o", "{}/j"],
