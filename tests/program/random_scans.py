@@ -3,9 +3,9 @@
 
     random_scans.py [--count 100] [--seed 1]
 
-Each is a known surface in a file that states some of what it is, with options that give the rest, or contradict it. What
-ends with 0 must be that surface, at its place, or have a warning; what is rejected must name the file and a cure, in one
-line. Prints what fails, and a line of numbers; ends with 1 if something failed.
+Each is a known surface in a file that states some of what it is, with options that give the rest, or contradict it.
+What ends with 0 must be that surface, at its place, or have a warning; what is rejected must name the file and a cure,
+in one line. Prints what fails, and a line of numbers; ends with 1 if something failed.
 """
 
 import argparse
