@@ -3,7 +3,7 @@
 import os
 import stat
 
-from .errors import Error, MissingFile
+from .errors import FILE, Error, MissingFile
 
 
 def need_regular(path):
@@ -24,10 +24,41 @@ def need_regular(path):
     return status
 
 
+class Unwritable(Error):
+    """A file that cannot be written."""
+
+    code = FILE
+
+
 def need_replaceable(path):
-    """Raises Error if the name is not that of a regular file."""
+    """Raises Error if the name is not that of a regular file, and Unwritable if no file can be written there.
+
+    Commands call it before their work, for each file that they will write.
+    """
     if os.path.lexists(path) and os.path.exists(path):
         need_regular(path)
+        if not os.access(path, os.W_OK):
+            raise Unwritable(f"{path}: cannot be written: permission denied; choose another name")
+        return
+    need_folder(os.path.dirname(os.path.realpath(path)), path)
+
+
+def need_folder(folder, path):
+    """Raises Unwritable for the file of this path if no file can be made in its folder."""
+    reason = None
+    if not os.path.lexists(folder):
+        reason = f"its folder {folder} does not exist"
+    elif not os.path.isdir(folder):
+        reason = f"its folder {folder} is a file"
+    else:
+        trial = os.path.join(folder, f".petsam.{os.getpid()}.tmp")  # permissions alone do not tell, as of root
+        try:
+            os.close(os.open(trial, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600))
+            os.remove(trial)
+        except OSError as error:
+            reason = f"its folder {folder}: {error.strerror or error}"
+    if reason:
+        raise Unwritable(f"{path}: cannot be written: {reason}; make it, or choose another name")
 
 
 def same(one, other):

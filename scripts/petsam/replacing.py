@@ -6,7 +6,7 @@ import os
 import h5py
 
 from .errors import Error
-from .files import need_replaceable
+from .files import need_folder, need_replaceable
 from .isolation import reading
 from .results import DAMAGED
 
@@ -16,6 +16,7 @@ def need_own(path, sign, command):
     need_replaceable(path)
     if not os.path.exists(path):
         return
+    need_folder(os.path.dirname(os.path.realpath(path)), path)  # in which the new file is written first
     try:
         with reading(path), h5py.File(path, "r") as file:
             own = sign in file.attrs

@@ -386,3 +386,59 @@ def test_a_mistake_of_the_command_is_named(command, tmp_path, words, says):
     (tmp_path / "text.h5").write_text("no HDF5")
     said = command("--friction", "0.3", *STEEL, *words, check=3 if words[0] != "scan.h5" else 2)
     assert said.startswith("petsam-joint: error: ") and says in said and len(said.splitlines()) == 1
+
+
+# ---------------------------------------------------------------- what the file states
+
+
+def write_stated(path, field, unit="m", quantity="separation", axes="m", more=None):
+    """A separation as petsam-surface writes it, in these units and as this quantity."""
+    scale = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
+    with h5py.File(path, "w") as file:
+        data = file.create_dataset("height", data=(field if quantity == "separation" else -field) / scale[unit])
+        data.attrs.update(dict(units=unit, quantity=quantity), **(more or {}))
+        for letter, n in zip("yx", field.shape) if axes else ():
+            file[letter] = (np.arange(n) + 0.5) * 1e-5 / scale[axes]
+            file[letter].attrs["units"] = axes
+
+
+@pytest.mark.parametrize("given", [
+    dict(unit="um"), dict(quantity="height1"), dict(quantity="height2", unit="mm"), dict(axes="um"), dict(axes="mm"),
+    dict(axes="", more=dict(size=(3.2e-4, 3.2e-4))), dict(unit="um", quantity="height1", axes="um"),
+], ids=str)  # fmt: skip
+def test_units_and_quantity_of_a_file_hold(command, tmp_path, given):
+    words = ("--pressure", "10MPa", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL)
+    write_stated(tmp_path / "a.h5", waves(32, 5))
+    write_stated(tmp_path / "b.h5", waves(32, 5), **given)
+    assert command("b.h5", *words) == command("a.h5", *words)
+
+
+@pytest.mark.parametrize("change, says", [
+    (dict(units="furlong"), "its attribute units is 'furlong'"), (dict(quantity="depth"), "its attribute quantity"),
+    (dict(scale_factor=2.0), "packed"), (dict(size=(1.0, -1.0)), "its attribute size"),
+    (dict(size=(1e-3, 1e-3)), "contradict each other"),
+], ids=str)  # fmt: skip
+def test_a_statement_that_cannot_hold_is_refused(command, tmp_path, change, says):
+    write_stated(tmp_path / "a.h5", waves(32, 5), more=change)
+    said = command("a.h5", "--pressure", "10MPa", "--friction", 0.25, *STEEL, check=3)
+    assert says in said and len(said.splitlines()) == 1
+
+
+def test_an_uneven_axis_is_refused(command, tmp_path):
+    write_stated(tmp_path / "a.h5", waves(32, 5))
+    with h5py.File(tmp_path / "a.h5", "r+") as file:
+        file["x"][20:] += 1e-5
+    assert "x is not even" in command("a.h5", "--pressure", "10MPa", "--friction", 0.25, *STEEL, check=3)
+
+
+@pytest.mark.parametrize("words, says", [
+    (("--pressure", "20", "--friction", 0.25, *STEEL), "20 Pa is"),
+    (("--pressure", "20:40:3", "--friction", 0.25, *STEEL), "20 Pa is"),
+    (("--pressure", "20MPa", "--friction", 40, *STEEL), "friction 40: use a coefficient"),
+    (("--pressure", "20MPa", "--friction", 1e-9, *STEEL), "friction 1e-09: use a coefficient"),
+    (("--pressure", "20MPa", "--friction", 0.4, "--body1", "210e3,0.3", "--body2", "210e3,0.3"), "above E*"),
+], ids=str)  # fmt: skip
+@pytest.mark.parametrize("periodic", [(), ("--periodic",)], ids=str)
+def test_numbers_in_other_units_are_refused(command, tmp_path, words, says, periodic):
+    write_stated(tmp_path / "a.h5", waves(32, 5))
+    assert says in command("a.h5", *words, *periodic, check=2)

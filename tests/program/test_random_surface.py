@@ -154,7 +154,7 @@ def test_heights_of_one_instruments_file_are_body_2s(monkeypatch, tmp_path):
     stated = reading.Stated(np.array([[0.0, 1e-6], [0.0, 0.0]]), 1.0, (1e-3, 1e-3))
     monkeypatch.setitem(reading.READERS, "surfacetopography", lambda path, options: stated)
     options = command.arguments([str(tmp_path / "scan.sur")])
-    one, remarks = reading.read_map(str(tmp_path / "scan.sur"), options, None)
+    one, remarks, _ = reading.read_map(str(tmp_path / "scan.sur"), options, None)
     assert one.quantity == "height2" and any(
         "taken for heights of body 2; --body 1 or --separation" in r for r in remarks
     )

@@ -275,14 +275,14 @@ def lines(separator, point="."):
 def test_tables_of_every_form(tmp_path, text, more, header, encoding):
     path = tmp_path / "t.csv"
     path.write_bytes(text.replace("\ufeff", "" if encoding != "utf-8" else "\ufeff").encode(encoding))
-    values, left_out = read_table(path, **more)
+    values, left_out, first = read_table(path, **more)
     assert np.array_equal(values, TABLE) and left_out == header
 
 
 def test_words_for_missing_points(tmp_path):
     path = tmp_path / "t.csv"
     path.write_text("1,NaN,BAD,4\n,2,***,3\n1,2,3,\n")
-    values, _ = read_table(path)
+    values, *_ = read_table(path)
     nan = np.nan
     assert np.array_equal(values, [[1, nan, nan, 4], [nan, 2, nan, 3], [1, 2, 3, nan]], equal_nan=True)
 

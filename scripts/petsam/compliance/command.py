@@ -32,7 +32,7 @@ import warnings
 
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, joined, short
-from ..files import same
+from ..files import need_replaceable, same
 from ..plot.saving import add_choice
 from ..replacing import need_own
 from ..surface.lengths import lengths, shown, sides
@@ -381,6 +381,8 @@ def carry_out(options, words):
         if any(same(name, path) for path in inputs):
             raise Error(f"{name}: is an input file; choose another name by --output")
     need_own(options.output, writing.SIGN, PROGRAM)
+    if not options.no_picture:
+        need_replaceable(options.picture)
     command = shlex.join([PROGRAM, *words])
     progress = model.Progress(sys.stderr)
     compute = model.computed if options.mesh else substructure.computed

@@ -35,7 +35,6 @@ import re
 import sys
 import warnings
 
-import h5py
 import numpy as np
 
 from ..contact import AdviceWarning
@@ -47,8 +46,9 @@ from . import interface
 from .backbone import backbone
 from .balance import forced
 from .band import band
-from .pair import Pair, Unreadable
+from .pair import Pair
 from .structure import ENDS
+from .surfaces import read_separation
 from .sweep import BackboneWarning
 from .wear import rising, wear
 
@@ -94,27 +94,6 @@ def material(text):
             "210GPa,0.3"
         )
     return young, poisson
-
-
-def read_separation(path):
-    """Separation (m) of a file of petsam-surface, and the distance of its points along x and y."""
-    need_regular(path)
-    try:
-        with h5py.File(path) as file:
-            name = next(name for name in ("separation", "height") if name in file)
-            values, x, y = file[name][()].astype(float), file["x"][()], file["y"][()]
-            if values.shape != (y.size, x.size) or min(values.shape) < 4:
-                raise ValueError(f"/{name} has the shape {values.shape}")
-            missing = values.size - np.isfinite(values).sum()
-            if missing:
-                raise ValueError(
-                    f"/{name} has no number at {missing} of {values.size} points; see petsam-surface --fill"
-                )
-            sign = 1.0 if name == "separation" else -1.0
-            return sign * values, (float(x[1] - x[0]), float(y[1] - y[0]))
-    except (OSError, LookupError, ValueError, TypeError, StopIteration) as error:
-        reason = short(error) or "no dataset height or separation"
-        raise Unreadable(f"{path}: no surface of petsam-surface: {reason}") from error
 
 
 def named_number(text):
@@ -292,7 +271,7 @@ def _stiffness(args):
         raise Error(f"--area {args.area:g}: expected an area above 0, in m2")
     for ending in (".csv", ".json", ".inp", ".png") if args.output else ():
         need_replaceable(args.output + ending)
-    separation, spacing = read_separation(args.file)
+    separation, spacing, doubts = read_separation(args.file)
     options = dict(friction=args.friction, shear=args.shear, steps=args.steps)
     for body, (young, poisson) in (("body1", args.body1), ("body2", args.body2)):
         options.update({f"{body}_young": young, f"{body}_poisson": poisson})
@@ -304,6 +283,8 @@ def _stiffness(args):
     with _recorded(AdviceWarning) as found:
         result = compute(separation, spacing, args.pressure, **options)
     _print(result, found)
+    for text in doubts:
+        print(f"petsam-joint: warning: {text}", file=sys.stderr)
     if args.output:
         result.to_csv(args.output + ".csv")
         result.to_json(args.output + ".json", args.area)

@@ -18,6 +18,7 @@ from ..contact import AdviceWarning, Contact
 from ..errors import Error
 from . import elements
 from .arguments import array, integer, positive, real
+from .surfaces import need_fitting
 
 HALVES = 4  # half cycles of the loop; the last two count
 NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
@@ -247,6 +248,7 @@ def _of_interface(separation, spacing, pressures, loop, bodies, begins):
     if step.size > 2:
         raise Error(f"spacing {spacing!r}: expected the distance of points along x and y, or one for both")
     step = np.broadcast_to(step, 2)
+    need_fitting(separation, step, pressures, friction, bodies)
     n = separation.shape[::-1]
     size = tuple(float(n[k] * step[k]) for k in range(2))
     parts = shear * np.arange(1, steps + 1) / steps

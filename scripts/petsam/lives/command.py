@@ -197,6 +197,9 @@ def _cycles(options):
     for name in (options.output, options.csv or ""):
         if any(same(name, path) for path in options.files):
             raise Error(f"{name}: would replace the results; choose another name")
+    for name in [options.csv] + ([] if options.no_picture else [options.output]):
+        if name:
+            need_replaceable(name)
     labels = options.labels.split(",") if options.labels else [None] * len(options.files)
     return [Cycle(Stresses(path, label)) for path, label in zip(options.files, labels)]
 

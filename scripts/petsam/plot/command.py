@@ -31,7 +31,7 @@ import warnings
 
 from .. import cycles, isolation
 from ..errors import FILE, USAGE, Error, fail, guarded
-from ..files import need_replaceable, same
+from ..files import need_folder, need_replaceable, same
 from ..results import DAMAGED, NotSaved
 from ..stresses import Stresses, open_any
 from ..studies import Study
@@ -317,6 +317,9 @@ def picture(kind, results, **given):
 
 def draw_all(options):
     """All pictures that are asked for."""
+    need_folder(os.path.dirname(os.path.realpath(options.output or "picture")), options.output or "pictures")
+    if options.csv:
+        need_replaceable(options.csv)
     labels = options.labels.split(",") if options.labels else [None] * len(options.files)
     results = [open_any(*one) for one in zip(options.files, labels)]
     kinds = usable(options, results)

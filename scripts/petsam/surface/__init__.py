@@ -3,6 +3,8 @@
 lengths     units, and lengths with a unit
 maps        a map: orientation, window, description
 tables      maps in text files
+headers     statements in the header of a text file
+doubts      lists of points that are no map; maps with offsets of rows, outliers
 reading     maps from files of any kind
 filling     missing points
 levels      mean, tilt and form taken off

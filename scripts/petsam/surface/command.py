@@ -25,10 +25,11 @@ import numpy as np
 
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, short
-from ..files import same
+from ..files import need_replaceable, same
 from ..plot.saving import add_choice
 from ..replacing import need_own
 from . import generation, levels, picture, writing
+from .doubts import doubts as doubts_of
 from .filling import filled
 from .lengths import several, shown, sides, unit
 from .maps import QUANTITIES, combined, cut, moments, new_map, peak_to_valley, rms_height, rms_slope
@@ -268,13 +269,17 @@ def warn_of_unit(one, name, more=""):
         texts.append(
             f"the surface is {wide:.4g} m wide: check the unit of --size or --pixel, as in 1um; a number alone is in m"
         )
+    _warn(name, texts)
+
+
+def _warn(name, texts):
     for text in texts:
         print(f"petsam-surface: warning: {short(name)}: {text}", file=sys.stderr)
 
 
 def prepared(path, options, quantity):
     """The processed map of one file; prints the steps."""
-    one, remarks = read_map(path, options, quantity)
+    one, remarks, doubts = read_map(path, options, quantity)
     if options.window:
         one = cut(one, options.window)
         remarks.append("cut to {} x {} points".format(*one.n))
@@ -283,6 +288,7 @@ def prepared(path, options, quantity):
         remarks.append(f"{missing} missing point{'s' if missing > 1 else ''} filled ({options.fill})")
     warn_of_unit(one, path, ", and give the value of missing points by --missing")
     one, taken = levels.levelled(one, options.level)
+    _warn(path, [*doubts, *doubts_of(one)])
     if taken:
         remarks.append(taken)
     if options.grid_n or options.grid_size:
@@ -327,6 +333,8 @@ def carry_out(options, words):
         if any(same(name, path) for path in options.files):
             raise Error(f"{name}: is an input file; choose another name by --output")
     need_own(options.output, writing.SIGN, "petsam-surface")
+    if not options.no_picture:
+        need_replaceable(options.picture)
     quantities = options.body or ["separation" if options.separation else None] * len(options.files)
     maps = [prepared(path, options, quantity) for path, quantity in zip(options.files, quantities)]
     maps = maps or [random_map(options)]

@@ -1,4 +1,4 @@
-"""Mean, tilt and form taken off a map, by least squares of the heights."""
+"""Mean, tilt and form taken off a map, by least squares of the heights; offsets of its rows or columns."""
 
 from dataclasses import replace
 
@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import Error
 from .lengths import shown
 
-KINDS = ("none", "mean", "tilt", "second-order", "sphere", "cylinder")
+KINDS = ("none", "mean", "tilt", "second-order", "sphere", "cylinder", "rows", "columns")
 TERMS = {
     "mean": ((0, 0),),
     "tilt": ((0, 0), (1, 0), (0, 1)),
@@ -138,6 +138,12 @@ def levelled(one, kind):
             xx, xy, yy = coefficients[3:] / length**2
             removed.append(f"curvatures {2 * xx:.4g} and {2 * yy:.4g} 1/m in x and y, twist {xy:.3g} 1/m")
         return replace(one, values=one.values - surface), f"{kind} removed: " + ", ".join(removed)
+    if kind in ("rows", "columns"):
+        # a median ignores particles on the row; with it goes what the surface itself has along the other axis
+        offsets = np.median(one.values, axis=1 if kind == "rows" else 0, keepdims=True)
+        return replace(
+            one, values=one.values - offsets
+        ), f"offsets of {kind} removed: {shown(float(np.std(offsets)))} rms"
     surface, radius = _fit(one, kind)
     return replace(one, values=one.values - surface), f"{kind} removed: radius {radius:.6g} m"
 

@@ -13,9 +13,11 @@ from ..errors import Error, short
 from ..files import need_regular
 from ..isolation import reading
 from ..results import DAMAGED
-from .lengths import KNOWN, metres
+from . import headers
+from .doubts import need_map
+from .lengths import KNOWN, UNITS, metres, shown
 from .maps import QUANTITIES, SAME, new_map, turned
-from .tables import read_table
+from .tables import header_lines, read_table
 
 FORMATS = ("npy", "table", "hdf5", "surfacetopography")
 ENDINGS = {".npy": "npy", ".csv": "table", ".txt": "table", ".h5": "hdf5", ".hdf5": "hdf5"}
@@ -34,6 +36,11 @@ class Stated(NamedTuple):
     quantity: str = None
     top: bool = None  # whether the first row has the largest y
     remarks: tuple = ()
+    doubts: tuple = ()  # texts of warnings
+    sides: tuple = (None, None)  # size along x, y of a file that may state only one of them
+    lines: dict = {}  # of the statements unit, x and y in a text
+    name: str = ""  # of the dataset
+    spans: tuple = None  # size along x, y in a unit that the file does not state
 
 
 # ---------------------------------------------------------------- kinds of file
@@ -50,12 +57,36 @@ def _read_npy(path, _):
         raise Error(f"{path}: contains no array of real numbers")
     if values.ndim != 2:
         raise Error(f"{path}: has shape {values.shape}: a map has two dimensions, (ny, nx)")
+    need_map(path, values, text=False)
     return Stated(values)
 
 
+def _unread(header):
+    """Warnings of the lines of a header that no rule understands."""
+    return tuple(
+        f"line {number}: {short(line)}: is not understood: make sure that it agrees with the options"
+        for number, line in header.unread
+    )
+
+
+def _need_mentioned(path, header, options):
+    """Error where the units in a header's brackets do not contain that of the option."""
+    if header.unit is None and header.mentioned and options.units:
+        if not any(np.isclose(metres(name), options.units, rtol=SAME, atol=0.0) for name in header.mentioned):
+            raise Error(
+                f"{path}: its header has {', '.join(header.mentioned)}, which contradicts --units: give the file's unit"
+            )
+
+
 def _read_table(path, options):
-    values, header = read_table(path, options.decimal, options.skip_rows, options.skip_columns)
-    return Stated(values, remarks=(f"{header} header line{'s' if header > 1 else ''} left out",) if header else ())
+    values, left_out, first = read_table(path, options.decimal, options.skip_rows, options.skip_columns)
+    header = headers.stated(path, header_lines(path, options.decimal, options.skip_rows))
+    need_map(f"{path}: line {first}", values, text=True)
+    _need_mentioned(path, header, options)
+    remarks = (f"{left_out} header line{'s' if left_out > 1 else ''} left out",) if left_out else ()
+    x, y = headers.size_of(path, header, values.shape[::-1])
+    size = (x, y) if x and y else None
+    return Stated(values, header.unit, size, None, None, header.top, remarks, _unread(header), (x, y), header.lines)
 
 
 def _attribute(path, data, name):
@@ -75,13 +106,28 @@ def _unit(path, data, name):
     return None if text is None else metres(text)
 
 
-def _axis(path, file, name, n):
-    """Width, centre, and whether it falls, of an axis beside the dataset; None if there is none, or without units."""
+def _size(path, data):
+    """The attribute size along x, y in m, or None."""
+    if "size" not in data.attrs:
+        return None
+    size = np.asarray(data.attrs["size"])
+    if size.shape != (2,) or size.dtype.kind not in "iuf" or not np.all((size > 0) & np.isfinite(size)):
+        raise Error(f"{path}: {data.name}: its attribute size is not two positive numbers: x, y in m")
+    return tuple(map(float, size))
+
+
+def _axis(path, file, name, n, bare=False):
+    """Width, centre, and whether it falls, of an axis beside the dataset; None if there is none, or without units.
+
+    bare: take an axis without units for one in m.
+    """
     if name not in file or getattr(file[name], "shape", None) != (n,) or n < 2:
         return None
-    unit = _unit(path, file[name], name)
+    unit = _unit(path, file[name], name) or (1.0 if bare else None)
     if unit is None:
         return None
+    if file[name].dtype.kind not in "iuf":
+        raise Error(f"{path}: {name} is no axis of numbers")
     axis = file[name][:] * unit
     steps = np.diff(axis)
     if not np.all(np.abs(steps - steps.mean()) <= EVEN * abs(steps.mean())) or not steps.mean():
@@ -90,12 +136,27 @@ def _axis(path, file, name, n):
     return width, middle if abs(middle) > SAME * width else 0.0, steps.mean() < 0.0  # 0 but for rounding
 
 
+def read_hdf5(path, dataset=None, bare=False):
+    """The statements of an HDF5 file about a dataset; bare: axes without units are in m, as petsam takes lengths."""
+    return _guarded(path, lambda: _of_hdf5(path, dataset, bare))
+
+
 def _read_hdf5(path, options):
+    stated = _of_hdf5(path, options.dataset)
+    if stated.size is None:
+        need_map(path, stated.values, text=False)
+    return stated
+
+
+def _of_hdf5(path, dataset, bare=False):
     import h5py
 
     with reading(path), h5py.File(path, "r") as file:
-        name = (options.dataset or ("height" if "height" in file else "separation")).strip("/")
+        name = (dataset or ("separation" if bare and "separation" in file else "height")).strip("/")
+        name = name if name in file or dataset else "separation"
         data = file.get(name)
+        if data is None and not dataset:
+            raise Error(f"{path}: no dataset height or separation; choose another by --dataset")
         if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
             raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); choose another by --dataset")
         if "scale_factor" in data.attrs or "add_offset" in data.attrs:
@@ -107,14 +168,16 @@ def _read_hdf5(path, options):
         if quantity is not None and quantity not in QUANTITIES:
             known = ", ".join(QUANTITIES)
             raise Error(f"{path}: /{name}: its attribute quantity is {short(quantity)!r}; use one of {known}")
-        unit, group = _unit(path, data, "/" + name), data.parent
-        axes = [_axis(path, group, letter, n) for letter, n in zip("xy", values.shape[::-1])]
+        unit, group, size = _unit(path, data, "/" + name), data.parent, _size(path, data)
+        axes = [_axis(path, group, letter, n, bare) for letter, n in zip("xy", values.shape[::-1])]
     if None in axes:
-        return Stated(values, unit, quantity=quantity)
+        return Stated(values, unit, size, quantity=quantity, name=name)
     x, y = axes
     if x[2]:
         values = values[:, ::-1]
-    return Stated(values, unit, (x[0], y[0]), (x[1], y[1]), quantity, y[2])
+    if size and not np.allclose(size, (x[0], y[0]), rtol=EVEN, atol=0.0):
+        raise Error(f"{path}: /{name}: its attribute size and the axes x and y contradict each other: remove one")
+    return Stated(values, unit, (x[0], y[0]), (x[1], y[1]), quantity, y[2], name=name)
 
 
 def _library(path):
@@ -146,9 +209,10 @@ def _read_instrument(path, options):
     library = _library(path)
     try:
         with library.open_topography(path) as reader:
+            kind = type(reader).__name__
             channel = _channel(path, reader, options.channel)
             if channel.dim != 2:
-                raise Error(f"{path}: {short(channel.name)} is a line, not a map")
+                raise Error(f"{path}: {short(channel.name)} is a line, not a map: use another file or --channel")
             sizes = channel.physical_sizes
             unknown = {} if sizes is not None else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}
             topography = channel.topography(**unknown)
@@ -159,7 +223,9 @@ def _read_instrument(path, options):
     except Exception as error:  # of a library that raises whatever a reader meets
         reason = type(error).__name__
         if reason == "CannotDetectFileFormat":  # its text is that of each of its readers
-            raise Error(f"{path}: has no format known to {LIBRARY}") from error
+            raise Error(
+                f"{path}: has no format known to {LIBRARY}: write the heights as a text of one line per y, or as HDF5"
+            ) from error
         raise Error(f"{path}: {LIBRARY} cannot read it: {error or reason}") from error
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
     unit = None if text is None else metres(THEIRS.get(text, text))
@@ -171,8 +237,35 @@ def _read_instrument(path, options):
     if len(names) > 1:
         remarks = (f"channel {short(channel.name)} of {', '.join(short(name) for name in names)}",)
     size = tuple(side * unit for side in sizes) if unit and sizes is not None else None
-    # the library's first index is x, and its y goes up
-    return Stated(heights.T, unit, size, top=False, remarks=remarks)
+    top = False  # the library's first index is x, and its y goes up
+    if kind == "AscReader":  # but those of a text are as in the file
+        need_map(path, heights.T, text=True, library=True)
+        top = headers.stated(path, header_lines(path)).top
+    spans = None
+    if kind == "XYZReader":
+        _need_grid(path, heights, options)
+        spans = sizes if unit is None else None
+    return Stated(heights.T, unit, size, top=top, remarks=remarks, spans=spans)
+
+
+def _need_grid(path, heights, options):
+    """Error unless the heights are those of all points of a text, on a full regular grid."""
+    values, *_ = read_table(path, options.decimal, options.skip_rows, options.skip_columns)
+    points = values[:, :3] if values.shape[1] >= 3 else np.empty((0, 3))
+    axes = [np.unique(points[:, d], return_inverse=True) for d in (0, 1)]
+    grid = np.full([axis.size for axis, _ in axes], np.nan)
+    grid[axes[0][1], axes[1][1]] = points[:, 2]
+    if grid.shape != heights.shape or grid.size != len(points) or not _proportional(grid, heights):
+        raise Error(
+            f"{path}: its points x, y, z are not those of a full regular grid, each once: interpolate them, and save "
+            "the heights as a map"
+        )
+
+
+def _proportional(one, other):
+    """Whether two arrays are the same but for a unit."""
+    scale = np.max(np.abs(one)) or 1.0
+    return bool(np.allclose(one / scale, other / (np.max(np.abs(other)) or 1.0), rtol=0.0, atol=1e-6))
 
 
 READERS = {"npy": _read_npy, "table": _read_table, "hdf5": _read_hdf5, "surfacetopography": _read_instrument}
@@ -188,6 +281,32 @@ def _agreed(path, stated, given, option):
     if not (stated == given if isinstance(stated, (str, bool)) else np.allclose(stated, given, rtol=SAME, atol=0.0)):
         raise Error(f"{path}: contradicts {option}: leave the option out")
     return stated
+
+
+def _at(path, stated, name):
+    """The path, with the line of a text in which a statement is."""
+    return f"{path}: line {stated.lines[name]}" if name in stated.lines else path
+
+
+def _need_sides(path, stated, given):
+    """Error where a side of the given size contradicts that of the file."""
+    for letter, side, one in zip("xy", stated.sides, given or (None, None)):
+        if side and one and not np.isclose(side, one, rtol=SAME, atol=0.0):
+            raise Error(
+                f"{_at(path, stated, letter)}: is {shown(side)} along {letter}, which contradicts --size or --pixel: "
+                "leave the option out, or correct it"
+            )
+
+
+def _need_spans(path, spans, given):
+    """Error where a given size is no multiple, by a unit, of the size that points x, y span in a unit they lack."""
+    if spans and given:
+        units = [side / span for side, span in zip(given, spans)]
+        if not any(np.allclose(units, one, rtol=EVEN, atol=0.0) for one in UNITS.values()):
+            raise Error(
+                "{}: its x and y span {:.6g} x {:.6g}, which contradicts --size or --pixel: give these numbers with "
+                "their unit, as in --size {:.6g}um,{:.6g}um".format(path, *spans, *spans)
+            )
 
 
 def _need(path, kind, quantity, unit, size):
@@ -210,18 +329,23 @@ def _kind(path, options):
     return options.format or ENDINGS.get(os.path.splitext(path)[1].lower(), "surfacetopography")
 
 
-def _stated(path, options):
-    """The statements of the file."""
+def _guarded(path, read):
+    """What read() returns of a file; whatever a damaged one raises as an Error."""
     try:
         if need_regular(path).st_size == 0:
             raise Error(f"{path}: is empty")
-        stated = READERS[_kind(path, options)](path, options)
+        return read()
     except MemoryError as error:
         raise Error(f"{path}: is too large for the memory") from error
     except DAMAGED as error:
         raise Error(f"{path}: cannot be read: {getattr(error, 'strerror', None) or short(error)}") from error
+
+
+def _stated(path, options):
+    """The statements of the file."""
+    stated = _guarded(path, lambda: READERS[_kind(path, options)](path, options))
     for option, given, said in (
-        ("transpose", options.transpose, stated.size),
+        ("transpose", options.transpose, stated.size or stated.spans or max(stated.sides, key=bool)),
         ("depths", options.depths, stated.quantity),
     ):
         if given and said is not None:
@@ -242,7 +366,7 @@ def _top(path, stated, options):
 
 
 def read_map(path, options, quantity):
-    """The map of a file, its first row at the smallest y, and remarks about the reading.
+    """The map of a file, its first row at the smallest y, and remarks and doubts about the reading.
 
     quantity: of the options, or None. options: of the command line, see command.py.
     """
@@ -252,8 +376,10 @@ def read_map(path, options, quantity):
     quantity = _agreed(path, stated.quantity, quantity, "--body or --separation")
     alone = quantity is None and len(options.files) == 1 and _kind(path, options) == "surfacetopography"
     quantity = "height2" if alone else quantity  # instruments measure heights; which body's the remark says
-    unit = _agreed(path, stated.unit, options.units, "--units")
+    unit = _agreed(_at(path, stated, "unit"), stated.unit, options.units, "--units")
     given = options.size or options.pixel and tuple(w * n for w, n in zip(options.pixel, values.shape[::-1]))
+    _need_sides(path, stated, given)
+    _need_spans(path, stated.spans, given)
     size = _agreed(path, stated.size, given, "--size or --pixel")
     _need(path, _kind(path, options), quantity, unit, size)
     if options.missing is not None:
@@ -266,4 +392,4 @@ def read_map(path, options, quantity):
         remarks.append(
             "x and y are petsam's, as seen from above; seen from its own side, body 1 is mirrored: --mirror x or y"
         )
-    return turned(one, top, options.mirror or ""), [*stated.remarks, *remarks]
+    return turned(one, top, options.mirror or ""), [*stated.remarks, *remarks], stated.doubts

@@ -7,11 +7,10 @@ import numpy as np
 
 from ..errors import Error, short
 
-COMMENTS = ("#", "%")
+COMMENTS = ("#", "%")  # of lines that never have numbers of the map
 # missing points as instruments and spreadsheets write them
 MISSING = {"", "nan", "na", "n/a", "bad", "null", "none", "-", "--", "***", "---", "#n/a"}
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
-POINTS = 9  # lines of three numbers from which on they are taken for points x, y, z
 
 
 def _text(path):
@@ -22,7 +21,10 @@ def _text(path):
         return data.decode("utf-16", errors="replace")
     if b"\0" in data[:4096]:
         raise Error(f"{path}: is not a text")
-    return data.decode("utf-8-sig", errors="replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")  # in which a micro sign is one byte, as in the other code pages of the west
 
 
 def _lines(path, skip):
@@ -88,7 +90,7 @@ def _is_header(words, decimal):
 
 
 def read_table(path, decimal="point", skip_rows=0, skip_columns=0):
-    """Values (rows, columns) of a text file, NaN where one is missing, and the number of header lines left out."""
+    """Values (rows, columns) of a text file, NaN where one is missing; how many header lines; line of the first row."""
     rows, header, first = [], 0, 0
     for number, line in _lines(path, skip_rows):
         words, separator = _words(line, decimal)
@@ -105,9 +107,18 @@ def read_table(path, decimal="point", skip_rows=0, skip_columns=0):
     values = np.array(rows)
     if values.shape[1] > 1 and np.all(np.isnan(values[:, -1])) and line.rstrip(" ").endswith((",", ";", "\t")):
         values = values[:, :-1]  # every line ends with a separator
-    if values.shape[1] == 3 and values.shape[0] >= POINTS:
-        raise Error(
-            f"{path}: three numbers a line are points x, y, z: a map has one line per y and one number per x; "
-            "--format surfacetopography reads points on a regular grid"
-        )
-    return values, header
+    return values, header, first
+
+
+def header_lines(path, decimal="point", skip_rows=0):
+    """Numbers and texts of the lines that are no rows of the map: skipped ones, comments, and those before the rows."""
+    found, rows = [], False
+    for number, line in enumerate(_text(path).splitlines(), 1):
+        words, separator = _words(line, decimal)
+        of_map = not _is_header(words, decimal) or _has_decimal_commas(words, separator)
+        if number <= skip_rows or line.lstrip().startswith(COMMENTS):
+            found += [(number, line)] if line.strip() else []
+        elif line.strip() and not rows and not of_map:
+            found.append((number, line))
+        rows = rows or number > skip_rows and of_map and not line.lstrip().startswith(COMMENTS)
+    return found

@@ -86,8 +86,10 @@ void SamAdviceGrids(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRID
   if (!(factor > 0) || !(a->half[0] > 0)) return;
   SamAdviceGridsFor(s, a->half, factor, refine, cells, width);
   if (SamAdviceIsFromFile(s))
-    (void)snprintf(text, SAM_ADVICE_GRIDS, ": use a file with heights at smaller distances%s%s",
-                   cells[0] ? ", and " : "", cells);
+    (void)snprintf(
+      text, SAM_ADVICE_GRIDS,
+      ": use a file with heights at smaller distances%s%s, unless petsam-surface reports outliers or offsets of rows",
+      cells[0] ? ", and " : "", cells);
   else
     (void)snprintf(text, SAM_ADVICE_GRIDS, "%s%s%s%s%s", cells[0] || width[0] ? ": use " : "", width,
                    width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);

@@ -220,7 +220,7 @@ PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Vec pressure, d
   PetscReal peak;
   PetscInt  axis, i, j;
   double    own, most, place;
-  char      doubt[256];
+  char      doubt[384];
 
   PetscFunctionBegin;
   text[0] = '\0';
@@ -240,11 +240,13 @@ PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Vec pressure, d
     PetscFunctionReturn(PETSC_SUCCESS);
   i = (PetscInt)fmod(floor(place / 2), (double)grid->nx);
   j = (PetscInt)floor(place / 2 / (double)grid->nx);
-  (void)snprintf(doubt, sizeof(doubt),
-                 "the heights have a step of %.2g m between neighbouring cells in contact, at x = %.4g m, y = %.4g m, "
-                 "where the pressure has no limit on finer grids: give the hardness, -pressure_limit",
-                 most, (double)(SamGridX(grid, i) - (axis ? 0 : grid->dx / 2)),
-                 (double)(SamGridY(grid, j) - (axis ? grid->dy / 2 : 0)));
+  (void)snprintf(
+    doubt, sizeof(doubt),
+    "the heights have a step of %.2g m between neighbouring cells in contact, at x = %.4g m, y = %.4g m, "
+    "where the pressure has no limit on finer grids: give the hardness, -pressure_limit, unless it is an outlier "
+    "of the instrument, which petsam-surface reports",
+    most, (double)(SamGridX(grid, i) - (axis ? 0 : grid->dx / 2)),
+    (double)(SamGridY(grid, j) - (axis ? grid->dy / 2 : 0)));
   Blame(gap, doubt, text, size);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,152 @@
+"""Arrays of numbers that are no map of heights - points, profiles, positions beside the heights - and doubtful maps."""
+
+import numpy as np
+
+from ..errors import Error, counted
+from .lengths import shown
+
+NARROW = 6  # columns of a list of points: x, y, z, and up to three more
+LIST = 9  # rows from which on an array of so few columns is a list in any case
+STEPS = 0.1  # deviation of the steps of positions from their mean: they are printed with few digits
+FEWEST = 5  # positions that are recognized
+GRID = 8  # points along x and y from which on offsets of rows and outliers are looked for
+WHITE = 1.0  # mean square of successive differences over the variance: 2 of offsets by chance, near 0 of a form
+APART = 1.0  # rms of the steps from row to row over the rms of what else changes there
+FEW = 1e-3  # share of the points that outliers are at most
+
+
+def _list(path, what, more):
+    return Error(
+        f"{path}: {what}: a map has one line per y and one number per x{more}; write a true map that is as "
+        "narrow as HDF5 with its axes x and y"
+    )
+
+
+def need_map(path, values, text, library=False):
+    """Error where the array in a file, without axes, is a list of points or profiles, or has positions beside it.
+
+    text: whether it is that of a text file, whose lines are points; else a list may lie along the columns, too.
+    library: whether the library that reads points has been asked already.
+    """
+    rows, columns = values.shape
+    if min(rows, columns) < 2:
+        return
+    reads = keep = ""
+    if library:
+        reads = keep = "; points x, y, z need a full regular grid, each once: interpolate them"
+    elif text:
+        reads = "; --format surfacetopography reads points x, y, z on a full regular grid"
+        keep = "; keep x, y, z alone, which --format surfacetopography then reads on a full regular grid"
+    if columns == 3 and (text or rows >= LIST):
+        raise _list(path, "three numbers a line are points x, y, z", reads)
+    if columns == 2 and (text or rows >= LIST):
+        raise _list(path, "two numbers a line are a profile x, z", "; a profile in plane strain is one line of heights")
+    if columns <= NARROW and (rows > columns if text else rows >= LIST):
+        raise _list(path, f"{columns} numbers a line are points with more than their height", keep)
+    if not text and rows <= 3 and columns >= LIST:
+        raise _list(path, f"{rows} rows of {columns} numbers are points or a profile", "")
+    if text and columns <= NARROW and _is_grid(values):
+        raise _list(path, f"{columns} numbers a line, the first two on a grid, are points x, y, z with more", keep)
+    _need_heights(path, values)
+
+
+def _is_grid(values):
+    """Whether the first two columns run through a grid of points, each once."""
+    places = values[:, :2]
+    if not np.all(np.isfinite(places)):
+        return False
+    counts = [np.unique(column).size for column in places.T]
+    return counts[0] * counts[1] == len(values) and len(np.unique(places, axis=0)) == len(values) and min(counts) > 1
+
+
+def _even(line):
+    """Step of evenly spaced, rising or falling numbers; 0 of others."""
+    steps = np.diff(line)
+    if len(steps) < FEWEST - 1 or not np.all(np.isfinite(steps)):
+        return 0.0
+    mean = steps.mean()
+    return mean if np.all(np.abs(steps - mean) <= STEPS * abs(mean)) else 0.0
+
+
+def _positions(values):
+    """Whether the first row is even and no continuation of the next two rows, as that of a tilted plane is."""
+    first, second, third = (row[1:] for row in values[:3])  # the corner may hold anything
+    step = _even(first)
+    return bool(step and not abs(step - 2 * _slope(second) + _slope(third)) <= 0.5 * abs(step))
+
+
+def _slope(row):
+    """Mean step of a row."""
+    steps = np.diff(row)
+    return float(np.mean(steps[np.isfinite(steps)])) if np.any(np.isfinite(steps)) else np.nan
+
+
+def _need_heights(path, values):
+    if min(values.shape) < 3:
+        return
+    for name, found, cure in (
+        ("first row", values, "--skip-rows 1"),
+        ("last row", values[::-1], "remove it"),
+        ("first column", values.T, "--skip-columns 1"),
+        ("last column", values.T[::-1], "remove it"),
+    ):
+        if _positions(found):
+            both = " (with the row and the column: both options)" if _positions(values) and _positions(values.T) else ""
+            raise Error(
+                f"{path}: its {name} rises or falls in equal steps, unlike the others: positions, not heights: "
+                f"in a text {cure}{both}, in an array leave it out"
+            )
+
+
+# ---------------------------------------------------------------- maps that may be spoilt
+
+
+def _apart(values):
+    """Rms of the offsets of rows in m, 0 where the rows lie at no offsets by chance."""
+    if min(values.shape) < GRID:
+        return 0.0
+    steps = np.diff(values, axis=0)
+    middles = np.median(steps, axis=1)
+    middles = middles - np.mean(middles)
+    rest = np.sqrt(np.mean((steps - np.median(steps, axis=1)[:, None]) ** 2))
+    offsets = np.median(values, axis=1)
+    offsets = offsets - np.polyval(np.polyfit(np.arange(offsets.size), offsets, 1), np.arange(offsets.size))
+    spread = np.mean(offsets**2)
+    white = spread > 0.0 and np.mean(np.diff(offsets) ** 2) >= WHITE * spread
+    return float(np.sqrt(spread)) if white and np.sqrt(np.mean(middles**2)) > APART * rest else 0.0
+
+
+def _outliers(values):
+    """Heights above or below their neighbours, of a few points that are most of peak to valley; none otherwise."""
+    from scipy.ndimage import median_filter
+
+    if min(values.shape) < 2 * GRID:
+        return values[:0]
+    apart = np.abs(values - median_filter(values, size=3, mode="nearest"))
+    count = max(1, int(FEW * values.size))
+    far = np.argpartition(apart, -count, axis=None)[-count:]
+    rest = np.delete(values, far)
+    if not np.ptp(values) > 2.0 * np.ptp(rest):
+        return values[:0]
+    return np.array([v for v in values.flat[far] if v < rest.min() or v > rest.max()])
+
+
+def doubts(one):
+    """Texts of what may be wrong with a map without missing points."""
+    texts = []
+    for name, values in (("rows", one.values), ("columns", one.values.T)):
+        offset = _apart(values)
+        if offset:
+            texts.append(
+                f"its {name} lie at random offsets of {shown(offset)} rms, which bear the contact on single {name}: a "
+                f"scanner's are removed by --level {name}"
+            )
+    far = _outliers(one.values)
+    if far.size:
+        worst = far[np.argmax(np.abs(far - np.median(one.values)))]
+        texts.append(
+            f"{counted(far.size, 'point')} of {one.values.size}, the farthest at {shown(float(worst))}, "
+            "more than double peak to valley: outliers of the instrument would bear the contact alone: replace them "
+            "by --missing VALUE --fill nearest, or cut them off by --window"
+        )
+    return texts
