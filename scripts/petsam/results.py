@@ -13,7 +13,7 @@ import numpy as np
 
 from . import parts
 from .errors import Error, Missing, MissingFile, one_line, short, there_are
-from .files import need_regular
+from .files import decoded, need_regular
 from .isolation import reading
 
 OPEN, STICK, SLIP = 0, 1, 2  # /state
@@ -126,7 +126,7 @@ class Datafile:
     @staticmethod
     def _unit(data, name):
         unit = data.attrs["units"] if "units" in data.attrs else None
-        unit = unit.decode(errors="replace") if isinstance(unit, bytes) else unit
+        unit = decoded(unit) if isinstance(unit, bytes) else unit
         if not isinstance(unit, str):
             raise ValueError(f"/{name} has no attribute units that is a text")
         return short(unit)
@@ -543,7 +543,7 @@ class Results(Datafile):
                 attributes = self._saved(name).attrs
                 unit = self._unit(self._saved(name), name)
                 text = attributes.get("long_name", name.replace("_", " "))
-                return unit, short(text.decode(errors="replace") if isinstance(text, bytes) else str(text))
+                return unit, short(decoded(text) if isinstance(text, bytes) else str(text))
         except DAMAGED as error:
             raise self._error(error) from error
 
@@ -557,7 +557,7 @@ class Results(Datafile):
                 if "flag_values" not in attributes or "flag_meanings" not in attributes:
                     return {}
                 words = attributes["flag_meanings"]
-                words = (words.decode(errors="replace") if isinstance(words, bytes) else str(words)).split()
+                words = (decoded(words) if isinstance(words, bytes) else str(words)).split()
                 return {int(value): short(word) for value, word in zip(np.ravel(attributes["flag_values"]), words)}
         except DAMAGED as error:
             raise self._error(error) from error
