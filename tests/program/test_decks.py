@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.compliance import deck, keywords, mesh, stiffness
+from petsam.compliance import command, deck, keywords, mesh, model, stiffness
 from test_compliance_command import ALWAYS, BOTTOM, PARTS, bricks, compliance, read_text, written  # noqa: F401
 from test_compliance_pair import HELD, both, pair, write  # noqa: F401
 from test_compliance_tool import needs_calculix
@@ -132,10 +132,18 @@ def test_a_step_that_takes_elements_away_is_no_load_case_nor_is_a_later_one(comp
     assert "b.inp:" in said and "*MODEL CHANGE before a load case is not supported: remove it" in said
 
 
-@pytest.mark.parametrize("held", ["ENCASTRE", "PINNED", "XSYMM", "ZASYMM", "1, 3", "1, 6", "1, 1"])
-def test_supports_are_named_as_abaqus_names_them(compliance, tmp_path, held):  # noqa: F811
+@pytest.mark.parametrize(
+    "held, says",
+    [
+        *((held, None) for held in ("ENCASTRE", "PINNED", "1, 3", "1, 6", "XSYMM\nBOTTOM, XASYMM")),
+        *(("XSYMM", "in x only"), ("ZASYMM", "in x and y only"), ("1, 1", "in x only"), ("2, 6", "in y and z only")),
+    ],
+)
+def test_supports_are_named_as_abaqus_names_them(tmp_path, held, says):
     written(tmp_path / "b.inp", bricks(), "*BOUNDARY", f"BOTTOM, {held}")
-    compliance("--mesh", "b.inp", "--fixed", "BOTTOM", *ALWAYS, "--degree", "0", "-o", "f.h5")
+    words = ["--mesh", str(tmp_path / "b.inp"), "--fixed", "BOTTOM", *ALWAYS]
+    doubts = model.Model(words[1], command.arguments(words)).doubts
+    assert len(doubts) == bool(says) and (not says or f"{says}, and --fixed in x, y and z" in doubts[0]), doubts
 
 
 @pytest.mark.parametrize(

@@ -53,6 +53,7 @@ class Loads:
         self.force = np.zeros((3 * len(mesh.nodes), 1))
         self.moved = np.zeros((3 * len(mesh.nodes), 1))
         self.prescribed = np.zeros(3 * len(mesh.nodes), dtype=bool)
+        self.along = np.zeros((len(mesh.nodes), 3), dtype=bool)  # directions of the deck that *BOUNDARY names
 
     def _nodes(self, card, line):
         """Indices of the nodes that the first word of a line names."""
@@ -86,12 +87,16 @@ class Loads:
         if not line[1][:1].isalpha():
             first, last = self._range(card, line)
             value = number_of(card, line[3], line=line) if len(line) > 3 else 0.0
+            self.along[nodes, first - 1 : last] = True
             for direction in range(first, last + 1):
                 along = self._direction(card, str(direction), line)
                 self.moved.reshape(-1, 3)[nodes] += along * value * self.units.length
         elif kind not in TYPES or len(line) > 2:
             meant = there_are(kind, sorted(TYPES))
             raise Error(f"{line.place}: *BOUNDARY: {short(', '.join(line[1:]))} is no type of support{meant}")
+        else:
+            for direction in (one for one in TYPES[kind] if one <= 3):
+                self.along[nodes, direction - 1] = True
 
     def _range(self, card, line):
         """First and last direction; rotations may be held, as solid elements have none."""
@@ -136,16 +141,26 @@ def _take(found, cards):
                 raise Error(f"{line.place}: a line of *{card.name} has too few values: complete it") from None
 
 
-def need_supports(deck, mesh, frame, units, supported):
-    """Checks that the nodes that the deck holds in all steps are among the supported ones."""
+def need_supports(deck, mesh, frame, units, fixed, symmetric):
+    """Checks that the nodes that the deck holds in all steps are among the supported ones (`symmetric` by --symmetry);
+    returns warnings about nodes that --fixed holds in more directions."""
     found = Loads(deck, mesh, frame, units)
     _take(found, deck.supports)
-    free = np.setdiff1d(np.flatnonzero(found.prescribed.reshape(-1, 3)[:, 0]), supported)
+    free = np.setdiff1d(np.flatnonzero(found.prescribed.reshape(-1, 3)[:, 0]), [*fixed, *symmetric])
     if len(free):
         raise Error(
             f"{deck.supports[0].place}: *BOUNDARY holds node {deck.label(mesh.node_numbers[free[0]])}, which is not in "
             "--fixed or --symmetry: add its set to --fixed, or remove the card"
         )
+    held = np.any(found.along[fixed], axis=1) & ~np.all(found.along[fixed], axis=1)
+    if not np.any(held):
+        return []
+    node = fixed[np.flatnonzero(held)[0]]
+    names = " and ".join("xyz"[k] for k in np.flatnonzero(found.along[node]))
+    return [
+        f"warning: {deck.supports[0].place}: *BOUNDARY holds node {deck.label(mesh.node_numbers[node])} in {names} "
+        "only, and --fixed in x, y and z: give --symmetry for planes of symmetry, or hold it in the deck in all three"
+    ]
 
 
 def loads(deck, mesh, frame, units, step):

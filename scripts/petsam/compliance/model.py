@@ -101,8 +101,8 @@ class Model:
         origin, x, z = (list(options.frame) + [None, None])[:3]
         self.frame = frame_of(np.array(origin) * units.length, x, z, outward)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
-        held = np.unique(np.concatenate([self.supported, *symmetric]))
-        load_cases.need_supports(self.deck, self.mesh, self.frame, units, held)
+        planes = np.concatenate([np.zeros(0, dtype=int), *symmetric])
+        self.doubts = load_cases.need_supports(self.deck, self.mesh, self.frame, units, self.supported, planes)
         self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(options.symmetry, symmetric)]
         half = tuple(0.5 * side for side in options.patch)
         self.patches = [Patch(center, half, options.degree) for center in options.center]
@@ -111,7 +111,7 @@ class Model:
         self.parts, self.bolts = [parts.Part(self.mesh, faces)], []
         if options.pair:
             self._take_pair()
-        self.doubts = need_units(self)
+        self.doubts += need_units(self)
 
     def _take_pair(self):
         """Finds the two bodies and their bolts."""

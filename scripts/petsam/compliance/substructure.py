@@ -25,7 +25,7 @@ from .halfspace import projected
 from .model import Body, examine, frame_of
 from .several import Joined
 from .shapes import simplex_rule
-from .units import UNITS, of_modulus
+from .units import HARDEST, OWN, SOFT, UNITS
 
 SYMMETRY = 1e-6  # relative to the largest term of the matrix
 UNCONDENSED = 0.5  # force by a unit translation over the sum of the diagonal, above which nodes were fixed
@@ -212,9 +212,16 @@ def computed(path, options, command, progress):
     compliance = force.T @ np.linalg.solve(turn @ matrix @ turn.T, force)
     compliance -= projected(patch, options.young, options.poisson)
     body = Body(options.young, options.poisson, "direct", path, command, frame, patch, compliance)
-    body.remarks += [WARNING, *of_modulus(options.young, float(np.max(np.ptp(place, axis=0))), "m", "the patch")]
+    body.remarks += [WARNING, *_doubts(options.young)]
     examine(body)
     return Joined([body])
+
+
+def _doubts(young):
+    """Warnings about --young, which is in Pa whatever the units of the matrix."""
+    if OWN <= young < SOFT or young > HARDEST:
+        return [f"warning: --young is {young:.6g} Pa: give it in Pa, as 2.1e11"]
+    return []
 
 
 def need_patch(place, patch):
