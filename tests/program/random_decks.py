@@ -191,7 +191,7 @@ def _parameter(deck):
 
 
 def _twice(deck):
-    first, last = deck.place("*NODE"), deck.place("*SOLID")
+    first, last = deck.place(("*NODE, NSET", "*NODE,NSET")), deck.place("*SOLID")
     how = deck.chance.choice(("mesh", "elements", "shifted"))
     chosen = deck.lines[first:last]
     if how != "mesh":
@@ -208,7 +208,7 @@ def _twice(deck):
 
 
 def _inside_out(deck):
-    at = deck.place("*ELEMENT") + 1
+    at = deck.place(("*ELEMENT, TYPE", "*ELEMENT,\nTYPE")) + 1
     while deck.lines[at].startswith("*") or "=" in deck.lines[at].split("\n")[-1]:
         at += 1
     words = [word.strip() for word in deck.lines[at].split(",")]
