@@ -1,9 +1,12 @@
-"""Checks a name before it is opened: a pipe would wait for ever, and a device never ends."""
+"""Checks a name before it is opened: a pipe would wait for ever, and a device never ends. Reads texts."""
 
+import codecs
 import os
 import stat
 
 from .errors import FILE, Error, MissingFile
+
+SAMPLE = 4096  # bytes of a file that show whether it is a text
 
 
 def need_regular(path):
@@ -28,6 +31,32 @@ class Unwritable(Error):
     """A file that cannot be written."""
 
     code = FILE
+
+
+def decoded(data):
+    """Returns the text of bytes, without a byte order mark: UTF-16 with such a mark, UTF-8, or else Latin-1.
+
+    Latin-1 makes each byte a letter of its own, so that names that differ in the file differ in the text.
+    """
+    try:
+        if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            return data.decode("utf-16")
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def text_of(path):
+    """Returns the text of a regular file; raises Error if it has bytes of 0, as no text has."""
+    need_regular(path)
+    with open(path, "rb") as file:
+        start = file.read(SAMPLE)
+        text = decoded(start)
+        if "\0" not in text:
+            text = decoded(start + file.read())
+    if "\0" in text:
+        raise Error(f"{path}: is no text, as it has bytes of 0: save it as a text in UTF-8")
+    return text
 
 
 def need_replaceable(path):

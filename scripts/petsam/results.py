@@ -14,7 +14,7 @@ import numpy as np
 
 from . import parts
 from .errors import Error, Missing, one_line, short, there_are
-from .files import need_regular
+from .files import decoded, need_regular
 from .isolation import reading
 from .opening import fresh
 
@@ -146,7 +146,7 @@ class Datafile:
     @staticmethod
     def _unit(data, name):
         unit = data.attrs["units"] if "units" in data.attrs else None
-        unit = unit.decode(errors="replace") if isinstance(unit, bytes) else unit
+        unit = decoded(unit) if isinstance(unit, bytes) else unit
         if not isinstance(unit, str):
             raise ValueError(f"/{name} has no attribute units that is a text")
         return short(unit)
@@ -563,7 +563,7 @@ class Results(Datafile):
             attributes = self._saved(name).attrs
             unit = self._unit(self._saved(name), name)
             text = attributes.get("long_name", name.replace("_", " "))
-            return unit, short(text.decode(errors="replace") if isinstance(text, bytes) else str(text))
+            return unit, short(decoded(text) if isinstance(text, bytes) else str(text))
 
     def flags(self, name):
         """Words for the values of a field of flags (flag_values, flag_meanings); none of a field of numbers."""
@@ -574,7 +574,7 @@ class Results(Datafile):
             if "flag_values" not in attributes or "flag_meanings" not in attributes:
                 return {}
             words = attributes["flag_meanings"]
-            words = (words.decode(errors="replace") if isinstance(words, bytes) else str(words)).split()
+            words = (decoded(words) if isinstance(words, bytes) else str(words)).split()
             return {int(value): short(word) for value, word in zip(np.ravel(attributes["flag_values"]), words)}
 
     def quantity(self, name, *part, **window):

@@ -8,7 +8,7 @@ import numpy as np
 
 from .declared import FOLLOWING, OPTIONS
 from .errors import Error, MissingFile, short, there_are
-from .files import need_regular
+from .files import decoded, need_regular
 from .isolation import reading
 from .results import DAMAGED, WHOLE, _own, _reason
 
@@ -79,7 +79,9 @@ class Study:
         data = _own(group, name)
         if getattr(data, "ndim", None) != 1 or data.size > WHOLE:
             raise ValueError(f"/{name} is not a row")
-        return data[:] if data.dtype.kind in "biuf" else np.array(data.asstr(errors="replace")[:], dtype=str)
+        if data.dtype.kind in "biuf":
+            return data[:]
+        return np.array([decoded(one) if isinstance(one, bytes) else one for one in data[:].tolist()], dtype=str)
 
     def __enter__(self):
         return self

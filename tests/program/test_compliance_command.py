@@ -189,12 +189,6 @@ def test_a_bar_is_stretched_evenly_by_a_case_of_displacement(compliance, tmp_pat
     assert np.allclose(stress[..., 0], 2.0 * 0.025, atol=1e-9) and np.allclose(stress[..., 1:], 0.0, atol=1e-9)
 
 
-def test_a_modulus_like_one_in_megapascals_is_told(compliance, tmp_path):
-    written(tmp_path / "bar.inp", bricks(sets=SUPPORT, moduli=(2.1e5, 0.0)))
-    says = "Young's modulus is 210000 Pa: give --units mm if the deck is in mm and MPa"
-    compliance("--mesh", "bar.inp", *ALWAYS, "--fixed", "LEFT", "--degree", "0", "-o", "f.h5", warning=says)
-
-
 @pytest.mark.parametrize("step", [PRESS, ["*STEP", "*DLOAD", "LAST, P4, -0.05", "*END STEP"]])
 def test_a_bar_is_stretched_evenly_by_a_case_of_pressure(compliance, tmp_path, step):
     body = bricks(sets=SUPPORT)

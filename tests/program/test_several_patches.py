@@ -27,8 +27,6 @@ CELLS, RADIUS = 1 / 15, 6.0
 def files(compliance, tmp_path):  # noqa: F811
     """Files of two patches, and of one that covers them."""
     write(tmp_path / "pair.inp", both(bodies=[body(number, edges=(X, Y, Z)) for number in (2, 1)]))
-    deck = (tmp_path / "pair.inp").read_text().replace("*ELASTIC", "*DENSITY\n1e3\n*ELASTIC")
-    (tmp_path / "pair.inp").write_text(deck)
     compliance(*WORDS, *SMALL, "--degree", "3,3", "-o", "two.h5")
     compliance(*WORDS, "--patch", "1.6,3.2", "--center", "0.4,0", "--degree", "3,9", "-o", "one.h5")
 
@@ -68,8 +66,6 @@ def test_two_patches_are_one_that_covers_them(files):
 def test_patches_that_bear_unequal_loads_are_pressed_without_friction(compliance, tmp_path):  # noqa: F811
     """The bolt is beside one of them; all is in equilibrium."""
     write(tmp_path / "pair.inp", both(bodies=[body(number, edges=(X, Y, Z)) for number in (2, 1)]))
-    deck = (tmp_path / "pair.inp").read_text().replace("*ELASTIC", "*DENSITY\n1e3\n*ELASTIC")
-    (tmp_path / "pair.inp").write_text(deck)
     apart = ["--patch", "1.0,0.8", "--center=-0.3,-1.0", "--center", "1.0,0.6"]
     compliance(*WORDS, *apart, "--modes", "2", "--degree", "2,2", "-o", "apart.h5")
     given = dict(friction=0.3, grid_n=(12, 10), gap_type="sphere", gap_radius1=RADIUS, gap_radius2="inf")

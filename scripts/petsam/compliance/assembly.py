@@ -8,11 +8,23 @@ part are named `INSTANCE.NAME`, as in Abaqus; those of the assembly keep their n
 import numpy as np
 
 from ..errors import Error, short, there_are
-from .cards import Card, number_of
+from .cards import Card, folded, number_of, trimmed
 
 SETS = ("NSET", "ELSET", "NAME")  # parameters that name what a part has
 NAMING = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "SOLID SECTION")  # cards that name or use these
-LABELS = 10**12  # range of labels of an instance
+DIGITS = 12  # of labels
+LABELS = 10**DIGITS  # range of labels of an instance
+
+
+def instance_names(cards):
+    """Names of the instances, in the order of their ranges of labels."""
+    return [card.parameters.get("NAME", "") for card in cards if card.name == "INSTANCE"]
+
+
+def label_of(number, names):
+    """A label of the flat deck as it is written: 5, or INSTANCE.5; names: of the instances."""
+    place, own = divmod(number, LABELS)
+    return f"{short(names[place])}.{own}" if 0 <= place < len(names) else str(own)
 
 
 def flat(cards):
@@ -23,7 +35,7 @@ def flat(cards):
     ranges = {name: LABELS * k for k, name in enumerate(instances)}
     found = []
     for name, (head, own) in instances.items():
-        part = head.need("PART").upper()
+        part = folded(head.need("PART"))
         if part not in parts:
             raise Error(f"{head.place}: no part {short(part)}{there_are(part, sorted(parts))}")
         move = _motion(head)
@@ -40,7 +52,7 @@ def _split(cards):
             inside = None
         elif card.name in ("PART", "INSTANCE", "ASSEMBLY", "STEP"):
             if inside is not None:
-                raise Error(f"{head.place}: *{head.name} has no *END {head.name}")
+                raise Error(f"{head.place}: *{head.name} has no *END {head.name}: add it")
             if card.name in ("PART", "INSTANCE"):
                 head, inside = card, []
                 _add(parts if card.name == "PART" else instances, card, inside)
@@ -49,17 +61,17 @@ def _split(cards):
         else:
             (rest if inside is None else inside).append(card)
     if inside is not None:
-        raise Error(f"{head.place}: *{head.name} has no *END {head.name}")
+        raise Error(f"{head.place}: *{head.name} has no *END {head.name}: add it")
     if not instances:
-        raise Error(f"{cards[0].place.rpartition(':')[0]}: has parts, but no *INSTANCE of them")
+        raise Error(f"{cards[0].place.rpartition(':')[0]}: has parts, but no *INSTANCE of them: add it")
     return parts, instances, rest
 
 
 def _add(known, card, inside):
     """Adds a part or an instance, whose name must be new."""
-    name = card.need("NAME").upper()
+    name = folded(card.need("NAME"))
     if name in known:
-        raise Error(f"{card.place}: *{card.name} {short(name)} is given twice")
+        raise Error(f"{card.place}: *{card.name} {short(name)} is given twice: rename one")
     known[name] = inside if card.name == "PART" else (card, inside)
 
 
@@ -72,7 +84,7 @@ def _instance(card, first, prefix, move):
         if found.parameters.get(name):
             found.parameters[name] = prefix + found.parameters[name]
     if card.name == "NODE":
-        found.lines = [[words[0], *move(card, words[1:])] for words in found.lines]
+        found.lines = [words.with_words([words[0], *move(card, words)]) for words in found.lines]
     return found
 
 
@@ -80,43 +92,56 @@ def _of_assembly(card, ranges, own):
     """A card outside of all instances, which may name one (instance=), or its labels as INSTANCE.LABEL; own: labels of
     the assembly, those of reference points."""
     if card.parameters.get("INSTANCE"):
-        name = card.parameters["INSTANCE"].upper()
+        name = folded(card.parameters["INSTANCE"])
         if name not in ranges:
             raise Error(f"{card.place}: no instance {short(name)}{there_are(name, list(ranges))}")
-        return _relabelled(card, ranges[name], name + ".")
+        found = _relabelled(card, ranges[name], name + ".")
+        if card.name == "NSET" and found.parameters.get("ELSET"):
+            found.parameters["ELSET"] = name + "." + found.parameters["ELSET"]
+        return found
     if card.name in NAMING:
-        for word in (word for words in card.lines for word in words[: 1 if "GENERATE" in card.parameters else None]):
-            if card.name in ("NSET", "ELSET") and word.isdecimal() and word not in own:
-                raise Error(f"{card.place}: *{card.name} has {word}, which is no label of the assembly: give instance=")
+        count = 1 if "GENERATE" in card.parameters else None
+        for words in card.lines:
+            wrong = [word for word in words[:count] if word.isdecimal() and word not in own]
+            if wrong and card.name in ("NSET", "ELSET"):
+                raise Error(
+                    f"{words.place}: *{card.name} has {wrong[0]}, which is no label of the assembly: give instance="
+                )
         card = _relabelled(card, LABELS * len(ranges), "")
 
     def label(word):
         name, _, number = word.rpartition(".")
-        return str(ranges[name.upper()] + int(number)) if name.upper() in ranges and number.isdecimal() else word
+        name = folded(name)
+        return str(ranges[name] + int(number)) if name in ranges and number.isdecimal() else word
 
-    return Card(card.name, card.parameters, card.place, [[*map(label, words)] for words in card.lines])
+    lines = [words.with_words(map(label, words)) for words in card.lines]
+    return Card(card.name, card.parameters, card.place, lines)
 
 
 def _relabelled(card, first, prefix):
     """A card whose labels begin at `first`, and whose data lines name the sets of the instance."""
 
-    def label(word):
-        return str(int(word) + first) if word.isdecimal() else prefix + word if word else word
+    def label(words, word):
+        if not word.isdecimal():
+            return prefix + word if word else word
+        if len(word) > DIGITS:
+            raise Error(f"{words.place}: label {short(word)} of an instance is too large: use up to {DIGITS} digits")
+        return str(int(word) + first)
 
     generated = "GENERATE" in card.parameters
     counts = {"NODE": 1, "SURFACE": 1, "SOLID SECTION": 0}  # of labels in a line; all words of other cards
     lines = []
     for words in card.lines:
         count = 2 if generated else counts.get(card.name, len(words))
-        lines.append([*map(label, words[:count]), *words[count:]])
+        lines.append(words.with_words([*(label(words, word) for word in words[:count]), *words[count:]]))
     return Card(card.name, dict(card.parameters), card.place, lines)
 
 
 def _motion(card):
     """The function (card, words) that moves the coordinates of a node as the instance: its first data line is the
     translation, its second one two points of an axis and an angle in degrees, about which it is turned afterwards."""
-    lines = [[word for word in words if word] for words in card.lines]
-    numbers = [np.array([number_of(card, word) for word in words]) for words in lines]
+    lines = [trimmed(words) for words in card.lines]
+    numbers = [np.array([number_of(card, word, line=line) for word in line]) for line in lines]
     if len(numbers) > 2 or any(len(one) != count for one, count in zip(numbers, (3, 7))):
         raise Error(
             f"{card.place}: *INSTANCE: expected a line of 3 numbers, the translation, and one of 7, the rotation"
@@ -131,11 +156,11 @@ def _motion(card):
         cross, angle = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]), np.radians(numbers[1][6])
         turn = turn + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
-    def move(node, words):
-        words = [word for word in words if word]
+    def move(node, line):
+        words = trimmed(line)[1:]
         if len(words) < 2:
             return words  # the reader of the flat deck has a message
-        at = np.array([number_of(node, word) for word in (words + ["0."])[:3]])
+        at = np.array([number_of(node, word or "0.", line=line) for word in (words + ["0."])[:3]])
         return [repr(float(value)) for value in start + turn @ (at + shift - start)]
 
     return move

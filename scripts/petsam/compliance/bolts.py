@@ -16,6 +16,7 @@ import numpy as np
 from scipy import sparse
 
 from ..errors import Error
+from .cards import folded
 
 ORDER = 4  # Gauss points along the side of a face
 
@@ -51,7 +52,7 @@ def cross(r):
 def washer(mesh, name):
     """The Washer of a surface of the mesh."""
     points, moduli = [], set()
-    for group in mesh.surface_faces(name.upper()):
+    for group in mesh.surface_faces(folded(name)):
         gauss, block = mesh.gauss(group, ORDER), mesh.blocks[group.block]
         points.append((group.nodes, gauss.x, np.linalg.norm(gauss.area, axis=2), gauss.values))
         moduli |= set(zip(block.young[group.elements].tolist(), block.poisson[group.elements].tolist()))

@@ -10,17 +10,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Error, short
-from .cards import number_of
+from ..errors import Error, short, there_are
+from .cards import folded, number_of, trimmed
 from .checks import deviation
-from .deck import UNSUPPORTED_LOADS
 from .images import FLAT
+from .keywords import CURES, WITHOUT, need_parameters, need_supported
 from .remainder import scatter
 
 REST = 1e-2  # part of the field's range; largest deviation of the polynomials
 NOTHING = 1e-12  # relative to the largest; forces on nodes that are rounding
 FACE_POINTS = 4  # Gauss points along the side of a loaded face
-CHANGING = {"AMPLITUDE", "SECTOR", "SUBMODEL", "TIME DELAY", "USER"}  # parameters that change the meaning of the lines
+TYPES = {  # of *BOUNDARY: the directions that are held; those above 3 are rotations, which solid elements have none of
+    "XSYMM": (1, 5, 6),
+    "YSYMM": (2, 4, 6),
+    "ZSYMM": (3, 4, 5),
+    "XASYMM": (2, 3, 4),
+    "YASYMM": (1, 3, 5),
+    "ZASYMM": (1, 2, 6),
+    "PINNED": (1, 2, 3),
+    "ENCASTRE": (1, 2, 3, 4, 5, 6),
+}
 
 
 @dataclass
@@ -44,53 +53,74 @@ class Loads:
         self.force = np.zeros((3 * len(mesh.nodes), 1))
         self.moved = np.zeros((3 * len(mesh.nodes), 1))
         self.prescribed = np.zeros(3 * len(mesh.nodes), dtype=bool)
+        self.along = np.zeros((len(mesh.nodes), 3), dtype=bool)  # directions of the deck that *BOUNDARY names
 
-    def _nodes(self, card, word):
-        if word.upper() in self.mesh.node_sets:
-            return self.mesh.node_sets[word.upper()]
-        number = number_of(card, word, int)
+    def _nodes(self, card, line):
+        """Indices of the nodes that the first word of a line names."""
+        word = folded(line[0])
+        if word in self.mesh.node_sets:
+            return self.mesh.node_sets[word]
+        if not word.lstrip("+-").isdecimal():
+            meant = there_are(word, sorted(self.mesh.node_sets))
+            raise Error(f"{line.place}: *{card.name}: no node set {short(word)}{meant}")
+        number = number_of(card, word, int, line)
         index = np.searchsorted(self.mesh.node_numbers, number)
         if index == len(self.mesh.node_numbers) or self.mesh.node_numbers[index] != number:
-            raise Error(f"{card.place}: no node {number} in the mesh")
+            raise Error(f"{line.place}: no node {self.deck.label(number)} in the mesh: name a node of its elements")
         return np.array([index])
 
-    def _direction(self, card, word):
-        direction = number_of(card, word, int)
+    def _direction(self, card, word, line):
+        direction = number_of(card, word, int, line)
         if not 1 <= direction <= 3:
-            raise Error(f"{card.place}: direction {direction}: use 1 to 3")
+            raise Error(f"{line.place}: direction {direction}: use 1 to 3")
         return self.frame.axes[:, direction - 1]
 
-    def cload(self, card):
+    def cload(self, card, line):
         """Forces on nodes."""
-        for words in card.lines:
-            vector = self._direction(card, words[1]) * number_of(card, words[2]) * self.units.force
-            self.force.reshape(-1, 3)[self._nodes(card, words[0])] += vector
+        vector = self._direction(card, line[1], line) * number_of(card, line[2], line=line) * self.units.force
+        self.force.reshape(-1, 3)[self._nodes(card, line)] += vector
 
-    def boundary(self, card):
-        """Displacements of nodes."""
-        for words in card.lines:
-            nodes = self._nodes(card, words[0])
-            first = number_of(card, words[1], int)
-            last = number_of(card, words[2], int) if len(words) > 2 and words[2] else first
-            value = number_of(card, words[3]) if len(words) > 3 and words[3] else 0.0
-            self.prescribed.reshape(-1, 3)[nodes] = True
+    def boundary(self, card, line):
+        """Displacements of nodes: of a type by its name, or `node or set, first, last, value`."""
+        nodes, kind = self._nodes(card, line), line[1].upper()
+        self.prescribed.reshape(-1, 3)[nodes] = True
+        if not line[1][:1].isalpha():
+            first, last = self._range(card, line)
+            value = number_of(card, line[3], line=line) if len(line) > 3 else 0.0
+            self.along[nodes, first - 1 : last] = True
             for direction in range(first, last + 1):
-                self.moved.reshape(-1, 3)[nodes] += self._direction(card, str(direction)) * value * self.units.length
+                along = self._direction(card, str(direction), line)
+                self.moved.reshape(-1, 3)[nodes] += along * value * self.units.length
+        elif kind not in TYPES or len(line) > 2:
+            meant = there_are(kind, sorted(TYPES))
+            raise Error(f"{line.place}: *BOUNDARY: {short(', '.join(line[1:]))} is no type of support{meant}")
+        else:
+            for direction in (one for one in TYPES[kind] if one <= 3):
+                self.along[nodes, direction - 1] = True
 
-    def dload(self, card):
+    def _range(self, card, line):
+        """First and last direction; rotations may be held, as solid elements have none."""
+        first = number_of(card, line[1], int, line)
+        last = number_of(card, line[2], int, line) if len(line) > 2 and line[2] else first
+        still = len(line) < 4 or number_of(card, line[3], line=line) == 0.0
+        if still and 1 <= first <= last <= 6:
+            return first, min(last, 3)
+        if not 1 <= first <= last <= 3:
+            raise Error(f"{line.place}: directions {first} to {last}: use 1 to 3")
+        return first, last
+
+    def dload(self, card, line):
         """Pressure on element faces."""
-        for words in card.lines:
-            if len(words) < 3 or words[1][:1].upper() != "P" or not words[1][1:].isdecimal():
-                raise Error(f"{card.place}: {short(', '.join(words))}: only pressure P1 to P6 is supported")
-            self._pressure(self.deck.faces(card, words), number_of(card, words[2]))
+        if len(line) < 3 or line[1][:1].upper() != "P" or not line[1][1:].isdecimal():
+            raise Error(f"{line.place}: {short(', '.join(line))}: only pressure P1 to P6 is supported")
+        self._pressure(self.deck.faces(card, line), number_of(card, line[2], line=line))
 
-    def dsload(self, card):
+    def dsload(self, card, line):
         """Pressure on a surface."""
-        for words in card.lines:
-            name = words[0].upper()
-            if name not in self.mesh.surfaces or len(words) < 3 or words[1].upper() != "P":
-                raise Error(f"{card.place}: {short(', '.join(words))}: expected `surface, P, value`")
-            self._pressure(self.mesh.surfaces[name], number_of(card, words[2]))
+        name = folded(line[0])
+        if name not in self.mesh.surfaces or len(line) < 3 or line[1].upper() != "P":
+            raise Error(f"{line.place}: {short(', '.join(line))}: expected `surface, P, value`")
+        self._pressure(self.mesh.surfaces[name], number_of(card, line[2], line=line))
 
     def _pressure(self, faces, value):
         loaded = type(self.mesh)(self.mesh.nodes, self.mesh.blocks, surfaces={"": faces})
@@ -102,27 +132,35 @@ class Loads:
 
 def _take(found, cards):
     for card in cards:
-        if card.name in UNSUPPORTED_LOADS:
-            raise Error(f"{card.place}: *{card.name} in a load case is not supported: remove it")
-        changing = CHANGING & card.parameters.keys()
-        if changing:
-            raise Error(f"{card.place}: {min(changing)} of *{card.name} is not supported: give the values themselves")
-        try:
-            getattr(found, card.name.lower())(card)
-        except IndexError:
-            raise Error(f"{card.place}: a line of *{card.name} has too few values") from None
+        need_supported(card, " in a load case")
+        need_parameters(card)
+        for line in card.lines:
+            try:
+                getattr(found, card.name.lower())(card, trimmed(line))
+            except IndexError:
+                raise Error(f"{line.place}: a line of *{card.name} has too few values: complete it") from None
 
 
-def need_supports(deck, mesh, frame, units, supported):
-    """Checks that the nodes that the deck holds in all steps are among the supported ones."""
+def need_supports(deck, mesh, frame, units, fixed, symmetric):
+    """Checks that the nodes that the deck holds in all steps are among the supported ones (`symmetric` by --symmetry);
+    returns warnings about nodes that --fixed holds in more directions."""
     found = Loads(deck, mesh, frame, units)
     _take(found, deck.supports)
-    free = np.setdiff1d(np.flatnonzero(found.prescribed.reshape(-1, 3)[:, 0]), supported)
+    free = np.setdiff1d(np.flatnonzero(found.prescribed.reshape(-1, 3)[:, 0]), [*fixed, *symmetric])
     if len(free):
         raise Error(
-            f"{deck.supports[0].place}: *BOUNDARY holds node {mesh.node_numbers[free[0]]}, which is not in "
+            f"{deck.supports[0].place}: *BOUNDARY holds node {deck.label(mesh.node_numbers[free[0]])}, which is not in "
             "--fixed or --symmetry: add its set to --fixed, or remove the card"
         )
+    held = np.any(found.along[fixed], axis=1) & ~np.all(found.along[fixed], axis=1)
+    if not np.any(held):
+        return []
+    node = fixed[np.flatnonzero(held)[0]]
+    names = " and ".join("xyz"[k] for k in np.flatnonzero(found.along[node]))
+    return [
+        f"warning: {deck.supports[0].place}: *BOUNDARY holds node {deck.label(mesh.node_numbers[node])} in {names} "
+        "only, and --fixed in x, y and z: give --symmetry for planes of symmetry, or hold it in the deck in all three"
+    ]
 
 
 def loads(deck, mesh, frame, units, step):
@@ -130,6 +168,9 @@ def loads(deck, mesh, frame, units, step):
     if not 1 <= step <= len(deck.steps):
         raise Error(f"the deck has {len(deck.steps)} steps, not step {step}: name one of them by --case NAME=STEP")
     found = Loads(deck, mesh, frame, units)
+    for card in (card for earlier in deck.steps[: step - 1] for card in earlier):
+        if CURES.get(card.name) == WITHOUT:  # elements that a step removes are absent in later ones, too
+            need_supported(card, " before a load case")
     _take(found, deck.steps[step - 1])
     if not (np.any(found.force) or np.any(found.moved)):
         raise Error(f"step {step} has no load: give *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY in it")
@@ -140,7 +181,7 @@ def cases(found, solver, remainder, jumps):
     """Returns the Case of the Loads for each patch; jumps: the Jump of each; `found.name`: in errors."""
     free = found.prescribed & ~solver.fixed
     if np.any(free):
-        number = found.mesh.node_numbers[np.flatnonzero(free)[0] // 3]
+        number = found.deck.label(found.mesh.node_numbers[np.flatnonzero(free)[0] // 3])
         raise Error(f"load case {found.name}: node {number} is prescribed but not in --fixed: add its set to --fixed")
     given = found.moved[solver.held]
     v = solver(found.force, given)

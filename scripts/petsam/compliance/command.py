@@ -38,6 +38,7 @@ from ..replacing import need_own
 from ..surface.lengths import lengths, shown, sides
 from ..surface.lengths import several as numbers
 from . import basis, model, picture, several, substructure, writing
+from .units import UNITS
 
 HIGHEST = 10  # highest degree that petsam reads
 HIGHEST_EACH, MOST_FUNCTIONS = 24, 325  # the same of degrees in x and y, and the number of their products
@@ -151,7 +152,7 @@ def _body_options(parser):
     body.add_argument(
         "--symmetry", action="append", metavar="NSET", help="node set in a plane of symmetry; may be repeated"
     )
-    body.add_argument("--units", choices=tuple(model.UNITS), default="m", help="m: m, N, Pa; mm: mm, N, MPa (m)")
+    body.add_argument("--units", choices=tuple(UNITS), default="m", help="m: m, N, Pa; mm: mm, N, MPa (m)")
     body.add_argument(
         "--frame",
         type=frame,

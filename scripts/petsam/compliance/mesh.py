@@ -148,11 +148,11 @@ class Mesh:
                 tried = np.flatnonzero(boxed & (best > INSIDE))
                 if not len(tried):
                     continue
-                place, outside = _inverse(one.shape, corners[candidate[tried]], points[tried])
-                mask = outside < best[tried]
+                place, beyond = inverse(one.shape, corners[candidate[tried]], points[tried])
+                mask = beyond < best[tried]
                 better = tried[mask]
                 block[better], element[better] = index, candidate[better]
-                local[better], best[better] = place[mask], outside[mask]
+                local[better], best[better] = place[mask], beyond[mask]
         block[best > INSIDE] = -1
         return block, element, local
 
@@ -172,7 +172,7 @@ def some(faces, mask):
     return replace(faces, elements=faces.elements[mask], nodes=faces.nodes[mask])
 
 
-def _outside(shape, local):
+def outside(shape, local):
     """Returns the distance by which local coordinates are outside of the reference shape."""
     if shape.corners == 8:
         return np.max(np.abs(local), axis=1) - 1.0
@@ -181,21 +181,23 @@ def _outside(shape, local):
     return out if shape.corners == 4 else np.maximum(out, np.abs(local[:, 2]) - 1.0)
 
 
-def _inverse(shape, corners, points):
-    """Returns local coordinates of points (n, 3) in elements (n, k, 3) by Newton's method, and distances outside."""
-    local = np.tile(shape.family.nodes.mean(axis=0), (len(points), 1))
+def inverse(shape, corners, points, family=None):
+    """Returns local coordinates of points (n, 3) in elements (n, k, 3) by Newton's method, and distances outside;
+    family: its shape functions, if they are not those of all nodes."""
+    family = family or shape.family
+    local = np.tile(family.nodes.mean(axis=0), (len(points), 1))
     for _ in range(NEWTON):
-        values = shape.family.values(local)
+        values = family.values(local)
         rest = points - np.einsum("pk,pkx->px", values, corners)
-        jacobian = np.einsum("pkd,pkx->pxd", shape.family.gradients(local), corners)
+        jacobian = np.einsum("pkd,pkx->pxd", family.gradients(local), corners)
         step = np.linalg.solve(jacobian + 1e-300 * np.eye(3), rest[..., None])[..., 0]
         local = np.clip(local + step, -3.0, 3.0)
         if np.max(np.abs(step)) < 1e-12:
             break
-    outside = np.maximum(_outside(shape, local), 0.0)
-    missed = np.linalg.norm(points - np.einsum("pk,pkx->px", shape.family.values(local), corners), axis=1)
+    beyond = np.maximum(outside(shape, local), 0.0)
+    missed = np.linalg.norm(points - np.einsum("pk,pkx->px", family.values(local), corners), axis=1)
     size = np.linalg.norm(np.ptp(corners, axis=1), axis=1)
-    return local, np.where(missed > 1e-6 * size, np.inf, outside)
+    return local, np.where(missed > 1e-6 * size, np.inf, beyond)
 
 
 def grid_mesh(edges, kind="C3D20", young=1.0, poisson=0.3, node_sets=None):

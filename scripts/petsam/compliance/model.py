@@ -9,34 +9,14 @@ from ..errors import Error
 from . import bolts, checks, cutoff, deck, images, modes, parts, several, stresses
 from . import cases as load_cases
 from .basis import Patch
+from .cards import folded
 from .halfspace import Fields, Mirrored, Several
 from .remainder import Side
 from .solve import Floating, Solver, plane_normal
 from .stiffness import stiffness
+from .units import DENSITIES, SOFT, UNITS, need_units
 
 GAUSS_MORE = 3  # Gauss points along the patch in addition to its degree, for sampling fields
-
-
-@dataclass(frozen=True)
-class Units:
-    """Metres, pascals and newtons of a deck's units."""
-
-    length: float
-    stress: float
-    density_name: str
-
-    @property
-    def force(self):
-        """Newtons."""
-        return self.stress * self.length**2
-
-    @property
-    def density(self):
-        """kg/m3."""
-        return self.stress / self.length**2
-
-
-UNITS = {"m": Units(1.0, 1.0, "kg/m3"), "mm": Units(1e-3, 1e6, "t/mm3")}
 
 
 @dataclass(frozen=True)
@@ -93,11 +73,6 @@ def frame_of(origin, x, z, outward):
     return Frame(np.array(origin, dtype=float), np.stack([x, np.cross(z, x), z]))
 
 
-DENSITIES = (1.0, 1e5)  # of solids whose modulus is that of a solid, kg/m3
-SOFT = 1e6  # Pa: a deck of smaller moduli is in units of its own, such as E = 1, which do not tell the density's
-MEGAPASCALS = (1e3, 1e6)  # moduli of metals and plastics in MPa
-
-
 class Model:
     """The mesh in the frame's coordinates, in SI units, with its supports and its contact surface."""
 
@@ -119,15 +94,15 @@ class Model:
                 raise Error(
                     f"{path}: node set {name} of --symmetry is held by --fixed: name another, or omit --symmetry"
                 )
-        faces = mesh.surface_faces(options.contact.upper())
+        faces = mesh.surface_faces(folded(options.contact))
         if not faces:
             raise Error(f"{path}: surface {options.contact} has no element faces: define it by TYPE=ELEMENT")
         outward = sum(mesh.gauss(group, 2).area.sum(axis=(0, 1)) for group in faces)
         origin, x, z = (list(options.frame) + [None, None])[:3]
         self.frame = frame_of(np.array(origin) * units.length, x, z, outward)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
-        held = np.unique(np.concatenate([self.supported, *symmetric]))
-        load_cases.need_supports(self.deck, self.mesh, self.frame, units, held)
+        planes = np.concatenate([np.zeros(0, dtype=int), *symmetric])
+        self.doubts = load_cases.need_supports(self.deck, self.mesh, self.frame, units, self.supported, planes)
         self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(options.symmetry, symmetric)]
         half = tuple(0.5 * side for side in options.patch)
         self.patches = [Patch(center, half, options.degree) for center in options.center]
@@ -136,6 +111,7 @@ class Model:
         self.parts, self.bolts = [parts.Part(self.mesh, faces)], []
         if options.pair:
             self._take_pair()
+        self.doubts += need_units(self)
 
     def _take_pair(self):
         """Finds the two bodies and their bolts."""
@@ -270,10 +246,7 @@ def _cutoff(model, plane, moduli):
 def remainder(model, method, plane, progress):
     """Returns the Remainder of a Model, and its solver, after the checks of the geometry; and remarks."""
     mesh, supported, sides = model.mesh, model.supported, model.sides()
-    young = sides[0].fields.young
-    remarks = []
-    if MEGAPASCALS[0] <= young < MEGAPASCALS[1] and model.options.units == "m":
-        remarks.append(f"warning: Young's modulus is {young:.6g} Pa: give --units mm if the deck is in mm and MPa")
+    young, remarks = sides[0].fields.young, list(model.doubts)
     if method == "image":
         each = [(part, one) for part in model.parts for one in model.patches]
         clearance = min(checks.need_clearance(part.mesh, one, supported) for part, one in each)

@@ -8,6 +8,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..errors import Error
 from . import images
+from .cards import folded
 from .mesh import Block, Mesh
 
 
@@ -55,7 +56,7 @@ class Components:
 
     def of_surface(self, name):
         """Number of the component on which a surface of the deck lies."""
-        groups = self.mesh.surface_faces(name.upper())
+        groups = self.mesh.surface_faces(folded(name))
         found = {int(one) for group in groups for one in np.unique(self.of_node[group.nodes])}
         if not found:
             raise Error(f"surface {name} has no element faces: define it by TYPE=ELEMENT, by faces that the mesh has")
@@ -125,7 +126,7 @@ def pair(components, contact, other, links):
     found = []
     for number, name, sign in ((second, contact, 1), (first, other, -1)):
         mesh = components.part(number)
-        faces = mesh.surface_faces(name.upper())
+        faces = mesh.surface_faces(folded(name))
         outward = sum(mesh.gauss(group, 2).area.sum(axis=(0, 1)) for group in faces)
         if sign * outward[2] > -0.9 * np.linalg.norm(outward):
             raise Error(f"surface {other} of --pair does not face surface {contact} of --contact: name one that does")

@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -160,12 +161,28 @@ def condensed(matrix, size):
     return (0.5 * (result + result.T)).tocsr()
 
 
+def renumbered(mesh):
+    """The mesh with elements numbered from 1: CalculiX has arrays of the highest number, in which those of instances
+    overflow."""
+    ends = np.cumsum([0, *(len(block.numbers) for block in mesh.blocks)])
+    numbered = [
+        replace(block, numbers=1 + end + np.arange(len(block.numbers))) for block, end in zip(mesh.blocks, ends)
+    ]
+    return replace(mesh, blocks=numbered)
+
+
 def of_calculix(mesh, ccx=CCX):
     """K in compressed rows, as CalculiX assembles it."""
-    lines = model_lines(mesh) + ["*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "1", "*END STEP"]
+    lines = model_lines(renumbered(mesh)) + ["*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "1", "*END STEP"]
     with tempfile.TemporaryDirectory(prefix="petsam-compliance-") as folder:
-        run(lines, folder, "stored", ccx)
-        return read_stored(folder, "stored", 3 * len(mesh.nodes))
+        try:
+            run(lines, folder, "stored", ccx)
+            return read_stored(folder, "stored", 3 * len(mesh.nodes))
+        except Missing:
+            raise
+        except Error as error:
+            own = all(block.kind in OWN for block in mesh.blocks)
+            raise Error(f"{error}: use --stiffness own" + ("" if own else " with elements C3D20R")) from error
 
 
 def rigid_motions(nodes):

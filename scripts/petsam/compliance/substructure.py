@@ -18,13 +18,14 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from ..errors import Error, short
-from ..files import need_regular
+from ..files import text_of
 from . import checks
 from .basis import Patch
 from .halfspace import projected
-from .model import UNITS, Body, examine, frame_of
+from .model import Body, examine, frame_of
 from .several import Joined
 from .shapes import simplex_rule
+from .units import HARDEST, OWN, SOFT, UNITS
 
 SYMMETRY = 1e-6  # relative to the largest term of the matrix
 UNCONDENSED = 0.5  # force by a unit translation over the sum of the diagonal, above which nodes were fixed
@@ -107,28 +108,27 @@ def _nastran(text, path):
 
 def read_nodes(path):
     """{number: x} of a table."""
-    need_regular(path)
     nodes = {}
-    with open(path, encoding="utf-8", errors="replace") as file:
-        for number, line in enumerate(file, 1):
-            line = re.split(r"[#!]|\*\*", line)[0]
-            words = line.replace(",", " ").split()
-            if not words:
-                continue
-            try:
-                nodes[int(words[0])] = [float(word) for word in words[1:4]]
-            except ValueError:
-                raise Error(f"{path}:{number}: {short(line.strip())}: expected `node x y z`") from None
-            if len(nodes[int(words[0])]) != 3:
-                raise Error(f"{path}:{number}: expected `node x y z`")
+    for number, line in enumerate(text_of(path).splitlines(), 1):
+        line = re.split(r"[#!]|\*\*", line)[0]
+        words = line.replace(",", " ").split()
+        if not words:
+            continue
+        try:
+            node, place = int(words[0]), [float(word) for word in words[1:4]]
+        except ValueError:
+            raise Error(f"{path}:{number}: {short(line.strip())}: expected `node x y z`") from None
+        if len(place) != 3 or not np.all(np.isfinite(place)):
+            raise Error(f"{path}:{number}: expected `node x y z`")
+        if node in nodes:
+            raise Error(f"{path}:{number}: node {node} is given twice: remove one of its lines")
+        nodes[node] = place
     return nodes
 
 
 def read(path, table):
     """Stiffness (3 n, 3 n) and coordinates (n, 3), in the files' units."""
-    need_regular(path)
-    with open(path, encoding="utf-8", errors="replace") as file:
-        text = file.read()
+    text = text_of(path)
     nodes = read_nodes(table)
     if re.search(r"(?i)\*MATRIX\s*,\s*TYPE\s*=\s*STIFFNESS", text):
         matrix, number, direction = _abaqus(text, path)
@@ -212,9 +212,16 @@ def computed(path, options, command, progress):
     compliance = force.T @ np.linalg.solve(turn @ matrix @ turn.T, force)
     compliance -= projected(patch, options.young, options.poisson)
     body = Body(options.young, options.poisson, "direct", path, command, frame, patch, compliance)
-    body.remarks.append(WARNING)
+    body.remarks += [WARNING, *_doubts(options.young)]
     examine(body)
     return Joined([body])
+
+
+def _doubts(young):
+    """Warnings about --young, which is in Pa whatever the units of the matrix."""
+    if OWN <= young < SOFT or young > HARDEST:
+        return [f"warning: --young is {young:.6g} Pa: give it in Pa, as 2.1e11"]
+    return []
 
 
 def need_patch(place, patch):

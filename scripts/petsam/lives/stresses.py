@@ -5,6 +5,7 @@ import os
 import numpy as np
 
 from ..errors import Error, one_line, short, there_are
+from ..files import decoded
 from ..stresses import FATIGUE, Stresses
 
 
@@ -57,7 +58,7 @@ class Cycle:
     def doubt(self):
         """Warning of petsam-stress that the steps are no closed cycle, or more than one; "" for none."""
         words = self.file.parameters.get("cycle_warning", "") if self.file else ""
-        return one_line(words.decode(errors="replace") if isinstance(words, bytes) else words, 480)
+        return one_line(decoded(words) if isinstance(words, bytes) else words, 480)
 
     def __contains__(self, name):
         return name in self.source and name not in ("x", "y", "z", "time")

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 from .. import declared
 from ..errors import Error, short
-from ..files import need_regular
+from ..files import decoded, need_regular
 from .expressions import Expander, names_in
 from .reading import TableError, read_csv, read_yaml
 
@@ -99,8 +99,8 @@ def _content(path):
     try:
         if need_regular(path).st_size > SMALL:
             return _stamp(path)
-        with open(path, encoding="utf-8", errors="replace") as file:
-            return file.read()
+        with open(path, "rb") as file:
+            return decoded(file.read())
     except (OSError, Error):
         return path  # petsam reports it
 

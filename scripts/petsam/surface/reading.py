@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import Error, short
-from ..files import need_regular
+from ..files import decoded, need_regular
 from ..isolation import reading
 from ..results import DAMAGED
 from . import headers
@@ -92,7 +92,7 @@ def _read_table(path, options):
 def _attribute(path, data, name):
     """A text attribute, or None."""
     value = data.attrs.get(name)
-    value = value.decode(errors="replace") if isinstance(value, bytes) else value
+    value = decoded(value) if isinstance(value, bytes) else value
     if value is not None and not isinstance(value, str):
         raise Error(f"{path}: {data.name}: its attribute {name} is not a text")
     return value

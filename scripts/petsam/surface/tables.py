@@ -1,11 +1,11 @@
 """Maps in text files: one line per row of the map, one column per point; errors name the line."""
 
-import codecs
 import re
 
 import numpy as np
 
 from ..errors import Error, short
+from ..files import SAMPLE, decoded
 
 COMMENTS = ("#", "%")  # of lines that never have numbers of the map
 # missing points as instruments and spreadsheets write them
@@ -17,14 +17,10 @@ def _text(path):
     """The file's text, whatever its header's letters are written in."""
     with open(path, "rb") as file:
         data = file.read()
-    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        return data.decode("utf-16", errors="replace")
-    if b"\0" in data[:4096]:
+    text = decoded(data)
+    if "\0" in text[:SAMPLE]:
         raise Error(f"{path}: is not a text")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("latin-1")  # in which a micro sign is one byte, as in the other code pages of the west
+    return text
 
 
 def _lines(path, skip):
