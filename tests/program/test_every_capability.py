@@ -1,10 +1,12 @@
 """What holds for every capability: ranks without cells change nothing, nor does a restart between two steps."""
 
+import sys
+
 import h5py
 import numpy as np
 
 import capabilities
-from support import few
+from support import ROOT, few, finished
 
 CASES = [(plane, name) for plane in (True, False) for name in capabilities.cases(plane)]
 
@@ -47,3 +49,20 @@ def test_restart_changes_no_number(petsam, tmp_path, plane, name):
     )
     for at in compared:
         assert np.array_equal(whole[at][-1], rest[at][-1], equal_nan=rest[at].dtype.kind == "f"), at
+
+
+def test_decisions_by_a_ranks_own_data_are_found(tmp_path):
+    """An array that a rank without cells does not have, a member of a structure, a return before the others."""
+    script, source = ROOT / "scripts" / "maintain" / "check_ranks.py", tmp_path / "own.c"
+    own = "struct S {\n  double *kept;\n};\nstatic PetscErrorCode F(struct S *s, const double e[], PetscBool all)\n{\n"
+    for line, found in (
+        ("  if (!s->kept) PetscCall(Reduce(s));", "kept"),
+        ("  if (!e) PetscFunctionReturn(0);\n  PetscCall(Reduce(s));", "e"),
+        ("  if (all && e) {\n    PetscCall(Reduce(s));\n  }", "e"),
+        ("  PetscCall(Reduce(s, e ? s : NULL));", "e"),
+        ("  if (all) PetscCall(Reduce(s));\n  if (e) PetscCall(PetscFree(s->kept));", None),
+    ):
+        source.write_text(own + line + "\n  PetscFunctionReturn(0);\n}\n")
+        done = finished([sys.executable, script, source], check=1 if found else 0)
+        assert (f"rank's `{found}`" if found else "") in done.stdout and bool(done.stdout) == bool(found)
+    finished([sys.executable, script])

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Random problems of all capabilities on several ranks: the same bits as on one, and an end.
+
+    python3 tests/program/random_ranks.py [--trials 60] [--seed 1]
+
+A problem joins two cases of capabilities.py on a random grid under random loads. It runs on one rank and on 2, 3 or 5;
+half of the problems have so few rows of cells that some ranks are without. What differs or does not end is printed; a
+pair that petsam rejects is drawn again.
+"""
+
+import subprocess
+import sys
+
+import numpy as np
+
+import capabilities
+import conftest
+from random_problems import ask, seeds
+from support import flatten
+from test_every_capability import read
+
+
+def draw(rng, folder):
+    """Name, options and ranks of a random problem, whose history is written into the folder."""
+    plane, ranks = bool(rng.random() < 0.4), int(rng.choice([2, 3, 5]))
+    cases = capabilities.cases(plane)
+    names = rng.choice(list(cases), 2, replace=False)
+    options, columns = {}, {}
+    for name in names:
+        own, more = cases[name]
+        options.update(own)
+        columns = None if columns is None or more is None else {**columns, **more}
+    if "disp_x" in (columns or {}):
+        columns.pop("load_tx", None)
+    few = bool(rng.random() < 0.5)
+    nx, ny = int(rng.integers(14, 40)), int(rng.integers(2, ranks) if few and ranks > 2 else rng.integers(5, 24))
+    options["grid_n"] = nx if plane else (nx, ny)
+    options["friction"] = float(rng.uniform(0.1, 0.8))
+    options["steps"] = int(rng.integers(1, 4))
+    case = capabilities.write(plane, options, columns, folder)
+    if "steady" in options.values():
+        case["steps"] = None
+    case["allow_edge_contact"] = True
+    return f"{names[0]} and {names[1]}, {'row of ' if plane else ''}{options['grid_n']} on {ranks}", case, ranks
+
+
+def run(launcher, folder, case, ranks, name):
+    """Exit code of a run; None: it did not end."""
+    try:
+        return conftest.execute(launcher, folder, [case, dict(output=name)], ranks, None).code
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def differences(one, many):
+    """Names of datasets that are not the same to the last bit."""
+    one, many = read(one), read(many)
+    return sorted(set(one) ^ set(many)) + [
+        name
+        for name in one
+        if name in many and not np.array_equal(one[name], many[name], equal_nan=one[name].dtype.kind == "f")
+    ]
+
+
+def judge(launcher, rng, folder):
+    """Name of a problem, and its fault; None: it is rejected."""
+    name, case, ranks = draw(rng, folder)
+    code = run(launcher, folder, case, 1, "one.h5")
+    if code in (2, 3):
+        return None
+    other = run(launcher, folder, case, ranks, "many.h5")
+    if other != code:
+        return name, f"exit {other}, on one rank {code}: {' '.join(flatten([case]))}"
+    return name, ", ".join(differences(folder / "one.h5", folder / "many.h5"))
+
+
+def main():
+    args = ask(__doc__, trials=60)
+    launcher, judged, faults = conftest.launcher_words(), 0, 0
+    for seed, folder in seeds(args.seed, 20 * args.trials):
+        if judged == args.trials:
+            break
+        found = judge(launcher, np.random.default_rng(seed), folder)
+        if found is None:
+            continue
+        judged += 1
+        faults += bool(found[1])
+        print(f"{seed}: {found[0]}: {found[1] or 'the same'}", flush=True)
+    print(f"{judged} problems, {faults} differ")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
