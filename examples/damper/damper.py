@@ -17,6 +17,7 @@ from petsam import joint
 from petsam.plot.style import COLORS, STYLE, frame, logarithmic, plt, save, tint
 
 STEEL = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+FASTEST = 700.0  # m/s, that no turning rim of metal bears
 FRICTION = 0.3
 RADIUS, CROWN = 5e-3, 1.5  # of the damper's section and of its generatrix, m
 ANGLE = np.radians(35.0)  # of the platforms to the circumference
@@ -36,6 +37,11 @@ HELD = dict(disp_y=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0)
 
 def centrifugal(mass):
     """Force on the damper, N."""
+    if not abs(SPEED * ORBIT) <= FASTEST:
+        raise petsam.Error(
+            f"{SPEED:g} rad/s move the damper at {SPEED * ORBIT:.3g} m/s: expected at most {FASTEST:g} m/s: "
+            f"give rad/s ({SPEED:g} rpm are {SPEED * np.pi / 30.0:.4g} rad/s)"
+        )
     return mass * ORBIT * SPEED**2
 
 

@@ -11,12 +11,22 @@ class OptionError(Error, TypeError, ValueError):
     """An option whose name or value cannot be written on a command line."""
 
 
+def one_case(names, where=""):
+    """Raises OptionError for names that differ in the case of their letters only, which the program takes for one."""
+    seen = {}
+    for name in names:
+        first = seen.setdefault(str(name).lower(), name)
+        if first != name:
+            raise OptionError(f"{where}{short(first)} and {short(name)} are one name to petsam: remove one of them")
+
+
 def words(options):
     """Returns words -NAME and VALUE of options without the dash: {name: value}.
 
     A value is a number, a text, True or False, a path, or a sequence of numbers or texts; None leaves the option out.
     """
     found = []
+    one_case(name for name, value in options.items() if value is not None)
     for name, value in options.items():
         if not isinstance(name, str) or not name.replace("_", "").isalnum():
             raise OptionError(f"{short(repr(name))} is no name of an option: give it without a dash, as grid_n")

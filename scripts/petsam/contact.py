@@ -220,6 +220,10 @@ def _joined(function, names):
         if not re.fullmatch(r"[^\s,;#\"]+", name):
             what = f"{short(repr(name))} is no name: give one name for each value, without commas or blanks"
             raise PrescribedError(2, f"{function}: {what}")
+    try:
+        command_line.one_case(names)
+    except command_line.OptionError as error:
+        raise PrescribedError(2, f"{function}: {error}") from None
     return _text(",".join(names))
 
 

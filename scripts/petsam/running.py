@@ -39,6 +39,7 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
     other errors.
     """
     given = {**(options or {}), **more}
+    command_line.one_case([*given, "output", "history", "quiet"])
     folder, process = tempfile.mkdtemp(prefix="petsam-"), os.getpid()
     try:
         if history is not None and given.get("history") is not None:
@@ -90,6 +91,7 @@ def _command(ranks):
 def _write_history(path, table):
     """Writes the columns of a table as a file of loads; returns its path."""
     columns = {str(name): _column(str(name), table[name]) for name in table}
+    command_line.one_case(columns, "history: ")
     index = getattr(table, "index", None)
     if getattr(index, "name", None) == "time":
         columns.setdefault("time", _column("time", index))

@@ -643,7 +643,10 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
     words = ("pair.h5", "--contact", "c.opts", "--preload", "B=0.02", "--force", f"TIP:z={level}", "--damping", 0.01)
     around = np.array([0.9, 1.0]) * point.frequency[0]
     given = ",".join(f"{one:.12g}" for one in around)
+    highest = pair.structure.stuck_modes()[0].max() / (2 * np.pi)
     printed = joint_command("response", *words, "--frequencies", given, "--steps", 8, "-o", "out")
+    told = joint_command("response", *words, "--frequencies", f"{10 * highest:g}", check=2)
+    assert "give Hz, not rad/s or rpm" in told and f"{highest:.4g} Hz" in told
     found = joint.forced(pair.structure, level * sensor, around, sensor, steps=8)
     assert found.table()[0] in printed and len(re.findall(r"^ +0\.[01]\d+ ", printed, re.M)) == 2
     stuck, psi = pair.structure.stuck_modes()

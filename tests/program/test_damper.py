@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
+import petsam
 from petsam import joint
 from support import ROOT
 
@@ -105,3 +106,10 @@ def test_contacts_that_begin_to_slide_together_are_found_anyhow(damper, mass, am
         found.append(joint.backbone(structure, [amplitude * np.sqrt(2.0) / damper.TIP], mode=2))
     assert found[1].frequency == pytest.approx(found[0].frequency, rel=1e-6)
     assert found[1].energy == pytest.approx(found[0].energy, rel=1e-3)
+
+
+@pytest.mark.parametrize("speed", [3000.0, 2 * np.pi * 3000.0])
+def test_a_speed_in_another_unit_is_told(damper, monkeypatch, speed):
+    monkeypatch.setattr(damper, "SPEED", speed)
+    with pytest.raises(petsam.Error, match=r"expected at most 700 m/s: give rad/s \("):
+        damper.structure(MASS, "circumferential", CELLS)

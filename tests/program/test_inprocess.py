@@ -182,7 +182,14 @@ with petsam.Contact(wear_coefficient1=1e-14, **case) as contact:
         refused("is no name", lambda: contact.try_step(roll=1e-6, load_n=1000, **{name: 1}), petsam.PrescribedError)
         refused("is no name", lambda: contact.run({"time": [1.0], "load_n": [1e3], name: [1.0]}))
         refused("is no name", lambda: contact.live(10, {"time": [1.0], "load_n": [1e3], name: [1.0]}))
+    twice = {"time": [1.0], "load_n": [1e3], "Load_N": [1e3]}  # petsam takes both for one name
+    refused("_n and Load_N are one name", lambda: contact.try_step(load_n=1, Load_N=2), petsam.PrescribedError)
+    refused("_n and Load_N are one name", lambda: contact.run(twice))
     assert contact.try_step(time=4, load_n=500, load_tx=120).status == 0
+twice = {"load_n": [1.0], "Load_N": [2.0]}
+refused("_n and Grid_N are one name", lambda: petsam.Contact(**case, Grid_N=8), petsam.Error)
+refused("_n and Grid_N are one name", lambda: petsam.run(case, Grid_N=8), petsam.Error)
+refused("history: load_n and Load_N", lambda: petsam.run(case, history=twice), petsam.Error)
 with petsam.Contact(**case) as contact:
     refused("no wear", lambda: contact.live(10, dict(time=[0, 1, 2], load_n=[1, 1, 1], disp_x=[0, 1e-8, 0])))
 refused("-wear_cycles: ", lambda: petsam.Contact(wear_cycles=10, wear_coefficient1=1e-14, **case))

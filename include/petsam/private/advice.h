@@ -29,6 +29,7 @@ typedef struct {
   PetscReal rotation;              /* largest prescribed rotation, rad */
   PetscReal creep, spin;           /* largest prescribed creepage along x or y, and spin (1/m) */
   PetscReal stress;                /* largest prescribed stress, Pa */
+  PetscReal bulk[2];               /* largest bulk stress of each body, Pa */
   const char *stress_name;         /* group of conditions that it belongs to; borrowed */
   PetscReal   friction;            /* largest factor on the coefficient of friction */
   PetscBool   open;                /* rotations or moments may make the contact larger than the closed-form solution */
@@ -119,6 +120,7 @@ typedef struct {
   PetscInt          largest;   /* step of the largest normal load or approach, from 0 */
   PetscBool         doubtful;  /* true: no surface has such heights; the contact is not examined */
   PetscBool         examined;  /* true: the size of the contact has been examined */
+  PetscBool         large;     /* true: the user was warned before that the contact will be too large */
   PetscBool         stepped;   /* true: heights from a file have a step in contact, and the user was warned of it */
   char              after[48]; /* "after 1e6 cycles: " in a repeated examination; empty in the first */
   PetscInt          finer;     /* factor of narrower cells that has been advised; 0: none */
@@ -135,6 +137,8 @@ typedef struct {
 } SamAdvice;
 /*
   SamAdviceAddLoads - raises the largest loads (`most`) to those of step k. Not collective.
+  SamAdviceRefuse - fails if the bodies yield, and the contact will be far too large for half-spaces under these loads.
+  Collective. Errors: SAM_ERR_USER.
   SamAdviceBegin - warns, before the first step, of heights and options that are unlikely to be intended. Collective.
   SamAdviceStep - examines step k, which must have a solution. Once, at the largest load, it warns of motions that are
   not small, displacements that need a datum, bodies that do not touch,
@@ -156,6 +160,7 @@ typedef struct {
   these loads. Not collective.
 */
 PETSC_INTERN void           SamAdviceAddLoads(SamAdvice *advice, PetscInt k, const SamControl *control);
+PETSC_INTERN PetscErrorCode SamAdviceRefuse(const SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceBegin(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceStep(SamAdvice *advice, PetscInt k, PetscBool of_laws, const SamStep *step,
                                           const SamExtent **found);

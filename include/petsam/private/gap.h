@@ -36,7 +36,8 @@ PETSC_INTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, P
 
 /*
   SamGapEstimateLine - estimates the half width (m) along x of the contact in plane strain under a force per length over
-  E* (m), for shapes that are even in x; 0: there is none. `known` as above. Not collective.
+  E* (m), for shapes that are even in x; 0: there is none, infinite: surfaces flat along x. `known` as above. Not
+  collective.
 */
 PETSC_INTERN PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, PetscBool *known);
 

@@ -259,5 +259,11 @@ PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
   layers that do not yield lie on it. Not collective.
 */
 PETSC_INTERN PetscReal SamPlasticGetYieldStress(SamLaw law);
+/*
+  SamPlasticGetFlowStress - returns the smallest stress (Pa) at which a body of this law flows after a plastic strain;
+  infinite if layers that do not yield lie on it. SamPlasticYields - true if body 0 or 1 may yield. Not collective.
+*/
+PETSC_INTERN PetscReal SamPlasticGetFlowStress(SamLaw law, PetscReal strain);
+PETSC_INTERN PetscBool SamPlasticYields(SamLaw law, PetscInt body);
 
 #endif

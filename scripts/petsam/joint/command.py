@@ -53,6 +53,7 @@ from .sweep import BackboneWarning
 from .wear import rising, wear
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
+BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest
 PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
 
 
@@ -406,12 +407,23 @@ def _wear(args):
     return 0
 
 
+def _check_frequencies(given, structure):
+    """Error for frequencies above all modes, as those in rad/s or rpm are."""
+    highest = structure.stuck_modes()[0].max() / (2.0 * np.pi)
+    if min(given) > BEYOND * highest:
+        raise Error(
+            f"--frequencies {min(given):g} Hz and more: are above {BEYOND:g} times that of the highest mode while all "
+            f"that touches sticks, {highest:.4g} Hz: give Hz, not rad/s or rpm"
+        )
+
+
 def _response(args):
     preload = _checked_preload(args)
     place, amplitude = args.force
     pair = _pair(args, preload)
     driven = _sensor(place, pair, "--force")
     sensor = _sensor(args.sensor, pair) if args.sensor else driven
+    _check_frequencies(args.frequencies, pair.structure)
     given = dict(steps=args.steps, harmonics=args.harmonics, report=_teller("frequency"))
     with _recorded(BackboneWarning) as found:
         result = forced(pair.structure, amplitude * driven, args.frequencies, sensor, **given)

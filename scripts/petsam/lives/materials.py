@@ -47,7 +47,7 @@ def checked(name, value, where):
     one = CONSTANTS[name]
     unit = "" if one.unit == "1" else " " + one.unit
     try:
-        number = float(str(value))  # as YAML takes 900e6 for a text
+        number = float(str(value))
     except ValueError:
         raise Error(f"{where}: {name} {short(value)} is not a number; give it in SI units, without a unit") from None
     if not one.low < number < one.high:
@@ -66,7 +66,7 @@ def read(path):
         raise Error(f"{path}: is larger than {SMALL} bytes; give a file of names and values")
     try:
         with open(path, encoding="utf-8") as file:
-            values = yaml.safe_load(file)
+            values = yaml.load(file, Loader=yaml.BaseLoader)  # texts: YAML takes 010 for 8
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise Error(f"{path}: is not YAML: {short(error)}") from error
     if not isinstance(values, dict):

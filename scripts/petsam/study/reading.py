@@ -22,6 +22,8 @@ EXAMPLE = ("options:", "  load_tx: [30, 60, 90]")
 # files in the folder of every case (runs.py), and of petsam
 FOLDER = re.compile(r"(petsam\.log|record\.json|lock|(results(\.part\d+)?|stress)\.h5|checkpoint.*)(\..*)?")
 FILE_NAME = 251  # bytes: it is written as NAME.tmp first
+# numbers that YAML 1.1 and petsam read alike: not 010, which is 8 to YAML, 0x10, 0b1 or 1_000
+ALIKE = re.compile(r"[-+]?(0|[1-9]\d*|\d*\.\d*(e[-+]?\d+)?|\.(inf|nan))", re.IGNORECASE)
 SCALARS = {"tag:yaml.org,2002:" + kind for kind in ("null", "bool", "int", "float", "str", "timestamp")}
 
 
@@ -90,10 +92,10 @@ def _cells(path, number, line, separator):
 
 
 def _check_columns(path, number, names):
-    counts = collections.Counter(names)
+    counts = collections.Counter(name.lower() for name in names)  # petsam takes load_n and Load_N for one
     for name in names:
-        if not NAME.fullmatch(name) or counts[name] > 1:
-            reason = "is not an option's name" if counts[name] == 1 else "appears twice"
+        if not NAME.fullmatch(name) or counts[name.lower()] > 1:
+            reason = "is not an option's name" if counts[name.lower()] == 1 else "appears twice"
             raise TableError(f"{path}, line {number}: column {short(name) or repr('')}: {reason}")
 
 
@@ -179,6 +181,9 @@ class _Reader:
                 value = None if value is None else repr(value).lower() if isinstance(value, bool) else repr(value)
             except (ValueError, ArithmeticError, yaml.YAMLError) as error:
                 raise self.error(f"{short(node.value)}: is not a number", node) from error
+            if node.tag.endswith((":int", ":float")) and not ALIKE.fullmatch(node.value):
+                what = f"is {short(value)} in YAML: write a decimal number, or quote it"
+                raise self.error(f"{short(node.value)}: {what}", node)
         if value is not None and most == VALUE:
             _check_value(value, f"{self.path}, line {node.start_mark.line + 1}")
         return value
@@ -193,7 +198,7 @@ class _Reader:
             plain = _plain(name)
             if not NAME.fullmatch(plain):
                 raise self.error(f"{key}: {short(name)}: is not an option's name", value)
-            if plain in choices:
+            if plain.lower() in map(str.lower, choices):
                 raise self.error(f"{plain}: appears twice", value)
             choices[plain] = [self.scalar(one) for one in values]
             self.lines[plain] = value.start_mark.line + 1

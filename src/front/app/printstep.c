@@ -6,6 +6,7 @@
 
 #define ROUNDING 1e-11 /* part of the size of a number's kind below which the number is rounding, and printed as 0 */
 #define REST     1e-9  /* the same for loads and displacements, where solvers' tolerances leave more in place of 0 */
+#define SLIGHTLY 1e-6  /* the same for energies below 0 */
 #define WIDTH    120   /* of a line of the table */
 
 static SamState StateOf(SamContact contact)
@@ -57,6 +58,15 @@ static double Clean(double value, double least)
   return fabs(value) <= least ? 0 : value;
 }
 
+/*
+  Returns an energy as it is printed: one slightly below 0 is that of the rounding of slips, under a bound that may be
+  far above all tractions.
+*/
+static double CleanEnergy(double value, double size)
+{
+  return Clean(value, (value < 0 ? SLIGHTLY : ROUNDING) * size);
+}
+
 /* Returns a load or displacement as it is printed: rounding becomes 0, unless one of the two is given. */
 static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], const double size[2])
 {
@@ -68,14 +78,15 @@ static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], co
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
   const SamMotion motion = SamContactGetMotion(c);
-  const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
-  const double slip    = Clean(Get(c, NameOf(c, "slip_max")), move); /* NaN without friction */
+  const double    passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0],
+               work    = sizes->load[0] * sizes->rigid[0];
+  const double   slip  = Clean(Get(c, NameOf(c, "slip_max")), move); /* NaN without friction */
   const SamState state = StateOf(c);
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g %s, stick %.6g %s, dissipated %.6g %s\n", "areas",
                                    Get(c, "contact_area"), SamStateUnitOf(state, "contact_area"), Get(c, "stick_area"),
-                                   SamStateUnitOf(state, "stick_area"), Clean(Get(c, motion->work), work),
+                                   SamStateUnitOf(state, "stick_area"), CleanEnergy(Get(c, motion->work), work),
                                    SamStateUnitOf(state, motion->work)));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa", "maximum",
                                    Get(c, "pressure_max"), Get(c, "shear_max")));

@@ -591,6 +591,31 @@ PetscReal SamPlasticGetYieldStress(SamLaw law)
   return least;
 }
 
+PetscBool SamPlasticYields(SamLaw law, PetscInt body)
+{
+  return isfinite(((const Plastic *)law->data)->material[body].yield) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscReal SamPlasticGetFlowStress(SamLaw law, PetscReal strain)
+{
+  const SamPair pair  = SamElasticityGetPair(law->elasticity);
+  PetscReal     least = PETSC_INFINITY;
+
+  for (PetscInt b = 0; b < 2; b++) {
+    const Material *const own = &((const Plastic *)law->data)->material[b];
+    SamMises              m;
+    PetscReal             flow;
+
+    if (!SamPlasticYields(law, b) || TopOf(law, b) > 0) continue;
+    m    = MaterialOf(own, SamBodySubstrate(SamPairBody(pair, b)));
+    flow = (PetscReal)SamMisesYield(&m, (double)strain, NULL);
+    for (PetscInt k = 0; k < m.backstresses; k++)
+      flow += (PetscReal)(m.back[k][0] * (double)strain / (1 + m.back[k][1] * (double)strain));
+    least = PetscMin(least, flow);
+  }
+  return least;
+}
+
 static PetscErrorCode Destroy(SamLaw law)
 {
   SamPlastic *p = &((Plastic *)law->data)->plastic;

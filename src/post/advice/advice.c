@@ -56,11 +56,8 @@ static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Computes the half widths of the contact under these loads by a closed-form solution. `known`: there is a solution, and
-  it is of finite size.
-*/
-static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2], PetscBool *known)
+PetscErrorCode SamAdviceEstimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2],
+                                 PetscBool *known)
 {
   PetscFunctionBegin;
   half[1] = 0;
@@ -88,7 +85,7 @@ static PetscErrorCode GetWidths(SamAdvice *a)
   PetscBool         known;
 
   PetscFunctionBegin;
-  PetscCall(Estimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known));
+  PetscCall(SamAdviceEstimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known));
   for (PetscInt k = 0; k < s->grid->axes; k++) cells = PetscMin(cells, 2 * closed[k] / cell[k]);
   known     = known && fabs(cells - a->extent.across) <= SAME;
   a->across = known ? cells : a->extent.across;
@@ -97,19 +94,18 @@ static PetscErrorCode GetWidths(SamAdvice *a)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Compares a contact with its radius, with the unit; `large`: it is too large for half-spaces. Empty: no radius. */
-static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char text[], size_t size, PetscBool *large)
+PetscErrorCode SamAdviceCompare(const SamSetup *s, const PetscReal half[2], char text[], size_t size, PetscReal *ratio)
 {
   SamGapSteepness steepness;
 
   PetscFunctionBegin;
   text[0] = '\0';
   PetscCall(SamGapGetSteepness(s->gap, half, &steepness));
-  *large = steepness.ratio > SAM_ADVICE_STEEPEST ? PETSC_TRUE : PETSC_FALSE;
+  *ratio = steepness.ratio;
   if (!(steepness.ratio > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(text, size, "is %.2g times -%s %g (in m)", (double)steepness.ratio, steepness.option,
                  (double)steepness.radius);
-  if (*large)
+  if (steepness.ratio > SAM_ADVICE_STEEPEST)
     (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa%s",
                    SAM_ADVICE_STEEPEST, steepness.concave ? "; conforming bodies need finite elements" : "");
   else if (steepness.ratio < FLATTEST)
@@ -276,7 +272,7 @@ static void Images(SamAdvice *a)
   PetscBool         known;
 
   if (a->error || !SamElasticityGetTraits(s->elasticity).periodic) return;
-  a->error = Estimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known);
+  a->error = SamAdviceEstimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known);
   if (a->error || !known) return;
   for (PetscInt k = 0; k < s->grid->axes; k++)
     share = PetscMax(share, 2 * (double)(a->extent.half[k] / s->grid->width[k]));
@@ -291,13 +287,13 @@ static void Images(SamAdvice *a)
 static void Size(SamAdvice *a)
 {
   const double modulus = SamAdviceStiffness(a->setup->pair);
-  PetscBool    large   = PETSC_FALSE;
-  PetscReal    most    = 0;
+  PetscReal    most = 0, part = 0;
   char         ratio[192];
 
-  if (!a->error) a->error = Compare(a->setup, a->half, ratio, sizeof(ratio), &large);
+  if (!a->error) a->error = SamAdviceCompare(a->setup, a->half, ratio, sizeof(ratio), &part);
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "pressure_max", &most);
-  if (!a->error && large) SamAdviceSay(a, "", "contact too large for half-space theory: its half width %s", ratio);
+  if (!a->error && part > SAM_ADVICE_STEEPEST && !a->large)
+    SamAdviceSay(a, "", "contact too large for half-space theory: its half width %s", ratio);
   if (!a->error && most > SAM_ADVICE_HARDEST * modulus && !a->stepped)
     SamAdviceSay(a, "",
                  "the maximum pressure, %.3g Pa, is %.2g of E*, linear elasticity holds up to about %g: check the %s",
@@ -309,12 +305,21 @@ static void Size(SamAdvice *a)
 static const struct {
   enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
-} advices[] = {{BEFORE, Surfaces},        {BEFORE, SamAdviceFriction},
-               {LARGEST, SamAdviceUnits}, {LARGEST, SamAdviceMotion},
-               {LARGEST, SamAdviceDatum}, {LARGEST, Touch},
-               {CONTACT, Steps},          {CONTACT, Cells},
-               {CONTACT, Bodies},         {CONTACT, Images},
-               {CONTACT, Size},           {WORN, Cells},
+} advices[] = {{BEFORE, Surfaces},
+               {BEFORE, SamAdviceFriction},
+               {BEFORE, SamAdviceYieldingSize},
+               {BEFORE, SamAdviceLengths},
+               {LARGEST, SamAdviceIdle},
+               {LARGEST, SamAdviceUnits},
+               {LARGEST, SamAdviceMotion},
+               {LARGEST, SamAdviceDatum},
+               {LARGEST, Touch},
+               {CONTACT, Steps},
+               {CONTACT, Cells},
+               {CONTACT, Bodies},
+               {CONTACT, Images},
+               {CONTACT, Size},
+               {WORN, Cells},
                {WORN, SamAdviceStroke}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
@@ -519,6 +524,30 @@ static PetscErrorCode AdviseThickness(const SamAdvice *a, char text[], size_t si
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns the kind of bodies that have no edge. */
+static const char *PeriodicOf(const SamSetup *s)
+{
+  return SamGridIsRow(s->grid) ? "plane_periodic" : "periodic";
+}
+
+/* Writes what a contact needs that reaches the edge of any grid, as surfaces that are flat along an axis do. */
+static void AdvisePeriods(const SamSetup *s, const PetscReal half[2], char text[], size_t size)
+{
+  const char *const periods = SamGridIsRow(s->grid) ? "" : ", and makes both x and y periodic";
+
+  if (isinf(half[0]) && (isinf(half[1]) || SamGridIsRow(s->grid)))
+    (void)snprintf(text, size,
+                   "; the surfaces are flat, and touch up to the edge of any grid: use -elasticity %s, which has no "
+                   "edge%s, or give a shape that ends",
+                   PeriodicOf(s), periods);
+  else
+    (void)snprintf(text, size,
+                   "; the bodies are cylindrical, axis along %s, and touch up to the edge of any grid: use -elasticity "
+                   "%speriodic, which has no edge%s",
+                   isinf(half[0]) ? "x" : "y", isinf(half[0]) ? "" : "plane, a section with loads per metre, or ",
+                   periods);
+}
+
 PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
 {
   const SamSetup     *s    = a->setup;
@@ -526,7 +555,8 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   const size_t        used = strlen(step->message), size = sizeof(step->message) - used;
   char *const         text = step->message + used;
   PetscReal           half[2];
-  PetscBool           known, large, thick = PETSC_FALSE;
+  PetscReal           part = 0;
+  PetscBool           known, thick                          = PETSC_FALSE;
   char                grid[3 * SAM_ADVICE_TEXT], ratio[192] = "";
 
   PetscFunctionBegin;
@@ -539,19 +569,15 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   step->setting[0] = '\0'; /* the text names the options */
   PetscCall(AdviseThickness(a, text, size, &thick));
   if (thick) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Estimate(s, most->force, most->normal, half, &known));
+  PetscCall(SamAdviceEstimate(s, most->force, most->normal, half, &known));
   if (isinf(half[0]) || isinf(half[1])) {
+    AdvisePeriods(s, half, text, size);
+  } else if (SamAdviceIsFromFile(s)) {
     (void)snprintf(
       text, size,
-      "; the bodies are cylindrical, axis along %s, and touch up to the edge of any grid: use -elasticity %speriodic, "
-      "which has no edge, and makes both x and y periodic",
-      isinf(half[0]) && isinf(half[1]) ? "x and y"
-      : isinf(half[0])                 ? "x"
-                                       : "y",
-      isinf(half[0]) ? "" : "plane, a section with loads per metre, or ");
-  } else if (SamAdviceIsFromFile(s)) {
-    (void)snprintf(text, size,
-                   "; a surface from a file cannot be enlarged: give a file of a larger area, or less load");
+      "; a surface from a file cannot be enlarged: give a file of a larger area, less load, or -elasticity "
+      "%s if the surface continues beyond its border",
+      PeriodicOf(s));
   } else {
     /* No closed-form solution describes a contact that wears, tilts or yields, or ends within the grid. */
     known = known && !SamProblemMoves(s->problem) && !most->open && !SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC);
@@ -562,7 +588,12 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
     }
     if (!known) Extrapolate(s, step, most, half);
     AdviseGrid(s, half, most->lever, grid, sizeof(grid));
-    if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));
+    if (known) PetscCall(SamAdviceCompare(s, half, ratio, sizeof(ratio), &part));
+    if (part > SAM_ADVICE_LARGEST) {
+      (void)snprintf(text, size, "; no grid does: its half width, %.3g m, %s",
+                     PetscMax((double)half[0], (double)half[1]), ratio);
+      PetscFunctionReturn(PETSC_SUCCESS);
+    }
     (void)snprintf(text, size, "; it needs %s%s%s%s", known ? "" : "about ", grid,
                    ratio[0] ? "; the contact's half width " : "", ratio);
   }

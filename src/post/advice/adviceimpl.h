@@ -11,7 +11,9 @@
 #define SAM_ADVICE_TEXT   64  /* characters of numbers in messages */
 /* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
 #define SAM_ADVICE_STEEPEST 0.1
-/* and linear elasticity up to this pressure over E*. */
+/* From this ratio on, no larger grid is advised, and bodies that yield are rejected; */
+#define SAM_ADVICE_LARGEST 0.3
+/* linear elasticity is taken to hold up to this pressure over E*. */
 #define SAM_ADVICE_HARDEST 0.2
 /*
   Allowed relative change of the peak pressure on cells half as wide, after wear. It is larger than without, since a
@@ -43,6 +45,17 @@ PETSC_INTERN double    SamAdviceRoundUp(double x);
 PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
 PETSC_INTERN PetscBool SamAdviceIsStrip(const SamAdvice *advice, PetscBool ends[2]);
 PETSC_INTERN double    SamAdviceStiffness(SamPair pair);
+/*
+  SamAdviceEstimate - computes the half widths (m) of the contact under a load (N) or, without `force`, at an approach
+  (m), by a closed-form solution; infinite along an axis along which surfaces are flat. `known`: there is a solution, of
+  finite size. Collective.
+  SamAdviceCompare - compares half widths with the radius, and gets their ratio; the text names the unit, and the limit
+  beyond it. Empty, and 0: there is no radius. Not collective (advice.c).
+*/
+PETSC_INTERN PetscErrorCode SamAdviceEstimate(const SamSetup *setup, PetscBool force, PetscReal value,
+                                              PetscReal half[2], PetscBool *known);
+PETSC_INTERN PetscErrorCode SamAdviceCompare(const SamSetup *setup, const PetscReal half[2], char text[], size_t size,
+                                             PetscReal *ratio);
 /*
   AddSlip, AddRolling - add a step to the estimates of the dissipated energy (slipzones.c), and of loads and creepages
   in steady rolling (steadyerrors.c). MeasureStick - finds the present cells across the stick zone. Collective. Slip,
@@ -99,6 +112,13 @@ PETSC_INTERN PetscErrorCode SamAdviceWornStick(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddYielding(SamAdvice *advice);
 PETSC_INTERN void           SamAdviceYielding(SamAdvice *advice);
 PETSC_INTERN PetscBool      SamAdviceCountsCells(SamAdvice *advice);
+/*
+  Advice before the first step (expected.c): YieldingSize of a contact of bodies that yield; Idle: values that act on
+  nothing; Lengths in another unit than the grid's. Collective.
+*/
+PETSC_INTERN void SamAdviceYieldingSize(SamAdvice *advice);
+PETSC_INTERN void SamAdviceIdle(SamAdvice *advice);
+PETSC_INTERN void SamAdviceLengths(SamAdvice *advice);
 /*
   Advice on what is prescribed (prescribed.c): Friction in percent; Units of stresses and of the grid; Motion that is
   not small; Datum: displacements that need one; Stroke: moves of a worn body 2 without -slide. Not collective.

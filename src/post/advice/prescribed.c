@@ -34,6 +34,8 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
 
     if (stress > most->stress) most->stress_name = one->group;
     most->stress = PetscMax(most->stress, stress);
+    for (PetscInt b = 0; b < 2; b++)
+      if (!strncmp(one->name, b ? "bulk2_" : "bulk1_", 6)) most->bulk[b] = PetscMax(most->bulk[b], stress);
     if (!strcmp(one->name, SAM_FRICTION_SCALE)) most->friction = PetscMax(most->friction, SamControlGet(control, one));
   }
   most->force = force[SAM_COMPONENT_N];

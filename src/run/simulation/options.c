@@ -83,20 +83,22 @@ static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOption
 }
 
 #define MEMBER(name) offsetof(struct _n_SamSimulation, name)
+#define FILE_NEEDED  "output, the file that it goes to"
 static const SamOptionRow results[] =
   {{"output", "HDF5 file of the results", SAM_OPTION_OUTPUT, MEMBER(filename), .size = PETSC_MAX_PATH_LEN},
    {"output_every", "write the fields of every m-th step, and of the last", SAM_OPTION_INT, MEMBER(output_every),
-    .least = 1},
+    .needs = FILE_NEEDED, .least = 1},
    {"output_at", "what -output_every counts: all steps, or those at rows of the history", SAM_OPTION_BOOL,
-    MEMBER(output_rows), .words = "steps,history"},
+    MEMBER(output_rows), .needs = FILE_NEEDED, .words = "steps,history"},
    {"stiffness", "tangent stiffness of every step, for continued loading and reversal", SAM_OPTION_BOOL,
-    MEMBER(needs.stiffness), .needs = "output, the file that it goes to"}},
+    MEMBER(needs.stiffness), .needs = FILE_NEEDED}},
                           flush = {"output_flush",
                                    "longest write delay () of steps without fields, 0: none",
                                    SAM_OPTION_REAL,
                                    MEMBER(output_settings.flush),
                                    .range = SAM_RANGE_NONNEGATIVE,
-                                   .unit  = "s"};
+                                   .unit  = "s",
+                                   .needs = FILE_NEEDED};
 
 static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
 {

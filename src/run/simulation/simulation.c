@@ -44,9 +44,13 @@ PetscErrorCode SamSimulationSetSignals(SamSimulation s, volatile sig_atomic_t si
 
 /* ---- advice ---- */
 
-/* Passes the loads of the steps from `first` on to the advice, before the first step. */
-static PetscErrorCode BeginAdvice(SamSimulation s, PetscInt first)
+/*
+  Passes the loads of the steps that are left on to the advice, and rejects those that no contact of this theory bears.
+*/
+static PetscErrorCode AdviseLoads(SamSimulation s)
 {
+  const PetscInt first = s->life ? 0 : PetscMin(s->point.steps, s->needs.steps - 1);
+
   PetscFunctionBegin;
   s->advice.steps = s->needs.steps;
   for (PetscInt k = first; k < s->needs.steps; k++) {
@@ -56,7 +60,7 @@ static PetscErrorCode BeginAdvice(SamSimulation s, PetscInt first)
     control = SamHistoryGetStep(s->history, k);
     SamAdviceAddLoads(&s->advice, k, &control);
   }
-  PetscCall(SamAdviceBegin(&s->advice));
+  PetscCall(SamAdviceRefuse(&s->advice));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -193,6 +197,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
     PetscCall(SamSimulationRestart(s));
     PetscCall(SamSimulationDescribePlace(s, PETSC_FALSE, start->after, sizeof(start->after)));
   }
+  PetscCall(AdviseLoads(s));
   if (writes) PetscCall(SamSimulationBeginCheckpoints(s));
   if (writes && s->has_output) PetscCall(SamSimulationOpenResults(s));
   if (!writes && s->has_output) PetscCall(SamOutputPlan(s->setup.grid, &s->output_settings, &s->output));
@@ -204,7 +209,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   if (!writes) PetscCall(GuessTime(s, &start->seconds));
   SamSimulationDescribeCheckpoints(s, start->when, sizeof(start->when));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_BEGIN, .start = start}));
-  PetscCall(BeginAdvice(s, s->life ? 0 : PetscMin(s->point.steps, s->needs.steps - 1)));
+  PetscCall(SamAdviceBegin(&s->advice));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -20,6 +20,7 @@ PetscErrorCode SamSimulationAdviseEdge(SamSimulation s, const SamControl *contro
 PetscErrorCode SamSimulationTryStep(SamSimulation s, const SamControl *control, SamStep *step)
 {
   PetscErrorCode code;
+  SamAdvice      alone = {.setup = &s->setup, .most.open = s->has_gap};
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SamConditionsCount(s->conditions); k++) {
@@ -27,6 +28,8 @@ PetscErrorCode SamSimulationTryStep(SamSimulation s, const SamControl *control, 
 
     if (SamControlGet(control, one) != one->usual) PetscCall(SamContactOfferCondition(s->setup.contact, one));
   }
+  if (!s->running) SamAdviceAddLoads(&alone, 0, control);
+  PetscCall(SamAdviceRefuse(&alone));
   s->advised = PETSC_FALSE;
   code       = SamContactTry(s->setup.contact, control, step);
   if (code) PetscCall(SamContactReject(s->setup.contact));

@@ -40,7 +40,8 @@ static const SamOptionRow rows[] = {
    .size = PETSC_MAX_PATH_LEN},
   {"restart_gap", "restart on a different gap, keeping the slip", SAM_OPTION_BOOL, MEMBER(other_gap),
    .needs = "restart"},
-  {"overwrite", "start anew, replacing a checkpoint of this name", SAM_OPTION_BOOL, .member = MEMBER(overwrite)}};
+  {"overwrite", "start anew, replacing a checkpoint of this name", SAM_OPTION_BOOL, MEMBER(overwrite),
+   .needs = "checkpoint or -output: it has no file to replace"}};
 
 PetscErrorCode SamSimulationReadCheckpoints(SamSimulation s, const SamOptions *from)
 {

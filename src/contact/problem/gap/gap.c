@@ -419,8 +419,10 @@ PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, 
 
   PetscFunctionBegin;
   *half  = 0;
-  *known = gap->ops.contact && !gap->rough.file[0] && value > 0;
-  if (!*known || LineForce(gap, high) < value) PetscFunctionReturn(PETSC_SUCCESS);
+  *known = gap->ops.contact && !gap->rough.file[0];
+  if (*known && LineForce(gap, high) <= PetscMax(value, 0)) *half = INFINITY;
+  *known = *known && value > 0;
+  if (!*known || isinf(*half)) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < HALVINGS && high > (1 + 1e-9) * low; k++) {
     const double middle = sqrt(low * high);
 

@@ -1,0 +1,102 @@
+"""What is told of a contact before it is solved, and advice that ends: what no grid does has its reason."""
+
+import re
+
+import numpy as np
+import pytest
+
+import petsam as module
+from support import SPHERE
+
+STEEL = {name: SPHERE[name] for name in ("body1_young", "body1_poisson", "body2_young", "body2_poisson")}
+BALL = dict(STEEL, gap_type="sphere", gap_radius1=5e-3, gap_radius2="inf", grid_n=32, grid_size=8e-3)
+ROLL = dict(STEEL, elasticity="plane", gap_type="curved", gap_radius1_x=5e-3, grid_n=64, grid_size=8e-3)
+HARDENS = dict(body2_hardening="linear", body2_hardening_modulus=2e9)
+YIELD = dict(body2_yield=4e8, yield_layers=8)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        dict(BALL, load_n=34e3, **YIELD),
+        dict(BALL, load_n=40e3, **YIELD, **HARDENS),
+        dict(ROLL, load_n=7e6, **YIELD),
+        dict(BALL, disp_z=1e-3, **YIELD),
+    ],
+    ids=["ball", "hardens", "plane", "approach"],
+)
+def test_yielding_bodies_far_outside_of_the_theory_are_rejected_before_the_first_step(petsam, case):
+    said = petsam(case, dict(output="r.h5"), check=2).complaint[0]
+    found = re.search(r"half width is ([\d.]+) times -gap_radius1\w* 0.005 \(in m\), the limit is about ([\d.]+)", said)
+    ratio, limit = found.groups()
+    assert 0.3 < float(ratio) < 1.5 and float(limit) == 0.1 and "give less load" in said
+
+
+def test_contact_in_process_rejects_such_a_step_and_goes_on():
+    with module.Contact(**BALL, **YIELD) as contact:
+        with pytest.raises(module.ContactError, match="far too large for half-space theory"):
+            contact.try_step(load_n=34e3)
+        assert contact.try_step(load_n=10.0).load_n == 10.0
+
+
+@pytest.mark.parametrize("load, told", [(4e3, True), (300.0, False)])
+def test_yielding_ball_outside_of_the_theory_is_told_once(petsam, load, told):
+    done = petsam(dict(BALL, load_n=load, **YIELD, grid_size=3e-3, grid_n=24))
+    assert done.stderr.count("too large for half-space theory") == told
+
+
+@pytest.mark.parametrize("more", [dict(load_n=1e5), dict(disp_z=1e-6, plane_datum=0.1)])
+def test_flat_on_flat_needs_no_larger_grid(petsam, more):
+    """In plane strain: a grid of any size is in contact up to its edge."""
+    case = dict(STEEL, elasticity="plane", gap_type="flat", grid_n=32, grid_size=0.1, **more)
+    said = petsam(case, check=12).complaint[0]
+    assert "touch up to the edge of any grid: use -elasticity plane_periodic" in said and "-grid_size" not in said
+
+
+@pytest.mark.parametrize("clearance", [1e-4, 1e-3])
+@pytest.mark.parametrize("plane", [True, False])
+def test_conforming_bodies_that_no_half_space_bears_are_advised_no_grid(petsam, plane, clearance):
+    case = dict(ROLL, gap_radius1_x=0.01, gap_radius2_x=-0.01 * (1 + clearance), load_n=1e6)
+    if not plane:
+        case.update(elasticity=None, gap_radius1_y=0.01, gap_radius2_y=-0.01 * (1 + clearance), load_n=1e4)
+    said = petsam(case, check=12).complaint[0]
+    assert "no grid does" in said and "finite elements" in said and "-grid_size" not in said
+
+
+@pytest.mark.parametrize("body", [1, 2])
+def test_bulk_stress_without_effect_is_told(petsam, body):
+    case = dict(SPHERE, friction=None, load_tx=None, **{f"bulk{body}_stress_xx": 1e6})
+    told = f"bulk{body}_stress, up to 1e+06 Pa, has no effect on the contact"
+    assert told in petsam(case).stderr
+    layers = dict(yield_layers=4)
+    assert told in petsam(case, {f"body{3 - body}_yield": 9e9}, layers).stderr
+    assert told not in petsam(case, {f"body{body}_yield": 9e9}, layers).stderr
+    assert told not in petsam(case, dict(friction=0.3)).stderr
+
+
+@pytest.mark.parametrize(
+    "name, value, more",
+    [
+        ("film_thickness", 5.0, dict(film_shear=1e9)),
+        ("friction_path_length", 2.0, dict(friction_law="slip_path", friction_path_final=0.5)),
+        ("gap_radius1", 2000.0, dict(gap_radius2="inf")),
+    ],
+)
+def test_lengths_in_another_unit_than_the_grid_are_told(petsam, name, value, more):
+    case = {**SPHERE, "friction": 0.3, "load_tx": 10.0, "grid_size": 2.6e-3, **more}
+    told = f"-{name} {value:g} is "
+    assert told in petsam({**case, name: value}, "-allow_edge_contact", check=None).stderr
+    assert f"-{name}" not in petsam({**case, name: value * 1e-4}, "-allow_edge_contact", check=None).stderr
+
+
+@pytest.mark.parametrize("part, cells", [(0.005, 64), (0.02, 70), (0.02, 73)])
+def test_maximum_shear_of_a_missed_slip_zone_is_told(petsam, part, cells):
+    """A cylinder under N and T: Cattaneo's maximum shear is mu p0 sqrt(T/mu N)."""
+    modulus, load, radius, mu = 210e9 / 0.91 / 2, 1e5, 0.05, 0.1
+    half = np.sqrt(4 * load * radius / (np.pi * modulus))
+    case = dict(STEEL, elasticity="plane", gap_type="ellipsoid", gap_radius_x=radius, gap_radius_y="inf", grid_n=cells)
+    done = petsam(case, dict(grid_size=2.4 * half, friction=mu, load_n=load, load_tx=mu * load * part))
+    shear = float(re.search(r"shear ([\d.e+]+) Pa", done.stdout)[1])
+    low = 1 - shear / (mu * 2 * load / (np.pi * half) * np.sqrt(part))
+    told = float(re.search(r"maximum shear may be too small by ([\d.]+) %", done.stderr)[1]) / 100
+    assert low > 0.4 and told == pytest.approx(low, abs=0.05)
