@@ -234,7 +234,7 @@ PetscErrorCode SamLawCreate_Hardness(SamLaw law)
   law->heading            = "Plastic deformation";
   law->rows               = &limit_row;
   law->row_count          = 1;
-  law->bytes              = 40;
+  law->bytes              = 24;
   law->forbids_jumps      = PETSC_TRUE;
   law->any_motion         = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;

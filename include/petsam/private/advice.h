@@ -7,6 +7,14 @@
 
 #include <petsam/private/setup.h>
 
+/*
+  SamAdviceEstimateContact - computes the half widths (m) of the contact under this force (N) or approach (m), by a
+  closed-form solution; infinite along the axis of a cylinder. Layers are neglected. `known`: false without a solution.
+  Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamAdviceEstimateContact(const SamSetup *setup, PetscBool force, PetscReal value,
+                                                     PetscReal half[2], PetscBool *known);
+
 /* SamExtent - the size of a contact. */
 typedef struct {
   PetscInt  zones;   /* number of zones of contact, connected by the sides of cells, as contact_spots; 0: no contact */

@@ -45,11 +45,14 @@ PETSC_INTERN PetscErrorCode SamElasticityTrim(SamElasticity elasticity);
   around them; none if it would be hardly smaller than the grid, or the type has no parts. `keep`: the part in use stays
   if it contains these cells and is not much too large.
   SamElasticitySetPart - selects exactly these cells; n = 0: no part.
+  SamElasticityGetPartShare - returns the share of the grid's cells that a part for n[0] * n[1] cells in the middle has;
+  0: it would not be used. Not collective.
   SamElasticityGetPartPlace - gets the cells of the part in use; n = 0: no part. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityChoosePart(SamElasticity elasticity, const PetscInt first[2],
                                                     const PetscInt n[2], PetscBool keep, SamWindow *window,
                                                     SamElasticity *part);
+PETSC_INTERN PetscReal      SamElasticityGetPartShare(SamElasticity elasticity, const PetscInt n[2]);
 PETSC_INTERN PetscErrorCode SamElasticitySetPart(SamElasticity elasticity, const PetscInt first[2],
                                                  const PetscInt n[2]);
 PETSC_INTERN PetscErrorCode SamElasticityGetPartPlace(SamElasticity elasticity, PetscInt first[2], PetscInt n[2]);

@@ -145,11 +145,15 @@ PETSC_INTERN PetscErrorCode SamSimulationTryStep(SamSimulation simulation, const
 PETSC_INTERN PetscErrorCode SamSimulationCommitStep(SamSimulation simulation, const SamStep *step, char warning[],
                                                     size_t size);
 
+/* Steps in which cells of dissimilar bodies make contact, which takes memory: none, the first only, or a later one. */
+typedef enum { SAM_TOUCHES_NEVER, SAM_TOUCHES_FIRST, SAM_TOUCHES_LATER } SamTouches;
 /* SamSimulationNeeds - the properties of a simulation, besides the grid, that determine its memory. */
 typedef struct {
-  PetscBool friction, coupled, life, stiffness, grid_check;
-  PetscInt  steps;
-  PetscInt  laws; /* memory of the laws per cell, bytes */
+  PetscBool  friction, coupled, life, stiffness, grid_check;
+  PetscInt   steps;
+  PetscInt   laws;          /* memory of the laws per cell, bytes */
+  PetscReal  contact, part; /* SamSimulationEstimateShares(): of this rank's cells, and of the grid's */
+  SamTouches touches;
 } SamSimulationNeeds;
 /* SamSimulationFiles - the files that it reads or writes by its own options; NULL: none. */
 typedef struct {

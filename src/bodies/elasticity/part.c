@@ -87,6 +87,29 @@ static PetscBool Suits(SamElasticity e, const PetscInt first[2], const PetscInt 
   return SLACK * (double)n[0] * (double)n[1] >= (double)part->elasticity->grid->nx * (double)part->elasticity->grid->ny;
 }
 
+/* Returns the cells beside n cells in contact, on either side of them, for contacts that grow. */
+static PetscInt Margin(PetscInt n)
+{
+  return 3 + n / 50;
+}
+
+/* True if a part of so many cells saves more than it takes. */
+static PetscBool IsWorth(SamElasticity e, const PetscInt size[2])
+{
+  const double all = (double)e->grid->nx * (double)e->grid->ny;
+
+  return (PetscBool)(e->traits.parts && (double)size[0] * (double)size[1] <= WORTH * all);
+}
+
+PetscReal SamElasticityGetPartShare(SamElasticity e, const PetscInt n[2])
+{
+  const PetscInt size[2] = {PetscMin(n[0] + 2 * Margin(n[0]), e->grid->nx),
+                            PetscMin(n[1] + 2 * Margin(n[1]), e->grid->ny)};
+
+  return IsWorth(e, size) ? (PetscReal)size[0] * (PetscReal)size[1] / ((PetscReal)e->grid->nx * (PetscReal)e->grid->ny)
+                          : 0;
+}
+
 PetscErrorCode SamElasticityChoosePart(SamElasticity e, const PetscInt first[2], const PetscInt n[2], PetscBool keep,
                                        SamWindow *window, SamElasticity *part)
 {
@@ -94,15 +117,14 @@ PetscErrorCode SamElasticityChoosePart(SamElasticity e, const PetscInt first[2],
   PetscInt       from[2], size[2];
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2; k++) { /* a few cells more, for contacts that grow */
-    const PetscInt margin = 3 + n[k] / 50, last = PetscMin(first[k] + n[k] + margin, all[k]);
+  for (PetscInt k = 0; k < 2; k++) {
+    const PetscInt margin = Margin(n[k]), last = PetscMin(first[k] + n[k] + margin, all[k]);
 
     from[k] = PetscMax(first[k] - margin, 0);
     size[k] = PetscMax(last - from[k], PetscMin(2, all[k]));
     from[k] = PetscMin(from[k], all[k] - size[k]);
   }
-  if (!e->traits.parts || (double)size[0] * (double)size[1] > WORTH * (double)all[0] * (double)all[1])
-    size[0] = size[1] = 0;
+  if (!IsWorth(e, size)) size[0] = size[1] = 0;
   if (!keep || !Suits(e, first, n)) PetscCall(SamElasticitySetPart(e, from, size));
   *window = InUse(e) ? InUse(e)->window : NULL;
   *part   = InUse(e) ? InUse(e)->elasticity : NULL;

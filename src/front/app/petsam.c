@@ -65,22 +65,36 @@ static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
 /* ---- memory ---- */
 
 /*
-  Bytes per cell at the peak, with shared memory counted once, without the program and its libraries; measured at 1024
-  cells per side, for contact on half of the grid and on all of it. From 2048 cells on up to 15 bytes fewer are needed:
-    one step        without friction 72 and 82, with friction 165 and 214, coupled 650 and 700
-    several steps   without friction 255 and 270, with friction 335 and 358, coupled 780 and 830
-  Several steps need a second state, to which a rejected step returns.
+  Bytes at the peak, with shared memory counted once, without the program and its libraries: per cell of this rank, per
+  cell of the operator's part of the grid, and per cell in contact, where fields are touched and sets are kept.
 */
-static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 730}},
-                                               {{265, 365}, {350, 870}}}; /* [several steps][friction][coupled] */
+typedef struct {
+  double cell, part, contact;
+} Bytes;
 
-/* Memory of the slip in a step (step/direction.c), bytes per cell; measured at 512 cells a side: 57, coupled 4 */
-#define TURN_BYTES 70
-/* Memory of an upwind operator, directions and products, bytes per cell; at 1024 cells a side, 59 % in contact: 250 */
+/*
+  Measured at 512 cells per side for contact on 3, 35 and 77 % of the grid. Several steps need a second state, to which
+  a rejected step returns, and with friction the solution for the direction of slip. In plane strain the coarser grids
+  and their transforms take as much as the grid itself; measured at 200000 cells for contact on 13 and 44 % of them.
+*/
+static const Bytes step_bytes[2][2][2][2] = {
+  {{{{64, 6, 26}, {131, 52, 22}}, {{130, 23, 108}, {235, 150, 243}}},
+   {{{131, 34, 112}, {200, 80, 110}}, {{198, 113, 189}, {385, 150, 243}}}},
+  {{{{313, 0, 209}, {380, 0, 300}}, {{401, 0, 460}, {421, 0, 773}}},
+   {{{400, 0, 0}, {450, 0, 300}}, {{473, 0, 603}, {571, 0, 773}}}}}; /* [plane][several steps][friction][coupled] */
+
+/* The motion until cells of dissimilar bodies touch: three fields instead of one in each of the passes that are kept */
+#define TOUCHING_BYTES 340
+
+/* HDF5's code and buffers, if there are results or checkpoints, and its copies of a checkpoint's fields, per cell */
+#define FILE_BYTES       6e6
+#define CHECKPOINT_BYTES 55
+
+/* An upwind operator: directions and their products in the contact */
 #define ROLLING_BYTES 280
 
-/* Largest memory of a kept step of a load cycle, bytes per cell */
-#define KEPT_BYTES 32
+/* Largest memory of a kept step of a load cycle, bytes per cell in contact */
+#define KEPT_BYTES 24
 
 /*
   Memory of a wear simulation, bytes per cell. Sliding surfaces add the wear load of each body, and a part for each
@@ -90,14 +104,14 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 730}},
 #define SLIDING_LIFE_BYTES(steps, coupled) (4 * 8 + ((coupled) ? 20 : 12) * (double)(steps))
 
 /*
-  Memory of the tangent stiffness, bytes per cell: mainly solutions and search directions on the cells in contact.
-  Measured at 512 cells a side, for contact on 50 and 79 % of the grid: without friction 228 and 330, with friction 294
-  and 408, coupled 528 and 729; extrapolated to contact on all of the grid.
+  Memory of the tangent stiffness beyond that of the step, bytes per cell in contact: solutions and search directions.
+  It follows a step, whose solvers' memory is free then.
 */
-static const double stiffness_bytes[2][2] = {{400, 400}, {490, 880}}; /* [friction][coupled] */
+static const double stiffness_bytes[2][2][2] = {{{450, 450}, {570, 600}},
+                                                {{450, 450}, {360, 360}}}; /* [several steps][friction][coupled] */
 
-/* Estimates the memory of the kept steps on all ranks, bytes; a life keeps two cycles. The contact is created later. */
-static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNeeds *needs, double *bytes)
+/* Estimates the memory of the steps that this rank keeps, bytes; a life keeps two cycles. The contact comes later. */
+static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNeeds *needs, int ranks, double *bytes)
 {
   const double steps = needs->life ? 2 * (double)needs->steps : (double)needs->steps;
   char         kept[32];
@@ -107,31 +121,46 @@ static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNee
   *bytes = 0;
   if (needs->steps < 2 || SamElasticityGetTraits(setup->elasticity).upwind) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), &given));
-  *bytes = PetscMin(given ? atof(kept) : (double)SamContactCycleMemory(setup->grid),
-                    KEPT_BYTES * steps * (double)setup->grid->nx * (double)setup->grid->ny);
+  *bytes = PetscMin((given ? atof(kept) : (double)SamContactCycleMemory(setup->grid)) / ranks,
+                    KEPT_BYTES * steps * (double)(needs->contact * setup->grid->cells));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Returns the mean memory per cell of this rank, bytes, without kept steps. */
+static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *needs)
+{
+  const int   several = needs->steps > 1, friction = needs->friction, coupled = needs->coupled;
+  const Bytes first = step_bytes[SamGridIsRow(setup->grid)][0][friction][coupled];
+  const Bytes b     = step_bytes[SamGridIsRow(setup->grid)][several][friction][coupled];
+  double      cell = b.cell, contact = b.contact;
+
+  if (needs->touches == SAM_TOUCHES_FIRST) cell = PetscMax(cell, first.cell + TOUCHING_BYTES);
+  if (needs->touches == SAM_TOUCHES_LATER) cell += TOUCHING_BYTES;
+  cell += (double)needs->laws;
+  if (SamElasticityGetTraits(setup->elasticity).upwind) contact += ROLLING_BYTES;
+  if (needs->life) cell += LIFE_BYTES;
+  if (needs->stiffness) contact += stiffness_bytes[several][friction][coupled];
+  if (needs->life && SamProblemGetLaw(setup->problem, SAM_LAW_SLIDE))
+    cell += SLIDING_LIFE_BYTES(needs->steps, needs->coupled);
+  return cell + b.part * (double)needs->part + contact * (double)needs->contact;
 }
 
 /* Estimates the memory that this rank will need, bytes. */
 static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
   PetscMPIInt              ranks;
-  double                   cell, kept;
+  double                   kept;
   const SamSetup          *setup = SamSimulationGetSetup(simulation);
   const SamSimulationNeeds needs = SamSimulationGetNeeds(simulation);
+  SamSimulationFiles       files;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(setup->grid->comm, &ranks));
-  PetscCall(EstimateKept(setup, &needs, &kept));
-  cell = bytes_per_cell[needs.steps > 1][needs.friction][needs.coupled] + (double)needs.laws +
-         (needs.friction && needs.steps > 1 ? TURN_BYTES : 0) +
-         (SamElasticityGetTraits(setup->elasticity).upwind ? ROLLING_BYTES : 0) + (needs.life ? LIFE_BYTES : 0) +
-         (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
-  if (needs.life && SamProblemGetLaw(setup->problem, SAM_LAW_SLIDE))
-    cell += SLIDING_LIFE_BYTES(needs.steps, needs.coupled);
-  *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
-  if (needs.grid_check) *bytes += 0.25 * cell * (double)setup->grid->cells;
-  *bytes += kept / ranks;
+  PetscCall(SamSimulationGetFiles(simulation, &files));
+  PetscCall(EstimateKept(setup, &needs, ranks, &kept));
+  *bytes = BytesPerCell(setup, &needs) * (double)setup->grid->cells * (needs.grid_check ? 1.25 : 1);
+  if (files.checkpoint) *bytes += CHECKPOINT_BYTES * (double)setup->grid->cells;
+  *bytes += SAM_MEMORY_PROGRAM + kept + (files.checkpoint || files.output ? FILE_BYTES : 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -56,8 +56,8 @@ static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamAdviceEstimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2],
-                                 PetscBool *known)
+PetscErrorCode SamAdviceEstimateContact(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2],
+                                        PetscBool *known)
 {
   PetscFunctionBegin;
   half[1] = 0;
@@ -65,6 +65,15 @@ PetscErrorCode SamAdviceEstimate(const SamSetup *s, PetscBool force, PetscReal v
     PetscCall(SamGapEstimateLine(s->gap, force ? value / SamPairModulus(s->pair) : 0, &half[0], known));
   else
     PetscCall(SamGapEstimateContact(s->gap, force, force ? value / SamPairModulus(s->pair) : value, half, known));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same for bodies without layers; `known`: there is a solution, and it is of finite size. */
+PetscErrorCode SamAdviceEstimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2],
+                                 PetscBool *known)
+{
+  PetscFunctionBegin;
+  PetscCall(SamAdviceEstimateContact(s, force, value, half, known));
   for (int k = 0; k < s->grid->axes; k++)
     if (!isfinite(half[k]) || half[k] <= 0 || !SamPairIsUniform(s->pair)) *known = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -171,6 +171,7 @@ PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *fr
   PetscCall(SetProgram(s, s->history, s->plan.cycles, from));
   PetscCall(ReadFiles(s, from));
   PetscCall(SamSimulationReadGridCheck(s, from));
+  if (!SamPrintHelp()) PetscCall(SamSimulationEstimateShares(s, &s->needs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -165,4 +165,11 @@ PETSC_INTERN PetscErrorCode SamSimulationCheckGrid(SamSimulation simulation);
 /* SamSimulationCollectParameters - collects the parameters for results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCollectParameters(SamSimulation simulation);
 
+/*
+  SamSimulationEstimateShares - estimates from the largest normal load, by a closed-form solution, the share of this
+  rank's cells that will be in contact, and that of the grid's cells that the operator's part will have, 0: no part.
+  Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamSimulationEstimateShares(SamSimulation simulation, SamSimulationNeeds *needs);
+
 #endif

@@ -1,0 +1,95 @@
+/* Estimates, before a step is solved, how much of the grid the contact will take, for the estimate of the memory. */
+#include "simulationimpl.h"
+#include <math.h>
+#include <petsam/private/advice.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/elasticity.h>
+
+/* Share of the cells that count as in contact where no closed-form solution is known, as for rough surfaces */
+#define UNKNOWN 0.3
+
+/* Finds the half widths under the largest load and the largest approach; `known`: false if one has no solution. */
+static PetscErrorCode FindHalf(SamSimulation s, PetscReal half[2], PetscBool *known)
+{
+  PetscReal most[2] = {0, 0}; /* approach, load */
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->needs.steps; k++) {
+    const SamControl control = SamHistoryGetStep(s->history, k);
+    const PetscBool  force   = control.force[SAM_COMPONENT_N];
+
+    most[force] = PetscMax(most[force], control.value[SAM_COMPONENT_N]);
+  }
+  half[0] = half[1] = 0;
+  *known            = PETSC_TRUE;
+  for (int force = 0; force < 2 && *known; force++) {
+    PetscReal other[2];
+
+    if (most[force] == 0) continue;
+    PetscCall(SamAdviceEstimateContact(&s->setup, (PetscBool)force, most[force], other, known));
+    for (int k = 0; k < 2; k++) half[k] = PetscMax(half[k], other[k]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Returns the share of this rank's cells within the ellipse of these half widths. */
+static PetscReal ShareOf(SamGrid g, const PetscReal half[2])
+{
+  PetscReal sum = 0;
+
+  if (SamGridIsRow(g)) return PetscMin(1, 2 * half[0] / g->width[0]);
+  for (PetscInt j = g->row_start; j < g->row_start + g->rows; j++) {
+    const PetscReal y = g->center[1] + ((PetscReal)j + 0.5) * g->dy - 0.5 * g->width[1], part = y / half[1];
+
+    if (fabs(part) < 1) sum += PetscMin(1, 2 * half[0] * sqrt(1 - part * part) / g->width[0]);
+  }
+  return g->rows ? sum / (PetscReal)g->rows : 0;
+}
+
+/* True if nothing moves the bodies along each other, or all loads grow together. */
+static PetscBool BeginsByTouching(const SamControl *control)
+{
+  PetscBool only = PETSC_TRUE;
+
+  for (PetscInt k = 0; k < 3; k++)
+    only = only && control->value[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]] == 0 ? PETSC_TRUE : PETSC_FALSE;
+  return control->together || only ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Returns in which steps the solution of dissimilar bodies includes the motion until cells touch. */
+static SamTouches FindTouches(SamSimulation s)
+{
+  SamTouches touches = SAM_TOUCHES_NEVER;
+  SamControl before;
+
+  if (!s->needs.friction || !s->needs.coupled || SamElasticityGetTraits(s->setup.elasticity).upwind) return touches;
+  for (PetscInt k = 0; k < s->needs.steps && touches < SAM_TOUCHES_LATER; k++) {
+    const SamControl control = SamHistoryGetStep(s->history, k);
+
+    if (k == 0 && BeginsByTouching(&control)) touches = SAM_TOUCHES_FIRST;
+    if (k > 0 && control.value[SAM_COMPONENT_N] > before.value[SAM_COMPONENT_N]) touches = SAM_TOUCHES_LATER;
+    before = control;
+  }
+  return touches;
+}
+
+PetscErrorCode SamSimulationEstimateShares(SamSimulation s, SamSimulationNeeds *needs)
+{
+  const SamGrid   g      = s->setup.grid;
+  const PetscReal d[2]   = {g->dx, g->dy};
+  const PetscInt  all[2] = {g->nx, g->ny};
+  PetscInt        n[2]   = {1, 1};
+  PetscReal       half[2];
+  PetscBool       known;
+
+  PetscFunctionBegin;
+  needs->touches = FindTouches(s);
+  needs->contact = UNKNOWN;
+  needs->part    = 0;
+  PetscCall(FindHalf(s, half, &known));
+  if (!known) PetscFunctionReturn(PETSC_SUCCESS);
+  needs->contact = ShareOf(g, half);
+  for (PetscInt k = 0; k < g->axes; k++) n[k] = 2 * half[k] < g->width[k] ? (PetscInt)ceil(2 * half[k] / d[k]) : all[k];
+  needs->part = SamElasticityGetPartShare(s->setup.elasticity, n);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
