@@ -565,6 +565,12 @@ def test_run_that_is_killed_again_and_again_gets_to_the_same_end(launcher, folde
     assert kill_at_random.torture(launcher, folder, kills, ranks, seed=ranks) >= 1
 
 
+@pytest.mark.parametrize("kind", kill_at_random.YIELDING)
+def test_yielding_run_that_is_killed_gets_to_the_same_end(launcher, folder, kind):
+    """Histories and wear cycles, in plane strain too: all columns and fields to the last bit."""
+    assert kill_at_random.torture(launcher, folder, 3, 1, seed=1, kind=kind) >= 1
+
+
 # ---------------------------------------------------------------- no equilibrium
 
 BALL = dict(ball(32), output="out.h5")
