@@ -694,9 +694,15 @@ class Contact:
         """Takes over the state in a file that a contact of the same options has saved."""
         self._call("load", os.fsencode(file))
 
-    def copy(self):
-        """Another contact of the same options, gap and friction, in the committed state of this one."""
-        other = Contact(**self._made)
+    @property
+    def options(self):
+        """The keywords by which it was made."""
+        return {name: value for name, value in self._made.items() if name != "comm"}
+
+    def copy(self, **options):
+        """Another contact of the same options, gap and friction, in the committed state of this one; options of the
+        solvers, such as tangential_rtol, that change."""
+        other = Contact(**{**self._made, **options})
         for name, values in self._given.items():
             other.set_field(name, values)
         other._call("copy", self._contact)

@@ -498,6 +498,38 @@ def test_worn_volume_is_that_of_archard_also_where_the_contact_slides(part):
     assert found.volume == pytest.approx(volume, rel=2e-3, abs=0)
 
 
+def test_small_amplitudes_at_which_all_sticks_have_no_damping(tmp_path):
+    """Cells that tightening the bolt left at their limit come to it in each cycle: the rounding of their slip was a
+    damping."""
+    pair = joint.Pair(pair_file(tmp_path / "pair.h5", 1.0), PRELOAD, **OPTIONS | dict(grid_n=16))
+    amplitudes = np.array([1e-3, 1e-4, 1e-5]) * 3e-3
+    found = joint.backbone(pair.structure, amplitudes, steps=3)
+    assert found.frequency == pytest.approx(found.linear, rel=1e-6)
+    assert np.all(found.damping < 1e-6) and np.all(found.cycles < 4)
+    for row, line in enumerate(found.table()[-3:]):
+        assert found.unresolved[row] == found.damping[row] == 0.0 or f"<{found.unresolved[row]:.1e}" in line
+
+
+@pytest.mark.parametrize("by_load", [True, False])
+def test_small_amplitudes_of_two_contacts_find_equilibrium(by_load):
+    """Two masses, each on a contact: errors of the contacts, relative to their preload, were above the limit."""
+    (first, k), (second, _) = sphere(LOAD, 32), sphere(LOAD / 2, 32)
+    patches = [
+        joint.Patch(contact, ["disp_x"], dict(load_n=load), by_load=["disp_x"] if by_load else ())
+        for contact, load in ((first, LOAD), (second, LOAD / 2))
+    ]
+    squares, shapes = eigh(SPRINGS * k, MASSES)
+    one = joint.Structure(patches, np.sqrt(squares), shapes, np.linalg.inv(SPRINGS * k))
+    found = joint.backbone(one, np.array([1e-3, 1e-5, 1e-6]) * FRICTION * LOAD / k, steps=2)
+    assert found.frequency == pytest.approx(found.linear, rel=1e-6) and np.all(found.damping < 1e-6)
+    force = 1e-6 * FRICTION * LOAD * shapes[1]  # beside and near the resonance of sticking contacts
+    frequencies, (omegas, modes) = np.array([0.9, 0.999, 1.1]) * found.linear, one.stuck_modes()
+    moved = joint.forced(one, force, frequencies, shapes[1], steps=6).amplitude
+    parts = (shapes[1] @ modes) * (force @ modes)
+    motion = np.sum(parts / (omegas**2 - (2 * np.pi * frequencies[:, None]) ** 2), axis=1)
+    assert moved == pytest.approx(np.abs(motion), rel=1e-4)
+
+
 def masing(x):
     """Mindlin's force over a period of displacements with one maximum and one minimum, both over a full slide."""
     first = np.argmax(x)

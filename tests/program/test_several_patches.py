@@ -63,6 +63,32 @@ def test_two_patches_are_one_that_covers_them(files):
     assert found.names == ["patch1", "patch2"] and found.patches.sum(axis=1) == pytest.approx(found.energy)
 
 
+@pytest.fixture
+def small(compliance, tmp_path):  # noqa: F811
+    """A function of preload, radius and cells: the pair of two patches that touch in some cells."""
+    write(tmp_path / "pair.inp", both(bodies=[body(number, edges=(X, Y, Z)) for number in (2, 1)]))
+    compliance(*WORDS, *SMALL, "--degree", "3,3", "-o", "two.h5")
+    gap = dict(friction=0.3, gap_type="sphere", gap_radius2="inf")
+    return lambda preload, radius, cells: joint.Pair("two.h5", dict(B=preload), grid_n=cells, gap_radius1=radius, **gap)
+
+
+def test_bolts_are_tightened_on_contacts_of_a_few_cells(small):
+    """These bear hardly any moment, and slide under loads that they bear as they grow: equilibrium of all coordinates,
+    beside the static compliance."""
+    for preload, radius, cells in ((2e-4, 6.0, (24, 18)), (2e-5, 20.0, (24, 18)), (2e-5, 6.0, (25, 19))):
+        one = small(preload, radius, cells).structure
+        touching = [np.sum(patch.contact["pressure"] > 0.0) for patch in one.patches]
+        assert min(touching) >= 1 and max(touching) < 9, (preload, radius)
+        assert one.coupling @ one.loads == pytest.approx(one.z, rel=1e-4, abs=1e-6 * np.abs(one.z).max())
+        assert one.loads[0] == pytest.approx(-one.patches[0].number("load_n")) and one.loads[0] < 0.0
+
+
+def test_bolts_that_do_not_close_the_gap_are_told(small):
+    """The centre of the nearest cell is farther from the other body than the bolt moves it."""
+    with pytest.raises(joint.NoSolution, match="patch1: the bodies do not touch, load_n = 0 N"):
+        small(2e-5, 6.0, (24, 18))
+
+
 def test_patches_that_bear_unequal_loads_are_pressed_without_friction(compliance, tmp_path):  # noqa: F811
     """The bolt is beside one of them; all is in equilibrium."""
     write(tmp_path / "pair.inp", both(bodies=[body(number, edges=(X, Y, Z)) for number in (2, 1)]))

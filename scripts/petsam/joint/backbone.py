@@ -39,6 +39,7 @@ COLUMNS = {
     "loop": ("J", "energy of the loop of force and displacement"),
     "slipping": ("1", "cells that slip, all patches"),
     "cycles": ("1", "cycles until the energy had settled"),
+    "unresolved": ("1", "damping by friction below which it is not resolved; 0 where it is"),
 }
 
 
@@ -85,9 +86,11 @@ class Backbone(Numbers):
             + (", amplitudes are modal, in m kg^0.5" if self.unit == MODAL else "")
         )
         for k in range(len(self.alpha)):
+            below = f"{f'<{self.unresolved[k]:.1e}':>10}"
+            damping = f"{self.damping[k]:10.4e}" if self.damping[k] >= self.unresolved[k] else below
             lines.append(
                 f"{self.amplitude[k]:12.4e} {self.acceleration[k]:14.4e} {self.frequency[k]:11.6g} "
-                f"{self.damping[k]:10.4e} {self.energy[k]:10.3e} {self.slipping[k]:6.0f} {self.cycles[k]:6.0f}"
+                f"{damping} {self.energy[k]:10.3e} {self.slipping[k]:6.0f} {self.cycles[k]:6.0f}"
             )
         return lines
 
@@ -177,6 +180,7 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
         rows.append(
             [one.alpha, one.modal, reach, reach * one.omega2, np.sqrt(one.omega2) / (2.0 * np.pi), one.damping]
             + [structure.damping, energy, one.cycle.loop, one.cycle.slipping, one.cycles]
+            + [one.unresolved]
         )
         patches.append(one.cycle.energies)
         states = one.cycle.states

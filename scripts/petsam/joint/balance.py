@@ -120,8 +120,8 @@ class Balance(Sweep):
         force, motion, cycle = self.solve(error, guess)
         self.known = amplitude, force
         omega2 = force[at].real / amplitude
-        damping = float(cycle.energies.sum()) / (2.0 * np.pi * omega2 * np.sum(np.abs(motion[0]) ** 2))
-        return Point(abs(force[at]), amplitude, omega2, damping, cycle, self.least)
+        damped = 1.0 / (2.0 * np.pi * omega2 * np.sum(np.abs(motion[0]) ** 2))
+        return Point(abs(force[at]), amplitude, omega2, damped, cycle, self.least)
 
     def respond(self, force, omega):
         """Motion of the stuck modes (harmonics, modes) under a modal force at an angular frequency, and its cycle.
@@ -186,16 +186,25 @@ class Secant:
 
     def resonance(self, force, inertia):
         """Static force on the mode under a force: of the amplitudes that balance it, that nearest to the last one."""
-        most = 2.0 * abs(force) / max(abs(self.stiffness[0] - inertia), NEAR * abs(inertia))
+        floor = NEAR * abs(inertia)
+        most = 2.0 * abs(force) / max(abs(self.stiffness[0] - inertia), floor)
         if self.amplitudes.size > 1:
             most = BEYOND_LAST * self.amplitudes[-1]
-        amplitudes = np.linspace(0.0, most, 4001)[1:]
+        # amplitudes beside a resonance may be far smaller than those at it
+        least = 0.5 * abs(force) / max(np.abs(self.stiffness - inertia).max(), floor)
+        amplitudes = np.geomspace(least, max(most, 4.0 * least), 4001)
         excess = np.abs(self.at(amplitudes) - inertia) * amplitudes - abs(force)
         roots = np.flatnonzero(excess[1:] * excess[:-1] <= 0.0)
-        found = roots[np.argmin(np.abs(amplitudes[roots] - self.last))] if roots.size else np.argmin(np.abs(excess))
-        stiffness = self.at(amplitudes[found])
-        motion = force / (stiffness - inertia)
-        return stiffness * motion * amplitudes[found] / abs(motion)
+        if roots.size:
+            at = roots[np.argmin(np.abs(amplitudes[roots] - self.last))]
+            low, high = excess[at], excess[at + 1]
+            part = low / (low - high) if low != high else 0.0
+            amplitude = amplitudes[at] + part * (amplitudes[at + 1] - amplitudes[at])
+        else:
+            amplitude = amplitudes[::-1][np.argmin(np.abs(excess[::-1]))]
+        stiffness = self.at(amplitude)
+        turn = force / (stiffness - inertia) if stiffness != inertia else -1j * force  # lags by a quarter period
+        return stiffness * turn * amplitude / abs(turn)
 
     def removed(self, wrong, force, motion, inertia):
         """Change of the static force that removes an error of its balance."""

@@ -149,10 +149,14 @@ class Pair:
             structure.loads[at] = -guess
             at += len(patch.coordinates)
             patch.held["friction_scale"] = friction_scale
+        structure.opens = True  # the first steps need not close the gap
         for row in rows:
             for patch in patches:
                 patch.held.update({f"body2_case_bolt_{name}": force for name, force in row.items()})
             structure.step(np.zeros(self.omega.size))
+        structure.opens = False
+        for patch in patches:
+            patch.need_closed()
 
     def _continue(self, pressed, friction_scale):
         """Goes on from a structure whose contact was pressed without friction."""

@@ -28,7 +28,7 @@ TOLERANCE = 1e-7  # of the work and of the energy of the errors, relative to the
 ROUGH = 1e-5  # the same where the contact's own tolerance ends the iteration
 SLOW = 0.3  # ratio of successive errors above which the contacts' stiffness is computed
 STIFF = 1e-3  # part of the stiffness of sticking contacts that those which slide seem to have
-MOST, FEWER = 25, 12  # iterations; of those that others may follow
+MOST, FEWER, DESCENTS = 25, 12, 60  # iterations; of those that others may follow
 SLIDING = ("disp_x", "disp_y", "rot_z")  # displacements whose loads friction limits
 # the displacements of body 1 as a step prescribes them, in the order of a contact's stiffness, with their loads
 DISPLACEMENTS = {
@@ -110,6 +110,14 @@ class Patch:
         """True if steps prescribe loads that friction limits."""
         return bool(np.any(self.by_load & np.isin(self.coordinates, SLIDING)))
 
+    def need_closed(self):
+        """Raises Apart if the bodies do not touch where steps prescribe the normal load."""
+        if self.number("load_n") == 0.0 and "disp_z" in np.array(self.coordinates)[self.by_load]:
+            raise Apart(
+                f"{self.name or 'a contact'}: the bodies do not touch, load_n = 0 N, limit above 0: use a higher "
+                "preload, a smaller amplitude, or a finer grid where the gap is less than the height of a cell's centre"
+            )
+
     def need_inside(self):
         """Raises NoSolution if the contact of the last step reaches the border of its grid or patch."""
         if self.outgrown:
@@ -138,10 +146,12 @@ class Patch:
         """A number of the last step."""
         return self.contact.number(name)
 
-    def copy(self):
-        """Another patch in the committed state of this one."""
+    def copy(self, **options):
+        """Another patch in the committed state of this one; tolerances of its contact that are smaller."""
+        made = self.contact.options
+        options = {name: min(value, float(made.get(name, value))) for name, value in options.items()}
         names = [name for name, load in zip(self.coordinates, self.by_load) if load]
-        return Patch(self.contact.copy(), self.coordinates, self.held, names, self.name, self.center)
+        return Patch(self.contact.copy(**options), self.coordinates, self.held, names, self.name, self.center)
 
 
 class Structure:
@@ -174,6 +184,7 @@ class Structure:
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
         self.force = np.zeros(self.modes)  # of the last step
         self.iterations = []
+        self.opens = False  # True: patches may be open, such as while bolts are tightened
         self.needs = None  # what must not end before the structure and its copies: the folder of its contacts' files
 
     @staticmethod
@@ -199,9 +210,9 @@ class Structure:
         """Names of the patches."""
         return [patch.name or f"patch{k}" for k, patch in enumerate(self.patches, 1)]
 
-    def copy(self):
-        """The structure with copies of its contacts."""
-        patches = [patch.copy() for patch in self.patches]
+    def copy(self, **options):
+        """The structure with copies of its contacts; tolerances of all contacts that are smaller."""
+        patches = [patch.copy(**options) for patch in self.patches]
         other = Structure(patches, self.omega, self.shapes, self.coupling, self.rigid, self.damping)
         other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
         other.needs = self.needs
@@ -344,6 +355,8 @@ class Structure:
             response = self._find(driven, free, held, response, scale)
         for patch in self.patches:
             patch.need_inside()
+            if not (self.opens or self.direct):
+                patch.need_closed()
         self.force = np.array(force, dtype=float)
         return response
 
@@ -357,37 +370,70 @@ class Structure:
         A contact that slides does not bear more loads: where steps by loads find no equilibrium soon, displacements
         along the surface are prescribed instead. Where those find none either, steps by loads go on.
         """
-        limited = [patch for patch in self.patches if patch.limited]
+        limited = any(patch.limited for patch in self.patches)
         if not limited:
             return self._either(driven, free, held, response, scale)
         try:
             return self._iterate(driven, free, held, response, scale, FEWER)
         except ENDS as error:
             first = error
-        if self._slides(limited, driven, free, held, scale):
+        if self._slides(driven, free, held, scale):
+            return None
+        if self._by_displacements([*DISPLACEMENTS], self._descend, driven, free, held, scale):
             return None
         try:
             return self._iterate(driven, free, held, response, scale)
         except ENDS:
             raise first from None  # most often names what the contact does not bear
 
-    def _slides(self, limited, driven, free, held, scale):
-        """True if the step is solved by displacements along the surface of these patches."""
-        masks = [patch.by_load for patch in limited]
+    def _slides(self, *step):
+        """True if the step is solved by displacements along the surface."""
+        return self._by_displacements(SLIDING, lambda *one: self._either(*one[:-1], None, one[-1]), *step)
+
+    def _by_displacements(self, names, solve, *step):
+        """True if solve(*step) solves the step where it prescribes these displacements, and not their loads."""
+        masks = [patch.by_load for patch in self.patches]
         state = self.z, self.a, self.loads
-        for patch in limited:
-            patch.by_load = patch.by_load & ~np.isin(patch.coordinates, SLIDING)
+        for patch in self.patches:
+            patch.by_load = patch.by_load & ~np.isin(patch.coordinates, names)
         try:
-            self._either(driven, free, held, None, scale)
+            solve(*step)
             inside = not any(patch.outgrown for patch in self.patches)
         except ENDS:
             inside = False
         finally:
-            for patch, mask in zip(limited, masks):
+            for patch, mask in zip(self.patches, masks):
                 patch.by_load = mask
         if not inside:
             self.z, self.a, self.loads = state
         return inside
+
+    def _descend(self, driven, free, held, scale):
+        """Newton's method for displacements, with the contacts' own stiffness at each of them.
+
+        Contacts find loads to all displacements, also where they are of a few cells, which bear hardly any moment and
+        whose stiffness grows as they do. Each change is halved until the error falls by a part of it, which it does
+        for short ones.
+        """
+        at, change = np.concatenate([self.z, self.a]), np.zeros(self.z.size + self.a.size)
+        response, part, last = None, 1.0, np.inf
+        self.iterations.append(0)
+        for self.iterations[-1] in range(1, DESCENTS + 1):
+            given, a = np.split(at + part * change, [driven.size])
+            with contextlib.suppress(BEYOND):
+                z, loads = self._try(given, held)
+                error = self._error(z, a, loads, driven, free)
+                if response is None or self._worth(error, response) <= (1.0 - 0.1 * part) * last:
+                    at, part = at + part * change, 1.0
+                    response = self.tangent(False)
+                    size = self._size(error, response, (z, loads, a), scale)
+                    if size <= TOLERANCE:
+                        self.z, self.a, self.loads = z, a, loads
+                        return
+                    change, last = _solved(self._system(response), -error), self._worth(error, response)
+                    continue
+            part *= 0.5
+        raise NoSolution("no equilibrium by displacements")
 
     def _either(self, driven, free, held, response, scale):
         """_iterate(), and once more with a little stiffness, where contacts slide that leave the structure a motion
@@ -423,7 +469,7 @@ class Structure:
             error = self._error(z, a, loads, driven, free)
             if response is None:
                 response = self.response_of(self._slope(stiff))
-            size = max(_work(error, scale or (z, loads, a)), self._energy(error, response, z, loads))
+            size = self._size(error, response, (z, loads, a), scale)
             if size <= TOLERANCE or (SLOW * last <= size <= ROUGH):
                 break
             if self.iterations[-1] == most:
@@ -450,17 +496,23 @@ class Structure:
                 response[own, own] += np.outer(change - response[own, own] @ part, part) / (part @ part)
         return response
 
-    def _energy(self, error, response, z, loads):
-        """Norm of the errors by the energy that they are worth, relative to the work of the loads. It sees errors of
-        coordinates that have no load, beside which _work() is zero."""
+    def _size(self, error, response, state, scale):
+        """Norm of the errors: by their work, relative to that of the changes, and by the energy that they are worth,
+        which sees errors of coordinates that have no load. That is relative to the work of the loads, or of the changes
+        where these are larger, as in a step through zero."""
+        whole = max(np.abs(z) @ np.abs(loads) for z, loads, _ in (state, scale or state))
+        return max(_work(error, scale or state), np.sqrt(_part(self._worth(error, response) ** 2, whole)))
+
+    def _worth(self, error, response):
+        """Square root of twice the energy that errors are worth by the stiffness of contacts and structure."""
         with np.errstate(divide="ignore"):
             own = np.abs(np.diag(response))
             soft = np.where(self.by_load, own, 1.0 / own)  # compliance of each coordinate of the contacts
             stiff = 1.0 / (soft + np.abs(np.diag(self.coupling)))
-        moved, forces = np.split(error, [z.size])
+        moved, forces = np.split(error, [len(stiff)])
         held = stiff @ self.rigid**2
         energy = stiff @ moved**2 + np.sum(np.where(forces == 0.0, 0.0, forces**2 / np.where(held > 0.0, held, 1e-300)))
-        return np.sqrt(_part(energy, np.abs(z) @ np.abs(loads)))
+        return np.sqrt(energy)
 
     def _error(self, z, a, loads, driven, free):
         moved = z - driven - self.coupling @ loads - self.rigid @ a

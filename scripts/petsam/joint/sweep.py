@@ -14,6 +14,9 @@ from .structure import Structure
 STEPS = 8  # load steps of a half cycle
 SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
 CYCLES = 12  # largest number of cycles of an amplitude
+SMALL = 0.5  # changes of the loads over those of the preload below which the contacts' tolerances are smaller
+RTOL = 1e-6, 1e-12  # -tangential_rtol at these, and the least that rounding allows
+UNLIKE = 0.75  # difference of a cycle's energy and its loop, a polygon inside of it, above which they are rounding
 FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
 
 
@@ -27,7 +30,8 @@ class Cycle:
 
     moved     modal coordinates of each step
     reach     change of the modal coordinates from one reversal to the other
-    energies  dissipated energy in each patch, J
+    energies  dissipated energy in each patch, J; 0 where it is not resolved
+    noise     energy below which it is not resolved, J; 0 where it is
     loop      that of the loop of forces and displacements, J
     states    the field state of each patch before the reversal: 0 open, 1 stick, 2 slip
     given     what each step prescribed and the coordinates that it found, for each patch {name: value}
@@ -36,6 +40,7 @@ class Cycle:
     moved: np.ndarray
     reach: np.ndarray
     energies: np.ndarray
+    noise: float
     loop: float
     states: list
     given: list
@@ -48,21 +53,50 @@ class Cycle:
 
 @dataclass
 class Point:
-    """A mode at one amplitude: modal force, amplitude and squared angular frequency, damping, its cycle, and how many
-    cycles it took to settle."""
+    """A mode at one amplitude: modal force, amplitude and squared angular frequency, damping by a unit of energy, its
+    cycle, and how many cycles it took to settle."""
 
     alpha: float
     modal: float
     omega2: float
-    damping: float
+    damped: float
     cycle: Cycle
     cycles: int
+
+    @property
+    def damping(self):
+        """By friction, as a part of critical."""
+        return float(self.cycle.energies.sum()) * self.damped
+
+    @property
+    def unresolved(self):
+        """Damping below which it is not resolved; 0 where it is."""
+        return self.cycle.noise * self.damped
 
 
 def settled(one, before):
     """True if a cycle repeats the one before."""
     now, then = one.energies.sum(), before.energies.sum()
     return abs(now - then) <= SETTLED * now and norm(one.reach - before.reach) <= SETTLED * norm(one.reach)
+
+
+def _pressed(contact):
+    """Work of a contact's normal load by its stiffness, J."""
+    stiffness = contact.stiffness(reversal=True)[0, 0]
+    return contact.number("load_n") ** 2 / stiffness if stiffness > 0.0 else 0.0
+
+
+def _resolved(energies, slides, loop, steps):
+    """Energies of the patches, 0 where it is rounding, and the size of that.
+
+    No energy is lost where no cell slips. Cells that just come to their limit lose one that the contact's tolerance
+    gives, unlike the loop of forces and displacements.
+    """
+    noise = float(np.abs(energies[~slides]).sum())
+    lost = np.where(slides, energies, 0.0)
+    if steps > 1 and abs(lost.sum() - loop) > UNLIKE * abs(lost.sum()):
+        return np.zeros_like(lost), noise + max(float(np.abs(lost).sum()), abs(loop))
+    return lost, noise
 
 
 class Sweep:
@@ -74,6 +108,8 @@ class Sweep:
         mode, self.steps = integer("mode", mode), integer("steps", steps)
         self.preload, self.work = structure, structure.copy()
         self.tangent = structure.tangent()
+        self.sharpness = 1.0  # of the contacts' tolerances
+        self.pressed = sum(_pressed(patch.contact) for patch in structure.patches)
         self.omegas, self.shapes = structure.stuck_modes(self.tangent)  # rad/s; in modal coordinates, as columns
         if mode > len(self.omegas):
             raise Error(f"mode {mode}: the structure has modes 1 to {len(self.omegas)}")
@@ -112,32 +148,44 @@ class Sweep:
 
     def follow(self, forces, scale):
         """Steps under these modal forces, beside those of the preload; returns modal coordinates and energies of each
-        step, and what it prescribed and found."""
-        found, energies, given, response = [], [], [], self.reversed
+        step, whether cells of a patch slip in it, and what it prescribed and found."""
+        found, energies, slips, given, response = [], [], [], [], self.reversed
         for force in forces:
             response = self.work.step(self.preload.force + force, response=response, scale=scale)
             found.append(self.work.modal(self.work.force, self.work.loads, self.work.a))
             energies.append([patch.number("dissipated_energy") for patch in self.work.patches])
+            slips.append([np.any(patch.contact.field("state") == SLIP) for patch in self.work.patches])
             given.append([patch.given for patch in self.work.patches])
-        return np.array(found), np.array(energies), given
+        return np.array(found), np.array(energies), np.array(slips), given
 
     def scale_of(self, alpha):
         """Changes of coordinates, loads and motions by a modal force, to which the tolerance of steps is relative."""
         return tuple(alpha * np.abs(one) for one in self.unit)
 
+    def _sharpen(self, scale):
+        """Contacts whose tolerances, relative to the shear that the preload allows, fit changes of this scale: the work
+        of the changes over that of the preload is the square of their part of it."""
+        part = min(np.sqrt(scale[0] @ scale[1] / self.pressed) / SMALL, 1.0) if self.pressed > 0.0 else 1.0
+        if not 0.5 * self.sharpness < part < 5.0 * self.sharpness:
+            self.sharpness = part
+            self.work = self.preload.copy(tangential_rtol=max(part * RTOL[0], RTOL[1]))
+
     def repeat(self, rise, halves, scale, least=2):
         """Goes from the preload along the forces `rise`, then through cycles of two halves until they repeat, at least
         so many; returns the last one, and their number."""
+        self._sharpen(scale)
         self.work.take(self.preload)
         last, before = self.follow(rise, scale)[0][-1], None
         forces = np.concatenate([rise[-1:], *halves])
         for count in range(1, CYCLES + 1):
-            down, lost, given = self.follow(halves[0], scale)
+            down, lost, slips, given = self.follow(halves[0], scale)
             states = [patch.contact.field("state") for patch in self.work.patches]
-            back, more, rest = self.follow(halves[1], scale)
+            back, more, slip, rest = self.follow(halves[1], scale)
             path = np.concatenate([[last], down, back])
             loop = -0.5 * float(np.sum((path[1:] + path[:-1]) * np.diff(forces, axis=0)))
-            one = Cycle(path[1:], back[-1] - down[-1], (lost + more).sum(axis=0), loop, states, given + rest)
+            energies, slides = (lost + more).sum(axis=0), np.any(np.concatenate([slips, slip]), axis=0)
+            lost, noise = _resolved(energies, slides, loop, self.steps)
+            one = Cycle(path[1:], back[-1] - down[-1], lost, noise, loop, states, given + rest)
             last = back[-1]
             if count >= least and settled(one, before):
                 break
@@ -155,5 +203,4 @@ class Sweep:
         )
         one, count = self.repeat(rise, halves, self.scale_of(alpha))
         reach = float(one.reach @ self.shape)
-        damping = float(one.energies.sum()) / (np.pi * alpha * reach)
-        return Point(alpha, 0.5 * reach, 2.0 * alpha / reach, damping, one, count)
+        return Point(alpha, 0.5 * reach, 2.0 * alpha / reach, 1.0 / (np.pi * alpha * reach), one, count)
