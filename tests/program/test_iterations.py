@@ -132,3 +132,17 @@ def test_products_of_nearly_flat_periodic_bodies_do_not_grow_by_rounding(solve, 
             grid_n=64, grid_size=1e-3, load_n=800, load_tx=80, friction=0.3,
         )  # fmt: skip
         assert solve(case)["normal_applies"] <= most
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+@pytest.mark.parametrize("n, tx", [(64, 0.6), (64, 0.997), (128, 0.997)])
+def test_products_of_the_strongest_coupling_at_most_120(petsam, tmp_path, n, tx, ranks):
+    """Near the solution both problems are solved as one system: passes alone took 130 to 153 products."""
+    case = dict(
+        bodies(210e9, 0.0, float("inf"), 0.0), gap_type="sphere", gap_radius1=0.2, gap_radius2=0.2, grid_n=n,
+        grid_size=2.6e-3, friction=2.0, load_n=500.0, load_tx=tx * 1000, output="out.h5",
+    )  # fmt: skip
+    petsam(case, ranks=ranks)
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert f["history/normal_applies"][0] + f["history/tangential_applies"][0] <= 120
+        assert f["history/coupling_iterations"][0] <= 15

@@ -31,8 +31,10 @@ typedef struct {
   float        *r, *z;  /* of two components */
   PetscInt      more;   /* number of unit motions besides the six phi */
   double      **motion; /* these motions, each of three packed components, normal first, m */
+  PetscBool     holds;  /* the loads whose components the frames have stay as they are */
   /* the system that is solved */
   SamFrozenPart part;
+  PetscReal     rtol; /* relative residual to which it is solved */
   PetscInt      applies, preconditions;
 } SamFrozen;
 
@@ -52,11 +54,12 @@ typedef enum {
 } SamFrozenField;
 /*
   SamFrozenCreate - takes the sets of cells from the fields of a solution on the grid of an elasticity, which is
-  borrowed. `coupled`: true if pressure and shear of dissimilar bodies are coupled. Collective.
+  borrowed. `coupled`: true if pressure and shear of dissimilar bodies are coupled; `stiffest`: the largest resistance
+  of a cell to a turn of the slip, in units of its own influence. Collective.
   SamFrozenDestroy - frees what the object refers to. Collective.
 */
 PETSC_INTERN PetscErrorCode SamFrozenCreate(SamElasticity elasticity, const Vec fields[SAM_FROZEN_FIELDS],
-                                            PetscBool coupled, SamFrozen *frozen);
+                                            PetscBool coupled, double stiffest, SamFrozen *frozen);
 PETSC_INTERN PetscErrorCode SamFrozenDestroy(SamFrozen *frozen);
 /* SamFrozenSize - returns the number of a field's values on this rank in the system that is solved. Not collective. */
 PETSC_INTERN PetscInt SamFrozenSize(const SamFrozen *frozen);
@@ -68,6 +71,8 @@ PETSC_INTERN PetscErrorCode SamFrozenAddMotion(SamFrozen *frozen, Vec u_z, Vec u
 PETSC_INTERN void SamFrozenMotion(const SamFrozen *frozen, PetscInt k, SamFrozenPart part, double values[]);
 /* SamFrozenColumn - computes the right-hand side of a unit motion. */
 PETSC_INTERN void SamFrozenColumn(const SamFrozen *frozen, PetscInt k, double column[]);
+/* SamFrozenSetTractions - sets the fields p and q to those of x; `work`: scratch of the size of x. Not collective. */
+PETSC_INTERN PetscErrorCode SamFrozenSetTractions(SamFrozen *frozen, const double x[], double work[]);
 /* SamFrozenApply - computes Ax, the system's matrix times x; sets u_z and u_t to the displacements by x. Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenApply(SamFrozen *frozen, const double x[], double Ax[]);
 /* SamFrozenPrecondition - computes z, the approximate inverse of the matrix times r. Collective. */
@@ -75,6 +80,10 @@ PETSC_INTERN PetscErrorCode SamFrozenPrecondition(SamFrozen *frozen, const doubl
 /* SamFrozenShear - computes the change q of the shear from those of the pressure and of x, NULL: 0; packed. Not
    collective. */
 PETSC_INTERN void SamFrozenShear(const SamFrozen *frozen, const double p[], const double x[], double q[]);
+/* SamFrozenPack - packs a field of the grid, of one or two components. SamFrozenProject - makes a packed gap and slip a
+   right-hand side. */
+PETSC_INTERN PetscErrorCode SamFrozenPack(const SamFrozen *frozen, Vec field, double values[]);
+PETSC_INTERN void           SamFrozenProject(const SamFrozen *frozen, double values[]);
 /* SamFrozenTakeSlip - computes d(ds) = C dq - t after a product with dq, t being the motion along phi k; packed.
    Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenTakeSlip(const SamFrozen *frozen, PetscInt k, double slip[]);
@@ -82,12 +91,24 @@ PETSC_INTERN PetscErrorCode SamFrozenTakeSlip(const SamFrozen *frozen, PetscInt 
 PETSC_INTERN PetscErrorCode SamFrozenDots(const SamFrozen *frozen, PetscInt n, double *const fields[],
                                           const double field[], double dots[]);
 
+/*
+  SamFrozenHold - holds those loads of both problems that are given as forces; all tractions are unknowns then, and no
+  bound follows the slip. Not collective.
+  SamFrozenTakeMotion - takes off a residual the part of the rigid displacements of these loads. SamFrozenTakeLoad -
+  takes these loads off a direction. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamFrozenHold(SamFrozen *frozen, const SamBalance *normal, const SamBalance *tangential);
+PETSC_INTERN PetscErrorCode SamFrozenTakeMotion(const SamFrozen *frozen, double residual[]);
+PETSC_INTERN PetscErrorCode SamFrozenTakeLoad(const SamFrozen *frozen, double direction[]);
+
 /* Relative residual of a linear system, for which symmetric parts of the stiffness are accurate to 1e-8, others to
    1e-5 */
 #define SAM_FROZEN_RTOL 1e-4
 /*
   SamKrylovSolve - solves A x = b by generalised conjugate residuals; returns the residual b - A x, too. `error` is the
-  residual's norm relative to that of b. Collective.
+  residual's norm relative to that of b. Where loads are held the fields p and q become those of x, u_z and u_t their
+  displacements without those by the coupling, to single precision, and the residual is that of the recurrence.
+  Collective.
 */
 PETSC_INTERN PetscErrorCode SamKrylovSolve(SamFrozen *frozen, const double b[], double x[], double residual[],
                                            PetscReal *error);

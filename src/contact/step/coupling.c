@@ -15,6 +15,9 @@
   and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
   imaginary eigenvalues, for which Anderson's method is made.
 
+  Near the solution, where passes are slow, the next one starts from the solution of both problems as one system, whose
+  sets of cells are those of the last pass (together.c).
+
   Each pass is solved only a little more accurately than the last error requires. If the error does not shrink, the
   shear is solved more accurately: a nearly uniform shear on periodic bodies may cause a displacement far smaller than
   that of its error, and the error is relative to the displacement. The pressure starts from that of the last pass and
@@ -53,6 +56,20 @@
 #define NORMAL_FINAL     0.3
 #define NORMAL_ENOUGH    0.7 /* the check's scale, the whole displacement, may be smaller than the one by p */
 #define TANGENTIAL_FINAL 0.5
+/* Error below which both problems are solved as one system (together.c), if after so many passes they have left a
+   larger part of the error than SLOW on average: else passes are cheaper, as a product of the system leaves half. */
+#define CLOSE        3e-3
+#define LEAST_PASSES 5
+#define SLOW         0.45
+/* Relative residual of the system, and in units of the error, whose square the error of frozen sets is like */
+#define TOGETHER 0.02
+#define SQUARE   30
+/* Part of the error to which a system must bring it; the next one is for less than that, or where it did not, as the
+   sets of cells still change, for less than LATER of it. */
+#define PAYS  0.5
+#define LATER 0.1
+/* Error below which the slip's direction is found, in units of the tolerance of the shear */
+#define DIRECTION 2000
 
 typedef struct {
   SamSolve *s;
@@ -65,6 +82,9 @@ typedef struct {
   PetscReal least;   /* least error so far */
   PetscInt  waits;   /* passes since the least error */
   PetscReal sharper; /* factor on the tolerance of the shear */
+  PetscReal first;   /* the error of the first pass */
+  PetscBool joined;  /* both problems have been solved as one system */
+  PetscReal close;   /* the error below which they are the next time; 0: they cannot be */
   PetscBool rough;   /* the slip's direction is not known yet */
   PetscBool turns;   /* its guess is that of the step one cycle before */
   Vec       calm;    /* the motion until cells touch with which the shear changed least; NULL: none yet */
@@ -262,6 +282,57 @@ static PetscErrorCode FindDirection(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* True if the sets of cells may be those of the solution, and the passes so far have been slow. */
+static PetscBool IsSlow(const Passes *p, PetscInt pass)
+{
+  if (p->rough || p->slides || p->stuck || p->error >= p->close) return PETSC_FALSE;
+  return p->joined || (pass > LEAST_PASSES && p->error > p->first * pow(SLOW, (double)(pass - 1)));
+}
+
+/* Lets passes go on after a solve that has failed. */
+static void GoOn(SamStep *step)
+{
+  step->status     = SAM_STATUS_CONVERGED;
+  step->message[0] = step->setting[0] = '\0';
+}
+
+/* Makes the tractions those of the last pass again. */
+static PetscErrorCode TakeBack(Passes *p, Vec result)
+{
+  SamSolve *const s = p->s;
+  PetscBool       solved;
+
+  PetscFunctionBegin;
+  GoOn(s->step);
+  PetscCall(VecCopy(s->previous_pressure, s->s->pressure));
+  PetscCall(VecCopy(s->previous_shear, s->s->shear));
+  s->pressure_product.n[0] = s->shear_product.n[0] = 0;
+  PetscCall(Measure(p, result, &solved));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes a step for both problems as one system. Unless it reduces the error, the tractions stay those of the pass. */
+static PetscErrorCode Join(Passes *p, Vec result, SamPassEnd *end)
+{
+  SamSolve *const s      = p->s;
+  const PetscReal before = p->error, rtol = PetscMin(TOGETHER, SQUARE * before);
+  PetscBool       made, solved, better;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolveTogether(s, PetscMax(rtol, NORMAL_FINAL * p->rtol[0] / before), &made));
+  p->joined = PETSC_TRUE;
+  p->close  = LATER * before;
+  if (!made) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Measure(p, result, &solved));
+  better = s->step->status == SAM_STATUS_CONVERGED && p->error < before ? PETSC_TRUE : PETSC_FALSE;
+  if (better && p->error <= PAYS * before) p->close = PAYS * before;
+  if (!better) PetscCall(TakeBack(p, result));
+  PetscCall(VecCopy(s->s->pressure, s->previous_pressure));
+  PetscCall(VecCopy(s->s->shear, s->previous_shear));
+  *end = SAM_PASS_RESTARTS;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd *end)
 {
   Passes *const  p      = (Passes *)context;
@@ -276,10 +347,12 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
   if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Compare(p, pass, &solved));
   *end = solved ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
-  if (p->rough && !p->slides && !p->stuck && p->error <= SAM_ROUGH * p->rtol[1]) {
+  if (p->rough && !p->slides && !p->stuck && p->error <= DIRECTION * p->rtol[1]) {
     PetscCall(FindDirection(p));
     *end = SAM_PASS_RESTARTS;
   }
+  if (pass == 1) p->first = p->error;
+  if (*end == SAM_PASS_GOES_ON && IsSlow(p, pass)) PetscCall(Join(p, result, end));
   if (*end == SAM_PASS_GOES_ON && SamSolveFindsTouching(p->s) && p->restless >= RESTLESS) *end = SAM_PASS_FAILED;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -364,8 +437,7 @@ static PetscErrorCode HoldCalm(Passes *p)
   PetscCall(VecAXPY(s->s->aside, -1, s->touching));
   PetscCall(VecCopy(p->calm, s->touching));
   PetscCall(VecAXPY(s->s->aside, 1, s->touching));
-  s->step->status     = SAM_STATUS_CONVERGED; /* the passes go on */
-  s->step->message[0] = s->step->setting[0] = '\0';
+  GoOn(s->step);
   SamSolveStartFromLast(s);
   s->holds   = PETSC_TRUE;
   p->sharper = 1;
@@ -403,9 +475,11 @@ PetscErrorCode SamSolveCoupled(SamSolve *s)
                        .mark    = INFINITY,
                        .sharper = 1,
                        .rough   = SamSolveIsTwice(s)};
-  PetscBool       more;
+  PetscBool       more, together;
 
   PetscFunctionBegin;
+  PetscCall(SamSolveCanJoin(s, &together));
+  p.close = together ? CLOSE : 0;
   PetscCall(SamSolverGetTolerances(normal, &p.rtol[0], NULL));
   PetscCall(SamSolverGetTolerances(tangential, &p.rtol[1], NULL));
   PetscCall(Start(&p));

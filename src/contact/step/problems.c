@@ -267,9 +267,7 @@ static PetscErrorCode AddStrain(SamGrid grid, const SamStrain *e, Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes w - S of the tangential problem: all displacements but those by the shear, minus the slip so far; NULL:
-   zero. */
-static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
+PetscErrorCode SamSolveCreateOffset(SamSolve *w, Vec *offset)
 {
   const SamStepTask *task = w->task;
   SamStrain          e;
@@ -360,7 +358,7 @@ PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
   Vec        offset;
 
   PetscFunctionBegin;
-  PetscCall(CreateOffset(w, &offset));
+  PetscCall(SamSolveCreateOffset(w, &offset));
   for (PetscInt k = 0; k < 3; k++)
     if (balance.force[k]) balance.rigid[k] = w->rigid[k];
   given = balance;

@@ -45,10 +45,23 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
 PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
+/* SamSolveCreateOffset - creates w - S of the tangential problem: all displacements but those by the shear, minus the
+   slip so far; NULL: zero. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveCreateOffset(SamSolve *solve, Vec *offset);
 /* SamSolveDisplace - gives the tried solution its tangential displacement by shear and pressure. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveDisplace(SamSolve *solve);
 /* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
+
+/*
+  SamSolveTogether - makes a step of Newton's method for both problems of a pass of coupled bodies, whose sets of cells
+  are frozen, to the relative tolerance `rtol` (together.c). w->h must be the separation with the lift by the tried
+  shear. `made`: tractions and products have changed. Collective.
+  SamSolveCanJoin - returns false in `can` where that is not possible: if the bound follows the slip, pressures are
+  limited, or besides the lift a motion has to be found, bodies roll or material streams. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolveCanJoin(SamSolve *solve, PetscBool *can);
+PETSC_INTERN PetscErrorCode SamSolveTogether(SamSolve *solve, PetscReal rtol, PetscBool *made);
 
 /* ---- fixed-point iterations (fixedpoint.c) ---- */
 

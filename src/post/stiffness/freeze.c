@@ -8,6 +8,12 @@
 #include <petsam/private/problemimpl.h>
 #include <petsam/private/solutionimpl.h>
 
+/*
+  Largest resistance of a cell to a turn of the slip. A cell at the contact's edge with hardly any pressure slips far
+  for its bound, and so would resist more; its traction is too small to matter.
+*/
+#define STIFFEST 1e3
+
 static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt components, Vec whole, Vec *field)
 {
   PetscFunctionBegin;
@@ -171,7 +177,7 @@ PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection dire
   PetscCall(SamGridGetSupport(whole, s->pressure, PETSC_FALSE, first, n));
   PetscCall(SamElasticityChoosePart(e, first, n, PETSC_TRUE, &window, &part));
   PetscCall(CreateFields(contact, direction, window, window ? SamWindowGetGrid(window) : whole, fields));
-  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled || count ? PETSC_TRUE : PETSC_FALSE, f));
+  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled || count ? PETSC_TRUE : PETSC_FALSE, STIFFEST, f));
   PetscCall(AddMotions(contact, window, count, conditions, f));
   for (int k = 0; k < SAM_FROZEN_FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
   PetscFunctionReturn(PETSC_SUCCESS);

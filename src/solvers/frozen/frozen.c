@@ -28,11 +28,6 @@
   as none.
 */
 #define STILL 1e-5
-/*
-  Largest resistance of a cell to a turn of the slip, in units of its own influence. A cell at the contact's edge with
-  hardly any pressure slips far for its bound, and so would resist more; its traction is too small to matter.
-*/
-#define STIFFEST 1e3
 
 /* ---- creation ---- */
 
@@ -67,7 +62,7 @@ static void SetReversal(SamFrozen *f, const double bound[])
 }
 
 /* Finds the cells that slip by more than `still` (m), and their stiffness in slip. */
-static void SetSlip(SamFrozen *f, double still, const double *const v[SAM_FROZEN_FIELDS])
+static void SetSlip(SamFrozen *f, double still, double stiffest, const double *const v[SAM_FROZEN_FIELDS])
 {
   const double *const q = v[SAM_FROZEN_SHEAR], *const r = v[SAM_FROZEN_SHEAR] + f->grid->cells;
 
@@ -81,7 +76,7 @@ static void SetSlip(SamFrozen *f, double still, const double *const v[SAM_FROZEN
     f->e[0][m]   = q[k] / size;
     f->e[1][m]   = r[k] / size;
     f->follow[m] = v[SAM_FROZEN_SLOPE][k];
-    f->stiff[m]  = PetscMin(path / b, STIFFEST * f->self[1]);
+    f->stiff[m]  = PetscMin(path / b, stiffest * f->self[1]);
     if (v[SAM_FROZEN_RATE]) f->rate[m] = f->self[1] * v[SAM_FROZEN_RATE][k];
   }
 }
@@ -93,7 +88,7 @@ static void SetYielding(SamFrozen *f, double still, const double overlap[])
     if (overlap[f->cell[m]] > still) f->bears[m] = 0;
 }
 
-static PetscErrorCode PackCells(SamFrozen *f, const Vec from[SAM_FROZEN_FIELDS])
+static PetscErrorCode PackCells(SamFrozen *f, double stiffest, const Vec from[SAM_FROZEN_FIELDS])
 {
   const double *v[SAM_FROZEN_FIELDS] = {NULL};
   PetscReal     most[2];
@@ -108,7 +103,7 @@ static PetscErrorCode PackCells(SamFrozen *f, const Vec from[SAM_FROZEN_FIELDS])
   if (from[SAM_FROZEN_PATH]) {
     PetscCall(VecMax(from[SAM_FROZEN_PRESSURE], NULL, &most[0]));
     PetscCall(VecMax(from[SAM_FROZEN_BOUND], NULL, &most[1]));
-    SetSlip(f, STILL * f->self[1] * (double)most[1], v);
+    SetSlip(f, STILL * f->self[1] * (double)most[1], stiffest, v);
     SetYielding(f, STILL * f->self[0] * (double)most[0], v[SAM_FROZEN_OVERLAP]);
   }
   for (PetscInt k = 0; k < SAM_FROZEN_FIELDS; k++)
@@ -131,14 +126,19 @@ static PetscErrorCode CreateWork(SamFrozen *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFrozenCreate(SamElasticity e, const Vec fields[SAM_FROZEN_FIELDS], PetscBool coupled, SamFrozen *f)
+PetscErrorCode SamFrozenCreate(SamElasticity e, const Vec fields[SAM_FROZEN_FIELDS], PetscBool coupled, double stiffest,
+                               SamFrozen *f)
 {
   PetscFunctionBegin;
-  *f = (SamFrozen){.part = SAM_FROZEN_BOTH, .elasticity = e, .grid = SamElasticityGetGrid(e), .coupled = coupled};
+  *f = (SamFrozen){.part       = SAM_FROZEN_BOTH,
+                   .rtol       = SAM_FROZEN_RTOL,
+                   .elasticity = e,
+                   .grid       = SamElasticityGetGrid(e),
+                   .coupled    = coupled};
   PetscCall(SamElasticityGetSelfInfluence(e, &f->self[0], &f->self[1]));
   PetscCall(SamFrameSet(&f->normal, f->grid, &(SamBalance){.kind = SAM_BALANCE_NORMAL}));
   PetscCall(SamFrameSet(&f->tangential, f->grid, &(SamBalance){.kind = SAM_BALANCE_TANGENTIAL}));
-  PetscCall(PackCells(f, fields));
+  PetscCall(PackCells(f, stiffest, fields));
   PetscCall(CreateWork(f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

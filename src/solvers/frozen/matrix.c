@@ -94,11 +94,16 @@ void SamFrozenMotion(const SamFrozen *f, PetscInt k, SamFrozenPart part, double 
   if (k >= 3 && all > normal) RigidMotion(f, k, values + normal);
 }
 
+void SamFrozenProject(const SamFrozen *f, double values[])
+{
+  if (PressureAt(f) >= 0) Bear(f, values + PressureAt(f));
+  if (ShearAt(f) >= 0) Project(f, PETSC_FALSE, values + ShearAt(f));
+}
+
 void SamFrozenColumn(const SamFrozen *f, PetscInt k, double column[])
 {
   SamFrozenMotion(f, k, f->part, column);
-  if (PressureAt(f) >= 0) Bear(f, column + PressureAt(f));
-  if (ShearAt(f) >= 0) Project(f, PETSC_FALSE, column + ShearAt(f));
+  SamFrozenProject(f, column);
 }
 
 void SamFrozenShear(const SamFrozen *f, const double p[], const double x[], double q[])
@@ -174,6 +179,16 @@ static PetscErrorCode Pack(const SamFrozen *f, PetscInt components, Vec field, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamFrozenPack(const SamFrozen *f, Vec field, double values[])
+{
+  PetscInt size;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(field, &size));
+  PetscCall(Pack(f, size > f->grid->cells ? 2 : 1, field, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamFrozenAddMotion(SamFrozen *f, Vec u_z, Vec u_t)
 {
   double *motion;
@@ -204,16 +219,24 @@ static PetscErrorCode ComputeDisplacements(SamFrozen *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
+PetscErrorCode SamFrozenSetTractions(SamFrozen *f, const double x[], double work[])
 {
   const PetscInt p = PressureAt(f), y = ShearAt(f);
 
   PetscFunctionBegin;
   if (p >= 0) PetscCall(Unpack(f, 1, x + p, f->p));
-  if (y >= 0) { /* Ax provides the memory for the shear */
-    SamFrozenShear(f, p >= 0 ? x + p : NULL, x + y, Ax);
-    PetscCall(Unpack(f, 2, Ax, f->q));
-  }
+  if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  SamFrozenShear(f, p >= 0 ? x + p : NULL, x + y, work);
+  PetscCall(Unpack(f, 2, work, f->q));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
+{
+  const PetscInt p = PressureAt(f), y = ShearAt(f);
+
+  PetscFunctionBegin;
+  PetscCall(SamFrozenSetTractions(f, x, Ax));
   PetscCall(ComputeDisplacements(f));
   if (p >= 0) PetscCall(Pack(f, 1, f->u_z, Ax + p));
   if (p >= 0) Bear(f, Ax + p);
