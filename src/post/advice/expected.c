@@ -74,7 +74,7 @@ PetscErrorCode SamAdviceRefuse(const SamAdvice *a)
   PetscCall(Expect(a, &ratio, text, sizeof(text)));
   PetscCheck(!(ratio > SAM_ADVICE_LARGEST), a->setup->grid->comm, SAM_ERR_USER,
              "the contact of bodies that yield will be far too large for half-space theory and small strains: at the "
-             "largest load, %g %s, its half width %s: give less load, a larger radius, or a higher yield stress",
+             "largest load, %.6g %s, its half width %s: give less load, a larger radius, or a higher yield stress",
              (double)a->most.normal, a->most.force ? SamUnitOn(a->setup->grid, "N") : "m", text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
