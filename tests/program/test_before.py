@@ -100,3 +100,23 @@ def test_maximum_shear_of_a_missed_slip_zone_is_told(petsam, part, cells):
     low = 1 - shear / (mu * 2 * load / (np.pi * half) * np.sqrt(part))
     told = float(re.search(r"maximum shear may be too small by ([\d.]+) %", done.stderr)[1]) / 100
     assert low > 0.4 and told == pytest.approx(low, abs=0.05)
+
+
+@pytest.mark.parametrize("cells, advised", [(40, True), (400, False)])
+def test_stick_zone_far_smaller_than_the_contact_is_advised_no_grid(petsam, cells, advised):
+    """A cylinder of which a hundredth sticks: each finer grid would find a zone of few cells again."""
+    case = dict(STEEL, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.05, gap_radius_y="inf", grid_n=cells)
+    done = petsam(case, dict(grid_size=5e-4, friction=0.5, load_n=1e5, load_tx=0.4999985 * 1e5))
+    said = [line for line in done.complaint if "the stick zone" in line]
+    assert len(said) == 1 and ("-grid_n" in said[0]) == advised
+    assert advised or "of the contact's width: its area, about 0.00" in said[0]
+
+
+def test_width_of_a_ring_that_long_steps_pass_is_advised_no_grid(petsam):
+    """Steel on aluminium, pressed in few steps: the width of the ring of slip follows from more of them."""
+    case = dict(STEEL, body2_young=70e9, body2_poisson=0.1, gap_type="sphere", gap_radius2="inf")
+    more = dict(gap_radius1=0.02283885631132319, grid_n=22, grid_size=0.0007250575713378503, friction=0.8)
+    done = petsam(case, more, dict(load_n=65.26546766897161, load_tx=0.0, steps=3))
+    (said,) = [line for line in done.complaint if "in a ring 0." in line]
+    assert said.endswith("first let the load grow in more steps, after which its width is known")
+    assert "let the load grow in about" in done.stderr

@@ -13,7 +13,8 @@
 typedef struct _n_SamOutput *SamOutput;
 
 /* SamOutputSettings - the settings of a results file. */
-#define SAM_OUTPUT_NAME 48 /* characters of a field's name */
+#define SAM_OUTPUT_NAME   48                                 /* characters of a field's name */
+#define SAM_OUTPUT_NEEDED "output, the file that it goes to" /* by options of the file */
 typedef struct {
   char        names[SAM_STATE_MOST][SAM_OUTPUT_NAME]; /* names of the fields to be saved */
   PetscInt    count;                                  /* number of these names; negative: the default fields */

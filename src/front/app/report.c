@@ -261,7 +261,8 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
     PetscCall(KeepEdges(r, contact));
     PetscCall(KeepEnergy(r, contact, step));
   }
-  if (!SamStepIsSolved(step)) r->energy[1] = -INFINITY; /* no energy is reported for a failed run */
+  /* No energy is reported for a run that failed, or that ended at the edge of the grid. */
+  if (step->status != SAM_STATUS_CONVERGED) r->energy[1] = -INFINITY;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

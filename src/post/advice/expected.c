@@ -6,6 +6,7 @@
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/gap.h>
 #include <petsam/private/control.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/law.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/parameters.h>
@@ -74,7 +75,7 @@ PetscErrorCode SamAdviceRefuse(const SamAdvice *a)
   PetscCall(Expect(a, &ratio, text, sizeof(text)));
   PetscCheck(!(ratio > SAM_ADVICE_LARGEST), a->setup->grid->comm, SAM_ERR_USER,
              "the contact of bodies that yield will be far too large for half-space theory and small strains: at the "
-             "largest load, %g %s, its half width %s: give less load, a larger radius, or a higher yield stress",
+             "largest load, %.6g %s, its half width %s: give less load, a larger radius, or a higher yield stress",
              (double)a->most.normal, a->most.force ? SamUnitOn(a->setup->grid, "N") : "m", text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -123,6 +124,23 @@ static void TellLength(SamAdvice *a, const char name[], double length, double mo
                  name, length, ratio, width, most);
 }
 
+/* Collects the values of the bodies, the laws and the gap by the names of their options. */
+static PetscErrorCode Collect(const SamSetup *s, SamParameters *p)
+{
+  const SamLaw      *laws;
+  const char *const *names;
+  const PetscReal   *values;
+  PetscInt           count;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityAddParameters(s->elasticity, p));
+  PetscCall(SamProblemGetLaws(s->problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++) PetscCall(SamLawAddParameters(laws[k], p));
+  PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
+  for (PetscInt k = 0; k < count; k++) PetscCall(SamParametersAddReals(p, names[k], PETSC_TRUE, 1, &values[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Advises on lengths that are too large for the grid in the same unit. */
 void SamAdviceLengths(SamAdvice *a)
 {
@@ -130,7 +148,7 @@ void SamAdviceLengths(SamAdvice *a)
   double        least  = INFINITY;
   SamParameters p      = {.count = 0};
 
-  if (!a->error) a->error = SamSetupAddParameters(a->setup, &p);
+  if (!a->error) a->error = Collect(a->setup, &p);
   for (PetscInt k = 0; !a->error && k < p.count; k++) {
     const SamParameter *one  = &p.list[k];
     const double        size = fabs((double)one->value[0]);

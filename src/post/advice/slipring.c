@@ -134,6 +134,12 @@ static double WidthOf(const SamRing *ring)
   return PetscMax(ring->width / ring->energy, NARROW);
 }
 
+/* Returns the part of the ring's width that the contact's edge passes in a step. */
+static double MovesOf(const SamRing *ring)
+{
+  return ring->moves / PetscMax(ring->width, NARROW * ring->energy);
+}
+
 static void Cells(SamAdvice *a)
 {
   const SamRing *ring  = &a->slip.ring;
@@ -141,7 +147,11 @@ static void Cells(SamAdvice *a)
   char           better[SAM_ADVICE_GRIDS], wrong[48] = "is not resolved";
 
   if (error <= ALLOWED) return;
-  SamAdviceGrids(a, PetscMax(WIDE / WidthOf(ring), LEAST), better);
+  /* The width that long steps find is not that of the ring. */
+  if (MovesOf(ring) > PASSES)
+    (void)snprintf(better, sizeof(better), ": first let the load grow in more steps, after which its width is known");
+  else
+    SamAdviceGrids(a, PetscMax(WIDE / WidthOf(ring), LEAST), better);
   if (error < UNKNOWN) (void)snprintf(wrong, sizeof(wrong), "may be wrong by %.0f %%", 100 * error);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
                "elastically dissimilar bodies slip at the edge of the growing contact, in a ring %.2g times as wide as "
@@ -152,7 +162,7 @@ static void Cells(SamAdvice *a)
 static void Steps(SamAdvice *a)
 {
   const SamRing *ring  = &a->slip.ring;
-  const double   moves = ring->moves / PetscMax(ring->width, NARROW * ring->energy);
+  const double   moves = MovesOf(ring);
 
   if (moves <= PASSES) return;
   SamAdviceSay(

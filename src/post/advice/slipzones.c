@@ -71,6 +71,7 @@
 #define MISSED   0.1  /* part of the energy in closed form below which the cells miss the zone */
 #define LARGE    0.07 /* that error, relative to the slip, above which a warning is given */
 #define LINE     0.36 /* m in plane strain */
+#define SPECK    0.01 /* width of a stick zone, relative to the contact's, below which no grid is advised for it */
 #define STUCK    7    /* cells across a stick zone whose area has an error below 5 % */
 #define STRAY    0.1  /* part of the sticking cells, in the narrowest zones, that is ignored */
 #define HIGHER   0.9  /* shear of a narrow zone, relative to the largest found, above which it may be larger */
@@ -480,10 +481,18 @@ PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
 
 void SamAdviceStick(SamAdvice *a, PetscReal least)
 {
-  const double across = (double)a->slip.across;
-  char         better[SAM_ADVICE_GRIDS], size[32] = "less than a cell";
+  const double across = (double)a->slip.across, part = PetscMax(across, 1) / (double)a->extent.across;
+  char         better[SAM_ADVICE_GRIDS], size[32]    = "less than a cell";
 
   if (!(across < least) || !(a->extent.across > 2 * STUCK)) return;
+  if (part < SPECK) {
+    SamAdviceSay(
+      a, "",
+      "the stick zone of the last step is %.1g of the contact's width: its area, about %.1g of the contact's, "
+      "is not resolved, and no usual grid does it",
+      part, SamGridIsRow(a->setup->grid) ? part : part * part);
+    return;
+  }
   if (across >= 0.95) (void)snprintf(size, sizeof(size), across < 1.05 ? "%.2g cell" : "%.2g cells", across);
   SamAdviceGrids(a, least / PetscMax(across, 1), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
@@ -540,12 +549,13 @@ static void LastSlip(SamAdvice *a)
 {
   const SamSlip *slip   = &a->slip;
   const double   square = (double)(slip->width * slip->width), change = fabs(slip->turned - slip->slipped);
-  const double   error = RETURNS * change / (slip->slipped * (square + 0.25)),
-               edge    = SamGridIsRow(a->setup->grid) ? 2 : 1;
+  const double   part = RETURNS * change / slip->slipped, error = part / (square + 0.25),
+               edge = SamGridIsRow(a->setup->grid) ? 2 : 1;
   char better[SAM_ADVICE_GRIDS];
 
   if (!(slip->turned > 0 && slip->slipped > 0 && slip->width > 0 && slip->widest >= PEAKED && error > LARGE)) return;
-  SamAdviceGrids(a, PetscMax(sqrt(2 * error / LARGE), LEAST), better);
+  /* on that grid the error is half of the largest that is allowed */
+  SamAdviceGrids(a, PetscMax(sqrt(PetscMax(2 * part / LARGE - 0.25, 0) / square), LEAST), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
                "the slip zone since the last load reversal is %.2g times as wide as a cell: the maximum slip may be "
                "wrong by %.0f %%%s",

@@ -43,13 +43,12 @@ static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *f
 }
 
 #define MEMBER(name) offsetof(SamOutputSettings, name)
-#define FILE_NEEDED  "output, the file that it goes to"
 static const SamOptionRow rows[] = {{"output_compress", "level of compression of the fields, 0 (none) to 9",
-                                     SAM_OPTION_INT, MEMBER(compress), .needs = FILE_NEEDED, .most = 9},
+                                     SAM_OPTION_INT, MEMBER(compress), .needs = SAM_OUTPUT_NEEDED, .most = 9},
                                     {"output_chunk", "most cells of a chunk of the file in x[,y]", SAM_OPTION_INT,
-                                     MEMBER(chunk), .needs = FILE_NEEDED, .least = 1, .size = 2},
+                                     MEMBER(chunk), .needs = SAM_OUTPUT_NEEDED, .least = 1, .size = 2},
                                     {"output_single", "fields in single precision: files of half the size",
-                                     SAM_OPTION_BOOL, MEMBER(single), .needs = FILE_NEEDED}};
+                                     SAM_OPTION_BOOL, MEMBER(single), .needs = SAM_OUTPUT_NEEDED}};
 
 PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const SamOptions *from)
 {

@@ -83,22 +83,21 @@ static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOption
 }
 
 #define MEMBER(name) offsetof(struct _n_SamSimulation, name)
-#define FILE_NEEDED  "output, the file that it goes to"
 static const SamOptionRow results[] =
   {{"output", "HDF5 file of the results", SAM_OPTION_OUTPUT, MEMBER(filename), .size = PETSC_MAX_PATH_LEN},
    {"output_every", "write the fields of every m-th step, and of the last", SAM_OPTION_INT, MEMBER(output_every),
-    .needs = FILE_NEEDED, .least = 1},
+    .needs = SAM_OUTPUT_NEEDED, .least = 1},
    {"output_at", "what -output_every counts: all steps, or those at rows of the history", SAM_OPTION_BOOL,
-    MEMBER(output_rows), .needs = FILE_NEEDED, .words = "steps,history"},
+    MEMBER(output_rows), .needs = SAM_OUTPUT_NEEDED, .words = "steps,history"},
    {"stiffness", "tangent stiffness of every step, for continued loading and reversal", SAM_OPTION_BOOL,
-    MEMBER(needs.stiffness), .needs = FILE_NEEDED}},
+    MEMBER(needs.stiffness), .needs = SAM_OUTPUT_NEEDED}},
                           flush = {"output_flush",
                                    "longest write delay () of steps without fields, 0: none",
                                    SAM_OPTION_REAL,
                                    MEMBER(output_settings.flush),
                                    .range = SAM_RANGE_NONNEGATIVE,
                                    .unit  = "s",
-                                   .needs = FILE_NEEDED};
+                                   .needs = SAM_OUTPUT_NEEDED};
 
 static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
 {

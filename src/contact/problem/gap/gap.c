@@ -419,7 +419,7 @@ PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, 
 
   PetscFunctionBegin;
   *half  = 0;
-  *known = gap->ops.contact && !gap->rough.file[0];
+  *known = !gap->rough.file[0] && gap->ops.contact;
   if (*known && LineForce(gap, high) <= PetscMax(value, 0)) *half = INFINITY;
   *known = *known && value > 0;
   if (!*known || isinf(*half)) PetscFunctionReturn(PETSC_SUCCESS);
