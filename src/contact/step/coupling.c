@@ -68,7 +68,8 @@
    sets of cells still change, for less than LATER of it. */
 #define PAYS  0.5
 #define LATER 0.1
-/* Error below which the slip's direction is found, in units of the tolerance of the shear */
+/* Error below which the slip's direction is found, in units of the tolerance of the shear; SAM_ROUGH where the motion
+   until cells touch follows from the same shear, and need not settle */
 #define DIRECTION 2000
 
 typedef struct {
@@ -347,7 +348,7 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
   if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Compare(p, pass, &solved));
   *end = solved ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
-  if (p->rough && !p->slides && !p->stuck && p->error <= DIRECTION * p->rtol[1]) {
+  if (p->rough && !p->slides && !p->stuck && p->error <= (p->s->touching ? SAM_ROUGH : DIRECTION) * p->rtol[1]) {
     PetscCall(FindDirection(p));
     *end = SAM_PASS_RESTARTS;
   }
