@@ -424,7 +424,10 @@ TWIN = dict(POLYMER, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.02
 
 @pytest.mark.parametrize("cells, steps, printed", [(161, 10, 0.15), (161, 160, 0.05), (321, 20, 0.1), (81, 80, 0.15)])
 def test_energy_of_a_thin_slip_ring_has_an_error_by_the_cells(petsam, cells, steps, printed):
-    """In a ring of 1.6 cells 0.4 % was printed for an error of 24 %, in one of 6 cells 11 % for 17 %."""
+    """In a ring of 1.6 cells 0.4 % was printed for an error of 24 %, in one of 6 cells 11 % for 17 %.
+
+    A grid is proposed where the steps do not pass the ring; else they come first.
+    """
     done = petsam(TWIN, dict(grid_n=cells, load_n=2e4, load_tx=0.4 * 0.6 * 2e4, steps=steps))
     found = re.search(r"(\S+) J/m dissipated, .* load steps about (\S+) %, by the cells about (\S+) %", done.stdout)
     energy, error = float(found[1]), (float(found[2]) + float(found[3])) / 100
@@ -433,7 +436,9 @@ def test_energy_of_a_thin_slip_ring_has_an_error_by_the_cells(petsam, cells, ste
     assert true / 2 < error < 2 * true
     told = [line for line in done.complaint if "in a ring" in line and "as wide as a cell" in line]
     assert bool(told) == (cells < 300)
-    assert not told or 1.3 < int(re.search(r"-grid_n (\d+)", told[0])[1]) / cells < 5
+    grid = re.search(r"-grid_n (\d+)", told[0]) if told else None
+    assert bool(grid) == (bool(told) and steps > 10)
+    assert not grid or 1.3 < int(grid[1]) / cells < 5
 
 
 def test_steps_in_which_the_edge_passes_the_slip_ring_are_told(petsam):
