@@ -464,6 +464,36 @@ static void test_copy_from_another_grid_is_refused(void **state)
   DestroyMemory(&other);
 }
 
+/* A step must not depend on a number that a restart lacks; a rejected step, a copy and a commit still have it. */
+static void test_tries_do_not_see_what_checkpoints_lack(void **state)
+{
+  Memory m = NewMemory(), other = NewMemory();
+
+  (void)state;
+  sam_call(SamStateBegin(m.state));
+  *SamStateNumbers(m.state, m.real, SAM_TRIED) = 5;
+  *SamStateNumbers(m.state, m.kept, SAM_TRIED) = 6;
+  sam_call(SamStateCommit(m.state));
+  sam_assert(*SamStateNumbers(m.state, m.real, SAM_COMMITTED) == 5);
+  for (int k = 0; k < 2; k++) {
+    sam_call(SamStateBegin(m.state));
+    sam_assert(isnan(*SamStateNumbers(m.state, m.real, SAM_COMMITTED)));
+    sam_assert(*SamStateNumbers(m.state, m.kept, SAM_COMMITTED) == 6);
+    sam_call(SamStateCopy(m.state, other.state));
+    sam_assert(*SamStateNumbers(other.state, other.real, SAM_COMMITTED) == 5);
+    sam_assert(isnan(*SamStateNumbers(m.state, m.real, SAM_COMMITTED)));
+    if (k) continue; /* a try that begins anew rejects the one before */
+    sam_call(SamStateReject(m.state));
+    sam_assert(*SamStateNumbers(m.state, m.real, SAM_COMMITTED) == 5);
+  }
+  *SamStateNumbers(m.state, m.real, SAM_TRIED) = 7;
+  sam_call(SamStateCommit(m.state));
+  sam_assert(*SamStateNumbers(m.state, m.real, SAM_COMMITTED) == 7);
+  sam_assert(*SamStateNumbers(m.state, m.real, SAM_BEFORE) == 5);
+  DestroyMemory(&m);
+  DestroyMemory(&other);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -483,6 +513,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_copy_goes_by_name),
     cmocka_unit_test(test_copy_of_a_field_that_is_not_declared_is_refused),
     cmocka_unit_test(test_copy_from_another_grid_is_refused),
+    cmocka_unit_test(test_tries_do_not_see_what_checkpoints_lack),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
