@@ -68,8 +68,9 @@
    sets of cells still change, for less than LATER of it. */
 #define PAYS  0.5
 #define LATER 0.1
-/* Error below which the slip's direction is found, in units of the tolerance of the shear; SAM_ROUGH where the motion
-   until cells touch follows from the same shear, and need not settle */
+/* Error below which the slip's direction is found, in units of the tolerance of the shear and of the part of the shear
+   that the step changes, as the error is relative to all of it. It is SAM_ROUGH at least, and where the motion until
+   cells touch follows from the same shear, which need not settle. */
 #define DIRECTION 2000
 
 typedef struct {
@@ -283,6 +284,28 @@ static PetscErrorCode FindDirection(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Finds out if the error is small enough for the slip's direction to be found by the shear so far. */
+static PetscErrorCode IsClose(const Passes *p, PetscBool *is)
+{
+  const SamSolution *const before  = p->s->task->before;
+  PetscReal                allowed = SAM_ROUGH, change = 1, size = 1;
+  Vec                      shear;
+
+  PetscFunctionBegin;
+  if (!p->s->touching && p->error <= DIRECTION * p->rtol[1]) {
+    if (before) {
+      PetscCall(VecDuplicate(before->shear, &shear));
+      PetscCall(VecWAXPY(shear, -1, before->shear, p->s->s->shear));
+      PetscCall(SamGridNorm(p->s->task->grid, shear, NORM_2, &change));
+      PetscCall(SamGridNorm(p->s->task->grid, p->s->s->shear, NORM_2, &size));
+      PetscCall(VecDestroy(&shear));
+    }
+    if (size > 0) allowed = PetscMax(allowed, DIRECTION * PetscMin(change / size, 1));
+  }
+  *is = p->error <= allowed * p->rtol[1] ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* True if the sets of cells may be those of the solution, and the passes so far have been slow. */
 static PetscBool IsSlow(const Passes *p, PetscInt pass)
 {
@@ -338,7 +361,7 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
 {
   Passes *const  p      = (Passes *)context;
   SamStep *const step   = p->s->step;
-  PetscBool      solved = PETSC_FALSE;
+  PetscBool      solved = PETSC_FALSE, close = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(Solve(p, pass));
@@ -348,7 +371,8 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
   if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Compare(p, pass, &solved));
   *end = solved ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
-  if (p->rough && !p->slides && !p->stuck && p->error <= (p->s->touching ? SAM_ROUGH : DIRECTION) * p->rtol[1]) {
+  if (p->rough && !p->slides && !p->stuck) PetscCall(IsClose(p, &close));
+  if (close) {
     PetscCall(FindDirection(p));
     *end = SAM_PASS_RESTARTS;
   }
