@@ -2,6 +2,7 @@
 
 import codecs
 import os
+import re
 import stat
 
 from .errors import FILE, Error, MissingFile
@@ -44,6 +45,11 @@ def decoded(data):
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
         return data.decode("latin-1")
+
+
+def lines_of(text):
+    """Returns the lines of a text; those of `splitlines` end at letters, too: at the dots of "1 ... 9" in Latin-1."""
+    return re.split(r"\r\n|\r|\n", text)
 
 
 def text_of(path):

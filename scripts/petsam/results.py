@@ -258,6 +258,9 @@ class Results(Datafile):
         if self.before < 0:
             raise ValueError(f"it begins after step {self.before}")
         self._complete = min((values.size for values in self.history.values()), default=0)
+        longer = next((name for name, values in self.history.items() if values.size > self._complete), None)
+        if longer and self.parameters.get("closed", 1):
+            raise ValueError(f"/history/{longer} has {self.history[longer].size} values, and others {self._complete}")
         self.steps = [self.before + _row_of(self.history["time"], saved) + 1 for saved in self.times]
         attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
         self._fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
@@ -337,7 +340,9 @@ class Results(Datafile):
 
     def to_dataframe(self):
         """The history as a table of pandas with the time (s) as its index."""
-        return _library("pandas").DataFrame(dict(self.history)).set_index("time")
+        complete = min(values.size for values in self.history.values())  # of a file that is being written
+        columns = {name: values[:complete] for name, values in self.history.items()}
+        return _library("pandas").DataFrame(columns).set_index("time")
 
     def to_xarray(self):
         """The fields as a Dataset of xarray, with the coordinates time (s), y and x (m), units and texts."""

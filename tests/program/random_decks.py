@@ -128,7 +128,7 @@ class Deck:
         """Writes the file, perhaps as two; returns its words."""
         end = self.chance.choice(("\n", "\r\n"))
         lines = self.lines
-        if self.chance.random() < 0.3:
+        if len(lines) > 2 and self.chance.random() < 0.3:
             cut = self.chance.randrange(2, len(lines))
             self._text("rest.txt", end.join(lines[cut:]) + end)
             lines = [*lines[:cut], "*INCLUDE, INPUT=rest.txt"] if not lines[cut - 1].endswith(",") else lines

@@ -707,7 +707,7 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
         (("--preload", "B=0.02", "--contact", "none.opts"), "none.opts", 3),
         (("--preload", "B=0.02", "--preload", "B=0.01"), "--preload: a bolt is given twice", 2),
         (("--preload", "B=0.02", "--amplitudes", "1mm:2mm,3mm:3"), "1mm:2mm,3mm:3: expected FIRST:LAST:COUNT", 2),
-        (("--preload", "B=0"), "does not resist them: give it friction and preload", 2),
+        (("--preload", "B=0"), "the bodies do not touch, load_n = 0 N, limit above 0: use a higher preload", 2),
         (("--preload", "B=0.02", "--damping", "nan"), "damping nan: expected a part of critical damping", 2),
     ],
 )

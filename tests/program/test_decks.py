@@ -1,6 +1,7 @@
 """Decks as programs and hands write them: encodings, cards that change a body, damage, units."""
 
 import os
+import re
 
 import numpy as np
 import pytest
@@ -52,6 +53,16 @@ def test_names_that_differ_in_one_letter_are_two(tmp_path, encoding, one, other)
     (tmp_path / "a.inp").write_bytes(text.encode(encoding))
     sets = deck.read(str(tmp_path / "a.inp")).mesh.node_sets
     assert [deck.need_set(sets, name, "node set", "a.inp").tolist() for name in (one, other)] == [[0], [1]]
+
+
+def test_letters_beyond_ascii_end_no_line(tmp_path):
+    """The dots of cp1252, where they end a line in Latin-1, and the line separator of Unicode, in comments."""
+    text = BRICK.replace("1, 2, 3, 4\n", "1, 2\n** once 1, 2\x85 4, 5\n3, 4\n")
+    for encoding, letter in (("latin-1", "\x85"), ("utf-8", "\u2028"), ("utf-8", "\x0c")):
+        (tmp_path / "a.inp").write_bytes(text.replace("\x85", letter).encode(encoding))
+        assert deck.read(str(tmp_path / "a.inp")).mesh.node_sets["LOW"].tolist() == [0, 1, 2, 3]
+    (tmp_path / "a.inp").write_text(BRICK, newline="\r")
+    assert len(deck.read(str(tmp_path / "a.inp")).mesh.nodes) == 8
 
 
 def test_bytes_of_zero_are_no_deck(tmp_path):
@@ -117,6 +128,20 @@ def test_parameters_that_change_a_body_are_rejected(tmp_path, old, new, says):
     refused(tmp_path / "a.inp", BRICK.replace(old, new, 1), says)
 
 
+@pytest.mark.parametrize(
+    "old, new, says",
+    [
+        ("NAME=Low, PART=Bar", "NAME=Low, PART=Bar, LIBRARY=job", "LIBRARY of *INSTANCE is not supported: remove"),
+        ("NAME=Low, PART=Bar", "NAME=Low, PRAT=Bar", "PRAT of *INSTANCE is not supported: is PART meant?"),
+        ("*PART, NAME=Bar", "*PART, NAME=Bar, INPUT=x", "INPUT of *PART is not supported: name the file by"),
+    ],
+)
+def test_parameters_of_parts_and_instances_are_rejected(tmp_path, old, new, says):
+    text = re.sub(re.escape(old), new, PARTS, count=1, flags=re.IGNORECASE)
+    assert text != PARTS
+    refused(tmp_path / "a.inp", text, says)
+
+
 def test_cards_without_effect_are_passed_over(tmp_path):
     more = "".join(f"*{name}\n" for name in sorted(keywords.IGNORED)) + "*STEP\n*STATIC\n*OUTPUT, FIELD\n*END STEP\n"
     assert len(read_text(tmp_path / "a.inp", BRICK + more).mesh.nodes) == 8
@@ -178,6 +203,7 @@ def test_supports_that_make_no_sense_are_rejected_by_file_and_line(compliance, t
         ("BODY, S2", "BODY, S7", "a.inp:19: S7: element 1 of type C3D8 has the faces 1 to 6"),
         ("BODY, S2", "2, S2", "a.inp:19: *SURFACE: no element 2 in the deck"),
         ("1, 2, 3, 4\n", "1, 2, 3, 44\n", "a.inp:17: *NSET: no node 44 in the deck"),
+        ("1, 2, 3, 4\n", "1, 2, 3, -4\n", "a.inp:17: *NSET: no node -4 in the deck"),
         ("1, 2, 3, 4\n", "1, 2, 3, BOTH\n", "a.inp:17: *NSET: no node set BOTH above this line"),
         ("210e3, 0.3", "210e3, 0.6", "a.inp:14: E = 210000, nu = 0.6"),
         ("*NODE, NSET=ALL\n", "1, 0., 0., 0.\n*NODE, NSET=ALL\n", "a.inp:1: 1, 0., 0., 0. stands before the first"),
@@ -270,6 +296,21 @@ def test_decks_that_include_each_other_are_rejected(tmp_path):
     (tmp_path / "c8.inp").write_text("*HEADING\n")
     refused(tmp_path / "d.inp", "*INCLUDE, INPUT=c0.inp\n", "limits 10 files deep, 1000 in all")
     refused(tmp_path / "e.inp", "*INCLUDE, INPUT=none.inp\n", "e.inp:1: *INCLUDE: ")
+
+
+def test_included_files_are_beside_the_first_file_or_the_including_one(tmp_path):
+    """Those of one name in both places may be two decks."""
+    for folder in ("one", "two"):
+        (tmp_path / folder / "parts").mkdir(parents=True)
+        (tmp_path / folder / "parts/a.inp").write_text("*INCLUDE, INPUT=parts/b.inp\n" * (folder == "one"))
+    (tmp_path / "one/parts/b.inp").write_text(BRICK)
+    assert len(read_text(tmp_path / "one/a.inp", "*INCLUDE, INPUT=parts/a.inp\n").mesh.nodes) == 8
+    (tmp_path / "two/parts/a.inp").write_text("*INCLUDE, INPUT=b.inp\n")
+    (tmp_path / "two/parts/b.inp").write_text(BRICK)
+    assert len(read_text(tmp_path / "two/a.inp", "*INCLUDE, INPUT=parts/a.inp\n").mesh.nodes) == 8
+    (tmp_path / "two/b.inp").write_text(BRICK.replace("210e3", "70e3"))
+    said = refused(tmp_path / "two/a.inp", "*INCLUDE, INPUT=parts/a.inp\n", "both exist: rename one, or give")
+    assert "parts/a.inp:1: *INCLUDE: " in said
 
 
 def test_an_included_file_may_hold_data_lines(tmp_path):

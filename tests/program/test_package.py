@@ -173,7 +173,20 @@ def forget_steps(file):
         file[name].attrs["units"] = units
 
 
+def shorten(name, count):
+    """Leave so many values of a column of the history."""
+
+    def change(file):
+        values, units = file[name][:count], file[name].attrs["units"]
+        replace(name, values)(file)
+        file[name].attrs["units"] = units
+
+    return change
+
+
 CHANGES = {
+    "no values of a column": shorten("history/load_n", 0),
+    "fewer values of the time": shorten("history/time", 1),
     "x is a group": lambda file: (file.pop("x"), file.create_group("x")),
     "x is a number": replace("x", 1.0),
     "no friction": lambda file: file.attrs.pop("friction"),

@@ -151,7 +151,8 @@ def beside(rows, columns, values=H):
     beside(None, np.arange(12)), beside(np.arange(16), None), beside(0.25 * np.arange(16), 0.25 * np.arange(12)),
     beside(None, 3.0 - np.arange(12)), beside(None, np.round(np.arange(12) / 3, 2)), beside(None, np.arange(12))[::-1],
     beside(np.arange(16), np.arange(12), np.add.outer(np.arange(16), np.arange(12)) * 1e-3),
-], ids=["row", "column", "both", "falling", "rounded", "last", "of a plane"])  # fmt: skip
+    beside(1.2 ** np.arange(16) * 9, None), beside(None, np.cumsum(np.random.default_rng(4).uniform(1, 3, 12)) - 40),
+], ids=["row", "column", "both", "falling", "rounded", "last", "of a plane", "growing", "uneven"])  # fmt: skip
 def test_positions_are_no_heights(surface, tmp_path, values):
     text(tmp_path / "z.csv", values, separator=",")
     np.save(tmp_path / "z.npy", values)
@@ -191,6 +192,34 @@ def test_offsets_of_rows_are_told_and_removed(surface, tmp_path, kind):
     assert np.std(left - left.mean()) < 0.2 * np.std(smooth()) + 1e-9 or np.std(left) < 0.5
     np.save(tmp_path / "z.npy", smooth())
     surface("z.npy", *know)
+
+
+@pytest.mark.parametrize("value, count", [(-99.0, 3), (0.0, 200), (40.0, 80)])
+def test_a_value_of_many_points_apart_from_all_others_is_told(surface, tmp_path, value, count):
+    values = smooth() + 20.0
+    values.flat[np.random.default_rng(6).choice(values.size, count, replace=False)] = value
+    np.save(tmp_path / "z.npy", values)
+    know = [*UM, "--size", "1mm", "--no-picture"]
+    surface("z.npy", *know, warnings=True)
+    assert f"{count} points of 4096 all lie at {value:g}" in surface.complaint
+    surface("z.npy", *know, "--missing", value, "--fill", "nearest")
+
+
+@pytest.mark.parametrize("values, cure", [(H.T, "--transpose"), (H[:-1], "add the row"), (H[:, 1:], "add the column")])
+def test_cells_that_would_be_square_are_told(surface, tmp_path, values, cure):
+    np.save(tmp_path / "z.npy", values)
+    surface("z.npy", *KNOWS, "--no-picture", warnings=True)
+    assert cure in surface.complaint
+    surface("z.npy", *UM, "--pixel", "0.1mm,0.12mm", "--no-picture")
+
+
+def test_an_empty_line_between_rows_is_told(surface, tmp_path):
+    rows = [" ".join(f"{value:.4f}" for value in row) for row in H]
+    (tmp_path / "z.txt").write_text("\n".join([*rows[:8], "", *rows[8:]]) + "\n\n")
+    surface("z.txt", *KNOWS, "--no-picture", warnings=True)
+    assert "line 9 is empty: if it ends a map" in surface.complaint
+    (tmp_path / "z.txt").write_text("\n\n".join(rows))
+    surface("z.txt", *KNOWS, "--no-picture")
 
 
 def test_an_outlier_is_told(surface, tmp_path):

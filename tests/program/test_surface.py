@@ -42,6 +42,7 @@ def surface(tmp_path, monkeypatch, capfd):
         except SystemExit as end:  # of argparse
             code = end.code
         out, err = capfd.readouterr()
+        run.complaint = err
         assert code == check, out + err
         assert check or warnings is None or bool(err) == warnings, err
         if check:

@@ -23,6 +23,8 @@ def instance_names(cards):
 
 def label_of(number, names):
     """A label of the flat deck as it is written: 5, or INSTANCE.5; names: of the instances."""
+    if number < 0:
+        return str(number)
     place, own = divmod(number, LABELS)
     return f"{short(names[place])}.{own}" if 0 <= place < len(names) else str(own)
 

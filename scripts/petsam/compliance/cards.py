@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import Error, short
-from ..files import text_of
+from ..files import lines_of, text_of
 
 DEPTH = 10  # depth of files that include files
 FILES = 1000  # number of included files
@@ -73,7 +73,7 @@ class Cards:
 
     def _read(self, path, text, outer):
         """Reads the text of a file, which the files `outer` include."""
-        lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)]
+        lines = [(number, line.strip()) for number, line in enumerate(lines_of(text), 1)]
         lines = iter([(number, line) for number, line in lines if line and not line.startswith("**")])
         for number, line in lines:
             if line.startswith("*"):
@@ -124,8 +124,8 @@ class Cards:
         if len(card.parameters) > 1:
             other = next(name for name in card.parameters if name != "INPUT")
             raise Error(f"{card.place}: {short(other)} of *INCLUDE is not supported: remove it")
-        inner = os.path.join(os.path.dirname(path), card.need("INPUT"))
         chain = [*outer, path]
+        inner = _found(card, chain)
         self.files += 1
         try:
             if os.path.realpath(inner) in map(os.path.realpath, chain):
@@ -137,6 +137,17 @@ class Cards:
             text = str(error) if isinstance(error, Error) else f"{inner}: {error.strerror or error}"
             raise Error(f"{card.place}: *INCLUDE: {text}") from error
         self._read(inner, text, chain)
+
+
+def _found(card, chain):
+    """The file that a card *INCLUDE of the last of these files names: beside this file, or beside the first one, which
+    is where Abaqus and CalculiX look for it; raises Error if both places have one."""
+    inner, first = (os.path.join(os.path.dirname(path), card.need("INPUT")) for path in (chain[-1], chain[0]))
+    if not os.path.exists(first):
+        return inner
+    if os.path.exists(inner) and not os.path.samefile(inner, first):
+        raise Error(f"{card.place}: *INCLUDE: {inner} and {first} both exist: rename one, or give its whole path")
+    return first
 
 
 def read_cards(path):

@@ -9,7 +9,7 @@ from ..errors import Error, short, there_are
 from . import sound
 from .assembly import flat, instance_names, label_of
 from .cards import folded, number_of, read_cards, trimmed
-from .keywords import IGNORED, IN_STEPS, LOADS, READ, known, need_supported
+from .keywords import IGNORED, IN_STEPS, LOADS, READ, known, need_parameters, need_supported
 from .mesh import Block, Mesh
 from .shapes import KINDS, SHAPES
 
@@ -48,6 +48,8 @@ class Reader:
         cards = read_cards(path)
         for card in cards:
             card.name = known(card)
+            if card.name in ("PART", "INSTANCE"):  # which the flat deck has no more
+                need_parameters(card)
         self.instances = instance_names(cards)
         cards = flat(cards)
         for card in cards:

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from ..errors import Error, short
-from ..files import text_of
+from ..files import lines_of, text_of
 from . import checks
 from .basis import Patch
 from .halfspace import projected
@@ -76,7 +76,7 @@ def _abaqus(text, path):
 def _nastran(text, path):
     """The same of DMIG KAAX, fields of 8 or 16 characters or separated by commas."""
     entries, column = {}, None
-    for line in text.splitlines():
+    for line in lines_of(text):
         long = "*" in line[:8]
         fields = (
             line.split(",")
@@ -109,7 +109,7 @@ def _nastran(text, path):
 def read_nodes(path):
     """{number: x} of a table."""
     nodes = {}
-    for number, line in enumerate(text_of(path).splitlines(), 1):
+    for number, line in enumerate(lines_of(text_of(path)), 1):
         line = re.split(r"[#!]|\*\*", line)[0]
         words = line.replace(",", " ").split()
         if not words:

@@ -9,6 +9,9 @@ NARROW = 6  # columns of a list of points: x, y, z, and up to three more
 LIST = 9  # rows from which on an array of so few columns is a list in any case
 STEPS = 0.1  # deviation of the steps of positions from their mean: they are printed with few digits
 FEWEST = 5  # positions that are recognized
+JUMP = 3.0  # of a first column of uneven positions from the next: over that between the next two, rms
+REPEATED = 3  # times from which on a value that lies apart from all others may be that of missing points
+SQUARE = 1e-6  # deviation of the ratio of the widths of square cells from 1
 GRID = 8  # points along x and y from which on offsets of rows and outliers are looked for
 WHITE = 1.0  # mean square of successive differences over the variance: 2 of offsets by chance, near 0 of a form
 APART = 1.0  # rms of the steps from row to row over the rms of what else changes there
@@ -72,7 +75,17 @@ def _positions(values):
     """Whether the first row is even and no continuation of the next two rows, as that of a tilted plane is."""
     first, second, third = (row[1:] for row in values[:3])  # the corner may hold anything
     step = _even(first)
-    return bool(step and not abs(step - 2 * _slope(second) + _slope(third)) <= 0.5 * abs(step))
+    return bool(step and not abs(step - 2 * _slope(second) + _slope(third)) <= 0.5 * abs(step)) or _uneven(values)
+
+
+def _uneven(values):
+    """Whether the first row alone rises or falls throughout, and lies apart from the next two: uneven positions."""
+    first, second, third = (row[1:] for row in values[:3])
+    if first.size < GRID or not np.all(np.isfinite(values[:3, 1:])):
+        return False
+    one, two, three = (bool(np.all(steps > 0.0) or np.all(steps < 0.0)) for steps in np.diff(values[:3, 1:], axis=1))
+    apart, near = (np.sqrt(np.mean(np.square(steps))) for steps in (first - second, second - third))
+    return one and not two and not three and apart > JUMP * near
 
 
 def _slope(row):
@@ -93,7 +106,7 @@ def _need_heights(path, values):
         if _positions(found):
             both = " (with the row and the column: both options)" if _positions(values) and _positions(values.T) else ""
             raise Error(
-                f"{path}: its {name} rises or falls in equal steps, unlike the others: positions, not heights: "
+                f"{path}: its {name} rises or falls throughout, unlike the others: positions, not heights: "
                 f"in a text {cure}{both}, in an array leave it out"
             )
 
@@ -131,6 +144,39 @@ def _outliers(values):
     return np.array([v for v in values.flat[far] if v < rest.min() or v > rest.max()])
 
 
+def _missing(values):
+    """The value that the lowest or the highest points all have, far from all others; None without such points."""
+    for value in (np.min(values), np.max(values)):
+        rest = values[values != value]
+        repeated = REPEATED <= values.size - rest.size < rest.size
+        if repeated and np.ptp(rest) > 0.0 and np.min(np.abs(rest - value)) > 0.5 * np.ptp(rest):
+            return float(value)
+    return None
+
+
+def of_cells(one):
+    """Texts about cells that would be square with x and y exchanged, or with one more row or column."""
+    (nx, ny), (x, y) = one.n, one.size
+    for count, cure in (
+        ((ny, nx), "give --transpose if a line of the file, or the first index, is x"),
+        ((nx, ny + 1), "add the row, or give --pixel, if the file lacks one"),
+        ((nx + 1, ny), "add the column, or give --pixel, if the file lacks one"),
+    ):
+        exchanged = count == (ny, nx)  # else a few points are as many by chance
+        if (exchanged or min(nx, ny) >= GRID) and _square(count, (x, y)) and not _square(one.n, (x, y)):
+            return [
+                "its cells are {} x {}, and would be square with {} x {} points: {}".format(
+                    *map(shown, one.cell), *count, cure
+                )
+            ]
+    return []
+
+
+def _square(n, size):
+    """Whether cells are square."""
+    return abs(size[0] * n[1] / (size[1] * n[0]) - 1.0) <= SQUARE
+
+
 def doubts(one):
     """Texts of what may be wrong with a map without missing points."""
     texts = []
@@ -141,8 +187,14 @@ def doubts(one):
                 f"its {name} lie at random offsets of {shown(offset)} rms, which bear the contact on single {name}: a "
                 f"scanner's are removed by --level {name}"
             )
-    far = _outliers(one.values)
-    if far.size:
+    value, far = _missing(one.values), _outliers(one.values)
+    if value is not None:
+        count = int(np.sum(one.values == value))
+        texts.append(
+            f"{counted(count, 'point')} of {one.values.size} all lie at {shown(value)}, apart from the others: if they "
+            "are missing, give this value by --missing, in the file's unit"
+        )
+    elif far.size:
         worst = far[np.argmax(np.abs(far - np.median(one.values)))]
         texts.append(
             f"{counted(far.size, 'point')} of {one.values.size}, the farthest at {shown(float(worst))}, "

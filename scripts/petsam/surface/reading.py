@@ -14,10 +14,10 @@ from ..files import decoded, need_regular
 from ..isolation import reading
 from ..results import DAMAGED
 from . import headers
-from .doubts import need_map
+from .doubts import need_map, of_cells
 from .lengths import KNOWN, UNITS, metres, shown
 from .maps import QUANTITIES, SAME, new_map, turned
-from .tables import header_lines, read_table
+from .tables import empty_line, header_lines, read_table
 
 FORMATS = ("npy", "table", "hdf5", "surfacetopography")
 ENDINGS = {".npy": "npy", ".csv": "table", ".txt": "table", ".h5": "hdf5", ".hdf5": "hdf5"}
@@ -86,7 +86,10 @@ def _read_table(path, options):
     remarks = (f"{left_out} header line{'s' if left_out > 1 else ''} left out",) if left_out else ()
     x, y = headers.size_of(path, header, values.shape[::-1])
     size = (x, y) if x and y else None
-    return Stated(values, header.unit, size, None, None, header.top, remarks, _unread(header), (x, y), header.lines)
+    doubts, empty = _unread(header), empty_line(path, first)
+    if empty:
+        doubts += (f"line {empty} is empty: if it ends a map, leave out what follows it, or give each map a file",)
+    return Stated(values, header.unit, size, None, None, header.top, remarks, doubts, (x, y), header.lines)
 
 
 def _attribute(path, data, name):
@@ -392,4 +395,5 @@ def read_map(path, options, quantity):
         remarks.append(
             "x and y are petsam's, as seen from above; seen from its own side, body 1 is mirrored: --mirror x or y"
         )
-    return turned(one, top, options.mirror or ""), [*stated.remarks, *remarks], stated.doubts
+    more = of_cells(one) if options.size and stated.size is None else []
+    return turned(one, top, options.mirror or ""), [*stated.remarks, *remarks], [*stated.doubts, *more]

@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 from ..errors import Error, short
-from ..files import SAMPLE, decoded
+from ..files import SAMPLE, decoded, lines_of
 
 COMMENTS = ("#", "%")  # of lines that never have numbers of the map
 # missing points as instruments and spreadsheets write them
@@ -25,7 +25,7 @@ def _text(path):
 
 def _lines(path, skip):
     """Numbers, from 1, and contents of the lines that are not empty, skipped or comments."""
-    for number, line in enumerate(_text(path).splitlines(), 1):
+    for number, line in enumerate(lines_of(_text(path)), 1):
         if number > skip and line.strip() and not line.lstrip().startswith(COMMENTS):
             yield number, line
 
@@ -106,10 +106,18 @@ def read_table(path, decimal="point", skip_rows=0, skip_columns=0):
     return values, header, first
 
 
+def empty_line(path, first):
+    """The first empty line between rows of numbers, which may end a map; None without one, or where most rows have
+    one between them. first: line of the first row."""
+    full = [number for number, line in enumerate(lines_of(_text(path)), 1) if number >= first and line.strip()]
+    before = [one for one, other in zip(full, full[1:]) if other > one + 1]
+    return before[0] + 1 if 0 < len(before) < len(full) // 2 else None
+
+
 def header_lines(path, decimal="point", skip_rows=0):
     """Numbers and texts of the lines that are no rows of the map: skipped ones, comments, and those before the rows."""
     found, rows = [], False
-    for number, line in enumerate(_text(path).splitlines(), 1):
+    for number, line in enumerate(lines_of(_text(path)), 1):
         words, separator = _words(line, decimal)
         of_map = not _is_header(words, decimal) or _has_decimal_commas(words, separator)
         if number <= skip_rows or line.lstrip().startswith(COMMENTS):
