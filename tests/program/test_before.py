@@ -39,6 +39,14 @@ def test_contact_in_process_rejects_such_a_step_and_goes_on():
         assert contact.try_step(load_n=10.0).load_n == 10.0
 
 
+@pytest.mark.parametrize("load, code", [(900.0, 0), (1e5, 2)])
+def test_punch_with_sharp_edges_is_rejected_only_where_its_base_sinks_in(petsam, load, code):
+    """Half the radius of an edge of 0.1 um is nothing beside a base of 1 mm."""
+    punch = dict(STEEL, gap_type="punch", gap_flat_radius=1e-3, gap_edge_radius=1e-7, grid_n=32, grid_size=3e-3)
+    said = petsam(punch, dict(load_n=load, dry_run=True), YIELD, check=code).stderr
+    assert ("far too large" in said) == bool(code) and "times -gap_edge_radius" in said
+
+
 @pytest.mark.parametrize("load, told", [(4e3, True), (300.0, False)])
 def test_yielding_ball_outside_of_the_theory_is_told_once(petsam, load, told):
     done = petsam(dict(BALL, load_n=load, **YIELD, grid_size=3e-3, grid_n=24))

@@ -6,6 +6,7 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/base.h>
 #include <ctype.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <strings.h>
 
@@ -220,9 +221,26 @@ static const char *FindBehind(const char text[])
   return end;
 }
 
+/* Returns why a number, or one of a list, is not read although its digits are fine; NULL: there is no such reason. */
+static const char *ExplainDigits(const char text[])
+{
+  for (const char *next = text; next; next = strchr(next, ',')) {
+    const char *sign = next += *next == ',';
+    char       *end;
+
+    sign += strspn(sign, "+- ");
+    if (sign[0] == '0' && (sign[1] == 'x' || sign[1] == 'X')) return "; write hexadecimal numbers as decimal ones";
+    errno = 0;
+    (void)strtod(next, &end);
+    if (end != next && errno == ERANGE) return "; numbers other than 0 are from 2.3e-308 to 1.7e308 in size";
+  }
+  return NULL;
+}
+
 void SamExplainNumber(const char text[], const char unit[], char why[], size_t size)
 {
-  const char *rest = FindBehind(text);
+  const char *rest = FindBehind(text), *digits = ExplainDigits(text);
+  size_t      used;
   char        units[64];
 
   SamListUnits(unit, units, sizeof(units));
@@ -236,4 +254,6 @@ void SamExplainNumber(const char text[], const char unit[], char why[], size_t s
   for (rest = text; *rest; rest++) /* at any place, as in 2.6e-3,2,6e-3 */
     if ((rest == text || rest[-1] == ',') && SamIsDecimalComma(rest))
       (void)snprintf(why, size, "; numbers have a decimal point, not a comma");
+  used = strlen(why);
+  if (digits) (void)snprintf(why + used, size - used, "%s", digits);
 }

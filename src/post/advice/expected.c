@@ -26,24 +26,27 @@
 
 /*
   Computes the ratio of the half widths to the radius at the largest load, the larger of Hertz's and of the fully
-  plastic one, and a text with it; 0: there is no closed form.
+  plastic one, and a text with it; 0: there is no closed form. `share`: the part of the half width that lies on the
+  round surface, small at a punch with sharp edges, whose contact is not large.
 */
-static PetscErrorCode Expect(const SamAdvice *a, PetscReal *ratio, char text[], size_t size)
+static PetscErrorCode Expect(const SamAdvice *a, PetscReal *ratio, PetscReal *share, char text[], size_t size)
 {
   const SamSetup     *s    = a->setup;
   const SamLoadRange *most = &a->most;
   const SamLaw        law  = SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC);
   PetscReal           half[2], wide[2], mean, part;
   PetscBool           known = PETSC_FALSE;
+  SamGapSteepness     steepness;
 
   PetscFunctionBegin;
-  *ratio = 0;
+  *ratio = *share = 0;
   if (!law || most->open || !most->steps || SamProblemMoves(s->problem)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamAdviceEstimate(s, most->force, most->normal, half, &known));
   if (!known) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamAdviceCompare(s, half, text, size, ratio));
   mean = SamGridIsRow(s->grid) ? most->normal / (2 * half[0]) : most->normal / (PETSC_PI * half[0] * half[1]);
   part = *ratio;
+  PetscCall(PetscArraycpy(wide, half, 2));
   for (PetscInt k = 0; most->force && k<PASSES && * ratio> 0; k++) {
     const PetscReal times = PetscMax(1, mean / (BEARS * SamPlasticGetFlowStress(law, STRAIN * part)));
 
@@ -51,15 +54,17 @@ static PetscErrorCode Expect(const SamAdvice *a, PetscReal *ratio, char text[], 
     PetscCall(SamAdviceCompare(s, wide, text, size, ratio));
     part = 0.5 * (part + *ratio);
   }
+  PetscCall(SamGapGetSteepness(s->gap, wide, &steepness));
+  *share = steepness.ratio * fabs(steepness.radius) / (SamGridIsRow(s->grid) ? wide[0] : PetscMin(wide[0], wide[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void SamAdviceYieldingSize(SamAdvice *a)
 {
-  PetscReal ratio = 0;
+  PetscReal ratio = 0, share;
   char      text[192];
 
-  if (!a->error) a->error = Expect(a, &ratio, text, sizeof(text));
+  if (!a->error) a->error = Expect(a, &ratio, &share, text, sizeof(text));
   if (a->error || !(ratio > SAM_ADVICE_STEEPEST)) return;
   a->large = PETSC_TRUE;
   SamAdviceSay(a, "", "the contact will be too large for half-space theory: at the largest load its half width %s",
@@ -68,12 +73,12 @@ void SamAdviceYieldingSize(SamAdvice *a)
 
 PetscErrorCode SamAdviceRefuse(const SamAdvice *a)
 {
-  PetscReal ratio = 0;
+  PetscReal ratio = 0, share;
   char      text[192];
 
   PetscFunctionBegin;
-  PetscCall(Expect(a, &ratio, text, sizeof(text)));
-  PetscCheck(!(ratio > SAM_ADVICE_LARGEST), a->setup->grid->comm, SAM_ERR_USER,
+  PetscCall(Expect(a, &ratio, &share, text, sizeof(text)));
+  PetscCheck(!(PetscMin(ratio, share) > SAM_ADVICE_LARGEST), a->setup->grid->comm, SAM_ERR_USER,
              "the contact of bodies that yield will be far too large for half-space theory and small strains: at the "
              "largest load, %.6g %s, its half width %s: give less load, a larger radius, or a higher yield stress",
              (double)a->most.normal, a->most.force ? SamUnitOn(a->setup->grid, "N") : "m", text);
