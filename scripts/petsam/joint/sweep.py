@@ -15,7 +15,7 @@ STEPS = 8  # load steps of a half cycle
 SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
 CYCLES = 12  # largest number of cycles of an amplitude
 SMALL = 0.5  # changes of the loads over those of the preload below which the contacts' tolerances are smaller
-RTOL = 3e-7, 1e-12  # -tangential_rtol at these, and the least that rounding allows
+RTOL = 1e-6, 1e-12  # -tangential_rtol at these, and the least that rounding allows
 UNLIKE = 0.75  # difference of a cycle's energy and its loop, a polygon inside of it, above which they are rounding
 FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
 
