@@ -13,6 +13,7 @@ BALL = dict(STEEL, gap_type="sphere", gap_radius1=5e-3, gap_radius2="inf", grid_
 ROLL = dict(STEEL, elasticity="plane", gap_type="curved", gap_radius1_x=5e-3, grid_n=64, grid_size=8e-3)
 HARDENS = dict(body2_hardening="linear", body2_hardening_modulus=2e9)
 YIELD = dict(body2_yield=4e8, yield_layers=8)
+COATING = dict(body2_layer_young=300e9, body2_layer_poisson=0.2, body2_layer_thickness=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -22,8 +23,9 @@ YIELD = dict(body2_yield=4e8, yield_layers=8)
         dict(BALL, load_n=40e3, **YIELD, **HARDENS),
         dict(ROLL, load_n=7e6, **YIELD),
         dict(BALL, disp_z=1e-3, **YIELD),
+        dict(BALL, load_n=34e3, **YIELD, **COATING),
     ],
-    ids=["ball", "hardens", "plane", "approach"],
+    ids=["ball", "hardens", "plane", "approach", "coated"],
 )
 def test_yielding_bodies_far_outside_of_the_theory_are_rejected_before_the_first_step(petsam, case):
     said = petsam(case, dict(output="r.h5"), check=2).complaint[0]

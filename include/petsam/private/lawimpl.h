@@ -260,8 +260,8 @@ PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
 */
 PETSC_INTERN PetscReal SamPlasticGetYieldStress(SamLaw law);
 /*
-  SamPlasticGetFlowStress - returns the smallest stress (Pa) at which a body of this law flows after a plastic strain;
-  infinite if layers that do not yield lie on it. SamPlasticYields - true if body 0 or 1 may yield. Not collective.
+  SamPlasticGetFlowStress - returns the smallest stress (Pa) at which a body of this law flows after a plastic strain,
+  below its layers if it has any. SamPlasticYields - true if body 0 or 1 may yield. Not collective.
 */
 PETSC_INTERN PetscReal SamPlasticGetFlowStress(SamLaw law, PetscReal strain);
 PETSC_INTERN PetscBool SamPlasticYields(SamLaw law, PetscInt body);

@@ -606,7 +606,7 @@ PetscReal SamPlasticGetFlowStress(SamLaw law, PetscReal strain)
     SamMises              m;
     PetscReal             flow;
 
-    if (!SamPlasticYields(law, b) || TopOf(law, b) > 0) continue;
+    if (!SamPlasticYields(law, b)) continue;
     m    = MaterialOf(own, SamBodySubstrate(SamPairBody(pair, b)));
     flow = (PetscReal)SamMisesYield(&m, (double)strain, NULL);
     for (PetscInt k = 0; k < m.backstresses; k++)

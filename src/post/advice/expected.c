@@ -3,6 +3,7 @@
   in another unit than the grid's.
 */
 #include "adviceimpl.h"
+#include <petsam/private/body.h>
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/gap.h>
 #include <petsam/private/control.h>
@@ -22,7 +23,24 @@
 */
 #define BEARS  3
 #define STRAIN 0.2
-#define PASSES 30 /* halvings of the distance to the half width at which the body bears the load */
+#define PASSES 30  /* halvings of the distance to the half width at which the body bears the load */
+#define THIN   0.1 /* thickness of layers, relative to the half width, up to which they change it little */
+
+/* Computes the half widths of the contact at the largest load; `known`: there is a closed form. Thin layers are
+   neglected. */
+static PetscErrorCode EstimateLargest(const SamSetup *s, const SamLoadRange *most, PetscReal half[2], PetscBool *known)
+{
+  PetscReal top = 0, least = INFINITY;
+
+  PetscFunctionBegin;
+  PetscCall(SamAdviceEstimate(s, most->force, most->normal, half, known));
+  for (PetscInt b = 0; b < 2; b++) top = PetscMax(top, SamBodySubstrateTop(SamPairBody(s->pair, b)));
+  if (*known || top == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamAdviceEstimateContact(s, most->force, most->normal, half, known));
+  for (int k = 0; k < s->grid->axes; k++) least = PetscMin(least, half[k]);
+  if (!isfinite(half[0] + half[s->grid->axes - 1]) || !(top <= THIN * least)) *known = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 /*
   Computes the ratio of the half widths to the radius at the largest load, the larger of Hertz's and of the fully
@@ -41,7 +59,7 @@ static PetscErrorCode Expect(const SamAdvice *a, PetscReal *ratio, PetscReal *sh
   PetscFunctionBegin;
   *ratio = *share = 0;
   if (!law || most->open || !most->steps || SamProblemMoves(s->problem)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamAdviceEstimate(s, most->force, most->normal, half, &known));
+  PetscCall(EstimateLargest(s, most, half, &known));
   if (!known) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamAdviceCompare(s, half, text, size, ratio));
   mean = SamGridIsRow(s->grid) ? most->normal / (2 * half[0]) : most->normal / (PETSC_PI * half[0] * half[1]);
