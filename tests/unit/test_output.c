@@ -27,7 +27,7 @@ static void test_compression_changes_no_value(void **state)
 
     WriteFile(&s, filename, "");
     sam_assert(Rank() || !stat(filename, &plain));
-    WriteFile(&s, filename, "-output_compress 3");
+    WriteFile(&s, filename, "-output x.h5 -output_compress 3");
     sam_assert(IsGood(filename, s.grid, STEPS, SAVED));
     sam_assert(Rank() || !stat(filename, &compressed));
     /* of the large grid, whose values are regular, less than half remains */

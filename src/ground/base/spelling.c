@@ -227,12 +227,14 @@ static const char *ExplainDigits(const char text[])
   for (const char *next = text; next; next = strchr(next, ',')) {
     const char *sign = next += *next == ',';
     char       *end;
+    double      value;
 
     sign += strspn(sign, "+- ");
     if (sign[0] == '0' && (sign[1] == 'x' || sign[1] == 'X')) return "; write hexadecimal numbers as decimal ones";
     errno = 0;
-    (void)strtod(next, &end);
-    if (end != next && errno == ERANGE) return "; numbers other than 0 are from 2.3e-308 to 1.7e308 in size";
+    value = strtod(next, &end);
+    if (end != next && errno == ERANGE && (isinf(value) || value == 0))
+      return "; numbers other than 0 are from 4.9e-324 to 1.7e308 in size";
   }
   return NULL;
 }

@@ -58,7 +58,8 @@ PetscBool SamReadReal(const char si[], const char text[], const char **end, doub
   length = strcspn(name, ",");
   *end   = name + length;
   *unit  = length ? PETSC_TRUE : PETSC_FALSE;
-  if (!size || errno == ERANGE || memchr(text, 'x', size) || memchr(text, 'X', size)) return PETSC_FALSE;
+  if (!size || (errno == ERANGE && (isinf(*value) || *value == 0))) return PETSC_FALSE;
+  if (memchr(text, 'x', size) || memchr(text, 'X', size)) return PETSC_FALSE; /* hexadecimal */
   if (!length) return PETSC_TRUE;
   if (size > 64 || strspn(text, "+-.0123456789eE") != size) return PETSC_FALSE; /* excludes inf */
   for (int k = 0; kind && k < MOST && kind->name[k]; k++)
