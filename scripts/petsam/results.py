@@ -258,9 +258,6 @@ class Results(Datafile):
         if self.before < 0:
             raise ValueError(f"it begins after step {self.before}")
         self._complete = min((values.size for values in self.history.values()), default=0)
-        longer = next((name for name, values in self.history.items() if values.size > self._complete), None)
-        if longer and self.parameters.get("closed", 1):
-            raise ValueError(f"/history/{longer} has {self.history[longer].size} values, and others {self._complete}")
         self.steps = [self.before + _row_of(self.history["time"], saved) + 1 for saved in self.times]
         attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
         self._fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
@@ -340,7 +337,7 @@ class Results(Datafile):
 
     def to_dataframe(self):
         """The history as a table of pandas with the time (s) as its index."""
-        complete = min(values.size for values in self.history.values())  # of a file that is being written
+        complete = min(values.size for values in self.history.values())  # see solved
         columns = {name: values[:complete] for name, values in self.history.items()}
         return _library("pandas").DataFrame(columns).set_index("time")
 
