@@ -337,8 +337,7 @@ class Results(Datafile):
 
     def to_dataframe(self):
         """The history as a table of pandas with the time (s) as its index."""
-        complete = min(values.size for values in self.history.values())  # see solved
-        columns = {name: values[:complete] for name, values in self.history.items()}
+        columns = {name: values[: self._complete] for name, values in self.history.items()}
         return _library("pandas").DataFrame(columns).set_index("time")
 
     def to_xarray(self):
@@ -362,8 +361,7 @@ class Results(Datafile):
         The row of a refused step holds the loads and displacements that were asked for, and NaN for what is unknown.
         The step that a killed run was writing may be there in some datasets only, and does not count either.
         """
-        complete = min(values.size for values in self.history.values())
-        rows = np.flatnonzero(self.history["status"][:complete] != NO_EQUILIBRIUM)
+        rows = np.flatnonzero(self.history["status"][: self._complete] != NO_EQUILIBRIUM)
         return rows[self.counts(rows)]
 
     def counts(self, rows):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..closed.materials import effective_modulus
 from ..errors import Error
 from ..surface.reading import read_hdf5
 from .pair import Unreadable
@@ -42,14 +43,11 @@ def read_separation(path):
 
 
 def modulus(bodies):
-    """E* of the options of two bodies, Pa; 0 where they do not have all."""
-    compliance = 0.0
-    for k in "12":
-        young, poisson = (bodies.get(f"body{k}_{name}") for name in ("young", "poisson"))
-        if young is None or poisson is None:
-            return 0.0
-        compliance += (1.0 - poisson**2) / young
-    return 1.0 / compliance if compliance else 0.0
+    """E* of the options of two bodies, Pa; 0 where they do not have all, or are rigid both."""
+    constants = [bodies.get(f"body{k}_{name}") for k in "12" for name in ("young", "poisson")]
+    if None in constants:
+        return 0.0
+    return effective_modulus(*constants) if any(map(np.isfinite, constants[::2])) else 0.0
 
 
 def need_fitting(separation, step, pressures, friction, bodies):
