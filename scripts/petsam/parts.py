@@ -43,7 +43,6 @@ def append(results, part):
     results.steps = [results.steps[k] for k in saved] + [part.steps[k] for k in more]
     results._later.append(part)
     results._places = [results._places[k] for k in saved] + [(len(results._later), k) for k in more]
-    results._complete = rows + part._complete
 
 
 def _joined(one, first, other, count, fills):

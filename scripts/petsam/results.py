@@ -257,7 +257,6 @@ class Results(Datafile):
         self._cycles_before = int(self.parameters.get("branch_rows", 0))
         if self.before < 0:
             raise ValueError(f"it begins after step {self.before}")
-        self._complete = min((values.size for values in self.history.values()), default=0)
         self.steps = [self.before + _row_of(self.history["time"], saved) + 1 for saved in self.times]
         attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
         self._fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
@@ -353,6 +352,11 @@ class Results(Datafile):
         )
 
     # ------------------------------------------------------------ steps
+
+    @property
+    def _complete(self):
+        """Number of steps that are in all columns of the history: see solved."""
+        return min((values.size for values in self.history.values()), default=0)
 
     @cached_property
     def solved(self):
