@@ -8,12 +8,15 @@ import glob
 import os
 import re
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.plot.style import COLORS, frame, plt, points, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 DEGREES = ("none", "1", "2", "4", "6", "coarse")
 TITLES = {"none": "half-space", "coarse": "6, coarse mesh"}

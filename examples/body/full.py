@@ -15,12 +15,14 @@ from pathlib import Path
 
 import numpy as np
 
-from petsam.compliance.example import run_calculix
 from petsam.compliance.mesh import grid_mesh
 from petsam.compliance.stiffness import numbers
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fe-comparison"))
 from surface import nodal_forces, read_dat  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+from decks import run_calculix  # noqa: E402
 
 YOUNG, POISSON, RADIUS = 210000.0, 0.3, 100.0
 FACET, MARGIN = 0.05, 0.2  # of the sphere, and by how much it is larger than the contact's neighbourhood, mm

@@ -7,10 +7,15 @@
 The contact's origin is the origin of the deck, z points into the body. --coarse is for an estimate of the mesh's error.
 """
 
+import sys
+from pathlib import Path
+
 import numpy as np
 
-from petsam.compliance.example import deck_lines, write_deck
 from petsam.compliance.mesh import grid_mesh
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+from decks import deck_lines, write_deck  # noqa: E402
 
 STEEL = (210000.0, 0.3)
 

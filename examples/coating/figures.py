@@ -6,12 +6,15 @@ beside the solutions of integral equations where they are known.
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.plot.style import COLORS, frame, joined, logarithmic, plt, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 RATIOS = ("0.1", "0.5", "2", "10")
 THICKNESSES = ("0.1", "0.3", "1", "3")

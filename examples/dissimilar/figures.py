@@ -12,15 +12,18 @@ pressure is that of the same load without friction; what is called "equal radius
 import os
 import sys
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 import petsam
-from petsam import comparison
 from petsam.closed import Spheres, spence
-from petsam.comparison import relative_l2
 from petsam.plot.style import CLOSED, COLORS, frame, joined, log_ticks, note, plt, points, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
+from comparison import relative_l2  # noqa: E402
 
 FRICTION = {
     "0": ("0.2", "0.2986", "0.4", "0.5", "0.65", "1"),

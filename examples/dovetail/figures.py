@@ -8,12 +8,15 @@ import glob
 import os
 import re
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.plot.style import COLORS, DAMAGE, bar, cross, frame, plt, points, reach, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 STEPS = (1, 2, 4, 6, 8, 12, 16, 20)  # of the table
 FIELDS = (4, 8)  # whose pressure and shear are compared

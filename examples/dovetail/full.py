@@ -19,11 +19,13 @@ import h5py
 import numpy as np
 from mesh import BELOW, BEYOND, THICKNESS, TITANIUM, Body, graded, nearest, strip
 
-from petsam.compliance.example import run_calculix
 from petsam.compliance.stiffness import numbers
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fe-comparison"))
 from surface import nodal_forces  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+from decks import run_calculix  # noqa: E402
 
 RADII = (40.0, 120.0)
 CELLS, PATCH = (64, 112), (1.6, 2.8)  # of petsam, for the gap with facets

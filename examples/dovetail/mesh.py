@@ -8,10 +8,15 @@ Z is radial, Y axial; both bodies are 6 mm thick. The flank (FLANK) is inclined 
 its middle, at X = 5, Z = 0. --coarse is for an estimate of the mesh's error.
 """
 
+import sys
+from pathlib import Path
+
 import numpy as np
 
-from petsam.compliance.example import deck_lines, write_deck
 from petsam.compliance.mesh import grid_mesh
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+from decks import deck_lines, write_deck  # noqa: E402
 
 TITANIUM = (115000.0, 0.32)
 THICKNESS = 6.0

@@ -15,15 +15,18 @@ import glob
 import os
 import re
 import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.closed import cattaneo_shear, cattaneo_stick_radius, hertz_pressure
-from petsam.comparison import relative_l2
 from petsam.plot.style import COLORS, frame, joined, logarithmic, plt, points, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
+from comparison import relative_l2  # noqa: E402
 
 LAWS = ("small", "large", "neo")
 COLOUR_PETSAM, COLOUR_FE, COLOUR_NEO, COLOUR_LARGE = COLORS[:4]

@@ -10,13 +10,16 @@ amplitude, forces to mu N, energies to the closed form or to the loop's area.
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.closed import Spheres, loop
 from petsam.plot.style import CLOSED, COLORS, extent, field, frame, joined, log_ticks, note, plt, points, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 PARTIAL = ("partial_nu0", "partial_nu0.3")
 GROSS = ("gross_nu0", "gross_nu0.3")

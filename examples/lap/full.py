@@ -21,9 +21,11 @@ import numpy as np
 from mesh import WASHER, Strips, strip_lines
 
 from petsam import Contact, joint
-from petsam.compliance.example import run_calculix
 from petsam.joint.pair import without_rigid
 from petsam.joint.structure import DISPLACEMENTS
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+from decks import run_calculix  # noqa: E402
 
 PRESS = 12e3  # N
 DOWN = (0.02, 0.035, 0.05)  # mm

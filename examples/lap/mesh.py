@@ -8,13 +8,17 @@ The contact's plane is z = 0, z points down into body 2. Strips are 50 mm wide; 
 estimate of the mesh's error.
 """
 
+import sys
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
-from petsam.compliance.example import write_deck
 from petsam.compliance.mesh import grid_mesh
 from petsam.compliance.stiffness import numbers
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+from decks import write_deck  # noqa: E402
 
 STEEL, DENSITY = (210000.0, 0.3), 7.8e-9
 WASHER = 6.0  # half a side of a washer

@@ -15,18 +15,21 @@ Errors, all over the section:
 
 import os
 import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
 from matplotlib.ticker import NullLocator
 
 import petsam
-from petsam import comparison
 from petsam.closed import Bodies, plane
 from petsam.closed.punch import Punch
-from petsam.comparison import relative_l2
 from petsam.plot.style import COLORS, frame, joined, logarithmic, note, plt, points, save, tint
 from petsam.results import STICK
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
+from comparison import relative_l2  # noqa: E402
 
 RATIOS = ("2.5", "5", "10", "20", "40")
 VARIANTS = ("fine_r10", "sharp_r10", "nu0_r10")

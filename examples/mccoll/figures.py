@@ -10,14 +10,17 @@ check does not hold:
 import os
 import re
 import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.plot.measured import read_profiles
 from petsam.plot.style import COLORS, frame, plt, save, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 CYCLES = (1000, 10000, 18000)

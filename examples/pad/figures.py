@@ -6,15 +6,19 @@ and draws pad.png.
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 from matplotlib.colors import ListedColormap
 
 import petsam
-from petsam import comparison, cycles
+from petsam import cycles
+from petsam.plot.fields import STATES
 from petsam.plot.loops import cycle_energy
-from petsam.plot.maps import STATES
 from petsam.plot.style import DAMAGE, bar, cross, extent, field, frame, plt, reach, save, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 WINDOW = (-0.9, 0.9, -1.5, 1.5)  # of the maps, mm
 

@@ -6,12 +6,15 @@ With --loads it prints the options of the plane problem of the long punch's midd
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.plot.style import colors, frame, plt, save, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 
 def load(directory, name):

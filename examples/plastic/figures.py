@@ -2,12 +2,15 @@
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.plot.style import COLORS, bar, frame, logarithmic, plt, points, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 STEPS_OF_HALF = 4  # load steps of half a cycle
 

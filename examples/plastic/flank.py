@@ -2,13 +2,16 @@
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.lives.strength import swt
 from petsam.plot.style import COLORS, frame, logarithmic, plt, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 CASES = ("elastic", "yields", "peened")
 STEEL = dict(sigma_f=1.2e9, b=-0.09, epsilon_f=0.6, c=-0.6)  # strain-life curve of the steel, assumed

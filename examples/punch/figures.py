@@ -15,16 +15,19 @@ solvers' tolerance.
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.closed import Bodies
 from petsam.closed.punch import Punch, punch_approach, punch_pressure, punch_radius, punch_torsion_limit
-from petsam.comparison import relative_l2
 from petsam.plot.style import extent, field, frame, note, plt, points, save, thinned, tint
 from petsam.results import STICK
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
+from comparison import relative_l2  # noqa: E402
 
 MOMENTS = ("0", "5e3", "1e4", "1.5e4", "2e4", "2.5e4", "3e4")
 RATIOS = ("0.10", "0.30", "0.50", "0.70", "0.90", "0.95")

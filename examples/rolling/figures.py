@@ -10,14 +10,17 @@ solution, of CONTACT or of Kalker, and writes carter.png, transient.png, kalker.
 import argparse
 import os
 import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
 
 import petsam
-from petsam.comparison import print_table
-from petsam.errors import fail
+from petsam.core.errors import fail
 from petsam.plot.style import CLOSED, COLORS, STYLE, frame, plt, points, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+from comparison import print_table  # noqa: E402
 
 # CONTACT, example catt_to_cart: creepage after so many time steps of one cell; and its first step, Cattaneo's shift
 CONTACT = {1: 1.824e-3, 2: 1.882e-3, 6: 2.221e-3, 14: 3.403e-3, 15: 3.402e-3, 21: 3.088e-3, 56: 3.101e-3}

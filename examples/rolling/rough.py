@@ -11,12 +11,16 @@ as those of the smooth plane must. Prints the forces and writes rough.png.
 
 import argparse
 import os
+import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam.comparison import print_table
 from petsam.plot.style import CLOSED, COLORS, DAMAGE, STYLE, bar, extent, field, frame, plt, save
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+from comparison import print_table  # noqa: E402
 
 G, NU, MU, P0, A = 82e9, 0.28, 0.3, 800e6, 1e-3  # Pa; 1; 1; Hertz's peak pressure, Pa, and half width, m
 LOAD = 2 / 3 * np.pi * P0 * A**2

@@ -12,14 +12,17 @@ Error norms, all dimensionless:
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.closed import Spheres
-from petsam.comparison import relative_l2
 from petsam.plot.style import frame, note, plt, points, save, thinned, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
+from comparison import relative_l2  # noqa: E402
 
 LEVELS = ("0.10", "0.30", "0.50", "0.70", "0.90", "0.95")
 LEVELS_EXACT = ("0.30", "0.60", "0.90")

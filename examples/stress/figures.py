@@ -6,14 +6,17 @@ surface.png, section.png, fatigue.png and overview.png (parts of all in one).
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.closed import HERTZ_MISES, HERTZ_MISES_DEPTH, Spheres, hertz_axis, hertz_surface, sliding_surface
 from petsam.plot.bodies import MARK, numbered, untangle
 from petsam.plot.style import CLOSED, DAMAGE, bar, cross, extent, field, frame, note, plt, points, save, thinned, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 FRICTIONS = ("0.1", "0.5")
 STATES = ("partial", "sliding")

@@ -8,16 +8,19 @@ delta_0 being the displacement of incipient sliding.
 
 import os
 import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.closed import Spheres, cattaneo_stick_radius
 from petsam.closed.loop import partial_loop_energy
 from petsam.plot.style import CLOSED, COLORS, frame, plt, points, save
 from petsam.study.runs import RESULTS
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 MARKS = ("o", "+", "x")
 PEAK, SECOND_PEAK = 1, 3  # steps of the table's history

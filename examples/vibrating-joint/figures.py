@@ -9,15 +9,18 @@ tables, draws response.png and worn.png, and fails when a check does not hold:
 
 import os
 import sys
+from pathlib import Path
 
-import joint
 import numpy as np
 from vibrate import CYCLES, FORCES, WEARING
 
+import joint
 import petsam
-from petsam import comparison
-from petsam.errors import Missing
+from petsam.core.errors import Missing
 from petsam.plot.style import bar, extent, field, frame, logarithmic, plt, save, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 LINEAR, POWER, SAME = 0.02, 0.02, 1e-3
 RING = (14.0, 28.0)  # y of the scar, mm

@@ -12,9 +12,9 @@ import multiprocessing
 import os
 import sys
 
-import joint
 import numpy as np
 
+import joint
 import petsam
 
 FORCES = (1e3, 2e3, 5e3, 8e3, 12e3)  # N

@@ -10,13 +10,16 @@ and the scar is the sphere's cap: V = pi a^4/(4 R), w(0) = a^2/(2 R).
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.closed import Spheres
 from petsam.plot.style import CLOSED, frame, plt, points, save, thinned, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 MODEL = {"tau": 1.0, "radius": 1.305, "depth": 0.4891, "pressure": 0.5875}  # by a one-dimensional model
 VOLUME_TOLERANCE, TOLERANCE, LONG_TOLERANCE = 1e-6, 0.01, 0.03

@@ -12,13 +12,16 @@ as far as it exceeds rho^2/2: what is removed is the difference.
 
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
 from petsam.closed import Spheres
 from petsam.plot.style import CLOSED, frame, logarithmic, plt, points, save, thinned, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 GAMMA = 0.5
 LIMIT_RADIUS, LIMIT_VOLUME, LIMIT_DEPTH, LIMIT_LOAD = 1.2297905755, 0.7592985781, 0.29654947, 0.6875

@@ -10,13 +10,16 @@ wear.png, and fails when a check does not hold:
 import glob
 import os
 import sys
+from pathlib import Path
 
 import numpy as np
 
 import petsam
-from petsam import comparison
-from petsam.errors import Missing
+from petsam.core.errors import Missing
 from petsam.plot.style import frame, joined, over_cycles, plt, save, tint
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
+import comparison  # noqa: E402
 
 VOLUME_TOLERANCE, SUM_TOLERANCE = 1e-2, 1e-9
 

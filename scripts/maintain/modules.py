@@ -16,11 +16,13 @@ PACKAGE = Path(__file__).resolve().parents[1] / "petsam"
 # names of the package that users meet first, in the order of work; the others follow, errors and warnings at the end
 FIRST = ("open", "run", "Contact", "Element", "Results", "Snapshot", "Stresses", "Study")
 # classes of which users get objects from those, by their modules
-OBTAINED = {"contact": ("Step", "Cycle"), "results": ("Datafile",)}
+OBTAINED = {"contact": ("Step", "Cycle"), "results.file": ("Datafile",)}
 # modules in the order of the page; of a folder the modules that its __init__.py represents
 MODULES = (
-    "cycles",
-    "sliding",
+    "results.cycles",
+    "results.sliding",
+    "plot.pictures",
+    "plot.of_joints",
     "joint.interface",
     "lives.stresses",
     "lives.materials",
@@ -64,7 +66,11 @@ def package_names():
     for node in tree.body:
         if isinstance(node, ast.ImportFrom):
             homes.update({alias.name: node.module for alias in node.names})
-    names = [name for name in literal(tree, "__all__") if name not in literal(tree, "_PARTS")]
+    names = [
+        name
+        for name in literal(tree, "__all__")
+        if name not in (*literal(tree, "_PARTS"), *literal(tree, "_OF_RESULTS"))
+    ]
     names.sort(key=lambda name: (FIRST.index(name) if name in FIRST else len(FIRST), name))
     modules = {name: homes.get(name, "__init__") for name in names}
     return {name: (module, definitions(tree_of(module))[name]) for name, module in modules.items()}

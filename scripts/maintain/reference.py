@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes from the programs' -help the tables of options in examples/manual/OPTIONS.md, INDEX.md, their index, and
-scripts/petsam/declared.py, units of options and the options that name files.
+scripts/petsam/core/declared.py, units of options and the options that name files.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
@@ -19,7 +19,7 @@ from options import groups_of, read_help
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "examples" / "manual" / "OPTIONS.md"
 INDEX = ROOT / "examples" / "manual" / "INDEX.md"
-DECLARED = ROOT / "scripts" / "petsam" / "declared.py"
+DECLARED = ROOT / "scripts" / "petsam" / "core" / "declared.py"
 PROGRAMS = ["petsam", "petsam-stress"]
 TABLE = re.compile(r"<!-- (petsam[\w-]*): (.+?) -->\n.*?<!-- end -->", re.S)
 

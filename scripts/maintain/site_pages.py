@@ -27,8 +27,9 @@ from pathlib import Path
 
 import functions
 import modules
-import notebooks
 import yaml
+
+import notebooks
 
 ROOT = Path(__file__).resolve().parents[2]
 MAINTAIN = Path(__file__).resolve().parent

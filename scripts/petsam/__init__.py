@@ -6,21 +6,20 @@
 
 Contact         a contact in this process: steps, stiffness, fields, stresses, fatigue (contact.py)
 run             a run of the program, whose results it returns (running.py)
-open            reading of files: Results of petsam (results.py), Stresses of petsam-stress (stresses.py), the table of
-                petsam-study (studies.py)
-cycles          cycles of a load history and their energies
-Element         a contact as a force element of a time integration or of a static solver (element.py)
+open            reading of files (results/): Results of petsam, Stresses of petsam-stress, the Study of petsam-study
+results         what open() returns; cycles of a load history and their energies, regimes of slip
+cycles          results.cycles, and
+sliding         results.sliding: regime, energy ratio, sliding ratio of a cycle; slip amplitudes
+Element         a contact as a force element of a time integration or of a static solver (joint/element.py)
 joint           contact stiffness and damping of rough interfaces per area; joints in a structure
 closed          closed-form solutions of contact mechanics
 lives           lives, safety factors, short cracks: petsam-fatigue
-sliding         regime, energy ratio, sliding ratio of a cycle; slip amplitudes
-plot            pictures: petsam-plot
+plot            pictures by name, of files and of what the parts above have found: petsam-plot
 study           many runs from a table: petsam-study
 compliance      real bodies from finite elements: petsam-compliance
 surface         measured surfaces into petsam's HDF5: petsam-surface
-comparison      common parts of the examples' comparisons with other solutions
-isolation       reading of files that may be damaged, in a child process
-environment     search for the interpreter, its libraries and petsam
+core            what all parts share: errors, files, HDF5, units, search for petsam and its libraries
+commands        the command lines of the programs petsam-plot, petsam-study, ...
 
 Importing this package alone needs only the standard library: each part imports its libraries when it is used, and is
 available by its name, petsam.cycles or petsam.closed.plane, without a separate import.
@@ -29,7 +28,7 @@ available by its name, petsam.cycles or petsam.closed.plane, without a separate 
 import importlib
 import os
 
-from .errors import Error, Missing, MissingFile
+from .core.errors import Error, Missing, MissingFile
 
 __version__ = "1.0.0"
 __all__ = [
@@ -63,32 +62,34 @@ _HOMES = {
     "ContactError": ".contact",
     "CycleWarning": ".contact",
     "EdgeContactWarning": ".contact",
-    "Element": ".element",
+    "Element": ".joint.element",
     "NoEquilibrium": ".contact",
     "NotConverged": ".contact",
     "PrescribedError": ".contact",
-    "Results": ".results",
-    "Snapshot": ".results",
-    "Stresses": ".stresses",
-    "Study": ".studies",
+    "Results": ".results.file",
+    "Snapshot": ".results.file",
+    "Stresses": ".results.stresses",
+    "Study": ".results.studies",
     "WearWarning": ".contact",
     "run": ".running",
 }
 
-_PARTS = ("closed", "compliance", "cycles", "joint", "lives", "plot", "sliding", "study", "surface")
-_INTERNAL = ("comparison", "environment", "isolation")  # parts for petsam's own commands, examples and tests
+_PARTS = ("closed", "compliance", "joint", "lives", "plot", "results", "study", "surface")
+_OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 
 
 def __getattr__(name):
-    if name in _PARTS or name in _INTERNAL:
+    if name in _PARTS or name == "core":
         return importlib.import_module("." + name, __name__)
+    if name in _OF_RESULTS:
+        return importlib.import_module(".results." + name, __name__)
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(importlib.import_module(_HOMES[name], __name__), name)
 
 
 def __dir__():
-    return sorted({*__all__, *_PARTS, "__doc__", "__file__", "__name__", "__version__"})
+    return sorted({*__all__, *_PARTS, *_OF_RESULTS, "__doc__", "__file__", "__name__", "__version__"})
 
 
 def open(path, label=None):
@@ -99,6 +100,6 @@ def open(path, label=None):
 
     label names it in pictures (the file's name).
     """
-    from .stresses import open_any
+    from .results.stresses import open_any
 
     return open_any(path if isinstance(path, os.PathLike) else os.fsdecode(path), label)

@@ -23,10 +23,11 @@ from pathlib import Path
 
 import numpy as np
 
-from . import __version__, command_line
-from .environment import PREFIX, TREE
-from .errors import Error, Missing, MissingFile, short, there_are
-from .files import need_regular
+from . import __version__
+from .core import options as command_line
+from .core.environment import PREFIX, TREE
+from .core.errors import Error, Missing, MissingFile, short, there_are
+from .core.files import need_regular
 
 # numbers of a computed cycle, by their names in /wear
 CYCLE = (

@@ -11,10 +11,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from . import command_line, environment
 from .contact import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, EdgeContactWarning, error_of
-from .errors import Error, short
-from .results import Results
+from .core import environment
+from .core import options as command_line
+from .core.errors import Error, short
+from .results.file import Results
 
 _SOLVED = (0, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE)  # exit codes of runs that have written results
 

@@ -286,7 +286,7 @@ def call(tmp_path, monkeypatch, capfd):
 @pytest.fixture
 def draw(call):
     """draw(*words): exit code and messages of petsam-plot."""
-    from petsam.plot import command
+    from petsam.commands import plot as command
 
     return lambda *words: call("petsam-plot", command.main, *words)
 
@@ -312,7 +312,7 @@ def closing():
 @pytest.fixture
 def joint_command(tmp_path, monkeypatch, capsys):
     """joint_command(action, *words, check=0): what petsam-joint prints; its complaint where it fails."""
-    from petsam.joint import command
+    from petsam.commands import joint as command
 
     monkeypatch.chdir(tmp_path)
 

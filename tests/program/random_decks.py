@@ -25,7 +25,8 @@ import numpy as np
 
 import conftest  # noqa: F401
 import petsam
-from petsam.compliance import command, keywords, mesh, model, stiffness
+from petsam.commands import compliance as command
+from petsam.compliance import keywords, mesh, model, stiffness
 
 SECONDS, MEMORY = 60, 4 << 30
 SAME = 1e-5  # relative difference of compliances that are the same; CalculiX writes fewer digits

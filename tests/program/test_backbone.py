@@ -22,8 +22,8 @@ from scipy.spatial import cKDTree
 import compliances
 import petsam
 from petsam import joint
+from petsam.commands.compliance import arguments, carry_out
 from petsam.compliance import basis, model, modes, rigid, stiffness
-from petsam.compliance.command import arguments, carry_out
 from support import ROOT
 
 pytestmark = [

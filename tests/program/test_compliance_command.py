@@ -35,7 +35,7 @@ def bricks(edges=(GRID, GRID, GRID + 2.0), sets=BOTTOM, moduli=(1.0, 0.3)):
 @pytest.fixture
 def compliance(tmp_path, monkeypatch, capfd):
     """compliance(*words, check=0): lines on stdout of petsam-compliance, or those on stderr where it fails."""
-    from petsam.compliance import command
+    from petsam.commands import compliance as command
 
     monkeypatch.chdir(tmp_path)
 

@@ -6,7 +6,8 @@ import pytest
 from scipy import linalg
 
 from petsam import joint
-from petsam.compliance import bolts, cases, command, images, model, modes, solve, stiffness
+from petsam.commands import compliance as command
+from petsam.compliance import bolts, cases, images, model, modes, solve, stiffness
 from petsam.compliance.halfspace import opposite, projected
 from petsam.joint import sweep
 from test_compliance_command import compliance  # noqa: F401

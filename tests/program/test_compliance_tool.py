@@ -9,7 +9,7 @@ import pytest
 
 from petsam.compliance import basis, checks, cutoff, halfspace, images, mesh, remainder, solve, stiffness
 from petsam.compliance import substructure as direct
-from petsam.errors import Error
+from petsam.core.errors import Error
 
 CCX = os.environ.get("CCX", "ccx")
 needs_calculix = pytest.mark.skipif(not shutil.which(CCX), reason=f"no CalculiX {CCX}: Debian package calculix-ccx")

@@ -9,7 +9,7 @@ import pytest
 import petsam
 from conftest import PROGRAM as PETSAM
 from petsam import cycles
-from petsam.plot import loops, wear
+from petsam.plot import loops, pictures, wear
 from petsam.plot.style import MARKED
 from support import ball, history, slide_limit, words
 
@@ -212,11 +212,8 @@ def test_cycles_are_chosen(draw, path, tmp_path, words):
     assert names(tmp_path) == ["one.png"]
 
 
-def test_a_map_of_a_cycle_is_that_of_its_end(results, path, monkeypatch):
-    from petsam.plot import arguments, command
-
-    monkeypatch.setattr("sys.argv", ["petsam-plot", str(path), "--cycle", "1"])
-    ((_, index),) = command.snapshots(arguments.read(""), [results])
+def test_a_map_of_a_cycle_is_that_of_its_end(results, path):
+    ((_, index),) = pictures.snapshots([results], cycle=1)
     assert results.steps[index] == strokes(path)[2] + 1
 
 
@@ -246,7 +243,7 @@ def test_what_is_no_cycle_is_named(draw, path, words, code, says):
 @pytest.fixture
 def study(call, launcher, monkeypatch):
     """study(*words): exit code and messages of petsam-study in tmp_path."""
-    from petsam.study import command
+    from petsam.commands import study as command
 
     monkeypatch.setenv("PETSAM", str(PETSAM))
     monkeypatch.setenv("MPIRUN", " ".join(launcher))

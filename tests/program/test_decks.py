@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.compliance import command, deck, keywords, mesh, model, stiffness
+from petsam.commands import compliance as command
+from petsam.compliance import deck, keywords, mesh, model, stiffness
 from test_compliance_command import ALWAYS, BOTTOM, PARTS, bricks, compliance, read_text, written  # noqa: F401
 from test_compliance_pair import HELD, both, pair, write  # noqa: F401
 from test_compliance_tool import needs_calculix

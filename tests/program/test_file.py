@@ -8,7 +8,7 @@ import pytest
 
 from conftest import PROGRAM, execute
 from petsam.results import Results
-from petsam.stresses import Stresses
+from petsam.results.stresses import Stresses
 from support import FIELDS, LOADS, RIGID, SPHERE, assert_same, ball
 
 CASE = dict(

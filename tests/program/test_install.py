@@ -47,7 +47,8 @@ def test_all_that_users_need_is_installed(prefix):
         wanted = {f"{place}/{name}" for name in names}
         assert wanted <= installed, wanted - installed
     assert (
-        "share/petsam/scripts/petsam/results.py" in installed and "share/petsam/scripts/requirements.txt" in installed
+        "share/petsam/scripts/petsam/results/file.py" in installed
+        and "share/petsam/scripts/requirements.txt" in installed
     )
 
 

@@ -209,7 +209,7 @@ def test_windows_give_means_and_deviations(tmp_path):
     assert [float(word) for word in lines[4].split(",")] == pytest.approx([16, found.closure[1] * 1e3], rel=1e-5)
     slips = 0.3 * found.pressure * 2 / (found.k_t_x + found.k_t_y)
     assert f"median of {1e3 * min(slips):.4g} to {1e3 * max(slips):.4g}" in text
-    figure = found.plot()
+    figure = petsam.plot.interface(found)
     assert [axes.get_xlabel() for axes in figure.axes] == ["nominal pressure, MPa"] * 2
     curves = [bars.lines[0] for bars in figure.axes[0].containers]
     assert [curve.get_color() for curve in curves] == list(COLORS[:3])

@@ -10,8 +10,9 @@ import pytest
 
 import conftest
 import petsam
-from petsam.errors import Error
-from petsam.lives import command, cracks, evaluation, materials, strength
+from petsam.commands import fatigue as command
+from petsam.core.errors import Error
+from petsam.lives import cracks, evaluation, materials, strength
 from petsam.lives.stresses import Cycle
 from petsam.plot import saving
 from petsam.plot.style import plt

@@ -7,8 +7,8 @@ import sys
 import numpy as np
 import pytest
 
-from petsam.errors import FILE, Error
-from petsam.files import need_folder, need_replaceable
+from petsam.core.errors import FILE, Error
+from petsam.core.files import need_folder, need_replaceable
 from support import ROOT, ball
 
 MAP = ["z.npy", "--body", "2", "--units", "um", "--size", "1mm"]

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from petsam import cycles, sliding
-from petsam.errors import Error
-from petsam.plot import command, loops, maps, profiles, series
+from petsam.commands import plot as command
+from petsam.core.errors import Error
+from petsam.plot import crossings, fields, loops, series
 from petsam.plot.units import scale
 from petsam.results import Results
 from support import ROOT, ball, finished, slide_limit
@@ -272,7 +273,7 @@ def test_a_file_that_keeps_hdf5_busy_for_ever_is_damaged(draw, strokes, monkeypa
             pass
 
     monkeypatch.setattr(Results, "_read", forever)
-    monkeypatch.setattr("petsam.isolation.SECONDS", 1)
+    monkeypatch.setattr("petsam.core.isolation.SECONDS", 1)
     assert draw(strokes) == (3, [f"petsam-plot: error: {strokes}: is damaged"])
 
 
@@ -287,7 +288,7 @@ def test_what_nobody_foresaw_is_a_line_too(draw, strokes, monkeypatch):
 
 def test_a_damaged_file_is_drawn_or_named(draw, solve, tmp_path, monkeypatch):
     """As petsam wrote it, but for some bytes: whatever HDF5 does with them, which takes for ever with some."""
-    monkeypatch.setattr("petsam.isolation.SECONDS", 1)
+    monkeypatch.setattr("petsam.core.isolation.SECONDS", 1)
     data, chance = solve(dict(CASE, grid_n=8)).path.read_bytes(), random.Random(1)
     path = tmp_path / "damaged.h5"
     for _ in range(25):
@@ -305,7 +306,7 @@ def test_a_damaged_file_is_drawn_or_named(draw, solve, tmp_path, monkeypatch):
 
 def test_maps_show_the_fields_of_the_step_in_the_units_of_the_labels(strokes):
     results = Results(str(strokes))
-    figure = maps.maps([(results, results.of_step(8))], whole=True)
+    figure = fields.maps([(results, results.of_step(8))], whole=True)
     with h5py.File(strokes, "r") as file:
         k = list(file["time"]).index(file["history/time"][7])
         q = np.hypot(file["shear_x"][k], file["shear_y"][k])
@@ -329,7 +330,7 @@ def test_maps_are_of_the_contact_unless_the_whole_grid_is_asked_for(strokes):
 
 
 def test_windows_and_strides_are_those_of_the_field(strokes, monkeypatch):
-    monkeypatch.setattr("petsam.results.BLOCK", 8)
+    monkeypatch.setattr("petsam.results.file.BLOCK", 8)
     results = Results(str(strokes))
     with h5py.File(strokes, "r") as file:
         expected = file["pressure"][1][5:41:2, 3:30:2]
@@ -339,7 +340,7 @@ def test_windows_and_strides_are_those_of_the_field(strokes, monkeypatch):
 def test_profiles_go_through_the_point(single):
     results = Results(str(single))
     at = (2.2 * (results.x[1] - results.x[0]), -3.4 * (results.y[1] - results.y[0]))
-    panels = profiles.profiles([(results, 0)], at, whole=True).axes
+    panels = crossings.profiles([(results, 0)], at, whole=True).axes
     with h5py.File(single, "r") as file:
         p, row = 1e-6 * file["pressure"][0], np.argmin(np.abs(results.y - at[1]))
         column = np.argmin(np.abs(results.x - at[0]))
@@ -350,7 +351,7 @@ def test_profiles_go_through_the_point(single):
 
 def test_shear_profile_is_drawn_between_its_bounds(single):
     results = Results(str(single))
-    curves = lines(profiles.profiles([(results, 0)], whole=True).axes[2])
+    curves = lines(crossings.profiles([(results, 0)], whole=True).axes[2])
     upper, lower, qx = (y for _, y in curves[:3])
     assert np.all(qx <= upper * (1 + 1e-9)) and np.all(qx >= lower * (1 + 1e-9)) and qx.max() > 0.3 * upper.max()
 

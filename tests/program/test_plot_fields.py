@@ -6,7 +6,7 @@ import pytest
 from matplotlib.colors import LogNorm, Normalize, SymLogNorm
 
 import petsam
-from petsam.plot import colours, maps, profiles, series, style
+from petsam.plot import colours, crossings, fields, series, style
 from petsam.plot.style import plt
 from support import ball, slide_limit
 
@@ -66,7 +66,7 @@ def test_a_new_field_needs_no_change_here(path, tmp_path):
         file["history/wear_rate"] = np.arange(file["history/time"].size) * 1e-7
         file["history/wear_rate"].attrs["units"] = "m"
     with petsam.open(other) as results:
-        figure = maps.maps([(results, results.of_last())], names=["heat"])
+        figure = fields.maps([(results, results.of_last())], names=["heat"])
         drawn, bar = image(figure)
         assert bar.get_ylabel() == "kJ/m²" and figure.axes[0].get_title() == "heat of friction"
         assert drawn.get_array().max() == pytest.approx(3.0, rel=1e-12)
@@ -77,7 +77,7 @@ def test_a_new_field_needs_no_change_here(path, tmp_path):
 def test_one_field_alone_with_its_sign_is_symmetric_about_zero(results, path):
     with h5py.File(path, "r") as file:
         shear = 1e-6 * file["shear_x"][-1]
-    figure = maps.maps([(results, results.of_last())], whole=True, names=["shear_x"])
+    figure = fields.maps([(results, results.of_last())], whole=True, names=["shear_x"])
     drawn, bar = image(figure)
     assert len(figure.axes) == 1 and bar.get_ylabel() == "$q_x$, MPa"
     assert np.allclose(drawn.get_array(), shear) and drawn.get_cmap().name == colours.SIGNED
@@ -103,7 +103,7 @@ def test_a_sign_is_in_the_name_or_in_the_values(name, values, signed):
 def test_slip_is_not_drawn_where_there_is_no_contact(results):
     is_open = results.field("state") == 0
     for name in ("slip_x", "slip"):
-        drawn = image(maps.maps([(results, results.of_last())], whole=True, names=[name]))[0]
+        drawn = image(fields.maps([(results, results.of_last())], whole=True, names=[name]))[0]
         assert np.array_equal(np.ma.getmaskarray(np.ma.masked_invalid(drawn.get_array())), is_open)
 
 
@@ -112,11 +112,11 @@ def test_slip_is_not_drawn_where_there_is_no_contact(results):
 
 def test_limits_are_those_given_in_SI_units(results):
     choice = colours.Choice((1e6, 2e6))
-    drawn, bar = image(maps.maps([(results, results.of_step(6))], names=["shear_x"], choice=choice))
+    drawn, bar = image(fields.maps([(results, results.of_step(6))], names=["shear_x"], choice=choice))
     assert np.allclose(drawn.get_clim(), (1.0, 2.0)) and bar.get_ylabel() == "$q_x$, MPa"
     assert drawn.colorbar.extend == "both"
     choice = colours.Choice((0.0, 1e12))
-    assert image(maps.maps([(results, 0)], names=["pressure"], choice=choice))[0].colorbar.extend == "neither"
+    assert image(fields.maps([(results, 0)], names=["pressure"], choice=choice))[0].colorbar.extend == "neither"
 
 
 def test_a_few_peaks_do_not_darken_the_map_and_the_label_says_so():
@@ -142,14 +142,14 @@ def test_the_percentile_leaves_out_as_little_as_it_takes(count, share):
 
 def test_a_smooth_field_is_drawn_to_its_largest_value(results):
     for name in ("pressure", "shear", "slip"):
-        drawn, bar = image(maps.maps([(results, results.of_last())], names=[name]))
+        drawn, bar = image(fields.maps([(results, results.of_last())], names=[name]))
         assert drawn.get_clim()[1] == pytest.approx(np.nanmax(drawn.get_array())) and bar.get_ylabel()
         assert "%" not in drawn.axes.get_xlabel()
 
 
 def test_the_percentile_is_that_which_is_given(results):
     choice = colours.Choice(percentile=50.0)
-    drawn, bar = image(maps.maps([(results, 0)], whole=True, names=["pressure"], choice=choice))
+    drawn, bar = image(fields.maps([(results, 0)], whole=True, names=["pressure"], choice=choice))
     inside = np.asarray(drawn.get_array())
     assert drawn.get_clim()[1] == pytest.approx(np.median(inside[inside > 0]), rel=1e-12)
     lines = drawn.axes.get_xlabel().split("\n")
@@ -207,7 +207,7 @@ def test_colour_bars_are_as_tall_as_their_maps_and_nothing_overlaps(path, edges,
         file.write_bytes(edges.read_bytes())
         turn(file)
     with petsam.open(file) as results:
-        figure = maps.maps([(results, results.of_last())], whole=True)
+        figure = fields.maps([(results, results.of_last())], whole=True)
         panels, bars = boxes(figure)
         assert len(panels) == 4
         for panel, bar in zip(panels, bars):
@@ -260,7 +260,7 @@ def shape_of(data):
     "width, height, stretch", [(30.0, 1.0, 2.5), (1.0, 30.0, 0.4), (5.0, 1.0, 1.0), (1.0, 1.0, 1.0)]
 )
 def test_what_is_very_long_is_stretched_and_says_so(width, height, stretch):
-    layout = maps.Layout([{"extent": [0.0, width, 0.0, height]}], 4)
+    layout = fields.Layout([{"extent": [0.0, width, 0.0, height]}], 4)
     assert layout.stretch == pytest.approx(stretch) and layout.stacked == (width > 2 * height)
     assert layout.width / layout.height == pytest.approx(width / height / stretch)
     said = {2.5: " ($y$ is stretched 2.5 times)", 0.4: " ($x$ is stretched 2.5 times)"}.get(stretch, "")
@@ -270,27 +270,27 @@ def test_what_is_very_long_is_stretched_and_says_so(width, height, stretch):
 def test_the_points_of_an_edge_do_not_hide_the_map(edges):
     with petsam.open(edges) as results:
         assert len(results.edge("contact_edge")) > 20
-        figure = maps.maps([(results, results.of_last())])
+        figure = fields.maps([(results, results.of_last())])
         panels, _ = boxes(figure)
         for axes, box in zip(figure.axes, panels):
             assert axes.lines
             for line in axes.lines:
                 area = len(line.get_xdata()) * (line.get_markersize() / 72.0 * figure.dpi) ** 2
-                assert line.get_markersize() <= 1.2 and area < 1.5 * maps.HIDDEN * box.width * box.height
+                assert line.get_markersize() <= 1.2 and area < 1.5 * fields.HIDDEN * box.width * box.height
 
 
 # ---------------------------------------------------------------- profiles, scalars
 
 
 def test_profiles_of_chosen_fields(results, path):
-    figure = profiles.profiles([(results, results.of_last())], whole=True, names=["gap", "shear_y"], logs=["y"])
+    figure = crossings.profiles([(results, results.of_last())], whole=True, names=["gap", "shear_y"], logs=["y"])
     assert [axes.get_title(loc="left") for axes in figure.axes[::2]] == ["gap $g$", "shear $q_y$"]
     row = int(np.argmin(np.abs(results.y)))
     values = figure.axes[0].lines[0].get_ydata()
     with h5py.File(path, "r") as file:
         expected = file["gap"][-1, row]
     assert np.allclose(values / values.max(), expected / expected.max()) and figure.axes[0].get_yscale() == "log"
-    figure = profiles.profiles([(results, 0)], names=["pressure"], limits=(0.0, 5e9))
+    figure = crossings.profiles([(results, 0)], names=["pressure"], limits=(0.0, 5e9))
     assert figure.axes[0].get_ylim() == (0.0, 5.0) and figure.axes[0].get_ylabel() == "$p$, GPa"
 
 
@@ -387,11 +387,11 @@ def test_numbers_of_a_logarithmic_axis_do_not_collide(low, high):
 
 
 def test_six_maps_are_drawn_in_two_rows():
-    layout = maps.Layout([{"extent": [0.0, 1.0, 0.0, 1.0]}] * 2, 6)
+    layout = fields.Layout([{"extent": [0.0, 1.0, 0.0, 1.0]}] * 2, 6)
     assert (layout.rows, layout.columns) == (4, 3)
     assert [layout.place(1, k, 6) for k in (0, 2, 3, 5)] == [(2, 0), (2, 2), (3, 0), (3, 2)]
     assert [k for k in range(6) if layout.is_left(k)] == [0, 3]
-    assert (maps.Layout([{"extent": [0.0, 1.0, 0.0, 1.0]}], 4).rows, layout.width) == (1, layout.height)
+    assert (fields.Layout([{"extent": [0.0, 1.0, 0.0, 1.0]}], 4).rows, layout.width) == (1, layout.height)
 
 
 # ---------------------------------------------------------------- the program
@@ -418,7 +418,7 @@ def test_maps_of_a_file_without_some_fields_show_the_others(draw, solve, tmp_pat
     some = solve(dict(CASE, output_fields="pressure,gap", load_tx=float(AMPLITUDE))).path
     assert draw(some, "--maps", "--profiles") == (0, [])
     with petsam.open(some) as results:
-        figure = maps.maps([(results, 0)])
+        figure = fields.maps([(results, 0)])
         assert [axes.get_title() for axes in figure.axes] == ["pressure $p$"]
         rows, columns = results.contact_window(0, margin=0.0)
         inside = np.zeros_like(results.field("pressure"))
@@ -433,5 +433,5 @@ def test_maps_of_a_file_without_some_fields_show_the_others(draw, solve, tmp_pat
 
 
 def test_norms_are_linear_unless_asked_for(results):
-    drawn, _ = image(maps.maps([(results, 0)], names=["pressure"]))
+    drawn, _ = image(fields.maps([(results, 0)], names=["pressure"]))
     assert type(drawn.norm) is Normalize

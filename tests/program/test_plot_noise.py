@@ -6,7 +6,7 @@ import pytest
 
 import petsam
 from petsam import cycles
-from petsam.plot import loops, maps, noise, profiles, series, style
+from petsam.plot import crossings, fields, loops, noise, series, style
 from support import ball, history, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
@@ -104,12 +104,12 @@ def test_normal_load_alone_has_no_shear_slip_or_loop(draw, normal, strokes, tmp_
     names = {file.name for file in tmp_path.iterdir()}
     assert names == {f"results_{kind}.png" for kind in ("maps", "profiles", "history")}
     with petsam.open(normal) as one, petsam.open(strokes, "strokes") as other:
-        assert [axes.get_title() for axes in maps.maps([(one, one.of_last())]).axes] == ["pressure $p$", "state"]
-        figure = profiles.profiles([(one, one.of_last())])
+        assert [axes.get_title() for axes in fields.maps([(one, one.of_last())]).axes] == ["pressure $p$", "state"]
+        figure = crossings.profiles([(one, one.of_last())])
         assert [axes.get_title(loc="left") for axes in figure.axes[::2]] == ["pressure $p$"]
         # beside a file with shear, or by name, they are drawn
-        assert len(maps.maps([(one, one.of_last()), (other, other.of_last())]).axes) == 8
-        assert [axes.get_title() for axes in maps.maps([(one, 0)], names=["shear"]).axes] == ["shear $|q|$"]
+        assert len(fields.maps([(one, one.of_last()), (other, other.of_last())]).axes) == 8
+        assert [axes.get_title() for axes in fields.maps([(one, 0)], names=["shear"]).axes] == ["shear $|q|$"]
     assert draw(normal, "--loop") == (0, []) and (tmp_path / "results_loop.png").exists()
 
 

@@ -26,10 +26,10 @@ def test_kinds_are_those_of_lines(draw, file, tmp_path):
 
 def test_profiles_and_scars_have_one_column(file):
     import petsam
-    from petsam.plot import profiles, wear
+    from petsam.plot import crossings, wear
 
     one = petsam.open(str(file))
-    for figure in (profiles.profiles([(one, -1)]), wear.scar([(one, -1)])):
+    for figure in (crossings.profiles([(one, -1)]), wear.scar([(one, -1)])):
         places = {round(panel.get_position().x0, 2) for panel in figure.axes if panel.lines}
         assert len(places) == 1
         assert all("y" not in panel.get_xlabel() for panel in figure.axes)

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.quiver import Quiver
 
 import petsam
-from petsam.plot import maps, series, wear
+from petsam.plot import fields, series, wear
 from support import ROOT, ball, finished, history
 
 CASE = dict(ball(32), rolling="steady")
@@ -72,7 +72,7 @@ def test_a_curve_of_loads_is_over_the_creepage_that_they_need(rolled):
 
 def test_arrows_of_slip_velocity_on_the_cells_that_slip(rolled):
     with petsam.open(curve(rolled)) as results:
-        figure = maps.maps([(results, results.of_step(3))], whole=True)
+        figure = fields.maps([(results, results.of_step(3))], whole=True)
         titles = [axes.get_title() for axes in figure.axes if axes.images]
         assert titles == ["pressure $p$", "shear $|q|$", r"power density over $V$, $-q \cdot s$", "state"]
         panel = next(axes for axes in figure.axes if axes.get_title() == "state")
@@ -87,7 +87,9 @@ def test_arrows_of_slip_velocity_on_the_cells_that_slip(rolled):
 
 def test_the_last_step_needs_no_name(rolled):
     with petsam.open(curve(rolled)) as results:
-        first, last = (maps.maps([(results, index)]).axes[0].get_title(loc="left") for index in (0, results.of_last()))
+        first, last = (
+            fields.maps([(results, index)]).axes[0].get_title(loc="left") for index in (0, results.of_last())
+        )
     assert first == "step 1, t = 0 s" and last == ""
 
 
@@ -95,7 +97,7 @@ def test_the_scar_of_a_band_has_no_place_along_it_and_its_maps_name_the_passages
     band = petsam.open(solve(CASE, dict(creep_x=1e-3, wear_coefficient1=1e-14, wear_cycles=1000, wear_output=0)).path)
     figure = wear.scar([(band, index) for index in wear.scar_steps(band)])
     assert [axes.get_title() for axes in figure.axes] == ["body 1"]
-    assert "after 1000 cycles" in maps.maps([(band, band.of_last())]).axes[0].get_title(loc="left")
+    assert "after 1000 cycles" in fields.maps([(band, band.of_last())]).axes[0].get_title(loc="left")
 
 
 @pytest.mark.parametrize("spin", [0.0, 5.0])
@@ -105,7 +107,7 @@ def test_power_density_is_a_field_by_name(rolled, spin):
         assert results.about("power_density")[0] == "Pa"
         cell = (results.x[1] - results.x[0]) * (results.y[1] - results.y[0])
         assert np.sum(power) * cell == pytest.approx(results.history["rolling_energy"][-1])
-        figure = maps.maps([(results, results.of_last())], names=["power_density"])
+        figure = fields.maps([(results, results.of_last())], names=["power_density"])
         assert len(figure.axes) == 1 and figure.axes[0].images[0].norm.vmin == 0.0  # also with spin: see colours.LEAST
 
 
@@ -132,7 +134,7 @@ def test_what_the_power_needs_is_named(rolled, tmp_path):
 def test_all_pictures_of_a_file(rolled, tmp_path):
     done = finished([ROOT / "scripts/petsam-plot", curve(rolled)], cwd=tmp_path)
     assert [line.rpartition("_")[2] for line in done.stdout.split()[1::2]] == [
-        "maps.png",
+        "fields.png",
         "profiles.png",
         "history.png",
     ]

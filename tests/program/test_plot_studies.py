@@ -8,7 +8,7 @@ import pytest
 
 import petsam
 from petsam.plot import tables
-from petsam.studies import Study
+from petsam.results.studies import Study
 from petsam.study.cases import Case
 from petsam.study.tables import write_hdf5
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.plot import loops, maps, profiles, series, wear
+from petsam.plot import crossings, fields, loops, series, wear
 from petsam.plot.style import over_cycles, plt
 from petsam.plot.units import counted, scale
 from support import ball, slide_limit
@@ -368,7 +368,7 @@ def test_life_shows_the_bodies_that_wear(life, one_body):
 
 def test_maps_and_profiles_have_the_depths_of_what_has_worn(life, one_body, path):
     def columns(*steps):
-        return [axes.get_title() for axes in maps.maps(list(steps)).axes if axes.get_title()]
+        return [axes.get_title() for axes in fields.maps(list(steps)).axes if axes.get_title()]
 
     end, alone = (life, life.of_last()), petsam.open(one_body)
     assert columns(end)[4:] == ["depth removed of body 1, $w_1$", "depth removed of body 2, $w_2$"]
@@ -376,20 +376,20 @@ def test_maps_and_profiles_have_the_depths_of_what_has_worn(life, one_body, path
     assert len(columns((life, life.of_cycle(0)))) == 4
     with h5py.File(path, "r") as file:
         depth = file["wear_depth2"][-1]
-    figure = maps.maps([end], whole=True)
+    figure = fields.maps([end], whole=True)
     panel = figure.axes[5]
     bar = panel.images[0].colorbar.ax
     unit = {"nm": 1e9, "µm": 1e6}[bar.get_ylabel().split()[-1]]
     assert np.allclose(panel.images[0].get_array(), unit * depth)
-    axes = profiles.profiles([end], whole=True).axes
+    axes = crossings.profiles([end], whole=True).axes
     assert np.isclose(max(y.max() for _, y in curves(axes[-2])), unit * depth[11:13].max(), rtol=1e-6)
 
 
 def test_a_file_without_wear_beside_one_with_it_has_an_empty_place(life, plain):
     results = petsam.open(plain)
-    axes = maps.maps([(life, life.of_last()), (results, results.of_last())]).axes
+    axes = fields.maps([(life, life.of_last()), (results, results.of_last())]).axes
     assert [panel.axison for panel in axes[:12]] == [True] * 10 + [False] * 2
-    profiles.profiles([(life, life.of_last()), (results, results.of_last())])
+    crossings.profiles([(life, life.of_last()), (results, results.of_last())])
 
 
 def test_history_of_a_life_sums_no_energy_of_some_of_its_cycles(life, direct):

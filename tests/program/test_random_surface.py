@@ -6,9 +6,10 @@ import h5py
 import numpy as np
 import pytest
 
-from petsam.errors import Error
+from petsam.commands import surface as command
+from petsam.core.errors import Error
 from petsam.plot.style import plt
-from petsam.surface import command, generation, reading
+from petsam.surface import generation, reading
 
 SIZE = (1e-3, 1e-3)
 

@@ -11,8 +11,9 @@ from support import ROOT, dead_links, finished
 
 sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
 import check_readmes  # noqa: E402
-import reference  # noqa: E402
 from options import Option  # noqa: E402
+
+import reference  # noqa: E402
 
 FILES = [
     *ROOT.glob("*.md"),

@@ -1,9 +1,11 @@
 """The floors of src/ use each other as src/README.md says: by the linker's symbols, a floor uses those below it only,
-and so does a room those that stand below it on its floor.
+and so does a room those that stand below it on its floor. The packages of scripts/petsam use each other as
+scripts/README.md says, by all imports, those within functions too.
 
 python3 tests/program/test_rooms.py [build]     prints the arrows and the circles
 """
 
+import ast
 import re
 import subprocess
 import sys
@@ -124,6 +126,52 @@ def circles_of_files(build):
     return found
 
 
+# ---------------------------------------------------------------- the Python package
+
+PACKAGE = ROOT / "scripts" / "petsam"
+
+
+def modules():
+    """Name to path of all modules of the package; that of a package's __init__.py is the package's."""
+    found = {}
+    for path in PACKAGE.rglob("*.py"):
+        parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imported(name, path, known):
+    """The modules of the package that a module imports, at any place."""
+    package = name if path.name == "__init__.py" else name.rpartition(".")[0]
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            above = package.split(".")[: len(package.split(".")) - node.level + 1]
+            home = ".".join([*above, *([node.module] if node.module else [])])
+            for alias in node.names:
+                yield f"{home}.{alias.name}" if f"{home}.{alias.name}" in known else home
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in known)
+
+
+def imports():
+    """(importing module, imported module) of the package, but those of its __init__.py, which names all."""
+    known = modules()
+    return {(name, other) for name, path in known.items() if name != "petsam"
+            for other in imported(name, path, known) if other not in ("petsam", name)}  # fmt: skip
+
+
+def part(name):
+    """The package of a module; `.` for the modules beside the packages."""
+    first = name.split(".")[1]
+    return first if (PACKAGE / first).is_dir() else "."
+
+
+def parts():
+    """The packages of the table, the highest first."""
+    text = (ROOT / "scripts" / "README.md").read_text().partition("| package | what it does |")[2]
+    return re.findall(r"^\| `([\w.]+)` \|", text.partition("\n\n")[0], re.M)
+
+
 @pytest.fixture(scope="module")
 def build():
     from conftest import PROGRAM
@@ -152,8 +200,24 @@ def test_no_folder_has_a_large_circle_of_files(build):
     assert not large, "\n".join(map(" ".join, large))
 
 
+def test_all_packages_are_in_the_table():
+    assert sorted(parts()) == sorted({part(name) for name in modules() if name != "petsam"})
+
+
+def test_no_package_uses_one_above_it():
+    places = parts()
+    upward = [(a, b) for a, b in imports() if places.index(part(b)) < places.index(part(a))]
+    assert not upward, upward
+
+
+def test_modules_form_no_large_circle():
+    large = [circle for circle in circles(imports()) if len(circle) > MOST]
+    assert not large, large
+
+
 if __name__ == "__main__":
     where = (ROOT / (sys.argv[1] if len(sys.argv) > 1 else "build")).resolve()
     print("upward:", *lines(upward(where)), sep="\n  ")
     print("circles of rooms:", *map(" ".join, circles_of_rooms(where)), sep="\n  ")
+    print("circles of modules of the Python package:", *map(" ".join, circles(imports())), sep="\n  ")
     print("circles of files in a folder:", *map(" ".join, circles_of_files(where)), sep="\n  ")

@@ -276,10 +276,10 @@ def alive(process):
 
 
 def test_more_ranks_than_cores_are_warned_of(monkeypatch):
-    monkeypatch.setattr(package.environment, "cores", lambda: 2)
-    monkeypatch.setattr(package.environment, "NODES", ())
+    monkeypatch.setattr(package.core.environment, "cores", lambda: 2)
+    monkeypatch.setattr(package.core.environment, "NODES", ())
     for launcher, warned in (("mpirun", True), ("mpiexec", True), ("mpirun --host a,b", False), ("srun", False)):
-        monkeypatch.setattr(package.environment, "launcher", launcher.split)
+        monkeypatch.setattr(package.core.environment, "launcher", launcher.split)
         with warnings.catch_warnings(record=True) as found:
             warnings.simplefilter("always")
             assert running._command(3)[:-3] == launcher.split() and running._command(2)

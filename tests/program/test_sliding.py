@@ -6,7 +6,7 @@ import pytest
 import petsam
 from petsam import closed, cycles, sliding
 from petsam.closed import loop
-from petsam.plot import maps
+from petsam.plot import fields
 from support import ball, hertz, history, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
@@ -69,7 +69,7 @@ def test_slip_amplitude_is_cattaneos_slip_within_contact(results):
 def test_the_amplitude_is_drawn_of_the_cycle_before_a_step(results):
     with pytest.raises(petsam.Error, match="no cycle ends before step 25; give a step after a whole cycle"):
         results.quantity("slip_amplitude", results.of_step(25))
-    figure = maps.maps([(results, results.of_last())], names=["slip_amplitude"])
+    figure = fields.maps([(results, results.of_last())], names=["slip_amplitude"])
     assert figure.axes[0].get_title() == "slip amplitude of the cycle"
 
 

@@ -18,9 +18,9 @@ import pytest
 
 from conftest import PROGRAM as PETSAM
 from conftest import environment
-from petsam.declared import PATHS
+from petsam.commands import study as study_command
+from petsam.core.declared import PATHS
 from petsam.study import cases as study_cases
-from petsam.study import command as study_command
 from petsam.study import runs as study_runs
 from petsam.study.slurm import ranges
 from support import ROOT, ball, limit, slide_limit, words

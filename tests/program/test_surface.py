@@ -7,9 +7,9 @@ import h5py
 import numpy as np
 import pytest
 
-from petsam.errors import Error
+from petsam.core.errors import Error
+from petsam.core.lengths import KNOWN, UNITS, lengths, metres
 from petsam.surface import filling, levels, maps, resampling
-from petsam.surface.lengths import KNOWN, UNITS, lengths, metres
 from petsam.surface.tables import read_table
 from support import ROOT, assert_close, assert_same, ball, hertz
 from test_plot import pixels
@@ -31,7 +31,7 @@ def surface(tmp_path, monkeypatch, capfd):
 
     warnings: whether there are some; None: that does not matter.
     """
-    from petsam.surface import command
+    from petsam.commands import surface as command
 
     monkeypatch.chdir(tmp_path)
 

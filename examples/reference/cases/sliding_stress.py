@@ -152,7 +152,7 @@ def tension_edge(cells):
     with tempfile.TemporaryDirectory() as folder:
         contact, stresses = Path(folder) / "contact.h5", Path(folder) / "stresses.h5"
         petsam.run(OPTIONS, grid_n=cells, load_n=float(N), disp_x=1e-3, output=contact)
-        program = Path(petsam.environment.petsam()).with_name("petsam-stress")
+        program = Path(petsam.core.environment.petsam()).with_name("petsam-stress")
         words = ["-input", contact, "-output", stresses, "-depths", "0", "-quiet"]
         subprocess.run([program, *words], check=True)
         return petsam.open(stresses).history["edge_stress_xx_max"][-1]

@@ -16,7 +16,7 @@ spence     elastic sphere on a dissimilar flat with friction: Spence
 punch      flat circular punch with a rounded edge under normal load
 plane      infinitely long punch with rounded edges, upright or inclined, in partial slip
 
-`python3 -m petsam.closed` compares every formula with a numerical quadrature and fails when one disagrees.
+tests/program/test_closed.py compares every formula with a numerical quadrature.
 
 Functions of materials, sphere and stress have their names here; the others are imported when they are first used.
 """
@@ -24,13 +24,24 @@ Functions of materials, sphere and stress have their names here; the others are 
 import importlib
 
 # fmt: off
-from .materials import (  # isort: skip
-    Bodies, dundurs_beta, effective_modulus, effective_radius, shear_modulus, tangential_compliance)
-from .sphere import (  # isort: skip
-    Hertz, Spheres, cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius, hertz, hertz_pressure,
-    lubkin_shear, lubkin_stick_radius, lubkin_torque_ratio, lubkin_twist, torsion_limit)
-from .stress import (  # isort: skip
-    HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, sliding_surface)
+from .materials import Bodies, dundurs_beta, effective_modulus, effective_radius, shear_modulus, tangential_compliance
+from .sphere import (
+    Hertz,
+    Spheres,
+    cattaneo_displacement,
+    cattaneo_shear,
+    cattaneo_slip,
+    cattaneo_stick_radius,
+    hertz,
+    hertz_pressure,
+    lubkin_shear,
+    lubkin_stick_radius,
+    lubkin_torque_ratio,
+    lubkin_twist,
+    torsion_limit,
+)
+from .stress import HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, sliding_surface
+
 # fmt: on
 
 _PARTS = ("loop", "plane", "punch", "spence")

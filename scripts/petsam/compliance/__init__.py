@@ -19,6 +19,4 @@ stresses      stresses below the surface
 checks        limits
 model         all of it for one deck
 writing       HDF5
-picture       the result as PNG
-command       the command
 """

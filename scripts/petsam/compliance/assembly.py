@@ -7,7 +7,7 @@ part are named `INSTANCE.NAME`, as in Abaqus; those of the assembly keep their n
 
 import numpy as np
 
-from ..errors import Error, short, there_are
+from ..core.errors import Error, short, there_are
 from .cards import Card, folded, number_of, trimmed
 
 SETS = ("NSET", "ELSET", "NAME")  # parameters that name what a part has

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
-from ..errors import Error
+from ..core.errors import Error
 from .cards import folded
 
 ORDER = 4  # Gauss points along the side of a face

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..errors import Error, short
-from ..files import lines_of, text_of
+from ..core.errors import Error, short
+from ..core.files import lines_of, text_of
 
 DEPTH = 10  # depth of files that include files
 FILES = 1000  # number of included files

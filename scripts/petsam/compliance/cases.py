@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Error, short, there_are
+from ..core.errors import Error, short, there_are
 from .cards import folded, number_of, trimmed
 from .checks import deviation
 from .images import FLAT

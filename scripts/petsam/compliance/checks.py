@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import linalg
 
-from ..errors import Error
+from ..core.errors import Error
 from . import basis, images
 from .halfspace import cell_compliance, opposite
 

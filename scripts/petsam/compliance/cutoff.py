@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Error
+from ..core.errors import Error
 from .remainder import Remainder, Side, scatter
 
 ORDER = 4  # Gauss points along the side of an element

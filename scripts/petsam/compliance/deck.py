@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Error, short, there_are
+from ..core.errors import Error, short, there_are
 from . import sound
 from .assembly import flat, instance_names, label_of
 from .cards import folded, number_of, read_cards, trimmed

@@ -3,7 +3,7 @@ others."""
 
 import difflib
 
-from ..errors import Error, short
+from ..core.errors import Error, short
 
 # keywords that are read, with the parameters that are understood or have no effect
 READ = {

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..errors import Error
+from ..core.errors import Error
 from . import bolts, checks, cutoff, deck, images, modes, parts, several, stresses
 from . import cases as load_cases
 from .basis import Patch

@@ -7,7 +7,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
-from ..errors import Error
+from ..core.errors import Error
 from .cases import Case, Jump, rest
 from .solve import Floating
 from .stiffness import rule

@@ -6,7 +6,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
-from ..errors import Error
+from ..core.errors import Error
 from . import images
 from .cards import folded
 from .mesh import Block, Mesh

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import linalg
 
-from ..errors import Error
+from ..core.errors import Error
 from . import rigid
 from .cases import Case
 from .halfspace import points_needed

@@ -5,7 +5,7 @@ from scipy import linalg, sparse
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
-from ..errors import Error
+from ..core.errors import Error
 from .stiffness import rigid_motions
 
 LOOSE = 1e-6  # singular value of rigid motions at the supports below which the body can move

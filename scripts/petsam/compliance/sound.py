@@ -6,7 +6,7 @@ The boundary of a body is what belongs to one element only, so that elements tha
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..errors import Error
+from ..core.errors import Error
 from .mesh import inverse, outside
 
 NEAR = 12  # neighbours of an element whose inside is searched for its centre

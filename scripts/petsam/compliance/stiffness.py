@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 from scipy import sparse
 
-from .. import environment
-from ..errors import Error, Missing, one_line
+from ..core import environment
+from ..core.errors import Error, Missing, one_line
 
 OWN = ("C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20", "C3D20R")  # element types that are assembled here
 CCX = "ccx"

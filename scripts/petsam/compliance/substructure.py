@@ -17,8 +17,8 @@ import re
 import numpy as np
 from scipy.spatial import Delaunay
 
-from ..errors import Error, short
-from ..files import lines_of, text_of
+from ..core.errors import Error, short
+from ..core.files import lines_of, text_of
 from . import checks
 from .basis import Patch
 from .halfspace import projected

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Error
+from ..core.errors import Error
 from .cards import folded
 
 

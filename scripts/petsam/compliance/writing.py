@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from ..replacing import replacing
+from ..core.hdf5 import replacing
 from . import rigid
 from .modes import UNIT as MODE
 

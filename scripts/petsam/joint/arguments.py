@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..errors import Error, short
+from ..core.errors import Error, short
 
 
 def integer(name, value, least=1):

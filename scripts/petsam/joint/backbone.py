@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Error
+from ..core.errors import Error
 from .arguments import integer, positive
 from .arguments import modal as as_modal
 from .balance import Balance
@@ -97,49 +97,6 @@ class Backbone(Numbers):
     def more_columns(self):
         """The energy of each patch."""
         return energies(self.patches, self.names)
-
-    def plot(self):
-        """A figure of frequency and damping over the amplitude."""
-        from ..plot.style import COLORS, WHOLE, logarithmic, plt
-
-        with plt.rc_context(WHOLE):
-            figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-            reach = 1e6 * self.amplitude
-            left.axhline(self.linear, color="0.4", linewidth=0.8, linestyle="--", label="all that touches sticks")
-            left.plot(reach, self.frequency, "o-", color=COLORS[0], markersize=4.0)
-            label = "modal amplitude, 1e-6 m kg$^{1/2}$" if self.unit == MODAL else "amplitude, µm"
-            left.set(xlabel=label, ylabel="frequency, Hz")
-            left.legend()
-            right.plot(reach, 100.0 * (self.damping + self.viscous), "o-", color=COLORS[0], markersize=4.0)
-            right.set(xlabel=label, ylabel="damping, % of critical")
-            logarithmic(left, "x")
-            logarithmic(right, "xy" if np.all(self.damping > 0.0) else "x")
-        return figure
-
-    def plot_contact(self):
-        """A figure of the patches, one below the other: pressure in the preload, and where the largest amplitude makes
-        them slip."""
-        from matplotlib.colors import ListedColormap
-        from matplotlib.patches import Patch as Key
-
-        from ..plot.maps import OPEN, STATES
-        from ..plot.style import STYLE, plt
-
-        words, tints = zip(*(STATES[k] for k in sorted(STATES)))
-        with plt.rc_context({**STYLE, "axes.grid": False}):
-            size = (8.0, 3.4 * len(self.names))
-            figure, rows = plt.subplots(len(self.names), 2, figsize=size, layout="constrained", squeeze=False)
-            for k, ((left, right), (x, y)) in enumerate(zip(rows, self.axes)):
-                pressed = np.where(self.pressure[k] > 0.0, 1e-6 * self.pressure[k], np.nan)
-                drawn = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, rasterized=True)
-                figure.colorbar(drawn, ax=left, label="pressure, MPa")
-                given = dict(cmap=ListedColormap(tints), vmin=-0.5, vmax=len(tints) - 0.5, rasterized=True)
-                right.pcolormesh(1e3 * x, 1e3 * y, self.states[k], **given)
-                keys = [Key(color=tint, label=word) for word, tint in zip(words, tints) if word != STATES[OPEN][0]]
-                right.legend(handles=keys, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
-                for ax, title in ((left, "preload"), (right, "largest amplitude")):
-                    ax.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", title=f"{self.names[k]}, {title}")
-        return figure
 
 
 def modal_amplitudes(sweep, amplitudes, sensor):

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Error
+from ..core.errors import Error
 from .arguments import integer, modal, positive
 from .numbers import Numbers, energies, solved
 from .structure import BEYOND, NoSolution
@@ -267,19 +267,6 @@ class Response(Numbers):
     def more_columns(self):
         """The energy of each patch."""
         return energies(self.patches, self.names)
-
-    def plot(self):
-        """A figure of amplitude and phase over the frequency."""
-        from ..plot.style import COLORS, WHOLE, logarithmic, plt
-
-        with plt.rc_context(WHOLE):
-            figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-            left.plot(self.frequency, 1e6 * self.amplitude, "o-", color=COLORS[0], markersize=4.0)
-            left.set(xlabel="frequency, Hz", ylabel="amplitude, µm")
-            logarithmic(left, "y")
-            right.plot(self.frequency, np.degrees(self.phase), "o-", color=COLORS[0], markersize=4.0)
-            right.set(xlabel="frequency, Hz", ylabel="phase, degrees")
-        return figure
 
 
 def forced(structure, force, frequencies, sensor, steps=2 * STEPS, harmonics=3, report=None):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Error, short
+from ..core.errors import Error, short
 from .arguments import positive, real
 from .backbone import COLUMNS, Backbone, backbone, shake
 from .numbers import heads, reason
@@ -94,28 +94,6 @@ class Band:
             for assembly, one in self.every.items():
                 for k in range(len(one.alpha)):
                     rows.writerow([assembly, *(f"{one.numbers[name][k]:.10g}" for name in COLUMNS)])
-
-    def plot(self):
-        """A figure of the bands of frequency and damping over the amplitude."""
-        from ..plot.style import COLORS, WHOLE, logarithmic, plt
-
-        with plt.rc_context(WHOLE):
-            figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-            reach = 1e6 * self.given.amplitude[: self.count]
-            for ax, name, factor in zip(axes, NUMBERS, (1.0, 100.0)):
-                low, high = (factor * one for one in self.limits(name))
-                ax.fill_between(reach, low, high, color="0.85", label="all assemblies")
-                for color, (assembly, one) in zip(COLORS, self.backbones.items()):
-                    values = factor * one.numbers[name][: self.count]
-                    error = factor * self.deviation(name) if self.scatter and assembly == ASSEMBLED else None
-                    ax.errorbar(reach, values, error, color=color, marker="o", markersize=3.0, label=assembly)
-                ax.set(xlabel="amplitude, µm")
-            axes[0].set(ylabel="frequency, Hz")
-            axes[1].set(ylabel="damping by friction, % of critical")
-            axes[0].legend()
-            logarithmic(axes[0], "x")
-            logarithmic(axes[1], "xy" if np.all(self.given.damping > 0.0) else "x")
-        return figure
 
 
 def band(make, preload, amplitudes, sensor, scatter=None, report=None, **given):

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..contact import AdviceWarning, Contact
-from ..errors import Error
+from ..core.errors import Error
 from . import elements
 from .arguments import array, integer, positive, real
 from .surfaces import need_fitting
@@ -163,30 +163,6 @@ class Interface:
                 f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]} {fit}"
             )
         return lines
-
-    def plot(self):
-        """The stiffnesses and the real contact area over the pressure: a figure of matplotlib."""
-        from ..plot.style import COLORS, STYLE, logarithmic, plt
-
-        with plt.rc_context(STYLE):
-            figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-            pressure = self.numbers["pressure"] / 1e6
-            for axes, name, label, unit, color, look in (
-                (left, "k_n", "normal", 1e-12, COLORS[0], {"marker": "o"}),
-                # the curves along x and y often lie on one another: the rings of x are around the crosses of y
-                (left, "k_t_x", "tangential, $x$", 1e-12, COLORS[1], {"marker": "o", "ms": 8.0}),
-                (left, "k_t_y", "tangential, $y$", 1e-12, COLORS[2], {"marker": "x", "linestyle": "--"}),
-                (right, "area", "real contact area", 100.0, COLORS[0], {"marker": "o"}),
-            ):
-                spread = self.spread.get(name)
-                look = {"ms": 5.0, "linewidth": 1.2, "markerfacecolor": "none", "capsize": 3.0, **look}
-                bars = None if spread is None else unit * spread
-                axes.errorbar(pressure, unit * self.numbers[name], bars, color=color, label=label, **look)
-            for axes, label in ((left, "contact stiffness, N/µm per mm²"), (right, "real contact area, %")):
-                axes.set(xlabel="nominal pressure, MPa", ylabel=label)
-                logarithmic(axes, "xy")
-            left.legend()
-        return figure
 
 
 @contextlib.contextmanager

@@ -9,10 +9,9 @@ import h5py
 import numpy as np
 
 from ..contact import Contact
-from ..errors import FILE, Error, short, there_are
-from ..files import need_regular
-from ..isolation import reading
-from ..results import DAMAGED
+from ..core.errors import FILE, Error, short, there_are
+from ..core.files import need_regular
+from ..core.hdf5 import DAMAGED, opened
 from .arguments import integer, real
 from .structure import DISPLACEMENTS, Patch, Structure
 
@@ -58,7 +57,7 @@ class Pair:
         self.path = path
         self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
         try:
-            with reading(path), h5py.File(path) as file:
+            with opened(path) as file:
                 self._read(file)
                 own = [self._patch_file(k, group, lower) for k, group in enumerate(patches_of(file), 1)]
         except DAMAGED as error:

@@ -21,7 +21,7 @@ import warnings
 import numpy as np
 
 from ..contact import AdviceWarning, ContactError, EdgeContactWarning, NoEquilibrium, NotConverged, PrescribedError
-from ..errors import Error, short
+from ..core.errors import Error, short
 from .arguments import array, real
 
 TOLERANCE = 1e-7  # of the work and of the energy of the errors, relative to the work of the loads

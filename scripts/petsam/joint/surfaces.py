@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..closed.materials import effective_modulus
-from ..errors import Error
+from ..core.errors import Error
 from ..surface.reading import read_hdf5
 from .pair import Unreadable
 

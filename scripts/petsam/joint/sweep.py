@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.linalg import norm
 
-from ..errors import Error
-from ..results import SLIP
+from ..core.errors import Error
+from ..results.file import SLIP
 from .arguments import integer
 from .structure import Structure
 

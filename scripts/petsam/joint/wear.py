@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..contact import ContactError
-from ..errors import Error
+from ..core.errors import Error
 from .arguments import array
 from .backbone import modal_amplitudes
 from .numbers import Numbers, reason
@@ -60,21 +60,6 @@ class Wear(Numbers):
     def more_columns(self):
         """What `measure` returned."""
         return self.measured
-
-    def plot(self):
-        """A figure of frequency and damping over the cycles."""
-        from ..plot.style import COLORS, WHOLE, plt
-
-        with plt.rc_context(WHOLE):
-            figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-            for ax, name, factor in zip(axes, ("frequency", "damping"), (1.0, 100.0)):
-                values, error = (factor * self.numbers[one] for one in (name, f"{name}_error"))
-                ax.errorbar(self.cycles, values, error, color=COLORS[0], marker="o", markersize=4.0)
-                ax.set_xscale("symlog", linthresh=max(self.cycles[1], 1.0))
-                ax.set(xlabel="cycles")
-            axes[0].set(ylabel="frequency, Hz")
-            axes[1].set(ylabel="damping by friction, % of critical")
-        return figure
 
 
 def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure=None):

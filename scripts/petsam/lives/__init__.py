@@ -5,8 +5,6 @@ materials   constants of a material: units, ranges, files
 strength    lives by Smith-Watson-Topper, Fatemi-Socie and Basquin, safety factors, damage of a spectrum
 evaluation  both at all points of a cycle, and along the depth below a place
 cracks      stress intensity of a short crack, thresholds, arrest
-picture     curves over depth, Kitagawa-Takahashi diagram
-command     the command petsam-fatigue
 """
 
 from . import cracks, evaluation, materials, strength, stresses  # noqa: F401

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import Error
+from ..core.errors import Error
 from . import cracks, strength
 from .materials import need
 from .stresses import terms

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import yaml
 
-from ..errors import Error, short, there_are
-from ..files import need_regular
+from ..core.errors import Error, short, there_are
+from ..core.files import need_regular
 
 SMALL = 1 << 20  # bytes of a file of constants at most
 

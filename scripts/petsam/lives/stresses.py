@@ -4,9 +4,9 @@ import os
 
 import numpy as np
 
-from ..errors import Error, one_line, short, there_are
-from ..files import decoded
-from ..stresses import FATIGUE, Stresses
+from ..core.errors import Error, one_line, short, there_are
+from ..core.files import decoded
+from ..results.stresses import FATIGUE, Stresses
 
 
 def terms(angle):

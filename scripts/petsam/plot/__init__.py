@@ -1,39 +1,45 @@
-"""Pictures: command (petsam-plot) and its arguments; maps and profiles of fields, series (scalars over time or over one
-another), loops (and energies of cycles), wear (scars, lives), bodies (stresses), tables (studies).
+"""Pictures of results: by name in pictures.py, as petsam.plot.maps(results), petsam.plot.loop(results, other).
 
-colours chooses the colours of maps, symbols what known quantities are called, units the prefixes; style has the look of
-all.
+fields and crossings draw fields over the surface and along x and y, series scalars over time or over one another, loops
+and wear cycles and scars, bodies stresses, tables and planes studies; of_compliance, of_lives, of_surface and of_joints
+what these parts of the package have found. colours chooses the colours of maps, symbols what known quantities are
+called, units the prefixes; style has the look of all, saving writes files.
 """
 
+import importlib
 import os
 import sys
 
 if "ipykernel" not in sys.modules or "MPLBACKEND" not in os.environ:  # a notebook shows pictures by its own backend
     os.environ["MPLBACKEND"] = "Agg"  # no screen is needed; matplotlib refuses to start with a name it does not know
 
+# functions and their modules, which load matplotlib at the first use
+_HOMES = {
+    "pictures": (
+        "energy", "fatigue", "fretting_log", "history", "life", "loop", "maps", "profiles", "regimes", "scar",
+        "sections", "stress_maps", "stress_profiles", "study",
+    ),
+    "of_joints": ("backbone", "band", "interface", "joint_wear", "response", "slip_zones"),
+    "of_compliance": ("compliance",),
+    "of_lives": ("lives",),
+    "of_surface": ("surface",),
+}  # fmt: skip
+__all__ = sorted(name for names in _HOMES.values() for name in names)
 
-class Pictures:
-    """The pictures of an open file as matplotlib figures: those of petsam-plot, by the names of its options.
 
-    results.plot.maps(step=[20, -1], field="shear_x"), .loop(), .section(), and so on for all that petsam-plot --help
-    lists; other files are compared: results.plot.loop(other, load="tx"). Options are keywords, with _ for -: values,
-    lists of them, or True for those without one.
-    """
+def __getattr__(name):
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(importlib.import_module("." + home, __name__), name)
+    if name.startswith("__"):
+        raise AttributeError(name)
+    try:
+        return importlib.import_module("." + name, __name__)
+    except ModuleNotFoundError as error:
+        if error.name != f"{__name__}.{name}":
+            raise
+        raise AttributeError(f"no picture {name}: there are {', '.join(__all__)}") from None
 
-    def __init__(self, file):
-        self._file = file
 
-    def __getattr__(self, kind):
-        from . import command
-
-        name = kind.replace("_", "-")
-        if name == "section":  # in the body where there are stresses, else across the surface
-            name = "sections" if hasattr(self._file, "z") else "profiles"
-        if name not in command.KINDS:
-            raise AttributeError(f"no picture {kind}: there are section, {', '.join(self.__dir__())}")
-        return lambda *others, **options: command.picture(name, [self._file, *others], **options)
-
-    def __dir__(self):
-        from . import command
-
-        return [kind.replace("-", "_") for kind in command.KINDS]
+def __dir__():
+    return __all__

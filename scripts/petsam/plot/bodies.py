@@ -8,8 +8,8 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import Bbox
 
-from ..errors import Error
-from .maps import PIXELS, Layout
+from ..core.errors import Error
+from .fields import PIXELS, Layout
 from .style import DAMAGE, bar, colors, cross, extent, field, heading, named, need_few, note, plt
 from .units import label, largest, number, plain, scale
 

@@ -5,7 +5,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize, SymLogNorm
 
-from ..errors import Error
+from ..core.errors import Error
 from .units import label, scale
 
 SIGNED, UNSIGNED = "RdBu_r", "viridis"

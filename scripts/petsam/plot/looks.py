@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
-from ..errors import Error
+from ..core.errors import Error
 from .style import plt
 from .units import size_of
 

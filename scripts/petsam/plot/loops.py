@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 
-from .. import sliding
-from ..cycles import ENERGY, PAIRS, busiest, by_turns
-from ..errors import Error
-from ..sliding import cycle_energy, loop_energy
+from ..core.errors import Error
+from ..results import sliding
+from ..results.cycles import ENERGY, PAIRS, busiest, by_turns
+from ..results.sliding import cycle_energy, loop_energy
 from . import noise, symbols
 from .style import colors, curve, logarithmic, named, need_few, plt, tint
 from .units import counted, label, largest, plain, scale

@@ -4,9 +4,9 @@ import csv
 
 import numpy as np
 
-from ..errors import Error, short
-from ..files import need_regular
-from ..surface.lengths import KNOWN, metres
+from ..core.errors import Error, short
+from ..core.files import need_regular
+from ..core.lengths import KNOWN, metres
 
 
 def _column(path, number, name):

@@ -9,7 +9,7 @@ bodies, which do not rotate, do not count.
 
 import numpy as np
 
-from ..cycles import ENERGY, PAIRS, TANGENTIAL
+from ..results.cycles import ENERGY, PAIRS, TANGENTIAL
 from .units import largest
 
 NOISE = 1e-6  # of the scale: solvers converge to 1e-8 and less

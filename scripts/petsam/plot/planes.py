@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
-from ..errors import Error, short
-from ..sliding import REGIMES
+from ..core.errors import Error, short
+from ..results.sliding import REGIMES
 from .style import COLORS, bar, logarithmic, need_few, plt
 from .tables import matching, need_case, numbers, titled
 from .units import label, largest, number, on_axis, scale

@@ -5,8 +5,8 @@ matplotlib is loaded when a picture is written, not before: a command reads its 
 
 import argparse
 
-from ..errors import Error, short
-from ..files import need_replaceable
+from ..core.errors import Error, short
+from ..core.files import need_replaceable
 
 DPI = 150  # pixels per inch of a PNG: for the screen
 RANGE = (10, 1200)
@@ -40,11 +40,12 @@ def add_choice(group):
 def write(figure, path, dpi=DPI):
     """Writes a figure in the format that the ending of its name gives, and closes it. Raises Error if the name is not
     that of a file, or if a PNG would have more than PIXELS."""
-    from .style import plt
+    from .style import STYLE, plt
 
     need_replaceable(path)
     width, height = (dpi * inches for inches in figure.get_size_inches())
     if path.lower().endswith(".png") and width * height > PIXELS:
         raise Error(f"{path}: {width:.0f} x {height:.0f} pixels are too many; see --dpi")
-    figure.savefig(path, dpi=dpi)
+    with plt.rc_context(STYLE):  # of the ticks that are made now
+        figure.savefig(path, dpi=dpi)
     plt.close(figure)

@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from ..cycles import ENERGY, PAIRS
-from ..errors import Error, short, there_are
+from ..core.errors import Error, Useless, short, there_are
+from ..results.cycles import ENERGY, PAIRS
 from . import noise, symbols
 from .style import MARKED, colors, logarithmic, named, need_few, outlined, plt, scattered
 from .units import label, largest, on_axis, plain
-from .uses import Useless
 
 VOLUMES = ("wear_volume1", "wear_volume2")
 TIME = "time"

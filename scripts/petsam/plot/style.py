@@ -1,5 +1,6 @@
 """How all pictures look: matplotlib without a screen, the house's style and colours, and what many pictures share."""
 
+import functools
 import os
 import re
 
@@ -12,7 +13,7 @@ import numpy as np  # noqa: E402
 from matplotlib.ticker import LogFormatterMathtext, MaxNLocator  # noqa: E402
 from PIL import Image  # noqa: E402  (comes with matplotlib)
 
-from ..errors import Error  # noqa: E402
+from ..core.errors import Error  # noqa: E402
 from .saving import DPI, write  # noqa: E402
 from .units import plain  # noqa: E402
 
@@ -30,6 +31,23 @@ TURNS = 20  # of the abscissa, of ten cycles; with more a curve over it is drawn
 BINS = 1500  # parts of an axis of time, more than a panel has pixels: of each the extremes are drawn
 DAMAGE = "YlOrRd"  # colours of what is zero over most of a picture: light there, as paper is
 CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed-form solution
+
+
+def drawn(style):
+    """Makes a function that draws a figure draw it in a style; pyplot, which would show it twice in a notebook, forgets
+    the figure."""
+
+    def of(draw):
+        @functools.wraps(draw)
+        def drawing(*given, **options):
+            with plt.rc_context(style):
+                figure = draw(*given, **options)
+            plt.close(figure)
+            return figure
+
+        return drawing
+
+    return of
 
 
 def colors(count):

@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from ..errors import Error, counted, short
+from ..core.errors import Error, Useless, counted, short
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
 from .units import label, largest, number, on_axis, plain, scale
-from .uses import Useless
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
 MOST = 9  # panels of a picture, unless columns are named

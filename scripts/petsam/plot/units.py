@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from ..errors import short
+from ..core.errors import short
 
 POWERS = {"m2": 2, "m3": 3}
 LEAST = {"m2": 1e-3, "m3": 1e-3}  # from 1 mm² on there are no µm², and so on: 0.15 mm², not 150000 µm²

@@ -6,11 +6,11 @@ are numbered in thousands or millions, and coloured in their order, dark to brig
 
 import numpy as np
 
-from ..errors import Error
-from ..results import BLOCK
+from ..core.errors import Error
+from ..results.file import BLOCK
+from .crossings import crossing, sides_of
 from .loops import LOOPS, cycle_energy, loop_axes, loop_energy, spread
 from .measured import read_profiles
-from .profiles import crossing, sides_of
 from .style import colors, curve, named, need_few, note, over_cycles, plt, tint
 from .symbols import SYMBOLS
 from .units import counted, label, largest, number, plain, scale
@@ -214,6 +214,11 @@ def _draw_measured(panel, profiles, units):
         panel.plot(units[0][0] * x, -units[1][0] * height, style, color="black", linewidth=1.0, label=text)
     panel.set_xlim(limits)
     panel.legend(handles=panel.lines[-len(heights) :], loc="lower right")
+
+
+def scar_steps_of(files):
+    """Pairs of a file and an index into its fields, for each of its default steps."""
+    return [(one, k) for one in files for k in scar_steps(one)]
 
 
 def scar(steps, at=None, whole=False, measured=None):

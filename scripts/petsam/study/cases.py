@@ -20,9 +20,9 @@ import os
 import re
 from typing import NamedTuple
 
-from .. import declared
-from ..errors import Error, short
-from ..files import decoded, lines_of, need_regular
+from ..core import declared
+from ..core.errors import Error, short
+from ..core.files import decoded, lines_of, need_regular
 from .expressions import Expander, names_in
 from .reading import TableError, read_csv, read_yaml
 

@@ -10,7 +10,7 @@ import operator
 import re
 import warnings
 
-from ..errors import short
+from ..core.errors import short
 
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log", "pi")}
 FUNCTIONS.update(abs=abs, min=min, max=max)

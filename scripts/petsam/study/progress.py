@@ -4,7 +4,7 @@ import os
 import sys
 import time
 
-from ..errors import counted
+from ..core.errors import counted
 from .runs import LOG, MEANINGS, STOPPED, record
 
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import yaml
 
-from ..errors import Error, short
-from ..files import need_regular
+from ..core.errors import Error, short
+from ..core.files import need_regular
 from .expressions import check
 
 CSV, YAML = 64 << 20, 1 << 20  # maximum bytes of a table; reading YAML takes long

@@ -16,9 +16,9 @@ import signal
 import subprocess
 import time
 
-from .. import environment
-from ..errors import Error, one_line, short
-from ..files import need_regular, need_replaceable
+from ..core import environment
+from ..core.errors import Error, one_line, short
+from ..core.files import need_regular, need_replaceable
 
 LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
 STRESSES = "stress.h5"  # of petsam-stress, if the table requests it

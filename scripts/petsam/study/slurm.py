@@ -6,8 +6,8 @@ import shlex
 import shutil
 import subprocess
 
-from .. import environment
-from ..errors import Error, counted, short
+from ..core import environment
+from ..core.errors import Error, counted, short
 
 
 class SubmitError(Error):

@@ -26,11 +26,12 @@ from typing import NamedTuple, Optional
 import h5py
 import numpy as np
 
-from .. import cycles, isolation, parts, sliding
-from ..errors import Error
-from ..files import need_replaceable
-from ..results import DAMAGED, Results
-from ..stresses import Stresses
+from ..core import isolation
+from ..core.errors import Error
+from ..core.hdf5 import DAMAGED, replacing
+from ..results import cycles, parts, sliding
+from ..results.file import Results
+from ..results.stresses import Stresses
 from .expressions import Expander
 from .runs import RESULTS, STRESSES, record, write_atomically
 
@@ -242,8 +243,7 @@ def write_hdf5(path, found, study):
     """The table as HDF5."""
     inputs, units = _names(found)
     shared = set.intersection(*[set(case.options.items()) for case, _, _ in found])
-    need_replaceable(path + ".tmp")
-    with h5py.File(path + ".tmp", "w") as file:
+    with replacing(path) as file:
         words = ("-" + name + (" " + value if value else "") for name, value in sorted(shared, key=str))
         file.attrs["study"], file.attrs["options"] = _encodable(study), _encodable(" ".join(words))
         for name, values in (
@@ -265,7 +265,6 @@ def write_hdf5(path, found, study):
         for case, _, values in found:
             if values:
                 _link_parts(links, os.path.dirname(path), case.name)
-    os.replace(path + ".tmp", path)
 
 
 def _link_parts(links, directory, case):

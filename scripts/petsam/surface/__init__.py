@@ -1,6 +1,5 @@
 """Height maps for petsam: petsam-surface.
 
-lengths     units, and lengths with a unit
 maps        a map: orientation, window, description
 tables      maps in text files
 headers     statements in the header of a text file
@@ -11,6 +10,4 @@ levels      mean, tilt and form taken off
 resampling  a map on another grid
 generation  random surfaces of a spectrum
 writing     HDF5 for petsam's -gap_file and -gap_rough_file
-picture     the result as PNG
-command     the command
 """

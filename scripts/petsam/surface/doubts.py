@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..errors import Error, counted
-from .lengths import shown
+from ..core.errors import Error, counted
+from ..core.lengths import shown
 
 NARROW = 6  # columns of a list of points: x, y, z, and up to three more
 LIST = 9  # rows from which on an array of so few columns is a list in any case

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import Error
+from ..core.errors import Error
 
 
 def place(one, row, column):

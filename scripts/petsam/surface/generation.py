@@ -15,8 +15,8 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import ndtr
 
-from ..errors import Error
-from .lengths import shown
+from ..core.errors import Error
+from ..core.lengths import shown
 from .tables import read_table
 
 RESOLVED = 2.0  # cells in the shortest wavelength at least

@@ -7,8 +7,8 @@ its words, as programs of instruments write them: "# Width: 80 um", "x-length = 
 import re
 from typing import NamedTuple
 
-from ..errors import Error, short
-from .lengths import NUMBER, metres
+from ..core.errors import Error, short
+from ..core.lengths import NUMBER, metres
 
 X = {"x", "width", "breite", "largeur", "anchura", "larghezza", "largura", "dx", "lx"}
 Y = {"y", "height", "h\u00f6he", "hauteur", "altura", "altezza", "dy", "ly"}

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import Error
-from .lengths import shown
+from ..core.errors import Error
+from ..core.lengths import shown
 
 KINDS = ("none", "mean", "tilt", "second-order", "sphere", "cylinder", "rows", "columns")
 TERMS = {

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import Error
-from .lengths import shown
+from ..core.errors import Error
+from ..core.lengths import shown
 
 QUANTITIES = {
     "height1": "heights of body 1, peaks positive",

@@ -9,13 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import Error, short
-from ..files import decoded, need_regular
-from ..isolation import reading
-from ..results import DAMAGED
+from ..core.errors import Error, short
+from ..core.files import decoded, need_regular
+from ..core.hdf5 import DAMAGED, opened
+from ..core.lengths import KNOWN, UNITS, metres, shown
 from . import headers
 from .doubts import need_map, of_cells
-from .lengths import KNOWN, UNITS, metres, shown
 from .maps import QUANTITIES, SAME, new_map, turned
 from .tables import empty_line, header_lines, read_table
 
@@ -154,7 +153,7 @@ def _read_hdf5(path, options):
 def _of_hdf5(path, dataset, bare=False):
     import h5py
 
-    with reading(path), h5py.File(path, "r") as file:
+    with opened(path) as file:
         name = (dataset or ("separation" if bare and "separation" in file else "height")).strip("/")
         name = name if name in file or dataset else "separation"
         data = file.get(name)

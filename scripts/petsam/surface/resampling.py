@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import Error
-from .lengths import shown
+from ..core.errors import Error
+from ..core.lengths import shown
 from .maps import SAME
 
 BLOCK = 256  # columns at a time: the spline takes several times their memory

@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 
-from ..errors import Error, short
-from ..files import SAMPLE, decoded, lines_of
+from ..core.errors import Error, short
+from ..core.files import SAMPLE, decoded, lines_of
 
 COMMENTS = ("#", "%")  # of lines that never have numbers of the map
 # missing points as instruments and spreadsheets write them

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import __version__
-from ..replacing import replacing
+from ..core.hdf5 import replacing
 from .maps import QUANTITIES
 
 SIGN = "petsam_surface"  # root attribute by which a file of this command is known

@@ -15,7 +15,7 @@ elsewhere: a solver then needs more iterations and finds the same solution.
 
 import numpy as np
 
-from ...errors import Error
+from ...core.errors import Error
 from ..sweep import CYCLES, SETTLED
 
 PER_WAVE = 4  # least samples of a period of the highest harmonic

@@ -8,7 +8,7 @@ pyHarm.Maestro({"plugin": [pyharm.Contact], "connectors": {"joint": connector}, 
 import numpy as np
 from pyHarm.Elements.ABCElement import ABCElement
 
-from ...errors import Error
+from ...core.errors import Error
 from .cycles import Cycles
 
 

@@ -7,7 +7,7 @@ system.add_nl_force(Force(element, Q))
 
 import numpy as np
 
-from ...errors import Error
+from ...core.errors import Error
 from .cycles import Cycles
 
 HYSTERETIC = 1  # kind of force in tmdsimpy

@@ -1,0 +1,488 @@
+"""Stiffness and damping of a joint, for a structural analysis.
+
+    petsam-joint stiffness scan.h5 --pressure 1MPa:50MPa:12 --friction 0.4 --body1 steel --body2 steel -o interface
+    petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:9 -o out
+    petsam-joint band lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:5
+    petsam-joint wear lap.h5 --contact worn.opts --preload B1=12e3 --sensor TIP:z --amplitudes 50um --cycles 1e4,1e5,1e6
+    petsam-joint response lap.h5 --contact lap.opts --preload B1=12e3 --force TIP:z=0.5 --frequencies 110:118:17
+
+stiffness: scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the
+normal and the tangential stiffness per area of the interface alone, the real contact area, and the energy of a loop of
+the shear; with the standard deviation of five windows of the surface, and the exponent chi and the weight beta of an
+Iwan element. -o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and pyHarm, NAME.inp, the
+interaction for a deck of Abaqus, and NAME.png.
+
+backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written; each of its patches
+is a contact with the options of --contact, whose origin is the patch's centre. Tightens the bolts and prints frequency
+and damping of a mode over its amplitude, by friction in the joint alone: by quasi-static modal analysis, or with
+--harmonics by harmonic balance. -o NAME writes NAME.csv, NAME.png and NAME-contact.png, which shows the pressure in the
+preload and where the contact slips.
+
+band: prints the range of the backbone over the histories of assembly: bolts in the given and in the reverse order,
+without friction until all are tightened, and after a vibration at the largest amplitude. With --scatter also the
+standard deviation by those of friction and preload. -o NAME writes NAME.csv and NAME.png.
+
+wear: prints frequency, damping and the bolts' tension over the cycles of a vibration that wears the contact, whose
+options give the wear coefficients. -o NAME writes NAME.csv and NAME.png.
+
+response: prints the response of the same to a harmonic force over its frequency, by harmonic balance, with the damping
+of the material and of friction. -o NAME writes NAME.csv and NAME.png.
+"""
+
+import argparse
+import contextlib
+import re
+import sys
+import warnings
+
+import numpy as np
+
+from .. import plot
+from ..contact import AdviceWarning
+from ..core.errors import USAGE, Error, Parser, fail, guarded, joined, short
+from ..core.files import need_regular, need_replaceable
+from ..core.lengths import lengths
+from ..joint import interface
+from ..joint.backbone import backbone
+from ..joint.balance import forced
+from ..joint.band import band
+from ..joint.pair import Pair
+from ..joint.structure import ENDS
+from ..joint.surfaces import read_separation
+from ..joint.sweep import BackboneWarning
+from ..joint.wear import rising, wear
+from ..plot.saving import DPI, add_resolution, write
+
+MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
+BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest
+PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
+
+
+def stress(text):
+    """Reader of a stress for argparse: a number in Pa, or with its unit."""
+    found = re.fullmatch(r"([0-9.]+(?:[eE][+-]?[0-9]+)?)(Pa|kPa|MPa|GPa|)", text)
+    try:
+        value = float(found[1]) * PASCALS[found[2]]
+    except (TypeError, ValueError):
+        value = -1.0
+    if not 0.0 < value < float("inf"):
+        what = "expected a stress above 0, such as 5e6 (Pa) or 5MPa"
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
+    return value
+
+
+def pressures(text):
+    """Reader of pressures for argparse: FIRST:LAST:COUNT in geometric steps, or P,P,..."""
+    words = text.split(":")
+    if len(words) == 1:
+        return np.array([stress(word) for word in text.split(",")])
+    if len(words) != 3 or not words[2].isdigit() or not 2 <= int(words[2]) <= 1000:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected FIRST:LAST:COUNT, or pressures separated by commas")
+    return np.array([float(f"{p:.12g}") for p in np.geomspace(stress(words[0]), stress(words[1]), int(words[2]))])
+
+
+def material(text):
+    """Reader of a body's material for argparse: a name, or E,NU."""
+    if text in MATERIALS:
+        return MATERIALS[text]
+    words = text.split(",")
+    try:
+        young, poisson = float("inf") if words[0] == "inf" else stress(words[0]), float(words[1])
+    except (argparse.ArgumentTypeError, ValueError, IndexError):
+        young = poisson = -1.0
+    if len(words) != 2 or young < 0 or not 0.0 <= poisson < 0.5:
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected {', '.join(MATERIALS)}, or Young's modulus (inf: rigid) and Poisson's ratio: "
+            "210GPa,0.3"
+        )
+    return young, poisson
+
+
+def named_number(text):
+    """Name and number of NAME=NUMBER; NaN where it is none, which no range contains."""
+    name, _, number = text.partition("=")
+    try:
+        return name, float(number)
+    except ValueError:
+        return name, float("nan")
+
+
+def frictions(text):
+    """Reader of NAME=NUMBER for argparse."""
+    name, value = named_number(text)
+    if not name or not 0.0 <= value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=FORCE in N, such as B1=12e3")
+    return name, value
+
+
+def amplitude_range(text):
+    """Reader of amplitudes for argparse: FIRST:LAST:COUNT in geometric steps, or lengths separated by commas, m."""
+    words = text.split(":")
+    if len(words) == 1:
+        found = np.array(lengths(text))
+    elif len(words) == 3 and "," not in text and words[2].isdigit() and 2 <= int(words[2]) <= 1000:
+        found = np.geomspace(*(lengths(word)[0] for word in words[:2]), int(words[2]))
+    else:
+        found = np.zeros(1)
+    if not np.all((found > 0.0) & np.isfinite(found)):
+        what = "expected FIRST:LAST:COUNT, or lengths above 0 separated by commas: 1um:100um:12"
+        raise argparse.ArgumentTypeError(f"{short(text)}: {what}")
+    return found
+
+
+def scatter(text):
+    """Reader of NAME=NUMBER of --scatter for argparse."""
+    name, value = named_number(text)
+    if name not in ("friction", "preload") or not 0.0 <= value < 1.0:
+        what = "expected friction=S or preload=S, a standard deviation as a part of it: friction=0.1"
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
+    return name, value
+
+
+def cycle_counts(text):
+    """Reader of rising numbers of cycles for argparse."""
+    try:
+        found = np.array([float(word) for word in text.split(",")])
+    except ValueError:
+        found = np.zeros(1)
+    if not rising(found):
+        what = "expected rising whole numbers above 0: 1e4,1e5,1e6"
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
+    return found
+
+
+def force(text):
+    """Reader of SENSOR:D=N for argparse: the place and direction, and the force's amplitude."""
+    place, value = named_number(text)
+    if not place or not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected SENSOR:D=FORCE in N, such as TIP:z=0.5")
+    return place, value
+
+
+def frequency_range(text):
+    """Reader of frequencies for argparse: FIRST:LAST:COUNT in equal steps, or numbers separated by commas, Hz."""
+    words = text.split(":")
+    try:
+        if len(words) == 1:
+            found = np.array([float(word) for word in text.split(",")])
+        else:
+            first, last, count = words
+            found = np.linspace(float(first), float(last), int(count) if 2 <= int(count) <= 10000 else 0)
+    except ValueError:
+        found = np.zeros(0)
+    if not (found.size and np.all((found > 0.0) & np.isfinite(found))):
+        what = "expected FIRST:LAST:COUNT, or numbers above 0 separated by commas, in Hz: 110:118:17"
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
+    return found
+
+
+def _stiffness_options(one):
+    group = one.add_argument_group("stiffness")
+    group.add_argument("--pressure", type=pressures, help="nominal pressures (Pa): FIRST:LAST:COUNT or P,P,...")
+    group.add_argument("--friction", type=float, help="coefficient of friction")
+    for body in "12":
+        group.add_argument(
+            f"--body{body}", type=material, metavar="MATERIAL",
+            help=f"material of body {body}: {', '.join(MATERIALS)}, or Young's modulus and Poisson's ratio, 210GPa,0.3",
+        )  # fmt: skip
+    group.add_argument("--hardness", type=stress, help="maximum pressure (Pa), where the surfaces yield")
+    group.add_argument("--shear", type=float, help="shear of the loop over friction times pressure (0.5)")
+    group.add_argument("--periodic", action="store_true", default=None, help="the surface repeats itself: no windows")
+    group.add_argument("--area", type=float, help="area of the elements in NAME.json, m2 (1: they are per area)")
+
+
+def _structure_options(one):
+    group = one.add_argument_group("backbone, band, wear and response")
+    group.add_argument("--contact", metavar="NAME", help="file of petsam's options: -grid_n, -friction, -gap_type, ...")
+    group.add_argument(
+        "--preload", type=frictions, action="append", metavar="BOLT=N",
+        help="initial tension of a bolt, N; may be repeated: bolts are tightened in this order",
+    )  # fmt: skip
+    group.add_argument("--sensor", metavar="NAME:D", help="where the amplitude is, and its direction x, y or z")
+    group.add_argument("--damping", type=float, help="damping of the material, as a part of critical damping (0)")
+    group.add_argument("--harmonics", type=int, help="how many are balanced (backbone 0: quasi-static; response 3)")
+    group = one.add_argument_group("backbone, band and wear")
+    group.add_argument("--mode", type=int, help="number of the mode while all that touches sticks (1)")
+    group.add_argument(
+        "--amplitudes", type=amplitude_range, help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12"
+    )
+    group.add_argument(
+        "--degree-check", action="store_true", default=None,
+        help="also the largest amplitude with polynomials of a degree lower by 2",
+    )  # fmt: skip
+    group.add_argument(
+        "--scatter", type=scatter, action="append", metavar="NAME=S",
+        help="standard deviation of friction or preload as a part of it, may be repeated: friction=0.1",
+    )  # fmt: skip
+    group.add_argument("--cycles", type=cycle_counts, help="of the vibration that wears, for the numbers: 1e4,1e5,1e6")
+    group = one.add_argument_group("response")
+    group.add_argument(
+        "--force", type=force, metavar="SENSOR:D=N", help="amplitude of the force, and where it acts; also the sensor"
+    )
+    group.add_argument(
+        "--frequencies", type=frequency_range,
+        help="of the force, Hz, in the order of computation: FIRST:LAST:COUNT, such as 110:118:17",
+    )  # fmt: skip
+
+
+def _parser():
+    one = Parser(
+        prog="petsam-joint",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    one.add_argument("action", choices=list(ACTIONS), help="what is computed")
+    one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair")
+    one.add_argument("--steps", type=int, help="load steps of a half cycle (8, response 16) or quarter (stiffness 8)")
+    one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv and NAME.png, and other files of NAME")
+    add_resolution(one)
+    _stiffness_options(one)
+    _structure_options(one)
+    return one
+
+
+def _need(reader, args):
+    """Ends with an error unless the options are those of the action; sets those that were not given."""
+    needed, usual, _ = ACTIONS[args.action]
+    for name in sorted({name for needs, others, _ in ACTIONS.values() for name in (*needs, *others)}):
+        option, given = f"--{name.replace('_', '-')}", getattr(args, name)
+        if name not in needed and name not in usual:
+            owners = [action for action, (needs, others, _) in ACTIONS.items() if name in needs or name in others]
+            if given is not None:
+                reader.error(f"{option} is for petsam-joint {' or '.join(owners)}: remove it")
+        elif given is None and name in needed:
+            reader.error(f"petsam-joint {args.action} needs {option}")
+        elif given is None:
+            setattr(args, name, usual[name])
+
+
+def _run():
+    reader = _parser()
+    args = reader.parse_args(joined(sys.argv[1:]))
+    _need(reader, args)
+    if args.steps < 1:
+        raise Error(f"--steps {args.steps}: expected 1 or more")
+    if args.dpi != DPI and not args.output:
+        raise Error("--dpi: is for the picture, which --output writes; give both or none")
+    return ACTIONS[args.action][2](args)
+
+
+def _stiffness(args):
+    if not 0.0 < args.area < float("inf"):
+        raise Error(f"--area {args.area:g}: expected an area above 0, in m2")
+    for ending in (".csv", ".json", ".inp", ".png") if args.output else ():
+        need_replaceable(args.output + ending)
+    separation, spacing, doubts = read_separation(args.file)
+    options = dict(friction=args.friction, shear=args.shear, steps=args.steps)
+    for body, (young, poisson) in (("body1", args.body1), ("body2", args.body2)):
+        options.update({f"{body}_young": young, f"{body}_poisson": poisson})
+    if args.hardness:
+        options["pressure_limit"] = args.hardness
+    compute = interface.of_interface if args.periodic else interface.of_windows
+    if not args.periodic:
+        options["report"] = _teller("window")
+    with _recorded(AdviceWarning) as found:
+        result = compute(separation, spacing, args.pressure, **options)
+    _print(result, found)
+    for text in doubts:
+        print(f"petsam-joint: warning: {text}", file=sys.stderr)
+    if args.output:
+        result.to_csv(args.output + ".csv")
+        result.to_json(args.output + ".json", args.area)
+        result.to_abaqus(args.output + ".inp")
+        write(plot.interface(result), args.output + ".png", args.dpi)
+    return 0
+
+
+def _tell(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def _teller(what):
+    """What tells the progress of work in parts."""
+    return lambda k, count: _tell(f"{what} {k} of {count}")
+
+
+@contextlib.contextmanager
+def _recorded(kind):
+    """Collects warnings, all of this kind, for _print()."""
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", kind)
+        yield found
+
+
+def _print(result, found):
+    """Prints the table and the warnings."""
+    print("\n".join(result.table()))
+    for text in dict.fromkeys(str(one.message).strip() for one in found):
+        print(f"petsam-joint: warning: {text}", file=sys.stderr)
+
+
+def _sensor(text, pair, option="--sensor"):
+    """(modes,) displacement of the sensor NAME:D by each modal coordinate."""
+    name, _, direction = text.partition(":")
+    if name not in pair.sensors or direction not in ("x", "y", "z"):
+        raise Error(
+            f"{option} {short(text)}: expected NAME:x, :y or :z with a sensor of {pair.path}: "
+            f"{', '.join(pair.sensors) or 'it has none; make it with --sensor NAME=NODE'}"
+        )
+    return pair.sensors[name][:, "xyz".index(direction)]
+
+
+def _checked_preload(args):
+    """{bolt: N} of --preload; ends with an error where a file is missing, or could not be written."""
+    for ending in (".csv", ".png", "-contact.png") if args.output else ():
+        need_replaceable(args.output + ending)
+    need_regular(args.contact)
+    preload = dict(args.preload or [])
+    if len(preload) < len(args.preload or []):
+        raise Error("--preload: a bolt is given twice; give each once, in the order of tightening")
+    if args.harmonics is not None and args.harmonics < 0:
+        raise Error(f"--harmonics {args.harmonics}: expected 1 or more, or 0 for a quasi-static backbone")
+    return preload
+
+
+def _pair(args, preload, **more):
+    return Pair(args.file, preload, damping=args.damping or 0.0, options_file=args.contact, **more)
+
+
+def _tell_tensions(pair, preload):
+    for name, tension in pair.tensions.items():
+        print(f"bolt {name}: {tension:.6g} N left of {preload.get(name, 0.0):g} N after all are tightened")
+        if not tension > 0.0:
+            print(f"petsam-joint: warning: bolt {name} bears no tension: a bolt here has no slack", file=sys.stderr)
+
+
+def _write(args, result, picture):
+    if args.output:
+        result.to_csv(args.output + ".csv")
+        write(picture(result), args.output + ".png", args.dpi)
+
+
+def _backbone(args):
+    preload = _checked_preload(args)
+    given = dict(mode=args.mode, steps=args.steps, harmonics=args.harmonics)
+
+    def compute(lower, amplitudes, **more):
+        pair = _pair(args, preload, lower=lower)
+        return pair, backbone(pair.structure, amplitudes, sensor=_sensor(args.sensor, pair), **given, **more)
+
+    with _recorded(BackboneWarning) as found:
+        pair, result = compute(0, args.amplitudes, report=_teller("amplitude"))
+    _tell_tensions(pair, preload)
+    _print(result, found)
+    if args.degree_check:
+        print(_degree_line(args, compute, pair, result))
+    _write(args, result, plot.backbone)
+    if args.output:
+        write(plot.slip_zones(result), args.output + "-contact.png", args.dpi)
+    return 0
+
+
+def _band(args):
+    preload = _checked_preload(args)
+    given = dict(mode=args.mode, steps=args.steps, harmonics=args.harmonics)
+    make = lambda preload, **changes: _pair(args, preload, **changes)  # noqa: E731
+    with _recorded(BackboneWarning) as found:
+        sensor = lambda pair: _sensor(args.sensor, pair)  # noqa: E731
+        spread = dict(args.scatter or [])
+        result = band(make, preload, args.amplitudes, sensor, spread, lambda name: _tell(f"assembly: {name}"), **given)
+    _print(result, found)
+    _write(args, result, plot.band)
+    return 0
+
+
+def _wear(args):
+    preload = _checked_preload(args)
+    if len(args.amplitudes) != 1:
+        raise Error(f"--amplitudes: petsam-joint wear needs one amplitude, not {len(args.amplitudes)}")
+    pair = _pair(args, preload)
+    sensor = _sensor(args.sensor, pair)
+    tension = lambda structure: {f"{name}/N": left for name, left in pair.left(structure).items()}  # noqa: E731
+    with _recorded(BackboneWarning) as found:
+        given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension)
+        result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)
+    _print(result, found)
+    _write(args, result, plot.joint_wear)
+    return 0
+
+
+def _check_frequencies(given, structure):
+    """Error for frequencies above all modes, as those in rad/s or rpm are."""
+    highest = structure.stuck_modes()[0].max() / (2.0 * np.pi)
+    if min(given) > BEYOND * highest:
+        raise Error(
+            f"--frequencies {min(given):g} Hz and more: are above {BEYOND:g} times that of the highest mode while all "
+            f"that touches sticks, {highest:.4g} Hz: give Hz, not rad/s or rpm"
+        )
+
+
+def _response(args):
+    preload = _checked_preload(args)
+    place, amplitude = args.force
+    pair = _pair(args, preload)
+    driven = _sensor(place, pair, "--force")
+    sensor = _sensor(args.sensor, pair) if args.sensor else driven
+    _check_frequencies(args.frequencies, pair.structure)
+    given = dict(steps=args.steps, harmonics=args.harmonics, report=_teller("frequency"))
+    with _recorded(BackboneWarning) as found:
+        result = forced(pair.structure, amplitude * driven, args.frequencies, sensor, **given)
+    _tell_tensions(pair, preload)
+    _print(result, found)
+    _write(args, result, plot.response)
+    return 0
+
+
+def _degree_line(args, compute, pair, result):
+    """What fewer polynomials change at the largest amplitude."""
+    last = len(result.alpha) - 1
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", BackboneWarning)
+            lower, other = compute(2, args.amplitudes[last : last + 1])
+    except ENDS as error:
+        return f"degree lower by 2: {error}"
+    if lower.functions == pair.functions:
+        return f"--degree-check: the file has {pair.functions} polynomials and no lower degree: nothing is compared"
+    frequency = other.frequency[-1] / result.frequency[-1] - 1.0
+    damping = other.damping[-1] / result.damping[-1] - 1.0 if result.damping[-1] else float("nan")
+    return f"degree lower by 2: frequency {frequency:+.1e}, damping {damping:+.1e} at the largest amplitude"
+
+
+# for each action: options it needs, others with their defaults, the function
+ACTIONS = {
+    "stiffness": (
+        ("pressure", "friction", "body1", "body2"),
+        dict(hardness=None, shear=0.5, periodic=False, area=1.0, steps=8),
+        _stiffness,
+    ),
+    "backbone": (
+        ("contact", "amplitudes", "sensor"),
+        dict(preload=None, mode=1, damping=0.0, harmonics=0, degree_check=False, steps=8),
+        _backbone,
+    ),
+    "band": (
+        ("contact", "amplitudes", "sensor"),
+        dict(preload=None, mode=1, damping=0.0, harmonics=0, scatter=None, steps=8),
+        _band,
+    ),
+    "wear": (("contact", "amplitudes", "sensor", "cycles"), dict(preload=None, mode=1, steps=8), _wear),
+    "response": (
+        ("contact", "force", "frequencies"),
+        dict(preload=None, sensor=None, damping=0.0, harmonics=3, steps=16),
+        _response,
+    ),
+}
+
+
+def _main():
+    try:
+        return _run()
+    except Error as error:
+        return fail("petsam-joint", error, getattr(error, "code", USAGE))
+
+
+def main():
+    """Runs the command; returns its exit code."""
+    return guarded("petsam-joint", _main)

@@ -1,0 +1,241 @@
+"""Draw what petsam has computed: maps, profiles, fretting loops, cycles, histories, wear; stresses, fatigue; studies.
+
+    petsam-plot sphere.h5                           all pictures that the file is good for
+    petsam-plot --maps --step 20,-1 strokes.h5      two steps below each other
+    petsam-plot --field shear_x --limits -5e7,5e7 -o shear.svg sphere.h5       one field with limits of its own
+    petsam-plot --loop -o loop.pdf a.h5 b.h5        one picture, two files compared
+    petsam-plot --loop --cycle 1,10,-1 strokes.h5   loops of three cycles
+    petsam-plot --energy --period 0.02 random.h5    dissipated energy of every period
+    petsam-plot --scalar contact_area --against load_n a.h5 b.h5               any scalar of /history over any other
+    petsam-plot --loop --range 33:64 strokes.h5     load steps 33 to 64 only
+    petsam-plot --scalar stick_area --against load_tx --by friction study/results.h5       a study's table
+    petsam-plot --fatigue --width 180 --csv both.csv a_fatigue.h5 b_fatigue.h5     two pads, also as numbers
+    petsam-plot --against load_tx,friction --border life=1e6 study/results.h5   its regimes over two inputs
+    petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles
+    petsam-plot --scar --cycle -1 --measured 2:profile.csv life.h5     a measured profile beside body 2's
+    petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
+
+Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
+if friction works, and the history, of three cycles or more their loops and energies, too; of a wear simulation
+(-wear_cycles) its fretting log, scar and curves over the cycles instead of these; of steady rolling the creep curve,
+and arrows of the slip velocity on the map of stick and slip; of a file of petsam-stress its
+section or maps, the profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that
+vary, over the input with the most values. Constant scalars and fields that are zero to rounding are drawn only by name.
+An option that none of the pictures uses is rejected.
+Each picture is a file NAME_maps.png and so on in the current directory; NAME is the first file's, of results.h5 of a
+study its folder's. An older picture of this name is replaced.
+"""
+
+import os
+import warnings
+
+from ..core import isolation
+from ..core.errors import FILE, USAGE, Error, Useless, fail, guarded
+from ..core.files import need_folder, need_replaceable, same
+from ..core.hdf5 import DAMAGED
+from ..plot import fields, looks, noise, pictures, saving, wear
+from ..plot.style import STYLE, plt
+from ..results import cycles
+from ..results.file import NotSaved
+from ..results.stresses import Stresses, open_any
+from ..results.studies import Study
+from . import plot_arguments as arguments
+from . import plot_uses as uses
+from .plot_arguments import FORMATS
+from .plot_uses import STUDY
+
+OF_RESULTS, OF_STRESSES = tuple(uses.OF_RESULTS), tuple(uses.OF_STRESSES)
+KINDS = tuple(dict.fromkeys(OF_STRESSES[:3] + OF_RESULTS + OF_STRESSES))  # in the order in which they are drawn
+MANY = 3  # cycles from which their loops and energies are drawn without being asked for
+
+
+def asked(options):
+    """The kinds of picture that the options name."""
+    kinds = [kind for kind in KINDS if getattr(options, kind.replace("-", "_"))]
+    of_cycles = any(kind in kinds for kind in ("fretting-log", "energy"))
+    implied = [
+        ("loop", options.load and not of_cycles),
+        ("history", options.scalar or options.against),
+        ("maps", options.field and not any(kind in kinds for kind in ("maps", "profiles"))),
+        ("energy", (options.turns or options.period) and not kinds and not options.cycle),
+    ]
+    kinds += [kind for kind, given in implied if given]
+    return [kind for kind in KINDS if kind in kinds]
+
+
+def chosen(options, results):
+    """The kinds of picture that are requested, or all that the files contain data for."""
+    kinds = asked(options)
+    for one in results:
+        if type(one) is not type(results[0]):
+            raise Error(f"{one.path}: results of {results[0].program} and of {one.program} do not go into one picture")
+    if isinstance(results[0], Study):
+        return study_kinds(results, kinds)
+    stresses = isinstance(results[0], Stresses)
+    allowed = OF_STRESSES if stresses else OF_RESULTS
+    for kind in kinds:
+        if kind not in allowed:
+            there = ", ".join(allowed)
+            raise Error(f"{results[0].path}: --{kind}: not for files of {results[0].program}; use one of {there}")
+    if kinds:
+        return of_field(options, results, kinds)
+    if stresses:
+        return stress_kinds(results)
+    if options.range:
+        return ["loop", "history"]
+    if options.cycle and not all(one.has_life for one in results):
+        return ["loop"]
+    return result_kinds(results)
+
+
+def of_field(options, results, kinds):
+    """The kinds asked for, where the one that --field means is the profile of a line."""
+    return ["profiles"] if kinds == ["maps"] and not options.maps and getattr(results[0], "is_plane", False) else kinds
+
+
+def study_kinds(studies, kinds):
+    """The one picture of studies, or an Error where another one is asked for."""
+    for kind in kinds:
+        if kind != "history":  # which --scalar means
+            raise Error(f"{studies[0].path}: --{kind}: a table of petsam-study, drawn by --scalar, --against and --by")
+    return [STUDY]
+
+
+def result_kinds(results):
+    """What results of petsam are good for; of one that lacks fields, a picture whose message says so."""
+    lines = any(one.is_plane for one in results)
+    maps = ["maps", "profiles"][lines:] if all(one.steps and fields.usual(one) for one in results) else []
+    if all(one.has_life for one in results):
+        scars = any(wear.worn(one, one.of_last()) for one in results)
+        loops = not any(one.is_steady for one in results)
+        return [*maps, *(["fretting-log"] if loops else []), *(["scar"] if scars else []), "life"]
+    several = any(one.solved.size > 1 for one in results)
+    if not any(one.solved.size and noise.works(one) for one in results):  # normal loads alone: no loop, no energy
+        return [*maps, *(["history"] if several else [])] or ["maps", "profiles"][lines : lines + 1]
+    repeated = all(one.solved.size and not one.has_life and len(cycles.find(one)) >= MANY for one in results)
+    more = ["loop", *(["energy"] if repeated else []), "history", *(["fretting-log"] if repeated else [])]
+    return [*maps, *(more if several else [])] or ["maps", "profiles"][lines : lines + 1]
+
+
+def stress_kinds(files):
+    """What files of stresses are good for; of one that lacks stresses, a picture whose message says so."""
+    kinds = []
+    if any(name in file for file in files for name in ("stress_xx", "mises")):
+        if not any(file.along for file in files):
+            kinds.append("maps")
+        elif all(file.along and file.z.size > 1 for file in files):
+            kinds.append("sections")
+        kinds.append("profiles")
+    if all(one.fatigue for one in files):
+        kinds.append("fatigue")
+    return kinds or ["profiles"]
+
+
+def path(options, kind, alone):
+    """The picture's file: exactly the name given when it is the only picture of one kind asked for."""
+    file = options.files[0]
+    if kind == STUDY and os.path.basename(file) == "results.h5":  # as all studies have
+        file = os.path.dirname(os.path.abspath(file))
+    base, ending = os.path.splitext(options.output or os.path.basename(file))
+    if options.output and ending.lower() not in FORMATS:
+        base, ending = options.output, ""
+    if not options.output or not ending:
+        ending = "." + (options.format or "png")
+    return "{}{}{}".format(base, "" if alone and options.output else "_" + kind, ending)
+
+
+def draw(options, results, kind):
+    """One picture, a matplotlib figure."""
+    function = uses.function(kind, options, results)
+    words = {name: getattr(options, name) for name in (*uses.parameters(function), *pictures.LOOK)}
+    given = {name: value for name, value in words.items() if value is not None and value is not False}
+    if function is pictures.history:
+        given["option"] = options.spelling
+    if function is pictures.regimes:
+        if len(results) > 1:
+            raise Error(f"{results[1].path}: --against {options.against}: maps are of one study; give one file")
+        given["against"] = options.against.split(",")
+    return function(*results, **given)
+
+
+def save(options, figure, name, table="w"):
+    """Writes one picture, and its values as a table; refuses to replace results, or anything that is not a file."""
+    for written, option in ((name, "--output"), (options.csv, "--csv")):
+        if written:
+            need_replaceable(written)
+        for one in options.files if written else ():
+            if same(one, written):
+                raise Error(f"{written}: would replace the results; {option} gives another name")
+    if options.csv:
+        looks.write(figure, options.csv, table)
+    saving.write(figure, name, options.dpi)
+    print("wrote " + name)
+
+
+def need_options(options, results):
+    """Error where an option is given that the files have no use for."""
+    for name, given in (("by", options.by), ("where", options.where), ("border", options.border)):
+        if given and not isinstance(results[0], Study):
+            raise Error(f"{results[0].path}: --{name}: is for results.h5 of petsam-study")
+    for name in ("turns", "period", "cycle", "step", "time"):
+        if getattr(options, name) and isinstance(results[0], Study):
+            raise Error(f"{results[0].path}: --{name}: a table of petsam-study, which has no steps")
+    for name in ("turns", "period", "field", "scalar", "against"):
+        if getattr(options, name) and isinstance(results[0], Stresses):
+            raise Error(f"{results[0].path}: --{name}: a file of petsam-stress, whose stresses --component names")
+
+
+def usable(options, results):
+    """The kinds of picture; Error where an option has no use for them or for the files."""
+    need_options(options, results)
+    kinds = chosen(options, results)
+    uses.need_use(options, results, kinds)
+    return kinds
+
+
+def draw_all(options):
+    """All pictures that are asked for."""
+    need_folder(os.path.dirname(os.path.realpath(options.output or "picture")), options.output or "pictures")
+    if options.csv:
+        need_replaceable(options.csv)
+    labels = options.labels.split(",") if options.labels else [None] * len(options.files)
+    results = [open_any(*one) for one in zip(options.files, labels)]
+    kinds = usable(options, results)
+    with plt.rc_context(STYLE):  # of the picture that is written, too
+        for kind in kinds:
+            try:
+                name, mode = path(options, kind, len(kinds) == 1), "w" if kind == kinds[0] else "a"
+                save(options, draw(options, results, kind), name, mode)
+            except NotSaved as error:  # of what --step, --time, --cycle or --range has asked for
+                raise Error(f"{error.path}: --{error.wanted}: {error.reason}") from error
+            except OSError:  # of the picture; those of the results have been taken for Errors
+                raise
+            except DAMAGED as error:
+                # numbers that overflow in matplotlib, more than the memory holds
+                text = f"the {kind} of {options.files[0]} cannot be drawn: {error or type(error).__name__}"
+                raise Error(text) from error
+
+
+def carry_out(options):
+    """The exit code; in a child, as all files are read here."""
+    warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
+    try:
+        draw_all(options)
+    except Error as error:
+        return fail("petsam-plot", error, USAGE if isinstance(error, Useless) else FILE)
+    return 0
+
+
+def main():
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
+
+    def parent():
+        options = arguments.read(__doc__)
+
+        def child(_):
+            return guarded("petsam-plot", lambda: carry_out(options))
+
+        (code,) = isolation.each(child, [None])
+        return fail("petsam-plot", code) if isinstance(code, Error) else code
+
+    return guarded("petsam-plot", parent)

@@ -1,0 +1,273 @@
+"""Run petsam for every case of a table, and put the results into one.
+
+    petsam-study cases.csv -- -options_file sphere.opts -grid_n 256
+    petsam-study study.yaml --cores 16 --ranks 4
+    petsam-study study.yaml --slurm --sbatch "--time=2:00:00 --partition=short"
+
+The table is CSV (one column per option, one row per case; commas or semicolons) or YAML (all combinations of lists).
+Sections of a YAML table:
+  options     options of petsam: a value or a list of values
+  parameters  names of your own for {expressions}, likewise
+  files       NAME: text of a file that each case gets in its folder, with {expressions}; an option refers to NAME
+  ranks       MPI ranks of a case
+  stress      options of petsam-stress, which runs after each case; its maxima are columns, such as swt_max
+  results     NAME: expression of results, inputs and one another, a column of the table, such as
+              life: life_swt(swt_max, 115e9, 2.03e9, -0.104, 0.841, -0.69)
+
+  options: {history: cycle.csv, load_n: 1000, friction: [0.1, 0.5]}
+  files:
+    cycle.csv: |
+      time, load_tx
+      1,    {0.8 * friction * load_n}
+
+Options after `--` hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in
+DIRECTORY/NAME. Cases that have finished with the same inputs are not run again, so the same command resumes after an
+interruption (Ctrl-C, or the end of a job). The results of all cases are written to DIRECTORY/results.csv and
+results.h5. A study has at most 100000 cases. petsam-plot draws results.h5. For histories with cycles the table lists
+the energies of some: --turns, --period, --cycle.
+"""
+
+import argparse
+import os
+import sys
+
+from ..core import environment
+from ..core.errors import USAGE, Error, Parser, counted, fail, guarded, joined, short
+from ..core.files import same
+from ..results import cycles
+from ..study import slurm, tables
+from ..study.cases import TableError, common_options, read
+from ..study.progress import Progress, standing, summary
+from ..study.runs import STOPPED, Study, check_folders, record
+
+MOST = 1 << 30  # maximum of numbers on the command line
+
+
+def positive(text):
+    """A number from 1, for argparse."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = 0
+    if not 1 <= value <= MOST:
+        raise argparse.ArgumentTypeError(f"{short(text)}: use an integer from 1 to {MOST}")
+    return value
+
+
+def period(text):
+    """Reads T or T,START for argparse."""
+    try:
+        return cycles.read_period(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a positive time, or T,START, in s") from None
+
+
+def numbers(text):
+    """Reads cycles' numbers for argparse."""
+    try:
+        values = tuple(dict.fromkeys(int(word) for word in text.split(",")))
+    except ValueError:
+        values = (0,)
+    if 0 in values or max(map(abs, values)) > MOST:
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected integers separated by commas: from 1, or from -1 backwards"
+        )
+    return values
+
+
+def _cycle_options(parser):
+    of_cycles = parser.add_argument_group("energies of cycles in the table")
+    how = of_cycles.add_mutually_exclusive_group()
+    how.add_argument("--turns", metavar="NAME", help="divide cycles at the reversals of this scalar (a displacement)")
+    how.add_argument(
+        "--period", type=period, metavar="T[,START]", help="instead: duration of a cycle, and its start (s)"
+    )
+    of_cycles.add_argument(
+        "--cycle",
+        type=numbers,
+        metavar="K,...",
+        default=(),
+        help="cycles in addition to the last; -2 is the second last",
+    )
+
+
+def _taken(words):
+    """Join --sbatch to its value, which begins with dashes."""
+    found = list(words)
+    while "--sbatch" in found[:-1]:
+        at = found.index("--sbatch")
+        found[at : at + 2] = [f"--sbatch={found[at + 1]}"]
+    return found
+
+
+def arguments():
+    """Read the command line: the options, and the words after --."""
+    words = sys.argv[1:]
+    at = words.index("--") if "--" in words else len(words)
+    parser = Parser(
+        prog="petsam-study",
+        description=__doc__,
+        usage="%(prog)s TABLE [option ...] [-- petsam's options for all cases]",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("table", metavar="TABLE", help="cases: .csv, or .yaml")
+    parser.add_argument("-d", "--directory", help="folder of the cases and the tables (the table's name, here)")
+    parser.add_argument("--cores", type=positive, help="cores to use (all available to this process)")
+    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases without a value in the table (1)")
+    parser.add_argument(
+        "--launcher", metavar="WORDS", help="MPI launcher, to which -n RANKS is added ($MPIRUN, mpirun)"
+    )
+    parser.add_argument(
+        "--checkpoint",
+        type=positive,
+        metavar="M",
+        help="write a checkpoint every M steps; a stopped case resumes from it",
+    )
+    parser.add_argument("--skip-failed", action="store_true", help="do not rerun failed cases")
+    parser.add_argument("--quiet", action="store_true", help="print failures only")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--list", action="store_true", help="print the cases and their status only")
+    what.add_argument("--case", type=positive, metavar="K", help="run only the K-th case of --list, without tables")
+    what.add_argument("--collect", action="store_true", help="write the tables only")
+    what.add_argument(
+        "--slurm", action="store_true", help="submit a job array of the cases, and a job that writes the tables"
+    )
+    parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
+    _cycle_options(parser)
+    options = parser.parse_args(joined(_taken(words[:at])))
+    if options.sbatch and not options.slurm:
+        parser.error("--sbatch requires --slurm")
+    options.words = words[at + 1 :]
+    options.directory = os.path.abspath(options.directory or os.path.splitext(os.path.basename(options.table))[0])
+    return options
+
+
+def due(options, cases):
+    """Returns the cases that have to be run, in order."""
+    wanted = cases if options.case is None else cases[options.case - 1 : options.case]
+    if not wanted:
+        raise TableError(f"--case {options.case}: use 1 to {len(cases)}")
+    waiting = []
+    for case in wanted:
+        code = record(options.directory, case).get("exit_code")
+        if code != 0 and not (options.skip_failed and code not in (None, STOPPED)):
+            waiting.append(case)
+    return waiting
+
+
+def run(options, cases, waiting):
+    """Runs the waiting cases; returns the number of the signal that ended the study, or 0."""
+    cores = options.cores or environment.cores()
+    words = environment.launcher(options.launcher)
+    program = environment.petsam()
+    for case in waiting:
+        if case.ranks > cores and options.case is None:
+            raise TableError(
+                f"case {case.name}: {case.ranks} ranks do not fit into {cores} cores; use fewer ranks or larger --cores"
+            )
+    cores = max([cores, *[case.ranks for case in waiting]]) if options.case else cores
+    before = len(cases) - len(waiting)
+    if not options.quiet and options.case is None:
+        print(
+            "{}{}, {}, {}".format(
+                counted(len(waiting), "case"),
+                f" ({before} others skipped)" if before else "",
+                counted(cores, "core"),
+                options.directory,
+            ),
+            flush=True,
+        )
+    progress = Progress(len(waiting), options.quiet)
+    study = Study(
+        options.directory,
+        lambda ranks: [*words, "-n", str(ranks), program],
+        cores,
+        progress.report,
+        progress.tick,
+        options.checkpoint,
+    )
+    ended = study.run(waiting)
+    progress.close()
+    return ended
+
+
+def prepare(options, cases):
+    """Makes the study's folder; raises Error if the results would replace another file."""
+    if os.path.lexists(options.directory) and not os.path.isdir(options.directory):
+        raise Error(f"{options.directory}: is not a folder; choose another by --directory")
+    os.makedirs(options.directory, exist_ok=True)
+    for name in ("results.csv", "results.h5"):
+        path = os.path.join(options.directory, name)
+        if same(path, options.table) or same(path + ".tmp", options.table):
+            raise Error(f"{options.table}: would be replaced by the results; choose another folder by --directory")
+    check_folders(options.directory, cases)
+
+
+def write(options, cases):
+    """Writes the tables; raises Error if the requested cycles do not exist."""
+    figures = tables.Figures(options.turns, options.period, options.cycle)
+    names, complaint = tables.write(options.directory, cases, os.path.basename(options.table), figures)
+    for name in names if not options.quiet else ():
+        print("wrote " + name)
+    if complaint:
+        raise Error(complaint)
+
+
+def warn_of_gaps(options, cases):
+    """Warnings of columns with empty cells, which leave the option out: petsam takes its default, of friction 0."""
+    for name in dict.fromkeys(name for case in cases for name in case.inputs):
+        without = [case.name for case in cases if name not in case.inputs]
+        if without:
+            print(
+                f"petsam-study: warning: {options.table}: {name} is empty in {len(without)} of {len(cases)} cases, the "
+                f"first {without[0]}: they run without -{name}",
+                file=sys.stderr,
+            )
+
+
+def check_files(cases):
+    """Error where a file that every case reads does not exist, so that every case would fail."""
+    for name, path in cases[0].paths().items():
+        if not os.path.exists(path) and all(case.paths().get(name) == path for case in cases):
+            raise Error(f"-{name} {path}: no such file, and every case reads it")
+
+
+def carry_out(options):
+    """Carries out the options; returns the exit code."""
+    cases = read(options.table, common_options(options.words), options.ranks)
+    if not options.quiet and options.case is None:
+        warn_of_gaps(options, cases)
+    if options.list:
+        for case in cases:
+            print(f"{case.number:5d}  {standing(options.directory, case):11s}  {case.name}")
+        return 0
+    if not options.collect:
+        check_files(cases)
+    prepare(options, cases)
+    waiting = [] if options.collect else due(options, cases)
+    if options.slurm:
+        return slurm.submit(options, cases, waiting)
+    ended = run(options, cases, waiting) if waiting else 0
+    if options.case is not None:
+        cases = cases[options.case - 1 : options.case]
+    else:
+        write(options, cases)
+    code = summary(options.directory, cases)
+    if ended:
+        print("petsam-study: interrupted; run the same command again to resume", file=sys.stderr)
+    return 128 + ended if ended else code
+
+
+def _main():
+    try:
+        return carry_out(arguments())
+    except (TableError, slurm.SubmitError) as error:
+        return fail("petsam-study", error, USAGE)
+    except Error as error:
+        return fail("petsam-study", error)
+
+
+def main():
+    """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
+    128 + the signal that ended the study."""
+    return guarded("petsam-study", _main)

@@ -1,0 +1,377 @@
+"""Bring measured surfaces into petsam: units, sign, tilt and form, window, grid; two surfaces into a separation.
+
+    petsam-surface rough.npy --body 2 --units um --size 1mm --level tilt
+    petsam-surface scan.sur --body 1 --mirror x --level sphere --grid-n 512 -o top.h5
+    petsam-surface top.h5 bottom.h5 -o pair.h5
+    petsam-surface --self-affine 0.8 --rms 0.5um --wavelengths 500um,10um --size 1mm --grid-n 512 --seed 3 -o r3.h5
+
+Reads NumPy's .npy, text (.csv, .txt: one line per y, one number per x), HDF5 (.h5), and through the library
+SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for petsam's -gap_file and -gap_rough_file,
+and a picture beside it. Options give what the file does not contain (units, size, body). A map is
+centred on x = y = 0 unless its file gives a position. Heights are positive outward, so a peak of either body reduces
+the separation. Each map is oriented, cut, filled, levelled and resampled, in this order. Options apply to both files;
+their maps are then aligned at their centres. Heights of body 1 and heights of body 2 make a separation.
+"""
+
+import argparse
+import math
+import os
+import shlex
+import sys
+import warnings
+from dataclasses import replace
+
+import numpy as np
+
+from .. import plot
+from ..core import isolation
+from ..core.errors import Error, Parser, fail, guarded, short
+from ..core.files import need_replaceable, same
+from ..core.hdf5 import need_own
+from ..core.lengths import several, shown, sides, unit
+from ..plot.of_surface import finite
+from ..plot.saving import add_choice, write
+from ..surface import generation, levels, writing
+from ..surface.doubts import doubts as doubts_of
+from ..surface.filling import filled
+from ..surface.maps import QUANTITIES, combined, cut, moments, new_map, peak_to_valley, rms_height, rms_slope
+from ..surface.reading import FORMATS, read_map
+from ..surface.resampling import resampled
+
+MOST = 1 << 16  # cells in x or y
+WIDE = 1.0  # m: few instruments measure a surface of this size
+OF_FILES = (
+    "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
+    "dataset", "channel", "window", "fill", "level", "grid_size",
+)  # fmt: skip
+SIGNED = ("--window", "--center", "--missing", "--skewness")  # options whose values may begin with a minus sign
+
+
+def cells(text):
+    """Reader of one or two numbers of cells for argparse, x and y."""
+    try:
+        values = [int(word) for word in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) not in (1, 2) or not all(2 <= value <= MOST for value in values):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected one or two integers from 2 to {MOST}: NX[,NY]")
+    return values[0], values[-1]
+
+
+def bodies(text):
+    """Reader of the bodies for argparse, one for each file."""
+    words = text.split(",")
+    if len(words) > 2 or not set(words) <= {"1", "2"}:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected 1 or 2, or one of them for each file: 1,2")
+    return ["height" + word for word in words]
+
+
+def count(text):
+    """Reader of a number from 0 for argparse."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer")
+    return int(text)
+
+
+def number(text):
+    """Reader of a finite number for argparse."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a number")
+    return value
+
+
+def hurst(text):
+    """Reader of a Hurst exponent for argparse."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value <= 1.0:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a Hurst exponent above 0, at most 1")
+    return value
+
+
+def _window(text):
+    """Reader of a window for argparse."""
+    window = several(4, "X0,X1,Y0,Y1")(text)
+    if not (window[0] < window[1] and window[2] < window[3]):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected X0 < X1 and Y0 < Y1")
+    return window
+
+
+def _file_options(parser):
+    about = parser.add_argument_group("contents of the files, where a file does not state them")
+    holds = about.add_mutually_exclusive_group()
+    holds.add_argument("--body", type=bodies, metavar="1|2", help="heights of this body; of two files: 1,2")
+    holds.add_argument("--separation", action="store_true", help="the separation of both bodies")
+    about.add_argument("--units", type=unit, metavar="UNIT", help="unit of the values: m, mm, um, nm, ...")
+    extent = about.add_mutually_exclusive_group()
+    extent.add_argument("--size", type=sides, metavar="X[,Y]", help="full width of all cells: 1e-3 (m) or 1mm")
+    extent.add_argument("--pixel", type=sides, metavar="DX[,DY]", help="instead: width of one cell")
+    about.add_argument(
+        "--first-row", choices=("bottom", "top"), help="position of the first row, in images top (bottom)"
+    )
+    about.add_argument("--transpose", action="store_true", help="a line of the file, or the first index, is x")
+    about.add_argument("--mirror", choices=("x", "y"), help="reverse x or y, as for body 1 seen from its own side")
+    about.add_argument("--depths", action="store_true", help="values are positive into the body: valleys are large")
+    about.add_argument("--missing", type=float, metavar="VALUE", help="value of missing points")
+    reader = parser.add_argument_group("reading")
+    reader.add_argument("--format", choices=FORMATS, help="format of the file (by its name)")
+    reader.add_argument(
+        "--decimal", choices=("point", "comma"), default="point", help="decimal sign in text files (point)"
+    )
+    reader.add_argument(
+        "--skip-rows", type=count, default=0, metavar="K", help="lines to skip at the start of a text file"
+    )
+    reader.add_argument("--skip-columns", type=count, default=0, metavar="K", help="columns to skip")
+    reader.add_argument("--dataset", metavar="NAME", help="HDF5 dataset (/height, or /separation)")
+    reader.add_argument("--channel", metavar="NAME|K", help="channel of an instrument's file (heights)")
+
+
+def arguments(words):
+    """Read the command line."""
+    parser = Parser(prog="petsam-surface", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="*", metavar="FILE", help="one map, or two for a separation")
+    _file_options(parser)
+    made = parser.add_argument_group("a random surface instead of a file, with --size and --grid-n")
+    kind = made.add_mutually_exclusive_group()
+    kind.add_argument("--self-affine", type=hurst, metavar="H", help="self-affine with this Hurst exponent")
+    kind.add_argument("--psd", metavar="TABLE", help="of a spectrum: a text of q (rad/m) and C (m^4) on each line")
+    made.add_argument("--rms", type=several(1, "a length"), metavar="HEIGHT", help="rms height (that of the spectrum)")
+    made.add_argument(
+        "--wavelengths", type=several(2, "LONG,SHORT"), metavar="LONG,SHORT", help="of a self-affine surface"
+    )
+    shape = made.add_mutually_exclusive_group()
+    shape.add_argument("--skewness", type=number, metavar="S", help="of the heights (0); below 0: plateaus and valleys")
+    shape.add_argument(
+        "--distribution",
+        metavar="TABLE",
+        help="of the heights: a text of a height (m) and the share below on each line",
+    )
+    made.add_argument("--kurtosis", type=number, metavar="K", help="of the heights (3 + 1.5 S^2); 3: as Gaussian ones")
+    made.add_argument("--seed", type=count, default=0, metavar="K", help="another integer is another surface (0)")
+    done = parser.add_argument_group("processing")
+    done.add_argument("--window", type=_window, metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
+    done.add_argument(
+        "--fill",
+        choices=("smooth", "nearest"),
+        help="fill missing points smoothly from their boundary, or by the nearest",
+    )
+    done.add_argument("--level", choices=levels.KINDS, default="none", help="form to remove by least squares (none)")
+    done.add_argument(
+        "--grid-n", type=cells, metavar="NX[,NY]", help="cells of a new grid; values are averaged over each"
+    )
+    done.add_argument(
+        "--grid-size", type=sides, metavar="X[,Y]", help="full width of the new grid, about the map's centre (all)"
+    )
+    done.add_argument("--center", type=several(2, "X,Y"), metavar="X,Y", help="new position of the centre (unchanged)")
+    out = parser.add_argument_group("output")
+    out.add_argument("-o", "--output", metavar="NAME.h5", help="(the first file's name, here)")
+    out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
+    add_choice(out)
+    options = parser.parse_args(_joined(words))
+    _check_random(parser, options)
+    if len(options.files) > 2:
+        parser.error(f"{len(options.files)} files: use one, or two for a separation")
+    if options.body and len(options.body) != max(1, len(options.files)):
+        parser.error("--body: give 1 or 2, and 1,2 for two files: one body for each")
+    if options.separation and options.depths:
+        parser.error("--depths applies to heights, not to a separation")
+    base = os.path.splitext(os.path.basename(options.files[0]))[0] if options.files else "random"
+    options.output = options.output or base + ".h5"
+    options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
+    if not options.picture.lower().endswith(".png"):
+        parser.error(f"--picture: {short(options.picture)}: use a name that ends in .png")
+    return options
+
+
+def _check_random(parser, options):
+    """End with a message where a random surface lacks something, or there is neither a file nor one."""
+    random = options.self_affine is not None or options.psd
+    if bool(random) == bool(options.files):
+        parser.error("give one FILE or two, or a random surface by --self-affine or --psd" + " instead" * bool(random))
+    given = {"--rms": options.rms, "--wavelengths": options.wavelengths}
+    if not random:
+        of_heights = {f"--{name}": getattr(options, name) for name in ("skewness", "kurtosis", "distribution")}
+        for name, value in {**given, **of_heights}.items():
+            if value is not None:
+                parser.error(f"{name}: is for a random surface; use --self-affine or --psd")
+        return
+    for name in OF_FILES:
+        if getattr(options, name) not in (None, False, 0, "none"):
+            parser.error(f"--{name.replace('_', '-')}: has no effect on a random surface; omit it")
+    if options.distribution and not options.psd:
+        del given["--rms"]  # the table has heights
+    needed = {"--size": options.size, "--grid-n": options.grid_n, **({} if options.psd else given)}
+    lacking = [name for name, value in needed.items() if not value]
+    if lacking:
+        parser.error(f"a random surface needs {', '.join(lacking)}")
+    _check_values(parser, options)
+
+
+def _check_values(parser, options):
+    """End with a message where the numbers of a random surface cannot be."""
+    skewness = options.skewness or 0.0
+    if options.kurtosis is not None and options.distribution:
+        parser.error("--kurtosis: not allowed with --distribution, whose table has all moments")
+    if options.kurtosis is not None and not options.kurtosis > 1.0 + skewness**2:
+        parser.error(
+            f"--kurtosis {options.kurtosis:g}: use more than {1.0 + skewness**2:g}, 1 and the skewness squared"
+        )
+    if options.psd and options.wavelengths:
+        parser.error("--wavelengths: not allowed with --psd, whose table has the limits")
+    if options.rms and not options.rms[0] > 0.0:
+        parser.error(f"--rms {options.rms[0]:g} m: use a height above 0")
+    if options.wavelengths and not options.wavelengths[0] > options.wavelengths[1] > 0.0:
+        parser.error("--wavelengths: expected LONG,SHORT, the longer one first, above 0")
+
+
+def random_map(options):
+    """The Map of a random surface; heights of body 2 unless --body gives another."""
+    if options.psd:
+        spectrum, shortest = generation.tabulated(options.psd)
+    else:
+        shortest = options.wavelengths[1]
+        spectrum = generation.self_affine(options.self_affine, *options.wavelengths)
+    rms = options.rms[0] if options.rms else None
+    values = generation.heights(spectrum, options.grid_n, options.size, shortest, options.seed, rms)
+    if options.distribution:
+        values = generation.shaped(values, generation.distributed(options.distribution), rms)
+    elif options.skewness is not None or options.kurtosis is not None:
+        skewness = options.skewness or 0.0
+        kurtosis = 3.0 + 1.5 * skewness**2 if options.kurtosis is None else options.kurtosis
+        values = generation.shaped(values, generation.cubic(skewness, kurtosis), float(np.sqrt(np.mean(values**2))))
+    quantity = "separation" if options.separation else (options.body or ["height2"])[0]
+    print(f"random surface: {QUANTITIES[quantity]}\n  seed {options.seed}")
+    one = new_map(values, options.size, quantity, options.output)
+    warn_of_unit(one, options.output)
+    return one
+
+
+def _joined(words):
+    """Values that begin with a minus sign as `--option=value`: argparse would take them for options."""
+    joined, words = [], list(words)
+    while words:
+        word = words.pop(0)
+        joined.append(f"{word}={words.pop(0)}" if word in SIGNED and words else word)
+    return joined
+
+
+def warn_of_unit(one, name, more=""):
+    """Warnings of heights beyond the size, and of a size beyond measured ones."""
+    high, wide = peak_to_valley(one), max(one.size)
+    texts = []
+    if high > wide:
+        texts.append(f"peak to valley {shown(high)} is more than the size {shown(wide)}: check the unit{more}")
+    if wide >= WIDE:
+        texts.append(
+            f"the surface is {wide:.4g} m wide: check the unit of --size or --pixel, as in 1um; a number alone is in m"
+        )
+    _warn(name, texts)
+
+
+def _warn(name, texts):
+    for text in texts:
+        print(f"petsam-surface: warning: {short(name)}: {text}", file=sys.stderr)
+
+
+def prepared(path, options, quantity):
+    """The processed map of one file; prints the steps."""
+    one, remarks, doubts = read_map(path, options, quantity)
+    if options.window:
+        one = cut(one, options.window)
+        remarks.append("cut to {} x {} points".format(*one.n))
+    one, missing = filled(one, options.fill)
+    if missing:
+        remarks.append(f"{missing} missing point{'s' if missing > 1 else ''} filled ({options.fill})")
+    warn_of_unit(one, path, ", and give the value of missing points by --missing")
+    one, taken = levels.levelled(one, options.level)
+    _warn(path, [*doubts, *doubts_of(one)])
+    if taken:
+        remarks.append(taken)
+    if options.grid_n or options.grid_size:
+        before = one.n
+        one = resampled(one, options.grid_n, options.grid_size)
+        remarks.append("from {} x {} points to {} x {} cells".format(*before, *one.n))
+    print(f"{path}: {QUANTITIES[one.quantity]}")
+    for remark in remarks:
+        print("  " + remark)
+    return one
+
+
+def description(one):
+    """Lines that describe a map."""
+    n, cell, size, center = one.n, one.cell, one.size, one.center
+    low, high = (shown(float(value)) for value in (one.values.min(), one.values.max()))
+    slopes = levels.tilt(one)
+    return [
+        "cells   {} x {} of {} x {}".format(*n, *map(shown, cell)),
+        "size    {} x {} about x = {:g} m, y = {:g} m".format(*map(shown, size), *center),
+        f"height  Sq {shown(rms_height(one))}, peak to valley {shown(peak_to_valley(one))}, from {low} to {high}",
+        "shape   skewness Ssk {:.3g}, kurtosis Sku {:.3g}".format(*moments(one)),
+        f"slope   Sdq {rms_slope(one):.4g}; of the mean plane {slopes[0]:.3g} in x, {slopes[1]:.3g} in y",
+    ]
+
+
+def petsam_options(one, path):
+    """petsam's options for the surface as the gap, and as roughness on another."""
+    name = shlex.quote(path)
+    grid = "-grid_n {},{} -grid_size {:.10g},{:.10g}".format(*one.n, *one.size)
+    if any(one.center):
+        grid += " -grid_center {:.10g},{:.10g}".format(*one.center)
+    which = f"_dataset /{writing.dataset(one)}" if writing.dataset(one) != "height" else ""
+    gap, rough = (f" -{kind}{which}" if which else "" for kind in ("gap", "gap_rough"))
+    return f"-gap_type file -gap_file {name}{gap} {grid}", f"-gap_rough_file {name}{rough} {grid}"
+
+
+def carry_out(options, words):
+    """Read, combine, write, draw and print; in a child, as files are read here."""
+    outputs = [options.output] + ([] if options.no_picture else [options.picture])
+    for name in outputs:
+        if any(same(name, path) for path in options.files):
+            raise Error(f"{name}: is an input file; choose another name by --output")
+    need_own(options.output, writing.SIGN, "petsam-surface")
+    if not options.no_picture:
+        need_replaceable(options.picture)
+    quantities = options.body or ["separation" if options.separation else None] * len(options.files)
+    maps = [prepared(path, options, quantity) for path, quantity in zip(options.files, quantities)]
+    maps = maps or [random_map(options)]
+    one = maps[0] if len(maps) == 1 else combined(*maps)
+    if options.center:
+        one = replace(one, center=options.center)
+    if not finite(one):
+        raise Error(f"{one.name}: contains numbers that are too large")
+    writing.write(one, options.output, shlex.join(["petsam-surface", *words]))
+    if not options.no_picture:
+        write(plot.surface(one), options.picture, options.dpi)
+    print(f"{options.output}: /{writing.dataset(one)}, {QUANTITIES[one.quantity]}, m")
+    print("\n".join("  " + line for line in description(one)))
+    if not options.no_picture:
+        print("wrote " + options.picture)
+    gap, rough = petsam_options(one, options.output)
+    print(f"options for petsam:\n  {gap}\nor, added to another gap:\n  {rough}")
+
+
+def _child(options, words):
+    warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
+    try:
+        carry_out(options, words)
+    except (Error, OSError) as error:
+        return fail("petsam-surface", error)
+    return 0
+
+
+def main():
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks information."""
+
+    def parent():
+        words = sys.argv[1:]
+        options = arguments(words)
+        (code,) = isolation.each(lambda _: _child(options, words), [None])
+        return fail("petsam-surface", code) if isinstance(code, Error) else code
+
+    return guarded("petsam-surface", parent)

@@ -1,0 +1,11 @@
+"""What all parts of the package share.
+
+errors       errors that are reported in one line; the command line of all commands
+files        names of files, and texts
+hdf5         HDF5 files: opened to read, replaced when they are written
+isolation    reading of files that may be damaged, in a child process
+options      options of the program as words of a command line
+declared     what petsam declares of its options: units, names of files
+lengths      lengths with a unit
+environment  search for the interpreter, its libraries and petsam
+"""

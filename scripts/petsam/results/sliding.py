@@ -1,0 +1,148 @@
+"""Numbers of a fretting cycle: regime, energy ratio, sliding ratio; slip amplitude and range of each cell.
+
+    import petsam
+    with petsam.open("strokes.h5") as results:
+        found = petsam.cycles.find(results)
+        print(petsam.sliding.numbers(results, found.numbered(-1)))
+        amplitude = results.quantity("slip_amplitude")      # (ny, nx), m: of the cycle that ends at the last saved step
+
+The energy ratio is the energy that a load spends on its displacement over a cycle, relative to the product of their
+ranges; the sliding ratio is the width of the loop at mean load relative to the range of the displacement. From partial
+slip to gross slip a sphere passes an energy ratio of 0.2 and a sliding ratio of 0.26 (S. Fouvry, P. Kapsa, L. Vincent,
+Wear 185 (1995) 35-46).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.errors import Error
+from .cycles import ENERGY, PAIRS, Cycle, busiest, find
+from .file import BLOCK, OPEN
+
+REGIMES = ("stick", "partial slip", "gross slip", "mixed")  # by their codes in tables
+ALONE = 1e-3  # of a loop's area: smaller areas of the other loads' loops are rounding
+STEPS = 3  # saved steps of a cycle at least for the path of its slip
+
+
+class Numbers(NamedTuple):
+    """Of a cycle: amplitudes of the load (N or N m) and its displacement (m or rad), energy (J), ratios, regime."""
+
+    force: float
+    displacement: float
+    energy: float
+    energy_ratio: float
+    sliding_ratio: float
+    regime: str
+
+
+def area(x, y):
+    """Area of a closed polygon, positive when it is passed clockwise, as a load passes its displacement."""
+    return 0.5 * float(np.sum((x + np.roll(x, -1)) * (np.roll(y, -1) - y))) * -1.0
+
+
+def loop_energy(results, names, values, energy):
+    """Energy (J) that a load spends on its displacement over a closed loop; values(name) are those of its steps.
+
+    Where no other load and no bulk stress does work, that is the dissipated energy of the cycle (energy), which needs
+    no fine steps; else the area of the loop as it is drawn, whose sides are straight.
+    """
+    force, way = names
+    areas = {pair: area(values(pair[1]), values(pair[0])) for pair in PAIRS.values()}
+    mine = areas.pop((force, way))
+    bulk = any(np.ptp(values(name)) > 0.0 for name in results.history if name.startswith("bulk"))
+    if force == "load_n" or bulk or max(map(abs, areas.values())) > ALONE * abs(mine):
+        return mine
+    return energy
+
+
+def cycle_energy(results, names, cycle):
+    """The same of a petsam.cycles.Cycle."""
+    friction = float(np.sum(results.series(ENERGY)[cycle.first + 1 : cycle.last + 1]))
+    return loop_energy(results, names, lambda name: results.series(name)[cycle.rows], friction)
+
+
+def _width(way, force):
+    """Width of a closed loop at the mean of its extreme loads; 0 where fewer than two sides cross it."""
+    level = force - 0.5 * (np.max(force) + np.min(force))
+    following, after = np.roll(level, -1), np.roll(way, -1)
+    crossing = (level < 0.0) != (following < 0.0)
+    if not crossing.any():
+        return 0.0
+    part = level[crossing] / (level[crossing] - following[crossing])
+    return float(np.ptp(way[crossing] + part * (after - way)[crossing]))
+
+
+def regime(results, rows):
+    """The regime of a cycle's rows (a slice of the solved ones): of the step that slips most."""
+    stick, contact = (results.series(name)[rows] for name in ("stick_area", "contact_area"))
+    touching = contact > 0.0
+    if np.any(touching & (stick <= 0.0)):
+        return "gross slip"
+    return "partial slip" if np.any(stick < contact * (1.0 - 1e-9)) else "stick"
+
+
+def regime_of(regimes):
+    """The regime of several cycles: mixed where some slip grossly and some do not, else that which slips most."""
+    found = set(regimes)
+    if "gross slip" in found and len(found) > 1:
+        return "mixed"
+    return max(found, key=REGIMES.index)
+
+
+def numbers(results, cycle, pair=None):
+    """The Numbers of a petsam.cycles.Cycle, of a pair such as "tx" (that which does most work)."""
+    pair = pair or busiest(results)
+    if pair is None:
+        raise Error(f"{results.path}: no load varies, a cycle needs several steps")
+    names, rows = PAIRS[pair], cycle.rows
+    force, way = (results.series(name)[rows].astype(float) for name in names)
+    energy = cycle_energy(results, names, cycle)
+    box = float(np.ptp(force) * np.ptp(way))
+    ratios = (energy / box, _width(way, force) / float(np.ptp(way))) if box > 0.0 else (0.0, 0.0)
+    return Numbers(0.5 * float(np.ptp(force)), 0.5 * float(np.ptp(way)), energy, *ratios, regime(results, rows))
+
+
+def _path_cycle(results, index):
+    """The cycle that ends at a saved step, or the last before it."""
+    row = results.row(index % results.times.size)
+    if results.has_life:
+        steps = results.of_computed_cycle(results.history["cycle"][row])
+        rows = np.searchsorted(results.solved, steps)
+        return Cycle(1, int(rows[0]), int(rows[-1]))
+    ended = [cycle for cycle in find(results) if results.solved[cycle.last] <= row]
+    if not ended:
+        raise Error(
+            f"{results.path}: no cycle ends before step {results.steps[index]}; give a step after a whole cycle"
+        )
+    return ended[-1]
+
+
+def slip_range(results, index=-1, rows=slice(None), columns=slice(None), stride=1):
+    """Longest chord (m) of the path of each cell's slip over a cycle, between steps in which the cell is in contact.
+
+    The cycle is that which ends at the saved step index, or the last before it; its saved steps are the path. NaN in
+    cells that are never in contact. The other arguments are those of Results.field().
+    """
+    cycle = _path_cycle(results, index)
+    first, last = (int(results.solved[row]) for row in (max(0, cycle.first), cycle.last))
+    saved = [k for k in range(results.times.size) if first <= results.row(k) <= last]
+    if len(saved) < STEPS:
+        text = f"of the cycle from step {first + 1} to {last + 1} {len(saved)} steps are saved"
+        raise Error(f"{results.path}: {text}; save at least {STEPS} (petsam -output_every)")
+    low, high, _ = rows.indices(results.y.size)
+    block, parts = stride * max(1, BLOCK // stride), []
+    for k in range(low, high, block):
+        part = {"rows": slice(k, min(k + block, high)), "columns": columns, "stride": stride}
+        parts.append(_chords([[results.field(n, j, **part) for n in ("slip_x", "slip_y", "state")] for j in saved]))
+    return np.concatenate(parts)
+
+
+def _chords(steps):
+    """The longest distance between any two points of each cell's path (x, y, state) in contact."""
+    points = [np.where(state != OPEN, x + 1j * y, np.nan) for x, y, state in steps]
+    longest = np.where(np.isfinite(points).any(axis=0), 0.0, np.nan)
+    for k, one in enumerate(points):
+        for other in points[:k]:
+            longest = np.fmax(longest, np.abs(one - other))
+    return longest

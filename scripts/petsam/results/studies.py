@@ -1,0 +1,123 @@
+"""Reading of petsam-study's results.h5: inputs and scalars of all cases. SI units."""
+
+import os
+import re
+
+import numpy as np
+
+from ..core.declared import FOLLOWING, OPTIONS
+from ..core.errors import Error, short, there_are
+from ..core.files import decoded, need_regular
+from ..core.hdf5 import DAMAGED, opened
+from .file import WHOLE, _own, _reason
+
+NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eE]([+-]?\d+))?([a-zA-Z].*)?")
+
+
+def _measured(text):
+    """A text as a number in SI units, and its unit ("": none); None where it is no such text."""
+    match = NUMBER.fullmatch(text.strip())
+    if not text.strip():
+        return float("nan"), ""
+    if not match or (match[3] or "N") not in FOLLOWING:
+        return None
+    unit, power = FOLLOWING[match[3]] if match[3] else ("", 0)
+    return float(f"{match[1]}e{int(match[2] or 0) + power}"), unit
+
+
+def _in_si(values):
+    """An input whose texts are numbers with units as numbers in SI units, and the unit; else as it is, and ""."""
+    read = [_measured(text) for text in values.tolist()] if values.dtype.kind == "U" else [None]
+    units = {unit for _, unit in filter(None, read)} - {""}
+    if None in read or len(units) != 1:
+        return values, ""
+    return np.array([number for number, _ in read]), units.pop()
+
+
+class Study:
+    """The table of a study, open for reading; Error where it cannot be read.
+
+    cases     names of the cases
+    codes     their exit codes, -1 where a case has not run
+    inputs    name: an array of numbers, or of texts, a value a case; numbers with units (2.6mm) are in SI units
+    results   name: an array of numbers, a value a case, NaN where there is none
+    units     name: unit, of the results
+    """
+
+    program = "petsam-study"  # that writes such files
+
+    def __init__(self, path, label=None):
+        self.path = str(path)
+        name = os.path.basename(os.path.dirname(os.path.abspath(self.path)))
+        self.label = label or name
+        try:
+            need_regular(self.path)
+            with opened(self.path) as file:
+                self._read(file)
+        except Error:
+            raise
+        except DAMAGED as error:
+            raise Error(f"{self.path}: {_reason(error)}") from error
+
+    def _read(self, file):
+        self.cases = self._column(file, "case")
+        self.codes = self._column(file, "exit_code")
+        groups = {name: _own(file, name) for name in ("inputs", "results") if name in file}
+        columns = {group: {name: self._column(data, name) for name in data} for group, data in groups.items()}
+        measured = {name: _in_si(values) for name, values in columns.get("inputs", {}).items()}
+        self.inputs = {name: values for name, (values, _) in measured.items()}
+        stated = {name: data.attrs.get("units") for name, data in groups.get("inputs", {}).items()}
+        self._input_units = {name: short(str(stated[name] or unit)) for name, (_, unit) in measured.items()}
+        self.results = columns.get("results", {})
+        self.units = {name: short(str(groups["results"][name].attrs.get("units", "1"))) for name in self.results}
+        for values in (*self.inputs.values(), *self.results.values(), self.codes):
+            if values.size != self.cases.size:
+                raise ValueError("its columns have different lengths")
+
+    @staticmethod
+    def _column(group, name):
+        data = _own(group, name)
+        if getattr(data, "ndim", None) != 1 or data.size > WHOLE:
+            raise ValueError(f"/{name} is not a row")
+        if data.dtype.kind in "biuf":
+            return data[:]
+        return np.array([decoded(one) if isinstance(one, bytes) else one for one in data[:].tolist()], dtype=str)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        """Nothing is open: the table is read whole."""
+
+    def column(self, name, option=""):
+        """Values of an input or of a result, and the unit; a result that has an input's name ends with _end.
+
+        option is what the message names where there is no such column.
+        """
+        if name in self.inputs:
+            return self.inputs[name], ""
+        bare = name[:-4] if name.endswith("_end") and name[:-4] in self.inputs else name
+        if bare not in self.results:
+            what = f"{option} {short(name)}".strip()
+            raise Error(f"{self.path}: {what}: there is no such column{there_are(name, self.names)}")
+        return self.results[bare], self.units[bare]
+
+    def unit_of_input(self, name):
+        """Unit of an input: that of the result of its name, in plane strain per metre; else of option or values."""
+        unit = OPTIONS.get(name)
+        return self.units.get(name, unit) if unit else self._input_units.get(name, "")
+
+    @property
+    def names(self):
+        """Names of all columns."""
+        return [*self.inputs, *(name + "_end" if name in self.inputs else name for name in self.results)]
+
+
+def is_study(path):
+    """Whether a file looks like the table of a study."""
+    try:
+        need_regular(str(path))
+        with opened(str(path)) as file:
+            return all(name in file for name in ("case", "exit_code", "cases"))
+    except (Error, *DAMAGED):
+        return False
