@@ -3,6 +3,7 @@
 import argparse
 import difflib
 import errno
+import importlib
 import os
 import re
 import sys
@@ -41,6 +42,14 @@ class MissingFile(Missing, FileNotFoundError):
 
     def __reduce__(self):
         return type(self), (self.filename,)
+
+
+def library(name):
+    """A library that only one form of results needs; Missing says how it is installed."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise Missing(f"{name} is not installed: {sys.executable} -m pip install {name}") from error
 
 
 def one_line(text, most=LINE):

@@ -1,10 +1,8 @@
 """Reading of petsam's results files, of any size: scalars whole, fields by step, window and stride. SI units."""
 
 import contextlib
-import importlib
 import os
 import re
-import sys
 import textwrap
 from copy import copy
 from functools import cached_property
@@ -12,7 +10,7 @@ from functools import cached_property
 import h5py
 import numpy as np
 
-from ..core.errors import Error, Missing, one_line, short, there_are
+from ..core.errors import Error, library, one_line, short, there_are
 from ..core.files import decoded, need_regular
 from ..core.hdf5 import DAMAGED, fresh
 from ..core.isolation import reading
@@ -330,11 +328,11 @@ class Results(Datafile):
     def to_dataframe(self):
         """The history as a table of pandas with the time (s) as its index."""
         columns = {name: values[: self._complete] for name, values in self.history.items()}
-        return _library("pandas").DataFrame(columns).set_index("time")
+        return library("pandas").DataFrame(columns).set_index("time")
 
     def to_xarray(self):
         """The fields as a Dataset of xarray, with the coordinates time (s), y and x (m), units and texts."""
-        xarray = _library("xarray")
+        xarray = library("xarray")
         fields = {}
         for name in self.fields:
             unit, text = self.about(name)
@@ -747,14 +745,6 @@ class Snapshot:
     def radius(self, area):
         """Radius, m, of the disc with the area of this name, contact_area or stick_area."""
         return np.sqrt(self[area] / np.pi)
-
-
-def _library(name):
-    """A library that only its own form of the results needs."""
-    try:
-        return importlib.import_module(name)
-    except ImportError as error:
-        raise Missing(f"{name} is not installed: {sys.executable} -m pip install {name}") from error
 
 
 def _state(path):

@@ -1,0 +1,55 @@
+"""Tables as CSV: columns with a name, a unit and a meaning; heads are `name [unit]`, of texts the name alone."""
+
+import csv
+import io
+import re
+from typing import NamedTuple
+
+from .errors import library
+
+HEAD = re.compile(r"(.+?)(?: \[(.*)\])?")
+
+
+class Column(NamedTuple):
+    """A column: its name, its unit ("1" of a number without one, "" of a text), what it means, and a value per row."""
+
+    name: str
+    unit: str
+    text: str
+    values: object
+
+
+def head(name, unit):
+    """The head of a column in a file: pressure [Pa]."""
+    return f"{name} [{unit}]" if unit else name
+
+
+def split(text):
+    """Name and unit of a head; the unit is "" where it has none."""
+    name, unit = HEAD.fullmatch(text).groups()
+    return name, unit or ""
+
+
+def csv_text(columns, form=repr):
+    """The table as a text; form(float) writes a number."""
+    out = io.StringIO()
+    rows = csv.writer(out, lineterminator="\n")
+    rows.writerow([head(column.name, column.unit) for column in columns])
+    for values in zip(*(column.values for column in columns)):
+        rows.writerow([
+            value if column.unit == "" else form(float(value)) for column, value in zip(columns, values)
+        ])  # fmt: skip
+    return out.getvalue()
+
+
+def write_csv(path, columns, form=repr):
+    """Writes the table to a file."""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        file.write(csv_text(columns, form))
+
+
+def to_dataframe(columns):
+    """The table as one of pandas, which must be installed; columns have their names, units stand in .attrs["units"]."""
+    table = library("pandas").DataFrame({column.name: column.values for column in columns})
+    table.attrs["units"] = {column.name: column.unit for column in columns}
+    return table

@@ -1,0 +1,46 @@
+"""The one table of units: those that petsam takes after a number (declared.py), and the spellings of instruments."""
+
+import re
+
+from .declared import FOLLOWING
+
+# other spellings of lengths, of src/ground/file/lengths.c and of instruments; words may be plural
+LENGTHS = {
+    "meter": 1.0, "metre": 1.0, "cm": 1e-2, "centimeter": 1e-2, "centimetre": 1e-2, "millimeter": 1e-3,
+    "millimetre": 1e-3, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "micrometer": 1e-6, "micrometre": 1e-6, "micron": 1e-6,
+    "nanometer": 1e-9, "nanometre": 1e-9, "pm": 1e-12, "picometer": 1e-12, "picometre": 1e-12, "angstrom": 1e-10,
+    "\u00c5": 1e-10, "in": 0.0254, "inch": 0.0254,
+}  # fmt: skip
+OTHERS = {
+    "Hz": {"Hz": 1.0, "kHz": 1e3, "1/s": 1.0},
+    "m2": {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6, "um2": 1e-12},
+    "kg/m3": {"kg/m3": 1.0, "g/cm3": 1e3, "t/mm3": 1e12},
+    "degrees": {"degrees": 1.0, "deg": 1.0},
+    "Pa m^1/2": {"Pa m^1/2": 1.0, "MPa m^1/2": 1e6, "Pam^1/2": 1.0, "MPam^1/2": 1e6},
+}
+PLURAL = 4  # letters of a word at least that may have an s
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+
+
+def of(unit):
+    """{name: size in the unit of SI} of all units of a quantity, that of SI the first."""
+    found = {name: 10.0**power for name, (si, power) in FOLLOWING.items() if si == unit}
+    return {**found, **(LENGTHS if unit == "m" else {}), **OTHERS.get(unit, {})}
+
+
+def size(name, unit="m"):
+    """The size of a unit in that of SI, as 1e-3 of "mm"; of one with a factor, as 1e-4 of "0.1mm"; None if unknown."""
+    known, name = of(unit), name.strip()
+    if name not in known and len(name) > PLURAL and name.endswith("s"):
+        name = name[:-1]
+    if name in known:
+        return known[name]
+    found = re.fullmatch(rf"({NUMBER})\s*(\S.*)", name)
+    factor = float(found[1]) if found and found[2] in known else 0.0
+    return factor * known[found[2]] if 0.0 < factor < float("inf") else None
+
+
+def names(unit="m"):
+    """The usual names of the units of a quantity, as a text for messages."""
+    shown = {"m": ("m", "cm", "mm", "um", "nm", "pm", "angstrom", "in")}
+    return ", ".join(shown.get(unit) or of(unit))

@@ -1,0 +1,106 @@
+"""Reading of a word: a number with its unit and range, several, a span, a name with its value.
+
+What an option expects is said by `form`, "a length above 0, such as 1mm"; any other word raises WordError.
+"""
+
+import math
+import re
+
+import numpy as np
+
+from . import units
+from .errors import Error, short
+
+MOST = 10000  # numbers of a span
+
+
+class WordError(Error):
+    """A word that is not what an option expects."""
+
+    def __init__(self, text, form):
+        super().__init__(f"{short(text) or repr('')}: expected {form}")
+
+
+def number(text, form="a number", unit="1", allowed=None):
+    """A finite number, or one that `allowed` takes, in the unit of SI; the word may have another unit of the same
+    quantity after it."""
+    found = re.fullmatch(rf"\s*({units.NUMBER}|[+-]?inf)\s*(\D.*?|)\s*", text)
+    scale = units.size(found[2], unit) if found and found[2] else 1.0
+    value = float(found[1]) * scale if found and scale else math.nan
+    good = math.isfinite(value) if allowed is None else allowed(value)
+    if not good:
+        raise WordError(text, form + (f"; units are {units.names(unit)}" if found and scale is None else ""))
+    return value
+
+
+def integer(text, form="a whole number", allowed=None):
+    """A whole number."""
+    if not re.fullmatch(r"[+-]?\d{1,18}", text) or not (allowed is None or allowed(int(text))):
+        raise WordError(text, form)
+    return int(text)
+
+
+def numbers(text, form="numbers separated by commas", unit="1", allowed=None, count=None):
+    """Numbers separated by commas, each with its unit or all without one; as many as count, a number or several."""
+    words = text.split(",")
+    bare = [re.fullmatch(rf"\s*({units.NUMBER}|[+-]?inf)\s*", word) is not None for word in words]
+    if len(set(bare)) > 1:
+        raise WordError(text, f"{form}: give each number its unit, or none ({unit}); decimals have a point")
+    if count is not None and len(words) not in np.atleast_1d(count):
+        raise WordError(text, form)
+    found = []
+    for word in words:
+        try:
+            found.append(number(word, form, unit, allowed))
+        except WordError as error:
+            raise error if len(words) == 1 else WordError(text, form) from error
+    return found
+
+
+def integers(text, form="whole numbers separated by commas", allowed=None, count=None):
+    """Whole numbers separated by commas."""
+    words = text.split(",")
+    if count is not None and len(words) not in np.atleast_1d(count):
+        raise WordError(text, form)
+    try:
+        return [integer(word, form, allowed) for word in words]
+    except WordError as error:
+        raise WordError(text, form) from error
+
+
+def span(text, form, unit="1", allowed=None, geometric=False):
+    """An array of FIRST:LAST:COUNT in equal or geometric steps, or of numbers separated by commas."""
+    words = text.split(":")
+    if len(words) == 1:
+        return np.array(numbers(text, form, unit, allowed))
+    if len(words) != 3 or "," in text:
+        raise WordError(text, form)
+    first, last = (number(word, form, unit, allowed) for word in words[:2])
+    count = integer(words[2], form, lambda value: 2 <= value <= MOST)
+    if not geometric:
+        return np.linspace(first, last, count)
+    return np.array([float(f"{value:.12g}") for value in np.geomspace(first, last, count)])
+
+
+def named(text, form, unit="1", allowed=None):
+    """Name and number of NAME=NUMBER."""
+    name, equal, value = text.partition("=")
+    if not name or not equal:
+        raise WordError(text, form)
+    try:
+        return name, number(value, form, unit, allowed)
+    except WordError as error:
+        raise WordError(text, form) from error
+
+
+def names(text, form="names separated by commas", known=None):
+    """Names separated by commas, of those that are known."""
+    words = text.split(",")
+    if not all(words) or known is not None and not set(words) <= set(known):
+        raise WordError(text, form)
+    return words
+
+
+def positive(value):
+    """Whether a number is above 0 and finite."""
+    return 0.0 < value < math.inf
