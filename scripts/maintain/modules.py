@@ -31,6 +31,7 @@ MODULES = (
     "lives.cracks",
     "closed.materials",
     "closed.sphere",
+    "closed.ellipse",
     "closed.stress",
     "closed.loop",
     "closed.spence",
@@ -38,6 +39,7 @@ MODULES = (
     "closed.plane",
 )
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
+SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")
 COLUMNS = re.compile(r"\S {2,}\S")  # of a table in a docstring
 
 
@@ -92,6 +94,18 @@ def arguments(args, is_method):
     return f"({re.sub(r'^(self|cls)(, )?', '', listed) if is_method else listed})"
 
 
+def section(title, text):
+    """Returns a section of numpydoc as Markdown: names with their types and texts as a list."""
+    entries = re.split(r"\n(?=\S)", text.strip("\n"))
+    lines = [f"**{title}**", ""]
+    for entry in entries:
+        head, _, body = entry.partition("\n")
+        name, colon, kind = head.partition(" : ")
+        body = functions.escape(" ".join(body.split()))
+        lines.append(f"- `{name}`" + f" ({functions.escape(kind)})" * bool(colon) + (f": {body}" if body else ""))
+    return "\n".join(lines)
+
+
 def paragraph(text):
     """Returns a paragraph of a docstring as Markdown: one of names and their texts as a list, others with columns
     unchanged."""
@@ -108,7 +122,11 @@ def entry(level, name, node):
     """Returns the lines of a function, or of a class with its methods."""
     lines = [f"{'#' * level} {name}", "", "```python", *signature(name, node), "```", ""]
     for text in re.split(r"\n\s*\n", ast.get_docstring(node) or ""):
-        lines += [paragraph(text), ""]
+        found = SECTION.match(text)
+        if found and found[1] != "Notes":
+            lines += [section(found[1], text[found.end() :]), ""]
+        else:
+            lines += [paragraph(text[found.end() :] if found else text), ""]
     if isinstance(node, ast.ClassDef):
         for method, part in definitions(node).items():
             lines += entry(level + 1, f"{name.rpartition('.')[2]}.{method}", part)

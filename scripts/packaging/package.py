@@ -41,7 +41,7 @@ class Petsam(MakefilePackage):
         depends_on("py-matplotlib@3.6:", type="run")
         depends_on("py-numpy@1.20:", type="run")
         depends_on("py-pyyaml@5.4:", type="run")
-        depends_on("py-scipy@1.6:", type="run")
+        depends_on("py-scipy@1.8:", type="run")
 
     def _words(self):
         # the compiler wrapper adds the target's flags

@@ -7,7 +7,8 @@ import signal
 import subprocess
 import tempfile
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Optional
 
 import numpy as np
 
@@ -15,29 +16,53 @@ from .contact import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, EdgeCon
 from .core import environment
 from .core import options as command_line
 from .core.errors import Error, short
+from .core.hdf5 import replacing
 from .results.file import Results
 
 _SOLVED = (0, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE)  # exit codes of runs that have written results
 
 
-def run(options=None, /, *, history=None, ranks=1, report=None, **more):
+def run(
+    options: Optional[Mapping] = None, /, *, history=None, ranks: int = 1,
+    report: Optional[Callable[[str], object]] = None, **more,
+) -> Results:  # fmt: skip
     """Runs petsam with these options, and returns its Results: petsam.run(grid_n=64, load_n=100, ...).
 
-    options  names and values of options of the program without the dash, as a mapping, as keywords, or as both: a
-             number, a text, True or False, a path, or a sequence of numbers or texts; None leaves the option out
-    history  loads and conditions over time: a mapping of column names to values, as a DataFrame is one, or the path
-             of a file; each column has the value of each row, and `time` is 1, 2, ... unless it is given, as a column
-             or as the index of a DataFrame
-    ranks    number of MPI ranks; more than 1 are started by the launcher in $MPIRUN, or mpirun
-    report   is called with each line that the program prints, for example print; None: it prints nothing
+    Parameters
+    ----------
+    options : mapping, optional
+        Names and values of options of the program without the dash, as a mapping, as keywords, or as both: a number,
+        a text, True or False, a path, or a sequence of numbers or texts; None leaves the option out. Two may be
+        arrays of the cells, (ny, nx) or in plane strain (nx,), whose rows are y, the first the smallest: `gap`, the
+        separation of the undeformed bodies, m, over a surface of `grid_size`, and `friction`; `grid_n` is theirs
+        unless it is given.
+    history : mapping, DataFrame, structured array or path, optional
+        Loads and conditions over time: each column has the value of each row, and `time` is 1, 2, ... unless it is
+        given, as a column or as the index of a DataFrame.
+    ranks : int
+        Number of MPI ranks; more than 1 are started by the launcher in $MPIRUN, or mpirun.
+    report : callable, optional
+        Called with each line that the program prints, for example print; None: it prints nothing.
 
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    ContactError
+        With the program's code and message: NotConverged or NoEquilibrium if a step has no solution; its attribute
+        `results` then has the steps so far, and is None for other errors.
+    Error
+        If an argument cannot be given to the program, or there is no program.
+
+    Notes
+    -----
     The results are written to the file that the option `output` names. Without it they are in a temporary file, which
     exists as long as the Results do. Files that options name are relative to the working directory.
 
     The program's warnings are raised as AdviceWarning, a contact that reaches the edge of the grid, which ends the run
-    with that step, as EdgeContactWarning. An error is a ContactError with the program's code and message: NotConverged
-    or NoEquilibrium if a step has no solution; its attribute `results` then has the steps so far, and is None for
-    other errors.
+    with that step, as EdgeContactWarning.
     """
     given = {**(options or {}), **more}
     command_line.one_case([*given, "output", "history", "quiet"])
@@ -46,8 +71,11 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
         if history is not None and given.get("history") is not None:
             raise Error("history: given both as an argument and as an option: give one of them")
         history = given.pop("history", None) if history is None else history
+        if isinstance(history, np.ndarray) and history.dtype.names:
+            history = {name: history[name] for name in history.dtype.names}
         if isinstance(history, Mapping) or hasattr(history, "columns"):
             history = _write_history(os.path.join(folder, "history.csv"), history)
+        given.update(_fields(folder, given))
         if given.get("output") is None:
             given["output"] = os.path.join(folder, "results.h5")
         output = given["output"]
@@ -56,7 +84,8 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
         given["quiet"] = report is None
         given["history"] = history
         code, complaint = _execute(_command(ranks) + command_line.words(given), report)
-        complaint = [line.replace(os.path.join(folder, "history.csv"), "history") for line in complaint]
+        for name in ("history.csv", "gap.h5", "friction.h5"):
+            complaint = [line.replace(os.path.join(folder, name), name.partition(".")[0]) for line in complaint]
         results = Results(output) if code in _SOLVED and os.path.exists(output) else None
     except BaseException:
         _remove(folder, process)
@@ -64,12 +93,41 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
     if results is None:
         _remove(folder, process)
     else:
+        results.temporary = os.path.dirname(results.path) == folder
         # also at the end of a worker of multiprocessing, which calls no other finalizers
         multiprocessing.util.Finalize(results, _remove, (folder, process), exitpriority=0)
     _finish(code, complaint, results)
     if results is None:
         raise Error(f"petsam has written no results to {short(output)}")
     return results
+
+
+def _fields(folder, given):
+    """Options for a gap and a friction that are arrays, which are written to files in the folder."""
+    options = {}
+    for name in ("gap", "friction"):
+        values = given.get(name)
+        if values is None or isinstance(values, str) or np.ndim(values) == 0:
+            continue
+        file = f"{name}_file"
+        if given.get(file) is not None:
+            raise Error(f"{name}: an array and {file} are both given: remove one of them")
+        try:
+            values = np.asarray(values, float)
+        except (TypeError, ValueError):
+            values = np.zeros(0)
+        values = values[np.newaxis] if values.ndim == 1 and values.size else values
+        if values.ndim != 2 or not np.all(np.isfinite(values)):
+            raise Error(f"{name}: expected finite numbers, an array of shape (ny, nx)")
+        path, dataset = os.path.join(folder, f"{name}.h5"), "separation" if name == "gap" else name
+        with replacing(path) as out:
+            out[dataset] = values
+            if name == "gap":
+                out[dataset].attrs.update(units="m", quantity="separation")
+        options.update({name: None, file: path, f"{name}_dataset": dataset})
+        if given.get("grid_n") is None:
+            options["grid_n"] = values.shape[1] if values.shape[0] in (1, values.shape[1]) else values.shape[::-1]
+    return options
 
 
 def _remove(folder, process):

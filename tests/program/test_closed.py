@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipkm1
 
+from petsam.closed.ellipse import hertz_ellipse, hertz_radii
 from petsam.closed.loop import (
     first_loading,
     masing_displacement,
@@ -384,9 +385,35 @@ def _check_mises():
     yield "Hertz: its depth", z[k] - HERTZ_MISES_DEPTH, 1e-4
 
 
+def _check_ellipse(ratio):
+    """Errors of displacement and load of an ellipse by quadrature along rays from a point inside."""
+    load, radii, e_star = 700.0, (0.3, 0.3 * ratio), 90e9
+    a, b, p0, approach = hertz_ellipse(load, *radii, e_star)
+    label = f"Hertz, radii 1 to {ratio:g}: "
+    yield label + "load", 2.0 / 3.0 * np.pi * a * b * p0 / load - 1.0, 1e-12
+    yield label + "inverse", np.max(np.abs(np.divide(hertz_radii(a, b, load, e_star), radii) - 1.0)), 1e-10
+    angle = 2.0 * np.pi * (np.arange(2000) + 0.5) / 2000
+    t, w = np.polynomial.legendre.leggauss(60)
+    t, w = 0.5 * (t + 1.0), 0.5 * w
+    c, s = np.cos(angle) / a, np.sin(angle) / b
+    for x, y in ((0.0, 0.0), (0.5 * a, 0.3 * b), (-0.2 * a, 0.7 * b)):
+        square, linear, rest = c**2 + s**2, c * x / a + s * y / b, 1.0 - (x / a) ** 2 - (y / b) ** 2
+        end = (np.sqrt(linear**2 + square * rest) - linear) / square
+        along = end[:, None] * (1.0 - t**2)  # which takes the root at the edge away
+        pressure = np.sqrt(np.maximum(rest - 2.0 * linear[:, None] * along - square[:, None] * along**2, 0.0))
+        moved = p0 / (np.pi * e_star) * np.mean(np.sum(2.0 * t * w * pressure, axis=1) * end) * 2.0 * np.pi
+        rigid = approach - x**2 / (2.0 * radii[0]) - y**2 / (2.0 * radii[1])
+        yield label + f"displacement at ({x / a:g} a, {y / b:g} b)", moved / rigid - 1.0, 1e-6
+
+
 def checks():
     """All checks."""
     yield from _check_hertz()
+    for ratio in (1.0, 0.7, 4.0, 60.0):
+        yield from _check_ellipse(ratio)
+    # of a contact of 6 mm by 4 mm, by the reference program of rolling contact
+    found = hertz_radii(6e-3, 4e-3, 1e4, 84e9 / (1.0 - 0.28))
+    yield "Hertz, radii of an ellipse", np.max(np.abs(np.divide(found, (2.51851, 1.36949)) - 1.0)), 2e-6
     for ratio in (0.1, 0.6, 0.95):
         for poisson in (0.0, 0.3):
             yield from _check_cattaneo(ratio, poisson)

@@ -5,6 +5,7 @@ import errno
 import gc
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -44,6 +45,68 @@ def test_results_are_those_of_the_program(solve, tmp_path, ranks):
     found = package.run(CASE, history=dict(load_tx=loads), ranks=ranks, report=lines.append)
     assert np.array_equal(found["pressure"], expected) and np.array_equal(found["stick_area"], stick)
     assert list(found.time) == [1, 2, 3] and any("results in" in line for line in lines)
+
+
+def test_results_can_be_copied_to_another_process(tmp_path):
+    found = package.run(CASE, load_tx=0.3 * LIMIT, steps=4, output="kept.h5")
+    for one in (found, found.between(2, 3)):
+        copy = pickle.loads(pickle.dumps(one))
+        assert np.array_equal(copy.series("load_tx"), one.series("load_tx")) and copy.label == one.label
+        assert np.array_equal(copy.field("pressure"), one.field("pressure"))
+    found = package.run(CASE, load_tx=0.3 * LIMIT)
+    with pytest.raises(package.Error, match="is a temporary file.*give petsam.run"):
+        pickle.dumps(found)
+
+
+@pytest.mark.parametrize("n", [(32, 32), (24, 40), (64, 1)])
+def test_gap_and_friction_may_be_arrays(solve, n):
+    nx, ny = n
+    flat = dict(CASE, gap_type=None, gap_radius1=None, gap_radius2=None, grid_n=None, friction=None, load_n=2.0)
+    if ny == 1:
+        flat["elasticity"] = "plane"
+    width = 4e-3 if ny == 1 else CASE["grid_size"]
+    size = (width, width * ny / nx)
+    x = (np.arange(nx) + 0.5 - nx / 2) * size[0] / nx
+    y = np.zeros(1) if ny == 1 else (np.arange(ny) + 0.5 - ny / 2) * size[1] / ny
+    gap = (x**2 + 2.0 * y[:, None] ** 2) / 0.2
+    friction = 0.3 + 0.1 * np.sign(x) * np.ones((ny, 1))
+    given = dict(gap=gap[0], friction=friction[0]) if ny == 1 else dict(gap=gap, friction=friction)
+    rows = np.zeros(3, dtype=[("load_tx", float), ("load_ty", float)])
+    rows["load_tx"] = [0.0, 0.1, 0.2]
+    found = package.run({**flat, "grid_size": width if ny == 1 else size, "steps": 1}, history=rows, **given)
+    assert np.allclose(found["load_tx"], rows["load_tx"], rtol=1e-12, atol=0.0)
+    assert (found.x.size, found.y.size) == n and found["contact_area"][-1] > 0.0
+    with package.Contact(
+        **{
+            **{k: v for k, v in flat.items() if v is not None and not k.startswith("load")},
+            "grid_n": nx if ny == 1 else n,
+            "grid_size": width if ny == 1 else size,
+            "friction": 0.1,
+            "gap_type": "flat",
+        }
+    ) as contact:
+        contact.gap, contact.friction = gap, friction
+        for load in rows["load_tx"]:
+            contact.try_step(load_n=2.0, load_tx=load)
+            contact.commit()
+        assert np.allclose(contact["pressure"], found["pressure"][-1], rtol=1e-6, atol=1e-6 * found["pressure"].max())
+        assert np.allclose(contact["shear_x"], found["shear_x"][-1], rtol=1e-5, atol=1e-5 * found["pressure"].max())
+
+
+@pytest.mark.parametrize(
+    "given, says",
+    [
+        (dict(gap=np.zeros((2, 2, 2))), "gap: expected finite numbers, an array of shape"),
+        (dict(gap=[["a"]]), "gap: expected finite numbers"),
+        (dict(friction=np.full((4, 4), np.nan)), "friction: expected finite numbers"),
+        (dict(gap=np.zeros((8, 8)), gap_file="x.h5"), "gap: an array and gap_file are both given"),
+        (dict(gap=np.zeros((8, 9))), "-gap_file gap: separation has shape (8, 9), expected (ny, nx) = (32, 32)"),
+    ],
+)
+def test_arrays_that_do_not_fit_are_told(given, says):
+    case = {name: value for name, value in CASE.items() if not name.startswith("gap")}
+    with pytest.raises(package.Error, match=re.escape(says)):
+        package.run({**case, **given})
 
 
 def test_a_temporary_file_lives_as_long_as_its_results(tmp_path, capfd):

@@ -65,7 +65,7 @@ def test_pages_are_in_the_order_of_work():
 def test_pages_of_the_references_are_made_from_the_sources(staged):
     assert "### SamNormalSolve\n" in (staged / "include/FUNCTIONS.md").read_text()
     python = (staged / "scripts/PYTHON.md").read_text()
-    assert "#### Contact.try_step\n" in python and "\n- `ranks`: number of MPI ranks; more than 1" in python
+    assert "#### Contact.try_step\n" in python and "\n- `ranks` (int): Number of MPI ranks; more than 1" in python
     assert not any((ROOT / name).exists() for name in site_pages.GENERATED)
 
 

@@ -13,6 +13,7 @@ sphere     Hertz; Cattaneo and Mindlin; Lubkin
 stress     stresses under a spherical contact: Hertz; sliding: Hamilton
 loop       tangential loops of a sphere and their energy: Mindlin and Deresiewicz
 spence     elastic sphere on a dissimilar flat with friction: Spence
+ellipse    Hertz's elliptic contact, forward and inverse
 punch      flat circular punch with a rounded edge under normal load
 plane      infinitely long punch with rounded edges, upright or inclined, in partial slip
 
@@ -44,7 +45,7 @@ from .stress import HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, s
 
 # fmt: on
 
-_PARTS = ("loop", "plane", "punch", "spence")
+_PARTS = ("ellipse", "loop", "plane", "punch", "spence")
 
 
 def __getattr__(name):

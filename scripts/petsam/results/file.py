@@ -62,6 +62,7 @@ class Datafile:
     """What files of petsam and of petsam-stress share; open for reading, Error where it cannot be read."""
 
     file = _state = None  # of HDF5, and what _state() has found when it was opened
+    temporary = False  # whether the file goes with this object: see petsam.run()
 
     def __init__(self, path, label=None):
         self.path = str(path)
@@ -74,6 +75,20 @@ class Datafile:
             except BaseException:
                 self.close()
                 raise
+
+    def __copy__(self):
+        """Another one of the same open file."""
+        one = object.__new__(type(self))
+        one.__dict__.update(self.__dict__)
+        return one
+
+    def __reduce__(self):
+        """A copy in another process opens the file."""
+        if self.temporary:
+            raise Error(
+                f"{self.path}: is a temporary file, which no copy of its results can keep: give petsam.run() an output"
+            )
+        return type(self), (os.path.abspath(self.path), self.label)
 
     @contextlib.contextmanager
     def _reading(self):
@@ -358,6 +373,11 @@ class Results(Datafile):
         """
         rows = np.flatnonzero(self.history["status"][: self._complete] != NO_EQUILIBRIUM)
         return rows[self.counts(rows)]
+
+    def __reduce__(self):
+        """The load steps of between(), too."""
+        make, given = super().__reduce__()
+        return (make, given) if self._whole is None else (_part_of, (make, given, self.first_row, self._last_row))
 
     def counts(self, rows):
         """Which of the rows are among the load steps of between(); all unless it has been asked for."""
@@ -745,6 +765,12 @@ class Snapshot:
     def radius(self, area):
         """Radius, m, of the disc with the area of this name, contact_area or stick_area."""
         return np.sqrt(self[area] / np.pi)
+
+
+def _part_of(make, given, first_row, last_row):
+    """The results of a file with these rows of its history only."""
+    whole = make(*given)
+    return whole.between(whole.before + first_row + 1, whole.before + last_row + 1)
 
 
 def _state(path):

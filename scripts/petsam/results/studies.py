@@ -59,6 +59,9 @@ class Study:
         except DAMAGED as error:
             raise Error(f"{self.path}: {_reason(error)}") from error
 
+    def __reduce__(self):
+        return type(self), (os.path.abspath(self.path), self.label)
+
     def _read(self, file):
         self.cases = self._column(file, "case")
         self.codes = self._column(file, "exit_code")
