@@ -118,7 +118,7 @@ static void Shallow(SamAdvice *a, double most)
       slip, sizeof(slip),
       ", and plastic_work, the dissipated energy, the stick area and the maximum slip may be wrong by %.0f %%",
       100 * SLIPS * error);
-  line = Concentrates(a, most);
+  line = error > DEEP ? Concentrates(a, most) : PETSC_FALSE;
   SamAdviceSay(a, line ? "" : "grid_n",
                "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
                "small by %.0f %%%s%s",
