@@ -203,7 +203,7 @@ YIELDS = dict(body2_yield=4e8, yield_layers=8)
 
 @pytest.mark.parametrize("more", [LIFE, YIELDS, dict(LIFE, **YIELDS)], ids=["life", "yields", "life that yields"])
 def test_parts_make_up_the_whole_time(petsam, tmp_path, more):
-    """Nothing in the set-up is counted twice: the kernels of plastic strain are made before the first step of a life."""
+    """Nothing is counted twice: the kernels of plastic strain are made before the first step of a life."""
     rows = [(0.0, 100.0, 0.0), (1.0, 100.0, 20.0), (2.0, 100.0, -20.0), (3.0, 100.0, 0.0)]
     loads = history(tmp_path / "rows.csv", "time,load_n,load_tx", *rows)
     case = dict(

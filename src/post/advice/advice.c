@@ -375,6 +375,7 @@ static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
 
 void SamAdviceBeginCycle(SamAdvice *a)
 {
+  a->begun  = a->begun > 0 ? a->begun : (PetscReal)a->slip.energy;
   a->slip   = (SamSlip){.joined = PETSC_TRUE};
   a->cycles = PETSC_TRUE;
 }

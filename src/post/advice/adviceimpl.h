@@ -90,6 +90,8 @@ PETSC_INTERN PetscErrorCode SamAdviceAddRing(SamAdvice *advice, const SamRingSte
 PETSC_INTERN void           SamAdviceRing(SamAdvice *advice, double least);
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
+/* True if a cycle of a life dissipates next to nothing of what the first one did (slipzones.c). */
+PETSC_INTERN PetscBool SamAdviceIsSpent(const SamAdvice *advice);
 PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[]);
 PETSC_INTERN void SamAdviceStick(SamAdvice *advice, PetscReal least);
 PETSC_INTERN void SamAdviceSlip(SamAdvice *advice);
