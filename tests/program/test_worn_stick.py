@@ -87,7 +87,7 @@ def test_any_number_of_ranks_says_the_same(life, petsam, tmp_path):
 
 @pytest.mark.parametrize("cycles, n", [(1e5, 160), (1e6, 160), (1e4, 160)])
 def test_energy_of_a_life_without_slip_left_is_unknown(life, petsam, tmp_path, cycles, n):
-    """What is left of it differs by a multiple on half the cells, and from grid to grid; no cells are advised for it."""
+    """What is left of it differs by a multiple from grid to grid, and no cells are advised for it."""
     numbers, errors, _ = life(n, cycles)
     with h5py.File(tmp_path / "life.h5") as file:
         spent = numbers["dissipated_energy"] < 1e-3 * file["wear"]["dissipated_energy"][0]
