@@ -54,7 +54,10 @@ PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface)
              law->type);
   PetscCall(SamGridCheckVec(law->grid, 1, surface, "The surface"));
   to = &((Slide *)law->data)->surface[body];
-  if (!*to) PetscCall(SamGridCreateVec(law->grid, 1, to));
+  if (!*to) {
+    PetscCall(SamGridCreateVec(law->grid, 1, to));
+    law->bytes += 24; /* this field, and as it is seen while it is read */
+  }
   PetscCall(VecCopy(surface, *to));
   law->of_body[body] = PETSC_TRUE;
   law->revision++;
@@ -362,7 +365,6 @@ PetscErrorCode SamLawCreate_Slide(SamLaw law)
   law->heading            = "Surfaces that slide past each other";
   law->rows               = &slide_row;
   law->row_count          = 1;
-  law->bytes              = 56;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
   law->ops.check          = Check;

@@ -15,6 +15,10 @@ SOFT = dict(body2_young=70e9, body2_poisson=0.34)
 SLIPS = dict(friction=0.3, load_tx=150.0)
 ROWS = dict(friction=0.3, load_n=None, history="history.csv")
 HISTORY = "time,load_n,load_tx\n1,1000,0\n2,1000,150\n3,1000,-150\n4,1000,150\n"
+SLIDES = dict(ROWS, history="slides.csv", slide=True)
+PATH = dict(friction_law="slip_path", friction_path_final=0.5, friction_path_length=1e-3)
+WEARS = dict(wear_coefficient1=1e-14, wear_coefficient2=1e-14)
+SLID = "time,load_n,disp_x\n1,{0},0\n2,{0},1e-4\n3,{0},-1e-4\n4,{0},1e-4\n"
 WIDE, HALF, FULL = dict(grid_size=9e-3), dict(grid_size=2.6e-3), dict(grid_size=1.75e-3)  # a contact of 1.74 mm
 CASES = {
     "pressed": {**BALL, **HALF, "grid_n": 1000},
@@ -31,6 +35,12 @@ CASES = {
     "checkpoint": {**BALL, **WIDE, **ROWS, "checkpoint": "c.h5", "checkpoint_every": 1, "grid_n": 512},
     "stiffness": {**BALL, **HALF, **SLIPS, "stiffness": True, "output": "o.h5", "grid_n": 450},
     "steady rolling": {**BALL, **HALF, "friction": 0.3, "rolling": "steady", "creep_x": 1e-4, "grid_n": 512},
+    "slide": {**BALL, **HALF, **SLIDES, "grid_n": 700},
+    "slide, friction law": {**BALL, **HALF, **SLIDES, **PATH, "grid_n": 1000},
+    "slide, worn": {**BALL, **HALF, **SLIDES, **PATH, **WEARS, "grid_n": 1000},
+    "slide, worn, wide grid": {**BALL, **WIDE, **SLIDES, **WEARS, "grid_n": 560},
+    "slide, plane": {**LINE, **HALF, **SLIDES, "history": "line.csv"},
+    "slide, dissimilar": {**BALL, **WIDE, **SLIDES, **SOFT, "grid_n": 400},
     "dissimilar": {**BALL, **WIDE, **SLIPS, **SOFT, "grid_n": 560},
     "dissimilar, no shear": {**BALL, **WIDE, **SOFT, "friction": 0.3, "grid_n": 400},
     "plane": {**LINE, **HALF, "friction": 0.3, "load_tx": 4e4},
@@ -47,6 +57,8 @@ def megabytes(text, words):
 def test_memory_is_estimated_within_15_percent(petsam, tmp_path, name):
     """For a small contact in a wide grid and for one that fills it; -dry_run prints the same."""
     (tmp_path / "history.csv").write_text(HISTORY)
+    (tmp_path / "slides.csv").write_text(SLID.format(1000))
+    (tmp_path / "line.csv").write_text(SLID.format(3e5))
     text = petsam(CASES[name]).stdout
     estimate, peak = megabytes(text, "memory +about"), megabytes(text, "and memory")
     assert peak > LEAST / 1.1 and abs(estimate / peak - 1) < 0.15

@@ -32,7 +32,7 @@ def test_layer_in_another_unit_is_told_at_the_edge(petsam):
 @pytest.mark.parametrize("size, crowded", [(2.6e-3, True), (8e-3, False)])
 def test_periodic_images_of_a_sphere_are_told(petsam, size, crowded):
     done = petsam(dict(SPHERE, elasticity="periodic", grid_size=size, grid_n=128))
-    assert ("periodic images of it interact from about 0.25 on: give a larger -grid_size" in done.stderr) == crowded
+    assert ("periodic images of it interact from about 0.25 on: for a single contact use" in done.stderr) == crowded
 
 
 def test_quiet_run_that_leaves_nothing_is_told(petsam):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from conftest import PROGRAM, environment
-from support import ROOT, ball, flatten
+from support import ROOT, ball, bodies, flatten, history
 
 EXAMPLE = str(ROOT / "examples" / "sphere" / "cattaneo.opts")
 STEPS = dict(ball(48), load_tx=20.0, steps=4)
@@ -195,6 +195,25 @@ def test_worst_residuals_are_those_of_the_history(petsam, tmp_path):
             column = f["history"][f"{kind}_residual"][:]
             assert float(value) == pytest.approx(column.max(), rel=6e-3)
             assert column[int(step) - 1] == column.max()
+
+
+LIFE = dict(wear_coefficient1=1e-13, wear_cycles=10.0)
+YIELDS = dict(body2_yield=4e8, yield_layers=8)
+
+
+@pytest.mark.parametrize("more", [LIFE, YIELDS, dict(LIFE, **YIELDS)], ids=["life", "yields", "life that yields"])
+def test_parts_make_up_the_whole_time(petsam, tmp_path, more):
+    """Nothing is counted twice: the kernels of plastic strain are made before the first step of a life."""
+    rows = [(0.0, 100.0, 0.0), (1.0, 100.0, 20.0), (2.0, 100.0, -20.0), (3.0, 100.0, 0.0)]
+    loads = history(tmp_path / "rows.csv", "time,load_n,load_tx", *rows)
+    case = dict(
+        bodies(), gap_type="sphere", gap_radius1=0.02, gap_radius2="inf", grid_size=9e-4, grid_n=12, friction=0.5
+    )
+    text = petsam(case, loads, more, dict(output="out.h5")).stdout
+    table = text.split("time by part")[1].split("within these")[0]
+    share = {name.strip(): float(part) for name, part in re.findall(r"^    (\S.*?) +[\d.]+ s +([\d.]+) %", table, re.M)}
+    assert share.pop("total") == 100 and len(share) > 7
+    assert sum(share.values()) == pytest.approx(100, abs=1)
 
 
 @pytest.mark.parametrize("every, fields", [(1, 4), (3, 2)])

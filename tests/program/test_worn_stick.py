@@ -83,3 +83,16 @@ def test_any_number_of_ranks_says_the_same(life, petsam, tmp_path):
         range(4), ROWS, (0, 1, -1, 0))))  # fmt: skip
     said = [[line for line in petsam(ball, loads, ranks=ranks).complaint if TOLD.search(line)] for ranks in (1, 3)]
     assert said[0] and said[0] == said[1]
+
+
+@pytest.mark.parametrize("cycles, n", [(1e5, 160), (1e6, 160), (1e4, 160)])
+def test_energy_of_a_life_without_slip_left_is_unknown(life, petsam, tmp_path, cycles, n):
+    """What is left of it differs by a multiple from grid to grid, and no cells are advised for it."""
+    numbers, errors, _ = life(n, cycles)
+    with h5py.File(tmp_path / "life.h5") as file:
+        spent = numbers["dissipated_energy"] < 1e-3 * file["wear"]["dissipated_energy"][0]
+    done = petsam({**LIFE, "output_every": None}, dict(history="loads.csv", grid_n=n, wear_cycles=cycles))
+    energies = [line for line in done.complaint if "energy" in line]
+    assert spent == (cycles > 1e4) and len(energies) == 1
+    assert ("unknown on any grid" in energies[0]) == spent and ("-grid_n" in energies[0]) != spent
+    assert ("dissipated_energy" in errors) != spent and "volume1" in errors

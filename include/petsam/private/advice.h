@@ -136,6 +136,7 @@ typedef struct {
   const SamStep    *step;              /* step under examination */
   SamExtent         extent;            /* size of its contact */
   SamRollingError   rolling;           /* largest error so far */
+  PetscReal         begun;             /* J: energy of the first computed cycle, once the next one begins */
   PetscBool         cycles;            /* true: computed cycles of a wear simulation, not all steps, are examined */
   SamSlip           slip;              /* energy of the steps so far, or of the last computed cycle */
   SamYielding       yielding;          /* plastic work of the steps so far */

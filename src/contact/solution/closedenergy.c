@@ -127,7 +127,8 @@ static void Follow(SamProblem p, Path *path, const SamSolution *s)
   const PetscBool first = path->line[0] == 0 && path->line[1] == 0;
   double          along, across, turned = 0, way = 0, t;
 
-  if (first) path->bound = bound;
+  /* N that changes while T leaves zero is not constant, but for the step that begins the contact. */
+  if (first && (path->bound == 0 || size <= slight)) path->bound = bound;
   for (int k = 0; k < 2 && first; k++) {
     path->moment[k] = (double)s->load[m[k]];
     if (size > slight) path->line[k] = load[k] / size;

@@ -31,7 +31,6 @@ static const Part parts[] = {{"normal problem", {SAM_EVENT_NORMAL_SOLVE}, 1},
                              {"results", {SAM_EVENT_OUTPUT}, 1},
                              {"tangent stiffness", {SAM_EVENT_STIFFNESS}, 1},
                              {"checkpoints", {SAM_EVENT_CHECKPOINT}, 1}};
-static const Part files   = {"files", {SAM_EVENT_OUTPUT, SAM_EVENT_CHECKPOINT}, 2};
 
 /* These are contained in the parts above. */
 static const Part inner[] = {
@@ -58,10 +57,16 @@ static PetscErrorCode GetTime(SamReport r, const Part *part, double *seconds)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportGetOutputTime(SamReport r, double *seconds)
+PetscErrorCode SamReportGetPartTime(SamReport r, double *seconds)
 {
+  double one;
+
   PetscFunctionBegin;
-  PetscCall(GetTime(r, &files, seconds));
+  *seconds = 0;
+  for (PetscInt p = 0; p < PARTS; p++) {
+    PetscCall(GetTime(r, &parts[p], &one));
+    *seconds += one;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,7 +86,7 @@ static PetscBool IsAskedFor(const Part *part)
 
 static PetscErrorCode PrintTimes(SamReport r)
 {
-  double total = MPI_Wtime() - r->start, setup = r->first - r->start - r->output_before, rest, seconds;
+  double total = MPI_Wtime() - r->start, setup = r->first - r->start - r->parts_before, rest, seconds;
 
   PetscFunctionBegin;
   PetscCall(SamMax(r->comm, 1, &total));

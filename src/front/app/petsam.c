@@ -96,6 +96,9 @@ static const Bytes step_bytes[2][2][2][2] = {
 /* Largest memory of a kept step of a load cycle, bytes per cell in contact */
 #define KEPT_BYTES 24
 
+/* Surfaces that slide: passes of dissimilar bodies, or fields of a life. Other steps take no more than without it. */
+#define SLIDING_BYTES 56
+
 /*
   Memory of a wear simulation, bytes per cell. Sliding surfaces add the wear load of each body, and a part for each
   step, which is larger for dissimilar bodies.
@@ -133,6 +136,7 @@ static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *need
   const Bytes first = step_bytes[SamGridIsRow(setup->grid)][0][friction][coupled];
   const Bytes b     = step_bytes[SamGridIsRow(setup->grid)][several][friction][coupled];
   double      cell = b.cell, contact = b.contact;
+  const void *slides = SamProblemGetLaw(setup->problem, SAM_LAW_SLIDE);
 
   if (needs->touches == SAM_TOUCHES_FIRST) cell = PetscMax(cell, first.cell + TOUCHING_BYTES);
   if (needs->touches == SAM_TOUCHES_LATER) cell += TOUCHING_BYTES;
@@ -140,8 +144,8 @@ static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *need
   if (SamElasticityGetTraits(setup->elasticity).upwind) contact += ROLLING_BYTES;
   if (needs->life) cell += LIFE_BYTES;
   if (needs->stiffness) contact += stiffness_bytes[several][friction][coupled];
-  if (needs->life && SamProblemGetLaw(setup->problem, SAM_LAW_SLIDE))
-    cell += SLIDING_LIFE_BYTES(needs->steps, needs->coupled);
+  if (slides && (needs->life || coupled)) cell += SLIDING_BYTES;
+  if (slides && needs->life) cell += SLIDING_LIFE_BYTES(needs->steps, needs->coupled);
   return cell + b.part * (double)needs->part + contact * (double)needs->contact;
 }
 

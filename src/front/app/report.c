@@ -154,15 +154,22 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
 
 /* ---- steps ---- */
 
+/* Ends the set-up, once; the parts of the run that have begun in it, as plastic strain and files, are no part of it. */
+static PetscErrorCode EndSetUp(SamReport r)
+{
+  PetscFunctionBegin;
+  if (r->first > r->start) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamReportGetPartTime(r, &r->parts_before));
+  r->first = MPI_Wtime();
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode BeginStep(SamReport r, PetscInt number, SamContact contact)
 {
   PetscFunctionBegin;
   r->number = number;
   r->begin  = MPI_Wtime();
-  if (!r->done) {
-    PetscCall(SamReportGetOutputTime(r, &r->output_before));
-    r->first = r->begin;
-  }
+  PetscCall(EndSetUp(r));
   PetscCall(SamProgressWatch(r, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -292,9 +299,8 @@ static PetscErrorCode BeginCycle(SamReport r, SamContact contact)
 {
   PetscFunctionBegin;
   r->living = PETSC_TRUE;
-  if (!r->cycles) PetscCall(SamReportGetOutputTime(r, &r->output_before));
-  if (!r->cycles) r->first = MPI_Wtime();
-  if (!r->cycles) r->begin = r->first; /* later cycles begin with the jump before them */
+  PetscCall(EndSetUp(r));
+  if (!r->cycles) r->begin = MPI_Wtime(); /* later cycles begin with the jump before them */
   PetscCall(SamProgressWatch(r, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -50,7 +50,7 @@ struct _n_SamReport {
   PetscMPIInt    rank;
   PetscBool      logging;                   /* true if PETSc's log has the times */
   double         start, first, begin;       /* MPI_Wtime() at the start of the report, of the first step, of this one */
-  double         output_before;             /* seconds spent on results and checkpoints before the first step */
+  double         parts_before;              /* seconds spent on the parts of the closing table before the first step */
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
   PetscBool      shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
@@ -131,8 +131,8 @@ PETSC_INTERN void SamProgressStart(SamReport report);
 PETSC_INTERN PetscErrorCode SamProgressWatch(SamReport report, SamContact contact);
 /* Erases the line on the terminal. Not collective. */
 PETSC_INTERN void SamProgressErase(SamReport report);
-/* Returns the seconds spent on results and checkpoints so far, the largest of all ranks. Collective. */
-PETSC_INTERN PetscErrorCode SamReportGetOutputTime(SamReport report, double *seconds);
+/* Returns the seconds spent on the parts of the closing table so far, the largest of all ranks each. Collective. */
+PETSC_INTERN PetscErrorCode SamReportGetPartTime(SamReport report, double *seconds);
 /* Writes seconds as h:mm:ss. */
 PETSC_INTERN void SamReportDuration(double seconds, char text[], size_t size);
 

@@ -275,21 +275,29 @@ static void Bodies(SamAdvice *a)
 static void Images(SamAdvice *a)
 {
   const SamSetup   *s       = a->setup;
+  const SamGrid     g       = s->grid;
   const SamControl *control = &a->step->control;
+  const PetscReal   cell[2] = {g->dx, g->dy};
   PetscReal         closed[2];
-  double            share = 0;
+  double            share = 0, times = 1, width[2];
   PetscBool         known;
+  char              grid[3 * SAM_ADVICE_TEXT];
 
   if (a->error || !SamElasticityGetTraits(s->elasticity).periodic) return;
   a->error = SamAdviceEstimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known);
   if (a->error || !known) return;
-  for (PetscInt k = 0; k < s->grid->axes; k++)
-    share = PetscMax(share, 2 * (double)(a->extent.half[k] / s->grid->width[k]));
-  if (share > CROWDED)
-    SamAdviceSay(a, "",
-                 "the contact is %.2g of the period wide, and periodic images of it interact from about %g on: give a "
-                 "larger -grid_size, or -elasticity %s for a single contact",
-                 share, CROWDED, s->grid->axes > 1 ? "halfspace" : "plane");
+  for (PetscInt k = 0; k < g->axes; k++) {
+    share = PetscMax(share, 2 * (double)(a->extent.half[k] / g->width[k]));
+    times = PetscMax(times, 2 * (double)(closed[k] + cell[k]) / (CROWDED * (double)g->width[k]));
+  }
+  if (!(share > CROWDED)) return;
+  times = PetscMax(times, share / CROWDED);
+  for (int k = 0; k < 2; k++) width[k] = SamAdviceRoundUp(times * (double)g->width[k]);
+  SamAdviceWriteGrid(s, width, grid, sizeof(grid));
+  SamAdviceSay(a, "",
+               "the contact is %.2g of the period wide, and periodic images of it interact from about %g on: for a "
+               "single contact use -elasticity %s, or %s",
+               share, CROWDED, g->axes > 1 ? "halfspace" : "plane", grid);
 }
 
 /* Advises on a contact that is wide relative to its radius, or a pressure beyond linear elasticity. */
@@ -367,6 +375,7 @@ static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
 
 void SamAdviceBeginCycle(SamAdvice *a)
 {
+  a->begun  = a->begun > 0 ? a->begun : (PetscReal)a->slip.energy;
   a->slip   = (SamSlip){.joined = PETSC_TRUE};
   a->cycles = PETSC_TRUE;
 }
@@ -455,28 +464,16 @@ static PetscBool Fits(const SamSetup *s, const PetscReal half[2], const PetscRea
 static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2], char text[], size_t size)
 {
   const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
-  const double    n[2]    = {(double)s->grid->nx, (double)s->grid->ny};
-  double          width[2], cells[2];
-  char            one[SAM_ADVICE_TEXT], other[SAM_ADVICE_TEXT];
+  double          width[2];
 
   for (int k = 0; k < 2; k++) {
     const double needs = 2 * ReachOf(s, half, lever, k) + BORDER * (double)cell[k];
 
     width[k] = PetscMax((double)s->grid->width[k], SamAdviceRoundUp(needs));
   }
-  if (n[0] == n[1] && s->grid->width[0] == s->grid->width[1]) width[0] = width[1] = PetscMax(width[0], width[1]);
-  for (int k = 0; k < 2; k++)
-    cells[k] = width[k] > (double)s->grid->width[k] ? 2 * ceil(0.5 * width[k] / (double)cell[k] - 1e-9) : n[k];
-  for (PetscInt k = s->grid->axes; k < 2; k++) {
-    width[k] = width[0];
-    cells[k] = cells[0];
-  }
-  SamAdviceWritePair("grid_size", width, one);
-  SamAdviceWritePair("grid_n", cells, other);
-  if (PetscMax(cells[0], cells[1]) <= SAM_LARGEST_ROW)
-    (void)snprintf(text, size, "%s, with %s for cells as now", one, other);
-  else
-    (void)snprintf(text, size, "%s", one);
+  if (s->grid->nx == s->grid->ny && s->grid->width[0] == s->grid->width[1])
+    width[0] = width[1] = PetscMax(width[0], width[1]);
+  SamAdviceWriteGrid(s, width, text, size);
 }
 
 /*

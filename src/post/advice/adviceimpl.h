@@ -28,6 +28,7 @@
   SamAdviceGridsFor - writes grids that resolve a contact of these half widths along the axes to refine: one as large as
   now with `factor` times more cells, and a smaller one with as many cells; empty: none.
   SamAdviceWritePair - writes two numbers as an option takes them: one for both if they are the same.
+  SamAdviceWriteGrid - writes a grid of these widths, with cells as now.
   SamAdviceRoundUp - rounds up to two digits.
   SamAdviceIsFromFile - true if heights of the gap are from a file.
   SamAdviceIsStrip - true if a single spot ends along one axis only; `ends`: the axes along which the contact ends.
@@ -40,6 +41,7 @@ PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, ch
 PETSC_INTERN void      SamAdviceGridsFor(const SamSetup *setup, const PetscReal half[2], double factor,
                                          const PetscBool refine[2], char cells[SAM_ADVICE_TEXT],
                                          char width[SAM_ADVICE_TEXT]);
+PETSC_INTERN void      SamAdviceWriteGrid(const SamSetup *setup, const double width[2], char text[], size_t size);
 PETSC_INTERN void      SamAdviceWritePair(const char option[], const double x[2], char text[SAM_ADVICE_TEXT]);
 PETSC_INTERN double    SamAdviceRoundUp(double x);
 PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
@@ -88,6 +90,8 @@ PETSC_INTERN PetscErrorCode SamAdviceAddRing(SamAdvice *advice, const SamRingSte
 PETSC_INTERN void           SamAdviceRing(SamAdvice *advice, double least);
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
+/* True if a cycle of a life dissipates next to nothing of what the first one did (slipzones.c). */
+PETSC_INTERN PetscBool SamAdviceIsSpent(const SamAdvice *advice);
 PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[]);
 PETSC_INTERN void SamAdviceStick(SamAdvice *advice, PetscReal least);
 PETSC_INTERN void SamAdviceSlip(SamAdvice *advice);

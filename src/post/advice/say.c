@@ -24,6 +24,28 @@ void SamAdviceWritePair(const char option[], const double x[2], char text[SAM_AD
     (void)snprintf(text, SAM_ADVICE_TEXT, "-%s %.8g,%.8g", option, x[0], x[1]);
 }
 
+void SamAdviceWriteGrid(const SamSetup *s, const double width[2], char text[], size_t size)
+{
+  const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
+  const double    n[2]    = {(double)s->grid->nx, (double)s->grid->ny};
+  double          cells[2], sides[2];
+  char            one[SAM_ADVICE_TEXT], other[SAM_ADVICE_TEXT];
+
+  for (int k = 0; k < 2; k++) {
+    const int axis = k < s->grid->axes ? k : 0;
+
+    sides[k] = width[axis];
+    cells[k] =
+      width[axis] > (double)s->grid->width[axis] ? 2 * ceil(0.5 * width[axis] / (double)cell[axis] - 1e-9) : n[axis];
+  }
+  SamAdviceWritePair("grid_size", sides, one);
+  SamAdviceWritePair("grid_n", cells, other);
+  if (PetscMax(cells[0], cells[1]) <= SAM_LARGEST_ROW)
+    (void)snprintf(text, size, "%s, with %s for cells as now", one, other);
+  else
+    (void)snprintf(text, size, "%s", one);
+}
+
 PetscBool SamAdviceIsFromFile(const SamSetup *s)
 {
   return SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;

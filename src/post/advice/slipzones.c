@@ -72,6 +72,7 @@
 #define LARGE    0.07 /* that error, relative to the slip, above which a warning is given */
 #define LINE     0.36 /* m in plane strain */
 #define SPECK    0.01 /* width of a stick zone, relative to the contact's, below which no grid is advised for it */
+#define SPENT    1e-3 /* energy of a cycle relative to that of the first one, below which it is unknown (wornstick.c) */
 #define STUCK    7    /* cells across a stick zone whose area has an error below 5 % */
 #define STRAY    0.1  /* part of the sticking cells, in the narrowest zones, that is ignored */
 #define HIGHER   0.9  /* shear of a narrow zone, relative to the largest found, above which it may be larger */
@@ -499,6 +500,21 @@ void SamAdviceStick(SamAdvice *a, PetscReal least)
                "the stick zone is %s across in the last step: its area may be wrong by more than 5 %%%s", size, better);
 }
 
+PetscBool SamAdviceIsSpent(const SamAdvice *a)
+{
+  return a->cycles && (double)a->slip.energy < SPENT * (double)a->begun ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Advises on a life whose scar has grown until hardly any slip is left: what is left changes from cell to cell. */
+static void Spent(SamAdvice *a)
+{
+  SamAdviceSay(a, "",
+               "the dissipated energy of the last cycle, %.2g %s, is less than %g of that of the first one: hardly any "
+               "slip is left at the edge of the scar, and its energy and the maximum shear there are unknown on any "
+               "grid",
+               PetscMax((double)a->slip.energy, 0), SamUnitOn(a->setup->grid, "J"), SPENT);
+}
+
 static void Energy(SamAdvice *a)
 {
   SamSlip          *slip  = &a->slip;
@@ -595,11 +611,11 @@ void SamAdviceSlip(SamAdvice *a)
   Few(a);
   Merging(a);
   SamAdviceRing(a, LITTLE * a->slip.work);
-  Energy(a);
+  (SamAdviceIsSpent(a) ? Spent : Energy)(a);
   if (!Missed(a))
     SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
                    "slip and shear");
-  if (zone > 0 || !((double)a->slip.widest < PEAKED)) LastPeak(a, width, a->slip.high);
+  if (!SamAdviceIsSpent(a) && (zone > 0 || !((double)a->slip.widest < PEAKED))) LastPeak(a, width, a->slip.high);
   LastSlip(a);
   SamAdviceStick(a, SamAdviceCountsCells(a) ? SAM_ADVICE_CELLS : STUCK);
 }

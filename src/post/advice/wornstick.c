@@ -24,8 +24,8 @@
   The first term is that of a young step, a part of the first cells, the second that of a late one. The factors were
   found on 46 random lives of cylinders and pads with 80 to 320 cells against four times finer ones. Of 24 energies that
   were wrong by more than 5 % 20 were between a half and four times the estimate, and volumes wrong by more than 5 %
-  never more than twice it. Cycles whose energy has fallen to a thousandth are wrong by more. Along round edges in three
-  dimensions the errors cancel in part.
+  never more than twice it. An energy that has fallen to a thousandth is wrong by more, and is told as unknown. Along
+  round edges in three dimensions the errors cancel in part.
 
   A pressure that falls like d^-u from the edge has means over cells in the ratio x = 1/(2^(1 - u) - 1), and on cells
   half as wide a peak 2^u = 2 x/(1 + x) times as high. A young step is resolved soon, so that the peak grows less on
@@ -142,7 +142,7 @@ static Errors Estimate(const SamAdvice *a, const Edge *edge, double most)
 
   e.volume = young + VOLUME * late + SamAdviceZoneError((PetscReal)width, a->slip.length);
   e.depth  = e.volume + CREST / (width * width + 4);
-  if (a->cycles && a->slip.energy > 0) e.energy = YOUNG * young + LATE * late;
+  if (a->cycles && a->slip.energy > 0 && !SamAdviceIsSpent(a)) e.energy = YOUNG * young + LATE * late;
   /* A change of the maximum elsewhere has been told. */
   if (fabs((double)a->extent.change) <= SAM_ADVICE_WORN_PEAK)
     e.peak = edge->peak * pow(2 * ratio / (1 + ratio), 2 * PetscMin(1, step)) / most - 1;

@@ -84,6 +84,19 @@ static void Narrow(SamAdvice *a, double part)
 }
 
 /*
+  True if plastic strain is larger than elastic strain, and the body hardens no more. Then nothing keeps the shear at
+  the surface from becoming a line along which a part of the body slides: the finer the layers, the larger the strain.
+*/
+static PetscBool Concentrates(const SamAdvice *a, double most)
+{
+  const SamLaw law  = SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC);
+  const double flow = (double)SamPlasticGetFlowStress(law, (PetscReal)most),
+               more = (double)SamPlasticGetFlowStress(law, (PetscReal)(2 * most));
+
+  return most * SamAdviceStiffness(a->setup->pair) > flow && more < (1 + SHALLOW) * flow ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/*
   Advises on plastic strain that is largest at the surface and decays within the first layers, as under friction. Much
   of it shears the surface, on which the slip depends.
 */
@@ -91,6 +104,7 @@ static void Shallow(SamAdvice *a, double most)
 {
   PetscReal surface = 0;
   double    error;
+  PetscBool line      = PETSC_FALSE;
   char      slip[128] = "";
 
   a->error = SamContactGetNumber(a->setup->contact, "plastic_surface", &surface);
@@ -104,10 +118,12 @@ static void Shallow(SamAdvice *a, double most)
       slip, sizeof(slip),
       ", and plastic_work, the dissipated energy, the stick area and the maximum slip may be wrong by %.0f %%",
       100 * SLIPS * error);
-  SamAdviceSay(a, "grid_n",
+  line = error > DEEP ? Concentrates(a, most) : PETSC_FALSE;
+  SamAdviceSay(a, line ? "" : "grid_n",
                "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
-               "small by %.0f %%%s",
-               100 * error, slip);
+               "small by %.0f %%%s%s",
+               100 * error, slip,
+               line ? "; no grid bounds plastic_max, since the body hardly hardens: give its hardening" : "");
 }
 
 /*

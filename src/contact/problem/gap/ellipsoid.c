@@ -180,8 +180,9 @@ static PetscErrorCode Check_Curved(SamGap gap)
   (void)Principal(gap->values, curvature);
   PetscCheck(
     curvature[0] >= 0, gap->comm, SAM_ERR_USER,
-    "-%sgap_type %s: the surfaces cross, their smallest relative curvature is %.6g 1/m, the limit is 0: give a "
-    "negative radius of larger size",
+    "-%sgap_type %s: the surfaces cross, their smallest relative curvature is %.6g 1/m, the limit is 0: check the "
+    "radii, a hole is larger than what lies in it; a press fit, with a pin larger than its hole, is in contact all "
+    "around, which half-spaces do not describe: use finite elements",
     gap->prefix, gap->type, curvature[0]);
   PetscCheck(curvature[1] > 0, gap->comm, SAM_ERR_USER,
              "-%sgap_type %s: the radii are equal and opposite or infinite, so all relative curvatures are 0: give a "
