@@ -580,7 +580,11 @@ def test_cycle_of_dissimilar_bodies(petsam, tmp_path):
 
 def test_growing_load_where_little_sticks(petsam):
     """Four cells in a hundred stick: gradient steps are needed, downhill only by the nearest admissible shear."""
-    petsam("-options_file", ROOT / "examples/dissimilar/dissimilar.opts", dict(body1_poisson=0.3, friction=0.1))
+    petsam(
+        "-options_file",
+        ROOT / "examples/dissimilar/dissimilar.opts",
+        dict(body1_poisson=0.3, friction=0.1, output="out.h5"),
+    )
 
 
 def test_same_row_again_changes_nothing(petsam, tmp_path):

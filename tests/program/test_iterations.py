@@ -146,3 +146,19 @@ def test_products_of_the_strongest_coupling_at_most_120(petsam, tmp_path, n, tx,
     with h5py.File(tmp_path / "out.h5") as f:
         assert f["history/normal_applies"][0] + f["history/tangential_applies"][0] <= 120
         assert f["history/coupling_iterations"][0] <= 15
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+@pytest.mark.parametrize("poisson, friction, most", [(0.0, 2.0, 120), (0.0, 3.0, 165), (0.3, 3.0, 97)])
+def test_products_of_strong_coupling_near_sliding_after_the_normal_load(
+    petsam, tmp_path, poisson, friction, most, ranks
+):
+    """Where all slips, the system's inverse knows the shear that pressure takes with it: 150, 221 and 120 without."""
+    (tmp_path / "h.csv").write_text(f"time,load_tx\n1,0\n2,{0.997 * friction * 500}\n")
+    case = dict(
+        bodies(210e9, poisson, float("inf"), 0.0), gap_type="sphere", gap_radius1=0.2, gap_radius2=0.2, grid_n=96,
+        grid_size=2.6e-3, friction=friction, load_n=500.0, history="h.csv", output="out.h5",
+    )  # fmt: skip
+    petsam(case, ranks=ranks)
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert f["history/normal_applies"][1] + f["history/tangential_applies"][1] <= most

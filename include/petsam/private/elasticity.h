@@ -77,6 +77,13 @@ PETSC_INTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity 
 PETSC_INTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
                                                                       const float residual[], float q[]);
 /*
+  SamElasticityPreconditionSlidingSingle - applies the approximate inverse of the normal displacement by a pressure that
+  takes the shear `slope`, Pa/Pa, with it, as cells of dissimilar bodies do where they slip. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamElasticityPreconditionSlidingSingle(SamElasticity elasticity, double factor,
+                                                                   const double slope[2], const float residual[],
+                                                                   float p[]);
+/*
   SamElasticityPreconditionSlipSingle - applies the approximate inverse for the slip zone of rolling bodies: that of h A
   + 1 - h, h = SAM_SLIP_WEIGHT, where A is the tangential operator of SamElasticityCreateRolling(), before the sweep
   along x (halfspace.c). Collective.

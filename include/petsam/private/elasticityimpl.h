@@ -39,6 +39,9 @@ typedef struct {
   PetscErrorCode (*preconditionnormal)(SamElasticity, double factor, const float *const r[], float *const p[]);
   PetscErrorCode (*preconditiontangential)(SamElasticity, double factor, const float *const r[], float *const q[]);
   PetscErrorCode (*getselfinfluence)(SamElasticity, PetscReal *normal, PetscReal *tangential);
+  /* preconditioner of pressure that takes shear with it; NULL: preconditionnormal */
+  PetscErrorCode (*preconditionsliding)(SamElasticity, double factor, const double slope[2], const float *const r[],
+                                        float *const p[]);
   /* preconditioner of the slip zone if the operator is upwind; NULL: preconditiontangential */
   PetscErrorCode (*preconditionslip)(SamElasticity, double factor, const float *const r[], float *const q[]);
   /* the stresses in a body that is not rigid */

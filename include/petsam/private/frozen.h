@@ -21,12 +21,13 @@ typedef struct {
   PetscInt     *start;              /* rows + 1 entries: first packed cell of each row */
   PetscInt     *cell;               /* index of each cell in this rank's part of the grid */
   double       *e[2];               /* e in cells that slip, 0 in cells that stick */
-  double       *follow;  /* derivative of the bound by the pressure in cells that slip, 0 in cells that stick */
-  double       *rate;    /* the same by the length of the slip, times the influence self[1]; 0: none */
-  double       *stiff;   /* |ds|/(mu p), m/Pa, the resistance to a turn of the slip; 0 in cells that stick */
-  double       *free;    /* 1; 0 in cells without friction, and so without shear */
-  double       *bears;   /* 1; 0 in cells that yield, whose pressure stays */
-  double        self[2]; /* influence of a cell on itself, normal and tangential, m/Pa */
+  double       *follow;   /* derivative of the bound by the pressure in cells that slip, 0 in cells that stick */
+  double       *rate;     /* the same by the length of the slip, times the influence self[1]; 0: none */
+  double       *stiff;    /* |ds|/(mu p), m/Pa, the resistance to a turn of the slip; 0 in cells that stick */
+  double       *free;     /* 1; 0 in cells without friction, and so without shear */
+  double       *bears;    /* 1; 0 in cells that yield, whose pressure stays */
+  double        slope[2]; /* mean of follow times e */
+  double        self[2];  /* influence of a cell on itself, normal and tangential, m/Pa */
   Vec           p, q, u_z, u_t, w_z, w_t;
   float        *r, *z;  /* of two components */
   PetscInt      more;   /* number of unit motions besides the six phi */

@@ -86,6 +86,24 @@ PRODUCT_SINGLE(SamElasticityApplyTangentialSingle, applytangentialsingle, SAM_EV
 PRODUCT_SINGLE(SamElasticityPreconditionNormalSingle, preconditionnormal, SAM_EVENT_PRECONDITION_NORMAL, 0)
 PRODUCT_SINGLE(SamElasticityPreconditionTangentialSingle, preconditiontangential, SAM_EVENT_PRECONDITION_TANGENTIAL, 0)
 
+PetscErrorCode SamElasticityPreconditionSlidingSingle(SamElasticity e, double factor, const double slope[2],
+                                                      const float in[], float out[])
+{
+  SamElasticity with = e;
+
+  PetscFunctionBegin;
+  SamElasticityWith(with, preconditionnormal);
+  if (!with->ops.preconditionsliding) {
+    PetscCall(SamElasticityPreconditionNormalSingle(e, factor, in, out));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamElasticitySetUp(with));
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PRECONDITION_NORMAL], 0, 0, 0, 0));
+  PetscCall((*with->ops.preconditionsliding)(with, factor, slope, &in, &out));
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PRECONDITION_NORMAL], 0, 0, 0, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity e, double factor, const float in[], float out[])
 {
   SamElasticity with = e;

@@ -3,6 +3,29 @@
 #include <petsam/private/fourier.h>
 #include <math.h>
 
+static PetscBool Turns(const SamSymbol *s)
+{
+  return s->turn[0] != 0 || s->turn[1] != 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Divides by 1 + i turn.k/|k|; a wave that is its own mirror image has a real symbol, 1. */
+SAM_VECTORIZED static void Turn(const SamSymbol *s, SamWaves at)
+{
+  const float along = (float)(at.cross * s->turn[0] * at.kx), across = (float)(at.cross * s->turn[1]),
+              kx = (float)at.kx, step = (float)s->step[1];
+  float(*restrict column)[2] = (float(*)[2])at.x;
+
+#pragma omp simd
+  for (PetscInt m = at.first; m < at.last; m++) {
+    const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky,
+                t = k2 > 0 ? (along + across * ky) / sqrtf(k2) : 0, scale = 1 / (1 + t * t);
+    const float re = column[m][0], im = column[m][1];
+
+    column[m][0] = scale * (re + t * im);
+    column[m][1] = scale * (im - t * re);
+  }
+}
+
 /*
   The waves of a single row run along x. Since the symbols do not depend on directions, the row is processed as a column
   along y, with x and y exchanged.
@@ -22,6 +45,10 @@ static void FilterRow(const SamFourierBlock *block, const SamSymbol *s)
   waves.x        = field[1] ? field[1] : field[0];
   waves.y        = field[0];
   s->multiply(&turned, waves);
+  if (!Turns(s)) return;
+  turned.turn[1] = s->turn[0];
+  waves.cross    = 1; /* as the imaginary part of its own mirror image counts for nothing */
+  Turn(&turned, waves);
 }
 
 /* Filters a column in three parts: wave numbers from 0 up, that of two cells' length if it exists, and the negative
@@ -49,6 +76,7 @@ static void Filter(const SamFourierBlock *block, const void *context)
       if (block->single[0]) waves.x = block->single[0] + offset;
       if (block->single[1]) waves.y = block->single[1] + offset;
       s->multiply(s, waves);
+      if (Turns(s)) Turn(s, waves);
     }
 }
 

@@ -20,6 +20,7 @@ typedef struct SamSymbol {
   double mean;    /* replaces |k| at k = 0 in the inverses */
   double lag;     /* for slip under an upwind operator: the length of a cell along x, */
   double slip;    /* and the inverse symbol over |k| */
+  double turn[2]; /* the wave is divided by 1 + i turn.k/|k| besides, in single precision; 0: it is not */
   double film;    /* added to the tangential symbol without a film before it is inverted */
   /* for layered bodies (layered/waves.c): */
   const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */

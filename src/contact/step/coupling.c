@@ -57,10 +57,10 @@
 #define NORMAL_ENOUGH    0.7 /* the check's scale, the whole displacement, may be smaller than the one by p */
 #define TANGENTIAL_FINAL 0.5
 /* Error below which both problems are solved as one system (together.c), if after so many passes they have left a
-   larger part of the error than SLOW on average: else passes are cheaper, as a product of the system leaves half. */
-#define CLOSE        3e-3
+   larger part of the error than SLOW on average: else passes are cheaper, as a product of the system leaves 0.4. */
+#define CLOSE        1e-2
 #define LEAST_PASSES 5
-#define SLOW         0.45
+#define SLOW         0.35
 /* Relative residual of the system, and in units of the error, whose square the error of frozen sets is like */
 #define TOGETHER 0.02
 #define SQUARE   30
@@ -68,9 +68,9 @@
    sets of cells still change, for less than LATER of it. */
 #define PAYS  0.5
 #define LATER 0.1
-/* Error below which the slip's direction is found, in units of the tolerance of the shear and of the part of the shear
-   that the step changes, as the error is relative to all of it. It is SAM_ROUGH at least, and where the motion until
-   cells touch follows from the same shear, which need not settle. */
+/* Error of pressure and shear below which the slip's direction is found, in units of the tolerance of the shear and of
+   the part of the shear that the step changes, as the error is relative to all of it. It is SAM_ROUGH at least, and
+   where the motion until cells touch follows from the same shear, which need not settle. */
 #define DIRECTION 2000
 
 typedef struct {
@@ -165,9 +165,10 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck) : s->has_shear;
   const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE;
   const PetscReal error     = PetscMin(p->error, FIRST);
-  const PetscReal rtol      = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]),
-                                               p->rough ? PetscMin(error, SAM_ROUGH * p->rtol[1]) : error);
-  const SamEffort effort    = brief ? SAM_EFFORT_FEW_ITERATIONS : SAM_EFFORT_FULL;
+  /* the motion until cells touch need not settle, and follows from the shear of the first passes, too */
+  const PetscReal part   = p->rough && s->touching ? PetscMin(error, SAM_ROUGH * p->rtol[1]) : error;
+  const PetscReal rtol   = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), part);
+  const SamEffort effort = brief ? SAM_EFFORT_FEW_ITERATIONS : SAM_EFFORT_FULL;
   SamSolverReason reason;
   PetscReal       left;
 
@@ -284,15 +285,17 @@ static PetscErrorCode FindDirection(Passes *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out if the error is small enough for the slip's direction to be found by the shear so far. */
+/* Finds out if the errors are small enough for the slip's direction to be found by the shear so far. */
 static PetscErrorCode IsClose(const Passes *p, PetscBool *is)
 {
   const SamSolution *const before  = p->s->task->before;
-  PetscReal                allowed = SAM_ROUGH, change = 1, size = 1;
+  PetscReal                allowed = SAM_ROUGH, change = 1, size = 1, error;
   Vec                      shear;
 
   PetscFunctionBegin;
-  if (!p->s->touching && p->error <= DIRECTION * p->rtol[1]) {
+  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(p->s->task->tangential), &error, NULL, NULL, NULL));
+  error = PetscMax(error, p->error);
+  if (!p->s->touching && error <= DIRECTION * p->rtol[1]) {
     if (before) {
       PetscCall(VecDuplicate(before->shear, &shear));
       PetscCall(VecWAXPY(shear, -1, before->shear, p->s->s->shear));
@@ -302,7 +305,7 @@ static PetscErrorCode IsClose(const Passes *p, PetscBool *is)
     }
     if (size > 0) allowed = PetscMax(allowed, DIRECTION * PetscMin(change / size, 1));
   }
-  *is = p->error <= allowed * p->rtol[1] ? PETSC_TRUE : PETSC_FALSE;
+  *is = error <= allowed * p->rtol[1] ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

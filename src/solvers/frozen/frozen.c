@@ -14,7 +14,10 @@
   The pressure of cells that yield stays, dp = 0, so the normal equation holds on the others only. Without coupling it
   is a system of its own. Approximate inverses are the spectral ones of S and C; that of C with the weights of the
   tangential solver's Newton step (newton.c), in which a cell that slips counts with h = c/(c + L) across e, and the
-  inverse of s c along e.
+  inverse of s c along e. With coupling S + B' b_p e takes the place of S, b_p e being its mean over the contact. Where
+  all slips along e, that symbol is the one of S times 1 + i r cos, r = mu beta, with values from 1 - i r to 1 + i r.
+  After this inverse the edges of the contact leave real eigenvalues from 1/(1 + r^2) to 1, so that a product reduces
+  the error by as much as two do without, where nothing sticks and S is inverted exactly.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/frozen.h>
@@ -111,6 +114,27 @@ static PetscErrorCode PackCells(SamFrozen *f, double stiffest, const Vec from[SA
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Finds the mean of the shear that a unit of pressure takes with it. */
+static PetscErrorCode FindSlope(SamFrozen *f)
+{
+  SamTotal totals[3] = {{0}};
+  double   sums[3];
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < f->grid->rows; j++) {
+    double row[3] = {0};
+
+    for (PetscInt m = f->start[j]; m < f->start[j + 1]; m++) {
+      for (PetscInt c = 0; c < 2; c++) row[c] += f->follow[m] * f->e[c][m];
+      row[2]++;
+    }
+    SamAddAll(3, totals, row);
+  }
+  PetscCall(SamSumTotals(f->grid->comm, 3, totals, sums));
+  for (PetscInt c = 0; c < 2; c++) f->slope[c] = sums[2] > 0 ? sums[c] / sums[2] : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Creates the fields for products; they are zero outside of the contact. */
 static PetscErrorCode CreateWork(SamFrozen *f)
 {
@@ -139,6 +163,7 @@ PetscErrorCode SamFrozenCreate(SamElasticity e, const Vec fields[SAM_FROZEN_FIEL
   PetscCall(SamFrameSet(&f->normal, f->grid, &(SamBalance){.kind = SAM_BALANCE_NORMAL}));
   PetscCall(SamFrameSet(&f->tangential, f->grid, &(SamBalance){.kind = SAM_BALANCE_TANGENTIAL}));
   PetscCall(PackCells(f, stiffest, fields));
+  PetscCall(FindSlope(f));
   PetscCall(CreateWork(f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -256,9 +256,12 @@ PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
 
 static PetscErrorCode PreconditionNormal(SamFrozen *f, const double r[], double z[])
 {
+  const PetscBool slides   = f->coupled && f->part == SAM_FROZEN_BOTH ? PETSC_TRUE : PETSC_FALSE;
+  const double    slope[2] = {slides ? f->slope[0] : 0, slides ? f->slope[1] : 0};
+
   PetscFunctionBegin;
   for (PetscInt m = 0; m < f->count; m++) f->r[f->cell[m]] = (float)r[m];
-  PetscCall(SamElasticityPreconditionNormalSingle(f->elasticity, f->self[0], f->r, f->z));
+  PetscCall(SamElasticityPreconditionSlidingSingle(f->elasticity, f->self[0], slope, f->r, f->z));
   for (PetscInt m = 0; m < f->count; m++) z[m] = (double)f->z[f->cell[m]] / f->self[0];
   Bear(f, z);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -342,6 +342,16 @@ static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const f
   return Precondition(e, 1, factor, e->pair->normal, (SamSymbol){.multiply = SamSymbolDivideNormal}, r, p);
 }
 
+/* A wave of pressure that takes the shear m with it lifts the surface by 1 + i beta m.k/|k| times as much. */
+static PetscErrorCode PreconditionSliding(SamElasticity e, double factor, const double slope[2], const float *const r[],
+                                          float *const p[])
+{
+  const double    beta = (double)e->pair->dundurs;
+  const SamSymbol s    = {.turn = {beta * slope[0], beta * slope[1]}, .multiply = SamSymbolDivideNormal};
+
+  return Precondition(e, 1, factor, e->pair->normal, s, r, p);
+}
+
 static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
 {
   const SamSymbol s = {.nu = e->pair->shear_xx / e->pair->shear, .multiply = DivideTangential};
@@ -414,6 +424,7 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                  .applynormalsingle       = ApplyNormalSingle,
                                  .applytangentialsingle   = ApplyTangentialSingle,
                                  .preconditionnormal      = PreconditionNormal,
+                                 .preconditionsliding     = PreconditionSliding,
                                  .preconditiontangential  = PreconditionTangential,
                                  .preconditionslip        = data->layers ? NULL : PreconditionSlip,
                                  .getselfinfluence        = GetSelfInfluence,

@@ -232,6 +232,17 @@ static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const f
   return SamSymbolApplySingle(e, &s, 1, r, p);
 }
 
+/* As for half-spaces, whose symbols these are (halfspace.c). */
+static PetscErrorCode PreconditionSliding(SamElasticity e, double factor, const double slope[2], const float *const r[],
+                                          float *const p[])
+{
+  SamSymbol s =
+    InverseOf(e, factor, NormalAmplitude(e), LayersOf(e) ? SamLayeredMultiplyNormalSingle : SamSymbolDivideNormal);
+
+  for (int c = 0; c < 2; c++) s.turn[c] = (double)e->pair->dundurs * slope[c];
+  return SamSymbolApplySingle(e, &s, 1, r, p);
+}
+
 static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
 {
   const SamSymbol s =
@@ -353,6 +364,7 @@ PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
                                  .applynormalsingle       = ApplyNormalSingle,
                                  .applytangentialsingle   = ApplyTangentialSingle,
                                  .preconditionnormal      = PreconditionNormal,
+                                 .preconditionsliding     = PreconditionSliding,
                                  .preconditiontangential  = PreconditionTangential,
                                  .getselfinfluence        = GetSelfInfluence,
                                  .applynormaltotangential = ApplyNormalToTangential,
