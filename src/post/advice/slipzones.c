@@ -279,7 +279,7 @@ static void Long(SamAdvice *a)
   const double error  = wrong < slip->energy ? wrong / (slip->energy - wrong) : INFINITY;
   char         part[48];
 
-  if (!(slip->coupling > 0 && slip->energy > NOTHING * slip->work && error > UNKNOWN)) return;
+  if (!(slip->coupling > 0 && slip->work > 0 && slip->energy > NOTHING * slip->work && error > UNKNOWN)) return;
   if (error < ROUGH && slip->share > SLIGHT)
     (void)snprintf(part, sizeof(part), "about %.0f %%", 100 * error);
   else
