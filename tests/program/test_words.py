@@ -12,7 +12,8 @@ from petsam.core import tables, units, words
     "text, unit, value",
     [
         ("210GPa", "Pa", 210e9), ("5 MPa", "Pa", 5e6), ("1e-3", "m", 1e-3), ("0.1mm", "m", 1e-4),
-        ("-2.5um", "m", -2.5e-6), ("3 microns", "m", 3e-6), ("1in", "m", 0.0254), ("2kN", "N", 2e3), ("120 Hz", "Hz", 120.0), (".5", "1", 0.5),
+        ("-2.5um", "m", -2.5e-6), ("3 microns", "m", 3e-6), ("1in", "m", 0.0254), ("2kN", "N", 2e3),
+        ("120 Hz", "Hz", 120.0), (".5", "1", 0.5),
     ],
 )  # fmt: skip
 def test_number_with_its_unit(text, unit, value):

@@ -23,12 +23,13 @@ import warnings
 import numpy as np
 
 from ..core import isolation
-from ..core.errors import Error, Parser, fail, guarded, joined, short, there_are
+from ..core.errors import Error, short, there_are
 from ..core.files import need_replaceable, same
 from ..lives import evaluation, materials, strength
 from ..lives.stresses import Cycle
 from ..plot import saving
 from ..results.stresses import FATIGUE, Stresses
+from .line import Parser, add_choice, fail, guarded, joined
 from .plot_arguments import names, numbers, point
 
 ROWS = 10  # number of printed rows of the line
@@ -96,7 +97,7 @@ def arguments(words):
     out.add_argument("--csv", metavar="NAME.csv", help="write the lines, SI units")
     out.add_argument("--labels", metavar="TEXT,...", help="the files' names in the picture (their file names)")
     out.add_argument("-o", "--output", metavar="NAME", help="picture: .png, .pdf or .svg (NAME_depth.png of the file)")
-    saving.add_choice(out)
+    add_choice(out)
     options = parser.parse_args(joined(words))
     options.counts = options.counts or [1.0] * len(options.files)
     if len(options.counts) != len(options.files) or not all(0.0 < count < np.inf for count in options.counts):

@@ -39,7 +39,7 @@ import numpy as np
 
 from .. import plot
 from ..contact import AdviceWarning
-from ..core.errors import USAGE, Error, Parser, fail, guarded, joined, short
+from ..core.errors import USAGE, Error, short
 from ..core.files import need_regular, need_replaceable
 from ..core.lengths import lengths
 from ..joint import interface
@@ -51,7 +51,8 @@ from ..joint.structure import ENDS
 from ..joint.surfaces import read_separation
 from ..joint.sweep import BackboneWarning
 from ..joint.wear import rising, wear
-from ..plot.saving import DPI, add_resolution, write
+from ..plot.saving import DPI, write
+from .line import Parser, add_resolution, fail, guarded, joined
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest

@@ -30,7 +30,7 @@ import os
 import warnings
 
 from ..core import isolation
-from ..core.errors import FILE, USAGE, Error, Useless, fail, guarded
+from ..core.errors import FILE, USAGE, Error, Useless
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
 from ..plot import fields, looks, noise, pictures, saving, wear
@@ -41,6 +41,7 @@ from ..results.stresses import Stresses, open_any
 from ..results.studies import Study
 from . import plot_arguments as arguments
 from . import plot_uses as uses
+from .line import fail, guarded
 from .plot_arguments import FORMATS
 from .plot_uses import STUDY
 

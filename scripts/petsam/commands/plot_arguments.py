@@ -6,9 +6,10 @@ import os
 import re
 import sys
 
-from ..core.errors import Parser, joined, short
-from ..plot import bodies, saving
+from ..core.errors import short
+from ..plot import bodies
 from ..results.cycles import PAIRS, read_period
+from .line import Parser, add_resolution, joined
 
 FORMATS = (".png", ".pdf", ".svg")
 WIDTHS = (30.0, 2000.0)  # mm of a picture
@@ -233,7 +234,7 @@ def _look(parser):
     look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png, .pdf or .svg")
     look.add_argument("--csv", metavar="NAME.csv", help="write the numbers of all that is drawn")
     look.add_argument("--format", choices=[end[1:] for end in FORMATS], help="instead of an end of the name (png)")
-    saving.add_resolution(look)
+    add_resolution(look)
 
 
 def _check(parser, options):

@@ -32,13 +32,14 @@ import os
 import sys
 
 from ..core import environment
-from ..core.errors import USAGE, Error, Parser, counted, fail, guarded, joined, short
+from ..core.errors import USAGE, Error, counted, short
 from ..core.files import same
 from ..results import cycles
 from ..study import slurm, tables
 from ..study.cases import TableError, common_options, read
 from ..study.progress import Progress, standing, summary
 from ..study.runs import STOPPED, Study, check_folders, record
+from .line import Parser, fail, guarded, joined
 
 MOST = 1 << 30  # maximum of numbers on the command line
 

@@ -1,6 +1,6 @@
 """Reading of a word: a number with its unit and range, several, a span, a name with its value.
 
-What an option expects is said by `form`, "a length above 0, such as 1mm"; any other word raises WordError.
+`form` describes what an option expects, "a length above 0, such as 1mm"; any other word raises WordError.
 """
 
 import math
