@@ -699,16 +699,16 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
     [
         (("--preload", "C=1"), "preload C: is no bolt of pair.h5; there are B", 2),
         ((), "preload: give the tension of B, in N", 2),
-        (("--preload", "B=-1"), "B=-1: expected NAME=FORCE in N", 2),
+        (("--preload", "B=-1"), "B=-1: expected BOLT=FORCE, such as B1=12kN", 2),
         (("--preload", "B=0.02", "--mode", "9"), "mode 9: the structure has modes 1 to 2", 2),
         (("--preload", "B=0.02", "--sensor", "TOP:z"), "--sensor TOP:z: expected NAME:x, :y or :z with a sensor", 2),
         (("--preload", "B=0.02", "--pressure", "1MPa"), "--pressure is for petsam-joint stiffness: remove it", 2),
-        (("--preload", "B=0.02", "--steps", "0"), "--steps 0: expected 1 or more", 2),
+        (("--preload", "B=0.02", "--steps", "0"), "--steps: 0: expected a whole number, 1 or more", 2),
         (("--preload", "B=0.02", "--contact", "none.opts"), "none.opts", 3),
         (("--preload", "B=0.02", "--preload", "B=0.01"), "--preload: a bolt is given twice", 2),
         (("--preload", "B=0.02", "--amplitudes", "1mm:2mm,3mm:3"), "1mm:2mm,3mm:3: expected FIRST:LAST:COUNT", 2),
         (("--preload", "B=0"), "the bodies do not touch, load_n = 0 N, limit above 0: use a higher preload", 2),
-        (("--preload", "B=0.02", "--damping", "nan"), "damping nan: expected a part of critical damping", 2),
+        (("--preload", "B=0.02", "--damping", "nan"), "damping: nan: expected a part of critical damping", 2),
     ],
 )
 def test_a_mistake_is_named(words, says, code, command, tmp_path):

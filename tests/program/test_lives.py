@@ -280,12 +280,12 @@ def test_arrays_of_a_contact_are_taken_too(folder):
         (["--hot", "ruiz_1", "high.h5"], ["has no ruiz_1"], 3),
         (["-o", "high.h5", "high.h5"], ["use a name that ends in .png, .pdf or .svg"], 2),
         (["--csv", "low.h5", "low.h5"], ["low.h5: would replace the results"], 3),
-        (["--material", "bad.yaml", "high.h5"], ["bad.yaml: sigma_f 2030MPa is not a number", "SI units"], 3),
+        (["--material", "bad.yaml", "high.h5"], ["bad.yaml: sigma_f 2030Mpa: expected", "units are Pa, kPa, MPa"], 3),
         (["c.h5"], ["c.h5: has no depths z: give a file of petsam-stress"], 3),
     ],
 )  # fmt: skip
 def test_refusals(fatigue, folder, words, says, code):
-    (folder / "bad.yaml").write_text("sigma_f: 2030MPa\n")
+    (folder / "bad.yaml").write_text("sigma_f: 2030Mpa\n")
     err = fatigue(*words, check=code)
     assert all(word in err for word in says), err
 
@@ -382,4 +382,13 @@ def test_every_constant_has_a_range_and_a_text():
         assert one.low < one.high and one.meaning
         for value in (one.low, one.high, "x", "nan"):
             with pytest.raises(Error):
-                materials.checked(name, value, "here")
+                materials.checked(name, value)
+
+
+def test_constants_have_si_units_or_their_own(tmp_path):
+    (tmp_path / "m.yaml").write_text("sigma_f: 1.76 GPa\nyoung: 210e9\nb: -0.1\ndk_th: 3.5MPa m^1/2\n")
+    expected = {"sigma_f": 1.76e9, "young": 210e9, "b": -0.1, "dk_th": 3.5e6}
+    assert materials.read(tmp_path / "m.yaml") == pytest.approx(expected)
+    for name, value in (("b", "-0.1Pa"), ("sigma_f", "1mm"), ("sigma_f", "1,7GPa")):
+        with pytest.raises(Error, match="expected a number"):
+            materials.checked(name, value)

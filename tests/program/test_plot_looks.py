@@ -114,6 +114,19 @@ def test_limits_are_in_si_units_and_depth_still_points_down(folder):
     assert second.get_ylim() == pytest.approx((100.0, 0.0))  # which has no label of its own
 
 
+def test_words_of_a_picture_have_their_units(plot, folder):
+    for name, limits, part, at, width in (
+        ("a", "0,5e7", "-1e-4,1e-4", "1e-5,0", "90"), ("b", "0,50MPa", "-0.1mm,100um", "10um,0", "9cm"),
+    ):  # fmt: skip
+        words = ("--profiles", "--field", "pressure", "--limits", limits, "--xlim", part, "--at", at, "--width", width)
+        assert plot(*words, "-o", name + ".png", "c.h5") == (0, [])
+    assert (folder / "a.png").read_bytes() == (folder / "b.png").read_bytes()
+    code, err = plot("--profiles", "--xlim", "0,5MPa", "-o", "a.png", "c.h5")
+    assert code == 3 and "--xlim, of $x$" in err[0] and "expected a unit of these: m, cm, mm" in err[0]
+    code, err = plot("--loop", "--ylim", "0,1mm", "-o", "a.png", "c.h5")
+    assert code == 3 and "expected a unit of these: N, kN" in err[0]
+
+
 def test_a_picture_has_the_given_width(plot, folder):
     assert plot("--field", "pressure,shear", "--width", "90", "--dpi", "254", "-o", "w.png", "c.h5") == (0, [])
     picture = plt.imread(folder / "w.png")

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from petsam.commands import joint, line
 from petsam.core import tables, units, words
 
 
@@ -43,6 +44,60 @@ def test_numbers_have_all_a_unit_or_none():
         words.numbers("500,10um", unit="m")
     with pytest.raises(words.WordError):
         words.numbers("1,2,3", count=(1, 2))
+
+
+def test_zero_needs_no_unit_unless_it_may_be_a_decimal_comma():
+    assert words.numbers("0.1mm,0", unit="m", count=2) == pytest.approx([1e-4, 0.0])
+    assert words.numbers("0,5mm", unit="m", count=2) == pytest.approx([0.0, 5e-3])
+    assert words.numbers("0,0.1mm,0.2mm", unit="m") == pytest.approx([0.0, 1e-4, 2e-4])
+    for text in ("0,5mm", "1mm,0,25mm"):
+        with pytest.raises(words.WordError, match="decimals have a point"):
+            words.numbers(text, unit="m")
+
+
+def test_limits_may_be_of_any_quantity():
+    found = words.limits("-50MPa,0.1GPa")
+    assert found == pytest.approx([-50e6, 1e8]) and found.unit == "Pa" and words.limits("1,2").unit == ""
+    found.need("Pa", "pressure")
+    with pytest.raises(words.Error, match="shift: expected a unit of these: m, cm, mm"):
+        found.need("m", "shift")
+    for text in ("1mm,1MPa", "1,2,3", "2,1", "1MMa,2", "1Pa", ""):
+        with pytest.raises(words.WordError, match="expected LOW,HIGH"):
+            words.limits(text)
+
+
+@pytest.mark.parametrize(
+    "option, text, value",
+    [
+        ("--pressure", "1MPa:4MPa:3", [1e6, 2e6, 4e6]), ("--pressure", "5e6,0.01GPa", None),
+        ("--hardness", "2GPa", 2e9),
+        ("--body1", "210GPa,0.3", (210e9, 0.3)), ("--body2", "inf,0", (math.inf, 0.0)), ("--area", "2mm2", 2e-6),
+        ("--preload", "B1=12kN", [("B1", 12e3)]), ("--amplitudes", "1um:100um:3", [1e-6, 1e-5, 1e-4]),
+        ("--force", "TIP:z=500mN", ("TIP:z", 0.5)), ("--frequencies", "0.1kHz,110Hz", [100.0, 110.0]),
+        ("--frequencies", "110:118:3", [110.0, 114.0, 118.0]), ("--damping", "0.01", 0.01), ("--damping", "1%", None),
+        ("--area", "2mm", None), ("--preload", "B1=12kg", None), ("--force", "TIP:z=0", None),
+        ("--amplitudes", "1um:100um", None), ("--frequencies", "110rpm", None), ("--body1", "210GPa", None),
+        ("--body1", "0.3,210GPa", None), ("--steps", "2.5", None), ("--cycles", "1e5,1e4", None),
+    ],
+)  # fmt: skip
+def test_words_of_a_joint_have_their_units(option, text, value, capsys):
+    given = ["stiffness", "scan.h5", option, text]
+    if value is None:
+        with pytest.raises(SystemExit) as ended:
+            joint._parser().parse_args(given)
+        assert ended.value.code == 2 and f"argument {option}: {text}: expected" in capsys.readouterr().err
+        return
+    found = getattr(joint._parser().parse_args(given), option[2:])
+    if isinstance(value, (list, float)) and not isinstance(np.ravel(value)[0], str):
+        assert np.allclose(found, value, rtol=1e-12)
+    else:
+        assert found == value
+
+
+def test_words_of_a_cycle_have_their_units():
+    period = line.word(line.period)
+    assert period("20ms,1s") == pytest.approx((0.02, 1.0)) and period("0.02") == (0.02, None)
+    assert period("20ms,0") == pytest.approx((0.02, 0.0))
 
 
 def test_span_is_a_list_or_steps():

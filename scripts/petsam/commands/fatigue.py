@@ -10,7 +10,7 @@ Smith-Watson-Topper and Fatemi-Socie of the file's parameters, Basquin of the st
 surface. Safety factors: the limit relative to Findley's, Crossland's or Dang Van's parameter. Crack: a straight-fronted
 crack grows along the line from the surface, normal to it; its range of K, El Haddad's threshold, the length of arrest.
 Files are the blocks of a spectrum: damage is Palmgren and Miner's sum over --counts, which repeats until it is 1.
-Constants (SI units), in a YAML file of lines NAME: VALUE or by --constant:
+Constants, in SI units or with their unit (1.76GPa), in a YAML file of lines NAME: VALUE or by --constant:
 """
 
 import argparse
@@ -22,15 +22,15 @@ import warnings
 
 import numpy as np
 
-from ..core import isolation
+from ..core import isolation, words
 from ..core.errors import Error, short, there_are
 from ..core.files import need_replaceable, same
 from ..lives import evaluation, materials, strength
 from ..lives.stresses import Cycle
 from ..plot import saving
 from ..results.stresses import FATIGUE, Stresses
-from .line import Parser, add_choice, fail, guarded, joined
-from .plot_arguments import names, numbers, point
+from .line import Parser, add_choice, fail, guarded, joined, word
+from .plot_arguments import NAMES, POINT, numbers
 
 ROWS = 10  # number of printed rows of the line
 CRITERIA = tuple(evaluation.CRITERIA)
@@ -38,33 +38,23 @@ MOST = f"{strength.MOST:.0e}".replace("+", "")
 
 
 def _constant(text):
-    """Reads NAME=VALUE for argparse."""
+    """Name and number of NAME=VALUE."""
     name, equal, value = text.partition("=")
     if not equal:
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=VALUE")
-    try:
-        return name, materials.checked(name, value, "NAME=VALUE")
-    except Error as error:
-        raise argparse.ArgumentTypeError(str(error).removeprefix("NAME=VALUE: ")) from error
-
-
-def _angle(text):
-    """Reads an angle for argparse."""
-    values = numbers(float)(text)
-    if len(values) != 1 or not -180.0 <= values[0] <= 180.0:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected degrees from -180 to 180")
-    return values[0]
+        raise words.WordError(text, "NAME=VALUE, such as sigma_f=1.76GPa")
+    return name, materials.checked(name, value)
 
 
 def _criteria(text):
-    """Reads criteria for argparse."""
-    for word in names(text):
-        if word not in CRITERIA:
-            raise argparse.ArgumentTypeError(f"{short(word)}: is no criterion{there_are(word, CRITERIA)}")
-    return names(text)
+    """Names of criteria."""
+    found = words.names(text)
+    for one in found:
+        if one not in CRITERIA:
+            raise Error(f"{short(one)}: is no criterion{there_are(one, CRITERIA)}")
+    return found
 
 
-def arguments(words):
+def arguments(given):
     """Reads the command line."""
     table = (f"  {name:16} {one.unit:9} {one.meaning}" for name, one in materials.CONSTANTS.items())
     parser = Parser(
@@ -78,27 +68,39 @@ def arguments(words):
     what = parser.add_argument_group("what is computed")
     what.add_argument("--material", metavar="NAME.yaml", help="constants of the material")
     what.add_argument(
-        "--constant", type=_constant, action="append", default=[], metavar="NAME=VALUE", help="a constant (the file's)"
+        "--constant",
+        type=word(_constant),
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a constant, such as sigma_f=1.76GPa (the file's)",
     )
     what.add_argument(
-        "--criteria", type=_criteria, metavar="NAME,...", help=f"of {', '.join(CRITERIA)} (all with constants and data)"
+        "--criteria",
+        type=word(_criteria),
+        metavar="NAME,...",
+        help=f"of {', '.join(CRITERIA)} (all with constants and data)",
     )
-    what.add_argument("--counts", type=numbers(float), metavar="N,...", help="cycles of each file in the spectrum (1)")
+    what.add_argument("--counts", type=numbers(), metavar="N,...", help="cycles of each file in the spectrum (1)")
     what.add_argument(
-        "--plane", type=_angle, default=0.0, metavar="DEGREES", help="angle of the plane's normal to x (0)"
+        "--plane",
+        type=word(words.number, "degrees from -180 to 180", "degrees", lambda value: abs(value) <= 180.0),
+        default=0.0,
+        metavar="DEGREES",
+        help="angle of the plane's normal to x (0)",
     )
     where = parser.add_argument_group("line along the depth").add_mutually_exclusive_group()
-    where.add_argument("--at", type=point, metavar="X,Y", help="below this place, m")
+    where.add_argument("--at", type=POINT, metavar="X,Y", help="below this place, such as -0.5mm,0")
     where.add_argument(
         "--hot", metavar="NAME", help="below the maximum of this parameter on the surface (the first one)"
     )
     out = parser.add_argument_group("output")
-    out.add_argument("--quantity", type=names, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
+    out.add_argument("--quantity", type=NAMES, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
     out.add_argument("--csv", metavar="NAME.csv", help="write the lines, SI units")
     out.add_argument("--labels", metavar="TEXT,...", help="the files' names in the picture (their file names)")
     out.add_argument("-o", "--output", metavar="NAME", help="picture: .png, .pdf or .svg (NAME_depth.png of the file)")
     add_choice(out)
-    options = parser.parse_args(joined(words))
+    options = parser.parse_args(joined(given))
     options.counts = options.counts or [1.0] * len(options.files)
     if len(options.counts) != len(options.files) or not all(0.0 < count < np.inf for count in options.counts):
         parser.error(f"--counts: {len(options.files)} files need as many numbers above 0")
@@ -228,7 +230,7 @@ def carry_out(options):
             found = evaluation.lives(cycles, name, constants, options.plane)
             for mine, columns in zip(computed, _report(options, cycles, name, found)):
                 mine.update(columns)
-    row, column, words = _place(options, first, criteria)
+    row, column, where = _place(options, first, criteria)
     quantities = options.quantity or [name for name in FATIGUE[:5] if name in first] or ["mises"]
     lines = []
     for cycle, more in zip(cycles, computed):
@@ -237,7 +239,7 @@ def carry_out(options):
             found, *lengths = evaluation.crack(cycle, constants, options.plane, row, column)
             line.columns.update(found)
             _print_crack(cycle, *lengths)
-        print(f"{cycle.path}: below x = {line.x:.4g} m, y = {line.y:.4g} m ({words}):")
+        print(f"{cycle.path}: below x = {line.x:.4g} m, y = {line.y:.4g} m ({where}):")
         _print_line(line)
         lines.append((cycle.label, line))
     if options.csv:

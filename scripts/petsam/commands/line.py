@@ -28,6 +28,15 @@ def word(reader, *given, **options):
     return read
 
 
+def period(text):
+    """Duration and start (or None) of T or T,START, s."""
+    form = "a time above 0, or T,START: 20ms,1s"
+    first, *start = words.numbers(text, form, "s", count=(1, 2))
+    if not first > 0.0:
+        raise words.WordError(text, form)
+    return first, *(start or [None])
+
+
 class Parser(argparse.ArgumentParser):
     """A command line whose errors are printed in one line, without the usage before it."""
 

@@ -31,49 +31,25 @@ import argparse
 import os
 import sys
 
-from ..core import environment
-from ..core.errors import USAGE, Error, counted, short
+from ..core import environment, words
+from ..core.errors import USAGE, Error, counted
 from ..core.files import same
-from ..results import cycles
 from ..study import slurm, tables
 from ..study.cases import TableError, common_options, read
 from ..study.progress import Progress, standing, summary
 from ..study.runs import STOPPED, Study, check_folders, record
-from .line import Parser, fail, guarded, joined
+from .line import Parser, fail, guarded, joined, period, word
 
 MOST = 1 << 30  # maximum of numbers on the command line
 
 
-def positive(text):
-    """A number from 1, for argparse."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = 0
-    if not 1 <= value <= MOST:
-        raise argparse.ArgumentTypeError(f"{short(text)}: use an integer from 1 to {MOST}")
-    return value
-
-
-def period(text):
-    """Reads T or T,START for argparse."""
-    try:
-        return cycles.read_period(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a positive time, or T,START, in s") from None
+POSITIVE = word(words.integer, f"an integer from 1 to {MOST}", lambda value: 1 <= value <= MOST)
 
 
 def numbers(text):
-    """Reads cycles' numbers for argparse."""
-    try:
-        values = tuple(dict.fromkeys(int(word) for word in text.split(",")))
-    except ValueError:
-        values = (0,)
-    if 0 in values or max(map(abs, values)) > MOST:
-        raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected integers separated by commas: from 1, or from -1 backwards"
-        )
-    return values
+    """Cycles' numbers, each once."""
+    form = "integers separated by commas: from 1, or from -1 backwards"
+    return tuple(dict.fromkeys(words.integers(text, form, lambda value: 0 < abs(value) <= MOST)))
 
 
 def _cycle_options(parser):
@@ -81,20 +57,20 @@ def _cycle_options(parser):
     how = of_cycles.add_mutually_exclusive_group()
     how.add_argument("--turns", metavar="NAME", help="divide cycles at the reversals of this scalar (a displacement)")
     how.add_argument(
-        "--period", type=period, metavar="T[,START]", help="instead: duration of a cycle, and its start (s)"
+        "--period", type=word(period), metavar="T[,START]", help="instead: duration of a cycle, and its start: 20ms,1s"
     )
     of_cycles.add_argument(
         "--cycle",
-        type=numbers,
+        type=word(numbers),
         metavar="K,...",
         default=(),
         help="cycles in addition to the last; -2 is the second last",
     )
 
 
-def _taken(words):
+def _taken(given):
     """Join --sbatch to its value, which begins with dashes."""
-    found = list(words)
+    found = list(given)
     while "--sbatch" in found[:-1]:
         at = found.index("--sbatch")
         found[at : at + 2] = [f"--sbatch={found[at + 1]}"]
@@ -103,8 +79,8 @@ def _taken(words):
 
 def arguments():
     """Read the command line: the options, and the words after --."""
-    words = sys.argv[1:]
-    at = words.index("--") if "--" in words else len(words)
+    given = sys.argv[1:]
+    at = given.index("--") if "--" in given else len(given)
     parser = Parser(
         prog="petsam-study",
         description=__doc__,
@@ -113,14 +89,14 @@ def arguments():
     )
     parser.add_argument("table", metavar="TABLE", help="cases: .csv, or .yaml")
     parser.add_argument("-d", "--directory", help="folder of the cases and the tables (the table's name, here)")
-    parser.add_argument("--cores", type=positive, help="cores to use (all available to this process)")
-    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases without a value in the table (1)")
+    parser.add_argument("--cores", type=POSITIVE, help="cores to use (all available to this process)")
+    parser.add_argument("--ranks", type=POSITIVE, default=1, help="MPI ranks of cases without a value in the table (1)")
     parser.add_argument(
         "--launcher", metavar="WORDS", help="MPI launcher, to which -n RANKS is added ($MPIRUN, mpirun)"
     )
     parser.add_argument(
         "--checkpoint",
-        type=positive,
+        type=POSITIVE,
         metavar="M",
         help="write a checkpoint every M steps; a stopped case resumes from it",
     )
@@ -128,17 +104,17 @@ def arguments():
     parser.add_argument("--quiet", action="store_true", help="print failures only")
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--list", action="store_true", help="print the cases and their status only")
-    what.add_argument("--case", type=positive, metavar="K", help="run only the K-th case of --list, without tables")
+    what.add_argument("--case", type=POSITIVE, metavar="K", help="run only the K-th case of --list, without tables")
     what.add_argument("--collect", action="store_true", help="write the tables only")
     what.add_argument(
         "--slurm", action="store_true", help="submit a job array of the cases, and a job that writes the tables"
     )
     parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
     _cycle_options(parser)
-    options = parser.parse_args(joined(_taken(words[:at])))
+    options = parser.parse_args(joined(_taken(given[:at])))
     if options.sbatch and not options.slurm:
         parser.error("--sbatch requires --slurm")
-    options.words = words[at + 1 :]
+    options.words = given[at + 1 :]
     options.directory = os.path.abspath(options.directory or os.path.splitext(os.path.basename(options.table))[0])
     return options
 
@@ -159,7 +135,7 @@ def due(options, cases):
 def run(options, cases, waiting):
     """Runs the waiting cases; returns the number of the signal that ended the study, or 0."""
     cores = options.cores or environment.cores()
-    words = environment.launcher(options.launcher)
+    launched = environment.launcher(options.launcher)
     program = environment.petsam()
     for case in waiting:
         if case.ranks > cores and options.case is None:
@@ -181,7 +157,7 @@ def run(options, cases, waiting):
     progress = Progress(len(waiting), options.quiet)
     study = Study(
         options.directory,
-        lambda ranks: [*words, "-n", str(ranks), program],
+        lambda ranks: [*launched, "-n", str(ranks), program],
         cores,
         progress.report,
         progress.tick,

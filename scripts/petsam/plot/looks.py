@@ -7,8 +7,9 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from ..core.errors import Error
+from ..core.words import Measured
 from .style import plt
-from .units import size_of
+from .units import of_label
 
 INCH = 25.4  # mm
 LEAST = 4.5  # points of a text in a picture of a given width
@@ -27,7 +28,10 @@ def adapt(figure, x_limits=None, y_limits=None, width=None):
         ranges = []  # of the data
         for panel in panels if limits else ():
             axis, change = ((panel.xaxis, panel.set_xlim), (panel.yaxis, panel.set_ylim))[n]
-            unit = size_of(axis.get_label_text() or shared[n])
+            text = axis.get_label_text() or shared[n]
+            si, unit = of_label(text)
+            if isinstance(limits, Measured):
+                limits.need(si, f"--{'xy'[n]}lim, of {text}")
             ranges.append(np.sort((panel.dataLim.intervalx, panel.dataLim.intervaly)[n]) * unit)
             low, high = (value / unit for value in limits)
             change(*((high, low) if axis.get_inverted() else (low, high)))

@@ -50,16 +50,24 @@ def on_axis(unit, largest):
     return 10.0**-power, "10" + str(power).translate(RAISED)
 
 
-def size_of(text):
-    """Size in SI units of the unit in an axis' label, as label() writes it; 1 without one."""
+def of_label(text):
+    """Unit of SI, "1" without one, and size in it of the unit in an axis' label, as label() writes it."""
     for word in reversed(re.findall(r", (\S+)", text)):
         if word.startswith("10⁻"):
-            return 10.0 ** int(word[2:].translate(LOWERED))
+            return "1", 10.0 ** int(word[2:].translate(LOWERED))
         for size, prefix in PREFIXES:
-            first = BASE.match(word[len(prefix) :].replace("²", "2").replace("³", "3"))
+            unit = word[len(prefix) :].replace("²", "2").replace("³", "3")
+            first = BASE.match(unit)
             if word.startswith(prefix) and first and not (prefix == "" and word[0] in "Gkµnp"):
-                return size ** POWERS.get(first[0], 1)
-    return 1.0
+                return unit.replace("·", " "), size ** POWERS.get(first[0], 1)
+        if word == "s":
+            return word, 1.0
+    return "1", 1.0
+
+
+def size_of(text):
+    """Size in SI units of the unit in an axis' label; 1 without one."""
+    return of_label(text)[1]
 
 
 def counted(largest):
