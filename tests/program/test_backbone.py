@@ -506,7 +506,7 @@ def test_small_amplitudes_at_which_all_sticks_have_no_damping(tmp_path):
     found = joint.backbone(pair.structure, amplitudes, steps=3)
     assert found.frequency == pytest.approx(found.linear, rel=1e-6)
     assert np.all(found.damping < 1e-6) and np.all(found.cycles < 4)
-    for row, line in enumerate(found.table()[-3:]):
+    for row, line in enumerate(found.lines()[-3:]):
         assert found.unresolved[row] == found.damping[row] == 0.0 or f"<{found.unresolved[row]:.1e}" in line
 
 
@@ -654,12 +654,12 @@ def test_command_prints_and_writes_the_numbers(command, tmp_path):
     printed = command(*words, "--amplitudes", "3mm:10mm:2", "-o", "out", "--damping", "0.001", "--degree-check")
     pair = joint.Pair(tmp_path / "pair.h5", PRELOAD, **OPTIONS)
     expected = joint.backbone(pair.structure, [3e-3, 1e-2], sensor=pair.sensors["TIP"][:, 2], steps=3)
-    assert "\n".join(expected.table()) in printed
+    assert "\n".join(expected.lines()) in printed
     assert f"bolt B: {pair.tensions['B']:.6g} N left of 0.02 N" in printed
     assert "degree lower by 2: frequency" in printed
     with open("out.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [float(row["frequency (Hz)"]) for row in rows] == pytest.approx(expected.frequency)
+    assert [float(row["frequency [Hz]"]) for row in rows] == pytest.approx(expected.frequency)
     assert (tmp_path / "out.png").stat().st_size > 10000 < (tmp_path / "out-contact.png").stat().st_size
 
 
@@ -680,7 +680,7 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
     told = joint_command("response", *words, "--frequencies", f"{10 * highest:g}", check=2)
     assert "give Hz, not rad/s or rpm" in told and f"{highest:.4g} Hz" in told
     found = joint.forced(pair.structure, level * sensor, around, sensor, steps=8)
-    assert found.table()[0] in printed and len(re.findall(r"^ +0\.[01]\d+ ", printed, re.M)) == 2
+    assert found.lines()[0] in printed and len(re.findall(r"^ +0\.[01]\d+ ", printed, re.M)) == 2
     stuck, psi = pair.structure.stuck_modes()
     viscous = np.zeros(2)
     for order in range(1, 4):
@@ -690,7 +690,7 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
     assert power == pytest.approx(found.energy + viscous, rel=2e-3)
     with open("out.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [float(row["amplitude (m)"]) for row in rows] == pytest.approx(found.amplitude, rel=1e-4)
+    assert [float(row["amplitude [m]"]) for row in rows] == pytest.approx(found.amplitude, rel=1e-4)
     assert (tmp_path / "out.png").stat().st_size > 10000
 
 
@@ -881,7 +881,7 @@ def test_a_sensor_that_the_mode_does_not_move_is_named():
     one = joint.Structure([patch], [50.0, 90.0], [[1e-3, 0.0]], coupling=[[1e-6 / 2500.0]])
     with pytest.raises(petsam.Error, match="the mode does not move it in this direction"):
         joint.backbone(one, [1e-9], mode=1, sensor=[1e-12, 1.0], steps=1)
-    table = joint.backbone(one, [1e-9], mode=1, steps=1).table()
+    table = joint.backbone(one, [1e-9], mode=1, steps=1).lines()
     assert "amplitudes are modal, in m kg^0.5" in table[-2] and "touches sticks, Hz: " in table[0]
 
 

@@ -319,7 +319,7 @@ def test_command_gives_the_numbers_of_the_function(command, tmp_path):
     expected = joint.of_windows(field, 1e-5, np.geomspace(1e7, 4e7, 3), steps=1, shear=0.4, **pair)
     words = ("--pressure", "10MPa:40MPa:3", "--friction", 0.25, "--shear", 0.4, "--steps", 1, *STEEL)
     printed = command("scan.h5", *words, "-o", "i")
-    assert printed == "\n".join(expected.table()) + "\n" == command("pair.h5", *words)
+    assert printed == "\n".join(expected.lines()) + "\n" == command("pair.h5", *words)
     with open("i.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [float(row["k_t_x [Pa/m]"]) for row in rows] == pytest.approx(expected.k_t_x, rel=1e-9)
@@ -327,7 +327,7 @@ def test_command_gives_the_numbers_of_the_function(command, tmp_path):
     assert (tmp_path / "i.inp").read_text().startswith("** contact") and (tmp_path / "i.png").stat().st_size > 10000
     whole = joint.of_interface(field, 1e-5, [2e7], steps=1, **pair)
     assert command("pair.h5", "--pressure", "2e7", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL) == (
-        "\n".join(whole.table()) + "\n"
+        "\n".join(whole.lines()) + "\n"
     )
 
 

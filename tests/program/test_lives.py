@@ -1,7 +1,6 @@
 """petsam-fatigue: lives against tables computed by hand, cracks against closed forms and an integral
 equation, refusals."""
 
-import csv
 import sys
 from types import SimpleNamespace
 
@@ -17,7 +16,7 @@ from petsam.lives.stresses import Cycle
 from petsam.plot import saving
 from petsam.plot.style import plt
 from petsam.study.expressions import Expander
-from support import ball, slide_limit
+from support import ball, slide_limit, table_of
 
 STRESS = conftest.PROGRAM.with_name("petsam-stress")
 SWT = dict(young=115e9, sigma_f=2030e6, b=-0.104, epsilon_f=0.841, c=-0.69)
@@ -189,8 +188,12 @@ def test_the_command_prints_and_writes_what_the_file_gives(fatigue, folder):
     assert f"life {float(strength.swt(swt.max(), **{**WEAK, 'young': 72e9})):.4g} cycles" in out
     assert f"Findley: safety factor {3e8 / findley.max():.4g} at" in out
     assert "short crack: " in out and (folder / "p.png").stat().st_size > 20000
-    with open(folder / "line.csv", encoding="utf-8") as lines:
-        rows = list(csv.DictReader(lines))
+    rows = table_of(folder / "line.csv")
+    assert (
+        (folder / "line.csv")
+        .read_text()
+        .startswith("file,x [m],y [m],z [m],findley [Pa],swt [Pa],fatemi_socie [1],life_swt [1],")
+    )
     column = int(np.argmax(swt[0, 0]))
     assert [float(row["z"]) for row in rows] == pytest.approx(file.z.tolist())
     assert float(rows[0]["x"]) == pytest.approx(file.x[column])

@@ -23,7 +23,7 @@ from petsam.core.declared import PATHS
 from petsam.study import cases as study_cases
 from petsam.study import runs as study_runs
 from petsam.study.slurm import ranges
-from support import ROOT, ball, limit, slide_limit, words
+from support import ROOT, ball, limit, slide_limit, table_of, words
 
 PROGRAM = ROOT / "scripts" / "petsam-study"
 CASE = ball(n=32)
@@ -475,8 +475,10 @@ def test_a_missing_file_of_every_case_is_named_before_any_runs(run, tmp_path):
 def test_tables_hold_inputs_and_scalars_of_the_last_step(run, tmp_path):
     table(tmp_path, f"load_tx,load_mz\n{float(0.3 * LIMIT)!r},0\n{float(0.5 * LIMIT)!r},1e-3\n")
     run("cases.csv", "--", *words(CASE), "-steps", "2")
-    with open(tmp_path / "cases" / "results.csv", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    heads = (tmp_path / "cases" / "results.csv").read_text().splitlines()[0]
+    assert heads.startswith("case,exit_code,seconds [s],ranks,load_tx,load_mz,steps [1],contact_area [m2],")
+    assert ",load_tx_end [N]," in heads and ",stick_area [m2]," in heads
+    rows = table_of(tmp_path / "cases" / "results.csv")
     assert [row["exit_code"] for row in rows] == ["0", "0"] and [row["load_mz"] for row in rows] == ["0", "1e-3"]
     with h5py.File(tmp_path / "cases" / "results.h5", "r") as both:
         assert both["inputs/load_mz"][:].tolist() == [0.0, 1e-3]

@@ -122,6 +122,19 @@ def test_named_number_and_names():
         words.integer("1e3")
 
 
+class _Table(tables.Tabled):
+    def table(self):
+        return [tables.Column("steps", "1", "how many", [3, None]), tables.Column("pressure", "Pa", "peak", [1.5, 2.0])]
+
+
+def test_what_has_a_table_is_written_by_its_columns(tmp_path):
+    _Table().to_csv(tmp_path / "t.csv")
+    assert (tmp_path / "t.csv").read_text() == "steps [1],pressure [Pa]\n3,1.5\n,2.0\n"
+    pytest.importorskip("pandas")
+    found = _Table().to_dataframe()
+    assert list(found) == ["steps", "pressure"] and found.attrs["units"]["pressure"] == "Pa"
+
+
 def test_table_says_names_and_units(tmp_path):
     columns = [
         tables.Column("case", "", "its name", ["a", "b, c"]),

@@ -14,15 +14,13 @@ Constants, in SI units or with their unit (1.76GPa), in a YAML file of lines NAM
 """
 
 import argparse
-import csv
-import io
 import os
 import sys
 import warnings
 
 import numpy as np
 
-from ..core import isolation, words
+from ..core import isolation, tables, words
 from ..core.errors import Error, short, there_are
 from ..core.files import need_replaceable, same
 from ..lives import evaluation, materials, strength
@@ -96,7 +94,7 @@ def arguments(given):
     )
     out = parser.add_argument_group("output")
     out.add_argument("--quantity", type=NAMES, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
-    out.add_argument("--csv", metavar="NAME.csv", help="write the lines, SI units")
+    out.add_argument("--csv", metavar="NAME.csv", help="write the lines: columns name [unit], SI")
     out.add_argument("--labels", metavar="TEXT,...", help="the files' names in the picture (their file names)")
     out.add_argument("-o", "--output", metavar="NAME", help="picture: .png, .pdf or .svg (NAME_depth.png of the file)")
     add_choice(out)
@@ -183,15 +181,7 @@ def _print_crack(cycle, start, stop, from_surface):
 def _write_csv(options, lines):
     """The lines of all files below one another."""
     need_replaceable(options.csv)
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    columns = lines[0][1].columns
-    table.writerow(["file", "x", "y", "z", *columns])
-    for who, line in lines:
-        for k, z in enumerate(line.z):
-            table.writerow([who, line.x, line.y, z, *(float(values[k]) for _, values in line.columns.values())])
-    with open(options.csv, "w", encoding="utf-8") as file:
-        file.write(text.getvalue())
+    tables.write_csv(options.csv, evaluation.columns(lines))
     print("wrote " + options.csv)
 
 

@@ -263,7 +263,7 @@ def _recorded(kind):
 
 def _print(result, found):
     """Prints the table and the warnings."""
-    print("\n".join(result.table()))
+    print("\n".join(result.lines()))
     for text in dict.fromkeys(str(one.message).strip() for one in found):
         print(f"petsam-joint: warning: {text}", file=sys.stderr)
 
@@ -346,7 +346,7 @@ def _wear(args):
         raise Error(f"--amplitudes: petsam-joint wear needs one amplitude, not {len(args.amplitudes)}")
     pair = _pair(args, preload)
     sensor = _sensor(args.sensor, pair)
-    tension = lambda structure: {f"{name}/N": left for name, left in pair.left(structure).items()}  # noqa: E731
+    tension = lambda structure: {f"{name} [N]": left for name, left in pair.left(structure).items()}  # noqa: E731
     with _recorded(BackboneWarning) as found:
         given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension)
         result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)
