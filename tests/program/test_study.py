@@ -16,6 +16,7 @@ import h5py
 import numpy as np
 import pytest
 
+import petsam
 from conftest import PROGRAM as PETSAM
 from conftest import environment
 from petsam.commands import study as study_command
@@ -490,6 +491,30 @@ def test_tables_hold_inputs_and_scalars_of_the_last_step(run, tmp_path):
             assert float(row["load_tx_end"]) == history["load_tx"][-1]
             assert np.isclose(float(row["dissipated_energy_sum"]), history["dissipated_energy"][:].sum(), rtol=1e-14)
             assert int(row["steps"]) == history["time"].size
+
+
+def test_a_study_runs_from_python_side_by_side(tmp_path, fake, monkeypatch):
+    """As the command runs it; again nothing runs but what has failed."""
+    for name, value in fake.items():
+        monkeypatch.setenv(name, str(value))
+    monkeypatch.chdir(tmp_path)
+    table(tmp_path, "load_tx,code\n1,0\n2,0\n3,4\n")
+    ended = []
+    found = petsam.study.run(
+        "cases.csv", cores=2, options=dict(grid_n=(32, 32), wait=0.01), report=lambda *one: ended.append(one)
+    )
+    assert found.codes.tolist() == [0, 0, 4] and found.inputs["load_tx"].tolist() == [1.0, 2.0, 3.0]
+    assert sorted((case.inputs["load_tx"], code) for case, code in ended) == [("1", 0), ("2", 0), ("3", 4)]
+    assert len(runs(tmp_path)) == 3 and all(
+        {"-grid_n", "32,32", "-wait", "0.01"} <= set(line) for line in runs(tmp_path)
+    )
+    assert petsam.study.run("cases.csv", "cases", cores=2, options=dict(grid_n=(32, 32), wait=0.01)).codes[2] == 4
+    assert len(runs(tmp_path)) == 4
+    with pytest.raises(petsam.Error, match="2 ranks do not fit into 1 cores"):
+        petsam.study.run("cases.csv", "other", cores=1, ranks=2)
+    with pytest.raises(petsam.study.TableError, match="t.csv, line 2"):
+        table(tmp_path, "load_tx,output\n1,a\n", "t.csv")
+        petsam.study.run("t.csv")
 
 
 def test_other_cases_run_after_one_with_a_wrong_option(run, tmp_path, fake):
