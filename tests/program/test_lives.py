@@ -204,6 +204,31 @@ def test_the_command_prints_and_writes_what_the_file_gives(fatigue, folder):
     assert float(rows[4]["k_range"]) == pytest.approx(max(*k, 0.0) - max(min(k), 0.0))
 
 
+def test_lives_from_python_are_those_of_the_command(fatigue, folder, tmp_path):
+    """Of names of files or of Stresses, constants as numbers, words or a file."""
+    fatigue("--material", "m.yaml", "--csv", "both.csv", "--counts", "1e5,20", "--no-picture", "low.h5", "high.h5")
+    files = [folder / "low.h5", folder / "high.h5"]
+    found = petsam.lives.lives(files, folder / "m.yaml", counts=[1e5, 20])
+    found.to_csv(tmp_path / "both.csv")
+    assert (tmp_path / "both.csv").read_text() == (folder / "both.csv").read_text()
+    swt = [petsam.open(file).field("swt") for file in files]
+    lives = [strength.swt(one, **{**WEAK, "young": 72e9}) for one in swt]
+    assert found.least["swt"][1].value == pytest.approx(lives[1].min())
+    assert found.damage["swt"].value == pytest.approx((1e5 / lives[0] + 20 / lives[1]).max())
+    words = {name: value for name, value in WEAK.items() if name != "young"} | {
+        "sigma_f": f"{WEAK['sigma_f'] / 1e6!r}MPa"
+    }
+    one = petsam.lives.lives(petsam.open(files[1]), words, criteria=["swt"], below=(0.0, 0.0), quantities=["swt"])
+    assert [column.name for column in one.table()] == ["file", "x", "y", "z", "swt", "life_swt"]
+    assert abs(one.lines[0][1].x) < 1e-4 and not one.cracks
+    assert one.least["swt"][0].value == pytest.approx(found.least["swt"][1].value)
+    assert len(petsam.plot.lives(one).axes) == 2
+    with pytest.raises(Error, match="counts: 2 files need"):
+        petsam.lives.lives(files, words, counts=[1.0])
+    with pytest.raises(Error, match="sigma_f 900 Pa is outside"):
+        petsam.lives.lives(files, dict(sigma_f=900))
+
+
 def test_the_picture_has_the_given_resolution(fatigue, folder):
     widths = []
     for words in ([], ["--dpi", "300"]):

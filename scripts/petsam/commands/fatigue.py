@@ -20,13 +20,13 @@ import warnings
 
 import numpy as np
 
-from ..core import isolation, tables, words
+from ..core import isolation, words
 from ..core.errors import Error, short, there_are
 from ..core.files import need_replaceable, same
-from ..lives import evaluation, materials, strength
+from ..lives import evaluation, materials, spectrum, strength
 from ..lives.stresses import Cycle
 from ..plot import saving
-from ..results.stresses import FATIGUE, Stresses
+from ..results.stresses import Stresses
 from .line import Parser, add_choice, fail, guarded, joined, word
 from .plot_arguments import NAMES, POINT, numbers
 
@@ -111,18 +111,6 @@ def arguments(given):
     return options
 
 
-def _place(options, cycle, criteria):
-    """Returns row, column, and a description of the line's place."""
-    if options.at:
-        return *cycle.nearest(*options.at), "point nearest to --at"
-    name = options.hot or next((name for name in (*criteria, *FATIGUE, "mises") if name in cycle), None)
-    if name is None:
-        raise Error(
-            f"{cycle.path}: has no fatigue parameter and no mises; name a place by --at, or a quantity by --hot"
-        )
-    return *cycle.hot_spot(name), f"largest {name} on the surface"
-
-
 def _where(one):
     return f"at x = {one.x:.4g} m, y = {one.y:.4g} m, z = {one.z:.4g} m"
 
@@ -133,22 +121,18 @@ def _lived(life):
     return f"{life:.4g} cycles" + (", fails at once" if life <= strength.LEAST else "")
 
 
-def _report(options, cycles, name, found):
-    """Prints the least lives or factors of every cycle, and the damage; returns the columns of each cycle's line."""
+def _report(found, name, several):
+    """Prints the least lives or factors of every cycle, and of a spectrum, of several blocks or counts, the damage."""
     title, is_life = evaluation.CRITERIA[name][0], name in evaluation.LIVES
-    for cycle, values in zip(cycles, found):
-        least = evaluation.least(cycle, values)
+    for cycle, least in zip(found.cycles, found.least[name]):
         text = f"life {_lived(least.value)}" if is_life else f"safety factor {least.value:.4g}"
         mean = f", of means over {cycle.averaged:g} m" if cycle.averaged else ""
         doubt = "; see the warning" if cycle.doubt else ""
         print(f"{cycle.path}: {title}: {text} {_where(least)}{mean}{doubt}")
-    if is_life and (len(cycles) > 1 or options.counts != [1.0]):
-        damage = strength.damage(found, options.counts)
-        most = evaluation.least(cycles[0], -damage)
-        repeats = f", {1.0 / -most.value:.4g} repeats" if most.value < 0.0 else ""
-        print(f"spectrum: {title}: damage {abs(most.value):.4g} {_where(most)}{repeats}")
-    word = "life" if is_life else "factor"
-    return [{f"{word}_{name}": ("1", values)} for values in found]
+    if is_life and several:
+        most = found.damage[name]
+        repeats = f", {1.0 / most.value:.4g} repeats" if most.value > 0.0 else ""
+        print(f"spectrum: {title}: damage {most.value:.4g} {_where(most)}{repeats}")
 
 
 def _shown(value):
@@ -178,13 +162,6 @@ def _print_crack(cycle, start, stop, from_surface):
     print(f"{cycle.path}: short crack: {text}")
 
 
-def _write_csv(options, lines):
-    """The lines of all files below one another."""
-    need_replaceable(options.csv)
-    tables.write_csv(options.csv, evaluation.columns(lines))
-    print("wrote " + options.csv)
-
-
 def _cycles(options):
     """The cycles of the files; Error where one is no file of petsam-stress, or an output would replace it."""
     for name in (options.output, options.csv or ""):
@@ -211,35 +188,27 @@ def _warn(cycles):
 def carry_out(options):
     """Compute, print and draw."""
     constants = {**(materials.read(options.material) if options.material else {}), **dict(options.constant)}
-    cycles = _cycles(options)
-    first = cycles[0]
-    criteria = options.criteria or evaluation.possible(first, constants, options.plane)
-    computed = [{} for _ in cycles]
-    for name in criteria:
-        if name != "crack":
-            found = evaluation.lives(cycles, name, constants, options.plane)
-            for mine, columns in zip(computed, _report(options, cycles, name, found)):
-                mine.update(columns)
-    row, column, where = _place(options, first, criteria)
-    quantities = options.quantity or [name for name in FATIGUE[:5] if name in first] or ["mises"]
-    lines = []
-    for cycle, more in zip(cycles, computed):
-        line = evaluation.line(cycle, quantities, row, column, more)
-        if "crack" in criteria:
-            found, *lengths = evaluation.crack(cycle, constants, options.plane, row, column)
-            line.columns.update(found)
-            _print_crack(cycle, *lengths)
-        print(f"{cycle.path}: below x = {line.x:.4g} m, y = {line.y:.4g} m ({where}):")
+    found = spectrum.lives(
+        _cycles(options), constants, counts=options.counts, criteria=options.criteria, plane=options.plane,
+        below=options.at or options.hot, quantities=options.quantity,
+    )  # fmt: skip
+    for name in found.values:
+        _report(found, name, len(found.cycles) > 1 or options.counts != [1.0])
+    for k, (cycle, (_, line)) in enumerate(zip(found.cycles, found.lines)):
+        if found.cracks:
+            _print_crack(cycle, *found.cracks[k])
+        print(f"{cycle.path}: below x = {line.x:.4g} m, y = {line.y:.4g} m ({found.place}):")
         _print_line(line)
-        lines.append((cycle.label, line))
     if options.csv:
-        _write_csv(options, lines)
-    if first.z.size > 1 and not options.no_picture:
+        need_replaceable(options.csv)
+        found.to_csv(options.csv)
+        print("wrote " + options.csv)
+    if found.cycles[0].z.size > 1 and not options.no_picture:
         from .. import plot
 
-        saving.write(plot.lives(lines, constants), options.output, options.dpi)
+        saving.write(plot.lives(found), options.output, options.dpi)
         print("wrote " + options.output)
-    _warn(cycles)
+    _warn(found.cycles)
 
 
 def _child(options):
