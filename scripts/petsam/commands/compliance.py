@@ -34,12 +34,13 @@ from .. import plot
 from ..compliance import basis, model, several, substructure, writing
 from ..compliance.units import UNITS
 from ..core import isolation
-from ..core.errors import Error, Parser, fail, guarded, joined, short
+from ..core.errors import Error, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
 from ..core.lengths import lengths, shown, sides
 from ..core.lengths import several as numbers
-from ..plot.saving import add_choice, write
+from ..plot.saving import write
+from .line import Parser, add_choice, fail, guarded, joined
 
 HIGHEST = 10  # highest degree that petsam reads
 HIGHEST_EACH, MOST_FUNCTIONS = 24, 325  # the same of degrees in x and y, and the number of their products

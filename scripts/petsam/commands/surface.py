@@ -25,18 +25,19 @@ import numpy as np
 
 from .. import plot
 from ..core import isolation
-from ..core.errors import Error, Parser, fail, guarded, short
+from ..core.errors import Error, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
 from ..core.lengths import several, shown, sides, unit
 from ..plot.of_surface import finite
-from ..plot.saving import add_choice, write
+from ..plot.saving import write
 from ..surface import generation, levels, writing
 from ..surface.doubts import doubts as doubts_of
 from ..surface.filling import filled
 from ..surface.maps import QUANTITIES, combined, cut, moments, new_map, peak_to_valley, rms_height, rms_slope
 from ..surface.reading import FORMATS, read_map
 from ..surface.resampling import resampled
+from .line import Parser, add_choice, fail, guarded
 
 MOST = 1 << 16  # cells in x or y
 WIDE = 1.0  # m: few instruments measure a surface of this size

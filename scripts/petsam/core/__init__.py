@@ -1,6 +1,6 @@
 """What all parts of the package share.
 
-errors       errors that are reported in one line; the command line of all commands
+errors       errors that are reported in one line
 files        names of files, and texts
 hdf5         HDF5 files: opened to read, replaced when they are written
 isolation    reading of files that may be damaged, in a child process

@@ -106,14 +106,6 @@ def by_period(times, period, start=None):
     return [Cycle(number, int(a), int(b)) for number, (a, b) in enumerate(zip(ends[:-1], ends[1:]), 1)]
 
 
-def read_period(text):
-    """Returns period and start (or None) of T or T,START; raises ValueError for another text."""
-    values = [float(word) for word in text.split(",")]
-    if len(values) > 2 or not np.all(np.isfinite(values)) or not values[0] > 0.0:
-        raise ValueError("expected a positive time, or T,START, in s")
-    return values[0], values[1] if len(values) == 2 else None
-
-
 class Cycles:
     """The cycles of one file: a list, how they were found, and the energy of each."""
 
