@@ -166,7 +166,6 @@ def test_a_file_without_a_life_or_a_cycle_is_named(draw, path, direct, plain, wo
     [
         (("--scar", "--cycle", "0"), "nothing has worn"),
         (("--scar", "--cycle", "9000"), "--cycle 9000: fields were saved"),
-        (("--scar", "--cycle", "nan"), "--cycle nan: fields were saved"),
         (("--scar", "--at", "1,0"), "--at 1,0: is not on the grid"),
     ],
 )
