@@ -16,7 +16,7 @@ def _numbers(path, words, count):
     except ValueError as error:
         raise Error(f"{path}: has a word that is no number: {short(error)}: export it again") from error
     if values.size != count:
-        raise Error(f"{path}: has {values.size} numbers, its header says {count}: export it again")
+        raise Error(f"{path}: has {values.size} numbers, and its header has {count}: export it again")
     return values
 
 
