@@ -1,4 +1,4 @@
-"""Readers of maps, one class a format: what it is recognized by, what it states, and the cure of a file that it rejects.
+"""Readers of maps, one class a format: what it is recognized by, what it states, and the cure of what it rejects.
 
 A new format is a class of stated.py's Reader in a module here, and a line in READERS. The first reader that recognizes
 a file reads it; the last one takes all others.
