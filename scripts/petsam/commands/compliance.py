@@ -5,14 +5,13 @@
         --degree 6 --case pull=1 -o beam.h5
     petsam-compliance --mesh lap.inp --units mm --contact LOWER --pair UPPER --fixed CLAMP --patch 36mm,20mm \\
         --degree 12,6 --bolt B1=TOP_WASHER,BOTTOM_WASHER:8mm --modes 12 --sensor TIP=1234 -o lap.h5
-    petsam-compliance --matrix beam.mtx --nodes beam.txt --units mm --young 2.1e11 --poisson 0.3 --patch 3mm
 
-Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials, and
-takes the stiffness from CalculiX. The contact is on the patch, a rectangle about --center in the plane z = 0 of the
-frame, whose z points into the body; it lies on the surface --contact. The body is held at the nodes of --fixed; the
-nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. A load case is a step of
-the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside it. With --matrix
-the body is a substructure of another program, whose retained nodes are the patch: less accurate, so of degree 1.
+Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials.
+The stiffness is assembled here, that of C3D8I by CalculiX. The contact is on the patch, a rectangle about --center in
+the plane z = 0 of the frame, whose z points into the body; it lies on the surface --contact. The body is held at the
+nodes of --fixed; the nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. A
+load case is a step of the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture
+beside it.
 
 With --pair the deck has both bodies, and bolts join them. The file is the compliance of both, for -body2_compliance:
 displacement of body 2 minus that of body 1. Unit initial tension of a bolt is the load case bolt_NAME, and a mode
@@ -31,7 +30,7 @@ import sys
 import warnings
 
 from .. import plot
-from ..compliance import basis, model, several, substructure, writing
+from ..compliance import basis, model, several, writing
 from ..compliance.units import UNITS
 from ..core import isolation
 from ..core.errors import Error, Parser, fail, guarded, joined, short
@@ -47,7 +46,6 @@ NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
 Bolt = collections.namedtuple("Bolt", "name surfaces diameter young")
 MOST_CASES, MOST_OF_PAIR = 8, 40
 LONGEST = 20  # letters of the name of a load case
-MESH_ONLY = ("contact", "fixed", "free", "symmetry", "case", "coarse_mesh", "depth", "pair", "bolt", "modes", "sensor")
 PAIR_ONLY = ("bolt", "modes", "sensor")
 RESERVED = ("closing", "closing_by")  # names beside those of bolts in the file
 PROGRAM = "petsam-compliance"
@@ -147,7 +145,7 @@ def length(text):
 
 def _body_options(parser):
     body = parser.add_argument_group("the body")
-    body.add_argument("--mesh", metavar="NAME.inp", help="CalculiX deck with mesh, sets and materials")
+    body.add_argument("--mesh", required=True, metavar="NAME.inp", help="CalculiX deck with mesh, sets and materials")
     body.add_argument("--contact", metavar="SURFACE", help="element surface of the deck on which the patch lies")
     body.add_argument("--fixed", action="append", metavar="NSET", help="node set held in x, y, z; may be repeated")
     body.add_argument(
@@ -187,14 +185,6 @@ def _pair_options(parser):
     )
 
 
-def _matrix_options(parser):
-    other = parser.add_argument_group("instead of a mesh, a substructure matrix")
-    other.add_argument("--matrix", metavar="NAME", help="stiffness: Abaqus .mtx, Nastran DMIG KAAX, ANSYS .sub as text")
-    other.add_argument("--nodes", metavar="NAME", help="table of the retained nodes, in lines of: node x y z")
-    other.add_argument("--young", type=float, metavar="PA", help="modulus of the material under the patch, Pa")
-    other.add_argument("--poisson", type=float, metavar="NU", help="its Poisson's ratio")
-
-
 def parser():
     """Creates the parser of the command line."""
     found = Parser(prog=PROGRAM, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -212,19 +202,21 @@ def parser():
     patch.add_argument(
         "--degree",
         type=degree,
+        default=6,
         metavar="N|NX,NY",
         help=f"of the polynomials: the sum in x and y, 0 to {HIGHEST}, or the largest in x and in y, up to "
-        f"{HIGHEST_EACH} (6; of a matrix 1)",
+        f"{HIGHEST_EACH} (6)",
     )
     method = found.add_argument_group("method")
     method.add_argument("--method", choices=("auto", "image", "cutoff"), default="auto", help="(auto: image if valid)")
     method.add_argument(
-        "--stiffness", choices=("calculix", "own"), default="calculix", help="program that assembles it (calculix)"
+        "--stiffness",
+        choices=("own", "calculix"),
+        help="what assembles it: petsam, or CalculiX (own; elements C3D8I: calculix)",
     )
     method.add_argument("--coarse-mesh", metavar="NAME.inp", help="a coarser deck, to estimate the error of the mesh")
     method.add_argument("--depth", type=length, metavar="Z", help="of the stress points (the patch's smaller width)")
     method.add_argument("--no-stress", dest="stress", action="store_false", help="omit stresses below the surface")
-    _matrix_options(found)
     out = found.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the deck's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
@@ -280,28 +272,18 @@ def arguments(words):
     """Reads the command line."""
     reader = parser()
     options = reader.parse_args(joined(words))
-    if bool(options.mesh) == bool(options.matrix):
-        reader.error("give either --mesh or --matrix")
-    if options.free and options.mesh:
+    if options.free:
         _check_free(reader, options)
-    needed = ("contact",) if options.free else ("contact", "fixed")
-    needed = needed if options.mesh else ("nodes", "young", "poisson")
-    for name in needed:
+    for name in ("contact",) if options.free else ("contact", "fixed"):
         if getattr(options, name) is None:
             other = ", or --free for a pair that nothing holds" if name == "fixed" and options.pair else ""
-            reader.error(f"{'--mesh' if options.mesh else '--matrix'} needs --{name}{other}")
-    useless = ("nodes", "young", "poisson") if options.mesh else MESH_ONLY
-    for name in useless:
-        if getattr(options, name) is not None:
-            reader.error(f"--{name.replace('_', '-')} is not for {'--mesh' if options.mesh else '--matrix'}: remove it")
+            reader.error(f"--mesh needs --{name}{other}")
     options.frame = options.frame or [[0.0, 0.0, 0.0]]
     options.case, options.symmetry, options.fixed = options.case or [], options.symmetry or [], options.fixed or []
     _check_pair(reader, options)
     _check_cases(reader, options)
-    if options.degree is None:
-        options.degree = 6 if options.mesh else 1
     options.ccx = os.environ.get("CCX", "ccx")
-    base = os.path.splitext(os.path.basename(options.mesh or options.matrix))[0]
+    base = os.path.splitext(os.path.basename(options.mesh))[0]
     options.output = options.output or base + ".h5"
     options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
     if not options.picture.lower().endswith(".png"):
@@ -377,8 +359,7 @@ def _joint(body):
 
 def carry_out(options, words):
     """Computes, writes, draws and prints; in a child process, as it may read an HDF5 file."""
-    source = options.mesh or options.matrix
-    inputs = [name for name in (source, options.coarse_mesh, options.nodes) if name]
+    inputs = [name for name in (options.mesh, options.coarse_mesh) if name]
     for name in [options.output] + ([] if options.no_picture else [options.picture]):
         if any(same(name, path) for path in inputs):
             raise Error(f"{name}: is an input file; choose another name by --output")
@@ -387,8 +368,7 @@ def carry_out(options, words):
         need_replaceable(options.picture)
     command = shlex.join([PROGRAM, *words])
     progress = model.Progress(sys.stderr)
-    compute = model.computed if options.mesh else substructure.computed
-    found = compute(source, options, command, progress)
+    found = model.computed(options.mesh, options, command, progress)
     body = found.bodies[0]
     for text in body.remarks:
         if text.startswith("warning: "):
@@ -396,7 +376,7 @@ def carry_out(options, words):
     writing.write(found, options.output)
     if not options.no_picture:
         write(plot.compliance(found.bodies), options.picture, options.dpi)
-    print(f"{options.output}: compliance of {source}")
+    print(f"{options.output}: compliance of {options.mesh}")
     print("\n".join("  " + line for line in description(found) if "warning: " not in line))
     if not options.no_picture:
         print("wrote " + options.picture)

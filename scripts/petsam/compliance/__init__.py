@@ -10,7 +10,6 @@ solve         one factorization
 remainder     body minus half-space, by
   images      fields taken back on the other surfaces
   cutoff      half-space fields cut off about the patch
-substructure  stiffness matrices of other programs
 parts         the bodies of a mesh: one, or a pair
 bolts         bolts of a pair
 modes         its modes without contact
