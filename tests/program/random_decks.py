@@ -294,7 +294,7 @@ def computed(words):
     signal.alarm(SECONDS)
     try:
         options = command.arguments(words)
-        found = model.computed(options.mesh, options, "", lambda _: None).bodies[0]
+        found = model.computed(options.mesh, options.settings).bodies[0]
         return found.compliance, [text for text in found.remarks if text.startswith("warning")]
     except (petsam.Error, OSError) as error:
         return None, str(error)

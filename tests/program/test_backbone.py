@@ -272,7 +272,7 @@ def test_stuck_modes_of_the_lap_are_those_of_tied_elements(tmp_path, monkeypatch
     carry_out(options, [])
     pair = joint.Pair("lap.h5", dict(B=15e3), grid_n=64, friction=0.3)
     contact = pair.structure.patches[0].contact
-    body = model.Model(options.mesh, options)
+    body = model.Model(options.mesh, options.settings)
     body.prepare_modes()
     nodes = body.mesh.nodes
     one, two = (

@@ -54,7 +54,7 @@ class Pseudo:
 def read(words):
     """The Model of a command line, and its stiffness with bolts."""
     options = command.arguments([*words, "-o", "x.h5"])
-    found = model.Model(options.mesh, options)
+    found = model.Model(options.mesh, options.settings)
     tie = sum(one.matrix for one in found.bolts)
     return found, stiffness.assembled(found.mesh) + tie, tie
 
