@@ -85,7 +85,7 @@ class Deck:
             self._instances(mesh_lines, material, length)
         self._without_effect()
         self.words = ["--units", self.units, "--patch", "20mm", "--degree", "2", "--no-stress", "--no-picture"]
-        self.words += ["--stiffness", "calculix" if chance.random() < 0.1 else "own"]
+        self.words += ["--stiffness", "calculix"] if chance.random() < 0.1 else []
 
     def _instances(self, mesh_lines, material, length):
         """The same as one or two instances, moved and turned about z."""
@@ -294,7 +294,7 @@ def computed(words):
     signal.alarm(SECONDS)
     try:
         options = command.arguments(words)
-        found = model.computed(options.mesh, options, "", lambda _: None).bodies[0]
+        found = model.computed(options.mesh, options.settings).bodies[0]
         return found.compliance, [text for text in found.remarks if text.startswith("warning")]
     except (petsam.Error, OSError) as error:
         return None, str(error)
@@ -309,7 +309,7 @@ def reference(kind, found={}):  # noqa: B006
             lines, material = pieces(kind, 1.0, 1.0, "LOW", random.Random(1))
             Path(folder, "r.inp").write_text("\n".join([*lines, *material]) + "\n")
             words = ["--mesh", f"{folder}/r.inp", "--contact", "TOP", "--fixed", "LOW", "--frame", "0,0,0:1,0,0"]
-            words += ["--patch", "20mm", "--degree", "2", "--no-stress", "--no-picture", "--stiffness", "own"]
+            words += ["--patch", "20mm", "--degree", "2", "--no-stress", "--no-picture"]
             found[kind] = computed(words)[0]
             assert found[kind] is not None, computed(words)[1]
     return found[kind]

@@ -267,12 +267,12 @@ def test_stuck_modes_of_the_lap_are_those_of_tied_elements(tmp_path, monkeypatch
     monkeypatch.chdir(tmp_path)
     subprocess.run([sys.executable, ROOT / "examples/lap/mesh.py", "lap", "lap.inp", "--coarse"], check=True)
     words = f"--mesh lap.inp --units mm --contact CONTACT2 --pair CONTACT1 {support} {patch} "
-    words += "--no-picture --stiffness own --bolt B=WASHER1,WASHER2:8mm --modes 12"
+    words += "--no-picture --bolt B=WASHER1,WASHER2:8mm --modes 12"
     options = arguments(words.split())
     carry_out(options, [])
     pair = joint.Pair("lap.h5", dict(B=15e3), grid_n=64, friction=0.3)
     contact = pair.structure.patches[0].contact
-    body = model.Model(options.mesh, options)
+    body = model.Model(options.mesh, options.settings)
     body.prepare_modes()
     nodes = body.mesh.nodes
     one, two = (

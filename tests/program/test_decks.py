@@ -168,7 +168,7 @@ def test_a_step_that_takes_elements_away_is_no_load_case_nor_is_a_later_one(comp
 def test_supports_are_named_as_abaqus_names_them(tmp_path, held, says):
     written(tmp_path / "b.inp", bricks(), "*BOUNDARY", f"BOTTOM, {held}")
     words = ["--mesh", str(tmp_path / "b.inp"), "--fixed", "BOTTOM", *ALWAYS]
-    doubts = model.Model(words[1], command.arguments(words)).doubts
+    doubts = model.Model(words[1], command.arguments(words).settings).doubts
     assert len(doubts) == bool(says) and (not says or f"{says}, and --fixed in x, y and z" in doubts[0]), doubts
 
 

@@ -1,12 +1,12 @@
 """The packages in scripts/packaging, without their own tools: files, requirements, commands; the version anywhere."""
 
 import re
-import tomllib
 import subprocess
 import sys
 import types
 
 import pytest
+import tomllib
 import yaml
 
 import petsam

@@ -28,10 +28,11 @@ from ..core import isolation, words
 from ..core.errors import Error, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
+from ..core.units import shown
 from ..plot.of_surface import finite
 from ..plot.saving import write
 from ..surface import generation, levels, writing
-from ..surface.basics import QUANTITIES, shown
+from ..surface.basics import QUANTITIES
 from ..surface.doubts import doubts as doubts_of
 from ..surface.maps import combined, moments, new_map, peak_to_valley, rms_height, rms_slope
 from ..surface.reading import FORMATS, read

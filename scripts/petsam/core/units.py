@@ -61,3 +61,11 @@ def names(unit="m"):
     """The usual names of the units of a quantity, as a text for messages."""
     shown = {"m": ("m", "cm", "mm", "um", "nm", "pm", "angstrom", "in")}
     return ", ".join(shown.get(unit) or of(unit))
+
+
+def shown(value):
+    """A length (m) for a reader: 12.5 um."""
+    for name in ("mm", "um", "nm"):
+        if abs(value) >= of("m")[name]:
+            return f"{value / of('m')[name]:.4g} {name}"
+    return f"{value / 1e-9:.4g} nm" if value else "0"

@@ -11,6 +11,8 @@ import numpy as np
 from . import units
 from .errors import Error, short
 
+SIDES = "one or two lengths above 0, such as 1e-3 (m) or 1mm: X[,Y]"
+LARGEST_RATIO = 100.0  # of the two sides of a surface or a patch: beyond it, the comma was a decimal comma
 MOST = 10000  # numbers of a span
 
 
@@ -144,3 +146,12 @@ def names(text, form="names separated by commas", known=None):
 def positive(value):
     """Whether a number is above 0 and finite."""
     return 0.0 < value < math.inf
+
+
+def sides(text):
+    """One or two positive lengths, m: x and y."""
+    found = numbers(text, SIDES, "m", positive, count=(1, 2))
+    x, y = found[0], found[-1]
+    if max(x, y) > LARGEST_RATIO * min(x, y):
+        raise Error(f"{short(text)}: is {x:g} m x {y:g} m: decimals have a point, not a comma")
+    return x, y

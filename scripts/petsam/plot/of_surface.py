@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.ticker import FixedLocator, MaxNLocator
 from mpl_toolkits.axes_grid1 import make_axes_locatable
 
-from ..surface.basics import QUANTITIES, shown
+from ..core.units import shown
+from ..surface.basics import QUANTITIES
 from ..surface.maps import peak_to_valley, rms_height, rms_slope
 from .style import COLORS, STYLE, drawn, extent, field, note, plt
 from .units import label, largest, scale

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..core.errors import Error, counted
-from .basics import shown
+from ..core.units import shown
 
 NARROW = 6  # columns of a list of points: x, y, z, and up to three more
 LIST = 9  # rows from which on an array of so few columns is a list in any case

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..core.errors import Error
-from .basics import shown
+from ..core.units import shown
 
 KINDS = ("none", "mean", "tilt", "second-order", "sphere", "cylinder", "rows", "columns")
 TERMS = {

@@ -8,8 +8,9 @@ import numpy as np
 
 from ..core.errors import Error, counted
 from ..core.tables import Column, to_dataframe, write_csv
+from ..core.units import shown
 from . import filling, levels, resampling, spikes, writing
-from .basics import QUANTITIES, SAME, shown
+from .basics import QUANTITIES, SAME
 
 SMALLEST = 2  # points in x and y: petsam's smallest grid
 HIGHEST = 1e4  # values over the size, beyond which they are none of a surface

@@ -11,8 +11,9 @@ from ..core import units as unit_table
 from ..core.errors import Error, short
 from ..core.files import need_regular
 from ..core.hdf5 import DAMAGED
+from ..core.units import shown
 from . import words
-from .basics import SAME, shown
+from .basics import SAME
 from .doubts import of_cells
 from .maps import Map, new_map, turned
 from .readers import FORMATS, reader_of

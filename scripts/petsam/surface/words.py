@@ -5,9 +5,6 @@ import numpy as np
 from ..core import units, words
 from ..core.errors import Error
 
-LARGEST_RATIO = 100.0  # of the two sides of a surface: beyond it, the comma was a decimal comma
-SIDES = "one or two lengths above 0, such as 1e-3 (m) or 1mm: X[,Y]"
-
 
 def unit(given):
     """Metres of a unit: "um", "0.1mm", or a number; None for None."""
@@ -26,15 +23,8 @@ def sides(given):
     if given is None:
         return None
     if isinstance(given, str):
-        values = words.numbers(given, SIDES, "m", words.positive, (1, 2))
-    else:
-        values = [float(value) for value in np.atleast_1d(given)]
-        if len(values) > 2 or not all(map(words.positive, values)):
-            raise Error(f"{given}: expected {SIDES}")
-    x, y = values[0], values[-1]
-    if max(x, y) > LARGEST_RATIO * min(x, y):
-        raise Error(f"{given}: is {x:g} m x {y:g} m: decimals have a point, not a comma")
-    return x, y
+        return words.sides(given)
+    return words.sides(",".join(repr(float(value)) for value in np.atleast_1d(given)))
 
 
 def missing(given):
