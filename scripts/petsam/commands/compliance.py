@@ -47,7 +47,7 @@ from ..compliance.settings import (
     need_sense,
 )
 from ..compliance.units import UNITS
-from ..core import isolation, words
+from ..core import words
 from ..core.errors import Error, Useless, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
@@ -403,22 +403,18 @@ def carry_out(options, given):
     )
 
 
-def _child(options, given):
-    warnings.simplefilter("ignore")
-    try:
-        carry_out(options, given)
-    except (Error, OSError) as error:
-        return fail(PROGRAM, error)
+def _run():
+    given = sys.argv[1:]
+    options = arguments(given)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            carry_out(options, given)
+        except (Error, OSError) as error:
+            return fail(PROGRAM, error)
     return 0
 
 
 def main():
     """Returns the exit code: 0, 2 for bad usage, 3 for a file or a body that is rejected."""
-
-    def parent():
-        given = sys.argv[1:]
-        options = arguments(given)
-        (code,) = isolation.each(lambda _: _child(options, given), [None])
-        return fail(PROGRAM, code) if isinstance(code, Error) else code
-
-    return guarded(PROGRAM, parent)
+    return guarded(PROGRAM, _run)

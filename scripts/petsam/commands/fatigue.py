@@ -20,7 +20,7 @@ import warnings
 
 import numpy as np
 
-from ..core import isolation, words
+from ..core import words
 from ..core.errors import Error, short, there_are
 from ..core.files import need_replaceable, same
 from ..lives import evaluation, materials, spectrum, strength
@@ -211,21 +211,17 @@ def carry_out(options):
     _warn(found.cycles)
 
 
-def _child(options):
-    warnings.simplefilter("ignore")
-    try:
-        carry_out(options)
-    except (Error, OSError) as error:
-        return fail("petsam-fatigue", error)
+def _run():
+    options = arguments(sys.argv[1:])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            carry_out(options)
+        except (Error, OSError) as error:
+            return fail("petsam-fatigue", error)
     return 0
 
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data."""
-
-    def parent():
-        options = arguments(sys.argv[1:])
-        (code,) = isolation.each(lambda _: _child(options), [None])
-        return fail("petsam-fatigue", code) if isinstance(code, Error) else code
-
-    return guarded("petsam-fatigue", parent)
+    return guarded("petsam-fatigue", _run)

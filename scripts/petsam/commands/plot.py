@@ -29,7 +29,6 @@ study its folder's. An older picture of this name is replaced.
 import os
 import warnings
 
-from ..core import isolation
 from ..core.errors import FILE, USAGE, Error, Useless
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
@@ -230,25 +229,17 @@ def draw_all(options):
 
 
 def carry_out(options):
-    """The exit code; in a child, as all files are read here."""
-    warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
-    try:
-        draw_all(options)
-    except Error as error:
-        return fail("petsam-plot", error, USAGE if isinstance(error, Useless) else FILE)
+    """The exit code."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
+        try:
+            draw_all(options)
+        except Error as error:
+            return fail("petsam-plot", error, USAGE if isinstance(error, Useless) else FILE)
     return 0
 
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
 
-    def parent():
-        options = arguments.read(__doc__)
-
-        def child(_):
-            return guarded("petsam-plot", lambda: carry_out(options))
-
-        (code,) = isolation.each(child, [None])
-        return fail("petsam-plot", code) if isinstance(code, Error) else code
-
-    return guarded("petsam-plot", parent)
+    return guarded("petsam-plot", lambda: carry_out(arguments.read(__doc__)))

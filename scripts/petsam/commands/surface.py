@@ -24,7 +24,7 @@ from dataclasses import replace
 import numpy as np
 
 from .. import plot
-from ..core import isolation, words
+from ..core import words
 from ..core.errors import Error, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
@@ -386,22 +386,18 @@ def carry_out(options, words):
     print(f"options for petsam:\n  {gap}\nor, added to another gap:\n  {rough}")
 
 
-def _child(options, words):
-    warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
-    try:
-        carry_out(options, words)
-    except (Error, OSError) as error:
-        return fail("petsam-surface", error)
+def _run():
+    words = sys.argv[1:]
+    options = arguments(words)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
+        try:
+            carry_out(options, words)
+        except (Error, OSError) as error:
+            return fail("petsam-surface", error)
     return 0
 
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks information."""
-
-    def parent():
-        words = sys.argv[1:]
-        options = arguments(words)
-        (code,) = isolation.each(lambda _: _child(options, words), [None])
-        return fail("petsam-surface", code) if isinstance(code, Error) else code
-
-    return guarded("petsam-surface", parent)
+    return guarded("petsam-surface", _run)

@@ -16,7 +16,6 @@ NaN where there is no value; the attribute `options` holds those of all cases, a
 results file.
 """
 
-import functools
 import math
 import os
 import re
@@ -25,7 +24,6 @@ from typing import NamedTuple, Optional
 import h5py
 import numpy as np
 
-from ..core import isolation
 from ..core.errors import Error
 from ..core.hdf5 import DAMAGED, replacing
 from ..core.tables import Column, csv_text
@@ -160,8 +158,7 @@ def rows(directory, cases, figures=LAST):
     # a run that was killed may have left a damaged file
     paths = [os.path.join(directory, case.name) for case in ended]
     with_stress = any(case.stress for case in cases)
-    values = list(isolation.each(functools.partial(_of_case, figures=figures, with_stress=with_stress), paths))
-    values = [({}, None) if isinstance(one, Error) else one for one in values]
+    values = [_of_case(path, figures, with_stress) for path in paths]
     known_values = {case.name: one for case, (one, _) in zip(ended, values)}
     for case, known in records:
         if case.name in known_values and GROSS.match(known.get("message") or ""):
