@@ -114,7 +114,7 @@ def main(line):
     for seed, outcome in outcomes(module, given):
         found[seed] = outcome
         if outcome.fault or outcome.telling or given.show:
-            print(f"{'FAULT ' if outcome.fault else ''}seed {seed} {outcome.text}", flush=True)
+            print(f"{'FAULT ' if outcome.fault else ''}seed {seed}: {outcome.text}", flush=True)
         if given.log:
             add_line(given.log, kind=given.kind, seed=seed, fault=outcome.fault, text=outcome.text, **outcome.numbers)
     summary = module.summary({seed: outcome.numbers for seed, outcome in found.items() if outcome.numbers})

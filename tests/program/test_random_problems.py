@@ -63,15 +63,15 @@ RIGHT, WRONG = Outcome("right", False, dict(n=1)), Outcome("wrong", True, dict(n
 
 
 def test_faults_are_printed_and_the_end_is_1(run):
-    lines = ["FAULT seed 4 wrong", "found {3: {'n': 1}, 4: {'n': 2}}", "decks: 2 trials, 1 with a fault [4]"]
+    lines = ["FAULT seed 4: wrong", "found {3: {'n': 1}, 4: {'n': 2}}", "decks: 2 trials, 1 with a fault [4]"]
     assert run({3: RIGHT, 4: WRONG}, "--seed", "3") == (1, lines)
-    assert run({3: RIGHT, 4: WRONG}, "--seed", "3", "--show") == (1, ["seed 3 right", *lines])
+    assert run({3: RIGHT, 4: WRONG}, "--seed", "3", "--show") == (1, ["seed 3: right", *lines])
     assert run({3: RIGHT}, "--seed", "3", "--trials", "1")[0] == 0
 
 
 def test_kind_that_measures_has_no_faults(run):
     outcomes = {1: Outcome("far", None, {}, telling=True), 2: Outcome("near")}
-    assert run(outcomes) == (0, ["seed 1 far", "found {}", "decks: 2 trials"])
+    assert run(outcomes) == (0, ["seed 1: far", "found {}", "decks: 2 trials"])
 
 
 def test_rejected_problem_is_tried_with_another_seed(run):

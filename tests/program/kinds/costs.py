@@ -12,7 +12,7 @@ def outcome(properties, cost, wrong, line):
 
     cost: what its solution cost, by name, empty where there is none; wrong: its faults by name; line: its options.
     """
-    text = f"({', '.join(properties)}): " + ", ".join(f"{name} {value:.3g}" for name, value in cost.items())
+    text = f"{', '.join(properties or ['plain'])}: " + ", ".join(f"{name} {value:.3g}" for name, value in cost.items())
     if wrong:
         text += f" {wrong}\n    {line}"
     return Outcome(text, bool(wrong), dict(properties=properties, cost=cost, wrong=wrong))

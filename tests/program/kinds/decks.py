@@ -343,7 +343,7 @@ def trial(seed, folder, given=None):
         outcome, fault = judged(kind, compliance, said, exact)
     except Exception as error:  # what no user may see
         outcome, fault, said = "exception", True, f"{type(error).__name__}: {error}"
-    text = f"({kind.__name__}, {what}, {deck.encoding}, {deck.kind}): {outcome}: {said}".replace(str(folder), "")
+    text = f"{kind.__name__}, {what}, {deck.encoding}, {deck.kind}: {outcome}: {said}".replace(str(folder), "")
     return Outcome(text, fault, dict(kind_of_deck=kind.__name__, outcome=outcome))
 
 

@@ -147,7 +147,7 @@ def trial(seed, folder, given):
     """A campaign of kills."""
     tell = print if given.show else lambda _: None
     restarts = torture(conftest.launcher_words(), folder, given.kills, given.ranks, seed, given.case, tell)
-    text = f"({given.case}): {given.kills} kills, {restarts} runs went on from a checkpoint"
+    text = f"{given.case}: {given.kills} kills, {restarts} runs went on from a checkpoint"
     return Outcome(text, False, dict(restarts=restarts))
 
 

@@ -155,5 +155,5 @@ def trial(seed, folder, given):
 
 
 def summary(found):
-    worst = {key: max((one["errors"].get(key, 0.0) for one in found.values()), default=0.0) for key in LIMITS}
+    worst = {key: max([0.0, *(one["errors"].get(key, 0.0) for one in found.values())]) for key in LIMITS}
     return ["worst: " + ", ".join(f"{key} {value:.1e}" for key, value in worst.items()), codes_of(found)]

@@ -189,7 +189,7 @@ def trial(seed, folder, given):
     """What differs of the first pair that is not refused."""
     pair, codes, wrong, refused = first_pair(seed, folder)
     numbers = dict(pair=pair, code=codes[0], refused=len(refused))
-    return Outcome(f"({', '.join(pair)}): exit code {codes[0]} {wrong}", bool(wrong), numbers)
+    return Outcome(f"{', '.join(pair)}: exit code {codes[0]} {wrong}", bool(wrong), numbers)
 
 
 def summary(found):

@@ -232,7 +232,7 @@ def trial(seed, folder, given):
     )  # fmt: skip
     found = fault(scan, done, name)
     end = "rejected" if done.returncode else "warned" if "warning" in done.stderr else "right"
-    text = f"({make.__name__}): {found or end}: {' '.join(words)}\n    {done.stderr.strip()}".rstrip()
+    text = f"{make.__name__}: {found or end}: {' '.join(words)}\n    {done.stderr.strip()}".rstrip()
     return Outcome(text, bool(found), dict(end=end))
 
 

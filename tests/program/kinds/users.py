@@ -233,7 +233,7 @@ class Trial:
 
     def tell(self):
         p = self.problem
-        head = f"({p.name}, {'x'.join(map(str, p.cells))} cells, {p.steps} steps): "
+        head = f"{p.name}, {'x'.join(map(str, p.cells))} cells, {p.steps} steps: "
         if self.failure:
             return head + self.failure + (f"\n    {self.line}" if self.line else "")
         texts = sorted(self.errors.items(), key=lambda item: -item[1])[:4]

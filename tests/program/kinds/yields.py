@@ -237,7 +237,7 @@ def trial(seed, folder, given):
     """What is worst of all that is checked, each relative to what is allowed."""
     case, yields = random_problem(np.random.default_rng(seed), folder)
     code, _, line = solve(case, folder)
-    text = f"({case['elasticity']}, {case['grid_n']} cells, bodies {', '.join(map(str, yields))}): "
+    text = f"{case['elasticity']}, {case['grid_n']} cells, bodies {', '.join(map(str, yields))}: "
     if code != 0:
         fault = "yield/sqrt(3)" not in line
         return Outcome(f"{text}exit code {code}: {line}\n    {' '.join(support.words(case))}", fault, dict(code=code))
