@@ -1,6 +1,7 @@
 """Examination of an HDF5 file before it is opened.
 
-HDF5 follows the addresses in a file, and on a damaged one it may crash or never end. The program petsam-examine (src/front/examine) reads the file first, as the C library has it do.
+HDF5 follows the addresses in a file, and on a damaged one it may crash or never end. The program petsam-examine
+(src/front/examine) reads the file first, as the C library has it do.
 
 Without the program, as where the package alone is installed, files are opened without an examination.
 """
@@ -62,7 +63,7 @@ def _ends(program, path):
 
 
 def need_readable(path: str) -> None:
-    """Raises Damaged if HDF5 cannot read the structure of an existing file, which is read once in each of its states."""
+    """Raises Damaged if HDF5 cannot read the structure of an existing file; it is read once in each of its states."""
     now = _state(path)
     name = os.path.abspath(path)
     if now is None:
