@@ -1,7 +1,7 @@
 /*
   Rolling: generalised conjugate residuals with kept directions and a sweep along the stream.
 
-  Problem: the shear q on the discs |q| <= b whose slip velocity s = A q + offset - creepage (elasticity/rolling.c) is
+  Problem: the shear q on the discs |q| <= b whose slip velocity s = A q + offset - creepage (elasticity/steadyoperator.c) is
   zero where |q| < b and opposite to q where |q| = b, for given creepages or loads, or some of each. A is positive, but
   not symmetric: there is one solution and no energy, so no conjugate gradients and no descent.
 
