@@ -3,7 +3,7 @@
 
   Problem: the shear q on the discs |q| <= b whose slip velocity s = A q + offset - creepage
   (elasticity/steadyoperator.c) is zero where |q| < b and opposite to q where |q| = b, for given creepages or loads,
-  or some of each. A is positive, but  not symmetric: there is one solution and no energy, so no conjugate gradients
+  or some of each. A is positive, but not symmetric: there is one solution and no energy, so no conjugate gradients
   and no descent.
 
   Algorithm, in units in which a cell's influence on itself is 1; an iteration takes one product:
