@@ -14,13 +14,13 @@
 */
 typedef struct _n_SamLaw *SamLaw;
 typedef const char       *SamLawType;
-#define SAM_LAW_COULOMB           "coulomb"           /* shear up to a coefficient times the pressure */
-#define SAM_LAW_BULK_STRESS       "bulk_stress"       /* a uniform stress stretches a body (law/bulk.c) */
-#define SAM_LAW_BODIES            "bodies"            /* stored fields of bodies, and their load cases (law/bodies.c) */
-#define SAM_LAW_SLIP_DEPENDENT    "slip_dependent"    /* friction changes with accumulated slip (changingfriction.c) */
+#define SAM_LAW_COULOMB           "coulomb"        /* shear up to a coefficient times the pressure */
+#define SAM_LAW_BULK_STRESS       "bulk_stress"    /* a uniform stress stretches a body (laws/bulk.c) */
+#define SAM_LAW_BODIES            "bodies"         /* stored fields of bodies, and their load cases (laws/bodies.c) */
+#define SAM_LAW_SLIP_DEPENDENT    "slip_dependent" /* friction changes with accumulated slip (changingfriction.c) */
 #define SAM_LAW_PRESSURE_FRICTION "pressure_friction" /* friction changes with the pressure */
 #define SAM_LAW_FALLING_FRICTION  "falling_friction"  /* friction changes with the slip velocity in rolling */
-#define SAM_LAW_SLIDE             "slide"             /* the surfaces move past each other (law/slide.c) */
+#define SAM_LAW_SLIDE             "slide"             /* the surfaces move past each other (laws/slide.c) */
 #define SAM_LAW_ARCHARD           "archard"           /* wear in proportion to pressure and slip (wear.h) */
 #define SAM_LAW_ENERGY            "energy"            /* wear in proportion to the frictional work (wear.h) */
 #define SAM_LAW_HARDNESS          "hardness"          /* pressure up to a limit, at which the surfaces yield */

@@ -20,7 +20,6 @@ typedef struct {
 typedef struct {
   PetscInt     count;
   SamParameter list[SAM_PARAMETERS];
-  const char  *free;       /* prefix of names of parameters that may differ even if fixed; NULL: none */
   PetscBool    in_process; /* true: of a contact in process, whose files no program can continue */
 } SamParameters;
 

@@ -30,7 +30,7 @@ struct _n_SamContact {
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
   PetscInt         aside;                          /* field `aside` of the last step that needed it */
   PetscInt         time, solution, apart, creeps, control, residuals, counts, status, window, slip,
-    steps;                                    /* numbers, see memory.c */
+    steps;                                    /* numbers, see generations.c */
   PetscInt         rolling;                   /* numbers that only motions with streaming material have */
   PetscInt         condition[SAM_CONDITIONS]; /* numbers, by the places of conditions */
   PetscObjectState declared;                  /* revision of the laws when they were declared; 0: not yet */

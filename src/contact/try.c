@@ -223,7 +223,7 @@ PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
 
 /*
   Finds out whether the tried step has the committed pressure: same normal control, same separation, and no shear that
-  acts on it. Yielding of the surfaces under this pressure does not matter (law/hardness.c).
+  acts on it. Yielding of the surfaces under this pressure does not matter (laws/hardness.c).
 */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {

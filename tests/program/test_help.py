@@ -130,7 +130,7 @@ def test_beginning_of_two_topics_is_refused(petsam):
             + [f"-body1_{name}" for name in ("yield", "hardening", "hardening_modulus", "voce_stress", "voce_rate")]
             + [f"-body1_{name}" for name in ("swift_strain", "swift_exponent", "backstress")],
         ),
-        ("restart", ["-restart", "-restart_gap"]),
+        ("restart", ["-restart"]),
         ("fft", ["-fft_effort", "-fft_exchange"]),
     ],
 )

@@ -40,21 +40,3 @@ def test_quiet_run_that_leaves_nothing_is_told(petsam):
     assert said.endswith("warning: -quiet is given without -output: the run leaves no result: give -output")
     for more in ["-output", "r.h5"], ["-dry_run"]:
         assert petsam(SPHERE, "-quiet", *more).stderr == ""
-
-
-def test_option_that_is_given_twice_is_told(petsam, tmp_path):
-    """With both values, of which the last one counts; the same value twice, or one of a file replaced, is fine."""
-    (tmp_path / "a.opts").write_text("-steps 1\n-grid_center 0\n-steps 2\n")
-    (tmp_path / "b.opts").write_text("-options_file c.opts\n-steps 2\n")
-    (tmp_path / "c.opts").write_text("-steps 1\n")
-    said = told(petsam, SPHERE, "-steps", "1", "-steps", "2", code=0)
-    assert said.endswith("warning: -steps 2 is given after -steps 1, and replaces it: remove one of them")
-    said = told(petsam, SPHERE, "-options_file", "a.opts", code=0)
-    one, other = ("-options_file a.opts, line " + line for line in ("3: -steps 2", "1: -steps 1"))
-    assert f"warning: {one} is given after {other}, and replaces it" in said
-    for words in (
-        ["-steps", "1", "-steps", "1"],
-        ["-options_file", "c.opts", "-steps", "2"],
-        ["-options_file", "b.opts"],
-    ):
-        assert petsam(SPHERE, *words).stderr == ""

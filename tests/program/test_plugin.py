@@ -86,10 +86,10 @@ def test_law_is_in_results_checkpoint_and_restart_with_the_same_bits_on_any_numb
         petsam(*case, dict(output=f"on{ranks}.h5", restart=f"state{ranks}.h5.1"), ranks=ranks)
         found.append(bits(tmp_path / f"whole{ranks}.h5"))
         on = bits(tmp_path / f"on{ranks}.h5")
-        with h5py.File(tmp_path / f"on{ranks}.h5") as branch, h5py.File(tmp_path / f"whole{ranks}.h5") as file:
-            assert branch["fading_path"].shape[0] == 3 and file["fading_path"].attrs["units"] == "m"
+        with h5py.File(tmp_path / f"on{ranks}.h5") as rest, h5py.File(tmp_path / f"whole{ranks}.h5") as file:
+            assert rest["fading_path"].shape[0] == 3 and file["fading_path"].attrs["units"] == "m"
             for name in ("pressure", "shear_x", "fading_path"):
-                assert branch[name][:].tobytes() == file[name][3:].tobytes()
+                assert rest[name][:].tobytes() == file[name][3:].tobytes()
         assert on["load_tx"] in found[-1]["load_tx"]
     assert found[0] == found[1]
     with h5py.File(tmp_path / "whole1.h5") as file:

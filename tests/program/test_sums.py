@@ -73,22 +73,22 @@ def test_sums_are_over_all_steps_saved_or_not(folder, petsam, ranks):
 
 @pytest.mark.parametrize("before, after", [(1, 1), (2, 3)])
 def test_sums_go_on_after_a_restart(folder, petsam, before, after):
-    """To the last bit; also in a branch."""
+    """To the last bit; also under another name of the results."""
     kept = dict(checkpoint="state.h5", checkpoint_every=6)
     petsam(CASE, SUMS, dict(output="whole.h5"))
     petsam(CASE, SUMS, kept, ranks=before)
     petsam(CASE, SUMS, dict(restart="state.h5"), ranks=after)
     assert not differences(folder / "out.h5", folder / "whole.h5")
-    petsam(CASE, SUMS, dict(restart="state.h5.1", output="branch.h5"), ranks=after)
-    for found, known in zip(sums(folder / "branch.h5"), sums(folder / "whole.h5")):
+    petsam(CASE, SUMS, dict(restart="state.h5.1", output="rest.h5"), ranks=after)
+    for found, known in zip(sums(folder / "rest.h5"), sums(folder / "whole.h5")):
         assert np.array_equal(found, known[6:])
 
 
 def test_sums_cannot_begin_in_the_middle(folder, petsam):
     petsam(CASE, dict(output_fields="pressure", checkpoint="state.h5", checkpoint_every=6))
-    done = petsam(CASE, SUMS, dict(restart="state.h5", output="branch.h5"), check=2)
+    done = petsam(CASE, SUMS, dict(restart="state.h5", output="rest.h5"), check=2)
     assert "-restart state.h5" in done.complaint[0] and "it lacks friction_energy" in done.complaint[0]
-    assert not (folder / "branch.h5").exists()
+    assert not (folder / "rest.h5").exists()
 
 
 def test_sums_are_kept_only_where_they_are_asked_for(folder, petsam):
@@ -122,13 +122,13 @@ def test_sums_of_a_life_are_those_of_its_cycles(tmp_path, petsam, ranks):
 def test_sums_of_a_life_go_on_after_a_restart(tmp_path, petsam):
     life = dict(cycle(tmp_path / "cycle.csv"), wear_coefficient2=1e-14, wear_cycles=1e5, **SUMS)
     petsam(BALL, life, dict(output="whole.h5", checkpoint="state.h5", checkpoint_every=1))
-    petsam(BALL, life, dict(output="branch.h5", restart="state.h5.1"))
-    with h5py.File(tmp_path / "branch.h5") as one, h5py.File(tmp_path / "whole.h5") as two:
+    petsam(BALL, life, dict(output="rest.h5", restart="state.h5.1"))
+    with h5py.File(tmp_path / "rest.h5") as one, h5py.File(tmp_path / "whole.h5") as two:
         rows = len(one["wear/cycle"])
         assert 0 < rows < len(two["wear/cycle"])
         for name in ("cycle", "volume2", "error"):
             assert np.array_equal(one[f"wear/{name}"][:], two[f"wear/{name}"][-rows:])
-        assert one.attrs["branch_cycles"] > 0
+        assert one.attrs["branch_rows"] > 0
         for name in ("slip_path", "friction_energy"):
             assert np.array_equal(one[name][-1], two[name][-1])
 

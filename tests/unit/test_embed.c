@@ -133,7 +133,7 @@ static void test_wrong_options_are_named(void **state)
   Refuses(OPTIONS " -python here", 2, "-python");
   Refuses(OPTIONS " -help", 2, "-help");
   Refuses(OPTIONS " -log_view", 2, "-log_view");
-  Refuses(OPTIONS " -gap_rough_file \"a.h5", 2, "quotation mark");
+  Refuses(OPTIONS " -gap_rough_file \"a.h5", 3, "a.h5");
   Refuses(OPTIONS " -options_file", 2, "-options_file has no value");
   Refuses(OPTIONS "\n-frictoin\t0.2\n", 2, "-frictoin 0.2: unknown option");
   sam_assert(petsam_create((int)MPI_Comm_c2f(MPI_COMM_NULL), OPTIONS, &c) == 2 && Says(NULL, "no communicator"));

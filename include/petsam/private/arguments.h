@@ -9,8 +9,6 @@
 /* SamArgument - a given option. */
 typedef struct {
   char *name, *place; /* without dash; in a file "file, line n: ", else "" */
-  char *value;        /* "": none */
-  int   source;       /* number of its source: the same for all options of one file, or of one text */
 } SamArgument;
 
 typedef struct _n_SamArguments {
@@ -21,8 +19,7 @@ typedef struct _n_SamArguments {
   char          *files[SAM_ARGUMENTS_FILES];
   int            count; /* number of options files, which must not be overwritten; only on rank 0 */
   SamArgument   *given; /* options, only on rank 0 */
-  int            givens, sources;
-  char           warning[512]; /* warning of a probable mistake, only on rank 0; "": none */
+  int            givens;
 } SamArguments;
 
 /*

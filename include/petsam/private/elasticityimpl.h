@@ -51,8 +51,8 @@ typedef struct {
   PetscErrorCode (*applytangentialtonormal)(SamElasticity, const double *const q[], double *const u_z[]);
   /*
     Methods for stored fields of bodies, and for displacements of their surfaces besides those by the tractions of the
-    step. The law of bodies (law/bodies.c) calls these methods of each object, outer objects first; they correspond to a
-    law's methods of the same names (lawimpl.h). A type with begin() may have other products, preconditioners and
+    step. The law of bodies (laws/bodies.c) calls these methods of each object, outer objects first; they correspond to
+    a law's methods of the same names (lawimpl.h). A type with begin() may have other products, preconditioners and
     self-influences in each step; its coarse grids and parts must follow. Tractions are those of the solved step.
   */
   PetscErrorCode (*conditions)(SamElasticity, SamConditions);

@@ -43,8 +43,6 @@ typedef struct {
   char        when[PETSC_MAX_PATH_LEN + 256]; /* times at which checkpoints are written, in words; empty: never */
   const char *restart;                        /* checkpoint from which the run continues; NULL: none */
   char        after[64];                      /* position of that checkpoint, in words */
-  PetscBool   branch, gap;                    /* true: the results begin at the restart; true: the gap is another one */
-  char        followed[PETSC_MAX_PATH_LEN];   /* results file before a branch; empty: none */
 } SamSimulationStart;
 
 /*

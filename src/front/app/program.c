@@ -165,7 +165,6 @@ static PetscErrorCode Run(void)
     PetscCall(SamProgramHelp(program, &arguments));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (arguments.warning[0]) SamPrintMessage(program->name, "warning: %s", arguments.warning);
   WarnOfCopies();
   PetscCall(program->setup(program->context, &arguments));
   PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD, &arguments));

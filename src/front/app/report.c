@@ -106,10 +106,6 @@ static PetscErrorCode PrintRestart(SamReport r, const SamSimulationStart *s)
   PetscFunctionBegin;
   if (!s->restart) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(r->comm, "  %-10s  after %s, from %s\n", "restart", s->after, s->restart));
-  if (!s->branch) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(r->comm, "  %-10s  the results begin after %s%s%s%s\n", "branch", s->after,
-                        s->followed[0] ? ", of " : "", s->followed,
-                        s->gap ? ", with another gap and the accumulated slip" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -66,17 +66,11 @@ static PetscBool IsNamed(const char word[], const char names[])
 
 static void ExamineFile(SamArguments *a, const char where[], const char file[], int depth);
 
-/* Examines the name of an option; `where` is its place with a colon, or "". */
-static void ExamineName(SamArguments *a, const char where[], const char option[])
+/* Examines an option and its value: the next word, or NULL; `where` is its place with a colon, or "". */
+static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
 {
   if (IsNamed(option, refused))
     Complain(a, SAM_ERR_USER, "%s%s: petsam does not support it here: remove it", where, option);
-}
-
-/* Examines an option and its value: the next word, or NULL. */
-static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
-{
-  ExamineName(a, where, option);
   if (!IsNamed(option, "-options_file")) return;
   if (!value || !value[0])
     Complain(a, SAM_ERR_USER, "%s-options_file has no value: expected the name of a file", where);
@@ -106,65 +100,39 @@ static int Split(char text[], char *words[], int most)
   return count;
 }
 
-/* Rejects a word where an option is expected; `before`: the previous option, with the value `value`; NULL: none. */
-static void RefuseWord(SamArguments *a, const char where[], const char word[], const char before[], const char value[])
+/* Rejects a word where an option is expected: PETSc would ignore it. */
+static void CheckWord(SamArguments *a, const char where[], const char word[])
 {
-  Complain(a, SAM_ERR_USER, "%s%.160s: expected an option: it begins with a dash%s%.60s%s%.40s%s", where, word,
-           value ? "; " : "", value ? before : "", value ? " " : "", value ? value : "",
-           value ? " already has its value" : "");
+  if (!IsOption(word)) Complain(a, SAM_ERR_USER, "%s%.160s: expected an option: it begins with a dash", where, word);
 }
 
-/*
-  Warns of an option that one source gives twice with different values, of which PETSc takes the last one. A command
-  line may replace the values of a file, and a file those of a file that it includes.
-*/
-static void WarnOfReplaced(SamArguments *a, const SamArgument *now)
-{
-  for (int k = a->givens - 1; k >= 0 && !a->warning[0]; k--) {
-    const SamArgument *before = &a->given[k];
-
-    if (before->source != now->source || strcasecmp(before->name, now->name)) continue;
-    if (!strcmp(before->value, now->value) || !strcasecmp(now->name, "options_file")) return;
-    (void)snprintf(a->warning, sizeof(a->warning),
-                   "%s-%.60s %.60s is given after %s-%.60s %.60s, and replaces it: "
-                   "remove one of them",
-                   now->place, now->name, now->value, before->place, before->name, before->value);
-  }
-}
-
-/* Keeps an option, its place, and its value; NULL: none. */
-static void Keep(SamArguments *a, const char option[], const char where[], const char value[], int source)
+/* Keeps an option and its place. */
+static void Keep(SamArguments *a, const char option[], const char where[])
 {
   SamArgument *more = (SamArgument *)realloc(a->given, (size_t)(a->givens + 1) * sizeof(*more));
-  SamArgument  one  = {strdup(option), strdup(where), strdup(value ? value : ""), source};
+  SamArgument  one  = {strdup(option), strdup(where)};
 
   if (!more) return;
-  a->given = more;
-  WarnOfReplaced(a, &one);
+  a->given          = more;
   more[a->givens++] = one;
 }
 
 static void ExamineWords(SamArguments *a, const char where[], int count, char **words)
 {
-  const char *before = NULL, *value = NULL;
-  const int   source = ++a->sources;
-
   for (int k = 0; k < count; k++) {
-    const PetscBool valued = k + 1 < count && !IsOption(words[k + 1]);
+    const char *option = words[k], *value = k + 1 < count && !IsOption(words[k + 1]) ? words[k + 1] : NULL;
 
-    if (!IsOption(words[k])) RefuseWord(a, where, words[k], before, value);
-    before = words[k];
-    value  = valued ? words[k + 1] : NULL;
-    Keep(a, before + 1, "", value, source);
-    ExamineOption(a, where, before, value, 0);
-    k += valued;
+    CheckWord(a, where, option);
+    Keep(a, option + 1, "");
+    ExamineOption(a, where, option, value, 0);
+    if (value) k++;
   }
 }
 
 /* ---- files ---- */
 
-/* Examines a line of an options file: an option and its value, a comment, or an alias. */
-static void ExamineLine(SamArguments *a, const char where[], char line[], int depth, int source)
+/* Examines a line of an options file: an option and its value, or a comment. */
+static void ExamineLine(SamArguments *a, const char where[], char line[], int depth)
 {
   char *words[3];
   int   count = Split(line, words, 3);
@@ -172,31 +140,24 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
   for (int k = count; k-- > 0;)
     if (words[k][0] == '#') count = k; /* the rest is a comment */
   if (!count || strchr("!%", words[0][0])) return;
-  if (!strcmp(words[0], "alias")) {
-    if (count > 2) ExamineName(a, where, words[2]);
-    return;
-  }
-  if (!IsOption(words[0])) RefuseWord(a, where, words[0], NULL, NULL);
-  Keep(a, words[0] + 1, where, count > 1 ? words[1] : NULL, source);
+  CheckWord(a, where, words[0]);
+  Keep(a, words[0] + 1, where);
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
 
 static void ExamineLines(SamArguments *a, const char where[], const char name[], FILE *file, int depth)
 {
-  char     *line = NULL;
-  size_t    size = 0;
-  ssize_t   length;
-  const int source = ++a->sources;
+  char   *line = NULL;
+  size_t  size = 0;
+  ssize_t length;
 
   for (long number = 1; !a->code && (length = getline(&line, &size, file)) >= 0; number++) {
     char place[600];
 
     (void)snprintf(place, sizeof(place), "%s%s, line %ld: ", where, name, number);
-    if (number == 1 && !strncmp(line, "\xef\xbb\xbf", 3))
-      Complain(a, SAM_ERR_USER, "%sbegins with a byte-order mark: save it as UTF-8 without one", place);
     if (memchr(line, '\0', (size_t)length))
       Complain(a, SAM_ERR_USER, "%sa byte of value 0: an options file is plain text: save it as UTF-8", place);
-    ExamineLine(a, place, line, depth, source);
+    ExamineLine(a, place, line, depth);
   }
   free(line);
 }
@@ -240,15 +201,6 @@ static void SeparateEnvironment(void)
   free(text);
 }
 
-/* True if a text ends within quotes. */
-static PetscBool IsOpen(const char text[])
-{
-  int quotes = 0;
-
-  for (; *text; text++) quotes += *text == '"';
-  return quotes % 2 != 0;
-}
-
 /* Examines the words of a text; NULL: no text. */
 static void ExamineText(SamArguments *a, const char where[], const char text[])
 {
@@ -256,7 +208,6 @@ static void ExamineText(SamArguments *a, const char where[], const char text[])
   char        *copy  = text ? strdup(text) : NULL;
   char       **words = most ? (char **)malloc(most * sizeof(*words)) : NULL;
 
-  if (copy && IsOpen(copy)) Complain(a, SAM_ERR_USER, "%sa quotation mark is not closed", where);
   if (copy && words) ExamineWords(a, where, Split(copy, words, (int)most), words);
   free(words);
   free(copy);
@@ -346,7 +297,6 @@ void SamArgumentsFree(SamArguments *a)
   for (int k = 0; k < a->givens; k++) {
     free(a->given[k].name);
     free(a->given[k].place);
-    free(a->given[k].value);
   }
   free(a->given);
   a->given = NULL;

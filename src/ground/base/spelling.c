@@ -6,7 +6,6 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/base.h>
 #include <ctype.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <strings.h>
 
@@ -19,53 +18,18 @@ static PetscInt knowns = 0;
 /* Options that PETSc reads; their names are suggested, too */
 static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
 
-/* Names in use in other programs and textbooks, separated by spaces, and the option that they mean */
-static const struct {
-  const char *tried, *name;
-} habits[] = {{"mu cof friction_coefficient", "friction"},
-              {"e1 young1 young e", "body1_young"},
-              {"e2 young2", "body2_young"},
-              {"poisson nu nu1 poisson1", "body1_poisson"},
-              {"nu2 poisson2", "body2_poisson"},
-              {"radius r radius1 r1", "gap_radius1"},
-              {"radius2 r2", "gap_radius2"},
-              {"shape", "gap_type"},
-              {"normal_load normal_force force load load_z", "load_n"},
-              {"load_x", "load_tx"},
-              {"load_y", "load_ty"},
-              {"disp_n", "disp_z"},
-              {"n grid cells", "grid_n"},
-              {"size", "grid_size"},
-              {"o out output_file", "output"},
-              {"i", "input"},
-              {"options file", "options_file"},
-              /* names before the release of version 1.0.0 */
-              {"plastic_depth", "yield_depth"},
-              {"plastic_layers", "yield_layers"},
-              {"plastic_first", "yield_first"},
-              {"plastic_rtol", "yield_rtol"},
-              {"body1_layer_stress", "body1_initial_stress"},
-              {"body2_layer_stress", "body2_initial_stress"}};
+/* Options that have another name since version 1.0.0 */
+static const char *const renamed[][2] = {{"plastic_depth", "yield_depth"},
+                                         {"plastic_layers", "yield_layers"},
+                                         {"plastic_first", "yield_first"},
+                                         {"plastic_rtol", "yield_rtol"},
+                                         {"body1_layer_stress", "body1_initial_stress"},
+                                         {"body2_layer_stress", "body2_initial_stress"}};
 
 /* PETSc ignores the case of letters in names; a dash within a name is a likely slip. */
 static char Plain(char c)
 {
   return c == '-' ? '_' : (char)tolower((unsigned char)c);
-}
-
-/* Returns the option that such a name means; NULL: it means none. */
-static const char *FindHabit(const char name[])
-{
-  for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
-    for (const char *word = habits[h].tried; *word; word += strspn(word, " ")) {
-      const size_t length = strcspn(word, " ");
-      size_t       k      = 0;
-
-      while (k < length && name[k] && Plain(name[k]) == word[k]) k++;
-      if (k == length && strchr("=", name[k])) return habits[h].name;
-      word += length;
-    }
-  return NULL;
 }
 
 /* Returns the length of a name up to an equals sign and a value after it, which other programs allow. */
@@ -109,11 +73,9 @@ static PetscBool IsNear(const char tried[], const char name[])
 
 const char *SamNearestName(const char tried[], size_t count, const char *const names[])
 {
-  const char *nearest = NULL, *habit = FindHabit(tried);
-  size_t      least = 2 * LENGTH;
+  const char *nearest = NULL;
+  size_t      least   = 2 * LENGTH;
 
-  for (size_t k = 0; k < count && habit; k++)
-    if (!strcmp(habit, names[k])) return names[k];
   for (size_t k = 0; k < count; k++) {
     const size_t slips = CountSlips(tried, names[k]);
 
@@ -157,10 +119,11 @@ PetscBool SamOptionsIsKnown(const char name[], const char **with)
 
 const char *SamOptionsNearest(const char tried[])
 {
-  const char *names[MOST + sizeof(petsc) / sizeof(petsc[0])], *habit = FindHabit(tried);
+  const char *names[MOST + sizeof(petsc) / sizeof(petsc[0])];
   size_t      count = 0;
 
-  if (habit) return habit;
+  for (size_t k = 0; k < sizeof(renamed) / sizeof(renamed[0]); k++)
+    if (!strcasecmp(tried, renamed[k][0])) return renamed[k][1];
   for (PetscInt k = 0; k < knowns; k++) names[count++] = known[k];
   for (size_t k = 0; k < sizeof(petsc) / sizeof(petsc[0]); k++) names[count++] = petsc[k];
   return SamNearestName(tried, count, names);
@@ -175,12 +138,8 @@ static PetscErrorCode FindMisspelled(const char name[], char found[], size_t siz
   PetscFunctionBegin;
   found[0] = '\0';
   PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
-  for (PetscInt k = 0; k < count && !found[0]; k++) {
-    const char *habit = FindHabit(names[k]);
-
-    if ((habit && !strcmp(habit, name)) || (IsNear(names[k], name) && !SamOptionsIsKnown(names[k], NULL)))
-      (void)snprintf(found, size, "%s", names[k]);
-  }
+  for (PetscInt k = 0; k < count && !found[0]; k++)
+    if (IsNear(names[k], name) && !SamOptionsIsKnown(names[k], NULL)) (void)snprintf(found, size, "%s", names[k]);
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -221,33 +180,13 @@ static const char *FindBehind(const char text[])
   return end;
 }
 
-/* Returns why a number, or one of a list, is not read although its digits are fine; NULL: there is no such reason. */
-static const char *ExplainDigits(const char text[])
-{
-  for (const char *next = text; next; next = strchr(next, ',')) {
-    const char *sign = next += *next == ',';
-    char       *end;
-    double      value;
-
-    sign += strspn(sign, "+- ");
-    if (sign[0] == '0' && (sign[1] == 'x' || sign[1] == 'X')) return "; write hexadecimal numbers as decimal ones";
-    errno = 0;
-    value = strtod(next, &end);
-    if (end != next && errno == ERANGE && (isinf(value) || value == 0))
-      return "; numbers other than 0 are from 4.9e-324 to 1.7e308 in size";
-  }
-  return NULL;
-}
-
 void SamExplainNumber(const char text[], const char unit[], char why[], size_t size)
 {
-  const char *rest = FindBehind(text), *digits = ExplainDigits(text);
-  size_t      used;
+  const char *rest = FindBehind(text);
   char        units[64];
 
   SamListUnits(unit, units, sizeof(units));
   why[0] = '\0';
-  if (rest && *rest == '%') (void)snprintf(why, size, "; a fraction is meant, not percent: 0.3, not 30");
   if (rest && (isalpha((unsigned char)*rest) || isalpha((unsigned char)text[strlen(text) - 1])))
     (void)snprintf(why, size,
                    units[0] ? "; the units allowed, behind each number: %s"
@@ -256,6 +195,4 @@ void SamExplainNumber(const char text[], const char unit[], char why[], size_t s
   for (rest = text; *rest; rest++) /* at any place, as in 2.6e-3,2,6e-3 */
     if ((rest == text || rest[-1] == ',') && SamIsDecimalComma(rest))
       (void)snprintf(why, size, "; numbers have a decimal point, not a comma");
-  used = strlen(why);
-  if (digits) (void)snprintf(why + used, size - used, "%s", digits);
 }

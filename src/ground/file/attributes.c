@@ -70,11 +70,6 @@ static PetscBool Same(const SamParameter *a, const SamParameter *b)
   return strcmp(a->text, b->text) ? PETSC_FALSE : PETSC_TRUE;
 }
 
-static PetscBool IsFree(const SamParameters *parameters, const char name[])
-{
-  return parameters->free && !strncmp(name, parameters->free, strlen(parameters->free));
-}
-
 /* True if the file's value of a parameter was given by the user: inf and 0 also mean that none was given. */
 static PetscErrorCode IsGivenThere(SamFile f, const char name[], PetscBool *given)
 {
@@ -108,7 +103,7 @@ static PetscErrorCode FindOther(SamFile f, const SamParameters *parameters, char
   SamFileReadTextAttribute(f, f->id, NAMES, &names);
   PetscCall(PetscStrToArray(names ? names : "", ',', &count, &list));
   for (int k = 0; k < count && !given; k++) {
-    if (IsFree(parameters, list[k]) || SamParametersFind(parameters, list[k])) continue;
+    if (SamParametersFind(parameters, list[k])) continue;
     PetscCall(IsGivenThere(f, list[k], &given));
     if (given || !*found) (void)snprintf(message, size, "-%s is given there, and not here", list[k]);
     *found = PETSC_TRUE;
@@ -127,7 +122,7 @@ PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char m
     SamParameter              there;
     char                      text[2][sizeof(now->text)];
 
-    if (!now->fixed || IsFree(parameters, now->name)) continue;
+    if (!now->fixed) continue;
     if (SamFileNote(f, H5Aexists(f->id, now->name)) <= 0) {
       (void)snprintf(message, size, "-%s is not given there", now->name);
       return PETSC_TRUE;

@@ -1,4 +1,4 @@
-/* The results of a simulation: a new file, the next part, or a branch; and the expected size of the file. */
+/* The results of a simulation: a new file, or the next part; and the expected size of the file. */
 #include "simulationimpl.h"
 #include <petsam/private/file.h>
 #include <petsam/private/parts.h>
@@ -56,46 +56,19 @@ static PetscErrorCode Continue(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates a file with separate results, which names the results that they follow. */
-static PetscErrorCode Branch(SamSimulation s)
-{
-  SamSimulationPoint *p = &s->point;
-  SamLifeState        life;
-
-  PetscFunctionBegin;
-  p->part = 1;
-  PetscCall(Follow(s, 0));
-  PetscCall(SamOutputSetText(s->output, "branch_checkpoint", s->checkpoints.restart));
-  PetscCall(SamOutputSetText(s->output, "branch_results", p->results[0] ? p->results : "none"));
-  PetscCall(SamOutputSetText(s->output, "branch_gap", s->checkpoints.other_gap ? "of this run" : "as before"));
-  s->start.branch = PETSC_TRUE;
-  s->start.gap    = s->checkpoints.other_gap;
-  PetscCall(PetscStrncpy(s->start.followed, p->results, sizeof(s->start.followed)));
-  if (!s->life) PetscFunctionReturn(PETSC_SUCCESS);
-  life = SamLifeGetState(s->life);
-  PetscCall(SamOutputSetReals(s->output, "branch_cycles", 1, &life.cycles));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationOpenResults(SamSimulation s)
 {
-  double bytes;
+  const PetscBool restarted = s->checkpoints.restart[0] != '\0';
+  double          bytes     = -1;
 
   PetscFunctionBegin;
-  if (s->checkpoints.restart[0]) {
-    PetscCall(SamFileGetBytes(s->comm, s->filename, &bytes));
-    PetscCheck(
-      bytes < 0 || !s->checkpoints.other_gap, s->comm, SAM_ERR_USER,
-      "-output %s: is there, and results with another gap (-restart_gap) need a file of their own: give another "
-      "name",
-      s->filename);
-    if (bytes < 0 && strcmp(s->filename, s->point.results))
-      PetscCall(Branch(s));
-    else /* it is an error if the stopped run's own file is missing */
-      PetscCall(Continue(s));
+  if (restarted) PetscCall(SamFileGetBytes(s->comm, s->filename, &bytes));
+  /* it is an error if the stopped run's own file is missing */
+  if (restarted && (bytes >= 0 || !strcmp(s->filename, s->point.results))) {
+    PetscCall(Continue(s));
   } else {
     s->point.part = 1;
-    PetscCall(Create(s));
+    PetscCall(restarted ? Follow(s, 0) : Create(s));
   }
   PetscCall(PetscStrncpy(s->point.results, s->filename, sizeof(s->point.results)));
   PetscFunctionReturn(PETSC_SUCCESS);

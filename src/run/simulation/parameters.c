@@ -53,6 +53,5 @@ PetscErrorCode SamSimulationCollectParameters(SamSimulation s)
   PetscCall(AddLoads(&s->parameters, s->history, s->conditions));
   PetscCall(AddLife(&s->parameters, &s->plan));
   if (s->step_rtol > 0) PetscCall(SamParametersAddReals(&s->parameters, "step_rtol", PETSC_FALSE, 1, &s->step_rtol));
-  s->parameters.free = s->checkpoints.other_gap ? "gap_" : NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -25,7 +25,6 @@ typedef struct {
 typedef struct {
   /* what the user set */
   char      filename[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
-  PetscBool other_gap;    /* another one than in the checkpoint of -restart */
   PetscBool overwrite;    /* a new run may replace the checkpoint of an earlier one */
   PetscInt  every;        /* load steps, 0: never */
   char      duration[64]; /* of the run, in the given form; empty: unlimited */

@@ -36,10 +36,7 @@ static const SamOptionRow rows[] = {
   {"max_walltime", "stop in time, with a checkpoint: s, m:s or h:m:s from the start", SAM_OPTION_STRING,
    MEMBER(duration), .size = sizeof(((SamCheckpoints *)NULL)->duration),
    .needs = "checkpoint: the run could not continue from where it stops"},
-  {"restart", "continue from this checkpoint; a new -output begins a branch", SAM_OPTION_FILE, MEMBER(restart),
-   .size = PETSC_MAX_PATH_LEN},
-  {"restart_gap", "restart on a different gap, keeping the slip", SAM_OPTION_BOOL, MEMBER(other_gap),
-   .needs = "restart"},
+  {"restart", "continue from this checkpoint", SAM_OPTION_FILE, MEMBER(restart), .size = PETSC_MAX_PATH_LEN},
   {"overwrite", "start anew, replacing a checkpoint of this name", SAM_OPTION_BOOL, MEMBER(overwrite),
    .needs = "checkpoint or -output: it has no file to replace"}};
 
@@ -244,8 +241,6 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
 
   PetscFunctionBegin;
   ListNotes(s->conditions, &n);
-  if (s->checkpoints.other_gap) /* the gap differs from that of the earlier steps */
-    PetscCall(SamProblemSetQuadratic(s->setup.problem, PETSC_FALSE));
   PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, PETSC_TRUE, &s->parameters, n.count, n.note));
   p->steps     = (PetscInt)n.progress.at.steps;
   p->worst     = (SamStatus)n.progress.at.worst;

@@ -1,9 +1,10 @@
 /*
   Rolling: generalised conjugate residuals with kept directions and a sweep along the stream.
 
-  Problem: the shear q on the discs |q| <= b whose slip velocity s = A q + offset - creepage (elasticity/rolling.c) is
-  zero where |q| < b and opposite to q where |q| = b, for given creepages or loads, or some of each. A is positive, but
-  not symmetric: there is one solution and no energy, so no conjugate gradients and no descent.
+  Problem: the shear q on the discs |q| <= b whose slip velocity s = A q + offset - creepage
+  (elasticity/steadyoperator.c) is zero where |q| < b and opposite to q where |q| = b, for given creepages or loads,
+  or some of each. A is positive, but not symmetric: there is one solution and no energy, so no conjugate gradients
+  and no descent.
 
   Algorithm, in units in which a cell's influence on itself is 1; an iteration takes one product:
     1. Sets: cells whose q - s/4 is beyond its circle slip, if s is against q or q far outside; the others stick. With
