@@ -8,7 +8,7 @@ import pytest
 
 import petsam as library
 from conftest import PROGRAM, execute
-from kill_at_random import CASE, write_history
+from kinds.kills import CASE, write_history
 from support import ROOT
 
 STEPS, AT = 24, 14
