@@ -3,8 +3,8 @@
     python3 scripts/maintain/modules.py > build/python.md
 
 It reads the sources and imports nothing, so that it needs none of the package's libraries. Names of the package itself
-are those of petsam.__all__, of petsam.plot those of its table, and of other modules all functions and classes without a
-leading underscore. A class has the methods of its bases in the package, too.
+are those of petsam.__all__, of petsam.plot and petsam.joint those that they list, and of other modules all functions
+and classes without a leading underscore. A class has the methods of its bases in the package, too.
 """
 
 import ast
@@ -25,7 +25,16 @@ MODULES = (
     "results.sliding",
     "plot.pictures",
     "plot.of_joints",
+    "plot.of_compliance",
+    "plot.of_lives",
+    "plot.of_surface",
     "joint.interface",
+    "joint.structure",
+    "joint.pair",
+    "joint.backbone",
+    "joint.band",
+    "joint.balance",
+    "joint.wear",
     "lives.stresses",
     "lives.materials",
     "lives.strength",
@@ -40,6 +49,7 @@ MODULES = (
     "closed.punch",
     "closed.plane",
 )
+PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")
 COLUMNS = re.compile(r"\S {2,}\S")  # of a table in a docstring
@@ -57,22 +67,36 @@ def definitions(tree):
 
 
 def public(module):
-    """Returns the functions and classes of a module that users call by name; classes have their bases' methods."""
-    found = definitions(tree_of(module))
-    folder, _, last = module.partition(".")
+    """Returns the public functions and classes of a module by name; pictures and classes as users meet them."""
+    return {name: whole(module, looking(module, node)) for name, node in definitions(tree_of(module)).items()}
+
+
+def called(module):
+    """Returns those that users call: of some packages the names that these list."""
+    found, (folder, _, last) = public(module), module.partition(".")
+    listed = list(found)
     if folder == "plot":
-        found = {
-            name: node for name, node in found.items() if name in literal(tree_of("plot/__init__"), "_HOMES")[last]
-        }
-    return {name: whole(module, node) for name, node in found.items()}
+        listed = literal(tree_of("plot/__init__"), "_HOMES")[last]
+    elif folder == "joint":
+        listed = [name for name in literal(tree_of("joint/__init__"), "__all__") if name in found]
+    return {name: found[name] for name in listed}
+
+
+def looking(module, node):
+    """Returns a picture with the parameters that its decorator adds; anything else unchanged."""
+    if {ast.unparse(decorator) for decorator in node.decorator_list} & set(PICTURES):
+        table = next(part for part in tree_of(module).body if ast.unparse(part).startswith("LOOK = ")).value
+        for name, kind in zip(table.keys, table.values):
+            if name.value not in {arg.arg for arg in node.args.kwonlyargs}:
+                node.args.kwonlyargs.append(ast.arg(name.value, kind))
+                node.args.kw_defaults.append(ast.Constant(None))
+    return node
 
 
 def whole(module, node):
     """Returns a class with the methods that it has of its bases in the package; anything else unchanged."""
     for base in (getattr(base, "id", None) for base in getattr(node, "bases", [])):
-        home = next(
-            (home for home in (module, origin(module, base)) if home and base in definitions(tree_of(home))), None
-        )
+        home = module if base in definitions(tree_of(module)) else origin(module, base)
         if home:
             own = {getattr(part, "name", None) for part in node.body}
             parts = whole(home, definitions(tree_of(home))[base]).body
@@ -197,7 +221,7 @@ def listed():
     parts = {"petsam": (ast.get_docstring(tree_of("__init__")).split("\n\n")[0], package)}
     for module in MODULES:
         tree = tree_of(module)
-        found = {f"petsam.{module}.{name}": node for name, node in public(module).items()}
+        found = {f"petsam.{module}.{name}": node for name, node in called(module).items()}
         parts[f"petsam.{module}"] = (ast.get_docstring(tree).split("\n\n")[0], found)
     return parts
 

@@ -725,7 +725,7 @@ class Contact:
         Raises
         ------
         ContactError
-            The errors of run().
+            If the history or a value is rejected; other errors are those of run().
 
         Notes
         -----
@@ -1031,7 +1031,7 @@ class Contact:
         Raises
         ------
         ContactError
-            If it cannot be written.
+            If no step has been committed, or the file cannot be written.
         """
         self._call("save", os.fsencode(file))
 
@@ -1046,7 +1046,9 @@ class Contact:
         Raises
         ------
         ContactError
-            If it cannot be read, or is of a contact of other options.
+            If the file cannot be read, or its state does not fit this contact.
+        MissingFile
+            If there is no such file.
         """
         self._call("load", os.fsencode(file))
 
@@ -1070,7 +1072,7 @@ class Contact:
         Raises
         ------
         ContactError
-            If an option is wrong, or changes what the state depends on.
+            If an option is wrong, or the state does not fit the options.
         """
         other = Contact(**{**self._made, **options})
         for name, values in self._given.items():
@@ -1091,7 +1093,7 @@ class Contact:
         TypeError
             If other is no open contact.
         ContactError
-            If the contacts differ.
+            If the state does not fit this contact.
         """
         if not isinstance(other, Contact) or not other._contact:
             raise TypeError("take: expected an open Contact")

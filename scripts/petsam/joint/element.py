@@ -34,8 +34,10 @@ class Element:
 
     Raises
     ------
+    ContactError
+        If a coordinate is none of the contact's.
     Error
-        If a name is none of the contact's, or a value is no number.
+        If coordinates is one name and not a list.
     """
 
     def __init__(
@@ -186,7 +188,7 @@ class Element:
         Raises
         ------
         ContactError
-            If the contacts differ.
+            If the state does not fit this element's contact.
         """
         self._structure.take(other._structure)
         self._response = None
