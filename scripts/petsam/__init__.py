@@ -32,7 +32,7 @@ from .core.errors import Error, Missing, MissingFile
 
 TYPE_CHECKING = False  # checkers of types take it for True; to import typing here would slow the start of every command
 if TYPE_CHECKING:
-    from typing import Optional, Union
+    from typing import Any, Optional, Union
 
     from . import closed
     from .contact import (
@@ -116,7 +116,7 @@ def __dir__():
     return sorted({*__all__, *_PARTS, *_OF_RESULTS, "__doc__", "__file__", "__name__", "__version__"})
 
 
-def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Union[Results, Stresses, Study]":
+def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any":
     """Opens a file of petsam, of petsam-stress, or petsam-study's results.h5.
 
     Parameters

@@ -21,7 +21,7 @@ import threading
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -178,6 +178,10 @@ class Step:
         Names of loads and displacements, (12,).
     """
 
+    if TYPE_CHECKING:  # numbers are attributes by their names
+
+        def __getattr__(self, name: str) -> float: ...
+
     def __init__(
         self,
         time: float,
@@ -211,6 +215,10 @@ class Cycle:
     numbers : dict
         {name: value}.
     """
+
+    if TYPE_CHECKING:  # numbers are attributes by their names
+
+        def __getattr__(self, name: str) -> float: ...
 
     def __init__(self, numbers: dict[str, float]) -> None:
         self.numbers = numbers
@@ -628,7 +636,7 @@ class Contact:
         reversal: bool = False,
         condense: Union[str, Sequence[str], None] = None,
         cases: Union[str, Sequence[str]] = (),
-    ) -> Union[Stiffness, float]:
+    ) -> Any:
         """The stiffness d(loads)/d(displacements) of the tried step.
 
         Parameters

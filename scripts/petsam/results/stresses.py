@@ -1,7 +1,7 @@
 """Reading of petsam-stress's files: stresses in a body by step and depth, and fatigue parameters. SI units."""
 
 import os
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 
@@ -310,7 +310,7 @@ class Stresses(Datafile):
             return data[part if timeless else (index % self.shape[0], *part)]
 
 
-def open_any(path: Union[str, os.PathLike], label: Optional[str] = None) -> Union[Study, Stresses, Results]:
+def open_any(path: Union[str, os.PathLike], label: Optional[str] = None) -> Any:
     """Opens a file by what is in it.
 
     Parameters
