@@ -15,7 +15,8 @@ import sys
 
 import numpy as np
 
-from petsam.core.errors import Error, Missing, fail
+from petsam.commands.line import fail
+from petsam.core.errors import Error, Missing
 
 
 def relative_l2(numerical, exact):

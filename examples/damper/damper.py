@@ -170,7 +170,7 @@ def main():
     circumferential = {mass: backbone(mass, "circumferential", amplitudes, args.grid_n) for mass in masses}
     for mass, one in circumferential.items():
         print(f"\ndamper of {1e3 * mass:g} g, {centrifugal(mass):.0f} N, platforms move along the circumference")
-        print("\n".join(one.table()[1:]))
+        print("\n".join(one.lines()[1:]))
     omega, _ = structure(masses[0], "radial", args.grid_n).stuck_modes()
     told = " and ".join(f"{one / (2 * np.pi):.4g}" for one in omega[:2])
     print(f"\nplatforms that move radially: {told} Hz while all that touches sticks: the damper rolls")

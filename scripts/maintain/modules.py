@@ -3,8 +3,8 @@
     python3 scripts/maintain/modules.py > build/python.md
 
 It reads the sources and imports nothing, so that it needs none of the package's libraries. Names of the package itself
-are those of petsam.__all__, of petsam.plot and petsam.joint those that they list, and of other modules all functions
-and classes without a leading underscore. A class has the methods of its bases in the package, too.
+are those of petsam.__all__, of petsam.plot and packages such as petsam.joint those that they list, and of other modules
+all functions and classes without a leading underscore. A class has the methods of its bases in the package, too.
 """
 
 import ast
@@ -35,6 +35,16 @@ MODULES = (
     "joint.band",
     "joint.balance",
     "joint.wear",
+    "compliance.calls",
+    "compliance.settings",
+    "compliance.result",
+    "surface.reading",
+    "surface.maps",
+    "study.jobs",
+    "study.cases",
+    "study.reading",
+    "study.tables",
+    "lives.spectrum",
     "lives.stresses",
     "lives.materials",
     "lives.strength",
@@ -49,6 +59,8 @@ MODULES = (
     "closed.punch",
     "closed.plane",
 )
+# packages that list what users call, and the constant of their __init__.py that has the names
+LISTING = {"compliance": "__all__", "joint": "__all__", "study": "__all__", "surface": "_HOMES"}
 PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")
@@ -77,8 +89,8 @@ def called(module):
     listed = list(found)
     if folder == "plot":
         listed = literal(tree_of("plot/__init__"), "_HOMES")[last]
-    elif folder == "joint":
-        listed = [name for name in literal(tree_of("joint/__init__"), "__all__") if name in found]
+    elif folder in LISTING:
+        listed = [name for name in literal(tree_of(f"{folder}/__init__"), LISTING[folder]) if name in found]
     return {name: found[name] for name in listed}
 
 

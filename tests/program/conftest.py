@@ -1,6 +1,7 @@
 """Fixtures that run the built program: build/bin/petsam, or that of the directory in PETSAM_BUILD."""
 
 import contextlib
+import functools
 import os
 import re
 import signal
@@ -130,6 +131,7 @@ def environment():
     return env
 
 
+@functools.cache
 def launcher_words():
     """The launcher's words but the number of ranks."""
     words = os.environ.get("MPIRUN", "mpirun").split()
@@ -167,9 +169,11 @@ def kill_all(run, ranks):
             os.kill(process, signal.SIGKILL)
 
 
-def execute(launcher, directory, options, ranks, check, extra=None, program=PROGRAM):
+def execute(launcher, directory, options, ranks, check, extra=None, program=None):
     """One run; with more than one rank by the launcher."""
-    command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(program)] + support.flatten(options)
+    command = (
+        (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(program or PROGRAM)] + support.flatten(options)
+    )
     done = subprocess.run(
         command,
         capture_output=True,

@@ -1,5 +1,6 @@
 """What the whole-program tests share: options from dicts, results from HDF5, and mechanics written anew in numpy."""
 
+import csv
 import os
 import re
 import subprocess
@@ -15,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 import petsam  # noqa: E402
 from petsam import closed  # noqa: E402
+from petsam.core import tables  # noqa: E402
 
 LOADS = ("load_n", "load_mx", "load_my", "load_tx", "load_ty", "load_mz")
 RIGID = ("disp_z", "rot_x", "rot_y", "disp_x", "disp_y", "rot_z")
@@ -413,3 +415,11 @@ def waves(folder, n, wave, e_star, heights):
     bodies = dict(body1_young=2 * e_star, body1_poisson=0.0, body2_young=2 * e_star, body2_poisson=0.0)
     grid = dict(elasticity="plane_periodic", grid_n=n, grid_size=wave, gap_type="flat", slide=True)
     return dict(bodies, **grid, gap_rough_file=folder / "1.h5", body2_surface_file=folder / "2.h5"), cosine
+
+
+def table_of(path):
+    """The rows of a CSV of petsam, {name: text} each, by the names of the heads without their units."""
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = csv.DictReader(file)
+        rows.fieldnames = [tables.split(head)[0] for head in rows.fieldnames]
+        return list(rows)

@@ -267,12 +267,12 @@ def test_stuck_modes_of_the_lap_are_those_of_tied_elements(tmp_path, monkeypatch
     monkeypatch.chdir(tmp_path)
     subprocess.run([sys.executable, ROOT / "examples/lap/mesh.py", "lap", "lap.inp", "--coarse"], check=True)
     words = f"--mesh lap.inp --units mm --contact CONTACT2 --pair CONTACT1 {support} {patch} "
-    words += "--no-picture --stiffness own --bolt B=WASHER1,WASHER2:8mm --modes 12"
+    words += "--no-picture --bolt B=WASHER1,WASHER2:8mm --modes 12"
     options = arguments(words.split())
     carry_out(options, [])
     pair = joint.Pair("lap.h5", dict(B=15e3), grid_n=64, friction=0.3)
     contact = pair.structure.patches[0].contact
-    body = model.Model(options.mesh, options)
+    body = model.Model(options.mesh, options.settings)
     body.prepare_modes()
     nodes = body.mesh.nodes
     one, two = (
@@ -506,7 +506,7 @@ def test_small_amplitudes_at_which_all_sticks_have_no_damping(tmp_path):
     found = joint.backbone(pair.structure, amplitudes, steps=3)
     assert found.frequency == pytest.approx(found.linear, rel=1e-6)
     assert np.all(found.damping < 1e-6) and np.all(found.cycles < 4)
-    for row, line in enumerate(found.table()[-3:]):
+    for row, line in enumerate(found.lines()[-3:]):
         assert found.unresolved[row] == found.damping[row] == 0.0 or f"<{found.unresolved[row]:.1e}" in line
 
 
@@ -654,12 +654,12 @@ def test_command_prints_and_writes_the_numbers(command, tmp_path):
     printed = command(*words, "--amplitudes", "3mm:10mm:2", "-o", "out", "--damping", "0.001", "--degree-check")
     pair = joint.Pair(tmp_path / "pair.h5", PRELOAD, **OPTIONS)
     expected = joint.backbone(pair.structure, [3e-3, 1e-2], sensor=pair.sensors["TIP"][:, 2], steps=3)
-    assert "\n".join(expected.table()) in printed
+    assert "\n".join(expected.lines()) in printed
     assert f"bolt B: {pair.tensions['B']:.6g} N left of 0.02 N" in printed
     assert "degree lower by 2: frequency" in printed
     with open("out.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [float(row["frequency (Hz)"]) for row in rows] == pytest.approx(expected.frequency)
+    assert [float(row["frequency [Hz]"]) for row in rows] == pytest.approx(expected.frequency)
     assert (tmp_path / "out.png").stat().st_size > 10000 < (tmp_path / "out-contact.png").stat().st_size
 
 
@@ -680,7 +680,7 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
     told = joint_command("response", *words, "--frequencies", f"{10 * highest:g}", check=2)
     assert "give Hz, not rad/s or rpm" in told and f"{highest:.4g} Hz" in told
     found = joint.forced(pair.structure, level * sensor, around, sensor, steps=8)
-    assert found.table()[0] in printed and len(re.findall(r"^ +0\.[01]\d+ ", printed, re.M)) == 2
+    assert found.lines()[0] in printed and len(re.findall(r"^ +0\.[01]\d+ ", printed, re.M)) == 2
     stuck, psi = pair.structure.stuck_modes()
     viscous = np.zeros(2)
     for order in range(1, 4):
@@ -690,7 +690,7 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
     assert power == pytest.approx(found.energy + viscous, rel=2e-3)
     with open("out.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [float(row["amplitude (m)"]) for row in rows] == pytest.approx(found.amplitude, rel=1e-4)
+    assert [float(row["amplitude [m]"]) for row in rows] == pytest.approx(found.amplitude, rel=1e-4)
     assert (tmp_path / "out.png").stat().st_size > 10000
 
 
@@ -699,16 +699,16 @@ def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path
     [
         (("--preload", "C=1"), "preload C: is no bolt of pair.h5; there are B", 2),
         ((), "preload: give the tension of B, in N", 2),
-        (("--preload", "B=-1"), "B=-1: expected NAME=FORCE in N", 2),
+        (("--preload", "B=-1"), "B=-1: expected BOLT=FORCE, such as B1=12kN", 2),
         (("--preload", "B=0.02", "--mode", "9"), "mode 9: the structure has modes 1 to 2", 2),
         (("--preload", "B=0.02", "--sensor", "TOP:z"), "--sensor TOP:z: expected NAME:x, :y or :z with a sensor", 2),
         (("--preload", "B=0.02", "--pressure", "1MPa"), "--pressure is for petsam-joint stiffness: remove it", 2),
-        (("--preload", "B=0.02", "--steps", "0"), "--steps 0: expected 1 or more", 2),
+        (("--preload", "B=0.02", "--steps", "0"), "--steps: 0: expected a whole number, 1 or more", 2),
         (("--preload", "B=0.02", "--contact", "none.opts"), "none.opts", 3),
         (("--preload", "B=0.02", "--preload", "B=0.01"), "--preload: a bolt is given twice", 2),
         (("--preload", "B=0.02", "--amplitudes", "1mm:2mm,3mm:3"), "1mm:2mm,3mm:3: expected FIRST:LAST:COUNT", 2),
         (("--preload", "B=0"), "the bodies do not touch, load_n = 0 N, limit above 0: use a higher preload", 2),
-        (("--preload", "B=0.02", "--damping", "nan"), "damping nan: expected a part of critical damping", 2),
+        (("--preload", "B=0.02", "--damping", "nan"), "damping: nan: expected a part of critical damping", 2),
     ],
 )
 def test_a_mistake_is_named(words, says, code, command, tmp_path):
@@ -881,7 +881,7 @@ def test_a_sensor_that_the_mode_does_not_move_is_named():
     one = joint.Structure([patch], [50.0, 90.0], [[1e-3, 0.0]], coupling=[[1e-6 / 2500.0]])
     with pytest.raises(petsam.Error, match="the mode does not move it in this direction"):
         joint.backbone(one, [1e-9], mode=1, sensor=[1e-12, 1.0], steps=1)
-    table = joint.backbone(one, [1e-9], mode=1, steps=1).table()
+    table = joint.backbone(one, [1e-9], mode=1, steps=1).lines()
     assert "amplitudes are modal, in m kg^0.5" in table[-2] and "touches sticks, Hz: " in table[0]
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import petsam as library
 from conftest import PROGRAM, execute
-from kill_at_random import CASE, differences, write_history
+from kinds.kills import CASE, differences, write_history
 
 STEPS, AT = 24, 14
 KEPT = dict(checkpoint="state.h5", checkpoint_every=7)

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import conftest
-import kill_at_random
 import petsam as library
-from kill_at_random import CASE, complete_steps, differences, write_history
+from kinds.kills import CASE, YIELDING, complete_steps, differences, torture, write_history
 from support import Results, assert_same, ball, few
 
 STEPS = 24
@@ -561,14 +560,14 @@ def test_no_damaged_bit_is_taken_for_good(stopped, petsam):
     "ranks, kills", [(1, 3), *(pytest.param(*more, marks=pytest.mark.slow) for more in ((1, 12), (2, 4)))]
 )
 def test_run_that_is_killed_again_and_again_gets_to_the_same_end(launcher, folder, ranks, kills):
-    """More of them: tests/program/kill_at_random.py --kills 50"""
-    assert kill_at_random.torture(launcher, folder, kills, ranks, seed=ranks) >= 1
+    """More of them: tests/program/random_problems.py kills --kills 50"""
+    assert torture(launcher, folder, kills, ranks, seed=ranks) >= 1
 
 
-@pytest.mark.parametrize("kind", kill_at_random.YIELDING)
+@pytest.mark.parametrize("kind", YIELDING)
 def test_yielding_run_that_is_killed_gets_to_the_same_end(launcher, folder, kind):
     """Histories and wear cycles, in plane strain too: all columns and fields to the last bit."""
-    assert kill_at_random.torture(launcher, folder, 3, 1, seed=1, kind=kind) >= 1
+    assert torture(launcher, folder, 3, 1, seed=1, kind=kind) >= 1
 
 
 # ---------------------------------------------------------------- no equilibrium

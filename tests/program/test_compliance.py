@@ -587,7 +587,7 @@ def change(name, value):
         ("@young", -1.0, "young is -1, poisson 0.3: expected a modulus > 0"),
         ("@poisson", 0.6, "poisson 0.6: expected a modulus > 0"),
         ("patch/half", None, "has no dataset /patch/half: make the file by petsam-compliance"),
-        ("patches/1/x", np.zeros(1), "has several patches of a structure, which petsam-joint reads"),
+        ("patches/1/x", np.zeros(1), "has several patches of a structure: name one of"),
         ("patch/half", [1.0, 0.0], "/patch/half is 1, 0: expected lengths > 0"),
         ("patch/half", [1e100, 1e100], "/patch/half is 1e+100, 1e+100, /patch/center 0, 0: expected at most 10000 m"),
         ("patch/half", [1e3, 1e-3], "sides that differ at most by a factor of 1000: check the unit of the file"),
@@ -608,6 +608,95 @@ def test_wrong_files_are_refused(name, value, says, petsam, layer):
     message = petsam({**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": file}, check=3).complaint[0]
     assert f"-body2_compliance {file}: " in message
     assert says in message
+
+
+# ---------------------------------------------------------------- one patch of several
+
+
+@pytest.fixture
+def patches(layer, tmp_path):
+    """Names of a file of two patches, of degree 2 and 4, the second about (0.1, 0.2), and of a file of each."""
+    rng = np.random.default_rng(1)
+    case = dict(pull=1e-3 * rng.normal(size=(15, 3)))
+    alone = [layer(1, 2), layer(1, 4, center=(0.1, 0.2), cases=case)]
+    with h5py.File(tmp_path / "several.h5", "w") as f:
+        for number, one in enumerate(alone, 1):
+            with h5py.File(one, "r") as source:
+                f.attrs.update(source.attrs)
+                for name in source:
+                    source.copy(name, f.require_group(f"patches/{number}"))
+        b = rng.normal(size=(6, 6))
+        f["patches/2/rigid/compliance"] = 0.01 * b @ b.T
+        f["patches/2/rigid/motions"] = 0.1 * rng.normal(size=(6, 15, 3))
+        f["patches/2/compliance"][...] += np.einsum("cik,cd,djl->ikjl", *rigid(f["patches/2"]))
+    with h5py.File(alone[1], "r+") as f, h5py.File(tmp_path / "several.h5", "r") as source:
+        f["compliance"][...] = source["patches/2/compliance"][()]
+    return tmp_path / "several.h5", *alone
+
+
+def rigid(group):
+    """Q, b and Q of a patch."""
+    q = group["rigid/motions"][()]
+    return q, group["rigid/compliance"][()], q
+
+
+ON_PATCH = dict(grid_n=[48, 40], grid_size=[1.6, 1.4], friction=0.3, load_n=0.004, load_tx=6e-4, steps=2)
+
+
+@pytest.mark.parametrize("ranks", (1, 2, 3))
+def test_one_patch_of_several_is_that_of_its_own_file(ranks, solve, patches):
+    file, first, second = patches
+    for number, alone, more in ((1, first, {}), (2, second, dict(body2_case_pull=0.1))):
+        case = {**SPHERE, **bodies(2), **ON_PATCH, **more}
+        found = solve(case, dict(body2_compliance=f"{file}:{number}"), ranks=ranks)
+        assert_same(found, solve(case, dict(body2_compliance=alone)), 0)
+
+
+@pytest.mark.parametrize("ranks, lower", ((1, 0), (1, 2), (2, 1), (3, 2)))
+def test_what_is_local_of_a_patch_is_without_the_motion_of_body_1(ranks, lower, solve, patches, tmp_path):
+    """Bit for bit that of a file from which it is subtracted; about the patch's centre, at a lower degree."""
+    with h5py.File(patches[0], "r") as f, h5py.File(patches[2], "r+") as alone:
+        table = alone["basis/degree_xy"][()]
+        kept = np.flatnonzero(table.sum(axis=1) <= 4 - lower)
+        local = f["patches/2/compliance"][()] - np.einsum("cik,cd,djl->ikjl", *rigid(f["patches/2"]))
+        new = {"basis/degree_xy": table[kept], "compliance": local[kept][:, :, kept], "patch/center": np.zeros(2)}
+        new["cases/pull/displacement"] = alone["cases/pull/displacement"][()][kept]
+        for name, value in new.items():
+            del alone[name]
+            alone[name] = value
+    case = {**SPHERE, **bodies(2), **ON_PATCH, "body2_case_pull": 0.1}
+    words = f"{patches[0]}:2:local" + f":{lower}" * (lower > 0)
+    found = solve(case, dict(body2_compliance=words), ranks=ranks)
+    assert_same(found, solve(case, dict(body2_compliance=patches[2])), 0)
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        ("", "several.h5: has several patches of a structure: name one of {0}:1 to {0}:2"),
+        (":3", "several.h5: has no patch 3: it has 2: name one of {0}:1 to {0}:2"),
+        (":0", "several.h5: has no patch 0: it has 2"),
+        (":1:local", "several.h5: has no dataset /patches/1/rigid/compliance"),
+        (":x", "several.h5:x: "),
+        (":1:local:", "several.h5:1:local:: "),
+    ],
+)
+def test_patches_that_a_file_does_not_have_are_named(words, says, petsam, patches):
+    case = {**SPHERE, **bodies(2), **ON_PATCH, "body2_compliance": f"{patches[0]}{words}"}
+    assert says.format(patches[0]) in petsam(case, check=3).complaint[0]
+
+
+def test_a_file_of_one_patch_has_the_number_1(petsam, solve, layer):
+    case = {**SPHERE, **bodies(2), "load_n": 0.004}
+    file = layer(1, 4)
+    found = solve(case, dict(body2_compliance=f"{file}:1"))
+    assert_same(found, solve(case, dict(body2_compliance=file)), 0)
+    assert "has no patch 2: it has 1" in petsam(case, dict(body2_compliance=f"{file}:2"), check=3).complaint[0]
+
+
+def test_the_file_of_a_patch_is_not_replaced(petsam, patches):
+    case = {**SPHERE, **bodies(2), **ON_PATCH, "body2_compliance": f"{patches[0]}:1", "output": patches[0]}
+    assert "would overwrite the file of -body2_compliance" in petsam(case, check=2).complaint[0]
 
 
 def test_numbers_that_were_never_written_are_refused(petsam, layer):

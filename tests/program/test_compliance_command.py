@@ -9,13 +9,13 @@ import pytest
 
 import petsam
 from petsam.compliance import cases, deck, mesh, model, stiffness
-from test_compliance_tool import CCX, EVEN, clamped, condensed, needs_calculix, retained, written_abaqus
+from test_compliance_tool import EVEN, clamped, needs_calculix
 from test_plot import pixels
 
 GRID = np.linspace(-2.0, 2.0, 5)
 SUPPORT = {"LEFT": lambda p: p[:, 0] < -2.0 + 1e-9, "RIGHT": lambda p: p[:, 0] > 2.0 - 1e-9}
 BOTTOM = {"BOTTOM": lambda p: p[:, 2] > 4.0 - 1e-9}
-ALWAYS = ["--contact", "TOP", "--stiffness", "own", "--patch", "2", "--degree", "2", "--no-picture"]
+ALWAYS = ["--contact", "TOP", "--patch", "2", "--degree", "2", "--no-picture"]
 
 
 def written(path, body, *more):
@@ -108,10 +108,24 @@ def test_too_many_polynomials_are_rejected(compliance, block):
 @needs_calculix
 def test_calculixs_stiffness_gives_the_same_compliance(compliance, block):
     compliance(*block, "-o", "own.h5", "--no-stress")
-    words = [word for word in block if word not in ("--stiffness", "own")]
-    compliance(*words, "-o", "calculix.h5", "--no-stress")
+    compliance(*block, "--stiffness", "calculix", "-o", "calculix.h5", "--no-stress")
     with h5py.File("own.h5", "r") as own, h5py.File("calculix.h5", "r") as other:
         assert np.allclose(own["compliance"], other["compliance"], atol=1e-9) and "stress" not in other
+
+
+def test_calculix_is_needed_only_for_what_petsam_does_not_assemble(compliance, tmp_path, monkeypatch):
+    monkeypatch.setenv("CCX", "no-such-ccx")
+    words = [*ALWAYS, "--fixed", "BOTTOM", "--no-stress"]
+    for kind, code in (("C3D20R", 0), ("C3D8I", 3)):
+        written(tmp_path / "a.inp", mesh.grid_mesh((GRID, GRID, GRID + 2.0), kind, 1.0, 0.3, node_sets=BOTTOM))
+        said = compliance("--mesh", "a.inp", *words, "-o", "f.h5", check=code)
+    assert (
+        "install the Debian package calculix-ccx, or omit --stiffness with elements C3D4, C3D6, C3D8, C3D10" in said[0]
+    )
+    assert (
+        "need CalculiX's stiffness: omit --stiffness own"
+        in (compliance("--mesh", "a.inp", *words, "--stiffness", "own", check=3)[0])
+    )
 
 
 def test_a_coarser_mesh_estimates_the_error(compliance, block, tmp_path):
@@ -390,78 +404,6 @@ def test_files_that_are_not_its_own_are_kept(compliance, block, tmp_path):
     assert "was not written by petsam-compliance" in compliance(*block, "-o", "f.h5", check=3)[0]
     assert (tmp_path / "f.h5").read_text() == "mine"
     assert "is an input file" in compliance(*block, "-o", "block.inp", check=3)[0]
-
-
-# ---------------------------------------------------------------- substructures
-
-
-def substructure(tmp_path, matrix, body):
-    """Files of a matrix and its nodes; the words for them."""
-    numbers = np.arange(1, len(retained(body)) + 1)
-    (tmp_path / "k.mtx").write_text("\n".join(written_abaqus(numbers.tolist(), matrix)) + "\n")
-    table = ["{} {} {} {}".format(n, *p) for n, p in zip(numbers, body.mesh.nodes[retained(body)])]
-    (tmp_path / "nodes.txt").write_text("\n".join(table) + "\n")
-    words = ["--matrix", "k.mtx", "--nodes", "nodes.txt", "--young", "1", "--poisson", "0.3", "--patch", "2"]
-    return [*words, "--frame", "0,0,0:1,0,0:0,0,1", "--no-picture"]
-
-
-def test_a_substructure_gives_a_file_of_degree_1_with_a_warning(compliance, tmp_path):
-    body = clamped(GRID, GRID, GRID + 2.0)
-    words = substructure(tmp_path, condensed(body), body)
-    compliance(*words, "-o", "f.h5", warning="a matrix gives the compliance by the direct method")
-    with h5py.File("f.h5", "r") as file:
-        assert file.attrs["method"] == "direct" and file.attrs["degree"] == 1
-        assert file["/compliance"][0, 0, 0, 0] == pytest.approx(5.43, rel=0.04)
-    assert "the retained nodes span x = -1 to 1 m" in compliance(*words, "--patch", "1.5", check=3)[0]
-    assert "0.5 m off the plane" in compliance(*words, "--frame", "0,0,0.5:1,0,0:0,0,1", check=3)[0]
-
-
-def test_matrices_that_are_no_condensed_stiffness_are_rejected(compliance, tmp_path):
-    body = clamped(GRID, GRID, GRID + 2.0)
-    rows = (3 * retained(body)[:, None] + np.arange(3)).ravel()
-    retained_block = body.matrix[rows][:, rows].toarray()
-    said = compliance(*substructure(tmp_path, retained_block, body), check=3)[0]
-    assert "of the sum of the diagonal, limit 0.5: the matrix is not condensed" in said
-    floating = condensed(body) - 10.0 * np.eye(len(rows))
-    assert "has the eigenvalue -" in compliance(*substructure(tmp_path, floating, body), check=3)[0]
-    (tmp_path / "k.mtx").write_text("1 2 3 4 5\n")
-    assert "5 numbers, which are no triangle" in compliance(*substructure_words(), check=3)[0]
-    (tmp_path / "k.mtx").write_text("2 1 0 2\n")
-    assert "rows, nodes.txt has" in compliance(*substructure_words(), check=3)[0]
-
-
-@needs_calculix
-def test_the_substructure_that_calculix_writes_is_rejected(compliance, tmp_path):
-    """Version 2.20 writes the rows of the retained nodes as they are; the file's name is .mtx."""
-    body = clamped(GRID, GRID, GRID + 2.0)
-    lines = stiffness.model_lines(body.mesh)
-    for name, nodes in (("KEPT", retained(body)), ("HELD", body.supported)):
-        lines += [f"*NSET, NSET={name}", *stiffness.numbers(nodes + 1)]
-    lines += [
-        "*BOUNDARY",
-        "HELD, 1, 3",
-        "*STEP",
-        "*SUBSTRUCTURE GENERATE",
-        "*RETAINED NODAL DOFS, SORTED=NO",
-        "KEPT, 1, 3",
-    ]
-    stiffness.run([*lines, "*SUBSTRUCTURE MATRIX OUTPUT, STIFFNESS=YES", "*END STEP"], tmp_path, "sub", CCX)
-    table = ["{} {} {} {}".format(n + 1, *body.mesh.nodes[n]) for n in retained(body)]
-    (tmp_path / "nodes.txt").write_text("\n".join(table) + "\n")
-    (tmp_path / ".mtx").rename(tmp_path / "k.mtx")
-    assert "0.83 of the sum of the diagonal" in compliance(*substructure_words(), check=3)[0]
-
-
-def substructure_words():
-    words = ["--matrix", "k.mtx", "--nodes", "nodes.txt", "--young", "1", "--poisson", "0.3", "--patch", "2"]
-    return [*words, "--frame", "0,0,0:1,0,0:0,0,1", "--no-picture"]
-
-
-def test_an_asymmetric_matrix_is_rejected():
-    from petsam.compliance import substructure as direct
-
-    with pytest.raises(direct.Error, match="asymmetric by 0.5"):
-        direct.examined(np.array([[2.0, 1.0], [0.0, 2.0]]), "k")
 
 
 # ---------------------------------------------------------------- reading

@@ -1,7 +1,5 @@
 """Cycles of a history: reversals, periods, their energies and loops, in petsam-plot and in petsam-study."""
 
-import csv
-
 import h5py
 import numpy as np
 import pytest
@@ -11,7 +9,7 @@ from conftest import PROGRAM as PETSAM
 from petsam import cycles
 from petsam.plot import loops, pictures, wear
 from petsam.plot.style import MARKED
-from support import ball, history, slide_limit, words
+from support import ball, history, slide_limit, table_of, words
 
 pytestmark = pytest.mark.usefixtures("closing")
 
@@ -228,9 +226,9 @@ def test_a_map_of_a_cycle_is_that_of_its_end(results, path):
         (("--loop", "--cycle", "9"), 3, "--cycle 9: there are cycles 1 to 3, by reversals of disp_x"),
         (("--energy", "--period", "99"), 3, "--energy: has no whole cycle, by a period of 99 s; see"),
         (("--energy", "--period", "1e-9"), 3, "is shorter than the steps"),
-        (("--energy", "--period", "0"), 2, "--period: 0: expected a positive time, or T,START"),
-        (("--energy", "--period", "1,2,3"), 2, "--period: 1,2,3: expected a positive time"),
-        (("--energy", "--period", "-1"), 2, "--period: -1: expected a positive time"),
+        (("--energy", "--period", "0"), 2, "--period: 0: expected a time above 0, or T,START"),
+        (("--energy", "--period", "1,2,3"), 2, "--period: 1,2,3: expected a time above 0"),
+        (("--energy", "--period", "-1"), 2, "--period: -1: expected a time above 0"),
         (("--energy", "--period", "1", "--turns", "disp_x"), 2, "not allowed with"),
         (("--loop", "--cycle", "one"), 2, "--cycle: one: expected numbers"),
     ],
@@ -251,8 +249,7 @@ def study(call, launcher, monkeypatch):
 
 
 def table(folder):
-    with open(folder / "cases" / "results.csv", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+    return table_of(folder / "cases" / "results.csv")
 
 
 def test_the_table_of_a_study_has_energies_of_cycles(study, tmp_path):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import petsam
+from kinds import decks
 from petsam.commands import compliance as command
 from petsam.compliance import deck, keywords, mesh, model, stiffness
 from test_compliance_command import ALWAYS, BOTTOM, PARTS, bricks, compliance, read_text, written  # noqa: F401
@@ -168,7 +169,7 @@ def test_a_step_that_takes_elements_away_is_no_load_case_nor_is_a_later_one(comp
 def test_supports_are_named_as_abaqus_names_them(tmp_path, held, says):
     written(tmp_path / "b.inp", bricks(), "*BOUNDARY", f"BOTTOM, {held}")
     words = ["--mesh", str(tmp_path / "b.inp"), "--fixed", "BOTTOM", *ALWAYS]
-    doubts = model.Model(words[1], command.arguments(words)).doubts
+    doubts = model.Model(words[1], command.arguments(words).settings).doubts
     assert len(doubts) == bool(says) and (not says or f"{says}, and --fixed in x, y and z" in doubts[0]), doubts
 
 
@@ -402,8 +403,11 @@ def test_a_pair_in_other_units_is_rejected(pair, tmp_path):  # noqa: F811
 # ---------------------------------------------------------------- random decks
 
 
-def test_random_decks_are_computed_or_rejected():
-    """More of them: random_decks.py, as a program."""
-    import random_decks
-
-    assert not [text for *_, fault, text in map(random_decks.examine, range(1, 31)) if fault]
+def test_random_decks_are_computed_or_rejected(tmp_path):
+    """More of them: random_problems.py decks"""
+    outcomes = []
+    for seed in range(1, 31):
+        folder = tmp_path / str(seed)
+        folder.mkdir()
+        outcomes.append(decks.trial(seed, folder))
+    assert not [outcome.text for outcome in outcomes if outcome.fault]

@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
-from kill_at_random import differences
+from kinds.kills import differences
 from support import FIELDS, assert_close, assert_same, ball, history, kernels, read_run
 
 BALL = ball(60, poisson=0.3)

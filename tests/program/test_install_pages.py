@@ -246,7 +246,10 @@ def test_long_options_of_the_tools_are_completed(share, name, some, monkeypatch)
 def test_words_of_the_tools_options_are_completed(share, monkeypatch):
     monkeypatch.setenv("PYTHON", sys.executable)
     assert tool(share, "petsam-plot", "--component", "p") == ["principal_1", "principal_2", "principal_3"]
-    assert tool(share, "petsam-surface", "--level", "") == "none mean tilt second-order sphere cylinder".split()
+    assert (
+        tool(share, "petsam-surface", "--level", "")
+        == "none mean tilt second-order sphere cylinder rows columns".split()
+    )
     assert tool(share, "petsam-plot", "--step", "") == []  # then bash completes files
 
 

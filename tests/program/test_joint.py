@@ -319,7 +319,7 @@ def test_command_gives_the_numbers_of_the_function(command, tmp_path):
     expected = joint.of_windows(field, 1e-5, np.geomspace(1e7, 4e7, 3), steps=1, shear=0.4, **pair)
     words = ("--pressure", "10MPa:40MPa:3", "--friction", 0.25, "--shear", 0.4, "--steps", 1, *STEEL)
     printed = command("scan.h5", *words, "-o", "i")
-    assert printed == "\n".join(expected.table()) + "\n" == command("pair.h5", *words)
+    assert printed == "\n".join(expected.lines()) + "\n" == command("pair.h5", *words)
     with open("i.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [float(row["k_t_x [Pa/m]"]) for row in rows] == pytest.approx(expected.k_t_x, rel=1e-9)
@@ -327,7 +327,7 @@ def test_command_gives_the_numbers_of_the_function(command, tmp_path):
     assert (tmp_path / "i.inp").read_text().startswith("** contact") and (tmp_path / "i.png").stat().st_size > 10000
     whole = joint.of_interface(field, 1e-5, [2e7], steps=1, **pair)
     assert command("pair.h5", "--pressure", "2e7", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL) == (
-        "\n".join(whole.table()) + "\n"
+        "\n".join(whole.lines()) + "\n"
     )
 
 
@@ -371,12 +371,12 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
             "gaps.h5: no surface of petsam-surface: /height has no number at 4 of 1024 ",
         ),
         (("scan.h5", "--pressure", "1MPa:2MPa"), "expected FIRST:LAST:COUNT"),
-        (("scan.h5", "--pressure", "-1"), "expected a stress above 0"),
+        (("scan.h5", "--pressure", "-1"), "-1: expected FIRST:LAST:COUNT, or pressures above 0"),
         (("scan.h5", "--pressure", "2MPa,1MPa"), "pressures that rise"),
         (("scan.h5", "--pressure", "1MPa", "--body1", "stel"), "stel: expected steel"),
         (("scan.h5", "--pressure", "1MPa", "--shear", "1.5"), "shear 1.5"),
-        (("scan.h5", "--pressure", "1MPa", "--area", "0"), "--area 0: expected an area above 0"),
-        (("scan.h5", "--pressure", "1MPa", "--steps", "0"), "--steps 0: expected 1 or more"),
+        (("scan.h5", "--pressure", "1MPa", "--area", "0"), "--area: 0: expected an area above 0"),
+        (("scan.h5", "--pressure", "1MPa", "--steps", "0"), "--steps: 0: expected a whole number, 1 or more"),
     ],
 )
 def test_a_mistake_of_the_command_is_named(command, tmp_path, words, says):

@@ -1,7 +1,6 @@
 """petsam-fatigue: lives against tables computed by hand, cracks against closed forms and an integral
 equation, refusals."""
 
-import csv
 import sys
 from types import SimpleNamespace
 
@@ -17,7 +16,7 @@ from petsam.lives.stresses import Cycle
 from petsam.plot import saving
 from petsam.plot.style import plt
 from petsam.study.expressions import Expander
-from support import ball, slide_limit
+from support import ball, slide_limit, table_of
 
 STRESS = conftest.PROGRAM.with_name("petsam-stress")
 SWT = dict(young=115e9, sigma_f=2030e6, b=-0.104, epsilon_f=0.841, c=-0.69)
@@ -189,8 +188,12 @@ def test_the_command_prints_and_writes_what_the_file_gives(fatigue, folder):
     assert f"life {float(strength.swt(swt.max(), **{**WEAK, 'young': 72e9})):.4g} cycles" in out
     assert f"Findley: safety factor {3e8 / findley.max():.4g} at" in out
     assert "short crack: " in out and (folder / "p.png").stat().st_size > 20000
-    with open(folder / "line.csv", encoding="utf-8") as lines:
-        rows = list(csv.DictReader(lines))
+    rows = table_of(folder / "line.csv")
+    assert (
+        (folder / "line.csv")
+        .read_text()
+        .startswith("file,x [m],y [m],z [m],findley [Pa],swt [Pa],fatemi_socie [1],life_swt [1],")
+    )
     column = int(np.argmax(swt[0, 0]))
     assert [float(row["z"]) for row in rows] == pytest.approx(file.z.tolist())
     assert float(rows[0]["x"]) == pytest.approx(file.x[column])
@@ -199,6 +202,31 @@ def test_the_command_prints_and_writes_what_the_file_gives(fatigue, folder):
     k = [cracks.intensity(file.z, one, file.z[4]) for one in stress]
     assert float(rows[4]["k_max"]) == pytest.approx(max(*k, 0.0))
     assert float(rows[4]["k_range"]) == pytest.approx(max(*k, 0.0) - max(min(k), 0.0))
+
+
+def test_lives_from_python_are_those_of_the_command(fatigue, folder, tmp_path):
+    """Of names of files or of Stresses, constants as numbers, words or a file."""
+    fatigue("--material", "m.yaml", "--csv", "both.csv", "--counts", "1e5,20", "--no-picture", "low.h5", "high.h5")
+    files = [folder / "low.h5", folder / "high.h5"]
+    found = petsam.lives.lives(files, folder / "m.yaml", counts=[1e5, 20])
+    found.to_csv(tmp_path / "both.csv")
+    assert (tmp_path / "both.csv").read_text() == (folder / "both.csv").read_text()
+    swt = [petsam.open(file).field("swt") for file in files]
+    lives = [strength.swt(one, **{**WEAK, "young": 72e9}) for one in swt]
+    assert found.least["swt"][1].value == pytest.approx(lives[1].min())
+    assert found.damage["swt"].value == pytest.approx((1e5 / lives[0] + 20 / lives[1]).max())
+    words = {name: value for name, value in WEAK.items() if name != "young"} | {
+        "sigma_f": f"{WEAK['sigma_f'] / 1e6!r}MPa"
+    }
+    one = petsam.lives.lives(petsam.open(files[1]), words, criteria=["swt"], below=(0.0, 0.0), quantities=["swt"])
+    assert [column.name for column in one.table()] == ["file", "x", "y", "z", "swt", "life_swt"]
+    assert abs(one.lines[0][1].x) < 1e-4 and not one.cracks
+    assert one.least["swt"][0].value == pytest.approx(found.least["swt"][1].value)
+    assert len(petsam.plot.lives(one).axes) == 2
+    with pytest.raises(Error, match="counts: 2 files need"):
+        petsam.lives.lives(files, words, counts=[1.0])
+    with pytest.raises(Error, match="sigma_f 900 Pa is outside"):
+        petsam.lives.lives(files, dict(sigma_f=900))
 
 
 def test_the_picture_has_the_given_resolution(fatigue, folder):
@@ -280,12 +308,12 @@ def test_arrays_of_a_contact_are_taken_too(folder):
         (["--hot", "ruiz_1", "high.h5"], ["has no ruiz_1"], 3),
         (["-o", "high.h5", "high.h5"], ["use a name that ends in .png, .pdf or .svg"], 2),
         (["--csv", "low.h5", "low.h5"], ["low.h5: would replace the results"], 3),
-        (["--material", "bad.yaml", "high.h5"], ["bad.yaml: sigma_f 2030MPa is not a number", "SI units"], 3),
+        (["--material", "bad.yaml", "high.h5"], ["bad.yaml: sigma_f 2030Mpa: expected", "units are Pa, kPa, MPa"], 3),
         (["c.h5"], ["c.h5: has no depths z: give a file of petsam-stress"], 3),
     ],
 )  # fmt: skip
 def test_refusals(fatigue, folder, words, says, code):
-    (folder / "bad.yaml").write_text("sigma_f: 2030MPa\n")
+    (folder / "bad.yaml").write_text("sigma_f: 2030Mpa\n")
     err = fatigue(*words, check=code)
     assert all(word in err for word in says), err
 
@@ -382,4 +410,13 @@ def test_every_constant_has_a_range_and_a_text():
         assert one.low < one.high and one.meaning
         for value in (one.low, one.high, "x", "nan"):
             with pytest.raises(Error):
-                materials.checked(name, value, "here")
+                materials.checked(name, value)
+
+
+def test_constants_have_si_units_or_their_own(tmp_path):
+    (tmp_path / "m.yaml").write_text("sigma_f: 1.76 GPa\nyoung: 210e9\nb: -0.1\ndk_th: 3.5MPa m^1/2\n")
+    expected = {"sigma_f": 1.76e9, "young": 210e9, "b": -0.1, "dk_th": 3.5e6}
+    assert materials.read(tmp_path / "m.yaml") == pytest.approx(expected)
+    for name, value in (("b", "-0.1Pa"), ("sigma_f", "1mm"), ("sigma_f", "1,7GPa")):
+        with pytest.raises(Error, match="expected a number"):
+            materials.checked(name, value)

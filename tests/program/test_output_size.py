@@ -10,7 +10,7 @@ import pytest
 
 import conftest
 import petsam as library
-from kill_at_random import differences, write_history
+from kinds.kills import differences, write_history
 from support import FIELDS, SPHERE
 from test_checkpoint import small_disk as small_disk  # a fixture
 

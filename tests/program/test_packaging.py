@@ -6,6 +6,7 @@ import sys
 import types
 
 import pytest
+import tomllib
 import yaml
 
 import petsam
@@ -141,3 +142,11 @@ def test_spack_recipe_asks_for_what_makefile_and_scripts_need(monkeypatch):
         name, _, value = word.partition("=")
         # variables and targets that the Makefile knows
         assert re.search(rf"^ *{name} *[:?]?=" if value else rf"^{name}:", MAKEFILE, re.M), word
+
+
+def test_all_parts_of_the_package_are_installed():
+    """setuptools finds them: each folder of modules is a package."""
+    found = tomllib.loads((ROOT / "scripts/pyproject.toml").read_text())["tool"]["setuptools"]["packages"]["find"]
+    assert found == {"include": ["petsam*"]}
+    folders = {path.parent for path in (ROOT / "scripts/petsam").rglob("*.py")}
+    assert len(folders) > 10 and all((folder / "__init__.py").exists() for folder in folders)

@@ -2,7 +2,6 @@
 
 import os
 import random
-import signal
 import sys
 from types import SimpleNamespace
 
@@ -230,21 +229,22 @@ def test_datasets_of_different_lengths_are_drawn(draw, strokes, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "words",
+    "exit_code, words",
     [
-        ["--step", "9" * 30], ["--step", "0"], ["--step", ",".join(["1"] * 100)], ["--time", "nan"],
-        ["--time", "1e400"], ["--profiles", "--at", "nan,0"], ["--profiles", "--at", "0,inf"], ["--names", "a,,b"],
-        ["--names", ",".join(["load_n"] * 100)], ["--maps", "-o", "folder.png"], ["--maps", "-o", "pipe.png"],
-        ["--maps", "-o", "a" * 300 + ".png"], ["--maps", "-o", "self.png"],
-        ["--maps", "--dpi", "1200", "--step", ",".join(["1"] * 30)],
+        (2, ["--step", "9" * 30]), (3, ["--step", "0"]), (3, ["--step", ",".join(["1"] * 100)]),
+        (2, ["--time", "nan"]), (2, ["--time", "1e400"]), (2, ["--profiles", "--at", "nan,0"]),
+        (2, ["--profiles", "--at", "0,inf"]), (2, ["--names", "a,,b"]), (3, ["--names", ",".join(["load_n"] * 100)]),
+        (3, ["--maps", "-o", "folder.png"]), (3, ["--maps", "-o", "pipe.png"]),
+        (3, ["--maps", "-o", "a" * 300 + ".png"]), (3, ["--maps", "-o", "self.png"]),
+        (3, ["--maps", "--dpi", "1200", "--step", ",".join(["1"] * 30)]),
     ],
 )  # fmt: skip
-def test_what_cannot_be_drawn_or_written_is_one_line_with_exit_code_3(draw, single, tmp_path, words):
+def test_what_cannot_be_drawn_or_written_is_one_line(draw, single, tmp_path, exit_code, words):
     (tmp_path / "folder.png").mkdir()
     os.mkfifo(tmp_path / "pipe.png")
     (tmp_path / "self.png").write_bytes(single.read_bytes())
     code, (error,) = draw(tmp_path / "self.png", *words)
-    assert code == 3 and error.startswith("petsam-plot: error: ") and "TRACEBACK" not in error
+    assert code == exit_code and error.startswith("petsam-plot: error: ") and "TRACEBACK" not in error
     assert (tmp_path / "self.png").read_bytes() == single.read_bytes()
 
 
@@ -261,20 +261,17 @@ def test_any_backend_that_the_environment_names_is_ignored(program, single, monk
     assert not program("--maps", single).stderr
 
 
-@pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGABRT, signal.SIGXCPU])
-def test_a_file_that_ends_hdf5_is_damaged(draw, strokes, monkeypatch, number):
-    monkeypatch.setattr(Results, "_read", lambda self: os.kill(os.getpid(), number))
-    assert draw(strokes) == (3, [f"petsam-plot: error: {strokes}: is damaged"])
-
-
-def test_a_file_that_keeps_hdf5_busy_for_ever_is_damaged(draw, strokes, monkeypatch):
-    def forever(_):
-        while True:
-            pass
-
-    monkeypatch.setattr(Results, "_read", forever)
-    monkeypatch.setattr("petsam.core.isolation.SECONDS", 1)
-    assert draw(strokes) == (3, [f"petsam-plot: error: {strokes}: is damaged"])
+@pytest.mark.parametrize("script", ["printf -", "kill -SEGV $$", "exec sleep 60"])
+def test_a_file_that_ends_hdf5_is_damaged(draw, strokes, tmp_path, monkeypatch, script):
+    """The program that examines it writes a character when it begins, and one when it ends."""
+    program = tmp_path / "examine"
+    program.write_text(f"#!/bin/sh\nprintf -\n{script}\n" if script != "printf -" else "#!/bin/sh\nprintf --\n")
+    program.chmod(0o755)
+    monkeypatch.setattr("petsam.core.examine._seen", {})
+    monkeypatch.setattr("petsam.core.examine._beside", lambda petsam: str(program))
+    monkeypatch.setattr("petsam.core.examine.SECONDS", 1.0)
+    told = (0, []) if script == "printf -" else (3, [f"petsam-plot: error: {strokes}: is damaged"])
+    assert draw(strokes, "--loop") == told
 
 
 def test_what_nobody_foresaw_is_a_line_too(draw, strokes, monkeypatch):
@@ -288,7 +285,6 @@ def test_what_nobody_foresaw_is_a_line_too(draw, strokes, monkeypatch):
 
 def test_a_damaged_file_is_drawn_or_named(draw, solve, tmp_path, monkeypatch):
     """As petsam wrote it, but for some bytes: whatever HDF5 does with them, which takes for ever with some."""
-    monkeypatch.setattr("petsam.core.isolation.SECONDS", 1)
     data, chance = solve(dict(CASE, grid_n=8)).path.read_bytes(), random.Random(1)
     path = tmp_path / "damaged.h5"
     for _ in range(25):

@@ -8,9 +8,10 @@ import pytest
 
 import conftest
 import petsam
+from petsam.core.tables import split
 from petsam.plot import bodies, looks
 from petsam.plot.style import STYLE, logarithmic, plt
-from petsam.plot.units import on_axis, size_of
+from petsam.plot.units import bracketed, on_axis, size_of
 from support import ball, few, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
@@ -44,6 +45,23 @@ def table(path):
         return list(csv.DictReader(file))
 
 
+def size_in(label):
+    """Size of the unit of a label in a table."""
+    return size_of(", " + split(label)[1])
+
+
+@pytest.mark.parametrize(
+    "text, table",
+    [
+        ("depth $z$, µm", "depth $z$ [µm]"), ("energy, last step, nJ", "energy, last step [nJ]"), ("t, s", "t [s]"),
+        ("$\\Delta K$, MPa m$^{1/2}$", "$\\Delta K$ [MPa m$^{1/2}$]"), ("energy, last step", "energy, last step"),
+        ("life, million cycles", "life [million cycles]"), ("creepage, 10⁻³", "creepage [10⁻³]"),
+    ],
+)  # fmt: skip
+def test_a_label_in_a_table_has_its_unit_in_brackets(text, table):
+    assert bracketed(text) == table
+
+
 @pytest.mark.parametrize(
     "text, size",
     [
@@ -62,8 +80,8 @@ def test_a_loop_is_written_as_it_is_drawn(plot, folder):
         cycle = petsam.cycles.find(results).numbered(1)
         force, way = (results.series(name)[cycle.rows] for name in ("load_tx", "disp_x"))
     x, y = (np.array([float(row[name]) for row in rows]) for name in "xy")
-    assert x * size_of(rows[0]["x_label"]) == pytest.approx(way) and y == pytest.approx(force)
-    assert rows[0]["y_label"].endswith(", N") and rows[0]["curve"].startswith("1: ")
+    assert x * size_in(rows[0]["x_label"]) == pytest.approx(way) and y == pytest.approx(force)
+    assert rows[0]["y_label"].endswith(" [N]") and rows[0]["curve"].startswith("1: ")
 
 
 def test_maps_and_sections_are_written_with_their_values(plot, folder):
@@ -74,7 +92,7 @@ def test_maps_and_sections_are_written_with_their_values(plot, folder):
     assert len(rows) == pressure.size
     values = np.array([[float(row[name]) for name in ("x", "y", "value")] for row in rows])
     assert values[:, 2] == pytest.approx(1e-6 * pressure.ravel(), rel=1e-12)
-    length = size_of(rows[0]["x_label"])
+    length = size_in(rows[0]["x_label"])
     assert length * values[:, 0] == pytest.approx(np.tile(x, y.size)) and length * values[-1, 1] == pytest.approx(y[-1])
     assert plot("--fatigue", "--csv", "f.csv", "-o", "f.png", "one.h5", "two.h5") == (0, [])
     rows = [float(row["value"]) for row in table(folder / "f.csv") if row["value"] and "two: Smith" in row["panel"]]
@@ -112,6 +130,19 @@ def test_limits_are_in_si_units_and_depth_still_points_down(folder):
     first, second = (panel for panel in figure.axes if panel.has_data())
     assert first.get_xlim() == pytest.approx((-200.0, 100.0)) and first.get_ylim() == pytest.approx((100.0, 0.0))
     assert second.get_ylim() == pytest.approx((100.0, 0.0))  # which has no label of its own
+
+
+def test_words_of_a_picture_have_their_units(plot, folder):
+    for name, limits, part, at, width in (
+        ("a", "0,5e7", "-1e-4,1e-4", "1e-5,0", "90"), ("b", "0,50MPa", "-0.1mm,100um", "10um,0", "9cm"),
+    ):  # fmt: skip
+        words = ("--profiles", "--field", "pressure", "--limits", limits, "--xlim", part, "--at", at, "--width", width)
+        assert plot(*words, "-o", name + ".png", "c.h5") == (0, [])
+    assert (folder / "a.png").read_bytes() == (folder / "b.png").read_bytes()
+    code, err = plot("--profiles", "--xlim", "0,5MPa", "-o", "a.png", "c.h5")
+    assert code == 3 and "--xlim, of $x$" in err[0] and "expected a unit of these: m, cm, mm" in err[0]
+    code, err = plot("--loop", "--ylim", "0,1mm", "-o", "a.png", "c.h5")
+    assert code == 3 and "expected a unit of these: N, kN" in err[0]
 
 
 def test_a_picture_has_the_given_width(plot, folder):

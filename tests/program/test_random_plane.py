@@ -1,16 +1,10 @@
-"""Plane strain against dense matrices in numpy: problems of tests/fuzz/plane.py."""
+"""Plane strain against dense matrices in numpy: problems of kinds/plane.py."""
 
-import importlib.util
-
-from conftest import PROGRAM
-from support import ROOT, few
-
-spec = importlib.util.spec_from_file_location("random_plane", ROOT / "tests/fuzz/plane.py")
-problems = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(problems)
+from kinds import plane
+from support import few
 
 
 @few("seed", range(1, 31), 8)
-def test_random_problem(seed):
-    _, _, wrong, line = problems.trial(PROGRAM, seed)
-    assert not wrong, line
+def test_random_problem(seed, tmp_path):
+    outcome = plane.trial(seed, tmp_path)
+    assert not outcome.fault, outcome.text

@@ -1,27 +1,20 @@
-"""Steady rolling against formulas in numpy: problems of tests/fuzz/rolling.py, and reciprocity without slip."""
-
-import importlib.util
+"""Steady rolling against formulas in numpy: problems of kinds/rolling.py, and reciprocity without slip."""
 
 import h5py
 import numpy as np
 import pytest
 
-from conftest import PROGRAM
-from support import ROOT
+from kinds import rolling
 from test_rolling import ellipse
-
-spec = importlib.util.spec_from_file_location("random_rolling", ROOT / "tests/fuzz/rolling.py")
-problems = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(problems)
 
 
 # cells of hardly any bound, fast sliding under loads, films; then the first ones
 @pytest.mark.parametrize(
     "seed", [27, 97, 138, 205, 234, 1, 2, *(pytest.param(k, marks=pytest.mark.slow) for k in range(3, 11))]
 )
-def test_random_problem(seed):
-    _, _, wrong, line = problems.trial(PROGRAM, seed)
-    assert not wrong, line
+def test_random_problem(seed, tmp_path):
+    outcome = rolling.trial(seed, tmp_path)
+    assert not outcome.fault, outcome.text
 
 
 @pytest.mark.parametrize("ratio", [0.3, 3])

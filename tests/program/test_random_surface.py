@@ -10,6 +10,8 @@ from petsam.commands import surface as command
 from petsam.core.errors import Error
 from petsam.plot.style import plt
 from petsam.surface import generation, reading
+from petsam.surface.readers.instruments import Instrument
+from petsam.surface.readers.stated import Stated
 
 SIZE = (1e-3, 1e-3)
 
@@ -152,13 +154,10 @@ def test_the_command_shapes_heights(surface, tmp_path):
 
 def test_heights_of_one_instruments_file_are_body_2s(monkeypatch, tmp_path):
     (tmp_path / "scan.sur").write_text("x")
-    stated = reading.Stated(np.array([[0.0, 1e-6], [0.0, 0.0]]), 1.0, (1e-3, 1e-3))
-    monkeypatch.setitem(reading.READERS, "surfacetopography", lambda path, options: stated)
-    options = command.arguments([str(tmp_path / "scan.sur")])
-    one, remarks, _ = reading.read_map(str(tmp_path / "scan.sur"), options, None)
-    assert one.quantity == "height2" and any(
-        "taken for heights of body 2; --body 1 or --separation" in r for r in remarks
-    )
-    options = command.arguments([str(tmp_path / "scan.sur")] * 2)
+    stated = Stated(np.array([[0.0, 1e-6], [0.0, 0.0]]), 1.0, (1e-3, 1e-3))
+    monkeypatch.setattr(Instrument, "read", lambda self, source: stated)
+    one = reading.read(tmp_path / "scan.sur")
+    assert one.quantity == "height2"
+    assert any("taken for heights of body 2; --body 1 or --separation" in remark for remark in one.remarks)
     with pytest.raises(Error, match="does not say whether it holds heights"):
-        reading.read_map(str(tmp_path / "scan.sur"), options, None)
+        reading.read(tmp_path / "scan.sur", alone=False)

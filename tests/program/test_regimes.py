@@ -1,6 +1,5 @@
 """Studies that decide: stresses of each case, expressions of results, regimes, and their maps over two inputs."""
 
-import csv
 import subprocess
 import sys
 
@@ -17,7 +16,7 @@ from petsam.plot import planes, tables
 from petsam.study import cases as study_cases
 from petsam.study.cases import Case
 from petsam.study.tables import write_hdf5
-from support import ROOT, ball, hertz, words
+from support import ROOT, ball, hertz, table_of, words
 
 pytestmark = pytest.mark.usefixtures("closing")
 
@@ -64,8 +63,7 @@ def study(folder, *arguments):
 
 
 def rows(folder):
-    with open(folder / "t" / "results.csv", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+    return table_of(folder / "t" / "results.csv")
 
 
 def test_the_stresses_of_each_case_are_columns(folder):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from random_repeats import BALL, trial
+from kinds.repeats import BALL, first_pair
 from support import few, history, read_run
 
 
@@ -25,7 +25,7 @@ def test_a_load_comes_back_to_surfaces_that_have_yielded_since(petsam, tmp_path,
 
 @few("seed", range(1, 13))
 def test_random_pair(tmp_path, seed):
-    pair, codes, wrong, _ = trial(seed, tmp_path)
+    pair, codes, wrong, _ = first_pair(seed, tmp_path)
     assert not wrong, f"{pair}: exit codes {codes}, {wrong}"
 
 

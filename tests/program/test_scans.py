@@ -101,10 +101,16 @@ def test_the_library_takes_the_first_row_from_the_header(surface, tmp_path):
 X, Y = (axis.ravel() for axis in np.meshgrid(np.arange(12.0), np.arange(16.0)))
 POINTS = np.c_[X, Y, H.ravel()]
 LISTS = {
-    "xyz": POINTS, "scattered": np.random.default_rng(2).normal(size=(192, 3)), "one missing": np.delete(POINTS, 77, 0),
-    "few": POINTS[[0, 1, 12, 13]], "xyzi": np.c_[POINTS, 255 + 0 * X], "xyzrgb": np.c_[POINTS, X, Y, X],
-    "four of xyzi": np.c_[POINTS, 255 + 0 * X][[0, 1, 12, 13]], "profile": np.c_[X, np.sin(X)], "falling": np.c_[-X, X],
-    "two points": POINTS[:2, 1:], "five": np.c_[POINTS, X, Y], "doubled": np.r_[POINTS, POINTS[:1]],
+    "scattered": np.random.default_rng(2).normal(size=(192, 3)), "profile": np.c_[X, np.sin(X)],
+    "falling": np.c_[-X, X],
+    "few of many": POINTS[::5], "two points": POINTS[:2, 1:], "doubled": np.r_[POINTS, POINTS[:1]],
+    "uneven": np.c_[X**1.1, Y, H.ravel()], "uneven profile": np.c_[np.arange(12.0) ** 2, H[0]],
+}  # fmt: skip
+GRIDS = {
+    "xyz": POINTS, "one missing": np.delete(POINTS, 77, 0), "xyzi": np.c_[POINTS, 255 + 0 * X],
+    "xyzrgb": np.c_[POINTS, X, Y, X], "five": np.c_[POINTS, X, Y],
+    "shuffled": np.random.default_rng(3).permutation(POINTS),
+    "rounded": np.round(np.c_[X + 0.04, Y - 0.03, H.ravel()], 4),
 }  # fmt: skip
 
 
@@ -113,13 +119,34 @@ def test_a_list_of_points_is_no_map(surface, tmp_path, name):
     text(tmp_path / "z.csv", LISTS[name], separator=",")
     (said,) = surface("z.csv", *KNOWS, check=3)
     assert "z.csv: line 1: " in said and "a map has one line per y" in said, said
-    np.save(tmp_path / "z.npy", LISTS[name])
-    for values in (LISTS[name], LISTS[name].T) if len(LISTS[name]) > 9 else ():
+
+
+@pytest.mark.parametrize("name", [*LISTS, *GRIDS])
+def test_an_array_of_points_is_no_map(surface, tmp_path, name):
+    points = {**LISTS, **GRIDS}[name]
+    for values in (points, points.T) if len(points) > 9 else ():
         np.save(tmp_path / "z.npy", values)
         assert values.shape[0] in (4, 5, 6) or "a map has one line" in surface("z.npy", *KNOWS, check=3)[0]
 
 
-@pytest.mark.parametrize("name", ["scattered", "one missing", "xyzi", "doubled", "profile"])
+@pytest.mark.parametrize("name", GRIDS)
+def test_points_on_a_grid_are_a_map(surface, tmp_path, name):
+    """In any order, absent ones missing, further columns left out; the size needs the unit of x and y."""
+    text(tmp_path / "z.csv", GRIDS[name], separator=";")
+    out = surface("z.csv", *UM, "--size", "12um,16um", "--fill", "nearest", "--no-picture")
+    found = stored(tmp_path / "z.h5")
+    assert found.shape == H.shape
+    if name == "one missing":
+        assert any("1 point absent" in line for line in out)
+        found.flat[77] = H.flat[77] * 1e-6
+        assert "1 point is missing, of 192" in surface("z.csv", *UM, "--size", "12um,16um", check=3)[0]
+    assert_close(found, H * 1e-6, 1e-4)
+    assert GRIDS[name].shape[1] == 3 or any("column" in line and "left out" in line for line in out)
+    assert "--size 12um,16um" in surface("z.csv", *KNOWS, check=3)[0]
+    assert "--size 12um,16um" in surface("z.csv", *UM, check=3)[0]
+
+
+@pytest.mark.parametrize("name", ["scattered", "doubled", "profile"])
 def test_the_library_makes_no_map_of_a_list_either(surface, tmp_path, name):
     pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
     text(tmp_path / "z.txt", LISTS[name])
@@ -133,7 +160,7 @@ def test_points_on_a_full_grid_are_read_by_the_library(surface, tmp_path, order)
     text(tmp_path / "z.txt", points)
     surface("z.txt", *UM, *SELF, "--size", "12um,16um", "--no-picture")
     assert_close(stored(tmp_path / "z.h5"), H * 1e-6, 1e-5)
-    assert "x and y span 12 x 16" in surface("z.txt", *UM, *SELF, "--size", "1mm", check=3)[0]
+    assert "x, y, z span 12 x 16" in surface("z.txt", *UM, *SELF, "--size", "1mm", check=3)[0]
 
 
 # ---------------------------------------------------------------- positions beside the heights

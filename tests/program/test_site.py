@@ -94,7 +94,8 @@ UNHINTED = (
         "joint.balance",
         "joint.wear",
     ),
-    *("lives.stresses", "lives.materials", "lives.strength", "lives.evaluation", "lives.cracks"),
+    *("lives.spectrum", "lives.stresses", "lives.materials", "lives.strength", "lives.evaluation", "lives.cracks"),
+    *("compliance.result", "surface.reading", "surface.maps", "study.jobs", "study.cases"),
     *("plot.of_compliance", "plot.of_lives", "plot.of_surface"),
 )
 

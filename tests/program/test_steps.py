@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from random_energies import compare
+from kinds.energies import compare
 from support import ball, history, slide_limit
 
 CASE = ball(n=20)

@@ -16,6 +16,7 @@ import h5py
 import numpy as np
 import pytest
 
+import petsam
 from conftest import PROGRAM as PETSAM
 from conftest import environment
 from petsam.commands import study as study_command
@@ -23,7 +24,7 @@ from petsam.core.declared import PATHS
 from petsam.study import cases as study_cases
 from petsam.study import runs as study_runs
 from petsam.study.slurm import ranges
-from support import ROOT, ball, limit, slide_limit, words
+from support import ROOT, ball, limit, slide_limit, table_of, words
 
 PROGRAM = ROOT / "scripts" / "petsam-study"
 CASE = ball(n=32)
@@ -475,8 +476,10 @@ def test_a_missing_file_of_every_case_is_named_before_any_runs(run, tmp_path):
 def test_tables_hold_inputs_and_scalars_of_the_last_step(run, tmp_path):
     table(tmp_path, f"load_tx,load_mz\n{float(0.3 * LIMIT)!r},0\n{float(0.5 * LIMIT)!r},1e-3\n")
     run("cases.csv", "--", *words(CASE), "-steps", "2")
-    with open(tmp_path / "cases" / "results.csv", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    heads = (tmp_path / "cases" / "results.csv").read_text().splitlines()[0]
+    assert heads.startswith("case,exit_code,seconds [s],ranks,load_tx,load_mz,steps [1],contact_area [m2],")
+    assert ",load_tx_end [N]," in heads and ",stick_area [m2]," in heads
+    rows = table_of(tmp_path / "cases" / "results.csv")
     assert [row["exit_code"] for row in rows] == ["0", "0"] and [row["load_mz"] for row in rows] == ["0", "1e-3"]
     with h5py.File(tmp_path / "cases" / "results.h5", "r") as both:
         assert both["inputs/load_mz"][:].tolist() == [0.0, 1e-3]
@@ -488,6 +491,30 @@ def test_tables_hold_inputs_and_scalars_of_the_last_step(run, tmp_path):
             assert float(row["load_tx_end"]) == history["load_tx"][-1]
             assert np.isclose(float(row["dissipated_energy_sum"]), history["dissipated_energy"][:].sum(), rtol=1e-14)
             assert int(row["steps"]) == history["time"].size
+
+
+def test_a_study_runs_from_python_side_by_side(tmp_path, fake, monkeypatch):
+    """As the command runs it; again nothing runs but what has failed."""
+    for name, value in fake.items():
+        monkeypatch.setenv(name, str(value))
+    monkeypatch.chdir(tmp_path)
+    table(tmp_path, "load_tx,code\n1,0\n2,0\n3,4\n")
+    ended = []
+    found = petsam.study.run(
+        "cases.csv", cores=2, options=dict(grid_n=(32, 32), wait=0.01), report=lambda *one: ended.append(one)
+    )
+    assert found.codes.tolist() == [0, 0, 4] and found.inputs["load_tx"].tolist() == [1.0, 2.0, 3.0]
+    assert sorted((case.inputs["load_tx"], code) for case, code in ended) == [("1", 0), ("2", 0), ("3", 4)]
+    assert len(runs(tmp_path)) == 3 and all(
+        {"-grid_n", "32,32", "-wait", "0.01"} <= set(line) for line in runs(tmp_path)
+    )
+    assert petsam.study.run("cases.csv", "cases", cores=2, options=dict(grid_n=(32, 32), wait=0.01)).codes[2] == 4
+    assert len(runs(tmp_path)) == 4
+    with pytest.raises(petsam.Error, match="2 ranks do not fit into 1 cores"):
+        petsam.study.run("cases.csv", "other", cores=1, ranks=2)
+    with pytest.raises(petsam.study.TableError, match="t.csv, line 2"):
+        table(tmp_path, "load_tx,output\n1,a\n", "t.csv")
+        petsam.study.run("t.csv")
 
 
 def test_other_cases_run_after_one_with_a_wrong_option(run, tmp_path, fake):

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from kill_at_random import differences
+from kinds.kills import differences
 from support import SPHERE, ball
 from test_wear import BALL, cycle
 

@@ -7,10 +7,10 @@ import h5py
 import numpy as np
 import pytest
 
+from petsam.core import units, words
 from petsam.core.errors import Error
-from petsam.core.lengths import KNOWN, UNITS, lengths, metres
-from petsam.surface import filling, levels, maps, resampling
-from petsam.surface.tables import read_table
+from petsam.surface import basics, filling, levels, maps, resampling
+from petsam.surface.tables import Form, read_table
 from support import ROOT, assert_close, assert_same, ball, hertz
 from test_plot import pixels
 
@@ -226,10 +226,10 @@ def test_python_and_c_know_the_same_units():
     text = (ROOT / "src/ground/file/lengths.c").read_text()
     pairs = re.findall(r'\{"([^"]+)", ([\d.e-]+)\}', text.split("} units[]")[1].split(";")[0])
     names = {name: float(value) for words, value in pairs for name in words.encode().decode("unicode_escape").split()}
-    assert names == UNITS
-    assert f'UNITS "{KNOWN}"' in text and all(metres(name) for name in KNOWN.split(", "))
+    assert names == units.of("m")
+    assert f'UNITS "{units.names()}"' in text and all(units.size(name) for name in units.names().split(", "))
     quantities = re.findall(r'\{"(\w+)", -?1\}', text.split("quantities[]")[1].split(";")[0])
-    assert set(quantities) == set(maps.QUANTITIES)
+    assert set(quantities) == set(basics.QUANTITIES)
 
 
 @pytest.mark.parametrize(
@@ -243,7 +243,7 @@ def test_python_and_c_know_the_same_units():
     ],
 )
 def test_lengths_have_units_or_are_metres(text, value):
-    assert np.allclose(lengths(text), value, rtol=1e-15)
+    assert np.allclose(words.numbers(text, unit="m"), value, rtol=1e-15)
 
 
 # ---------------------------------------------------------------- text files
@@ -276,7 +276,7 @@ def lines(separator, point="."):
 def test_tables_of_every_form(tmp_path, text, more, header, encoding):
     path = tmp_path / "t.csv"
     path.write_bytes(text.replace("\ufeff", "" if encoding != "utf-8" else "\ufeff").encode(encoding))
-    values, left_out, first = read_table(path, **more)
+    values, left_out, first = read_table(path, Form(**more))
     assert np.array_equal(values, TABLE) and left_out == header
 
 
@@ -560,9 +560,9 @@ def sag(n=N, width=WIDTH):
 def test_a_ball_as_heights_of_either_body_and_as_separation_is_one_contact(surface, solve, tmp_path):
     """To the last digits: a peak of either body reduces the separation."""
     runs = []
-    for k, (sign, words) in enumerate([(1, ["--separation"]), (-1, ["--body", 1]), (-1, ["--body", 2])]):
+    for k, (sign, quantity) in enumerate([(1, ["--separation"]), (-1, ["--body", 1]), (-1, ["--body", 2])]):
         np.save(tmp_path / f"{k}.npy", sign * sag())
-        surface(f"{k}.npy", *words, "--units", "m", "--size", repr(float(WIDTH)))
+        surface(f"{k}.npy", *quantity, "--units", "m", "--size", repr(float(WIDTH)))
         gap = dict(gap_file=tmp_path / f"{k}.h5", gap_dataset=None if k else "/separation")
         runs.append(solve(dict(CASE, **gap), ranks=1 + k % 2))
     contact = hertz(ball(N))

@@ -13,25 +13,38 @@ LIFE = dict(
     STEEL, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.05, gap_radius_y=float("inf"), friction=0.53,
     grid_size=3.36e-3, wear_coefficient1=1e-13, wear_coefficient2=1e-13, steps=8, output_every=10000,
 )  # fmt: skip
-ROWS = [(float(k), 5.7e5, 90630.0 * x) for k, x in enumerate((0, 1, -1, 0))]
+BALL = dict(
+    STEEL, gap_type="sphere", gap_radius1=0.05, gap_radius2=float("inf"), friction=0.5, grid_size=1e-3, steps=4,
+    wear_coefficient2=2e-12, wear_rtol=0.1, output_every=10000,
+)  # fmt: skip
+PUSH = 90630.0
 TOLD = re.compile("the scar is (.*) cells wide and ends at the edge of a stick zone")
 NAMES = {"energy of the last cycle": "dissipated_energy", "worn volumes": "volume1", "maximum depths": "depth_max1"}
 
 
+def cycle(folder, normal, push):
+    """Options of a cycle of T under constant N."""
+    return history(folder / "loads.csv", "time,load_n,load_tx", *((k, normal, push * x) for k, x in enumerate(
+        (0, 1, -1, 0))))  # fmt: skip
+
+
 @pytest.fixture
 def life(petsam, tmp_path):
-    """life(n, cycles): numbers of the last cycle, errors that are told by name, and the advised cells or None."""
+    """life(n, cycles, push): numbers of the last cycle, errors that are told by name, and the advised cells or None."""
 
-    def run(n, cycles, **options):
-        loads = history(tmp_path / "loads.csv", "time,load_n,load_tx", *ROWS)
-        done = petsam(LIFE, loads, dict(grid_n=n, wear_cycles=cycles, output="life.h5"), options)
+    def run(n, cycles, push=PUSH, case=LIFE):
+        loads = cycle(tmp_path, 100.0 if case is BALL else 5.7e5, push)
+        done = petsam(case, loads, dict(grid_n=n, wear_cycles=cycles, output="life.h5"))
         said = " ".join(line for line in done.complaint if TOLD.search(line))
         errors = {NAMES[name]: float(part) / 100 for part, name in re.findall(r"(\d+) % in the ([a-z ]+)[,:;]", said)}
         if peak := re.search(r"pressure is about (\d+) % higher", said):
             errors["pressure_max"] = float(peak[1]) / 100
+        if peak := re.search(r"shear there (?:is )?about (\d+) %", said):
+            errors["shear_max"] = float(peak[1]) / 100
         advised = re.search(r"-grid_n (\d+)$", said)
         with h5py.File(tmp_path / "life.h5") as file:
             numbers = {name: column[-1] for name, column in file["wear"].items()}
+            numbers["shear_max"] = file["history/shear_max"][-1]
         return numbers, errors, int(advised[1]) if advised else None
 
     return run
@@ -73,15 +86,51 @@ def test_the_pressure_at_the_edge_of_stick_is_told_though_it_is_not_the_maximum(
     assert errors["pressure_max"] > 0.05
 
 
-def test_any_number_of_ranks_says_the_same(life, petsam, tmp_path):
+@pytest.mark.parametrize("push", [60000.0, 75000.0])
+def test_the_pressure_at_a_narrow_scar_is_told_though_it_falls_towards_the_edge_of_contact(life, push):
+    numbers, errors, _ = life(100, 1e5, push)
+    true, _, _ = life(400, 1e5, push)
+    error = true["pressure_max"] / numbers["pressure_max"] - 1
+    assert error > 0.2 and error / 2 < errors["pressure_max"] < 1
+    assert true["shear_max"] > 1.5 * numbers["shear_max"]
+
+
+@pytest.mark.parametrize("cycles", [4000, 4500])
+def test_the_shear_at_a_young_step_is_told(life, cycles):
+    """It grows by as much as its bound, and is half of it: the pressure changes by half as much in proportion."""
+    numbers, errors, _ = life(160, cycles, 240000.0)
+    true, _, _ = life(640, cycles, 240000.0)
+    error = true["shear_max"] / numbers["shear_max"] - 1
+    assert error > 0.08 and error / 2 < errors["shear_max"] < 2 * error
+
+
+def test_peaks_at_a_narrow_scar_of_a_ball_are_told(life):
+    numbers, errors, _ = life(32, 20000, 15.0, BALL)
+    true, _, _ = life(64, 20000, 15.0, BALL)
+    assert true["pressure_max"] > 1.1 * numbers["pressure_max"] and errors["pressure_max"] > 0.05
+
+
+@pytest.mark.parametrize("push", [33.0, 36.0])
+def test_the_volume_of_a_late_scar_of_a_ball_is_told(life, push):
+    numbers, errors, _ = life(32, 50000, push, BALL)
+    true, _, _ = life(64, 50000, push, BALL)
+    error = abs(numbers["volume2"] / true["volume2"] - 1)
+    assert error > 0.05 and error / 2 < errors["volume1"] < 2 * error
+
+
+def test_the_depth_along_a_round_edge_is_not_questioned(life):
+    """Of its many places on the cells one is near the largest depth."""
+    numbers, errors, _ = life(32, 200, 32.0, BALL)
+    true, _, _ = life(64, 200, 32.0, BALL)
+    assert abs(numbers["depth_max2"] / true["depth_max2"] - 1) < 0.02 and not errors
+
+
+def test_any_number_of_ranks_says_the_same(petsam, tmp_path):
     """In three dimensions, where rows of the edge lie on different ranks."""
-    ball = dict(
-        STEEL, gap_type="sphere", gap_radius1=0.05, gap_radius2=float("inf"), friction=0.5, grid_n=32, grid_size=1e-3,
-        wear_coefficient2=2e-12, wear_cycles=2000, wear_rtol=0.1, steps=4,
-    )  # fmt: skip
-    loads = history(tmp_path / "ball.csv", "time,load_n,load_tx", *((k, 100.0, 25.0 * x) for k, _, x in zip(
-        range(4), ROWS, (0, 1, -1, 0))))  # fmt: skip
-    said = [[line for line in petsam(ball, loads, ranks=ranks).complaint if TOLD.search(line)] for ranks in (1, 3)]
+    loads = cycle(tmp_path, 100.0, 15.0)
+    case = dict(BALL, **loads, grid_n=32, wear_cycles=20000, output="life.h5")
+    told = [petsam(case, ranks=ranks).complaint for ranks in (1, 3)]
+    said = [[line for line in complaint if TOLD.search(line)] for complaint in told]
     assert said[0] and said[0] == said[1]
 
 

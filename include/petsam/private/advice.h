@@ -162,7 +162,7 @@ typedef struct {
   SamAdviceEnd - warns, after the last step, of a dissipated energy that is wrong by more than 5 % because the slip
   zones are only few cells wide, or by more than 2 % because N grows in one step on dissimilar bodies; in steady rolling
   of a load or a creepage that finer cells change by more than 2 %; of a maximum slip, shear or slip velocity and an
-  area of stick if the zones are few cells wide; and of volumes, depths, the energy of the last cycle and a pressure
+  area of stick if the zones are few cells wide; and of volumes, depths, the energy of a cycle, pressure and shear
   that are wrong by more than 5 % because the wear ends at a stick zone. `found`: the energy, NULL if there is none.
   Collective.
   SamAdviceEdge - appends to the message of a step whose contact reached the grid's edge a grid that is large enough for

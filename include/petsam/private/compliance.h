@@ -39,12 +39,25 @@ struct _n_SamCompliance {
 };
 
 /*
-  SamComplianceRead - reads the compliance of body 0 or 1 from the file that `option` (without dash) names; `pair`: the
-  bodies without it. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and for a body
-  that would gain energy, or be too compliant, under some traction.
+  SamComplianceRead - reads the compliance of body 0 or 1 from the file that `option` (without dash) names, of several
+  patches of a structure one, NAME:PATCH, or NAME:PATCH:local[:LOWER] (file.c); `pair`: the bodies without it.
+  Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and for a body that would gain
+  energy, or be too compliant, under some traction.
 */
 PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamPair pair, const char option[],
                                               const char file[], SamCompliance *compliance);
+/*
+  SamComplianceFit - computes the coefficients of the polynomials nearest to values (n, 3) at n >= compliance->modes
+  points; `rest`: the largest deviation relative to their range, NaN if the points do not determine the polynomials. Not
+  collective.
+*/
+PETSC_INTERN PetscErrorCode SamComplianceFit(SamCompliance compliance, PetscInt n, const double *const at[2],
+                                             const double values[], double field[][3], double *rest);
+/*
+  SamComplianceFileName - returns the length of the file's name in such a text; patch, local and lower are 0 where it
+  has none of them. Not collective.
+*/
+PETSC_INTERN size_t SamComplianceFileName(const char text[], PetscInt *patch, PetscBool *local, PetscInt *lower);
 /*
   SamComplianceFactor - returns the factor on load case l in a step, body1_case_<name> or body2_case_<name>. Not
   collective.

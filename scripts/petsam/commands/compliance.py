@@ -5,14 +5,17 @@
         --degree 6 --case pull=1 -o beam.h5
     petsam-compliance --mesh lap.inp --units mm --contact LOWER --pair UPPER --fixed CLAMP --patch 36mm,20mm \\
         --degree 12,6 --bolt B1=TOP_WASHER,BOTTOM_WASHER:8mm --modes 12 --sensor TIP=1234 -o lap.h5
-    petsam-compliance --matrix beam.mtx --nodes beam.txt --units mm --young 2.1e11 --poisson 0.3 --patch 3mm
 
-Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials, and
-takes the stiffness from CalculiX. The contact is on the patch, a rectangle about --center in the plane z = 0 of the
-frame, whose z points into the body; it lies on the surface --contact. The body is held at the nodes of --fixed; the
-nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. A load case is a step of
-the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside it. With --matrix
-the body is a substructure of another program, whose retained nodes are the patch: less accurate, so of degree 1.
+Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials.
+The stiffness is assembled here, that of C3D8I by CalculiX. The contact is on the patch, a rectangle about --center in
+the plane z = 0 of the frame, whose z points into the body; it lies on the surface --contact. The body is held at the
+nodes of --fixed; the nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. A
+load case is a step of the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture
+beside it.
+
+Instead of a deck a file that the library meshio reads (of Gmsh, Abaqus, Nastran, Salome and others), with --young and
+--poisson, and sets by their names, physical groups of Gmsh, too. Instead of a set or a surface a box gives its nodes or
+outer faces by coordinates: two corners in the mesh's units, 0,0,4:4,4,4, inf for no limit.
 
 With --pair the deck has both bodies, and bolts join them. The file is the compliance of both, for -body2_compliance:
 displacement of body 2 minus that of body 1. Unit initial tension of a bolt is the load case bolt_NAME, and a mode
@@ -22,145 +25,154 @@ inertia balances load cases, and modes are elastic ones. Each material needs *DE
 """
 
 import argparse
-import collections
 import math
 import os
 import re
 import shlex
 import sys
+import time
 import warnings
 
 from .. import plot
-from ..compliance import basis, model, several, substructure, writing
+from ..compliance import basis, model, several, writing
+from ..compliance.settings import (
+    HIGHEST,
+    HIGHEST_EACH,
+    MOST_OF_PAIR,
+    NAME,
+    Bolt,
+    Settings,
+    need_bolt,
+    need_degree,
+    need_sense,
+)
 from ..compliance.units import UNITS
-from ..core import isolation
-from ..core.errors import Error, Parser, fail, guarded, joined, short
+from ..core import words
+from ..core.errors import Error, Useless, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
-from ..core.lengths import lengths, shown, sides
-from ..core.lengths import several as numbers
-from ..plot.saving import add_choice, write
+from ..core.units import shown
+from ..plot.saving import write
+from .line import Parser, add_choice, fail, guarded, joined, word
 
-HIGHEST = 10  # highest degree that petsam reads
-HIGHEST_EACH, MOST_FUNCTIONS = 24, 325  # the same of degrees in x and y, and the number of their products
-NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
-Bolt = collections.namedtuple("Bolt", "name surfaces diameter young")
-MOST_CASES, MOST_OF_PAIR = 8, 40
-LONGEST = 20  # letters of the name of a load case
-MESH_ONLY = ("contact", "fixed", "free", "symmetry", "case", "coarse_mesh", "depth", "pair", "bolt", "modes", "sensor")
-PAIR_ONLY = ("bolt", "modes", "sensor")
-RESERVED = ("closing", "closing_by")  # names beside those of bolts in the file
 PROGRAM = "petsam-compliance"
 
 
 def frame(text):
-    """Reads a frame for argparse: an origin, a direction x and a direction z."""
-    parts = [re.split(r",", part) for part in text.split(":")]
-    try:
-        vectors = [[float(word) for word in part] for part in parts]
-    except ValueError:
-        vectors = []
-    if not 1 <= len(vectors) <= 3 or not all(len(vector) == 3 for vector in vectors):
-        raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
-        )
-    return vectors
+    """A frame: an origin, a direction x and a direction z."""
+    form = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
+    parts = text.split(":")
+    if not 1 <= len(parts) <= 3:
+        raise words.WordError(text, form)
+    return tuple(tuple(words.numbers(part, form, count=3)) for part in parts)
 
 
 def case(text):
-    """Reads a load case for argparse."""
+    """A load case: its name and the step of the deck."""
     name, _, step = text.partition("=")
     if not NAME.fullmatch(name) or not step.isdecimal():
-        raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected NAME=STEP, a name of at most 20 letters, digits or _ and a step of the deck"
-        )
+        raise words.WordError(text, "NAME=STEP, a name of at most 20 letters, digits or _ and a step of the deck")
     return name, int(step)
 
 
 def degree(text):
-    """Reads a degree for argparse: of all products, or largest ones in x and y."""
-    words = text.split(",")
-    most = HIGHEST if len(words) == 1 else HIGHEST_EACH
-    if len(words) > 2 or not all(word.isdecimal() and int(word) <= most for word in words):
-        raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and y: 12,6"
-        )
-    if len(words) == 1:
-        return int(text)
-    found = tuple(int(word) for word in words)
-    count = len(basis.powers(found))
-    if count > MOST_FUNCTIONS:
-        raise argparse.ArgumentTypeError(
-            f"{short(text)} gives {count} polynomials, limit {MOST_FUNCTIONS}: lower the degree in one direction"
-        )
+    """A degree: of all products, or largest ones in x and y."""
+    form = f"an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and y: 12,6"
+    found = words.integers(text, form, lambda value: value >= 0, count=(1, 2))
+    found = found[0] if len(found) == 1 else tuple(found)
+    need_degree(found)
     return found
 
 
-def bolt(text):
-    """Reads a bolt for argparse."""
-    name, _, rest = text.partition("=")
-    surfaces, *numbers = rest.split(":")
-    both = surfaces.split(",")
-    if not NAME.fullmatch(name) or name in RESERVED or len(both) != 2 or not all(both) or len(numbers) not in (1, 2):
-        raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected NAME=SURFACE1,SURFACE2:DIAMETER[:YOUNG], as in B1=HEAD,NUT:8mm"
-        )
-    if len("bolt_" + name) > LONGEST:
-        raise argparse.ArgumentTypeError(f"{short(name)}: use a name of at most {LONGEST - len('bolt_')} letters")
-    young = positive(numbers[1]) if len(numbers) == 2 else None
-    return Bolt(name, tuple(both), length(numbers[0]), young)
-
-
-def positive(text):
-    """Reads a modulus for argparse."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a modulus above 0, in Pa")
-    return value
-
-
-def modes(text):
-    """Reads a number of modes for argparse."""
-    if not text.isdecimal() or not 1 <= int(text) <= MOST_OF_PAIR:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer from 1 to {MOST_OF_PAIR}")
-    return int(text)
-
-
-def sensor(text):
-    """Reads a sensor for argparse."""
-    name, _, node = text.partition("=")
-    if not NAME.fullmatch(name) or not node:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected NAME=NODE, a node of the deck or a set of one node")
-    return name, node
+def modulus(text):
+    """A modulus, Pa."""
+    return words.number(text, "a modulus above 0, such as 210GPa", "Pa", words.positive)
 
 
 def length(text):
-    """Reads a length above 0 for argparse."""
-    values = lengths(text)
-    if len(values) != 1 or not 0.0 < values[0] < float("inf"):
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a length above 0")
-    return values[0]
+    """A length above 0, m."""
+    return words.number(text, "a length above 0, such as 1e-3 (m) or 1mm", "m", words.positive)
+
+
+def bolt(text):
+    """A bolt. Its surfaces may be boxes, which have commas and a colon."""
+    name, _, rest = text.partition("=")
+    point = r"[^,:]+,[^,:]+,[^,:]+"
+    surface = rf"({point}:{point}|[^,:]+)"
+    found = re.fullmatch(rf"{surface},{surface}:([^:]+)(?::([^:]+))?", rest)
+    need_bolt(name if found else "", text)
+    return Bolt(name, found.groups()[:2], length(found[3]), None if found[4] is None else modulus(found[4]))
+
+
+def sensor(text):
+    """A sensor: its name and its node."""
+    name, _, node = text.partition("=")
+    if not NAME.fullmatch(name) or not node:
+        raise words.WordError(text, "NAME=NODE, a node of the deck or a set of one node")
+    return name, node
+
+
+def of_material(text, form, unit, allowed):
+    """A value of all elements, or (set, value) of one set of them."""
+    if "=" not in text:
+        return "", words.number(text, form, unit, allowed)
+    return words.named(text, form, unit, allowed)
+
+
+class Progress:
+    """Prints lines about parts of the work that take long."""
+
+    def __init__(self, stream, seconds=5.0):
+        self.stream, self.seconds = stream, seconds
+        self.start = self.last = time.monotonic()
+
+    def __call__(self, text):
+        now = time.monotonic()
+        if now - self.last >= self.seconds:
+            self.last = now
+            print(f"  {now - self.start:.0f} s: {text}", file=self.stream, flush=True)
 
 
 def _body_options(parser):
     body = parser.add_argument_group("the body")
-    body.add_argument("--mesh", metavar="NAME.inp", help="CalculiX deck with mesh, sets and materials")
-    body.add_argument("--contact", metavar="SURFACE", help="element surface of the deck on which the patch lies")
-    body.add_argument("--fixed", action="append", metavar="NSET", help="node set held in x, y, z; may be repeated")
+    body.add_argument(
+        "--mesh",
+        required=True,
+        metavar="NAME",
+        help="CalculiX deck (.inp), or a file that meshio reads, with --young, --poisson",
+    )
+    body.add_argument("--contact", metavar="SURFACE", help="element surface on which the patch lies, or box")
+    body.add_argument(
+        "--fixed", action="append", metavar="NSET", help="node set held in x, y, z, or box; may be repeated"
+    )
     body.add_argument(
         "--symmetry", action="append", metavar="NSET", help="node set in a plane of symmetry; may be repeated"
     )
     body.add_argument("--units", choices=tuple(UNITS), default="m", help="m: m, N, Pa; mm: mm, N, MPa (m)")
     body.add_argument(
         "--frame",
-        type=frame,
+        type=word(frame),
+        default=((0.0, 0.0, 0.0),),
         metavar="ORIGIN[:X[:Z]]",
         help="of the contact in the deck's coordinates and units; Z points into the body (0,0,0:1,0,0, surface normal)",
     )
-    body.add_argument("--case", type=case, action="append", metavar="NAME=STEP", help="load case: a step of the deck")
+    positive, ratio = words.positive, lambda value: -1.0 < value < 0.5
+    for name, form, unit, allowed, text in (
+        (
+            "young",
+            "a modulus above 0, such as 210GPa",
+            "Pa",
+            positive,
+            "Young's modulus of a mesh without materials, Pa",
+        ),
+        ("poisson", "a ratio from -1 to 0.5", "1", ratio, "its Poisson's ratio"),
+        ("density", "a density above 0, in kg/m3", "kg/m3", positive, "its density, kg/m3"),
+    ):
+        reads = word(of_material, form, unit, allowed)
+        body.add_argument(f"--{name}", type=reads, action="append", metavar="[SET=]VALUE", help=text)
+    body.add_argument(
+        "--case", type=word(case), action="append", metavar="NAME=STEP", help="load case: a step of the deck"
+    )
 
 
 def _pair_options(parser):
@@ -168,31 +180,29 @@ def _pair_options(parser):
     pair.add_argument("--pair", metavar="SURFACE", help="element surface of body 1 that faces --contact")
     pair.add_argument(
         "--bolt",
-        type=bolt,
+        type=word(bolt),
         action="append",
         metavar="NAME=S1,S2:D[:E]",
         help="bolt from washer surface S1 on body 1 to S2 on body 2, its diameter and its modulus, Pa (the bodies'); "
         "may be repeated",
     )
     pair.add_argument(
-        "--free", action="store_true", default=None, help="instead of --fixed: nothing holds the bodies; needs *DENSITY"
+        "--free", action="store_true", help="instead of --fixed: nothing holds the bodies; needs *DENSITY"
     )
-    pair.add_argument("--modes", type=modes, metavar="N", help="number of modes without contact; needs *DENSITY")
+    pair.add_argument(
+        "--modes",
+        type=word(words.integer, f"an integer from 1 to {MOST_OF_PAIR}", lambda count: 1 <= count <= MOST_OF_PAIR),
+        default=0,
+        metavar="N",
+        help="number of modes without contact; needs *DENSITY",
+    )
     pair.add_argument(
         "--sensor",
-        type=sensor,
+        type=word(sensor),
         action="append",
         metavar="NAME=NODE",
         help="node, or set of one node, whose modes are written",
     )
-
-
-def _matrix_options(parser):
-    other = parser.add_argument_group("instead of a mesh, a substructure matrix")
-    other.add_argument("--matrix", metavar="NAME", help="stiffness: Abaqus .mtx, Nastran DMIG KAAX, ANSYS .sub as text")
-    other.add_argument("--nodes", metavar="NAME", help="table of the retained nodes, in lines of: node x y z")
-    other.add_argument("--young", type=float, metavar="PA", help="modulus of the material under the patch, Pa")
-    other.add_argument("--poisson", type=float, metavar="NU", help="its Poisson's ratio")
 
 
 def parser():
@@ -201,30 +211,36 @@ def parser():
     _body_options(found)
     _pair_options(found)
     patch = found.add_argument_group("the patch")
-    patch.add_argument("--patch", type=sides, required=True, metavar="X[,Y]", help="full widths: 2e-3 (m) or 2mm")
+    patch.add_argument(
+        "--patch", type=word(words.sides), required=True, metavar="X[,Y]", help="full widths: 2e-3 (m) or 2mm"
+    )
     patch.add_argument(
         "--center",
-        type=numbers(2, "X,Y"),
+        type=word(words.numbers, "X,Y", "m", count=2),
         action="append",
         metavar="X,Y",
         help="its centre in the frame (0,0); repeated: several patches of a pair, all of one size",
     )
     patch.add_argument(
         "--degree",
-        type=degree,
+        type=word(degree),
+        default=6,
         metavar="N|NX,NY",
         help=f"of the polynomials: the sum in x and y, 0 to {HIGHEST}, or the largest in x and in y, up to "
-        f"{HIGHEST_EACH} (6; of a matrix 1)",
+        f"{HIGHEST_EACH} (6)",
     )
     method = found.add_argument_group("method")
     method.add_argument("--method", choices=("auto", "image", "cutoff"), default="auto", help="(auto: image if valid)")
     method.add_argument(
-        "--stiffness", choices=("calculix", "own"), default="calculix", help="program that assembles it (calculix)"
+        "--stiffness",
+        choices=("own", "calculix"),
+        help="what assembles it: petsam, or CalculiX (own; elements C3D8I: calculix)",
     )
-    method.add_argument("--coarse-mesh", metavar="NAME.inp", help="a coarser deck, to estimate the error of the mesh")
-    method.add_argument("--depth", type=length, metavar="Z", help="of the stress points (the patch's smaller width)")
+    method.add_argument("--coarse-mesh", metavar="NAME", help="a coarser one, to estimate the error of the mesh")
+    method.add_argument(
+        "--depth", type=word(length), metavar="Z", help="of the stress points (the patch's smaller width)"
+    )
     method.add_argument("--no-stress", dest="stress", action="store_false", help="omit stresses below the surface")
-    _matrix_options(found)
     out = found.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the deck's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
@@ -232,76 +248,56 @@ def parser():
     return found
 
 
-def _check_free(reader, options):
-    """Checks what belongs to --free."""
-    if options.fixed:
-        reader.error("--free holds nothing: remove it, or --fixed")
-    if not options.pair:
-        reader.error(
-            "--free is for a pair: a body alone moves away under the loads of its contact: hold it by --fixed, or give "
-            "the surface of body 1 by --pair"
-        )
+def _material(given, name):
+    """A number, or {set: number}, of the values of an option that may be repeated; None without one."""
+    if given is None:
+        return None
+    if len(dict(given)) < len(given) or len(given) > 1 and "" in dict(given):
+        raise Useless(f"--{name}: give one value for all elements, or SET=VALUE once for each set")
+    return dict(given).get("", dict(given))
 
 
-def _check_pair(reader, options):
-    """Checks --pair and what belongs to it, or to one body alone."""
-    if not options.pair:
-        for name in PAIR_ONLY:
-            if getattr(options, name):
-                reader.error(f"--{name} is for a pair: give the surface of body 1 by --pair, or remove it")
-    elif options.depth or options.method == "cutoff":
-        name = "--depth" if options.depth else "--method cutoff"
-        reader.error(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
-    elif options.symmetry:
-        reader.error("--symmetry: a pair is given as a whole: remove it, or give one body alone, without --pair")
+def settings(options):
+    """The Settings of the command line, which are checked."""
+    materials = tuple(_material(getattr(options, name), name) for name in ("young", "poisson", "density"))
+    found = Settings(
+        contact=options.contact,
+        patch=options.patch,
+        centers=tuple(tuple(one) for one in options.center or [(0.0, 0.0)]),
+        supports=tuple(options.fixed or ()),
+        symmetry=tuple(options.symmetry or ()),
+        free=options.free,
+        units=options.units,
+        frame=options.frame,
+        pair=options.pair,
+        bolts=tuple(options.bolt or ()),
+        modes=options.modes,
+        sensors=tuple(options.sensor or ()),
+        cases=tuple(options.case or ()),
+        degree=options.degree,
+        method=options.method,
+        stiffness=options.stiffness,
+        depth=options.depth,
+        stress=options.stress,
+        coarse=options.coarse_mesh,
+        materials=None if materials == (None, None, None) else materials,
+        ccx=os.environ.get("CCX", "ccx"),
+    )
+    need_sense(found)
+    return found
 
 
-def _check_cases(reader, options):
-    """Checks the names and the numbers of load cases, patches, bolts and sensors."""
-    options.bolt, options.sensor = options.bolt or [], options.sensor or []
-    options.center = options.center or [(0.0, 0.0)]
-    if len(options.center) > 1 and not options.pair:
-        reader.error("--center: several patches are for a pair: give the surface of body 1 by --pair, or one centre")
-    if len(options.center) > 1 and any(re.fullmatch(several.NAME + r"[0-9]+", name) for name, _ in options.case):
-        reader.error(f"--case: {several.NAME} with a number is a name of the file's own: give another one")
-    if options.sensor and not options.modes:
-        reader.error("--sensor needs --modes: give their number, or remove it")
-    if len({name for name, _ in options.sensor}) < len(options.sensor):
-        reader.error("--sensor: give each name once")
-    names = [name for name, _ in options.case] + [f"bolt_{one.name}" for one in options.bolt]
-    names += [f"mode{k}" for k in range(1, 1 + (options.modes or 0))]
-    most = MOST_OF_PAIR if options.pair else MOST_CASES
-    if len(set(names)) < len(names) or len(names) > most:
-        bolts = ", with those of --bolt and --modes" if options.pair else ""
-        reader.error(f"--case: give each name once, at most {most} of them{bolts}")
-
-
-def arguments(words):
-    """Reads the command line."""
+def arguments(given):
+    """Reads the command line; what is to be computed of it as `settings`."""
     reader = parser()
-    options = reader.parse_args(joined(words))
-    if bool(options.mesh) == bool(options.matrix):
-        reader.error("give either --mesh or --matrix")
-    if options.free and options.mesh:
-        _check_free(reader, options)
-    needed = ("contact",) if options.free else ("contact", "fixed")
-    needed = needed if options.mesh else ("nodes", "young", "poisson")
-    for name in needed:
-        if getattr(options, name) is None:
-            other = ", or --free for a pair that nothing holds" if name == "fixed" and options.pair else ""
-            reader.error(f"{'--mesh' if options.mesh else '--matrix'} needs --{name}{other}")
-    useless = ("nodes", "young", "poisson") if options.mesh else MESH_ONLY
-    for name in useless:
-        if getattr(options, name) is not None:
-            reader.error(f"--{name.replace('_', '-')} is not for {'--mesh' if options.mesh else '--matrix'}: remove it")
-    options.frame = options.frame or [[0.0, 0.0, 0.0]]
-    options.case, options.symmetry, options.fixed = options.case or [], options.symmetry or [], options.fixed or []
-    _check_pair(reader, options)
-    _check_cases(reader, options)
-    if options.degree is None:
-        options.degree = 6 if options.mesh else 1
-    options.ccx = os.environ.get("CCX", "ccx")
-    base = os.path.splitext(os.path.basename(options.mesh or options.matrix))[0]
+    options = reader.parse_args(joined(given))
+    if options.contact is None:
+        reader.error("--mesh needs --contact")
+    try:
+        options.settings = settings(options)
+    except Useless as error:
+        reader.error(str(error))
+    base = os.path.splitext(os.path.basename(options.mesh))[0]
     options.output = options.output or base + ".h5"
     options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
     if not options.picture.lower().endswith(".png"):
@@ -310,7 +306,7 @@ def arguments(words):
 
 
 def description(found):
-    """Returns lines that describe a Joined."""
+    """Returns lines that describe a Compliance."""
     body = found.bodies[0]
     lines = [
         f"half-space  E = {body.young:.6g} Pa, nu = {body.poisson:.6g}",
@@ -375,28 +371,25 @@ def _joint(body):
     return lines
 
 
-def carry_out(options, words):
+def carry_out(options, given):
     """Computes, writes, draws and prints; in a child process, as it may read an HDF5 file."""
-    source = options.mesh or options.matrix
-    inputs = [name for name in (source, options.coarse_mesh, options.nodes) if name]
+    inputs = [name for name in (options.mesh, options.coarse_mesh) if name]
     for name in [options.output] + ([] if options.no_picture else [options.picture]):
         if any(same(name, path) for path in inputs):
             raise Error(f"{name}: is an input file; choose another name by --output")
     need_own(options.output, writing.SIGN, PROGRAM)
     if not options.no_picture:
         need_replaceable(options.picture)
-    command = shlex.join([PROGRAM, *words])
-    progress = model.Progress(sys.stderr)
-    compute = model.computed if options.mesh else substructure.computed
-    found = compute(source, options, command, progress)
+    command = shlex.join([PROGRAM, *given])
+    found = model.computed(options.mesh, options.settings, command, Progress(sys.stderr))
     body = found.bodies[0]
     for text in body.remarks:
         if text.startswith("warning: "):
             print(f"{PROGRAM}: {text}", file=sys.stderr)
     writing.write(found, options.output)
     if not options.no_picture:
-        write(plot.compliance(found.bodies), options.picture, options.dpi)
-    print(f"{options.output}: compliance of {source}")
+        write(plot.compliance(found), options.picture, options.dpi)
+    print(f"{options.output}: compliance of {options.mesh}")
     print("\n".join("  " + line for line in description(found) if "warning: " not in line))
     if not options.no_picture:
         print("wrote " + options.picture)
@@ -410,22 +403,18 @@ def carry_out(options, words):
     )
 
 
-def _child(options, words):
-    warnings.simplefilter("ignore")
-    try:
-        carry_out(options, words)
-    except (Error, OSError) as error:
-        return fail(PROGRAM, error)
+def _run():
+    given = sys.argv[1:]
+    options = arguments(given)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            carry_out(options, given)
+        except (Error, OSError) as error:
+            return fail(PROGRAM, error)
     return 0
 
 
 def main():
     """Returns the exit code: 0, 2 for bad usage, 3 for a file or a body that is rejected."""
-
-    def parent():
-        words = sys.argv[1:]
-        options = arguments(words)
-        (code,) = isolation.each(lambda _: _child(options, words), [None])
-        return fail(PROGRAM, code) if isinstance(code, Error) else code
-
-    return guarded(PROGRAM, parent)
+    return guarded(PROGRAM, _run)

@@ -10,26 +10,25 @@ Smith-Watson-Topper and Fatemi-Socie of the file's parameters, Basquin of the st
 surface. Safety factors: the limit relative to Findley's, Crossland's or Dang Van's parameter. Crack: a straight-fronted
 crack grows along the line from the surface, normal to it; its range of K, El Haddad's threshold, the length of arrest.
 Files are the blocks of a spectrum: damage is Palmgren and Miner's sum over --counts, which repeats until it is 1.
-Constants (SI units), in a YAML file of lines NAME: VALUE or by --constant:
+Constants, in SI units or with their unit (1.76GPa), in a YAML file of lines NAME: VALUE or by --constant:
 """
 
 import argparse
-import csv
-import io
 import os
 import sys
 import warnings
 
 import numpy as np
 
-from ..core import isolation
-from ..core.errors import Error, Parser, fail, guarded, joined, short, there_are
+from ..core import words
+from ..core.errors import Error, short, there_are
 from ..core.files import need_replaceable, same
-from ..lives import evaluation, materials, strength
+from ..lives import evaluation, materials, spectrum, strength
 from ..lives.stresses import Cycle
 from ..plot import saving
-from ..results.stresses import FATIGUE, Stresses
-from .plot_arguments import names, numbers, point
+from ..results.stresses import Stresses
+from .line import Parser, add_choice, fail, guarded, joined, word
+from .plot_arguments import NAMES, POINT, numbers
 
 ROWS = 10  # number of printed rows of the line
 CRITERIA = tuple(evaluation.CRITERIA)
@@ -37,33 +36,23 @@ MOST = f"{strength.MOST:.0e}".replace("+", "")
 
 
 def _constant(text):
-    """Reads NAME=VALUE for argparse."""
+    """Name and number of NAME=VALUE."""
     name, equal, value = text.partition("=")
     if not equal:
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=VALUE")
-    try:
-        return name, materials.checked(name, value, "NAME=VALUE")
-    except Error as error:
-        raise argparse.ArgumentTypeError(str(error).removeprefix("NAME=VALUE: ")) from error
-
-
-def _angle(text):
-    """Reads an angle for argparse."""
-    values = numbers(float)(text)
-    if len(values) != 1 or not -180.0 <= values[0] <= 180.0:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected degrees from -180 to 180")
-    return values[0]
+        raise words.WordError(text, "NAME=VALUE, such as sigma_f=1.76GPa")
+    return name, materials.checked(name, value)
 
 
 def _criteria(text):
-    """Reads criteria for argparse."""
-    for word in names(text):
-        if word not in CRITERIA:
-            raise argparse.ArgumentTypeError(f"{short(word)}: is no criterion{there_are(word, CRITERIA)}")
-    return names(text)
+    """Names of criteria."""
+    found = words.names(text)
+    for one in found:
+        if one not in CRITERIA:
+            raise Error(f"{short(one)}: is no criterion{there_are(one, CRITERIA)}")
+    return found
 
 
-def arguments(words):
+def arguments(given):
     """Reads the command line."""
     table = (f"  {name:16} {one.unit:9} {one.meaning}" for name, one in materials.CONSTANTS.items())
     parser = Parser(
@@ -77,27 +66,39 @@ def arguments(words):
     what = parser.add_argument_group("what is computed")
     what.add_argument("--material", metavar="NAME.yaml", help="constants of the material")
     what.add_argument(
-        "--constant", type=_constant, action="append", default=[], metavar="NAME=VALUE", help="a constant (the file's)"
+        "--constant",
+        type=word(_constant),
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a constant, such as sigma_f=1.76GPa (the file's)",
     )
     what.add_argument(
-        "--criteria", type=_criteria, metavar="NAME,...", help=f"of {', '.join(CRITERIA)} (all with constants and data)"
+        "--criteria",
+        type=word(_criteria),
+        metavar="NAME,...",
+        help=f"of {', '.join(CRITERIA)} (all with constants and data)",
     )
-    what.add_argument("--counts", type=numbers(float), metavar="N,...", help="cycles of each file in the spectrum (1)")
+    what.add_argument("--counts", type=numbers(), metavar="N,...", help="cycles of each file in the spectrum (1)")
     what.add_argument(
-        "--plane", type=_angle, default=0.0, metavar="DEGREES", help="angle of the plane's normal to x (0)"
+        "--plane",
+        type=word(words.number, "degrees from -180 to 180", "degrees", lambda value: abs(value) <= 180.0),
+        default=0.0,
+        metavar="DEGREES",
+        help="angle of the plane's normal to x (0)",
     )
     where = parser.add_argument_group("line along the depth").add_mutually_exclusive_group()
-    where.add_argument("--at", type=point, metavar="X,Y", help="below this place, m")
+    where.add_argument("--at", type=POINT, metavar="X,Y", help="below this place, such as -0.5mm,0")
     where.add_argument(
         "--hot", metavar="NAME", help="below the maximum of this parameter on the surface (the first one)"
     )
     out = parser.add_argument_group("output")
-    out.add_argument("--quantity", type=names, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
-    out.add_argument("--csv", metavar="NAME.csv", help="write the lines, SI units")
+    out.add_argument("--quantity", type=NAMES, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
+    out.add_argument("--csv", metavar="NAME.csv", help="write the lines: columns name [unit], SI")
     out.add_argument("--labels", metavar="TEXT,...", help="the files' names in the picture (their file names)")
     out.add_argument("-o", "--output", metavar="NAME", help="picture: .png, .pdf or .svg (NAME_depth.png of the file)")
-    saving.add_choice(out)
-    options = parser.parse_args(joined(words))
+    add_choice(out)
+    options = parser.parse_args(joined(given))
     options.counts = options.counts or [1.0] * len(options.files)
     if len(options.counts) != len(options.files) or not all(0.0 < count < np.inf for count in options.counts):
         parser.error(f"--counts: {len(options.files)} files need as many numbers above 0")
@@ -110,18 +111,6 @@ def arguments(words):
     return options
 
 
-def _place(options, cycle, criteria):
-    """Returns row, column, and a description of the line's place."""
-    if options.at:
-        return *cycle.nearest(*options.at), "point nearest to --at"
-    name = options.hot or next((name for name in (*criteria, *FATIGUE, "mises") if name in cycle), None)
-    if name is None:
-        raise Error(
-            f"{cycle.path}: has no fatigue parameter and no mises; name a place by --at, or a quantity by --hot"
-        )
-    return *cycle.hot_spot(name), f"largest {name} on the surface"
-
-
 def _where(one):
     return f"at x = {one.x:.4g} m, y = {one.y:.4g} m, z = {one.z:.4g} m"
 
@@ -132,22 +121,18 @@ def _lived(life):
     return f"{life:.4g} cycles" + (", fails at once" if life <= strength.LEAST else "")
 
 
-def _report(options, cycles, name, found):
-    """Prints the least lives or factors of every cycle, and the damage; returns the columns of each cycle's line."""
+def _report(found, name, several):
+    """Prints the least lives or factors of every cycle, and of a spectrum, of several blocks or counts, the damage."""
     title, is_life = evaluation.CRITERIA[name][0], name in evaluation.LIVES
-    for cycle, values in zip(cycles, found):
-        least = evaluation.least(cycle, values)
+    for cycle, least in zip(found.cycles, found.least[name]):
         text = f"life {_lived(least.value)}" if is_life else f"safety factor {least.value:.4g}"
         mean = f", of means over {cycle.averaged:g} m" if cycle.averaged else ""
         doubt = "; see the warning" if cycle.doubt else ""
         print(f"{cycle.path}: {title}: {text} {_where(least)}{mean}{doubt}")
-    if is_life and (len(cycles) > 1 or options.counts != [1.0]):
-        damage = strength.damage(found, options.counts)
-        most = evaluation.least(cycles[0], -damage)
-        repeats = f", {1.0 / -most.value:.4g} repeats" if most.value < 0.0 else ""
-        print(f"spectrum: {title}: damage {abs(most.value):.4g} {_where(most)}{repeats}")
-    word = "life" if is_life else "factor"
-    return [{f"{word}_{name}": ("1", values)} for values in found]
+    if is_life and several:
+        most = found.damage[name]
+        repeats = f", {1.0 / most.value:.4g} repeats" if most.value > 0.0 else ""
+        print(f"spectrum: {title}: damage {most.value:.4g} {_where(most)}{repeats}")
 
 
 def _shown(value):
@@ -177,21 +162,6 @@ def _print_crack(cycle, start, stop, from_surface):
     print(f"{cycle.path}: short crack: {text}")
 
 
-def _write_csv(options, lines):
-    """The lines of all files below one another."""
-    need_replaceable(options.csv)
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    columns = lines[0][1].columns
-    table.writerow(["file", "x", "y", "z", *columns])
-    for who, line in lines:
-        for k, z in enumerate(line.z):
-            table.writerow([who, line.x, line.y, z, *(float(values[k]) for _, values in line.columns.values())])
-    with open(options.csv, "w", encoding="utf-8") as file:
-        file.write(text.getvalue())
-    print("wrote " + options.csv)
-
-
 def _cycles(options):
     """The cycles of the files; Error where one is no file of petsam-stress, or an output would replace it."""
     for name in (options.output, options.csv or ""):
@@ -218,52 +188,40 @@ def _warn(cycles):
 def carry_out(options):
     """Compute, print and draw."""
     constants = {**(materials.read(options.material) if options.material else {}), **dict(options.constant)}
-    cycles = _cycles(options)
-    first = cycles[0]
-    criteria = options.criteria or evaluation.possible(first, constants, options.plane)
-    computed = [{} for _ in cycles]
-    for name in criteria:
-        if name != "crack":
-            found = evaluation.lives(cycles, name, constants, options.plane)
-            for mine, columns in zip(computed, _report(options, cycles, name, found)):
-                mine.update(columns)
-    row, column, words = _place(options, first, criteria)
-    quantities = options.quantity or [name for name in FATIGUE[:5] if name in first] or ["mises"]
-    lines = []
-    for cycle, more in zip(cycles, computed):
-        line = evaluation.line(cycle, quantities, row, column, more)
-        if "crack" in criteria:
-            found, *lengths = evaluation.crack(cycle, constants, options.plane, row, column)
-            line.columns.update(found)
-            _print_crack(cycle, *lengths)
-        print(f"{cycle.path}: below x = {line.x:.4g} m, y = {line.y:.4g} m ({words}):")
+    found = spectrum.lives(
+        _cycles(options), constants, counts=options.counts, criteria=options.criteria, plane=options.plane,
+        below=options.at or options.hot, quantities=options.quantity,
+    )  # fmt: skip
+    for name in found.values:
+        _report(found, name, len(found.cycles) > 1 or options.counts != [1.0])
+    for k, (cycle, (_, line)) in enumerate(zip(found.cycles, found.lines)):
+        if found.cracks:
+            _print_crack(cycle, *found.cracks[k])
+        print(f"{cycle.path}: below x = {line.x:.4g} m, y = {line.y:.4g} m ({found.place}):")
         _print_line(line)
-        lines.append((cycle.label, line))
     if options.csv:
-        _write_csv(options, lines)
-    if first.z.size > 1 and not options.no_picture:
+        need_replaceable(options.csv)
+        found.to_csv(options.csv)
+        print("wrote " + options.csv)
+    if found.cycles[0].z.size > 1 and not options.no_picture:
         from .. import plot
 
-        saving.write(plot.lives(lines, constants), options.output, options.dpi)
+        saving.write(plot.lives(found), options.output, options.dpi)
         print("wrote " + options.output)
-    _warn(cycles)
+    _warn(found.cycles)
 
 
-def _child(options):
-    warnings.simplefilter("ignore")
-    try:
-        carry_out(options)
-    except (Error, OSError) as error:
-        return fail("petsam-fatigue", error)
+def _run():
+    options = arguments(sys.argv[1:])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            carry_out(options)
+        except (Error, OSError) as error:
+            return fail("petsam-fatigue", error)
     return 0
 
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data."""
-
-    def parent():
-        options = arguments(sys.argv[1:])
-        (code,) = isolation.each(lambda _: _child(options), [None])
-        return fail("petsam-fatigue", code) if isinstance(code, Error) else code
-
-    return guarded("petsam-fatigue", parent)
+    return guarded("petsam-fatigue", _run)

@@ -1,10 +1,10 @@
 """Stiffness and damping of a joint, for a structural analysis.
 
     petsam-joint stiffness scan.h5 --pressure 1MPa:50MPa:12 --friction 0.4 --body1 steel --body2 steel -o interface
-    petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:9 -o out
-    petsam-joint band lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:5
-    petsam-joint wear lap.h5 --contact worn.opts --preload B1=12e3 --sensor TIP:z --amplitudes 50um --cycles 1e4,1e5,1e6
-    petsam-joint response lap.h5 --contact lap.opts --preload B1=12e3 --force TIP:z=0.5 --frequencies 110:118:17
+    petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12kN --sensor TIP:z --amplitudes 1um:0.1mm:9 -o out
+    petsam-joint band lap.h5 --contact lap.opts --preload B1=12kN --sensor TIP:z --amplitudes 1um:0.1mm:5
+    petsam-joint wear lap.h5 --contact worn.opts --preload B1=12kN --sensor TIP:z --amplitudes 50um --cycles 1e4,1e5,1e6
+    petsam-joint response lap.h5 --contact lap.opts --preload B1=12kN --force TIP:z=0.5N --frequencies 110Hz:118Hz:17
 
 stiffness: scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the
 normal and the tangential stiffness per area of the interface alone, the real contact area, and the energy of a loop of
@@ -31,7 +31,6 @@ of the material and of friction. -o NAME writes NAME.csv and NAME.png.
 
 import argparse
 import contextlib
-import re
 import sys
 import warnings
 
@@ -39,9 +38,9 @@ import numpy as np
 
 from .. import plot
 from ..contact import AdviceWarning
-from ..core.errors import USAGE, Error, Parser, fail, guarded, joined, short
+from ..core import words
+from ..core.errors import USAGE, Error, short
 from ..core.files import need_regular, need_replaceable
-from ..core.lengths import lengths
 from ..joint import interface
 from ..joint.backbone import backbone
 from ..joint.balance import forced
@@ -51,176 +50,128 @@ from ..joint.structure import ENDS
 from ..joint.surfaces import read_separation
 from ..joint.sweep import BackboneWarning
 from ..joint.wear import rising, wear
-from ..plot.saving import DPI, add_resolution, write
+from ..plot.saving import DPI, write
+from .line import Parser, add_resolution, fail, guarded, joined, word
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest
-PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
-
-
-def stress(text):
-    """Reader of a stress for argparse: a number in Pa, or with its unit."""
-    found = re.fullmatch(r"([0-9.]+(?:[eE][+-]?[0-9]+)?)(Pa|kPa|MPa|GPa|)", text)
-    try:
-        value = float(found[1]) * PASCALS[found[2]]
-    except (TypeError, ValueError):
-        value = -1.0
-    if not 0.0 < value < float("inf"):
-        what = "expected a stress above 0, such as 5e6 (Pa) or 5MPa"
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
-    return value
-
-
-def pressures(text):
-    """Reader of pressures for argparse: FIRST:LAST:COUNT in geometric steps, or P,P,..."""
-    words = text.split(":")
-    if len(words) == 1:
-        return np.array([stress(word) for word in text.split(",")])
-    if len(words) != 3 or not words[2].isdigit() or not 2 <= int(words[2]) <= 1000:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected FIRST:LAST:COUNT, or pressures separated by commas")
-    return np.array([float(f"{p:.12g}") for p in np.geomspace(stress(words[0]), stress(words[1]), int(words[2]))])
 
 
 def material(text):
-    """Reader of a body's material for argparse: a name, or E,NU."""
+    """Young's modulus and Poisson's ratio of a body's material: of a name, or of E,NU."""
     if text in MATERIALS:
         return MATERIALS[text]
-    words = text.split(",")
+    form = f"{', '.join(MATERIALS)}, or Young's modulus (inf: rigid) and Poisson's ratio: 210GPa,0.3"
+    young, _, poisson = text.partition(",")
     try:
-        young, poisson = float("inf") if words[0] == "inf" else stress(words[0]), float(words[1])
-    except (argparse.ArgumentTypeError, ValueError, IndexError):
-        young = poisson = -1.0
-    if len(words) != 2 or young < 0 or not 0.0 <= poisson < 0.5:
-        raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected {', '.join(MATERIALS)}, or Young's modulus (inf: rigid) and Poisson's ratio: "
-            "210GPa,0.3"
+        return (
+            words.number(young, form, "Pa", lambda value: value > 0.0),
+            words.number(poisson, form, allowed=lambda value: 0.0 <= value < 0.5),
         )
-    return young, poisson
-
-
-def named_number(text):
-    """Name and number of NAME=NUMBER; NaN where it is none, which no range contains."""
-    name, _, number = text.partition("=")
-    try:
-        return name, float(number)
-    except ValueError:
-        return name, float("nan")
-
-
-def frictions(text):
-    """Reader of NAME=NUMBER for argparse."""
-    name, value = named_number(text)
-    if not name or not 0.0 <= value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=FORCE in N, such as B1=12e3")
-    return name, value
-
-
-def amplitude_range(text):
-    """Reader of amplitudes for argparse: FIRST:LAST:COUNT in geometric steps, or lengths separated by commas, m."""
-    words = text.split(":")
-    if len(words) == 1:
-        found = np.array(lengths(text))
-    elif len(words) == 3 and "," not in text and words[2].isdigit() and 2 <= int(words[2]) <= 1000:
-        found = np.geomspace(*(lengths(word)[0] for word in words[:2]), int(words[2]))
-    else:
-        found = np.zeros(1)
-    if not np.all((found > 0.0) & np.isfinite(found)):
-        what = "expected FIRST:LAST:COUNT, or lengths above 0 separated by commas: 1um:100um:12"
-        raise argparse.ArgumentTypeError(f"{short(text)}: {what}")
-    return found
+    except words.WordError as error:
+        raise words.WordError(text, form) from error
 
 
 def scatter(text):
-    """Reader of NAME=NUMBER of --scatter for argparse."""
-    name, value = named_number(text)
-    if name not in ("friction", "preload") or not 0.0 <= value < 1.0:
-        what = "expected friction=S or preload=S, a standard deviation as a part of it: friction=0.1"
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
+    """Parameter and standard deviation of NAME=NUMBER of --scatter."""
+    form = "friction=S or preload=S, a standard deviation as a part of it: friction=0.1"
+    name, value = words.named(text, form, allowed=lambda part: 0.0 <= part < 1.0)
+    if name not in ("friction", "preload"):
+        raise words.WordError(text, form)
     return name, value
 
 
 def cycle_counts(text):
-    """Reader of rising numbers of cycles for argparse."""
-    try:
-        found = np.array([float(word) for word in text.split(",")])
-    except ValueError:
-        found = np.zeros(1)
+    """Rising numbers of cycles."""
+    form = "rising whole numbers above 0: 1e4,1e5,1e6"
+    found = np.array(words.numbers(text, form))
     if not rising(found):
-        what = "expected rising whole numbers above 0: 1e4,1e5,1e6"
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
+        raise words.WordError(text, form)
     return found
 
 
-def force(text):
-    """Reader of SENSOR:D=N for argparse: the place and direction, and the force's amplitude."""
-    place, value = named_number(text)
-    if not place or not 0.0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected SENSOR:D=FORCE in N, such as TIP:z=0.5")
-    return place, value
+def _spans(form, example, unit, geometric=True):
+    """Reader of FIRST:LAST:COUNT, or of values above 0 separated by commas."""
+    form = f"FIRST:LAST:COUNT, or {form} above 0 separated by commas: {example}"
+    return word(words.span, form, unit, words.positive, geometric=geometric)
 
 
-def frequency_range(text):
-    """Reader of frequencies for argparse: FIRST:LAST:COUNT in equal steps, or numbers separated by commas, Hz."""
-    words = text.split(":")
-    try:
-        if len(words) == 1:
-            found = np.array([float(word) for word in text.split(",")])
-        else:
-            first, last, count = words
-            found = np.linspace(float(first), float(last), int(count) if 2 <= int(count) <= 10000 else 0)
-    except ValueError:
-        found = np.zeros(0)
-    if not (found.size and np.all((found > 0.0) & np.isfinite(found))):
-        what = "expected FIRST:LAST:COUNT, or numbers above 0 separated by commas, in Hz: 110:118:17"
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
-    return found
+def _from(least):
+    """Reader of a whole number from this one on."""
+    return word(words.integer, f"a whole number, {least} or more", lambda value: value >= least)
 
 
 def _stiffness_options(one):
     group = one.add_argument_group("stiffness")
-    group.add_argument("--pressure", type=pressures, help="nominal pressures (Pa): FIRST:LAST:COUNT or P,P,...")
-    group.add_argument("--friction", type=float, help="coefficient of friction")
+    group.add_argument(
+        "--pressure",
+        type=_spans("pressures", "1MPa:50MPa:12", "Pa"),
+        help="nominal pressures: FIRST:LAST:COUNT or P,P,...",
+    )
+    group.add_argument("--friction", type=word(words.number), help="coefficient of friction")
     for body in "12":
         group.add_argument(
-            f"--body{body}", type=material, metavar="MATERIAL",
+            f"--body{body}", type=word(material), metavar="MATERIAL",
             help=f"material of body {body}: {', '.join(MATERIALS)}, or Young's modulus and Poisson's ratio, 210GPa,0.3",
         )  # fmt: skip
-    group.add_argument("--hardness", type=stress, help="maximum pressure (Pa), where the surfaces yield")
-    group.add_argument("--shear", type=float, help="shear of the loop over friction times pressure (0.5)")
+    group.add_argument(
+        "--hardness",
+        type=word(words.number, "a pressure above 0, such as 5GPa", "Pa", words.positive),
+        help="maximum pressure, where the surfaces yield: 5GPa",
+    )
+    group.add_argument("--shear", type=word(words.number), help="shear of the loop over friction times pressure (0.5)")
     group.add_argument("--periodic", action="store_true", default=None, help="the surface repeats itself: no windows")
-    group.add_argument("--area", type=float, help="area of the elements in NAME.json, m2 (1: they are per area)")
+    group.add_argument(
+        "--area",
+        type=word(words.number, "an area above 0, such as 2mm2", "m2", words.positive),
+        help="area of the elements in NAME.json, such as 2mm2 (1 m2: they are per area)",
+    )
 
 
 def _structure_options(one):
     group = one.add_argument_group("backbone, band, wear and response")
     group.add_argument("--contact", metavar="NAME", help="file of petsam's options: -grid_n, -friction, -gap_type, ...")
     group.add_argument(
-        "--preload", type=frictions, action="append", metavar="BOLT=N",
-        help="initial tension of a bolt, N; may be repeated: bolts are tightened in this order",
+        "--preload", type=word(words.named, "BOLT=FORCE, such as B1=12kN", "N", lambda value: 0.0 <= value < np.inf),
+        action="append", metavar="BOLT=N",
+        help="initial tension of a bolt, such as B1=12kN; may be repeated: bolts are tightened in this order",
     )  # fmt: skip
     group.add_argument("--sensor", metavar="NAME:D", help="where the amplitude is, and its direction x, y or z")
-    group.add_argument("--damping", type=float, help="damping of the material, as a part of critical damping (0)")
-    group.add_argument("--harmonics", type=int, help="how many are balanced (backbone 0: quasi-static; response 3)")
-    group = one.add_argument_group("backbone, band and wear")
-    group.add_argument("--mode", type=int, help="number of the mode while all that touches sticks (1)")
     group.add_argument(
-        "--amplitudes", type=amplitude_range, help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12"
+        "--damping",
+        type=word(words.number, "a part of critical damping"),
+        help="damping of the material, as a part of critical damping (0)",
+    )
+    group.add_argument(
+        "--harmonics", type=_from(0), help="how many are balanced (backbone 0: quasi-static; response 3)"
+    )
+    group = one.add_argument_group("backbone, band and wear")
+    group.add_argument("--mode", type=_from(1), help="number of the mode while all that touches sticks (1)")
+    group.add_argument(
+        "--amplitudes",
+        type=_spans("lengths", "1um:0.1mm:12", "m"),
+        help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12",
     )
     group.add_argument(
         "--degree-check", action="store_true", default=None,
         help="also the largest amplitude with polynomials of a degree lower by 2",
     )  # fmt: skip
     group.add_argument(
-        "--scatter", type=scatter, action="append", metavar="NAME=S",
+        "--scatter", type=word(scatter), action="append", metavar="NAME=S",
         help="standard deviation of friction or preload as a part of it, may be repeated: friction=0.1",
     )  # fmt: skip
-    group.add_argument("--cycles", type=cycle_counts, help="of the vibration that wears, for the numbers: 1e4,1e5,1e6")
+    group.add_argument(
+        "--cycles", type=word(cycle_counts), help="of the vibration that wears, for the numbers: 1e4,1e5,1e6"
+    )
     group = one.add_argument_group("response")
     group.add_argument(
-        "--force", type=force, metavar="SENSOR:D=N", help="amplitude of the force, and where it acts; also the sensor"
+        "--force",
+        type=word(words.named, "SENSOR:D=FORCE, such as TIP:z=0.5N", "N", words.positive),
+        metavar="SENSOR:D=N",
+        help="amplitude of the force, and where it acts; also the sensor",
     )
     group.add_argument(
-        "--frequencies", type=frequency_range,
+        "--frequencies", type=_spans("frequencies", "110Hz:118Hz:17", "Hz", geometric=False),
         help="of the force, Hz, in the order of computation: FIRST:LAST:COUNT, such as 110:118:17",
     )  # fmt: skip
 
@@ -234,7 +185,9 @@ def _parser():
     )
     one.add_argument("action", choices=list(ACTIONS), help="what is computed")
     one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair")
-    one.add_argument("--steps", type=int, help="load steps of a half cycle (8, response 16) or quarter (stiffness 8)")
+    one.add_argument(
+        "--steps", type=_from(1), help="load steps of a half cycle (8, response 16) or quarter (stiffness 8)"
+    )
     one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv and NAME.png, and other files of NAME")
     add_resolution(one)
     _stiffness_options(one)
@@ -261,16 +214,12 @@ def _run():
     reader = _parser()
     args = reader.parse_args(joined(sys.argv[1:]))
     _need(reader, args)
-    if args.steps < 1:
-        raise Error(f"--steps {args.steps}: expected 1 or more")
     if args.dpi != DPI and not args.output:
         raise Error("--dpi: is for the picture, which --output writes; give both or none")
     return ACTIONS[args.action][2](args)
 
 
 def _stiffness(args):
-    if not 0.0 < args.area < float("inf"):
-        raise Error(f"--area {args.area:g}: expected an area above 0, in m2")
     for ending in (".csv", ".json", ".inp", ".png") if args.output else ():
         need_replaceable(args.output + ending)
     separation, spacing, doubts = read_separation(args.file)
@@ -314,7 +263,7 @@ def _recorded(kind):
 
 def _print(result, found):
     """Prints the table and the warnings."""
-    print("\n".join(result.table()))
+    print("\n".join(result.lines()))
     for text in dict.fromkeys(str(one.message).strip() for one in found):
         print(f"petsam-joint: warning: {text}", file=sys.stderr)
 
@@ -338,8 +287,6 @@ def _checked_preload(args):
     preload = dict(args.preload or [])
     if len(preload) < len(args.preload or []):
         raise Error("--preload: a bolt is given twice; give each once, in the order of tightening")
-    if args.harmonics is not None and args.harmonics < 0:
-        raise Error(f"--harmonics {args.harmonics}: expected 1 or more, or 0 for a quasi-static backbone")
     return preload
 
 
@@ -399,7 +346,7 @@ def _wear(args):
         raise Error(f"--amplitudes: petsam-joint wear needs one amplitude, not {len(args.amplitudes)}")
     pair = _pair(args, preload)
     sensor = _sensor(args.sensor, pair)
-    tension = lambda structure: {f"{name}/N": left for name, left in pair.left(structure).items()}  # noqa: E731
+    tension = lambda structure: {f"{name} [N]": left for name, left in pair.left(structure).items()}  # noqa: E731
     with _recorded(BackboneWarning) as found:
         given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension)
         result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)

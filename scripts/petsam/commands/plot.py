@@ -2,10 +2,10 @@
 
     petsam-plot sphere.h5                           all pictures that the file is good for
     petsam-plot --maps --step 20,-1 strokes.h5      two steps below each other
-    petsam-plot --field shear_x --limits -5e7,5e7 -o shear.svg sphere.h5       one field with limits of its own
+    petsam-plot --field shear_x --limits -50MPa,50MPa -o shear.svg sphere.h5       one field with limits of its own
     petsam-plot --loop -o loop.pdf a.h5 b.h5        one picture, two files compared
     petsam-plot --loop --cycle 1,10,-1 strokes.h5   loops of three cycles
-    petsam-plot --energy --period 0.02 random.h5    dissipated energy of every period
+    petsam-plot --energy --period 20ms random.h5    dissipated energy of every period
     petsam-plot --scalar contact_area --against load_n a.h5 b.h5               any scalar of /history over any other
     petsam-plot --loop --range 33:64 strokes.h5     load steps 33 to 64 only
     petsam-plot --scalar stick_area --against load_tx --by friction study/results.h5       a study's table
@@ -29,11 +29,10 @@ study its folder's. An older picture of this name is replaced.
 import os
 import warnings
 
-from ..core import isolation
-from ..core.errors import FILE, USAGE, Error, Useless, fail, guarded
+from ..core.errors import FILE, USAGE, Error, Useless
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
-from ..plot import fields, looks, noise, pictures, saving, wear
+from ..plot import fields, looks, noise, pictures, saving, tables, wear
 from ..plot.style import STYLE, plt
 from ..results import cycles
 from ..results.file import NotSaved
@@ -41,6 +40,7 @@ from ..results.stresses import Stresses, open_any
 from ..results.studies import Study
 from . import plot_arguments as arguments
 from . import plot_uses as uses
+from .line import fail, guarded
 from .plot_arguments import FORMATS
 from .plot_uses import STUDY
 
@@ -144,6 +144,16 @@ def path(options, kind, alone):
     return "{}{}{}".format(base, "" if alone and options.output else "_" + kind, ending)
 
 
+def need_units(options, results):
+    """Raises Error where --limits or --border has a unit that is not that of its field, stress or column."""
+    if options.limits and options.limits.unit:
+        name = options.component or options.field[0]
+        unit = "Pa" if options.component else results[0].about(name)[0]
+        options.limits.need(unit, f"{results[0].path}: --limits, of {name}")
+    for name, value in options.border:
+        value.need(tables.numbers(results[0], name, "--border")[1], f"{results[0].path}: --border {name}")
+
+
 def draw(options, results, kind):
     """One picture, a matplotlib figure."""
     function = uses.function(kind, options, results)
@@ -155,6 +165,7 @@ def draw(options, results, kind):
         if len(results) > 1:
             raise Error(f"{results[1].path}: --against {options.against}: maps are of one study; give one file")
         given["against"] = options.against.split(",")
+        given["border"] = [(name, value) for name, (value,) in options.border]
     return function(*results, **given)
 
 
@@ -190,6 +201,7 @@ def usable(options, results):
     need_options(options, results)
     kinds = chosen(options, results)
     uses.need_use(options, results, kinds)
+    need_units(options, results)
     return kinds
 
 
@@ -217,25 +229,17 @@ def draw_all(options):
 
 
 def carry_out(options):
-    """The exit code; in a child, as all files are read here."""
-    warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
-    try:
-        draw_all(options)
-    except Error as error:
-        return fail("petsam-plot", error, USAGE if isinstance(error, Useless) else FILE)
+    """The exit code."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
+        try:
+            draw_all(options)
+        except Error as error:
+            return fail("petsam-plot", error, USAGE if isinstance(error, Useless) else FILE)
     return 0
 
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
 
-    def parent():
-        options = arguments.read(__doc__)
-
-        def child(_):
-            return guarded("petsam-plot", lambda: carry_out(options))
-
-        (code,) = isolation.each(child, [None])
-        return fail("petsam-plot", code) if isinstance(code, Error) else code
-
-    return guarded("petsam-plot", parent)
+    return guarded("petsam-plot", lambda: carry_out(arguments.read(__doc__)))

@@ -1,124 +1,76 @@
 """The command line of petsam-plot."""
 
 import argparse
-import math
 import os
 import re
 import sys
 
-from ..core.errors import Parser, joined, short
-from ..plot import bodies, saving
-from ..results.cycles import PAIRS, read_period
+from ..core import units, words
+from ..core.errors import short
+from ..plot import bodies
+from ..results.cycles import PAIRS
+from .line import Parser, add_resolution, joined, period, word
 
 FORMATS = (".png", ".pdf", ".svg")
 WIDTHS = (30.0, 2000.0)  # mm of a picture
 SCALES = ("colors", "x", "y")  # that may be logarithmic
 
 
-def numbers(kind):
-    """Reader of a comma-separated list for argparse."""
+# readers of words, which several commands have
+POINT = word(words.numbers, "X,Y, such as 0.1mm,0", "m", count=2)
+LIMITS = word(words.limits)
+NAMES = word(words.names)
 
-    def read(text):
-        try:
-            return [kind(word) for word in text.split(",")]
-        except ValueError as error:
-            reason = "expected numbers separated by commas" if kind is float else "expected whole numbers and commas"
-            raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {reason}") from error
 
-    return read
+def numbers(unit="1", example="numbers separated by commas"):
+    """Reader of numbers of a unit, separated by commas."""
+    return word(words.numbers, example, unit)
 
 
 def steps(text):
-    """Reader of FIRST:LAST for argparse; None where one is left out."""
-    parts = text.split(":")
+    """First and last step of FIRST:LAST; None where one is left out."""
+    form = "load steps FIRST:LAST, FIRST: or :LAST"
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) != 2 or not any(parts):
+        raise words.WordError(text, form)
     try:
-        first, last = (int(part) if part.strip() else None for part in parts)
-    except ValueError:
-        first = last = None
-    if (first, last) == (None, None) or 0 in (first, last):
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected load steps FIRST:LAST, FIRST: or :LAST")
-    return first, last
-
-
-def point(text):
-    """Reader of a point X,Y for argparse."""
-    values = numbers(float)(text)
-    if len(values) != 2:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected X,Y")
-    return values
-
-
-def limits(text):
-    """Reader of LOW,HIGH for argparse."""
-    values = numbers(float)(text)
-    if len(values) != 2 or not all(map(math.isfinite, values)) or not values[0] < values[1]:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected LOW,HIGH, the lower one first")
-    return values
-
-
-def period(text):
-    """Reader of T or T,START for argparse."""
-    try:
-        return read_period(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a positive time, or T,START, in s") from None
+        return tuple(words.integer(part, form, bool) if part else None for part in parts)
+    except words.WordError as error:
+        raise words.WordError(text, form) from error
 
 
 def measured(text):
-    """Reader of a body, 1: or 2:, which may be left out, and a file for argparse."""
+    """A body, 1: or 2:, which may be left out, and a file."""
     if not text or re.fullmatch(r"\d:.*", text) and (text[0] not in "12" or not text[2:]):
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected a file, or 1:FILE, 2:FILE")
+        raise words.WordError(text, "a file, or 1:FILE, 2:FILE")
     return (text[0], text[2:]) if re.match("[12]:", text) else ("", text)
 
 
-def percentile(text):
-    """Reader of a percentile for argparse."""
-    values = numbers(float)(text)
-    if len(values) != 1 or not 0.0 < values[0] <= 100.0:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a number above 0, at most 100")
-    return values[0]
-
-
 def width(text):
-    """Reader of a picture's width, mm, for argparse."""
-    values = numbers(float)(text)
-    if len(values) != 1 or not WIDTHS[0] <= values[0] <= WIDTHS[1]:
-        raise argparse.ArgumentTypeError("{}: expected millimetres from {:g} to {:g}".format(short(text), *WIDTHS))
-    return values[0]
-
-
-def names(text):
-    """Reader of a list of names for argparse."""
-    words = text.split(",")
-    if not text or not all(words) and len(words) == 1:
-        raise argparse.ArgumentTypeError("expected names separated by commas")
-    return words
-
-
-def scales(text):
-    """Reader of what is logarithmic for argparse."""
-    words = text.split(",")
-    for word in words:
-        if word not in SCALES:
-            raise argparse.ArgumentTypeError(f"{short(word) or repr('')}: expected {', '.join(SCALES)}")
-    return words
+    """A picture's width, mm, in which a number without a unit is."""
+    form = "millimetres from {:g} to {:g}, or a length such as 9cm".format(*WIDTHS)
+    bare = re.fullmatch(units.NUMBER, text)
+    value = words.number(text, form) if bare else 1e3 * words.number(text, form, "m")
+    if not WIDTHS[0] <= value <= WIDTHS[1]:
+        raise words.WordError(text, form)
+    return value
 
 
 def condition(text):
-    """Reader of NAME=VALUE for argparse."""
+    """Name and text of NAME=VALUE."""
     name, equal, value = text.partition("=")
     if not (name and equal and value):
-        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=VALUE")
+        raise words.WordError(text, "NAME=VALUE")
     return name, value
 
 
 def limit(text):
-    """Reader of NAME=VALUE, with a number, for argparse."""
+    """Name and Measured number of NAME=VALUE."""
     name, value = condition(text)
-    values = numbers(float)(value)
-    if len(values) != 1 or not math.isfinite(values[0]):
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected NAME=VALUE with one number")
-    return name, values[0]
+    try:
+        return name, words.measured(value, "a number", 1)
+    except words.WordError as error:
+        raise words.WordError(text, "NAME=VALUE with one number") from error
 
 
 class _Scalars(argparse.Action):
@@ -142,8 +94,8 @@ def _pictures(parser):
     kinds.add_argument("--fretting-log", action="store_true", help="loops of up to eight cycles, with their energy")
     kinds.add_argument("--scar", action="store_true", help="removed depth along x and y through its deepest point")
     kinds.add_argument(
-        "--measured", type=measured, metavar="[BODY:]FILE.csv",
-        help="heights of a worn surface beside its scar: columns with their units, x first: x_mm,height_um "
+        "--measured", type=word(measured), metavar="[BODY:]FILE.csv",
+        help="heights of a worn surface beside its scar: columns with their units, x first: x [mm],height [um] "
         "(of the last body that wears)",
     )  # fmt: skip
     kinds.add_argument("--life", action="store_true", help="volume, depth, energy, area and pressure over cycles")
@@ -152,12 +104,12 @@ def _pictures(parser):
 def _quantities(parser):
     what = parser.add_argument_group("what is drawn")
     what.add_argument(
-        "--field", type=names, metavar="NAME,...",
+        "--field", type=NAMES, metavar="NAME,...",
         help="fields of maps and profiles, by the names in the file; NAME of NAME_x and NAME_y is the magnitude "
         "(pressure, shear, slip, state)",
     )  # fmt: skip
     what.add_argument(
-        "--scalar", "--names", dest="scalar", type=names, action=_Scalars, metavar="NAME,...",
+        "--scalar", "--names", dest="scalar", type=NAMES, action=_Scalars, metavar="NAME,...",
         help="scalars of /history, of a matrix stiffness.load_tx.disp_x, or columns of a study (those that vary)",
     )  # fmt: skip
     what.add_argument(
@@ -168,11 +120,11 @@ def _quantities(parser):
     )
     what.add_argument("--by", metavar="NAME", help="of a study: the column that the curves' colours stand for")
     what.add_argument(
-        "--where", type=condition, action="append", default=[], metavar="NAME=VALUE",
+        "--where", type=word(condition), action="append", default=[], metavar="NAME=VALUE",
         help="of a study: only cases with this value",
     )  # fmt: skip
     what.add_argument(
-        "--border", type=limit, action="append", default=[], metavar="NAME=VALUE",
+        "--border", type=word(limit), action="append", default=[], metavar="NAME=VALUE",
         help="of a map of a study: a line where this column has the value",
     )  # fmt: skip
 
@@ -182,15 +134,20 @@ def _steps(parser):
     group = parser.add_argument_group(title)
     which = group.add_mutually_exclusive_group()
     which.add_argument(
-        "--step", type=numbers(int), metavar="K,...", help="load steps from 1, as petsam prints them; -1 is the last"
+        "--step",
+        type=word(words.integers),
+        metavar="K,...",
+        help="load steps from 1, as petsam prints them; -1 is the last",
     )
-    which.add_argument("--time", type=numbers(float), metavar="T,...", help="the saved steps nearest to times, s")
+    which.add_argument("--time", type=numbers("s", "times separated by commas, such as 20ms,40ms"), metavar="T,...",
+        help="the saved steps nearest to times, s",
+    )  # fmt: skip
     which.add_argument(
-        "--cycle", type=numbers(float), metavar="C,...",
+        "--cycle", type=numbers(), metavar="C,...",
         help="cycles from 1, -1 is the last: their loops, or ends; of a wear simulation the saved cycles nearest to C",
     )  # fmt: skip
     group.add_argument(
-        "--range", type=steps, metavar="FIRST:LAST",
+        "--range", type=word(steps), metavar="FIRST:LAST",
         help="only these load steps in histories and loops, from 1, -1 is the last: 33: leaves out the first 32",
     )  # fmt: skip
     title = "cycles (by reversals of the displacement that does the most work)"
@@ -198,42 +155,54 @@ def _steps(parser):
     how.add_argument("--turns", metavar="NAME", help="by reversals of another scalar of /history")
     how.add_argument(
         "--period",
-        type=period,
+        type=word(period),
         metavar="T[,START]",
-        help="by time, s (START: 0, or the first time if that is later than T)",
+        help="by time, such as 20ms (START: 0, or the first time if that is later than T)",
     )
 
 
 def _look(parser):
     look = parser.add_argument_group("look")
     look.add_argument(
-        "--at", type=point, metavar="X,Y", help="where profiles cross, m (0,0; a scar's: where it is deepest)"
+        "--at",
+        type=POINT,
+        metavar="X,Y",
+        help="where profiles cross, such as 0.1mm,0 (0,0; a scar's: where it is deepest)",
     )
-    look.add_argument("--depth", type=numbers(float), metavar="Z,...", help="planes of stresses nearest to z, m (some)")
+    look.add_argument("--depth", type=numbers("m", "depths separated by commas, such as 0.1mm,0.2mm"), metavar="Z,...",
+        help="planes of stresses nearest to these depths (some)",
+    )  # fmt: skip
     look.add_argument("--whole-grid", action="store_true", help="maps and profiles of the grid, not of the contact")
     look.add_argument(
-        "--limits", type=limits, metavar="LOW,HIGH", help="of the one --field, or --component, in SI units"
+        "--limits", type=LIMITS, metavar="LOW,HIGH", help="of the one --field, or --component: -50MPa,50MPa"
     )
     look.add_argument(
-        "--percentile", type=percentile, metavar="P",
+        "--percentile", metavar="P",
+        type=word(words.number, "a number above 0, at most 100", allowed=lambda value: 0.0 < value <= 100.0),
         help="colours up to this percentile of the cells that are not 0 (100, less where peaks would darken the rest)",
     )  # fmt: skip
     for letter in "xy":
         look.add_argument(
-            f"--{letter}lim", type=limits, metavar="LOW,HIGH", help=f"part of the {letter} axis, in SI units"
+            f"--{letter}lim", type=LIMITS, metavar="LOW,HIGH", help=f"part of the {letter} axis, such as 0,2mm"
         )
     look.add_argument(
         "--width",
-        type=width,
+        type=word(width),
         metavar="MM",
         help="width of the picture, mm; texts are scaled, to no less than 4.5 points",
     )
-    look.add_argument("--log", type=scales, default=[], metavar="WHAT,...", help="logarithmic colors, x, y")
+    look.add_argument(
+        "--log",
+        type=word(words.names, ", ".join(SCALES), known=SCALES),
+        default=[],
+        metavar="WHAT,...",
+        help="logarithmic colors, x, y",
+    )
     look.add_argument("--labels", metavar="TEXT,...", help="the files' names in the pictures (their file names)")
     look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png, .pdf or .svg")
     look.add_argument("--csv", metavar="NAME.csv", help="write the numbers of all that is drawn")
     look.add_argument("--format", choices=[end[1:] for end in FORMATS], help="instead of an end of the name (png)")
-    saving.add_resolution(look)
+    add_resolution(look)
 
 
 def _check(parser, options):
@@ -252,14 +221,14 @@ def _check(parser, options):
         parser.error("--percentile: not allowed with --limits")
 
 
-def _read(parser, words):
+def _read(parser, given):
     parser.add_argument(
         "files", nargs="+", metavar="FILE.h5", help="of petsam, petsam-stress or petsam-study; several are compared"
     )
     for group in (_pictures, _quantities, _steps, _look):
         group(parser)
     parser.set_defaults(spelling="--scalar")
-    options = parser.parse_args(joined(words))
+    options = parser.parse_args(joined(given))
     _check(parser, options)
     return options
 

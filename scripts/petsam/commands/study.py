@@ -31,48 +31,25 @@ import argparse
 import os
 import sys
 
-from ..core import environment
-from ..core.errors import USAGE, Error, Parser, counted, fail, guarded, joined, short
-from ..core.files import same
-from ..results import cycles
+from ..core import words
+from ..core.errors import USAGE, Error, counted
 from ..study import slurm, tables
-from ..study.cases import TableError, common_options, read
+from ..study.jobs import Jobs, check_files
 from ..study.progress import Progress, standing, summary
-from ..study.runs import STOPPED, Study, check_folders, record
+from ..study.reading import TableError
+from ..study.runs import Study
+from .line import Parser, fail, guarded, joined, period, word
 
 MOST = 1 << 30  # maximum of numbers on the command line
 
 
-def positive(text):
-    """A number from 1, for argparse."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = 0
-    if not 1 <= value <= MOST:
-        raise argparse.ArgumentTypeError(f"{short(text)}: use an integer from 1 to {MOST}")
-    return value
-
-
-def period(text):
-    """Reads T or T,START for argparse."""
-    try:
-        return cycles.read_period(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a positive time, or T,START, in s") from None
+POSITIVE = word(words.integer, f"an integer from 1 to {MOST}", lambda value: 1 <= value <= MOST)
 
 
 def numbers(text):
-    """Reads cycles' numbers for argparse."""
-    try:
-        values = tuple(dict.fromkeys(int(word) for word in text.split(",")))
-    except ValueError:
-        values = (0,)
-    if 0 in values or max(map(abs, values)) > MOST:
-        raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected integers separated by commas: from 1, or from -1 backwards"
-        )
-    return values
+    """Cycles' numbers, each once."""
+    form = "integers separated by commas: from 1, or from -1 backwards"
+    return tuple(dict.fromkeys(words.integers(text, form, lambda value: 0 < abs(value) <= MOST)))
 
 
 def _cycle_options(parser):
@@ -80,20 +57,20 @@ def _cycle_options(parser):
     how = of_cycles.add_mutually_exclusive_group()
     how.add_argument("--turns", metavar="NAME", help="divide cycles at the reversals of this scalar (a displacement)")
     how.add_argument(
-        "--period", type=period, metavar="T[,START]", help="instead: duration of a cycle, and its start (s)"
+        "--period", type=word(period), metavar="T[,START]", help="instead: duration of a cycle, and its start: 20ms,1s"
     )
     of_cycles.add_argument(
         "--cycle",
-        type=numbers,
+        type=word(numbers),
         metavar="K,...",
         default=(),
         help="cycles in addition to the last; -2 is the second last",
     )
 
 
-def _taken(words):
+def _taken(given):
     """Join --sbatch to its value, which begins with dashes."""
-    found = list(words)
+    found = list(given)
     while "--sbatch" in found[:-1]:
         at = found.index("--sbatch")
         found[at : at + 2] = [f"--sbatch={found[at + 1]}"]
@@ -102,8 +79,8 @@ def _taken(words):
 
 def arguments():
     """Read the command line: the options, and the words after --."""
-    words = sys.argv[1:]
-    at = words.index("--") if "--" in words else len(words)
+    given = sys.argv[1:]
+    at = given.index("--") if "--" in given else len(given)
     parser = Parser(
         prog="petsam-study",
         description=__doc__,
@@ -112,14 +89,14 @@ def arguments():
     )
     parser.add_argument("table", metavar="TABLE", help="cases: .csv, or .yaml")
     parser.add_argument("-d", "--directory", help="folder of the cases and the tables (the table's name, here)")
-    parser.add_argument("--cores", type=positive, help="cores to use (all available to this process)")
-    parser.add_argument("--ranks", type=positive, default=1, help="MPI ranks of cases without a value in the table (1)")
+    parser.add_argument("--cores", type=POSITIVE, help="cores to use (all available to this process)")
+    parser.add_argument("--ranks", type=POSITIVE, default=1, help="MPI ranks of cases without a value in the table (1)")
     parser.add_argument(
         "--launcher", metavar="WORDS", help="MPI launcher, to which -n RANKS is added ($MPIRUN, mpirun)"
     )
     parser.add_argument(
         "--checkpoint",
-        type=positive,
+        type=POSITIVE,
         metavar="M",
         help="write a checkpoint every M steps; a stopped case resumes from it",
     )
@@ -127,90 +104,51 @@ def arguments():
     parser.add_argument("--quiet", action="store_true", help="print failures only")
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--list", action="store_true", help="print the cases and their status only")
-    what.add_argument("--case", type=positive, metavar="K", help="run only the K-th case of --list, without tables")
+    what.add_argument("--case", type=POSITIVE, metavar="K", help="run only the K-th case of --list, without tables")
     what.add_argument("--collect", action="store_true", help="write the tables only")
     what.add_argument(
         "--slurm", action="store_true", help="submit a job array of the cases, and a job that writes the tables"
     )
     parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
     _cycle_options(parser)
-    options = parser.parse_args(joined(_taken(words[:at])))
+    options = parser.parse_args(joined(_taken(given[:at])))
     if options.sbatch and not options.slurm:
         parser.error("--sbatch requires --slurm")
-    options.words = words[at + 1 :]
+    options.words = given[at + 1 :]
     options.directory = os.path.abspath(options.directory or os.path.splitext(os.path.basename(options.table))[0])
     return options
 
 
-def due(options, cases):
-    """Returns the cases that have to be run, in order."""
-    wanted = cases if options.case is None else cases[options.case - 1 : options.case]
-    if not wanted:
-        raise TableError(f"--case {options.case}: use 1 to {len(cases)}")
-    waiting = []
-    for case in wanted:
-        code = record(options.directory, case).get("exit_code")
-        if code != 0 and not (options.skip_failed and code not in (None, STOPPED)):
-            waiting.append(case)
-    return waiting
-
-
-def run(options, cases, waiting):
+def run(options, jobs, cases, waiting):
     """Runs the waiting cases; returns the number of the signal that ended the study, or 0."""
-    cores = options.cores or environment.cores()
-    words = environment.launcher(options.launcher)
-    program = environment.petsam()
-    for case in waiting:
-        if case.ranks > cores and options.case is None:
-            raise TableError(
-                f"case {case.name}: {case.ranks} ranks do not fit into {cores} cores; use fewer ranks or larger --cores"
-            )
-    cores = max([cores, *[case.ranks for case in waiting]]) if options.case else cores
+    command, cores = jobs.command(), jobs.most(waiting, alone=options.case is not None)
     before = len(cases) - len(waiting)
     if not options.quiet and options.case is None:
-        print(
-            "{}{}, {}, {}".format(
-                counted(len(waiting), "case"),
-                f" ({before} others skipped)" if before else "",
-                counted(cores, "core"),
-                options.directory,
-            ),
-            flush=True,
-        )
+        skipped = f" ({before} others skipped)" if before else ""
+        print(f"{counted(len(waiting), 'case')}{skipped}, {counted(cores, 'core')}, {jobs.directory}", flush=True)
     progress = Progress(len(waiting), options.quiet)
-    study = Study(
-        options.directory,
-        lambda ranks: [*words, "-n", str(ranks), program],
-        cores,
-        progress.report,
-        progress.tick,
-        options.checkpoint,
-    )
+    study = Study(jobs.directory, command, cores, progress.report, progress.tick, jobs.checkpoint)
     ended = study.run(waiting)
     progress.close()
     return ended
 
 
-def prepare(options, cases):
-    """Makes the study's folder; raises Error if the results would replace another file."""
-    if os.path.lexists(options.directory) and not os.path.isdir(options.directory):
-        raise Error(f"{options.directory}: is not a folder; choose another by --directory")
-    os.makedirs(options.directory, exist_ok=True)
-    for name in ("results.csv", "results.h5"):
-        path = os.path.join(options.directory, name)
-        if same(path, options.table) or same(path + ".tmp", options.table):
-            raise Error(f"{options.table}: would be replaced by the results; choose another folder by --directory")
-    check_folders(options.directory, cases)
-
-
-def write(options, cases):
+def write(options, jobs, cases):
     """Writes the tables; raises Error if the requested cycles do not exist."""
-    figures = tables.Figures(options.turns, options.period, options.cycle)
-    names, complaint = tables.write(options.directory, cases, os.path.basename(options.table), figures)
+    names, complaint = jobs.write(cases)
     for name in names if not options.quiet else ():
         print("wrote " + name)
     if complaint:
         raise Error(complaint)
+
+
+def chosen(options, cases):
+    """All cases, or the one of --case."""
+    if options.case is None:
+        return cases
+    if options.case > len(cases):
+        raise TableError(f"--case {options.case}: use 1 to {len(cases)}")
+    return cases[options.case - 1 : options.case]
 
 
 def warn_of_gaps(options, cases):
@@ -225,34 +163,29 @@ def warn_of_gaps(options, cases):
             )
 
 
-def check_files(cases):
-    """Error where a file that every case reads does not exist, so that every case would fail."""
-    for name, path in cases[0].paths().items():
-        if not os.path.exists(path) and all(case.paths().get(name) == path for case in cases):
-            raise Error(f"-{name} {path}: no such file, and every case reads it")
-
-
 def carry_out(options):
     """Carries out the options; returns the exit code."""
-    cases = read(options.table, common_options(options.words), options.ranks)
+    jobs = Jobs(
+        options.table, options.directory, tuple(options.words), options.ranks, options.cores, options.launcher,
+        options.checkpoint, options.skip_failed, tables.Figures(options.turns, options.period, options.cycle),
+    )  # fmt: skip
+    cases = jobs.cases()
     if not options.quiet and options.case is None:
         warn_of_gaps(options, cases)
     if options.list:
         for case in cases:
-            print(f"{case.number:5d}  {standing(options.directory, case):11s}  {case.name}")
+            print(f"{case.number:5d}  {standing(jobs.directory, case):11s}  {case.name}")
         return 0
     if not options.collect:
         check_files(cases)
-    prepare(options, cases)
-    waiting = [] if options.collect else due(options, cases)
+    jobs.prepare(cases)
+    waiting = [] if options.collect else jobs.due(chosen(options, cases))
     if options.slurm:
-        return slurm.submit(options, cases, waiting)
-    ended = run(options, cases, waiting) if waiting else 0
-    if options.case is not None:
-        cases = cases[options.case - 1 : options.case]
-    else:
-        write(options, cases)
-    code = summary(options.directory, cases)
+        return slurm.submit(jobs, cases, waiting, options.sbatch)
+    ended = run(options, jobs, cases, waiting) if waiting else 0
+    if options.case is None:
+        write(options, jobs, cases)
+    code = summary(jobs.directory, chosen(options, cases))
     if ended:
         print("petsam-study: interrupted; run the same command again to resume", file=sys.stderr)
     return 128 + ended if ended else code

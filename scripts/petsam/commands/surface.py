@@ -5,16 +5,16 @@
     petsam-surface top.h5 bottom.h5 -o pair.h5
     petsam-surface --self-affine 0.8 --rms 0.5um --wavelengths 500um,10um --size 1mm --grid-n 512 --seed 3 -o r3.h5
 
-Reads NumPy's .npy, text (.csv, .txt: one line per y, one number per x), HDF5 (.h5), and through the library
-SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for petsam's -gap_file and -gap_rough_file,
-and a picture beside it. Options give what the file does not contain (units, size, body). A map is
-centred on x = y = 0 unless its file gives a position. Heights are positive outward, so a peak of either body reduces
-the separation. Each map is oriented, cut, filled, levelled and resampled, in this order. Options apply to both files;
-their maps are then aligned at their centres. Heights of body 1 and heights of body 2 make a separation.
+Reads NumPy's .npy, text (.csv, .txt: one line per y, one number per x; points x, y, z of a regular grid; profiles
+x, z), HDF5 (.h5), and through the library SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for
+petsam's -gap_file and -gap_rough_file, and a picture beside it. Options give what the file does not contain (units,
+size, body). A map is centred on x = y = 0 unless its file gives a position. Heights are positive outward, so a peak of
+either body reduces the separation. Each map is oriented, cut, freed of outliers, filled, levelled and resampled, in
+this order. Options apply to both files; their maps are then aligned at their centres.
+Heights of body 1 and heights of body 2 make a separation.
 """
 
 import argparse
-import math
 import os
 import shlex
 import sys
@@ -24,112 +24,126 @@ from dataclasses import replace
 import numpy as np
 
 from .. import plot
-from ..core import isolation
-from ..core.errors import Error, Parser, fail, guarded, short
+from ..core import words
+from ..core.errors import Error, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
-from ..core.lengths import several, shown, sides, unit
+from ..core.units import shown
 from ..plot.of_surface import finite
-from ..plot.saving import add_choice, write
+from ..plot.saving import write
 from ..surface import generation, levels, writing
+from ..surface.basics import QUANTITIES
 from ..surface.doubts import doubts as doubts_of
-from ..surface.filling import filled
-from ..surface.maps import QUANTITIES, combined, cut, moments, new_map, peak_to_valley, rms_height, rms_slope
-from ..surface.reading import FORMATS, read_map
-from ..surface.resampling import resampled
+from ..surface.maps import combined, moments, new_map, peak_to_valley, rms_height, rms_slope
+from ..surface.reading import FORMATS, read
+from ..surface.words import sides, unit
+from .line import Parser, add_choice, fail, guarded, word
 
 MOST = 1 << 16  # cells in x or y
 WIDE = 1.0  # m: few instruments measure a surface of this size
 OF_FILES = (
     "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
-    "dataset", "channel", "window", "fill", "level", "grid_size",
+    "dataset", "channel", "window", "outliers", "fill", "level", "grid_size",
 )  # fmt: skip
 SIGNED = ("--window", "--center", "--missing", "--skewness")  # options whose values may begin with a minus sign
 
 
+READ_BY = (
+    "units", "size", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "decimal", "skip_rows",
+    "skip_columns", "dataset", "channel",
+)  # fmt: skip
+
+
 def cells(text):
-    """Reader of one or two numbers of cells for argparse, x and y."""
-    try:
-        values = [int(word) for word in text.split(",")]
-    except ValueError:
-        values = []
-    if len(values) not in (1, 2) or not all(2 <= value <= MOST for value in values):
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected one or two integers from 2 to {MOST}: NX[,NY]")
-    return values[0], values[-1]
+    """One or two numbers of cells, x and y; 0 stands for a y that is not given."""
+    form = f"one or two integers from 2 to {MOST}: NX[,NY]"
+    values = words.integers(text, form, lambda value: 2 <= value <= MOST, (1, 2))
+    return (*values, 0)[:2]
 
 
 def bodies(text):
-    """Reader of the bodies for argparse, one for each file."""
-    words = text.split(",")
-    if len(words) > 2 or not set(words) <= {"1", "2"}:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected 1 or 2, or one of them for each file: 1,2")
-    return ["height" + word for word in words]
+    """The bodies, one for each file."""
+    form = "1 or 2, or one of them for each file: 1,2"
+    return [int(name) for name in words.names(text, form, "12")]
 
 
-def count(text):
-    """Reader of a number from 0 for argparse."""
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer")
-    return int(text)
+def _hurst(text):
+    """A Hurst exponent."""
+    return words.number(text, "a Hurst exponent above 0, at most 1", allowed=lambda value: 0.0 < value <= 1.0)
 
 
-def number(text):
-    """Reader of a finite number for argparse."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a number")
-    return value
-
-
-def hurst(text):
-    """Reader of a Hurst exponent for argparse."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value <= 1.0:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected a Hurst exponent above 0, at most 1")
-    return value
+def _lengths(count, form):
+    """Reader of so many lengths, m."""
+    return word(lambda text: tuple(words.numbers(text, form, "m", None, count)))
 
 
 def _window(text):
-    """Reader of a window for argparse."""
-    window = several(4, "X0,X1,Y0,Y1")(text)
+    """A window X0, X1, Y0, Y1."""
+    window = words.numbers(text, "four lengths X0,X1,Y0,Y1", "m", None, 4)
     if not (window[0] < window[1] and window[2] < window[3]):
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected X0 < X1 and Y0 < Y1")
-    return window
+        raise words.WordError(text, "X0 < X1 and Y0 < Y1")
+    return tuple(window)
+
+
+COUNT = word(words.integer, "an integer from 0", lambda value: value >= 0)
+NUMBER = word(words.number)
 
 
 def _file_options(parser):
     about = parser.add_argument_group("contents of the files, where a file does not state them")
     holds = about.add_mutually_exclusive_group()
-    holds.add_argument("--body", type=bodies, metavar="1|2", help="heights of this body; of two files: 1,2")
+    holds.add_argument("--body", type=word(bodies), metavar="1|2", help="heights of this body; of two files: 1,2")
     holds.add_argument("--separation", action="store_true", help="the separation of both bodies")
-    about.add_argument("--units", type=unit, metavar="UNIT", help="unit of the values: m, mm, um, nm, ...")
+    about.add_argument("--units", type=word(unit), metavar="UNIT", help="unit of the values: m, mm, um, nm, 0.1mm, ...")
     extent = about.add_mutually_exclusive_group()
-    extent.add_argument("--size", type=sides, metavar="X[,Y]", help="full width of all cells: 1e-3 (m) or 1mm")
-    extent.add_argument("--pixel", type=sides, metavar="DX[,DY]", help="instead: width of one cell")
+    extent.add_argument("--size", type=word(sides), metavar="X[,Y]", help="full width of all cells: 1e-3 (m) or 1mm")
+    extent.add_argument("--pixel", type=word(sides), metavar="DX[,DY]", help="instead: width of one cell")
     about.add_argument(
         "--first-row", choices=("bottom", "top"), help="position of the first row, in images top (bottom)"
     )
     about.add_argument("--transpose", action="store_true", help="a line of the file, or the first index, is x")
     about.add_argument("--mirror", choices=("x", "y"), help="reverse x or y, as for body 1 seen from its own side")
     about.add_argument("--depths", action="store_true", help="values are positive into the body: valleys are large")
-    about.add_argument("--missing", type=float, metavar="VALUE", help="value of missing points")
+    about.add_argument("--missing", metavar="VALUE", help="value of missing points, or in a text their word")
     reader = parser.add_argument_group("reading")
     reader.add_argument("--format", choices=FORMATS, help="format of the file (by its name)")
     reader.add_argument(
-        "--decimal", choices=("point", "comma"), default="point", help="decimal sign in text files (point)"
+        "--decimal", choices=("point", "comma"), help="decimal sign in text files (as they show, or point)"
     )
     reader.add_argument(
-        "--skip-rows", type=count, default=0, metavar="K", help="lines to skip at the start of a text file"
+        "--skip-rows", type=COUNT, default=0, metavar="K", help="lines to skip at the start of a text file"
     )
-    reader.add_argument("--skip-columns", type=count, default=0, metavar="K", help="columns to skip")
+    reader.add_argument("--skip-columns", type=COUNT, default=0, metavar="K", help="columns to skip")
     reader.add_argument("--dataset", metavar="NAME", help="HDF5 dataset (/height, or /separation)")
     reader.add_argument("--channel", metavar="NAME|K", help="channel of an instrument's file (heights)")
+
+
+def _processing(parser):
+    done = parser.add_argument_group("processing")
+    done.add_argument("--window", type=word(_window), metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
+    done.add_argument(
+        "--outliers",
+        action="store_true",
+        help="replace spikes of a few points far from their neighbours, and count them",
+    )
+    done.add_argument(
+        "--fill",
+        choices=("smooth", "nearest"),
+        help="fill missing points smoothly from their boundary, or by the nearest",
+    )
+    done.add_argument("--level", choices=levels.KINDS, default="none", help="form to remove by least squares (none)")
+    done.add_argument(
+        "--grid-n", type=word(cells), metavar="NX[,NY]", help="cells of a new grid; values are averaged over each"
+    )
+    done.add_argument(
+        "--grid-size",
+        type=word(sides),
+        metavar="X[,Y]",
+        help="full width of the new grid, about the map's centre (all)",
+    )
+    done.add_argument(
+        "--center", type=_lengths(2, "two lengths X,Y"), metavar="X,Y", help="new position of the centre (unchanged)"
+    )
 
 
 def arguments(words):
@@ -139,36 +153,27 @@ def arguments(words):
     _file_options(parser)
     made = parser.add_argument_group("a random surface instead of a file, with --size and --grid-n")
     kind = made.add_mutually_exclusive_group()
-    kind.add_argument("--self-affine", type=hurst, metavar="H", help="self-affine with this Hurst exponent")
+    kind.add_argument("--self-affine", type=word(_hurst), metavar="H", help="self-affine with this Hurst exponent")
     kind.add_argument("--psd", metavar="TABLE", help="of a spectrum: a text of q (rad/m) and C (m^4) on each line")
-    made.add_argument("--rms", type=several(1, "a length"), metavar="HEIGHT", help="rms height (that of the spectrum)")
     made.add_argument(
-        "--wavelengths", type=several(2, "LONG,SHORT"), metavar="LONG,SHORT", help="of a self-affine surface"
+        "--rms", type=_lengths(1, "a length, such as 1um"), metavar="HEIGHT", help="rms height (that of the spectrum)"
+    )
+    made.add_argument(
+        "--wavelengths",
+        type=_lengths(2, "two lengths LONG,SHORT"),
+        metavar="LONG,SHORT",
+        help="of a self-affine surface",
     )
     shape = made.add_mutually_exclusive_group()
-    shape.add_argument("--skewness", type=number, metavar="S", help="of the heights (0); below 0: plateaus and valleys")
+    shape.add_argument("--skewness", type=NUMBER, metavar="S", help="of the heights (0); below 0: plateaus and valleys")
     shape.add_argument(
         "--distribution",
         metavar="TABLE",
         help="of the heights: a text of a height (m) and the share below on each line",
     )
-    made.add_argument("--kurtosis", type=number, metavar="K", help="of the heights (3 + 1.5 S^2); 3: as Gaussian ones")
-    made.add_argument("--seed", type=count, default=0, metavar="K", help="another integer is another surface (0)")
-    done = parser.add_argument_group("processing")
-    done.add_argument("--window", type=_window, metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
-    done.add_argument(
-        "--fill",
-        choices=("smooth", "nearest"),
-        help="fill missing points smoothly from their boundary, or by the nearest",
-    )
-    done.add_argument("--level", choices=levels.KINDS, default="none", help="form to remove by least squares (none)")
-    done.add_argument(
-        "--grid-n", type=cells, metavar="NX[,NY]", help="cells of a new grid; values are averaged over each"
-    )
-    done.add_argument(
-        "--grid-size", type=sides, metavar="X[,Y]", help="full width of the new grid, about the map's centre (all)"
-    )
-    done.add_argument("--center", type=several(2, "X,Y"), metavar="X,Y", help="new position of the centre (unchanged)")
+    made.add_argument("--kurtosis", type=NUMBER, metavar="K", help="of the heights (3 + 1.5 S^2); 3: as Gaussian ones")
+    made.add_argument("--seed", type=COUNT, default=0, metavar="K", help="another integer is another surface (0)")
+    _processing(parser)
     out = parser.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the first file's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
@@ -177,6 +182,8 @@ def arguments(words):
     _check_random(parser, options)
     if len(options.files) > 2:
         parser.error(f"{len(options.files)} files: use one, or two for a separation")
+    if options.body and len(options.body) > 2:
+        parser.error("--body: expected 1 or 2, or one of them for each file: 1,2")
     if options.body and len(options.body) != max(1, len(options.files)):
         parser.error("--body: give 1 or 2, and 1,2 for two files: one body for each")
     if options.separation and options.depths:
@@ -238,14 +245,15 @@ def random_map(options):
         shortest = options.wavelengths[1]
         spectrum = generation.self_affine(options.self_affine, *options.wavelengths)
     rms = options.rms[0] if options.rms else None
-    values = generation.heights(spectrum, options.grid_n, options.size, shortest, options.seed, rms)
+    n = _square(options.grid_n)
+    values = generation.heights(spectrum, n, options.size, shortest, options.seed, rms)
     if options.distribution:
         values = generation.shaped(values, generation.distributed(options.distribution), rms)
     elif options.skewness is not None or options.kurtosis is not None:
         skewness = options.skewness or 0.0
         kurtosis = 3.0 + 1.5 * skewness**2 if options.kurtosis is None else options.kurtosis
         values = generation.shaped(values, generation.cubic(skewness, kurtosis), float(np.sqrt(np.mean(values**2))))
-    quantity = "separation" if options.separation else (options.body or ["height2"])[0]
+    quantity = "separation" if options.separation else f"height{(options.body or [2])[0]}"
     print(f"random surface: {QUANTITIES[quantity]}\n  seed {options.seed}")
     one = new_map(values, options.size, quantity, options.output)
     warn_of_unit(one, options.output)
@@ -263,7 +271,7 @@ def _joined(words):
 
 def warn_of_unit(one, name, more=""):
     """Warnings of heights beyond the size, and of a size beyond measured ones."""
-    high, wide = peak_to_valley(one), max(one.size)
+    high, wide = peak_to_valley(one), one.wide
     texts = []
     if high > wide:
         texts.append(f"peak to valley {shown(high)} is more than the size {shown(wide)}: check the unit{more}")
@@ -279,28 +287,37 @@ def _warn(name, texts):
         print(f"petsam-surface: warning: {short(name)}: {text}", file=sys.stderr)
 
 
-def prepared(path, options, quantity):
+def prepared(path, options, body):
     """The processed map of one file; prints the steps."""
-    one, remarks, doubts = read_map(path, options, quantity)
+    given = {name: getattr(options, name) for name in READ_BY}
+    one = read(path, body=body, separation=options.separation, alone=len(options.files) == 1, **given)
     if options.window:
-        one = cut(one, options.window)
-        remarks.append("cut to {} x {} points".format(*one.n))
-    one, missing = filled(one, options.fill)
-    if missing:
-        remarks.append(f"{missing} missing point{'s' if missing > 1 else ''} filled ({options.fill})")
+        one = one.cut(*options.window)
+    one = one.without_outliers(options.fill or "smooth") if options.outliers else one
+    one = one.fill(options.fill)
     warn_of_unit(one, path, ", and give the value of missing points by --missing")
-    one, taken = levels.levelled(one, options.level)
-    _warn(path, [*doubts, *doubts_of(one)])
-    if taken:
-        remarks.append(taken)
+    one = one.level(options.level)
+    _warn(path, [*one.doubts, *doubts_of(one)])
     if options.grid_n or options.grid_size:
-        before = one.n
-        one = resampled(one, options.grid_n, options.grid_size)
-        remarks.append("from {} x {} points to {} x {} cells".format(*before, *one.n))
+        one = one.resample(_grid(one, options.grid_n), options.grid_size)
     print(f"{path}: {QUANTITIES[one.quantity]}")
-    for remark in remarks:
+    for remark in one.remarks:
         print("  " + remark)
     return one
+
+
+def _grid(one, given):
+    """Cells in x, y of a new grid, or None; a profile keeps its row."""
+    if not given:
+        return None
+    if one.is_profile and given[1]:
+        raise Error(f"{one.name}: is a profile, which has cells along x only: --grid-n {given[0]}")
+    return (given[0], 1) if one.is_profile else _square(given)
+
+
+def _square(given):
+    """Cells in x, y, of which the second may be left out."""
+    return given[0], given[1] or given[0]
 
 
 def description(one):
@@ -308,9 +325,14 @@ def description(one):
     n, cell, size, center = one.n, one.cell, one.size, one.center
     low, high = (shown(float(value)) for value in (one.values.min(), one.values.max()))
     slopes = levels.tilt(one)
-    return [
+    where = [
         "cells   {} x {} of {} x {}".format(*n, *map(shown, cell)),
         "size    {} x {} about x = {:g} m, y = {:g} m".format(*map(shown, size), *center),
+    ]
+    if one.is_profile:
+        where = [f"cells   {n[0]} of {shown(cell[0])}", f"size    {shown(size[0])} about x = {center[0]:g} m"]
+    return [
+        *where,
         f"height  Sq {shown(rms_height(one))}, peak to valley {shown(peak_to_valley(one))}, from {low} to {high}",
         "shape   skewness Ssk {:.3g}, kurtosis Sku {:.3g}".format(*moments(one)),
         f"slope   Sdq {rms_slope(one):.4g}; of the mean plane {slopes[0]:.3g} in x, {slopes[1]:.3g} in y",
@@ -320,9 +342,18 @@ def description(one):
 def petsam_options(one, path):
     """petsam's options for the surface as the gap, and as roughness on another."""
     name = shlex.quote(path)
+    if one.is_profile:
+        center = f" -grid_center {one.center[0]:.10g}" if one.center[0] else ""
+        grid = f"-elasticity plane -grid_n {one.n[0]} -grid_size {one.size[0]:.10g}{center}"
+        return _both(one, name, grid)
     grid = "-grid_n {},{} -grid_size {:.10g},{:.10g}".format(*one.n, *one.size)
     if any(one.center):
         grid += " -grid_center {:.10g},{:.10g}".format(*one.center)
+    return _both(one, name, grid)
+
+
+def _both(one, name, grid):
+    """The options of petsam for a file as the gap, and as roughness, on a grid."""
     which = f"_dataset /{writing.dataset(one)}" if writing.dataset(one) != "height" else ""
     gap, rough = (f" -{kind}{which}" if which else "" for kind in ("gap", "gap_rough"))
     return f"-gap_type file -gap_file {name}{gap} {grid}", f"-gap_rough_file {name}{rough} {grid}"
@@ -337,8 +368,7 @@ def carry_out(options, words):
     need_own(options.output, writing.SIGN, "petsam-surface")
     if not options.no_picture:
         need_replaceable(options.picture)
-    quantities = options.body or ["separation" if options.separation else None] * len(options.files)
-    maps = [prepared(path, options, quantity) for path, quantity in zip(options.files, quantities)]
+    maps = [prepared(path, options, body) for path, body in zip(options.files, options.body or [None, None])]
     maps = maps or [random_map(options)]
     one = maps[0] if len(maps) == 1 else combined(*maps)
     if options.center:
@@ -356,22 +386,18 @@ def carry_out(options, words):
     print(f"options for petsam:\n  {gap}\nor, added to another gap:\n  {rough}")
 
 
-def _child(options, words):
-    warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
-    try:
-        carry_out(options, words)
-    except (Error, OSError) as error:
-        return fail("petsam-surface", error)
+def _run():
+    words = sys.argv[1:]
+    options = arguments(words)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
+        try:
+            carry_out(options, words)
+        except (Error, OSError) as error:
+            return fail("petsam-surface", error)
     return 0
 
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks information."""
-
-    def parent():
-        words = sys.argv[1:]
-        options = arguments(words)
-        (code,) = isolation.each(lambda _: _child(options, words), [None])
-        return fail("petsam-surface", code) if isinstance(code, Error) else code
-
-    return guarded("petsam-surface", parent)
+    return guarded("petsam-surface", _run)

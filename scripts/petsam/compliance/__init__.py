@@ -1,16 +1,24 @@
 """Compliance of real bodies for petsam's -body1_compliance and -body2_compliance: petsam-compliance.
 
+    found = petsam.compliance.of_deck("block.inp", 2.2e-3, "TOP", supports="BOTTOM", units="mm")
+    found.write("block.h5")
+    petsam.plot.compliance(found)
+
+of_deck       the Compliance of a CalculiX deck; of_mesh: of a meshio mesh (calls.py)
+Bolt, Compliance, Settings   what they take and return (settings.py, result.py)
+
 basis         polynomials on the patch
 halfspace     fields of these as tractions on a half-space
 shapes        elements of CalculiX
 mesh          boundary, Gauss points, places of points
 deck          reading of CalculiX decks
+foreign       meshes of meshio
+boxes         sets by coordinates
 stiffness     CalculiX's stiffness matrix, or assembled here
 solve         one factorization
 remainder     body minus half-space, by
   images      fields taken back on the other surfaces
   cutoff      half-space fields cut off about the patch
-substructure  stiffness matrices of other programs
 parts         the bodies of a mesh: one, or a pair
 bolts         bolts of a pair
 modes         its modes without contact
@@ -20,3 +28,24 @@ checks        limits
 model         all of it for one deck
 writing       HDF5
 """
+
+import importlib
+
+_HOMES = {
+    "Bolt": ".settings",
+    "Compliance": ".result",
+    "Settings": ".settings",
+    "of_deck": ".calls",
+    "of_mesh": ".calls",
+}
+__all__ = ["Bolt", "Compliance", "Settings", "of_deck", "of_mesh"]
+
+
+def __getattr__(name):
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(_HOMES[name], __name__), name)
+
+
+def __dir__():
+    return __all__

@@ -1,21 +1,25 @@
 """A body from its deck: frame, checks, stiffness, compliance, load cases, stresses."""
 
-import time
+import hashlib
+import os
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..core.errors import Error
-from . import bolts, checks, cutoff, deck, images, modes, parts, several, stresses
+from . import bolts, boxes, checks, cutoff, deck, foreign, images, modes, parts, several, stresses
 from . import cases as load_cases
 from .basis import Patch
 from .cards import folded
 from .halfspace import Fields, Mirrored, Several
 from .remainder import Side
+from .result import Compliance
 from .solve import Floating, Solver, plane_normal
 from .stiffness import stiffness
 from .units import DENSITIES, SOFT, UNITS, need_units
 
+DECK = ".inp"  # end of the name of a deck
+BLOCK = 1 << 20
 GAUSS_MORE = 3  # Gauss points along the patch in addition to its degree, for sampling fields
 
 
@@ -35,6 +39,7 @@ class Body:
     poisson: float
     method: str
     source: str
+    checksum: str
     command: str
     frame: Frame
     patch: Patch
@@ -73,68 +78,93 @@ def frame_of(origin, x, z, outward):
     return Frame(np.array(origin, dtype=float), np.stack([x, np.cross(z, x), z]))
 
 
+def checksum(path):
+    """SHA-256 of a file."""
+    digest = hashlib.sha256()
+    with open(path, "rb") as file:
+        while block := file.read(BLOCK):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def opened(source, settings):
+    """The name of a deck or a mesh, its SHA-256, and the Deck; boxes of the settings become its sets and surfaces."""
+    if isinstance(source, (str, os.PathLike)):
+        path = os.fspath(source)
+        ending = os.path.splitext(path)[1].lower()
+        if ending == DECK and settings.materials:
+            raise Error(f"{path}: a deck has its own materials: remove --young, --poisson and --density")
+        of_meshio = settings.materials or ending in foreign.ENDINGS
+        found = foreign.read(path, settings) if of_meshio else deck.read(path)
+        return path, checksum(path), boxes.added(found, settings)
+    found = foreign.deck_of(source, "mesh", settings)
+    return "mesh", hashlib.sha256(found.mesh.nodes.tobytes()).hexdigest(), boxes.added(found, settings)
+
+
 class Model:
     """The mesh in the frame's coordinates, in SI units, with its supports and its contact surface."""
 
-    def __init__(self, path, options):
-        units = UNITS[options.units]
-        self.path, self.options, self.units = path, options, units
-        self.deck = deck.read(path)
+    def __init__(self, source, settings):
+        """source: the name of a deck or of a file that meshio reads, or a meshio.Mesh."""
+        units = UNITS[settings.units]
+        self.settings, self.units = settings, units
+        self.path, self.checksum, self.deck = opened(source, settings)
+        path = self.path
         mesh = self.deck.mesh
         mesh.nodes = mesh.nodes * units.length
         for block in mesh.blocks:
             block.young *= units.stress
             block.density *= units.density
-        deck.need_set(mesh.surfaces, options.contact, "surface", path)
-        held = [deck.need_set(mesh.node_sets, name, "node set", path) for name in options.fixed]
+        deck.need_set(mesh.surfaces, settings.contact, "surface", path)
+        held = [deck.need_set(mesh.node_sets, name, "node set", path) for name in settings.supports]
         self.supported = np.unique(np.concatenate([np.zeros(0, dtype=int), *held]))
-        symmetric = [deck.need_set(mesh.node_sets, name, "node set", path) for name in options.symmetry]
-        for name, nodes in zip(options.symmetry, symmetric):
+        symmetric = [deck.need_set(mesh.node_sets, name, "node set", path) for name in settings.symmetry]
+        for name, nodes in zip(settings.symmetry, symmetric):
             if not np.setdiff1d(nodes, self.supported).size:
                 raise Error(
                     f"{path}: node set {name} of --symmetry is held by --fixed: name another, or omit --symmetry"
                 )
-        faces = mesh.surface_faces(folded(options.contact))
+        faces = mesh.surface_faces(folded(settings.contact))
         if not faces:
-            raise Error(f"{path}: surface {options.contact} has no element faces: define it by TYPE=ELEMENT")
+            raise Error(f"{path}: surface {settings.contact} has no element faces: define it by TYPE=ELEMENT")
         outward = sum(mesh.gauss(group, 2).area.sum(axis=(0, 1)) for group in faces)
-        origin, x, z = (list(options.frame) + [None, None])[:3]
+        origin, x, z = (list(settings.frame) + [None, None])[:3]
         self.frame = frame_of(np.array(origin) * units.length, x, z, outward)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
         planes = np.concatenate([np.zeros(0, dtype=int), *symmetric])
         self.doubts = load_cases.need_supports(self.deck, self.mesh, self.frame, units, self.supported, planes)
-        self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(options.symmetry, symmetric)]
-        half = tuple(0.5 * side for side in options.patch)
-        self.patches = [Patch(center, half, options.degree) for center in options.center]
+        self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(settings.symmetry, symmetric)]
+        half = tuple(0.5 * side for side in settings.patch)
+        self.patches = [Patch(center, half, settings.degree) for center in settings.centers]
         several.need_apart(self.patches)
         self.patch = self.patches[0]
         self.parts, self.bolts = [parts.Part(self.mesh, faces)], []
-        if options.pair:
+        if settings.pair:
             self._take_pair()
         self.doubts += need_units(self)
 
     def _take_pair(self):
         """Finds the two bodies and their bolts."""
-        options = self.options
-        for name in [options.pair, *(surface for one in options.bolt for surface in one.surfaces)]:
+        settings = self.settings
+        for name in [settings.pair, *(surface for one in settings.bolts for surface in one.surfaces)]:
             deck.need_set(self.mesh.surfaces, name, "surface", self.path)
         components = parts.Components(self.mesh)
-        links = [tuple(components.of_surface(surface) for surface in one.surfaces) for one in options.bolt]
-        for one, (first, second) in zip(options.bolt, links):
+        links = [tuple(components.of_surface(surface) for surface in one.surfaces) for one in settings.bolts]
+        for one, (first, second) in zip(settings.bolts, links):
             if first == second:
                 raise Error(f"bolt {one.name}: both washers are on one body: name a surface of each body")
-        self.parts = parts.pair(components, options.contact, options.pair, links)
-        if options.free:
+        self.parts = parts.pair(components, settings.contact, settings.pair, links)
+        if settings.free:
             components.need_one(links)
             self.need_densities("--free")
         else:
             components.need_held(self.supported, links)
-        self.bolts = [bolts.bolt(self.mesh, *one) for one in options.bolt]
+        self.bolts = [bolts.bolt(self.mesh, *one) for one in settings.bolts]
 
     def prepare_modes(self):
         """Finds what the modes need: densities, and the nodes of the sensors."""
         self.need_densities("--modes")
-        self.sensors = [self._sensor(*one) for one in self.options.sensor]
+        self.sensors = [self._sensor(*one) for one in self.settings.sensors]
 
     def need_densities(self, name):
         """Raises Error unless all materials have a density that can be one; name: the option that needs it."""
@@ -198,7 +228,7 @@ def choose(model, plane):
         ("the body has a plane of symmetry", bool(model.planes)),
     ]
     reason = ", ".join(text for text, holds in reasons if holds)
-    wanted = model.options.method
+    wanted = model.settings.method
     if reason and len(model.parts) > 1:
         raise Error(
             f"{reason}: each body of a pair needs one material and a plane contact surface above which it does not "
@@ -207,20 +237,6 @@ def choose(model, plane):
     if wanted == "image" and reason:
         raise Error(f"{reason}: use --method cutoff")
     return ("cutoff" if reason or wanted == "cutoff" else "image"), reason
-
-
-class Progress:
-    """Returns lines about parts of the work that take long."""
-
-    def __init__(self, stream, seconds=5.0):
-        self.stream, self.seconds = stream, seconds
-        self.start = self.last = time.monotonic()
-
-    def __call__(self, text):
-        now = time.monotonic()
-        if now - self.last >= self.seconds:
-            self.last = now
-            print(f"  {now - self.start:.0f} s: {text}", file=self.stream, flush=True)
 
 
 def _cutoff(model, plane, moduli):
@@ -255,13 +271,13 @@ def remainder(model, method, plane, progress):
         chi, more = _cutoff(model, plane, (young, sides[0].fields.poisson))
         remarks += more
     progress("stiffness")
-    matrix = stiffness(mesh, model.options.stiffness, model.options.ccx)
+    matrix = stiffness(mesh, model.settings.stiffness, model.settings.ccx)
     tie = sum(one.matrix for one in model.bolts) if model.bolts else None
     fixed = np.zeros((len(mesh.nodes), 3), dtype=bool)
     fixed[supported] = True
     progress("factorization")
     whole = matrix if tie is None else matrix + tie
-    if model.options.free:
+    if model.settings.free:
         solver = Floating(whole, mesh.nodes, modes.mass(mesh))
     else:
         solver = Solver(whole, mesh.nodes, fixed.ravel(), model.planes)
@@ -275,14 +291,14 @@ def remainder(model, method, plane, progress):
 
 def _cases(model, solver, found):
     """Load cases by name, each for each patch: those of the deck, and unit initial tension of each bolt."""
-    if not (model.options.case or model.bolts):
+    if not (model.settings.cases or model.bolts):
         return {}
     jumps = [
         load_cases.Jump(model.parts, patch, [degree + GAUSS_MORE for degree in patch.largest])
         for patch in model.patches
     ]
     cases = {}
-    for name, step in model.options.case:
+    for name, step in model.settings.cases:
         loads = load_cases.loads(model.deck, model.mesh, model.frame, model.units, step)
         loads.name = name
         cases[name] = load_cases.cases(loads, solver, found, jumps)
@@ -295,7 +311,7 @@ def _cases(model, solver, found):
 
 def _stress(model, found, cases):
     """Returns points, and stresses of the basis and of the load cases; None if the patch is curved."""
-    where = stresses.grid(model.mesh, model.patch, model.options.depth)
+    where = stresses.grid(model.mesh, model.patch, model.settings.depth)
     if where is None:
         return None
     shape = (len(where.z), len(where.y), len(where.x), 6)
@@ -306,13 +322,19 @@ def _stress(model, found, cases):
     return where, stresses.remaining(where, found), single
 
 
-def computed(path, options, command, progress):
-    """The Joined of a deck."""
-    model = Model(path, options)
+def quiet(_text):
+    """Reports nothing of the progress."""
+
+
+def computed(source, settings, command="", progress=quiet):
+    """The Compliance of a deck or a mesh (Model); command: what made it, for the file."""
+    model = Model(source, settings)
     plane = model.need_places()
-    if options.modes:
+    if settings.modes:
         model.prepare_modes()
-    other = Model(options.coarse_mesh, options) if options.coarse_mesh else None  # to find its mistakes before the work
+    other = (
+        Model(settings.coarse, settings) if settings.coarse is not None else None
+    )  # to find its mistakes before the work
     method, reason = choose(model, plane)
     found, solver, remarks = remainder(model, method, plane, progress)
     if reason:
@@ -320,14 +342,14 @@ def computed(path, options, command, progress):
     bodies = _bodies(model, found, method, command)
     bodies[0].remarks = remarks
     _add_cases(bodies, model, solver, found, progress)
-    if options.stress and not options.pair:
+    if settings.stress and not settings.pair:
         progress("stresses")
         bodies[0].stress = _stress(model, found, bodies[0].cases)
     if other:
         compliance = remainder(other, method, plane, progress)[0].compliance
         change = np.linalg.norm(compliance - found.compliance, 2) / np.linalg.norm(found.compliance, 2)
         bodies[0].checks["mesh_change"] = float(change)
-    return several.joined(bodies, checks.symmetric(found.compliance)) if len(bodies) > 1 else several.Joined(bodies)
+    return several.joined(bodies, checks.symmetric(found.compliance)) if len(bodies) > 1 else Compliance(bodies)
 
 
 def _bodies(model, found, method, command):
@@ -337,10 +359,18 @@ def _bodies(model, found, method, command):
     for patch in model.patches:
         own = slice(first, first := first + 3 * patch.count)
         body = Body(
-            fields.young, fields.poisson, method, model.path, command, model.frame, patch, found.compliance[own, own]
+            fields.young,
+            fields.poisson,
+            method,
+            model.path,
+            model.checksum,
+            command,
+            model.frame,
+            patch,
+            found.compliance[own, own],
         )
         body.mesh = model
-        if model.options.pair:
+        if model.settings.pair:
             body.other = tuple(getattr(found.sides[1].fields, name) for name in ("young", "poisson"))
         examine(body)
         bodies.append(body)
@@ -350,9 +380,9 @@ def _bodies(model, found, method, command):
 def _add_cases(bodies, model, solver, found, progress):
     """Adds load cases and modes to the Bodies of the patches."""
     shapes = None
-    if model.options.modes:
-        progress(f"{model.options.modes} modes")
-        shapes = modes.found(model, solver, model.options.modes, model.sensors)
+    if model.settings.modes:
+        progress(f"{model.settings.modes} modes")
+        shapes = modes.found(model, solver, model.settings.modes, model.sensors)
     named = _cases(model, solver, found)
     for k, body in enumerate(bodies):
         body.cases = {name: cases[k] for name, cases in named.items()}

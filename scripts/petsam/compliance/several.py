@@ -11,8 +11,6 @@ own columns and without the rigid motions, the singular vectors are the load cas
 above FAR, at most MOST with the others. The rest of D_PQ is left out.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy import linalg
 
@@ -20,6 +18,7 @@ from ..core.errors import Error
 from . import rigid
 from .cases import Case
 from .halfspace import points_needed
+from .result import Compliance
 
 FAR = 1e-3  # smallest singular value, relative to the half-space
 NAME = "far"  # of the load cases, with a number
@@ -27,22 +26,6 @@ MOST = 64  # load cases of a patch that petsam reads
 UNIT = "m/J^0.5"  # of them at factor 1, the factor being in J^0.5
 TOO_MUCH = 3.0  # what is left out, over FAR, that is warned of
 NEAREST = 0.05  # least distance of two patches, in half widths
-
-
-@dataclass
-class Joined:
-    """The Bodies of the patches of a file.
-
-    coupling  (n, n): displacements of body 1 against body 2 as a whole, and factors on the load cases far1, far2, ...,
-              of one patch after the other, by the loads that belong to them; None: of one patch
-    missed    singular value of the compliance between patches that the load cases leave out, relative to the half-space
-    least     smallest eigenvalue of all patches together, relative to the half-space's compliance
-    """
-
-    bodies: list
-    coupling: np.ndarray = None
-    missed: float = 0.0
-    least: float = 1.0
 
 
 def _gaps(one, other):
@@ -84,7 +67,7 @@ def between(sides, patches):
 
 
 def joined(bodies, matrix):
-    """The Joined of the Bodies of several patches, whose load cases it adds to them; matrix: D of all, symmetric."""
+    """The Compliance of the Bodies of several patches, to which it adds load cases; matrix: D of all, symmetric."""
     root = linalg.block_diag(*(body.definite.root for body in bodies))
     left = root.T @ matrix @ root
     least = float(1.0 + min(0.0, linalg.eigvalsh(left)[0]))
@@ -113,7 +96,7 @@ def joined(bodies, matrix):
         coupling[own, own] = rigid.compliance(body)
         sign[own] = -1.0  # a displacement of body 1 is subtracted from that of body 2, as its load from the traction's
         first += span.shape[1]
-    return Joined(bodies, coupling * np.outer(sign, sign), missed, least)
+    return Compliance(bodies, coupling * np.outer(sign, sign), missed, least)
 
 
 def _span(body, rows):

@@ -1,4 +1,4 @@
-"""The stiffness matrix of a mesh: assembled here, or CalculiX's own.
+"""The stiffness matrix of a mesh: assembled here, or CalculiX's own, as of elements that are not assembled here.
 
 CalculiX writes it in a step *FREQUENCY, SOLVER=MATRIXSTORAGE: the upper triangle as `row column value` (.sti) and node
 and direction of each row (.dof). Nothing is supported in that deck; supports are applied afterwards.
@@ -55,13 +55,18 @@ def rule(block):
     return block.shape.rule(2 if block.kind == "C3D20R" else block.shape.full)
 
 
+def assembles(mesh):
+    """Whether all elements of the mesh are of types that are assembled here."""
+    return all(block.kind in OWN for block in mesh.blocks)
+
+
 def assembled(mesh):
     """K in compressed rows, by this program's own shape functions."""
     size = 3 * len(mesh.nodes)
     parts = []
     for index, block in enumerate(mesh.blocks):
         if block.kind not in OWN:
-            raise Error(f"elements of type {block.kind} need CalculiX's stiffness: use --stiffness calculix")
+            raise Error(f"elements of type {block.kind} need CalculiX's stiffness: omit --stiffness own")
         local, weight = rule(block)
         stride = max(1, (1 << 22) // block.nodes.shape[1] ** 2)
         for first in range(0, len(block.nodes), stride):
@@ -111,7 +116,10 @@ def run(lines, folder, name, ccx=CCX):
     """Runs CalculiX on a deck; raises Error with its last output if it fails."""
     program = shutil.which(ccx)
     if not program:
-        raise Missing(f"no CalculiX {ccx}: install the Debian package calculix-ccx, or use --stiffness own")
+        raise Missing(
+            f"no CalculiX {ccx}: install the Debian package calculix-ccx, or omit --stiffness with elements "
+            f"{', '.join(OWN)}"
+        )
     folder = Path(folder)
     (folder / f"{name}.inp").write_text("\n".join(lines) + "\n", encoding="ascii")
     threads = {"OMP_NUM_THREADS": "1", "CCX_NPROC_STIFFNESS": "1"}
@@ -181,8 +189,8 @@ def of_calculix(mesh, ccx=CCX):
         except Missing:
             raise
         except Error as error:
-            own = all(block.kind in OWN for block in mesh.blocks)
-            raise Error(f"{error}: use --stiffness own" + ("" if own else " with elements C3D20R")) from error
+            cure = "use --stiffness own" if assembles(mesh) else "use elements C3D20R, which petsam assembles by itself"
+            raise Error(f"{error}: {cure}") from error
 
 
 def rigid_motions(nodes):
@@ -201,8 +209,9 @@ def rigid_force(matrix, nodes):
     return float(np.max(np.abs(matrix @ rigid_motions(nodes))) / np.max(matrix.diagonal()))
 
 
-def stiffness(mesh, method="calculix", ccx=CCX):
-    """K, checked: rigid motions give no forces."""
+def stiffness(mesh, method=None, ccx=CCX):
+    """K, checked: rigid motions give no forces; method own or calculix (own, for elements that are assembled here)."""
+    method = method or ("own" if assembles(mesh) else "calculix")
     matrix = of_calculix(mesh, ccx) if method == "calculix" else assembled(mesh)
     force = rigid_force(matrix, mesh.nodes)
     if not force <= RIGID:

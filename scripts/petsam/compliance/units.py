@@ -72,14 +72,14 @@ def need_units(model):
         x = model.mesh.nodes[part.mesh.used()]
         size, moduli = float(np.max(np.ptp(x, axis=0))), np.concatenate([block.young for block in part.mesh.blocks])
         for young in sorted({float(moduli.min()), float(moduli.max())}):
-            found += of_modulus(young, size, model.options.units, "the mesh" if len(model.parts) == 1 else "a body")
+            found += of_modulus(young, size, model.settings.units, "the mesh" if len(model.parts) == 1 else "a body")
         found += _patch(model, part)
     moduli = np.concatenate([block.young for block in model.mesh.blocks])
     if moduli.max() > APART * moduli.min():
         found.append(
             f"warning: the deck has moduli of {moduli.min():.6g} and {moduli.max():.6g} Pa: give all in one unit"
         )
-    for bolt, option in zip(model.bolts, model.options.bolt):
+    for bolt, option in zip(model.bolts, model.settings.bolts):
         found += _bolt(model, bolt, option.surfaces)
     return list(dict.fromkeys(found))
 

@@ -1,6 +1,5 @@
 """The compliance as HDF5, for petsam's -body1_compliance and -body2_compliance."""
 
-import hashlib
 import os
 
 import numpy as np
@@ -12,16 +11,6 @@ from .modes import UNIT as MODE
 SIGN = "petsam_compliance"  # root attribute that identifies a file of this command
 VERSION = 1
 PATCHES = "patches"  # group of the groups 1, 2, ... where there are several
-BLOCK = 1 << 20
-
-
-def checksum(path):
-    """SHA-256 of a file."""
-    digest = hashlib.sha256()
-    with open(path, "rb") as file:
-        while block := file.read(BLOCK):
-            digest.update(block)
-    return digest.hexdigest()
 
 
 def _putter(group):
@@ -35,11 +24,11 @@ def _putter(group):
 
 
 def _fill(file, found):
-    """Writes a Joined: of one patch all of it at the root, where petsam reads it; else a group for each patch."""
+    """Writes a Compliance: of one patch all of it at the root, where petsam reads it; else a group for each patch."""
     body, put = found.bodies[0], _putter(file)
     file.attrs.update({SIGN: VERSION, "young": body.young, "poisson": body.poisson, "method": body.method})
     degree = max(int(one.patch.powers.max()) for one in found.bodies)
-    file.attrs.update(degree=degree, source=os.path.basename(body.source), source_sha256=checksum(body.source))
+    file.attrs.update(degree=degree, source=os.path.basename(body.source), source_sha256=body.checksum)
     file.attrs["command"] = body.command
     put("frame/origin", body.frame.origin, "m", "origin of the frame in the model's coordinates")
     put("frame/axes", body.frame.axes, "1", "x, y, z of the frame, z into the body, in the model's coordinates")
@@ -103,7 +92,7 @@ def _put_modes(file, put, body):
     if body.mesh.sensors:
         text = "mass-normalised modes at the sensors, in the deck's directions"
         put("modes/sensors", body.modes.sensors, MODE, text)
-        file["modes/sensors"].attrs["names"] = [name for name, _ in body.mesh.options.sensor]
+        file["modes/sensors"].attrs["names"] = [name for name, _ in body.mesh.settings.sensors]
 
 
 def _put_bolts(file, put, body):
@@ -124,6 +113,6 @@ def _put_bolts(file, put, body):
 
 
 def write(found, path):
-    """Writes the Joined; a file of that name is replaced once all is written."""
+    """Writes the Compliance; a file of that name is replaced once all is written."""
     with replacing(path) as file:
         _fill(file, found)

@@ -1,12 +1,11 @@
 """What all parts of the package share.
 
-errors       errors that are reported in one line; the command line of all commands
+errors       errors that are reported in one line
 files        names of files, and texts
 hdf5         HDF5 files: opened to read, replaced when they are written
-isolation    reading of files that may be damaged, in a child process
+examine      examination of HDF5 files by petsam-examine, before they are opened
 options      options of the program as words of a command line
 declared     what petsam declares of its options: units, names of files
-lengths      lengths with a unit
 units        the one table of units
 words        reading of a word: a number with its unit, several, a span, a name with its value
 tables       tables as CSV: columns with name, unit and meaning

@@ -15,8 +15,8 @@ import weakref
 import h5py
 
 from .errors import Error
+from .examine import need_readable
 from .files import need_folder, need_replaceable
-from .isolation import reading
 
 # exceptions that h5py raises for a file that is damaged, or has another layout
 DAMAGED = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, ArithmeticError, MemoryError)
@@ -60,7 +60,8 @@ class _Bytes:
 
 
 def fresh(path):
-    """An open h5py.File of the file as it is now, for reading."""
+    """An open h5py.File of the file as it is now, for reading; raises examine.Damaged for one on which HDF5 crashes."""
+    need_readable(path)
     file = h5py.File(_Bytes(path), "r")
     _files[id(file)] = file
     return file
@@ -77,9 +78,10 @@ def _close():
 def opened(path):
     """An open HDF5 file, for reading; it is examined first, as HDF5 may crash on a damaged one.
 
-    Raises isolation.Ended for a file on which HDF5 crashes, and one of DAMAGED for others that cannot be read.
+    Raises examine.Damaged for a file on which HDF5 crashes, and one of DAMAGED for others that cannot be read.
     """
-    with reading(path), h5py.File(path, "r") as file:
+    need_readable(path)
+    with h5py.File(path, "r") as file:
         yield file
 
 

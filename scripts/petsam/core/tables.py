@@ -31,15 +31,19 @@ def split(text):
 
 
 def csv_text(columns, form=repr):
-    """The table as a text; form(float) writes a number."""
+    """The table as a text; form(number) writes a number, and None is an empty cell."""
     out = io.StringIO()
     rows = csv.writer(out, lineterminator="\n")
     rows.writerow([head(column.name, column.unit) for column in columns])
     for values in zip(*(column.values for column in columns)):
-        rows.writerow([
-            value if column.unit == "" else form(float(value)) for column, value in zip(columns, values)
-        ])  # fmt: skip
+        rows.writerow([_cell(column, value, form) for column, value in zip(columns, values)])
     return out.getvalue()
+
+
+def _cell(column, value, form):
+    if column.unit == "" or value is None:
+        return value
+    return form(value if isinstance(value, int) else float(value))
 
 
 def write_csv(path, columns, form=repr):
@@ -53,3 +57,21 @@ def to_dataframe(columns):
     table = library("pandas").DataFrame({column.name: column.values for column in columns})
     table.attrs["units"] = {column.name: column.unit for column in columns}
     return table
+
+
+class Tabled:
+    """What has a table(): its columns as CSV and as a table of pandas."""
+
+    form = staticmethod(repr)  # writes a number of the CSV
+
+    def table(self) -> list:
+        """The columns, tables.Column each with name, unit, meaning and values."""
+        raise NotImplementedError
+
+    def to_csv(self, path) -> None:
+        """Writes table() as CSV, with heads `name [unit]`, to the file of this name."""
+        write_csv(path, self.table(), self.form)
+
+    def to_dataframe(self):
+        """table() as one of pandas, which must be installed; units stand in .attrs["units"]."""
+        return to_dataframe(self.table())

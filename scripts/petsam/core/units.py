@@ -16,7 +16,18 @@ OTHERS = {
     "m2": {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6, "um2": 1e-12},
     "kg/m3": {"kg/m3": 1.0, "g/cm3": 1e3, "t/mm3": 1e12},
     "degrees": {"degrees": 1.0, "deg": 1.0},
-    "Pa m^1/2": {"Pa m^1/2": 1.0, "MPa m^1/2": 1e6, "Pam^1/2": 1.0, "MPam^1/2": 1e6},
+    "Pa m^1/2": {
+        "Pa m^1/2": 1.0,
+        "MPa m^1/2": 1e6,
+        "Pam^1/2": 1.0,
+        "MPam^1/2": 1e6,
+        "Pa sqrt(m)": 1.0,
+        "MPa sqrt(m)": 1e6,
+    },
+    "J": {"J": 1.0, "mJ": 1e-3, "uJ": 1e-6, "nJ": 1e-9},
+    "J/m": {"J/m": 1.0, "mJ/m": 1e-3},
+    "m3": {"m3": 1.0, "mm3": 1e-9, "um3": 1e-18},
+    "Pa/m": {"Pa/m": 1.0, "MPa/mm": 1e9, "N/mm3": 1e9},
 }
 PLURAL = 4  # letters of a word at least that may have an s
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -40,7 +51,21 @@ def size(name, unit="m"):
     return factor * known[found[2]] if 0.0 < factor < float("inf") else None
 
 
+def quantity(name):
+    """The unit of SI of the quantity that a unit is of; "" of an empty name, None of one that is not known."""
+    known = dict.fromkeys(["m", *(si for si, _ in FOLLOWING.values()), *OTHERS])
+    return next((unit for unit in known if size(name, unit)), None) if name.strip() else ""
+
+
 def names(unit="m"):
     """The usual names of the units of a quantity, as a text for messages."""
     shown = {"m": ("m", "cm", "mm", "um", "nm", "pm", "angstrom", "in")}
     return ", ".join(shown.get(unit) or of(unit))
+
+
+def shown(value):
+    """A length (m) for a reader: 12.5 um."""
+    for name in ("mm", "um", "nm"):
+        if abs(value) >= of("m")[name]:
+            return f"{value / of('m')[name]:.4g} {name}"
+    return f"{value / 1e-9:.4g} nm" if value else "0"

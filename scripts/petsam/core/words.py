@@ -11,6 +11,8 @@ import numpy as np
 from . import units
 from .errors import Error, short
 
+SIDES = "one or two lengths above 0, such as 1e-3 (m) or 1mm: X[,Y]"
+LARGEST_RATIO = 100.0  # of the two sides of a surface or a patch: beyond it, the comma was a decimal comma
 MOST = 10000  # numbers of a span
 
 
@@ -29,7 +31,8 @@ def number(text, form="a number", unit="1", allowed=None):
     value = float(found[1]) * scale if found and scale else math.nan
     good = math.isfinite(value) if allowed is None else allowed(value)
     if not good:
-        raise WordError(text, form + (f"; units are {units.names(unit)}" if found and scale is None else ""))
+        known = units.names(unit) if found and scale is None else ""
+        raise WordError(text, form + (f"; units are {known}" if known else ""))
     return value
 
 
@@ -41,10 +44,10 @@ def integer(text, form="a whole number", allowed=None):
 
 
 def numbers(text, form="numbers separated by commas", unit="1", allowed=None, count=None):
-    """Numbers separated by commas, each with its unit or all without one; as many as count, a number or several."""
+    """Numbers separated by commas, each with its unit or all without one, but 0 needs none; as many as count, a number
+    or several."""
     words = text.split(",")
-    bare = [re.fullmatch(rf"\s*({units.NUMBER}|[+-]?inf)\s*", word) is not None for word in words]
-    if len(set(bare)) > 1:
+    if _mixed(text, words, count):
         raise WordError(text, f"{form}: give each number its unit, or none ({unit}); decimals have a point")
     if count is not None and len(words) not in np.atleast_1d(count):
         raise WordError(text, form)
@@ -54,6 +57,45 @@ def numbers(text, form="numbers separated by commas", unit="1", allowed=None, co
             found.append(number(word, form, unit, allowed))
         except WordError as error:
             raise error if len(words) == 1 else WordError(text, form) from error
+    return found
+
+
+def _mixed(text, words, count):
+    """Whether some numbers have a unit and others have none, as 500,10um has: 0,5mm is 0.5 mm with a decimal comma,
+    unless two numbers are expected."""
+    settled = isinstance(count, int) or not re.search(r"(?<![\d.])0,\d+(?![\d.])", text)
+    counted = [word for word in words if not (settled and re.fullmatch(r"\s*[+-]?(0+\.?0*|\.0+)\s*", word))]
+    return len({re.fullmatch(rf"\s*({units.NUMBER}|[+-]?inf)\s*", word) is None for word in counted}) > 1
+
+
+class Measured(list):
+    """Numbers in the unit of SI that their words have; unit is "" where they have none."""
+
+    def __init__(self, values, unit=""):
+        super().__init__(values)
+        self.unit = unit
+
+    def need(self, unit, what):
+        """Raises Error unless the words have no unit, or this one of SI; `what` names the words and their use."""
+        if self.unit not in ("", unit):
+            known = f"a unit of these: {units.names(unit)}" if units.names(unit) else "numbers without a unit"
+            raise Error(f"{what}: expected {known}")
+
+
+def measured(text, form, count):
+    """So many numbers of any quantity, as the options have them whose quantity another one names: Measured."""
+    found = {units.quantity(re.sub(rf"\s*{units.NUMBER}\s*", "", word, count=1)) for word in text.split(",")}
+    unit = (found - {""} or {""}).pop() if len(found - {""}) < 2 else None
+    if unit is None:
+        raise WordError(text, form)
+    return Measured(numbers(text, form, unit or "1", count=count), unit)
+
+
+def limits(text, form="LOW,HIGH, the lower one first"):
+    """Two numbers of any quantity, the lower one first: Measured."""
+    low, high = found = measured(text, form, 2)
+    if not low < high:
+        raise WordError(text, form)
     return found
 
 
@@ -104,3 +146,12 @@ def names(text, form="names separated by commas", known=None):
 def positive(value):
     """Whether a number is above 0 and finite."""
     return 0.0 < value < math.inf
+
+
+def sides(text):
+    """One or two positive lengths, m: x and y."""
+    found = numbers(text, SIDES, "m", positive, count=(1, 2))
+    x, y = found[0], found[-1]
+    if max(x, y) > LARGEST_RATIO * min(x, y):
+        raise Error(f"{short(text)}: is {x:g} m x {y:g} m: decimals have a point, not a comma")
+    return x, y

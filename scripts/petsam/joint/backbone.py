@@ -74,7 +74,7 @@ class Backbone(Numbers):
     states: list
     axes: list
 
-    def table(self):
+    def lines(self):
         """Lines of a printed table."""
         stuck = ", ".join(f"{one:.6g}" for one in self.stuck[:LISTED])
         lines = [f"modes while all that touches sticks, Hz: {stuck}", f"mode of {self.linear:.6g} Hz"]

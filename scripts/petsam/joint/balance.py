@@ -254,7 +254,7 @@ class Response(Numbers):
     patches: np.ndarray
     names: list
 
-    def table(self):
+    def lines(self):
         """Lines of a printed table."""
         lines = [f"{'f/Hz':>11} {'amplitude/m':>12} {'phase/deg':>9} {'higher/m':>10} {'W/J':>10} {'slip':>6} cycles"]
         for k in range(len(self.frequency)):

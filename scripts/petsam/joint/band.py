@@ -5,16 +5,16 @@ backbones of several assemblies at the same modal forces. To first order, each p
 the change that it makes, by the difference of two backbones.
 """
 
-import csv
 import warnings
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..core.errors import Error, short
+from ..core.tables import Column, Tabled
 from .arguments import positive, real
 from .backbone import COLUMNS, Backbone, backbone, shake
-from .numbers import heads, reason
+from .numbers import columns_of, reason
 from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
 
@@ -30,12 +30,14 @@ NUMBERS = ("frequency", "damping")
 
 
 @dataclass
-class Band:
+class Band(Tabled):
     """Backbones of a joint.
 
     backbones  {assembly: Backbone}, the first one as given
     scatter    {parameter: (low, high)}, backbones with the parameter a standard deviation lower and higher
     """
+
+    form = staticmethod("{:.10g}".format)
 
     backbones: dict
     scatter: dict
@@ -71,7 +73,7 @@ class Band:
         parts = [0.5 * np.subtract(*(one.numbers[name][: self.count] for one in self.scatter[of])) for of in names]
         return np.sqrt(np.sum(np.square(parts), axis=0)) if parts else np.zeros(self.count)
 
-    def table(self):
+    def lines(self):
         """Lines of a printed table."""
         lines = [f"{name}: {TEXTS[name]}" for name in self.backbones]
         lines += ["", f"{'amplitude/m':>12} {'f/Hz':>13} {'lowest':>13} {'highest':>13} {'zeta':>10} {'lowest':>10} "
@@ -86,14 +88,12 @@ class Band:
             )
         return lines
 
-    def to_csv(self, path):
-        """Writes the numbers of all backbones, a row for each assembly and amplitude."""
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            rows = csv.writer(file)
-            rows.writerow(["assembly", *heads(COLUMNS)])
-            for assembly, one in self.every.items():
-                for k in range(len(one.alpha)):
-                    rows.writerow([assembly, *(f"{one.numbers[name][k]:.10g}" for name in COLUMNS)])
+    def table(self) -> list:
+        """The numbers of all backbones, a row for each assembly and amplitude, as tables.Column."""
+        every = self.every.values()
+        names = [name for name, one in self.every.items() for _ in one.alpha]
+        numbers = {name: np.concatenate([one.numbers[name] for one in every]) for name in COLUMNS}
+        return [Column("assembly", "", "the assembly", names), *columns_of(COLUMNS, numbers)]
 
 
 def band(make, preload, amplitudes, sensor, scatter=None, report=None, **given):

@@ -7,7 +7,6 @@ of the bodies below it, which depends on the window's size.
 """
 
 import contextlib
-import csv
 import json
 import warnings
 from typing import NamedTuple
@@ -16,8 +15,10 @@ import numpy as np
 
 from ..contact import AdviceWarning, Contact
 from ..core.errors import Error
+from ..core.tables import Column, Tabled
 from . import elements
 from .arguments import array, integer, positive, real
+from .numbers import columns_of
 from .surfaces import need_fitting
 
 HALVES = 4  # half cycles of the loop; the last two count
@@ -51,7 +52,7 @@ class _Loop(NamedTuple):
     steps: int
 
 
-class Interface:
+class Interface(Tabled):
     """Numbers of an interface at nominal pressures, each an array: pressure, k_n, k_t_x, area ... (COLUMNS).
 
     spread      standard deviation of the same among the windows, by name; empty for one window
@@ -83,18 +84,18 @@ class Interface:
         p = self.numbers["pressure"]
         return f"Interface({len(p)} pressures from {p[0]:.4g} to {p[-1]:.4g} Pa: {', '.join(self.numbers)})"
 
-    def to_csv(self, path):
-        """Writes a table with a line for each pressure; columns NAME_spread are standard deviations of windows.
+    def table(self) -> list:
+        """The columns, as tables.Column, with a row for each pressure; NAME_spread are standard deviations of windows.
 
         The last columns are the coefficient of friction and the shear of the loop over friction times pressure.
         """
-        names = [*self.numbers, *(f"{name}_spread" for name in self.spread), "friction", "shear"]
-        units = [COLUMNS.get(name.removesuffix("_spread"), ("1",))[0] for name in names]
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow([f"{name} [{unit}]" for name, unit in zip(names, units)])
-            for row in zip(*self.numbers.values(), *self.spread.values()):
-                writer.writerow([*map(float, row), self.friction, self.shear])
+        found = columns_of(COLUMNS, self.numbers)
+        for name, values in self.spread.items():
+            unit, text = COLUMNS[name]
+            found.append(Column(f"{name}_spread", unit, f"standard deviation: {text}", values))
+        for name, text in (("friction", "coefficient of friction"), ("shear", "shear of the loop over its limit")):
+            found.append(Column(name, "1", text, np.full_like(self.numbers["pressure"], getattr(self, name))))
+        return found
 
     def elements(self, area=1.0):
         """Elements for programs of harmonic balance, of this area (m2), one for each pressure; see elements.of_codes().
@@ -145,7 +146,7 @@ class Interface:
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(lines) + "\n")
 
-    def table(self):
+    def lines(self):
         """The table that petsam-joint prints, as lines: in MPa, N/mm3, %, mJ/m2, with the windows' deviations in %."""
         with np.errstate(invalid="ignore"):  # no energy, if nothing slips
             part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}

@@ -1,47 +1,44 @@
 """Numbers in rows, as all results of a structure have them: Numbers; and the way from row to row: solved()."""
 
-import csv
 import warnings
 
+from ..core.tables import Column, Tabled
 from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
 
 
-class Numbers:
+class Numbers(Tabled):
     """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"].
 
     columns  {name: (unit, text)} of the kind of result
     """
 
     columns = {}
+    form = staticmethod("{:.10g}".format)
 
     def __getattr__(self, name):
         if name != "numbers" and name in self.numbers:
             return self.numbers[name]
         raise AttributeError(name)
 
-    def more_columns(self):
-        """{head: array} of what stands beside the numbers in to_csv()."""
-        return {}
+    def more_columns(self) -> list:
+        """Columns beside the numbers."""
+        return []
 
-    def to_csv(self, path):
-        """Writes all numbers, with names and units in the first line, and what stands beside them."""
-        more = self.more_columns()
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            rows = csv.writer(file)
-            rows.writerow([*heads(self.columns), *more])
-            for row in zip(*(self.numbers[name] for name in self.columns), *more.values()):
-                rows.writerow([f"{value:.10g}" for value in row])
+    def table(self) -> list:
+        """All numbers, and what stands beside them, as tables.Column."""
+        return [*columns_of(self.columns, self.numbers), *self.more_columns()]
 
 
-def heads(columns):
-    """Names and units of columns, for the first line of a table."""
-    return [f"{name} ({unit})" for name, (unit, _) in columns.items()]
+def columns_of(columns, numbers):
+    """The tables.Column of numbers {name: array}, by {name: (unit, text)}."""
+    return [Column(name, unit, text, numbers[name]) for name, (unit, text) in columns.items()]
 
 
 def energies(patches, names):
-    """{head: array} of the energy of each patch, from (rows, patches)."""
-    return {f"energy_{name} (J)": column for name, column in zip(names, patches.T)}
+    """Columns of the energy of each patch, from (rows, patches)."""
+    text = "dissipated energy of a cycle in this patch"
+    return [Column(f"energy_{name}", "J", text, column) for name, column in zip(names, patches.T)]
 
 
 def reason(error):

@@ -1,11 +1,8 @@
 """The structure of a pair of bodies, from a file of petsam-compliance --pair."""
 
-import os
 import re
-import tempfile
 from collections.abc import Mapping
 
-import h5py
 import numpy as np
 
 from ..contact import Contact
@@ -55,16 +52,20 @@ class Pair:
         friction_scale = real("friction_scale", friction_scale, "a factor from 0 on", lambda one: 0.0 <= one < np.inf)
         need_regular(path)
         self.path = path
-        self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
         try:
             with opened(path) as file:
                 self._read(file)
-                own = [self._patch_file(k, group, lower) for k, group in enumerate(patches_of(file), 1)]
+                grids = [dict(grid_size=2 * group["patch/half"][()], gap_type="flat") for group in patches_of(file)]
+                self.functions = _kept(patches_of(file)[0]["basis/degree_xy"][()], lower)
         except DAMAGED as error:
             raise Unreadable(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
         self._check(preload)
         # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
-        contacts = [Contact(**{**where, **self.moduli, **options, "body2_compliance": name}) for name, where in own]
+        # of each patch what is local: the structure has the motions as a whole
+        contacts = [
+            Contact(**{**grid, **self.moduli, **options, "body2_compliance": f"{path}:{k}:local:{lower}"})
+            for k, grid in enumerate(grids, 1)
+        ]
         self.structure = self._structure(contacts, DISPLACEMENTS, damping)
         if frictionless:
             pressed = self._structure(contacts, PRESSING, damping)
@@ -73,13 +74,6 @@ class Pair:
         else:
             self._tighten(self.structure, preload, press, friction_scale)
         self.tensions = self.left()
-
-    def _patch_file(self, number, group, lower):
-        """Writes the file of a patch, without what the structure has and with its centre as the origin; returns its
-        name and the contact's grid."""
-        name = os.path.join(self._folder.name, f"patch{number}.h5")
-        self.functions = without_rigid(group, name, lower)
-        return name, dict(grid_size=2 * group["patch/half"][()], gap_type="flat")
 
     def _structure(self, contacts, by_load, damping):
         modes = [f"body2_case_mode{k + 1}" for k in range(self.omega.size)]
@@ -92,9 +86,7 @@ class Pair:
             moved += [np.zeros((len(names), len(modes))), np.eye(len(modes))]
         coupling, static = np.zeros(2 * (len(static),)), np.flatnonzero(static)
         coupling[np.ix_(static, static)] = self.coupling
-        found = Structure(patches, self.omega, np.concatenate(moved), coupling, damping=damping)
-        found.needs = self._folder
-        return found
+        return Structure(patches, self.omega, np.concatenate(moved), coupling, damping=damping)
 
     def _read(self, file):
         if not ("rigid" in file or "coupling" in file) or "modes" not in file:
@@ -183,19 +175,9 @@ def _far(group):
     return sorted(names, key=lambda name: int(name[3:]))
 
 
-def without_rigid(old, name, lower=0):
-    """Writes a patch of a pair to a file, its centre as the origin, without the compliance of rigid motions, which the
-    structure has. The degree is lower by `lower` in x and in y, but at least 1; returns the number of polynomials."""
-    with h5py.File(name, "w") as new:
-        table = old["basis/degree_xy"][()]
-        kept = np.flatnonzero(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1))
-        if len(table) < np.prod(table.max(axis=0) + 1):  # up to a total degree
-            kept = np.flatnonzero(table.sum(axis=1) <= max(table.sum(axis=1).max() - lower, 1))
-        rigid, q = old["rigid/compliance"][()], old["rigid/motions"][()][:, kept]
-        new.attrs.update(old.file.attrs)
-        new["patch/half"], new["patch/center"] = old["patch/half"][()], np.zeros(2)
-        new["basis/degree_xy"] = table[kept]
-        new["compliance"] = old["compliance"][()][kept][:, :, kept] - np.einsum("cik,cd,djl->ikjl", q, rigid, q)
-        for case, data in old["cases"].items():
-            new[f"cases/{case}/displacement"] = data["displacement"][()][kept]
-    return len(kept)
+def _kept(table, lower):
+    """The number of polynomials of a patch, degrees (m, 2), that petsam reads where the degree is lower by `lower` in x
+    and in y, but at least 1 (src/bodies/elasticity/compliance/file.c)."""
+    if len(table) < np.prod(table.max(axis=0) + 1):  # up to a total degree
+        return int(np.sum(table.sum(axis=1) <= max(table.sum(axis=1).max() - lower, 1)))
+    return int(np.sum(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1)))

@@ -185,7 +185,6 @@ class Structure:
         self.force = np.zeros(self.modes)  # of the last step
         self.iterations = []
         self.opens = False  # True: patches may be open, such as while bolts are tightened
-        self.needs = None  # what must not end before the structure and its copies: the folder of its contacts' files
 
     @staticmethod
     def _matrix(values, shape, name):
@@ -215,7 +214,6 @@ class Structure:
         patches = [patch.copy(**options) for patch in self.patches]
         other = Structure(patches, self.omega, self.shapes, self.coupling, self.rigid, self.damping)
         other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
-        other.needs = self.needs
         return other
 
     def take(self, other):

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..contact import ContactError
 from ..core.errors import Error
+from ..core.tables import Column, split
 from .arguments import array
 from .backbone import modal_amplitudes
 from .numbers import Numbers, reason
@@ -45,9 +46,10 @@ class Wear(Numbers):
     measured: dict
     structures: list
 
-    def table(self):
+    def lines(self):
         """Lines of a printed table."""
-        heads = "".join(f" {name:>12}" for name in self.measured)
+        shown = ("/".join(filter(None, split(name))) for name in self.measured)
+        heads = "".join(f" {name:>12}" for name in shown)
         lines = [f"{'cycles':>10} {'f/Hz':>13} {'+-':>8} {'zeta':>10} {'+-':>8} {'W/J':>10} {'volume/m3':>10}{heads}"]
         for k in range(len(self.cycles)):
             lines.append(
@@ -59,7 +61,8 @@ class Wear(Numbers):
 
     def more_columns(self):
         """What `measure` returned."""
-        return self.measured
+        heads = [(*split(name), values) for name, values in self.measured.items()]
+        return [Column(name, unit or "1", "measured after the cycles", values) for name, unit, values in heads]
 
 
 def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure=None):
@@ -67,7 +70,8 @@ def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure
 
     amplitude  of the vibration, as of backbone(); its modal force stays the same
     cycles     rising whole numbers of cycles at which the numbers are wanted, the first above 0
-    measure    measure(structure) returns {name: number} of a structure at rest, such as Pair.left
+    measure    measure(structure) returns {name: number} of a structure at rest, such as Pair.left; a name may
+               have its unit: B1 [N]
     """
     cycles = np.atleast_1d(array("cycles", cycles, "rising whole numbers above 0"))
     if not (cycles.size and rising(cycles)):

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.errors import Error
+from ..core.tables import Column
 from . import cracks, strength
 from .materials import need
 from .stresses import terms
@@ -120,3 +121,15 @@ def line(cycle, names, row, column, computed):
     columns = {name: (cycle.unit(name), cycle.line(name, row, column)) for name in names}
     columns.update({name: (unit, values[:, row, column]) for name, (unit, values) in computed.items()})
     return Line(float(cycle.x[column]), float(cycle.y[row]), cycle.z, columns)
+
+
+def columns(lines):
+    """The tables.Column of lines below one another: pairs of a label and a Line, all with the same columns."""
+    found = [Column("file", "", "label of the file", [who for who, line in lines for _ in line.z])]
+    for name in "xy":
+        found.append(Column(name, "m", "place", [getattr(line, name) for _, line in lines for _ in line.z]))
+    found.append(Column("z", "m", "depth", np.concatenate([line.z for _, line in lines])))
+    for name, (unit, _) in lines[0][1].columns.items():
+        values = np.concatenate([line.columns[name][1] for _, line in lines])
+        found.append(Column(name, unit, name.replace("_", " "), values))
+    return found

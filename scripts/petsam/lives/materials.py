@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import yaml
 
+from ..core import words
 from ..core.errors import Error, short, there_are
 from ..core.files import need_regular
 
@@ -40,28 +41,39 @@ CONSTANTS = {
 }
 
 
-def checked(name, value, where):
-    """The value of a constant as a number; Error where it is none, or outside its range."""
+def checked(name: str, value) -> float:
+    """The value of a constant in SI units.
+
+    Parameters
+    ----------
+    name : one of CONSTANTS
+    value : a number in SI units, or a text of one, which may have its unit: "1.76GPa"
+
+    Raises
+    ------
+    Error : where it is no number, has another unit, or is outside the range of the constant
+    """
     if name not in CONSTANTS:
-        raise Error(f"{where}: {short(name)} is no constant{there_are(name, CONSTANTS)}")
+        raise Error(f"{short(name)} is no constant{there_are(name, CONSTANTS)}")
     one = CONSTANTS[name]
     unit = "" if one.unit == "1" else " " + one.unit
+    form = "a number in SI units, or one with its unit" if unit else "a number without a unit"
     try:
-        number = float(str(value))
-    except ValueError:
-        raise Error(f"{where}: {name} {short(value)} is not a number; give it in SI units, without a unit") from None
+        number = words.number(str(value), form, one.unit)
+    except words.WordError as error:
+        raise Error(f"{name} {error}") from None
     if not one.low < number < one.high:
-        cure = "; give it in SI units" if unit else ""
+        cure = "; give it in SI units, or with its unit" if unit else ""
         if one.unit == "1" and 0 < one.low < number / 100 < one.high:  # a strain in percent
             cure = f": give a ratio, {number / 100:g} for {number:g} percent"
         if one.low < -number < one.high:  # tables of materials also have exponents without their sign
             cure = f": give {-number:g}, with its sign"
-        raise Error(f"{where}: {name} {number:g}{unit} is outside {one.low:g} to {one.high:g}{unit}{cure}")
+        raise Error(f"{name} {number:g}{unit} is outside {one.low:g} to {one.high:g}{unit}{cure}")
     return number
 
 
-def read(path):
-    """Constants of a YAML file of names and values."""
+def read(path) -> dict:
+    """Constants of a YAML file of names and values, {name: number in SI units}; raises Error as checked() does."""
     if need_regular(path).st_size > SMALL:
         raise Error(f"{path}: is larger than {SMALL} bytes; give a file of names and values")
     try:
@@ -70,8 +82,11 @@ def read(path):
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise Error(f"{path}: is not YAML: {short(error)}") from error
     if not isinstance(values, dict):
-        raise Error(f"{path}: expected lines such as sigma_f: 1.76e9")
-    return {str(name): checked(str(name), value, path) for name, value in values.items()}
+        raise Error(f"{path}: expected lines such as sigma_f: 1.76GPa")
+    try:
+        return {str(name): checked(str(name), value) for name, value in values.items()}
+    except Error as error:
+        raise Error(f"{path}: {error}") from error
 
 
 def need(constants, names, what):

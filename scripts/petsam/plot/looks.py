@@ -1,16 +1,17 @@
 """What is done to a figure when it has been drawn: parts of its axes, its width, its numbers as CSV."""
 
-import csv
-
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from ..core.errors import Error
+from ..core.tables import Column, csv_text
+from ..core.words import Measured
 from .style import plt
-from .units import size_of
+from .units import bracketed, of_label
 
 INCH = 25.4  # mm
+NAMES = ("panel", "curve", "x_label", "y_label", "x", "y", "value")  # of the columns of numbers
 LEAST = 4.5  # points of a text in a picture of a given width
 
 
@@ -27,7 +28,10 @@ def adapt(figure, x_limits=None, y_limits=None, width=None):
         ranges = []  # of the data
         for panel in panels if limits else ():
             axis, change = ((panel.xaxis, panel.set_xlim), (panel.yaxis, panel.set_ylim))[n]
-            unit = size_of(axis.get_label_text() or shared[n])
+            text = axis.get_label_text() or shared[n]
+            si, unit = of_label(text)
+            if isinstance(limits, Measured):
+                limits.need(si, f"--{'xy'[n]}lim, of {text}")
             ranges.append(np.sort((panel.dataLim.intervalx, panel.dataLim.intervaly)[n]) * unit)
             low, high = (value / unit for value in limits)
             change(*((high, low) if axis.get_inverted() else (low, high)))
@@ -62,23 +66,27 @@ def _grids(panel):
     yield from (one.drawn for one in panel.collections if hasattr(one, "drawn"))
 
 
+def _rows(figure):
+    """Of each point panel, curve, labels of the axes, x, y, and of maps the value."""
+    for number, panel in enumerate(_panels(figure), 1):
+        title = " ".join((panel.get_title() or panel.get_title("left") or str(number)).split())
+        about = [bracketed(text) for text in (panel.get_xlabel() or "x", panel.get_ylabel() or "y")]
+        for line in (line for line in panel.lines if np.size(line.get_xdata()) > 1):
+            label = line.get_label()
+            name = "" if label.startswith("_") else label
+            for x, y in zip(*(np.asarray(data, dtype=float) for data in line.get_data())):
+                yield title, name, *about, repr(float(x)), repr(float(y)), ""
+        for x, y, values in _grids(panel):
+            for j, i in np.argwhere(np.isfinite(values)):
+                yield title, "", *about, *(repr(float(one)) for one in (x[i], y[j], values[j, i]))
+
+
 def write(figure, path, mode="w"):
-    """One row per point: panel, curve, labels of the axes, x, y; of maps the value. Units are those of the labels."""
+    """One row per point: panel, curve, labels of the axes, x, y; of maps the value. The numbers are in the units that
+    the labels have in brackets, as each panel has its own."""
+    columns = [Column(name, "", "", values) for name, values in zip(NAMES, zip(*_rows(figure)))]
+    text = csv_text(columns or [Column(name, "", "", []) for name in NAMES])
     with open(path, mode, encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        if mode == "w":
-            table.writerow(["panel", "curve", "x_label", "y_label", "x", "y", "value"])
-        for number, panel in enumerate(_panels(figure), 1):
-            title = " ".join((panel.get_title() or panel.get_title("left") or str(number)).split())
-            about = [panel.get_xlabel() or "x", panel.get_ylabel() or "y"]
-            for line in (line for line in panel.lines if np.size(line.get_xdata()) > 1):
-                label = line.get_label()
-                name = "" if label.startswith("_") else label
-                for x, y in zip(*(np.asarray(data, dtype=float) for data in line.get_data())):
-                    table.writerow([title, name, *about, repr(float(x)), repr(float(y)), ""])
-            for x, y, values in _grids(panel):
-                for j, i in np.argwhere(np.isfinite(values)):
-                    numbers = (x[i], y[j], values[j, i])
-                    table.writerow([title, "", *about, *(repr(float(number)) for number in numbers)])
+        file.write(text if mode == "w" else text.partition("\n")[2])
     if mode == "w":
         print("wrote " + path)

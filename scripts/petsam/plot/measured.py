@@ -4,19 +4,19 @@ import csv
 
 import numpy as np
 
+from ..core import tables, units
 from ..core.errors import Error, short
 from ..core.files import need_regular
-from ..core.lengths import KNOWN, metres
 
 
-def _column(path, number, name):
-    """What a column is called, and the metres of its unit: x_mm, flat_um."""
-    what, _, unit = name.strip().rpartition("_")
-    factor = metres(unit)
-    if not what or factor is None:
-        raise Error(f"{path}, line {number}: column {short(name)}: expected a name and a unit, such as x_mm or "
-                    f"height_um; units are {KNOWN}")  # fmt: skip
-    return what, factor
+def _column(path, number, head):
+    """Name of a column, and the size of its unit in m, of a head such as x [mm]."""
+    name, unit = tables.split(head.strip())
+    size = units.size(unit)
+    if size is None:
+        raise Error(f"{path}, line {number}: column {short(head)}: expected a name and a unit of length, such as "
+                    f"x [mm] or height [um]; units are {units.names()}")  # fmt: skip
+    return name, size
 
 
 def _values(path, number, cells, count):
@@ -32,8 +32,8 @@ def _values(path, number, cells, count):
 def read_profiles(path):
     """The profiles of a file: x (m), and heights (m) by name.
 
-    Lines that begin with # are comments. The first other line names the columns with their units, x first: x_mm,
-    test1_um, ...; of a running band y. Heights are those of the worn surface over the unworn one: a scar is negative.
+    Lines that begin with # are comments. The first other line names the columns with their units, x first: x [mm],
+    test1 [um], ...; of a running band y. Heights are those of the worn surface over the unworn one: a scar is negative.
     """
     need_regular(path)
     try:
@@ -44,12 +44,12 @@ def read_profiles(path):
         raise Error(f"{path}: is no table in CSV: {error}") from error
     if len(rows) < 3 or len(rows[0][1]) < 2:
         raise Error(
-            f"{path}: expected a line of column names with commas, x_mm,height_um, and at least two lines of numbers"
+            f"{path}: expected a line of column names with commas, x [mm],height [um], and two lines of numbers or more"
         )
     number, names = rows[0]
     columns = [_column(path, number, name) for name in names]
     if columns[0][0] not in ("x", "y"):
-        raise Error(f"{path}, line {number}: column {short(names[0])}: expected x (or y) first, such as x_mm")
+        raise Error(f"{path}, line {number}: column {short(names[0])}: expected x (or y) first, such as x [mm]")
     if len({name for name, _ in columns[1:]}) < len(columns) - 1:
         raise Error(f"{path}, line {number}: two columns have the same name")
     table = np.array([_values(path, n, cells, len(columns)) for n, cells in rows[1:]])

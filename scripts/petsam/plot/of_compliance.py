@@ -98,8 +98,9 @@ def _panels(body, unit, name=""):
 
 
 @drawn(STYLE)
-def compliance(bodies):
-    """The figure of the patches of a body, or of a pair."""
+def compliance(found):
+    """The figure of a Compliance: the patches of a body, or of a pair."""
+    bodies = found.bodies
     body = bodies[0]
     unit = scale("m", float(max(body.patch.half)))
     panels = [lambda axes: _mesh(axes, bodies, unit)]

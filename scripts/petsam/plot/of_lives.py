@@ -66,8 +66,9 @@ def _kitagawa(panel, cracked, constants, length, unit):
 
 
 @drawn(STYLE)
-def lives(lines, constants):
-    """Figure of the lines, pairs of a label and an evaluation.Line, at one place: two panels of a crack."""
+def lives(found):
+    """Figure of petsam.lives.lives(): its lines over the depth, and two panels of a crack."""
+    lines, constants = found.lines, found.constants
     first = lines[0][1]
     names = [name for name in first.columns if not name.startswith("k_")]
     panels = [[name] for name in names if name.split("_")[0] not in KINDS]

@@ -4,8 +4,9 @@ import numpy as np
 from matplotlib.ticker import FixedLocator, MaxNLocator
 from mpl_toolkits.axes_grid1 import make_axes_locatable
 
-from ..core.lengths import shown
-from ..surface.maps import QUANTITIES, peak_to_valley, rms_height, rms_slope
+from ..core.units import shown
+from ..surface.basics import QUANTITIES
+from ..surface.maps import peak_to_valley, rms_height, rms_slope
 from .style import COLORS, STYLE, drawn, extent, field, note, plt
 from .units import label, largest, scale
 
@@ -40,6 +41,10 @@ def _profiles(axes, one, lateral, height):
     row, column = (n // 2 for n in one.values.shape)
     texts = ("y = {}", "x = {}")
     places = (one.axis(1)[row], one.axis(0)[column])
+    if one.is_profile:
+        axes.plot(one.axis(0) * lateral[0], one.values[0] * height[0], color=COLORS[0], linewidth=1.0)
+        axes.set(xlabel=label("x", lateral[1]), ylabel=_quantity(one, height[1]))
+        return
     for d, values in enumerate((one.values[row], one.values[:, column])):
         name = f"along {'xy'[d]}, " + texts[d].format(shown(places[d])).replace(" um", " µm")
         axes.plot(one.axis(d) * lateral[0], values * height[0], color=COLORS[d], linewidth=1.0, label=name)
@@ -49,18 +54,21 @@ def _profiles(axes, one, lateral, height):
 
 @drawn(STYLE)
 def surface(one):
-    """A map, and profiles through its middle along x and y."""
-    lateral = scale("m", largest([one.axis(0), one.axis(1)]))
+    """A map, and profiles through its middle along x and y; a profile alone."""
+    lateral = scale("m", largest([one.axis(0)] if one.is_profile else [one.axis(0), one.axis(1)]))
     height = scale("m", largest([one.values]))
     ratio = one.size[1] / one.size[0]
-    if ratio < 1.0 / WIDE:
+    if one.is_profile:
+        figure, second = plt.subplots(figsize=(SIDE + 1.5, 4.3))
+    elif ratio < 1.0 / WIDE:
         heights = (SIDE * ratio + 1.0, 3.5)
         figure, (first, second) = plt.subplots(2, 1, height_ratios=heights, figsize=(SIDE + 1.5, sum(heights) + 0.8))
     else:
         widths = (SIDE * min(1.0, 0.65 / ratio) + 1.8, 6.0)
         figure, (first, second) = plt.subplots(1, 2, width_ratios=widths, figsize=(sum(widths), 4.8))
     figure.set_layout_engine("tight")
-    _map(figure, first, one, lateral, height)
+    if not one.is_profile:
+        _map(figure, first, one, lateral, height)
     _profiles(second, one, lateral, height)
     numbers = f"Sq {shown(rms_height(one))}, Sdq {rms_slope(one):.3g}, peak to valley {shown(peak_to_valley(one))}"
     note(figure, f"{QUANTITIES[one.quantity]}: {numbers}".replace(" um", " µm"), 10)

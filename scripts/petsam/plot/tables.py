@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..core import words
 from ..core.errors import Error, Useless, counted, short
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
@@ -112,9 +113,9 @@ def matching(study, where=()):
         values, _ = study.column(name, "--where")
         if values.dtype.kind in "biuf":
             try:
-                wanted = float(text)
-            except ValueError:
-                raise Error(f"{study.path}: --where {short(name)}={short(text)}: expected a number") from None
+                wanted = words.number(text, "a number", numbers(study, name, "--where")[1] or "1")
+            except words.WordError as error:
+                raise Error(f"{study.path}: --where {short(name)}={error}") from None
             match = np.isclose(values.astype(float), wanted, rtol=1e-9, atol=0.0)
         else:
             match = values == text

@@ -14,6 +14,7 @@ PREFIXES = (
 BASE = re.compile(r"(Pa|N|m[23]?|J|rad|W)(?![A-Za-z0-9])")  # beginning of a unit that takes a prefix
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 LOWERED = {raised: digit for digit, raised in RAISED.items()}
+UNPREFIXED = ("cycles", "billion", "million", "thousand", "%", "degrees")  # beginnings of units without a size
 NUMBERS = ((1e9, "billion "), (1e6, "million "), (1e3, "thousand "))
 
 
@@ -50,16 +51,32 @@ def on_axis(unit, largest):
     return 10.0**-power, "10" + str(power).translate(RAISED)
 
 
-def size_of(text):
-    """Size in SI units of the unit in an axis' label, as label() writes it; 1 without one."""
+def of_label(text):
+    """Unit of SI, "1" without one, and size in it of the unit in an axis' label, as label() writes it."""
     for word in reversed(re.findall(r", (\S+)", text)):
         if word.startswith("10⁻"):
-            return 10.0 ** int(word[2:].translate(LOWERED))
+            return "1", 10.0 ** int(word[2:].translate(LOWERED))
         for size, prefix in PREFIXES:
-            first = BASE.match(word[len(prefix) :].replace("²", "2").replace("³", "3"))
+            unit = word[len(prefix) :].replace("²", "2").replace("³", "3")
+            first = BASE.match(unit)
             if word.startswith(prefix) and first and not (prefix == "" and word[0] in "Gkµnp"):
-                return size ** POWERS.get(first[0], 1)
-    return 1.0
+                return unit.replace("·", " "), size ** POWERS.get(first[0], 1)
+        if word in ("s", "Hz"):
+            return word, 1.0
+    return "1", 1.0
+
+
+def bracketed(text):
+    """An axis' label as tables have it: its unit in brackets, "depth $z$ [µm]"."""
+    for found in re.finditer(r", (\S+)", text):
+        if of_label(found[0]) != ("1", 1.0) or found[1] in UNPREFIXED:
+            return f"{text[: found.start()]} [{text[found.start() + 2 :]}]"
+    return text
+
+
+def size_of(text):
+    """Size in SI units of the unit in an axis' label; 1 without one."""
+    return of_label(text)[1]
 
 
 def counted(largest):

@@ -168,32 +168,6 @@ def by_period(times: np.ndarray, period: float, start: Optional[float] = None) -
     return [Cycle(number, int(a), int(b)) for number, (a, b) in enumerate(zip(ends[:-1], ends[1:]), 1)]
 
 
-def read_period(text: str) -> tuple[float, Optional[float]]:
-    """Reads a period, and a start.
-
-    Parameters
-    ----------
-    text : str
-        T or T,START, s.
-
-    Returns
-    -------
-    period : float
-        Period, s.
-    start : float or None
-        Start, s.
-
-    Raises
-    ------
-    ValueError
-        If the text is another one.
-    """
-    values = [float(word) for word in text.split(",")]
-    if len(values) > 2 or not np.all(np.isfinite(values)) or not values[0] > 0.0:
-        raise ValueError("expected a positive time, or T,START, in s")
-    return values[0], values[1] if len(values) == 2 else None
-
-
 class Cycles:
     """The cycles of one file: a sequence of Cycle.
 

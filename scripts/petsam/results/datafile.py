@@ -13,7 +13,6 @@ import numpy as np
 from ..core.errors import Error, one_line, short, there_are
 from ..core.files import decoded, need_regular
 from ..core.hdf5 import DAMAGED, fresh
-from ..core.isolation import reading
 
 WHOLE = 1 << 27  # maximum number of values read at once; a damaged file may claim any number
 
@@ -122,9 +121,8 @@ class Datafile:
     def _reading(self):
         """Context in which the file is read: exceptions of HDF5, and of a layout that is not petsam's, become Error."""
         try:
-            with reading(self.path):
-                self._renew()
-                yield
+            self._renew()
+            yield
         except Error:
             raise
         except DAMAGED as error:

@@ -14,6 +14,7 @@ import os
 import re
 import signal
 import subprocess
+import threading
 import time
 
 from ..core import environment
@@ -289,7 +290,7 @@ class Study:
         caught = [
             number
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
-            if signal.getsignal(number) != signal.SIG_IGN
+            if signal.getsignal(number) != signal.SIG_IGN and threading.current_thread() is threading.main_thread()
         ]
         before = {number: signal.signal(number, self._catch) for number in caught}
         try:

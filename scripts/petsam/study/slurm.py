@@ -50,37 +50,39 @@ def _sbatch(words):
     return job
 
 
-def _study_words(options):
+def _study_words(study):
     """Returns petsam-study's arguments for each job."""
-    words = [os.path.abspath(options.table), "--directory", options.directory, "--ranks", str(options.ranks)]
-    if options.checkpoint:
-        words += ["--checkpoint", str(options.checkpoint)]
-    if options.turns:
-        words += ["--turns", options.turns]
-    if options.period:
-        words += ["--period=" + ",".join(repr(value) for value in options.period if value is not None)]
-    if options.cycle:
-        words += ["--cycle=" + ",".join(map(str, options.cycle))]
+    words = [os.path.abspath(study.table), "--directory", study.directory, "--ranks", str(study.ranks)]
+    if study.checkpoint:
+        words += ["--checkpoint", str(study.checkpoint)]
+    turns, period, numbers = study.figures
+    if turns:
+        words += ["--turns", turns]
+    if period:
+        words += ["--period=" + ",".join(repr(value) for value in period if value is not None)]
+    if numbers:
+        words += ["--cycle=" + ",".join(map(str, numbers))]
     return words
 
 
-def submit(options, cases, waiting):
-    """Submits the waiting cases, at most --cores of ranks at once, and a job that writes the tables at the end."""
-    words, extra = _study_words(options), environment.split(options.sbatch, "--sbatch")
-    script, study = environment.script("slurm/array.sbatch"), environment.script("petsam-study")
-    common = ["--", *options.words] if options.words else []
-    log = "--output=" + os.path.join(options.directory, "slurm-%A_%a.out")
+def submit(study, cases, waiting, sbatch=""):
+    """Submits the waiting cases of Jobs, at most its cores of ranks at once, and a job that writes the tables at the
+    end; sbatch has more words for sbatch."""
+    words, extra = _study_words(study), environment.split(sbatch, "--sbatch")
+    script, program = environment.script("slurm/array.sbatch"), environment.script("petsam-study")
+    common = ["--", *study.words] if study.words else []
+    log = "--output=" + os.path.join(study.directory, "slurm-%A_%a.out")
     jobs = []
     for ranks in sorted({case.ranks for case in waiting}):
         numbers = [case.number for case in waiting if case.ranks == ranks]
-        limit = f"%{max(1, options.cores // ranks)}" if options.cores else ""
+        limit = f"%{max(1, study.cores // ranks)}" if study.cores else ""
         job = _sbatch(
             [
                 "--array=" + ranges(numbers) + limit,
                 f"--ntasks={ranks}",
                 "--chdir=" + os.getcwd(),
                 log,
-                f"--export=ALL,PETSAM_STUDY={study}",
+                f"--export=ALL,PETSAM_STUDY={program}",
                 *extra,
                 str(script),
                 *words,
@@ -92,17 +94,17 @@ def submit(options, cases, waiting):
     if not jobs:
         print(f"no case to submit: none of {len(cases)} is left to run")
         return 0
-    collect = shlex.join([str(study), *words, "--collect", *common])
+    collect = shlex.join([str(program), *words, "--collect", *common])
     job = _sbatch(
         [
             "--dependency=afterany:" + ":".join(jobs),
             "--ntasks=1",
             "--chdir=" + os.getcwd(),
-            "--output=" + os.path.join(options.directory, "slurm-%j.out"),
+            "--output=" + os.path.join(study.directory, "slurm-%j.out"),
             *extra,
             "--wrap",
             collect,
         ]
     )
-    print("job {}: writes {} after the others".format(job, os.path.join(options.directory, "results.csv")))
+    print("job {}: writes {} after the others".format(job, os.path.join(study.directory, "results.csv")))
     return 0

@@ -1,23 +1,21 @@
 """The results table of a study: one row per case, with inputs and the scalars of its last load step, as CSV and HDF5.
 
-CSV: case, exit_code (empty: not run), seconds, ranks, the inputs, `steps`, the names of petsam's /history (those of the
-last step, with NaN for what is unknown if it has no solution; `dissipated_energy_sum` of all steps that have one),
-message. A scalar that has an input's name gets `_end` added. Of histories with cycles (petsam.cycles) there are also
-`cycles`, their number, `energy_ratio_cycle_last` and `sliding_ratio_cycle_last` (petsam.sliding),
-`dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by which the last cycle
-differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the chosen cycles K. `regime` is 0 where
-all steps stick, 1 of partial slip, 2 of gross slip (also where a step was rejected for it), 3 where some cycles are of
-gross slip and others are not. Where petsam-stress runs too, `mises_max` and so on are the largest of its /history, and
-`swt_max` and so on those of its fatigue parameters. Columns of the table's `results` follow.
+CSV: case, exit_code (empty: not run), seconds [s], ranks, the inputs as they were given, and with heads `name [unit]`
+steps, the names of petsam's /history (those of the last step, with NaN for what is unknown if it has no solution;
+`dissipated_energy_sum` of all steps that have one); message. A scalar that has an input's name gets `_end` added. Of
+histories with cycles (petsam.cycles) there are also `cycles`, their number, `energy_ratio_cycle_last` and
+`sliding_ratio_cycle_last` (petsam.sliding), `dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by
+which the last cycle differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the chosen cycles
+K. `regime` is 0 where all steps stick, 1 of partial slip, 2 of gross slip (also where a step was rejected for it), 3
+where some cycles are of gross slip and others are not. Where petsam-stress runs too, `mises_max` and so on are the
+largest of its /history, and `swt_max` and so on those of its fatigue parameters. Columns of the table's `results`
+follow.
 
 HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results,
 NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
 results file.
 """
 
-import csv
-import functools
-import io
 import math
 import os
 import re
@@ -26,9 +24,9 @@ from typing import NamedTuple, Optional
 import h5py
 import numpy as np
 
-from ..core import isolation
 from ..core.errors import Error
 from ..core.hdf5 import DAMAGED, replacing
+from ..core.tables import Column, csv_text
 from ..results import cycles, parts, sliding
 from ..results.file import Results
 from ..results.stresses import Stresses
@@ -160,8 +158,7 @@ def rows(directory, cases, figures=LAST):
     # a run that was killed may have left a damaged file
     paths = [os.path.join(directory, case.name) for case in ended]
     with_stress = any(case.stress for case in cases)
-    values = list(isolation.each(functools.partial(_of_case, figures=figures, with_stress=with_stress), paths))
-    values = [({}, None) if isinstance(one, Error) else one for one in values]
+    values = [_of_case(path, figures, with_stress) for path in paths]
     known_values = {case.name: one for case, (one, _) in zip(ended, values)}
     for case, known in records:
         if case.name in known_values and GROSS.match(known.get("message") or ""):
@@ -184,36 +181,25 @@ def _names(found):
     return inputs, units
 
 
-def write_csv(path, found):
-    """The table as text."""
+def _columns(found):
+    """The tables.Column of the cases; those of inputs are texts, as the study's table has them."""
     inputs, units = _names(found)
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(
-        [
-            "case",
-            "exit_code",
-            "seconds",
-            "ranks",
-            *inputs,
-            *[name + "_end" if name in inputs else name for name in units],
-            "message",
-        ]
-    )
-    for case, known, values in found:
-        code = known.get("exit_code")
-        table.writerow(
-            [
-                case.name,
-                "" if code is None else code,
-                known.get("seconds", ""),
-                case.ranks,
-                *[case.inputs.get(name, "") for name in inputs],
-                *[repr(values[name][0]) if name in values else "" for name in units],
-                known.get("message", ""),
-            ]
-        )
-    write_atomically(path, text.getvalue())
+    column = [
+        Column("case", "", "name", [case.name for case, _, _ in found]),
+        Column("exit_code", "", "exit code of petsam", [known.get("exit_code") for _, known, _ in found]),
+        Column("seconds", "s", "wall time", [known.get("seconds") for _, known, _ in found]),
+        Column("ranks", "", "MPI ranks", [case.ranks for case, _, _ in found]),
+    ]
+    column += [Column(name, "", "input", [case.inputs.get(name) for case, _, _ in found]) for name in inputs]
+    for name, unit in units.items():
+        values = [values[name][0] if name in values else None for _, _, values in found]
+        column.append(Column(name + "_end" if name in inputs else name, unit, "result", values))
+    return [*column, Column("message", "", "petsam's words", [known.get("message") for _, known, _ in found])]
+
+
+def write_csv(path, found):
+    """The table as CSV."""
+    write_atomically(path, csv_text(_columns(found)))
 
 
 def _numbers(texts):

@@ -1,13 +1,34 @@
 """Height maps for petsam: petsam-surface.
 
+    import petsam
+    one = petsam.surface.read("rough.npy", units="um", size="1mm", body=2).fill().level("tilt").resample((512, 512))
+    one.write("rough.h5")
+    petsam.plot.surface(one)
+
+read        a map from a file of any kind: a Map with fill, level, cut, resample, write
+combined    the separation of two surfaces
+
 maps        a map: orientation, window, description
-tables      maps in text files
+readers     formats of files, one class each
+tables      numbers in text files
 headers     statements in the header of a text file
 doubts      lists of points that are no map; maps with offsets of rows, outliers
-reading     maps from files of any kind
+reading     what a file and options state of a map together
 filling     missing points
-levels      mean, tilt and form taken off
+spikes      outliers against their neighbours
+levels      mean, tilt and form taken off; offsets of rows
 resampling  a map on another grid
 generation  random surfaces of a spectrum
 writing     HDF5 for petsam's -gap_file and -gap_rough_file
 """
+
+import importlib
+
+_HOMES = {"Map": "maps", "combined": "maps", "read": "reading", "FORMATS": "readers"}
+__all__ = sorted(_HOMES)
+
+
+def __getattr__(name):
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module("." + _HOMES[name], __name__), name)

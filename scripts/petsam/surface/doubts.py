@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..core.errors import Error, counted
-from ..core.lengths import shown
+from ..core.units import shown
 
 NARROW = 6  # columns of a list of points: x, y, z, and up to three more
 LIST = 9  # rows from which on an array of so few columns is a list in any case
@@ -15,6 +15,12 @@ SQUARE = 1e-6  # deviation of the ratio of the widths of square cells from 1
 GRID = 8  # points along x and y from which on offsets of rows and outliers are looked for
 WHITE = 1.0  # mean square of successive differences over the variance: 2 of offsets by chance, near 0 of a form
 APART = 1.0  # rms of the steps from row to row over the rms of what else changes there
+LINES = 32  # rows and columns from which on their variances are compared
+TIMES = 6.0  # variance between rows over that between columns
+REMOVED = 1e-9  # variance between columns over that between rows, below which they have been removed
+NOTED = (
+    0.05  # rms of what changes from row to row as a whole over the rms of all changes, below which it matters little
+)
 FEW = 1e-3  # share of the points that outliers are at most
 
 
@@ -38,12 +44,16 @@ def need_map(path, values, text, library=False):
     if library:
         reads = keep = "; points x, y, z need a full regular grid, each once: interpolate them"
     elif text:
-        reads = "; --format surfacetopography reads points x, y, z on a full regular grid"
-        keep = "; keep x, y, z alone, which --format surfacetopography then reads on a full regular grid"
+        reads = "; points x, y, z on a regular grid are read: interpolate these to one"
+        keep = "; points x, y, z with more columns are read on a regular grid, each once: interpolate these to one"
     if columns == 3 and (text or rows >= LIST):
         raise _list(path, "three numbers a line are points x, y, z", reads)
     if columns == 2 and (text or rows >= LIST):
-        raise _list(path, "two numbers a line are a profile x, z", "; a profile in plane strain is one line of heights")
+        raise _list(
+            path,
+            "two numbers a line are a profile x, z",
+            "; a profile is read where x rises in even steps, 5 or more: interpolate it",
+        )
     if columns <= NARROW and (rows > columns if text else rows >= LIST):
         raise _list(path, f"{columns} numbers a line are points with more than their height", keep)
     if not text and rows <= 3 and columns >= LIST:
@@ -129,6 +139,27 @@ def _apart(values):
     return float(np.sqrt(spread)) if white and np.sqrt(np.mean(middles**2)) > APART * rest else 0.0
 
 
+def _varies(values):
+    """Mean square of the changes from row to row of whole rows, but for a form of second order, 0 where they change
+    smoothly; that of all changes."""
+    steps = np.diff(values, axis=0)
+    middles = np.median(steps, axis=1)
+    numbers = np.linspace(-1.0, 1.0, middles.size)
+    middles = middles - np.polyval(np.polyfit(numbers, middles, 1), numbers)
+    whole = np.mean(middles**2)
+    rough = np.mean(np.diff(middles) ** 2) >= WHITE * whole
+    return float(whole), float(np.mean((steps - np.mean(steps)) ** 2)), bool(rough)
+
+
+def _streaks(values):
+    """How many times the variance between rows is that between columns; 0 where it does not matter."""
+    if min(values.shape) < LINES:
+        return 0.0
+    (rows, all_rows, rough), (columns, *_) = _varies(values), _varies(values.T)
+    matters = rough and rows > NOTED**2 * all_rows and rows > TIMES * columns
+    return rows / columns if matters and columns > REMOVED * rows else 0.0
+
+
 def _outliers(values):
     """Heights above or below their neighbours, of a few points that are most of peak to valley; none otherwise."""
     from scipy.ndimage import median_filter
@@ -157,6 +188,8 @@ def _missing(values):
 def of_cells(one):
     """Texts about cells that would be square with x and y exchanged, or with one more row or column."""
     (nx, ny), (x, y) = one.n, one.size
+    if one.is_profile:
+        return []
     for count, cure in (
         ((ny, nx), "give --transpose if a line of the file, or the first index, is x"),
         ((nx, ny + 1), "add the row, or give --pixel, if the file lacks one"),
@@ -181,7 +214,13 @@ def doubts(one):
     """Texts of what may be wrong with a map without missing points."""
     texts = []
     for name, values in (("rows", one.values), ("columns", one.values.T)):
-        offset = _apart(values)
+        offset, times = _apart(values), _streaks(values)
+        if times and not offset:
+            other = "columns" if name == "rows" else "rows"
+            texts.append(
+                f"the variance between its {name} is {times:.3g} times that between its {other}: unless the surface "
+                f"has a lay, these are offsets of a scanner: remove them by --level {name}"
+            )
         if offset:
             texts.append(
                 f"its {name} lie at random offsets of {shown(offset)} rms, which bear the contact on single {name}: a "
@@ -199,6 +238,6 @@ def doubts(one):
         texts.append(
             f"{counted(far.size, 'point')} of {one.values.size}, the farthest at {shown(float(worst))}, "
             "more than double peak to valley: outliers of the instrument would bear the contact alone: replace them "
-            "by --missing VALUE --fill nearest, or cut them off by --window"
+            "by --outliers, or cut them off by --window"
         )
     return texts

@@ -16,7 +16,7 @@ from scipy.optimize import least_squares
 from scipy.special import ndtr
 
 from ..core.errors import Error
-from ..core.lengths import shown
+from ..core.units import shown
 from .tables import read_table
 
 RESOLVED = 2.0  # cells in the shortest wavelength at least

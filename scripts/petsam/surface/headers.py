@@ -8,19 +8,25 @@ import re
 from typing import NamedTuple
 
 from ..core.errors import Error, short
-from ..core.lengths import NUMBER, metres
+from ..core.units import NUMBER
+from ..core.units import size as metres
+from .tables import COMMENTS, split
 
-X = {"x", "width", "breite", "largeur", "anchura", "larghezza", "largura", "dx", "lx"}
-Y = {"y", "height", "h\u00f6he", "hauteur", "altura", "altezza", "dy", "ly"}
+X = {"x", "width", "breite", "largeur", "anchura", "ancho", "larghezza", "largura", "breedte", "bredd", "dx", "lx"}
+Y = {"y", "height", "h\u00f6he", "hauteur", "altura", "alto", "altezza", "hoogte", "h\u00f6jd", "dy", "ly"}
 WIDTHS, HEIGHTS = X - {"x", "dx", "lx"}, Y - {"y", "dy", "ly"}
 PIXEL = {"pixel", "pixelsize", "step", "spacing", "scale", "dx", "dy", "cellsize", "increment", "resolution", "pitch"}
 SIZE = {"size", "length", "range", "extent", "field", "scan", "lx", "ly"} | WIDTHS | HEIGHTS
 FACTOR = {"scale", "factor", "bit2nm", "multiplier"}
-UNIT = re.compile(r"unit|einheit")
+UNIT = re.compile(
+    r"unit|einheit|unidad|eenheid|enhet|jednot|\u0435\u0434\u0438\u043d\u0438\u0446|\u5358\u4f4d|\u5355\u4f4d"
+)
 OF_UNIT = re.compile(r"[\[(<]\s*([^\W\d]+)\s*[\])>]")  # x [um], z (nm)
 PAIR = re.compile(rf"^({NUMBER})\s*([^\W\d]*?)\s*(?:[x\u00d7,*;/]|by|\s)\s*({NUMBER})\s*([^\W\d]*)$")
 SINGLE = re.compile(rf"^({NUMBER})\s*[\[(]?([^\W\d]*)[\])]?$")
 LENGTH = re.compile(rf"(?<![\w.]){NUMBER}\s*([^\W\d]+)")
+QUANTITY = re.compile(rf"({NUMBER.replace(chr(92) + '.', '[.,]')})\s+([^\W\d]+)")  # 80 um, 80,5 um
+AT_END = re.compile(r"[\[(<{/_,\s]\s*([^\W\d_]+)\s*[\])>}]?\s*$")  # x [um], x (um), x / um, x_um
 ORDER = re.compile(r"\b(?:first (?:row|line)|origin)\b.*?\b(top|upper|bottom|lower)\b", re.IGNORECASE)
 
 
@@ -34,6 +40,7 @@ class Header(NamedTuple):
     mentioned: tuple = ()  # units of lengths in brackets, of whatever quantity
     unread: tuple = ()  # numbers and texts of lines about lengths that no rule understands
     lines: dict = {}  # of unit, x and y: the number of the line
+    lateral: float = None  # m of the unit of lengths along x and y without one
 
 
 def _words(key):
@@ -67,9 +74,9 @@ def _unit_of(path, number, line, text):
 
 
 class _Reader:
-    def __init__(self, path):
-        self.path = path
-        self.unit = self.lateral = self.top = None
+    def __init__(self, path, lateral=None):
+        self.path, self.lateral = path, lateral
+        self.unit = self.top = None
         self.numbers = {}  # (kind, axis): number, its unit, line
         self.mentioned, self.unread, self.keys, self.lines = [], [], set(), {}
 
@@ -147,15 +154,60 @@ class _Reader:
         image = bool(self.keys & WIDTHS and self.keys & HEIGHTS)
         top = True if self.top is None and image else self.top
         sides = (tuple(found[kind]) for kind in ("size", "pixel"))
-        return Header(self.unit, *sides, top, tuple(dict.fromkeys(self.mentioned)), tuple(self.unread), self.lines)
+        mentioned, unread = tuple(dict.fromkeys(self.mentioned)), tuple(self.unread)
+        return Header(self.unit, *sides, top, mentioned, unread, self.lines, self.lateral)
 
 
-def stated(path, lines):
-    """The Header of lines, each a number and a text."""
-    reader = _Reader(path)
+def stated(path, lines, lateral=None):
+    """The Header of lines, each a number and a text; lateral: unit (m) of lengths along x and y that have none."""
+    reader = _Reader(path, lateral)
     for number, line in lines:
         reader.read(number, line)
     return reader.result()
+
+
+def of_gwyddion(path, lines):
+    """The Header of Gwyddion's text, whose lines have words of any language; None of another text.
+
+    After at most one line, the channel's, there are width, height and unit of the values, each with its name.
+    """
+    for k in (0, 1):
+        three = lines[k : k + 3]
+        if len(three) < 3 or not all(line.lstrip().startswith("#") for _, line in three):
+            return None
+        pairs = [re.split(r"\s*[:\uff1a]\s*", line.lstrip("# \t").strip(), maxsplit=1) for _, line in three]
+        found = [QUANTITY.fullmatch(pair[1]) if len(pair) == 2 else None for pair in pairs]
+        sizes = [metres(one[2]) if one else None for one in found[:2]]
+        keys = {word for pair in pairs[:2] for word in _words(pair[0])}
+        if all(sizes) and len(pairs[2]) == 2 and not found[2] and not keys & (PIXEL | {"x", "y", "z"}):
+            unit = _unit_of(path, three[2][0], three[2][1], pairs[2][1])
+            size = tuple(float(one[1].replace(",", ".")) * scale for one, scale in zip(found, sizes))
+            rest = stated(path, [line for line in lines if line not in three])
+            at = {name: number for name, (number, _) in zip(("x", "y", "unit"), three)}
+            return rest._replace(unit=unit, size=size, top=True, lines=at)
+    return None
+
+
+def of_columns(path, lines, count):
+    """The Header that the heads of so many columns give, x (and y) and the heights: `x [um],y [um],z [nm]`."""
+    heights = 1 if count == 2 else 2  # the column of the heights, from 0
+    for number, line in reversed(lines):
+        words = split(line.strip().lstrip("".join(COMMENTS)).strip())[0]
+        if len(words) >= count:
+            found = [AT_END.search(" " + word) for word in words[:count]]
+            found = [one[1] if one else None for one in found]
+        else:
+            found = OF_UNIT.findall(line)
+        if len(found) <= heights or not any(text and metres(text) for text in found):
+            continue
+        lateral = {metres(text) for text in found[:heights] if text and metres(text)}
+        if len(lateral) > 1:
+            raise Error(f"{path}: line {number}: its columns x and y have different units: bring them to one")
+        text = found[heights]
+        bracket = text and (metres(text) or re.search(r"[\[(<{]\s*" + re.escape(text), line))
+        unit = _unit_of(path, number, line, text) if bracket else None
+        return Header(unit, lateral=lateral.pop() if lateral else None, lines={"unit": number} if unit else {})
+    return Header()
 
 
 def size_of(path, header, n):

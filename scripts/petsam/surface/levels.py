@@ -1,11 +1,11 @@
-"""Mean, tilt and form taken off a map, by least squares of the heights; offsets of its rows or columns."""
+"""Mean, tilt and form taken off a map, by least squares of the heights; offsets of its rows or columns by medians."""
 
 from dataclasses import replace
 
 import numpy as np
 
 from ..core.errors import Error
-from ..core.lengths import shown
+from ..core.units import shown
 
 KINDS = ("none", "mean", "tilt", "second-order", "sphere", "cylinder", "rows", "columns")
 TERMS = {
@@ -18,7 +18,7 @@ MOST = 1 << 18  # points that a sphere or a cylinder is fitted to: evenly chosen
 
 def _scaled(one):
     """Coordinates along x and y about the middle, over half the larger side; and that length (m)."""
-    length = max(one.size) / 2
+    length = one.wide / 2
     return [(one.axis(d) - one.center[d]) / length for d in (0, 1)], length
 
 
@@ -119,7 +119,23 @@ def _fit(one, kind):
     return form(found.x, x, y) * length, length / abs(curvature) if curvature else np.inf
 
 
-# ---------------------------------------------------------------- both
+# ---------------------------------------------------------------- offsets of rows
+
+
+def _offsets(values):
+    """Offsets of the rows of a scanner, m, of mean 0 and without a tilt.
+
+    Each row lies above the one before by the median of their differences, in which the surface hardly changes, and
+    which a particle on a row does not move. The line through the sums is the surface's tilt, and stays.
+    """
+    if len(values) < 3:
+        return np.zeros(len(values))
+    sums = np.concatenate([[0.0], np.cumsum(np.median(np.diff(values, axis=0), axis=1))])
+    numbers = np.arange(sums.size) - (sums.size - 1) / 2
+    return sums - sums.mean() - numbers * (numbers @ sums) / (numbers @ numbers)
+
+
+# ---------------------------------------------------------------- all
 
 
 def _slopes(coefficients, length):
@@ -139,11 +155,9 @@ def levelled(one, kind):
             removed.append(f"curvatures {2 * xx:.4g} and {2 * yy:.4g} 1/m in x and y, twist {xy:.3g} 1/m")
         return replace(one, values=one.values - surface), f"{kind} removed: " + ", ".join(removed)
     if kind in ("rows", "columns"):
-        # a median ignores particles on the row; with it goes what the surface itself has along the other axis
-        offsets = np.median(one.values, axis=1 if kind == "rows" else 0, keepdims=True)
-        return replace(
-            one, values=one.values - offsets
-        ), f"offsets of {kind} removed: {shown(float(np.std(offsets)))} rms"
+        offsets = _offsets(one.values if kind == "rows" else one.values.T)
+        values = one.values - (offsets[:, None] if kind == "rows" else offsets)
+        return replace(one, values=values), f"offsets of {kind} removed: {shown(float(np.std(offsets)))} rms"
     surface, radius = _fit(one, kind)
     return replace(one, values=one.values - surface), f"{kind} removed: radius {radius:.6g} m"
 

@@ -1,66 +1,150 @@
 """A map of a surface: how it is turned and cut, and the numbers that describe it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..core.errors import Error
-from ..core.lengths import shown
+from ..core.errors import Error, counted
+from ..core.tables import Column, to_dataframe, write_csv
+from ..core.units import shown
+from . import filling, levels, resampling, spikes, writing
+from .basics import QUANTITIES, SAME
 
-QUANTITIES = {
-    "height1": "heights of body 1, peaks positive",
-    "height2": "heights of body 2, peaks positive",
-    "separation": "separation of the bodies",
-}
 SMALLEST = 2  # points in x and y: petsam's smallest grid
 HIGHEST = 1e4  # values over the size, beyond which they are none of a surface
-SAME = 1e-6  # relative difference of lengths that are meant to be the same
 
 
 @dataclass(frozen=True)
 class Map:
-    """Values (ny, nx) in m, NaN where one is missing; the first row has the smallest y. Each is that of a cell."""
+    """A map of heights, or of the separation of two bodies, on cells; a profile, for plane strain, has one row.
+
+    Attributes
+    ----------
+    values : array (ny, nx), m
+        Means over the cells, NaN where one is missing; the first row has the smallest y.
+    size, center : (x, y), m
+        Full width, and position of the middle.
+    quantity : str
+        A key of QUANTITIES: height1, height2 or separation.
+    name : str
+        For messages.
+    places : (rows, columns) or None
+        Their numbers in the file, from 0; None after resampling.
+    remarks, doubts : tuples of str
+        What was done to the map, and what may be wrong with its file.
+    """
 
     values: np.ndarray
-    size: tuple  # full width in x, y, m
-    center: tuple  # m
-    quantity: str  # a key of QUANTITIES
-    name: str  # for messages
-    places: tuple  # numbers of the rows and the columns in the file, from 0
+    size: tuple
+    center: tuple
+    quantity: str
+    name: str
+    places: tuple
+    remarks: tuple = ()
+    doubts: tuple = ()
 
     @property
-    def n(self):
+    def n(self) -> tuple:
         """Cells in x, y."""
         return self.values.shape[::-1]
 
     @property
-    def cell(self):
+    def is_profile(self) -> bool:
+        """Whether the map is one row, for plane strain."""
+        return len(self.values) == 1
+
+    @property
+    def wide(self) -> float:
+        """The larger side, m; of a profile that along x."""
+        return self.size[0] if self.is_profile else max(self.size)
+
+    @property
+    def cell(self) -> tuple:
         """Width of a cell in x, y, m."""
         return tuple(size / n for size, n in zip(self.size, self.n))
 
-    def axis(self, d):
+    def axis(self, d: int) -> np.ndarray:
         """Centres of the cells along x (0) or y (1), m."""
         return self.center[d] + ((np.arange(self.n[d]) + 0.5) / self.n[d] - 0.5) * self.size[d]
 
-    def separation(self):
-        """The values as a separation: a peak of either body reduces it."""
+    def separation(self) -> np.ndarray:
+        """The values as a separation, m: a peak of either body reduces it."""
         return self.values if self.quantity == "separation" else -self.values
+
+    def _done(self, one, remark):
+        """The changed map with a remark more."""
+        return replace(one, remarks=(*self.remarks, remark)) if remark else one
+
+    def cut(self, x0: float, x1: float, y0: float = 0.0, y1: float = 0.0) -> Map:
+        """The cells whose centres lie in a window (m); of a profile in x0 ... x1."""
+        one = cut(self, (x0, x1, y0, y1))
+        return self._done(one, "cut to {} x {} points".format(*one.n))
+
+    def without_outliers(self, fill: str = "smooth") -> Map:
+        """Spikes of a few points, far from their neighbours, are replaced as missing points are; their number is in
+        the remarks."""
+        holes = np.isnan(self.values)
+        found = spikes.found(self.values)
+        if not np.any(found):
+            return self._done(self, "no outliers found")
+        one = filling.filled(replace(self, values=np.where(found, np.nan, self.values)), fill)[0]
+        one = replace(one, values=np.where(holes, np.nan, one.values))
+        count = counted(int(np.count_nonzero(found)), "outlier")
+        far = self.values[found][np.argmax(np.abs(self.values[found] - np.nanmedian(self.values)))]
+        return self._done(one, f"{count} replaced ({fill}), the farthest at {shown(float(far))}")
+
+    def fill(self, how: str | None = "smooth") -> Map:
+        """Missing points replaced from their border ("smooth") or by the nearest; Error where there are some for
+        None."""
+        one, count = filling.filled(self, how)
+        return self._done(one, count and f"{counted(count, 'missing point')} filled ({how})")
+
+    def level(self, kind: str = "tilt") -> Map:
+        """The map without mean, tilt or form, or without offsets of rows: one of levels.KINDS."""
+        return self._done(*levels.levelled(self, kind))
+
+    def resample(self, n: tuple | None = None, size: tuple | None = None) -> Map:
+        """The map on n cells in x, y over a size (m) about its centre: means over the new cells."""
+        one = resampling.resampled(self, n, size)
+        return self._done(one, "from {} x {} points to {} x {} cells".format(*self.n, *one.n))
+
+    def table(self) -> list:
+        """Columns x, y and the values, a row a cell."""
+        x, y = np.meshgrid(self.axis(0), self.axis(1))
+        texts = {"x": x, "y": y, writing.dataset(self): self.values}
+        about = ("of the cell's centre", "of the cell's centre", QUANTITIES[self.quantity])
+        return [Column(name, "m", text, part.ravel()) for (name, part), text in zip(texts.items(), about)]
+
+    def to_dataframe(self):
+        """The table as one of pandas."""
+        return to_dataframe(self.table())
+
+    def to_csv(self, path) -> None:
+        """Writes the table to a file."""
+        write_csv(path, self.table())
+
+    def write(self, path, command: str = "") -> None:
+        """Writes HDF5 for petsam's -gap_file and -gap_rough_file."""
+        writing.write(self, path, command)
 
 
 def new_map(values, size, quantity, name, center=(0.0, 0.0)):
     """A map of values as they are in a file, whose first row has the smallest y."""
-    if min(values.shape) < SMALLEST:
-        rows, columns = values.shape
+    rows, columns = values.shape
+    if columns < SMALLEST:
         raise Error(f"{name}: has {rows} x {columns} points (rows x columns): a map has at least 2 x 2")
     values = np.array(values, dtype=np.float64)  # a copy: the array may be read-only, or in another order
     values[~np.isfinite(values)] = np.nan
     largest = np.max(np.abs(values), initial=0.0, where=~np.isnan(values))
-    if largest > HIGHEST * max(size):
+    one = Map(values, tuple(size), tuple(center), quantity, name, tuple(np.arange(n) for n in values.shape))
+    if largest > HIGHEST * one.wide:
         raise Error(
             f"{name}: has values up to {largest:.3g} m: give the value of missing points by --missing, "
             "in the file's unit"
         )
-    return Map(values, tuple(size), tuple(center), quantity, name, tuple(np.arange(n) for n in values.shape))
+    return one
 
 
 def turned(one, top, mirror):
@@ -76,6 +160,9 @@ def cut(one, window):
     chosen = []
     for d, (first, last) in enumerate((window[:2], window[2:])):
         axis = one.axis(d)
+        if d == 1 and one.is_profile:
+            chosen.append(slice(0, 1))
+            continue
         inside = np.flatnonzero((axis >= first) & (axis <= last))
         if inside.size < SMALLEST:
             edges = [one.center[d] + side * one.size[d] / 2 for side in (-1, 1)]
@@ -107,7 +194,8 @@ def combined(one, other):
             f"{other.name}: {texts[1]}, but {one.name}: {texts[0]}: bring both to one grid by --grid-n and --grid-size"
         )
     values = one.separation() + other.separation()
-    return replace(one, values=values, quantity="separation", name=f"{one.name} and {other.name}")
+    name = f"{one.name} and {other.name}"
+    return replace(one, values=values, quantity="separation", name=name, remarks=(), doubts=())
 
 
 # ---------------------------------------------------------------- numbers
@@ -126,7 +214,7 @@ def moments(one):
 
 def rms_slope(one):
     """Sdq: root mean square of the gradient, between the centres of neighbouring cells."""
-    along = [np.diff(one.values, axis=1 - d) / one.cell[d] for d in (0, 1)]
+    along = [np.diff(one.values, axis=1 - d) / one.cell[d] for d in range(1 if one.is_profile else 2)]
     return float(np.sqrt(sum(np.mean(slope**2) for slope in along)))
 
 

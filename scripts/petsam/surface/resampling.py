@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..core.errors import Error
-from ..core.lengths import shown
-from .maps import SAME
+from ..core.units import shown
+from .basics import SAME
 
 BLOCK = 256  # columns at a time: the spline takes several times their memory
 

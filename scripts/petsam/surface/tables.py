@@ -1,6 +1,8 @@
-"""Maps in text files: one line per row of the map, one column per point; errors name the line."""
+"""Tables in text files: one line per row, one word per number; errors name the line."""
 
+import csv
 import re
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,8 +11,23 @@ from ..core.files import SAMPLE, decoded, lines_of
 
 COMMENTS = ("#", "%")  # of lines that never have numbers of the map
 # missing points as instruments and spreadsheets write them
-MISSING = {"", "nan", "na", "n/a", "bad", "null", "none", "-", "--", "***", "---", "#n/a"}
+MISSING = {
+    "", "nan", "na", "n/a", "bad", "null", "none", "-", "--", "***", "---", "#n/a", "#value!", "#num!", "#div/0!",
+}  # fmt: skip
+OF_MICROSOFT = re.compile(r"[+-]?1[.,]#(?:qnan|snan|ind|inf)\d*")  # as its C library prints no number
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
+THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
+QUOTED = re.compile(r'"[^"]*"')
+
+
+@dataclass(frozen=True)
+class Form:
+    """How the words of a text are read: all that it does not state."""
+
+    decimal: str = None  # "point" or "comma"; None: as the file shows where it can only be one of them
+    skip_rows: int = 0
+    skip_columns: int = 0
+    missing: tuple = ()  # words of missing points, in small letters, beside the usual ones
 
 
 def _text(path):
@@ -40,18 +57,23 @@ def _has_decimal_commas(words, separator):
     return separator != "," and any(DECIMAL_COMMA.fullmatch(word) for word in words)
 
 
-def _words(line, decimal):
-    """The words of a line, and their separator."""
+def split(line, decimal=None):
+    """The words of a line, and their separator, which commas within quotation marks are not."""
+    if '"' in line:
+        separator = _separator(QUOTED.sub("", line))
+        rows = list(csv.reader([line], delimiter=separator or " ", skipinitialspace=True))
+        words = [word.strip() for word in (rows[0] if rows else [])]
+        return words, '"' if separator == "," and any(map(DECIMAL_COMMA.fullmatch, words)) else separator
     separator = _separator(line.replace(",", "") if decimal == "comma" else line)
     if separator == "," and all(DECIMAL_COMMA.fullmatch(word) for word in line.split()) and len(line.split()) > 1:
         separator = None  # 0,1 0,2 0,3
-    words = [word.strip() for word in line.split(separator)]
-    return words, separator
+    return [word.strip() for word in line.split(separator)], separator
 
 
-def _number(word):
+def _number(word, missing=()):
     """A word as a number, NaN for a missing point; None for another text."""
-    if word.lower() in MISSING:
+    small = word.lower()
+    if small in MISSING or small in missing or OF_MICROSOFT.fullmatch(small):
         return np.nan
     try:
         return float(word)
@@ -59,44 +81,76 @@ def _number(word):
         return None
 
 
-def _row(path, number, words, separator, decimal):
+def _decimal(lines):
+    """ "comma" where words between semicolons, tabs or quotation marks can only be numbers with decimal commas."""
+    found = False
+    for _, line in lines:
+        words, separator = split(line)
+        numbers = [word for word in words if DECIMAL_COMMA.fullmatch(word)]
+        if any("." in word and _number(word) is not None for word in words):
+            return None
+        if numbers and separator not in (";", "\t", '"'):
+            return None
+        found = found or not all(THOUSANDS.fullmatch(word) for word in numbers)
+    return "comma" if found else None
+
+
+def _row(path, number, words, separator, form, decimal):
     """The numbers of a line."""
     if decimal == "comma":
         words = [word.replace(",", ".") for word in words]
     try:
         return np.array([float(word) for word in words])
     except ValueError:
-        values = [_number(word) for word in words]
+        values = [_number(word, form.missing) for word in words]
     if None in values:
         word = words[values.index(None)]
         if decimal != "comma" and _has_decimal_commas(words, separator):
             raise Error(f"{path}: line {number}: {short(word)} has a decimal comma: give --decimal comma")
-        column = values.index(None) + 1
+        column = form.skip_columns + values.index(None) + 1
         raise Error(
             f"{path}: line {number}, column {column}: {short(repr(word))} is not a number; "
-            "--skip-rows and --skip-columns skip text and other columns"
+            "--skip-rows and --skip-columns skip text and other columns, --missing names a word of missing points"
         )
     return np.array(values, dtype=float)
 
 
-def _is_header(words, decimal):
+def _is_header(words, decimal, missing=()):
     """Whether no word is a number, so that the line can only name something."""
     words = [word.replace(",", ".") for word in words] if decimal == "comma" else words
-    return not any(_number(word) is not None and word for word in words)
+    return not any(_number(word, missing) is not None and word for word in words)
 
 
-def read_table(path, decimal="point", skip_rows=0, skip_columns=0):
-    """Values (rows, columns) of a text file, NaN where one is missing; how many header lines; line of the first row."""
-    rows, header, first = [], 0, 0
-    for number, line in _lines(path, skip_rows):
-        words, separator = _words(line, decimal)
-        if not rows and _is_header(words, decimal) and not _has_decimal_commas(words, separator):
-            header += 1
+def _first_row(lines, form, decimal):
+    """Place in a list of lines of the first one that is a row; all before it are a header.
+
+    A line with a text and numbers, as "Profile 1", is a header where it has not as many words as most lines, or where a
+    line of texts alone follows.
+    """
+    counts = [len(split(line, decimal)[0]) for _, line in lines]
+    usual = max(set(counts), key=counts.count) if counts else 0
+    for k, (_, line) in enumerate(lines):
+        words, separator = split(line, decimal)
+        if _is_header(words, decimal, form.missing) and not _has_decimal_commas(words, separator):
             continue
-        row = _row(path, number, words[skip_columns:], separator, decimal)
+        texts = [word for word in words if word[:1].isalpha() and _number(word, form.missing) is None]
+        after = _is_header(split(lines[k + 1][1], decimal)[0], decimal, form.missing) if k + 1 < len(lines) else False
+        if not texts or counts[k] == usual and not after:
+            return k
+    return len(lines)
+
+
+def read_table(path, form=Form()):  # noqa: B008 - it is never changed
+    """Values (rows, columns) of a text file, NaN where one is missing; how many header lines; line of the first row."""
+    lines = list(_lines(path, form.skip_rows))
+    decimal = form.decimal or _decimal(lines)
+    header = _first_row(lines, form, decimal)
+    rows, first = [], lines[header][0] if header < len(lines) else 0
+    for number, line in lines[header:]:
+        words, separator = split(line, decimal)
+        row = _row(path, number, words[form.skip_columns :], separator, form, decimal)
         if rows and row.size != rows[0].size:
             raise Error(f"{path}: line {number} has {row.size} numbers, line {first} has {rows[0].size}")
-        first = first or number
         rows.append(row)
     if not rows:
         raise Error(f"{path}: contains no numbers")
@@ -114,15 +168,12 @@ def empty_line(path, first):
     return before[0] + 1 if 0 < len(before) < len(full) // 2 else None
 
 
-def header_lines(path, decimal="point", skip_rows=0):
+def header_lines(path, form=Form()):  # noqa: B008
     """Numbers and texts of the lines that are no rows of the map: skipped ones, comments, and those before the rows."""
-    found, rows = [], False
-    for number, line in enumerate(lines_of(_text(path)), 1):
-        words, separator = _words(line, decimal)
-        of_map = not _is_header(words, decimal) or _has_decimal_commas(words, separator)
-        if number <= skip_rows or line.lstrip().startswith(COMMENTS):
-            found += [(number, line)] if line.strip() else []
-        elif line.strip() and not rows and not of_map:
-            found.append((number, line))
-        rows = rows or number > skip_rows and of_map and not line.lstrip().startswith(COMMENTS)
-    return found
+    lines = list(_lines(path, form.skip_rows))
+    before = {number for number, _ in lines[: _first_row(lines, form, form.decimal or _decimal(lines))]}
+    return [
+        (number, line)
+        for number, line in enumerate(lines_of(_text(path)), 1)
+        if line.strip() and (number <= form.skip_rows or number in before or line.lstrip().startswith(COMMENTS))
+    ]

@@ -4,7 +4,7 @@ import numpy as np
 
 from .. import __version__
 from ..core.hdf5 import replacing
-from .maps import QUANTITIES
+from .basics import QUANTITIES
 
 SIGN = "petsam_surface"  # root attribute by which a file of this command is known
 

@@ -1,5 +1,6 @@
 /* The names of all files of a run, and of those that PETSc writes for its viewers. */
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/compliance.h>
 #include <petsam/private/file.h>
 #include <petsam/private/files.h>
 #include <errno.h>
@@ -146,8 +147,13 @@ static PetscErrorCode AddDeclared(SamFiles *f, MPI_Comm comm, const SamOptionFil
   PetscCall(PetscOptionsGetString(NULL, NULL, one->name, value, sizeof(value), &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscStrToArray(value, one->kind == SAM_OPTION_FILES ? ',' : '\n', &count, &list));
-  for (int k = 0; k < count; k++)
+  for (int k = 0; k < count; k++) {
+    PetscInt  patch, lower;
+    PetscBool local;
+
+    if (one->kind == SAM_OPTION_FILE) list[k][SamComplianceFileName(list[k], &patch, &local, &lower)] = '\0';
     PetscCall(SamFilesAdd(f, one->shown, list[k], one->kind == SAM_OPTION_OUTPUT ? PETSC_TRUE : PETSC_FALSE));
+  }
   PetscCall(PetscStrToArrayDestroy(count, list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -586,8 +586,9 @@ PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamO
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, names[b], NULL);
   for (PetscInt b = 0; b < 2; b++) {
-    const SamOptionRow row = {names[b], "HDF5 file of the body's own compliance, by petsam-compliance", SAM_OPTION_FILE,
-                              .size = sizeof(file)};
+    const SamOptionRow row = {
+      names[b], "HDF5 file of the body's own compliance, by petsam-compliance; FILE:2: of several patches the second",
+      SAM_OPTION_FILE, .size = sizeof(file)};
 
     PetscCall(SamOptionsRead(from, NULL, 1, &row, file, &given));
     if (given && !SamPrintHelp()) PetscCall(Add(elasticity, from, b, names[b], file));

@@ -1,19 +1,21 @@
-/* Reads a body's compliance; rank 0 reads all of it when it examines the file. */
+/*
+  Reads a body's compliance; rank 0 reads all of it when it examines the file. Of several patches of a structure
+  NAME:PATCH is one, NAME:PATCH:local what is local of it: about its own centre, without the motion of body 1 as a
+  whole, which the structure around the contact then has. NAME:PATCH:local:LOWER lowers the degree by that number.
+*/
 #include <petsam/private/compliance.h>
 #include <petsam/private/file.h>
 #include <ctype.h>
 #include <math.h>
-#include <petscdt.h>
-#include <petscmat.h>
 #include <string.h>
 
-#define RANK        6      /* maximum number of dimensions */
-#define POINTS      100000 /* maximum number of points of a load case */
-#define INDEPENDENT 1e-6   /* least ratio of diagonal elements of R for which points determine the polynomials */
-#define REST        1e-2   /* largest deviation of the polynomials from a load case, relative to its range */
-#define SLENDER     1000   /* largest ratio of a patch's sides: the kernel of slender cells is summed over squares */
-#define LARGE       10000  /* m: largest half side of a patch, and distance of its centre from the origin */
-#define SOFT        10000  /* times the half-space's compliance: errors of pressures then exceed the tolerance */
+#define RANK    6      /* maximum number of dimensions */
+#define RIGID   6      /* motions of a body as a whole */
+#define POINTS  100000 /* maximum number of points of a load case */
+#define REST    1e-2   /* largest deviation of the polynomials from a load case, relative to its range */
+#define SLENDER 1000   /* largest ratio of a patch's sides: the kernel of slender cells is summed over squares */
+#define LARGE   10000  /* m: largest half side of a patch, and distance of its centre from the origin */
+#define SOFT    10000  /* times the half-space's compliance: errors of pressures then exceed the tolerance */
 
 /* `size` 0 in a dimension: any number up to `most`; it is replaced by that number. */
 typedef struct {
@@ -22,7 +24,7 @@ typedef struct {
 } Shape;
 
 /* Reads a dataset of finite numbers. */
-static PetscErrorCode ReadNumbers(SamFile f, const char name[], Shape *shape, double values[])
+static PetscErrorCode ReadDataset(SamFile f, const char name[], Shape *shape, double values[])
 {
   const hid_t dataset = H5Dopen2(f->id, name, H5P_DEFAULT), space = dataset >= 0 ? H5Dget_space(dataset) : -1;
   const int   rank        = space >= 0 ? H5Sget_simple_extent_ndims(space) : -1;
@@ -50,6 +52,29 @@ static PetscErrorCode ReadNumbers(SamFile f, const char name[], Shape *shape, do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A patch of a file: its group, and which of the file's polynomials are read. */
+typedef struct {
+  char      file[PETSC_MAX_PATH_LEN], group[32];
+  PetscInt  patch, lower; /* 0: the file has one patch only */
+  PetscBool local;
+  double    center[2];
+  PetscInt  modes, kept[SAM_COMPLIANCE_MODES];
+} Choice;
+typedef struct {
+  struct _n_SamCompliance c;
+  Choice                  from;
+} Reading;
+
+/* Reads a dataset of finite numbers of the patch. */
+static PetscErrorCode ReadNumbers(SamFile f, const Choice *from, const char own[], Shape *shape, double values[])
+{
+  char name[128];
+
+  PetscFunctionBegin;
+  (void)snprintf(name, sizeof(name), "%s%s", from->group, own);
+  PetscCall(ReadDataset(f, name, shape, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 static PetscErrorCode ReadAttribute(SamFile f, const char name[], double *value)
 {
   const PetscBool found = SamFileHasAttribute(f, name);
@@ -62,136 +87,117 @@ static PetscErrorCode ReadAttribute(SamFile f, const char name[], double *value)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadBasis(SamFile f, SamCompliance c)
+/*
+  Chooses the polynomials whose degree is at most the largest one less `lower`, but at least 1: kept[m] is the number
+  of polynomial m among them, or -1. A table that has not all products of the largest degrees goes by their sum.
+*/
+static void Keep(Choice *from, double power[][2])
+{
+  double   most[3] = {0, 0, 0};
+  PetscInt count   = 0;
+
+  for (PetscInt m = 0; m < from->modes; m++) {
+    for (int d = 0; d < 2; d++) most[d] = PetscMax(most[d], power[m][d]);
+    most[2] = PetscMax(most[2], power[m][0] + power[m][1]);
+  }
+  const PetscBool total = (double)from->modes < (most[0] + 1) * (most[1] + 1) ? PETSC_TRUE : PETSC_FALSE;
+
+  for (int d = 0; d < 3; d++) most[d] = PetscMax(most[d] - (double)from->lower, 1);
+  for (PetscInt m = 0; m < from->modes; m++) {
+    const PetscBool low = total ? (power[m][0] + power[m][1] <= most[2] ? PETSC_TRUE : PETSC_FALSE)
+                                : (power[m][0] <= most[0] && power[m][1] <= most[1] ? PETSC_TRUE : PETSC_FALSE);
+
+    from->kept[m] = low || !from->lower ? count++ : -1;
+  }
+}
+
+static PetscErrorCode ReadBasis(SamFile f, SamCompliance c, Choice *from)
 {
   double power[SAM_COMPLIANCE_MODES][2];
   Shape  pair = {1, {2}, 0}, table = {2, {0, 2}, SAM_COMPLIANCE_MODES};
 
   PetscFunctionBegin;
-  PetscCheck(H5Lexists(f->id, "/patches", H5P_DEFAULT) <= 0, f->comm, SAM_ERR_FILE,
-             "-%s %s: has several patches of a structure, which petsam-joint reads: give a file of one patch",
-             f->option, f->filename);
-  PetscCall(ReadNumbers(f, "/patch/center", &pair, c->center));
-  PetscCall(ReadNumbers(f, "/patch/half", &pair, c->half));
+  PetscCall(ReadNumbers(f, from, "/patch/center", &pair, from->center));
+  PetscCall(ReadNumbers(f, from, "/patch/half", &pair, c->half));
   PetscCheck(c->half[0] > 0 && c->half[1] > 0, f->comm, SAM_ERR_FILE,
              "-%s %s: /patch/half is %.6g, %.6g: expected lengths > 0", f->option, f->filename, c->half[0], c->half[1]);
   PetscCheck(
     PetscMax(c->half[0], c->half[1]) <= SLENDER * PetscMin(c->half[0], c->half[1]) && c->half[0] <= LARGE &&
-      PetscMax(PetscAbsReal(c->center[0]), PetscAbsReal(c->center[1])) <= LARGE,
+      PetscMax(PetscAbsReal(from->center[0]), PetscAbsReal(from->center[1])) <= LARGE,
     f->comm, SAM_ERR_FILE,
     "-%s %s: /patch/half is %.6g, %.6g, /patch/center %.6g, %.6g: expected at most %d m, and sides that differ "
     "at most by a factor of %d: check the unit of the file",
-    f->option, f->filename, c->half[0], c->half[1], c->center[0], c->center[1], LARGE, SLENDER);
-  PetscCall(ReadNumbers(f, "/basis/degree_xy", &table, power[0]));
-  c->modes = (PetscInt)table.size[0];
-  for (PetscInt m = 0; m < c->modes; m++)
-    for (int d = 0; d < 2; d++) {
+    f->option, f->filename, c->half[0], c->half[1], from->center[0], from->center[1], LARGE, SLENDER);
+  PetscCall(ReadNumbers(f, from, "/basis/degree_xy", &table, power[0]));
+  from->modes = (PetscInt)table.size[0];
+  for (PetscInt m = 0; m < from->modes; m++)
+    for (int d = 0; d < 2; d++)
       PetscCheck(power[m][d] >= 0 && power[m][d] <= SAM_COMPLIANCE_DEGREE && power[m][d] == floor(power[m][d]), f->comm,
                  SAM_ERR_FILE, "-%s %s: /basis/degree_xy has %.6g: expected whole numbers from 0 to %d", f->option,
                  f->filename, power[m][d], SAM_COMPLIANCE_DEGREE);
-      c->power[m][d] = (PetscInt)power[m][d];
-      c->degree      = PetscMax(c->degree, c->power[m][d]);
+  Keep(from, power);
+  c->modes = 0;
+  for (PetscInt m = 0; m < from->modes; m++) {
+    if (from->kept[m] < 0) continue;
+    for (int d = 0; d < 2; d++) {
+      c->power[c->modes][d] = (PetscInt)power[m][d];
+      c->degree             = PetscMax(c->degree, c->power[c->modes][d]);
+      c->center[d]          = from->local ? 0 : from->center[d];
     }
+    c->modes++;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the matrix and keeps its symmetric part. */
-static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c, double matrix[])
+/* Subtracts what body 1 as a whole moves by, Q b Q' with Q (6, modes, 3) and b (6, 6), from the compliance. */
+static PetscErrorCode SubtractRigid(SamFile f, const Choice *from, double all[])
 {
-  const hsize_t  m     = (hsize_t)c->modes;
-  const PetscInt n     = 3 * c->modes;
+  const PetscInt n       = 3 * from->modes;
+  Shape          square  = {2, {RIGID, RIGID}, 0};
+  Shape          columns = {3, {RIGID, (hsize_t)from->modes, 3}, 0};
+  double         b[RIGID][RIGID], *q;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(RIGID * n, &q));
+  PetscCall(ReadNumbers(f, from, "/rigid/compliance", &square, b[0]));
+  PetscCall(ReadNumbers(f, from, "/rigid/motions", &columns, q));
+  for (PetscInt r = 0; r < n; r++)
+    for (PetscInt s = 0; s < n; s++) {
+      double sum = 0;
+
+      for (int c = 0; c < RIGID; c++)
+        for (int d = 0; d < RIGID; d++) sum += q[c * n + r] * b[c][d] * q[d * n + s];
+      all[r * n + s] -= sum;
+    }
+  PetscCall(PetscFree(q));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads the matrix of the polynomials that are kept, and its symmetric part only. */
+static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c, const Choice *from, double matrix[])
+{
+  const hsize_t  m = (hsize_t)from->modes;
+  const PetscInt n = 3 * from->modes, kept = 3 * c->modes;
   Shape          shape = {4, {m, 3, m, 3}, 0};
   double        *all;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n * n, &all));
-  PetscCall(ReadNumbers(f, "/compliance", &shape, all));
+  PetscCall(ReadNumbers(f, from, "/compliance", &shape, all));
+  if (from->local) PetscCall(SubtractRigid(f, from, all));
   for (PetscInt r = 0; r < n; r++)
-    for (PetscInt s = 0; s < n; s++)
-      matrix[(r % 3 * c->modes + r / 3) * n + s % 3 * c->modes + s / 3] = 0.5 * (all[r * n + s] + all[s * n + r]);
+    for (PetscInt s = 0; s < n; s++) {
+      const PetscInt row = from->kept[r / 3], column = from->kept[s / 3];
+
+      if (row < 0 || column < 0) continue;
+      matrix[(r % 3 * c->modes + row) * kept + s % 3 * c->modes + column] = 0.5 * (all[r * n + s] + all[s * n + r]);
+    }
   PetscCall(PetscFree(all));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Evaluates the polynomials at places along an axis. */
-static PetscErrorCode ValuesAt(SamCompliance c, int axis, PetscInt n, const double at[], PetscReal values[])
-{
-  PetscInt   degrees[SAM_COMPLIANCE_DEGREE + 1];
-  PetscReal *t;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &t));
-  for (PetscInt k = 0; k <= c->degree; k++) degrees[k] = k;
-  for (PetscInt k = 0; k < n; k++) t[k] = (at[k] - c->center[axis]) / c->half[axis];
-  PetscCall(PetscDTLegendreEval(n, t, c->degree + 1, degrees, values, NULL, NULL));
-  PetscCall(PetscFree(t));
-  for (PetscInt k = 0; k < n * (c->degree + 1); k++)
-    values[k] *= sqrt((2 * (double)(k % (c->degree + 1)) + 1) / (2 * c->half[axis]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Computes the coefficients of the polynomials nearest to values (n, 3) at n >= c->modes points; `rest`: the largest
-  deviation relative to their range, NaN if the points do not determine the polynomials.
-*/
-static PetscErrorCode Fit(SamCompliance c, PetscInt n, const double *const at[2], const double values[],
-                          double field[][3], double *rest)
-{
-  const PetscInt degrees = c->degree + 1;
-  PetscReal     *along[2], *a, least = PETSC_INFINITY, most = 0;
-  Mat            matrix, factor;
-  Vec            b, solution;
-
-  PetscFunctionBegin;
-  *rest = 0;
-  PetscCall(PetscMalloc2(n * degrees, &along[0], n * degrees, &along[1]));
-  for (int d = 0; d < 2; d++) PetscCall(ValuesAt(c, d, n, at[d], along[d]));
-  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, n, c->modes, NULL, &matrix));
-  PetscCall(MatDenseGetArray(matrix, &a));
-  for (PetscInt m = 0; m < c->modes; m++)
-    for (PetscInt k = 0; k < n; k++)
-      a[m * n + k] = along[0][k * degrees + c->power[m][0]] * along[1][k * degrees + c->power[m][1]];
-  PetscCall(MatDenseRestoreArray(matrix, &a));
-  PetscCall(MatDuplicate(matrix, MAT_COPY_VALUES, &factor));
-  PetscCall(MatQRFactor(factor, NULL, NULL));
-  PetscCall(MatDenseGetArray(factor, &a));
-  for (PetscInt m = 0; m < c->modes; m++) {
-    least = PetscMin(least, fabs(a[m * n + m]));
-    most  = PetscMax(most, fabs(a[m * n + m]));
-  }
-  PetscCall(MatDenseRestoreArray(factor, &a));
-  if (!(least > INDEPENDENT * most)) *rest = NAN;
-  PetscCall(MatCreateVecs(matrix, &solution, &b));
-  for (PetscInt d = 0; d < 3 && !isnan(*rest); d++) {
-    double range[2] = {values[d], values[d]};
-
-    PetscCall(VecGetArray(b, &a));
-    for (PetscInt k = 0; k < n; k++) {
-      a[k]     = values[3 * k + d];
-      range[0] = PetscMin(range[0], a[k]);
-      range[1] = PetscMax(range[1], a[k]);
-    }
-    PetscCall(VecRestoreArray(b, &a));
-    PetscCall(MatSolve(factor, b, solution));
-    PetscCall(VecGetArray(solution, &a));
-    for (PetscInt m = 0; m < c->modes; m++) field[m][d] = a[m];
-    PetscCall(VecRestoreArray(solution, &a));
-    PetscCall(VecScale(b, -1));
-    PetscCall(MatMultAdd(matrix, solution, b, b));
-    PetscCall(VecGetArray(b, &a));
-    for (PetscInt k = 0; k < n && range[1] > range[0]; k++) *rest = PetscMax(*rest, fabs(a[k]) / (range[1] - range[0]));
-    PetscCall(VecRestoreArray(b, &a));
-  }
-  PetscCall(VecDestroy(&b));
-  PetscCall(VecDestroy(&solution));
-  PetscCall(MatDestroy(&factor));
-  PetscCall(MatDestroy(&matrix));
-  PetscCall(PetscFree2(along[0], along[1]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Reads a load case given at points of the patch: x, y and field (points, 3), m. */
-static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], double field[][3])
+static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const Choice *from, const char name[], double field[][3])
 {
   Shape       line = {1, {0}, POINTS}, table;
   char        path[64];
@@ -202,7 +208,7 @@ static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], 
   PetscCall(PetscMalloc3(POINTS, &at[0], POINTS, &at[1], 3 * POINTS, &values));
   for (int d = 0; d < 2; d++) {
     (void)snprintf(path, sizeof(path), "/cases/%s/%s", name, axes[d]);
-    PetscCall(ReadNumbers(f, path, &line, at[d]));
+    PetscCall(ReadNumbers(f, from, path, &line, at[d]));
     for (hsize_t k = 0; k < line.size[0]; k++)
       PetscCheck(fabs(at[d][k] - c->center[d]) <= c->half[d] * (1 + 1e-9), f->comm, SAM_ERR_FILE,
                  "-%s %s: %s has %.6g m, outside of the patch from %.6g to %.6g m: give points in the patch", f->option,
@@ -210,9 +216,9 @@ static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], 
   }
   table = (Shape){2, {line.size[0], 3}, 0};
   (void)snprintf(path, sizeof(path), "/cases/%s/field", name);
-  PetscCall(ReadNumbers(f, path, &table, values));
+  PetscCall(ReadNumbers(f, from, path, &table, values));
   if ((PetscInt)line.size[0] >= c->modes)
-    PetscCall(Fit(c, (PetscInt)line.size[0], (const double *const[]){at[0], at[1]}, values, field, &rest));
+    PetscCall(SamComplianceFit(c, (PetscInt)line.size[0], (const double *const[]){at[0], at[1]}, values, field, &rest));
   PetscCheck(!isnan(rest), f->comm, SAM_ERR_FILE,
              "-%s %s: load case %s is given at %d points, which do not determine %" PetscInt_FMT
              " polynomials: give more points, all over the patch",
@@ -226,12 +232,15 @@ static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], 
 }
 
 /* Reads the names of the load cases, in their order. */
-static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
+static PetscErrorCode ReadCases(SamFile f, SamCompliance c, const Choice *from)
 {
-  const hid_t group = H5Lexists(f->id, "/cases", H5P_DEFAULT) > 0 ? H5Gopen2(f->id, "/cases", H5P_DEFAULT) : -1;
-  H5G_info_t  info  = {.nlinks = 0};
+  H5G_info_t info = {.nlinks = 0};
+  hid_t      group;
+  char       path[64];
 
   PetscFunctionBegin;
+  (void)snprintf(path, sizeof(path), "%s/cases", from->group);
+  group = H5Lexists(f->id, path, H5P_DEFAULT) > 0 ? H5Gopen2(f->id, path, H5P_DEFAULT) : -1;
   if (group >= 0) (void)SamFileNote(f, H5Gget_info(group, &info));
   PetscCheck(info.nlinks <= SAM_COMPLIANCE_CASES, f->comm, SAM_ERR_FILE,
              "-%s %s: has %lld load cases: expected at most %d", f->option, f->filename, (long long)info.nlinks,
@@ -253,22 +262,25 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
 }
 
 /* Reads the displacements of the load cases. */
-static PetscErrorCode ReadFields(SamFile f, SamCompliance c, double fields[])
+static PetscErrorCode ReadFields(SamFile f, SamCompliance c, const Choice *from, double fields[])
 {
   PetscFunctionBegin;
   for (PetscInt l = 0; l < c->cases; l++, fields += 3 * c->modes) {
-    Shape  shape = {2, {(hsize_t)c->modes, 3}, 0};
-    char   path[64];
+    Shape  shape = {2, {(hsize_t)from->modes, 3}, 0};
+    char   path[64], whole[128];
     double field[SAM_COMPLIANCE_MODES][3];
 
     (void)snprintf(path, sizeof(path), "/cases/%s/field", c->name[l]);
-    if (H5Lexists(f->id, path, H5P_DEFAULT) > 0) {
-      PetscCall(ReadPoints(f, c, c->name[l], field));
-    } else {
-      (void)snprintf(path, sizeof(path), "/cases/%s/displacement", c->name[l]);
-      PetscCall(ReadNumbers(f, path, &shape, field[0]));
+    (void)snprintf(whole, sizeof(whole), "%s%s", from->group, path);
+    if (H5Lexists(f->id, whole, H5P_DEFAULT) > 0) {
+      PetscCall(ReadPoints(f, c, from, c->name[l], field));
+      for (PetscInt m = 0; m < 3 * c->modes; m++) fields[m % 3 * c->modes + m / 3] = field[m / 3][m % 3];
+      continue;
     }
-    for (PetscInt m = 0; m < 3 * c->modes; m++) fields[m % 3 * c->modes + m / 3] = field[m / 3][m % 3];
+    (void)snprintf(path, sizeof(path), "/cases/%s/displacement", c->name[l]);
+    PetscCall(ReadNumbers(f, from, path, &shape, field[0]));
+    for (PetscInt m = 0; m < from->modes; m++)
+      for (int k = 0; k < 3 && from->kept[m] >= 0; k++) fields[k * c->modes + from->kept[m]] = field[m][k];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -276,12 +288,14 @@ static PetscErrorCode ReadFields(SamFile f, SamCompliance c, double fields[])
 /* Reads the matrix and the fields of the load cases, one after the other. */
 static PetscErrorCode LookInside(SamFile f, const void *question, void *answer)
 {
-  struct _n_SamCompliance c  = *(const struct _n_SamCompliance *)question;
-  double                 *to = (double *)answer;
+  const Reading          *reading = (const Reading *)question;
+  struct _n_SamCompliance c       = reading->c;
+  double                 *to      = (double *)answer;
 
   PetscFunctionBegin;
-  PetscCall(ReadMatrix(f, &c, to));
-  PetscCall(ReadFields(f, &c, to + 9 * c.modes * c.modes));
+  PetscCall(ReadMatrix(f, &c, &reading->from, to));
+  PetscCall(PetscArraycpy(c.center, reading->from.center, 2)); /* of the points of load cases */
+  PetscCall(ReadFields(f, &c, &reading->from, to + 9 * c.modes * c.modes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -296,7 +310,7 @@ static PetscErrorCode ReadAxes(SamFile f, SamCompliance c, double values[])
   for (int d = 0; d < 3; d++) {
     Shape shape = {1, {0}, MOST};
 
-    PetscCall(ReadNumbers(f, names[d], &shape, own));
+    PetscCall(ReadDataset(f, names[d], &shape, own));
     c->below[d] = (PetscInt)shape.size[0];
     for (PetscInt k = 0; k < c->below[d]; k++) {
       PetscCheck(!k || own[k] > own[k - 1], f->comm, SAM_ERR_FILE, "-%s %s: %s does not increase: make the file anew",
@@ -319,26 +333,56 @@ static PetscErrorCode LookBelow(SamFile f, const void *question, void *answer)
   PetscFunctionBegin;
   PetscCall(ReadAxes(f, &c, to));
   to += n[0] + n[1] + n[2];
-  PetscCall(ReadNumbers(f, "/stress/basis", &all, to));
+  PetscCall(ReadDataset(f, "/stress/basis", &all, to));
   to += 3 * c.modes * size;
   for (PetscInt l = 0; l < c.cases; l++, to += size) {
     Shape one = {4, {n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, 0};
     char  path[64];
 
     (void)snprintf(path, sizeof(path), "/stress/cases/%s", c.name[l]);
-    PetscCall(ReadNumbers(f, path, &one, to));
+    PetscCall(ReadDataset(f, path, &one, to));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the file and the patch in the value of an option. */
+static void Choose(const char text[], Choice *from)
+{
+  memset(from, 0, sizeof(*from));
+  (void)snprintf(from->file, sizeof(from->file), "%.*s",
+                 (int)SamComplianceFileName(text, &from->patch, &from->local, &from->lower), text);
+  from->patch = strlen(from->file) < strlen(text) ? from->patch : -1;
+}
+
+/* Finds the group of the patch, of those that the file has. */
+static PetscErrorCode FindPatch(SamFile f, Choice *from)
+{
+  const hid_t group = H5Lexists(f->id, "/patches", H5P_DEFAULT) > 0 ? H5Gopen2(f->id, "/patches", H5P_DEFAULT) : -1;
+  H5G_info_t  info  = {.nlinks = 0};
+
+  PetscFunctionBegin;
+  if (group >= 0) (void)SamFileNote(f, H5Gget_info(group, &info));
+  PetscCheck(from->patch >= 0 || group < 0, f->comm, SAM_ERR_FILE,
+             "-%s %s: has several patches of a structure: name one of %s:1 to %s:%d", f->option, f->filename,
+             f->filename, f->filename, (int)info.nlinks);
+  PetscCheck(from->patch == -1 || (from->patch >= 1 && from->patch <= (group < 0 ? 1 : (PetscInt)info.nlinks)), f->comm,
+             SAM_ERR_FILE, "-%s %s: has no patch %" PetscInt_FMT ": it has %d: name one of %s:1 to %s:%d", f->option,
+             f->filename, from->patch, group < 0 ? 1 : (int)info.nlinks, f->filename, f->filename,
+             group < 0 ? 1 : (int)info.nlinks);
+  if (group >= 0) (void)snprintf(from->group, sizeof(from->group), "/patches/%" PetscInt_FMT, from->patch);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double values[])
 {
   const char *const option = c->body ? "body2_compliance" : "body1_compliance";
+  Choice            from;
 
   PetscFunctionBegin;
+  Choose(c->file, &from);
   PetscCheck(c->below[0], comm, SAM_ERR_FILE, "-%s %s: has no group /stress: make the file without --no-stress", option,
              c->file);
-  PetscCall(SamFileExamine(comm, option, c->file, NULL, LookBelow, c, values,
+  PetscCall(SamFileExamine(comm, option, from.file, NULL, LookBelow, c, values,
                            sizeof(*values) * (size_t)SamComplianceStresses(c)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -362,11 +406,12 @@ static PetscErrorCode ReadOther(SamFile f, SamCompliance c)
 
 static PetscErrorCode Look(SamFile f, const void *question, void *answer)
 {
-  SamCompliance c = (SamCompliance)answer;
-  double        version;
+  Reading *const reading = (Reading *)answer;
+  SamCompliance  c       = &reading->c;
+  double         version;
 
   PetscFunctionBegin;
-  c->body = *(const PetscInt *)question;
+  *reading = *(const Reading *)question;
   PetscCall(ReadAttribute(f, "petsam_compliance", &version));
   PetscCheck(version == 1, f->comm, SAM_ERR_FILE, "-%s %s: petsam_compliance is %.6g: expected 1: use a newer petsam",
              f->option, f->filename, version);
@@ -376,8 +421,9 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
              "-%s %s: young is %.6g, poisson %.6g: expected a modulus > 0 and a ratio from -1 to 0.5", f->option,
              f->filename, c->young, c->poisson);
   PetscCall(ReadOther(f, c));
-  PetscCall(ReadBasis(f, c));
-  PetscCall(ReadCases(f, c));
+  PetscCall(FindPatch(f, &reading->from));
+  PetscCall(ReadBasis(f, c, &reading->from));
+  PetscCall(ReadCases(f, c, &reading->from));
   if (H5Lexists(f->id, "/stress", H5P_DEFAULT) > 0) PetscCall(ReadAxes(f, c, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -386,19 +432,25 @@ PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamPair pair, con
                                  SamCompliance *compliance)
 {
   SamCompliance c;
+  Reading       question, reading;
   PetscInt      numbers;
   double        least, most;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
+  PetscCall(PetscMemzero(&question, sizeof(question)));
   *compliance = c;
-  PetscCall(SamFileExamine(comm, option, file, NULL, Look, &body, c, sizeof(*c)));
+  Choose(file, &question.from);
+  question.c.body = body;
+  PetscCall(SamFileExamine(comm, option, question.from.file, NULL, Look, &question, &reading, sizeof(reading)));
+  *c            = reading.c;
   c->checksum   = SamHashBytes(0, (const unsigned char *)c, sizeof(*c));
   c->references = 1;
   numbers       = 9 * c->modes * c->modes + 3 * c->cases * c->modes;
   PetscCall(PetscMalloc1(numbers, &c->matrix));
   c->field = c->matrix + 9 * c->modes * c->modes;
-  PetscCall(SamFileExamine(comm, option, file, NULL, LookInside, c, c->matrix, sizeof(*c->matrix) * (size_t)numbers));
+  PetscCall(SamFileExamine(comm, option, reading.from.file, NULL, LookInside, &reading, c->matrix,
+                           sizeof(*c->matrix) * (size_t)numbers));
   c->checksum = SamHashBytes(c->checksum, (const unsigned char *)c->matrix, sizeof(*c->matrix) * (size_t)numbers);
   PetscCall(PetscStrncpy(c->file, file, sizeof(c->file)));
   PetscCall(SamComplianceEnds(c, pair, &least, &most));

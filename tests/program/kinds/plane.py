@@ -1,28 +1,24 @@
-#!/usr/bin/env python3
 """Plane strain, random histories: each step must fulfil the conditions of contact by dense matrices in numpy.
-
-    python3 tests/fuzz/plane.py [--build build] [--count 300] [--seed 1] [--show]
 
 Lines of 16 to 300 cells: half-planes and periodic ones, rough and rounded, nu 0 to 0.5, friction 0.03 to 1,
 dissimilar bodies, layers, bulk stress, antiplane loads, films, wear, hardness, tilting moments; loads and displacements
-in all combinations, with reversals. Prints what repeats a failure. Ends with 1 after a failure.
+in all combinations, with reversals. The summary has the products by properties.
 """
 
 import collections
 import subprocess
-import sys
-import tempfile
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
-from layers import Body  # noqa: E402
-from random_problems import main  # noqa: E402
-from support import words  # noqa: E402
+import conftest
+from kinds import costs
+from layers import Body
+from support import words
 
 STEPS = 5
+OPTIONS = dict(trials=300)
+summary = costs.summary
 
 
 # ---------------------------------------------------------------- mechanics
@@ -310,28 +306,22 @@ class Problem:
         (folder / "h.csv").write_text(text + "\n")
 
 
-def trial(program, seed):
-    """Kinds, history and faults of a problem."""
-    problem = Problem(seed)
-    with tempfile.TemporaryDirectory() as folder:
-        folder = Path(folder)
-        problem.write(folder)
-        command = [str(program), *words(dict(problem.case, output="r.h5"))]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
-        line = " ".join(words(problem.case))
-        if done.returncode in (11, 12):  # gross slip by rough surfaces, or contact up to the edge of the grid
-            return [f"code {done.returncode}"], None, {}, line
-        if done.returncode:
-            return problem.kinds, None, {f"code {done.returncode}": done.stderr.strip()[-300:]}, line
-        with h5py.File(folder / "r.h5") as f:
-            h, wrong = faults(problem, f)
-        return problem.kinds, h, wrong, line
-
-
 def numbers(history):
     """Products, the most of a step."""
     return {name: float(history[f"{name}_applies"].max()) for name in ("normal", "tangential")}
 
 
-if __name__ == "__main__":
-    sys.exit(main(__doc__, trial, numbers))
+def trial(seed, folder, given=None):
+    """What is wrong with the steps of a problem."""
+    problem = Problem(seed)
+    problem.write(folder)
+    command = [str(conftest.PROGRAM), *words(dict(problem.case, output="r.h5"))]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
+    line = " ".join(words(problem.case))
+    if done.returncode in (11, 12):  # gross slip by rough surfaces, or contact up to the edge of the grid
+        return costs.outcome([f"code {done.returncode}"], {}, {}, line)
+    if done.returncode:
+        return costs.outcome(problem.kinds, {}, {f"code {done.returncode}": done.stderr.strip()[-300:]}, line)
+    with h5py.File(folder / "r.h5") as f:
+        h, wrong = faults(problem, f)
+    return costs.outcome(problem.kinds, numbers(h), wrong, line)

@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """Random histories of bodies that yield, each step checked from its results alone.
-
-    python3 tests/program/random_yields.py [--trials 200] [--seed 1] [--show]
 
 Cylinders and balls on grids that are periodic or not, contacts of one cell on; one or both bodies yield, with all kinds
 of hardening; loads, friction, bulk stress, wear and initial stress in steps long and short. The stress by all there is
@@ -11,17 +8,12 @@ than friction bears, or forces that are not the loads. Exit code 10 because no s
 so) is no fault. Of worn bodies, whose strain comes up, the changes of a step are not checked.
 """
 
-import argparse
-import sys
-import tempfile
-from pathlib import Path
-
 import h5py
 import numpy as np
 
 import conftest
-import random_users
 import support
+from kinds import Outcome, codes_of, contacts, users
 
 PARTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 TWICE = np.array([1, 1, 1, 2, 2, 2])
@@ -30,14 +22,15 @@ BEYOND = 3e-5  # stress beyond yield, relative to it
 ASIDE = 1e-3  # root of what the cosine of the angle between strain and stress lacks from 1
 VOLUME = 1e-8  # change of it, relative to the plastic strain
 FORCES = 1e-6  # relative to the normal load
+OPTIONS = dict(trials=200)
 
 
 def random_problem(rng, folder):
     """Options, and the options of each yielding body by its number."""
     elasticity = rng.choice(["plane_periodic", "plane", "halfspace"])
     plane = elasticity != "halfspace"
-    case = random_users.bodies(rng, alike=rng.random() < 0.6)
-    half, normal, peak = random_users.hertz(rng, case, plane, -2.6, -1.9)
+    case = contacts.bodies(rng, alike=rng.random() < 0.6)
+    half, normal, peak = contacts.hertz(rng, case, plane, -2.6, -1.9)
     across = 10 ** rng.uniform(0, 1.7 if plane else 1.0)
     cells = int(rng.integers(48, 161)) if plane else int(rng.integers(14, 25))
     side = 2 * half / min(across, 0.6 * cells)
@@ -47,7 +40,7 @@ def random_problem(rng, folder):
     limit = peak / rng.uniform(1.4, 4 if plane else 6)
     yields = {}
     for body in (2,) if rng.random() < 0.6 else (1, 2):
-        options = random_users.hardening(rng, case[f"body{body}_young"], limit)
+        options = contacts.hardening(rng, case[f"body{body}_young"], limit)
         yields[body] = {
             "yield": limit * rng.uniform(1, 1.5),
             **{k.removeprefix("body2_"): v for k, v in options.items()},
@@ -237,47 +230,30 @@ def faults_of_contact(folder, friction, area):
 
 
 def solve(case, folder):
-    return random_users.run(conftest.PROGRAM, dict(case, output_fields="usual,plastic", output_every=1), folder, 200)
+    return users.run(conftest.PROGRAM, dict(case, output_fields="usual,plastic", output_every=1), folder, 200)
 
 
-def examine(seed):
-    """What became of a problem: a line, and whether it is a fault."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        case, yields = random_problem(np.random.default_rng(seed), folder)
-        code, _, line = solve(case, folder)
-        text = f"seed {seed} ({case['elasticity']}, {case['grid_n']} cells, bodies {', '.join(map(str, yields))}): "
-        if code != 0:
-            return text + f"exit code {code}: {line}\n    {' '.join(support.words(case))}", "yield/sqrt(3)" not in line
-        size = np.array([case["grid_size"]]).ravel() / np.array([case["grid_n"]]).ravel()
-        found = faults_of_contact(folder, case["friction"], np.prod(size))
-        for body, material in yields.items():
-            more = faults_of_body(folder, case, body, material)
-            found.update({f"{key}{body}": value for key, value in more.items()})
-        with h5py.File(folder / "out.h5") as f:
-            text += f"{f['history/plastic_max'][-1]:.2g}, "
-            contact = f["history/contact_cells"][()]
-        text += f"{contact.min()} to {contact.max()} cells: "
-        worst = sorted(found.items(), key=lambda item: -item[1])[:4]
-        return text + ", ".join(f"{key} {value:.2g}" for key, value in worst), worst[0][1] > 1
+def trial(seed, folder, given):
+    """What is worst of all that is checked, each relative to what is allowed."""
+    case, yields = random_problem(np.random.default_rng(seed), folder)
+    code, _, line = solve(case, folder)
+    text = f"{case['elasticity']}, {case['grid_n']} cells, bodies {', '.join(map(str, yields))}: "
+    if code != 0:
+        fault = "yield/sqrt(3)" not in line
+        return Outcome(f"{text}exit code {code}: {line}\n    {' '.join(support.words(case))}", fault, dict(code=code))
+    size = np.array([case["grid_size"]]).ravel() / np.array([case["grid_n"]]).ravel()
+    found = faults_of_contact(folder, case["friction"], np.prod(size))
+    for body, material in yields.items():
+        more = faults_of_body(folder, case, body, material)
+        found.update({f"{key}{body}": value for key, value in more.items()})
+    with h5py.File(folder / "out.h5") as f:
+        text += f"{f['history/plastic_max'][-1]:.2g}, "
+        contact = f["history/contact_cells"][()]
+    text += f"{contact.min()} to {contact.max()} cells: "
+    worst = sorted(found.items(), key=lambda item: -item[1])[:4]
+    text += ", ".join(f"{key} {value:.2g}" for key, value in worst)
+    return Outcome(text, bool(worst[0][1] > 1), dict(code=code, found=found))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--trials", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--show", action="store_true", help="print all problems, not only those with a fault")
-    given = parser.parse_args()
-    faults = []
-    for seed in range(given.seed, given.seed + given.trials):
-        line, fault = examine(seed)
-        if fault or given.show:
-            print(line, flush=True)
-        if fault:
-            faults.append(seed)
-    print(f"{given.trials} histories: {len(faults)} with a fault {faults}")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def summary(found):
+    return [codes_of(found)]

@@ -1,24 +1,20 @@
-#!/usr/bin/env python3
 """Random lives of joints that wear, each with a check that shares nothing with petsam but the results file.
 
 Similar and dissimilar bodies, smooth and rough gaps, every kind of control, moments, both laws. Of the last step, by
 direct summation: the gap of the worn bodies is nowhere negative and closed under pressure, the shear lies in its cone,
 cells that stick do not slip and the others slip against the shear, loads are balanced. Of the life: what was removed is
-what friction did, V = k E/mu summed over the cycles. Ends with 0 when all of that holds.
-
-    python3 tests/program/random_lives.py [--lives 50] [--seed 1] [--ranks 1]
+what friction did, V = k E/mu summed over the cycles. What does not hold is a fault.
 """
-
-import sys
 
 import h5py
 import numpy as np
 
 import conftest
-from random_problems import ask, seeds
+from kinds import Outcome, codes_of
 from support import closed, hertz, kernels
 
 N = 24
+OPTIONS = dict(trials=50, ranks=1)
 
 
 def random_case(rng, folder):
@@ -147,26 +143,17 @@ def errors_of(case, folder):
 LIMITS = dict(contact=1e-6, pressure=0, cone=1e-9, stick=1e-4, direction=1e-5, balance=1e-6, wear=0.02)
 
 
-def main():
-    arguments = ask(__doc__, lives=50, ranks=1)
-    launcher = conftest.launcher_words()
-    worst, ends, wrong = dict.fromkeys(LIMITS, 0.0), {}, 0
-    for seed, folder in seeds(arguments.seed, arguments.lives):
-        case = random_case(np.random.default_rng(seed), folder)
-        done = conftest.execute(launcher, folder, [case], arguments.ranks, None)
-        ends[done.code] = ends.get(done.code, 0) + 1
-        bad = [] if done.code in (0, 11, 12) else [f"exit code {done.code}: {done.stderr.strip()}"]
-        if done.code == 0:
-            errors = errors_of(case, folder)
-            worst = {key: max(worst[key], errors[key]) for key in worst}
-            bad = [f"{key} {errors[key]:.1e}" for key in LIMITS if not errors[key] <= LIMITS[key]]
-        wrong += bool(bad)
-        if bad:
-            print(f"seed {seed}: {', '.join(bad)}; {case}")
-    print("worst:", ", ".join(f"{key} {value:.1e}" for key, value in worst.items()))
-    print(f"{arguments.lives} lives, exit codes {dict(sorted(ends.items()))}, {wrong} wrong")
-    return 1 if wrong else 0
+def trial(seed, folder, given):
+    """The exit code, and the errors of a life that is solved."""
+    case = random_case(np.random.default_rng(seed), folder)
+    done = conftest.execute(conftest.launcher_words(), folder, [case], given.ranks, None)
+    errors = errors_of(case, folder) if done.code == 0 else {}
+    bad = [f"{key} {error:.1e}" for key, error in errors.items() if not error <= LIMITS[key]]
+    if done.code not in (0, 11, 12):
+        bad = [f"exit code {done.code}: {done.stderr.strip()}"]
+    return Outcome(f"{', '.join(bad) or 'right'}; {case}", bool(bad), dict(code=done.code, errors=errors))
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def summary(found):
+    worst = {key: max([0.0, *(one["errors"].get(key, 0.0) for one in found.values())]) for key in LIMITS}
+    return ["worst: " + ", ".join(f"{key} {value:.1e}" for key, value in worst.items()), codes_of(found)]

@@ -1,25 +1,22 @@
-#!/usr/bin/env python3
 """Random load cycles: the error of their dissipated energy by the length of the steps, and petsam's estimate of it.
 
 A ball under N that varies by 0 to 80 %, T_x, and T_y or none, out of phase or in proportion to N; 24 rows a cycle, in
 one step each, against twelve. Prints the errors, and how many estimates are within a factor of 3 of errors above 0.1 %.
-
-    python3 tests/program/random_energies.py [--trials 100] [--seed 1] [--cells 32]
 """
 
-import sys
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 import conftest
-from random_problems import ask, seeds
+from kinds import Outcome
 from support import history
 
 ROWS = 24
 MANY = 12
 FRICTION = 0.5
+OPTIONS = dict(trials=100, cells=32)
 
 
 def random_case(seed, folder, cells=32):
@@ -60,28 +57,20 @@ def compare(seed, solve, folder, cells=32):
     return sums[0][0], abs(sums[1][0] - sums[0][0]), sums[1][1]
 
 
-def main():
-    arguments = ask(__doc__, trials=100, cells=32)
-    launcher = conftest.launcher_words()
-    ratios = []
-    for seed, folder in seeds(arguments.seed, arguments.trials):
+def trial(seed, folder, given):
+    """The error and its estimate, relative to the energy."""
 
-        def solve(case, steps, folder=folder, seed=seed):
-            done = conftest.execute(launcher, folder, [dict(case, steps=steps, output=f"{steps}.h5")], 1, None)
-            if done.code:
-                sys.exit(f"seed {seed}: {done.stderr}")
-            return folder / f"{steps}.h5"
+    def solve(case, steps):
+        conftest.execute(conftest.launcher_words(), folder, [dict(case, steps=steps, output=f"{steps}.h5")], 1, 0)
+        return folder / f"{steps}.h5"
 
-        energy, error, estimate = compare(seed, solve, folder, arguments.cells)
-        print(
-            f"seed {seed}: {energy:.3g} J, error {100 * error / energy:.3f} %, estimate {100 * estimate / energy:.3f} %"
-        )
-        if error > 1e-3 * energy:
-            ratios.append(estimate / error)
+    energy, error, estimate = compare(seed, solve, folder, given.cells)
+    text = f"{energy:.3g} J, error {100 * error / energy:.3f} %, estimate {100 * estimate / energy:.3f} %"
+    return Outcome(text, False, dict(error=error / energy, estimate=estimate / energy))
+
+
+def summary(found):
+    ratios = [one["estimate"] / one["error"] for one in found.values() if one["error"] > 1e-3]
     good = sum(1 / 3 < ratio < 3 for ratio in ratios)
-    print(f"{good} of {len(ratios)} estimates within a factor of 3, ratios {min(ratios):.2g} to {max(ratios):.2g}")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    span = f", ratios {min(ratios):.2g} to {max(ratios):.2g}" if ratios else ""
+    return [f"{good} of {len(ratios)} estimates within a factor of 3{span}"]

@@ -1,30 +1,27 @@
-#!/usr/bin/env python3
 """Layered bodies, random problems: each must agree with coefficients by an own solution of the layers and quadrature.
-
-    python3 tests/fuzz/layered.py [--build build] [--count 300] [--seed 1] [--show]
 
 One to five layers on one or both bodies, E ratios 0.01 to 100, nu 0 to 0.5, thicknesses 0.01 to 10 contact radii, rigid
 bases, friction to 1, normal loads, then tangential ones in one or two steps. Each wave's boundary conditions are one
 linear system here, not a recursion; its transforms to space are sums over the wave number, not over its logarithm.
-Prints what repeats a failure, and at the end the products of each kind. Ends with 1 after a failure.
+The summary has the products by properties.
 """
 
 import collections
 import subprocess
-import sys
-import tempfile
-from pathlib import Path
 
 import h5py
 import numpy as np
 from scipy.interpolate import CubicSpline, make_interp_spline
 from scipy.special import j0, j1, jv
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
-from layers import Body  # noqa: E402
-from random_problems import main  # noqa: E402
-from rolling import convolve, corners, kernels  # noqa: E402
-from support import words  # noqa: E402
+import conftest
+from kinds import costs
+from kinds.rolling import convolve, corners, kernels
+from layers import Body
+from support import words
+
+OPTIONS = dict(trials=300)
+summary = costs.summary
 
 # ---------------------------------------------------------------- mechanics
 
@@ -195,19 +192,19 @@ class Problem:
         self.case["load_n"] = 4 / 3 * young * self.a**3 / (1e3 * self.a) * log(0.2, 2)
 
 
-def run(program, folder, case, name):
-    line = [str(program), *words(dict(case, output=name))]
+def run(folder, case, name):
+    line = [str(conftest.PROGRAM), *words(dict(case, output=name))]
     (folder / name).unlink(missing_ok=True)
     return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=600)
 
 
-def fit(program, folder, problem):
+def fit(folder, problem):
     """Chooses the grid's width so that the contact is 15 to 45 cells across; the last result of doing so."""
     width = 6 * problem.a
     for _ in range(8):
         sides = (width * float(problem.random.uniform(0.95, 1.05)), width)
         problem.case.update(grid_n=problem.n, grid_size=sides)
-        done = run(program, folder, dict(problem.case, friction=0.0), "still.h5")
+        done = run(folder, dict(problem.case, friction=0.0), "still.h5")
         if done.returncode:
             width *= 2
             continue
@@ -219,38 +216,32 @@ def fit(program, folder, problem):
     return done
 
 
-def trial(program, seed):
-    """Kinds, history and faults of a problem."""
-    with tempfile.TemporaryDirectory() as folder:
-        folder = Path(folder)
-        problem = Problem(seed)
-        done, random = fit(program, folder, problem), problem.random
-        rows = [[problem.case["load_n"], 0, 0, 0]]
-        if problem.mu > 0:
-            for _ in range(int(random.integers(1, 3))):
-                limit = problem.mu * problem.case["load_n"] * random.uniform(0.05, 0.9)
-                angle = random.uniform(0, 2 * np.pi)
-                rows.append([rows[0][0], limit * np.cos(angle), limit * np.sin(angle), 0])
-        case = {key: value for key, value in problem.case.items() if key != "load_n"}
-        (folder / "h.csv").write_text(
-            "time,load_n,load_tx,load_ty,load_mz\n"
-            + "".join(",".join(map(repr, [k, *map(float, row)])) + "\n" for k, row in enumerate(rows))
-        )
-        case.update(history="h.csv", output_fields="all")
-        line = " ".join(words(case))
-        if done.returncode == 0:
-            done = run(program, folder, case, "slid.h5")
-        if done.returncode:
-            return problem.kinds, None, {f"code {done.returncode}": done.stderr.strip()[-300:]}, line
-        with h5py.File(folder / "slid.h5") as f:
-            h, wrong = faults(problem.bodies, problem.mu, f)
-        return problem.kinds, h, wrong, line
-
-
 def numbers(history):
     """Products, the most of a step."""
     return {name: float(history[f"{name}_applies"].max()) for name in ("normal", "tangential")}
 
 
-if __name__ == "__main__":
-    sys.exit(main(__doc__, trial, numbers))
+def trial(seed, folder, given=None):
+    """What is wrong with the steps of a problem."""
+    problem = Problem(seed)
+    done, random = fit(folder, problem), problem.random
+    rows = [[problem.case["load_n"], 0, 0, 0]]
+    if problem.mu > 0:
+        for _ in range(int(random.integers(1, 3))):
+            limit = problem.mu * problem.case["load_n"] * random.uniform(0.05, 0.9)
+            angle = random.uniform(0, 2 * np.pi)
+            rows.append([rows[0][0], limit * np.cos(angle), limit * np.sin(angle), 0])
+    case = {key: value for key, value in problem.case.items() if key != "load_n"}
+    (folder / "h.csv").write_text(
+        "time,load_n,load_tx,load_ty,load_mz\n"
+        + "".join(",".join(map(repr, [k, *map(float, row)])) + "\n" for k, row in enumerate(rows))
+    )
+    case.update(history="h.csv", output_fields="all")
+    line = " ".join(words(case))
+    if done.returncode == 0:
+        done = run(folder, case, "slid.h5")
+    if done.returncode:
+        return costs.outcome(problem.kinds, {}, {f"code {done.returncode}": done.stderr.strip()[-300:]}, line)
+    with h5py.File(folder / "slid.h5") as f:
+        h, wrong = faults(problem.bodies, problem.mu, f)
+    return costs.outcome(problem.kinds, numbers(h), wrong, line)

@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """Random decks of one body: in many forms that mean the same, with cards that change it, and damaged.
-
-    python3 tests/program/random_decks.py [--trials 200] [--seed 1] [--show]
 
 Kinds: `sound`, the body in another form (encoding, parts and instances, units, includes, continued lines, generated
 sets, cards without effect): the compliance must be the same; `changed`, a card, a parameter or a line that changes the
@@ -10,14 +7,12 @@ repeated or spoiled: rejected with the file, or computed. An exception that is n
 than 4 GB, and another compliance without a word are faults.
 """
 
-import argparse
 import collections
 import os
 import random
 import re
 import resource
 import signal
-import sys
 import tempfile
 from pathlib import Path
 
@@ -25,10 +20,12 @@ import numpy as np
 
 import conftest  # noqa: F401
 import petsam
+from kinds import Outcome
 from petsam.commands import compliance as command
 from petsam.compliance import keywords, mesh, model, stiffness
 
 SECONDS, MEMORY = 60, 4 << 30
+OPTIONS = dict(trials=200)
 SAME = 1e-5  # relative difference of compliances that are the same; CalculiX writes fewer digits
 PLACE = re.compile(r"[^\s:]+\.(inp|txt):\d+: ")
 FILE = re.compile(r"[^\s:]+\.(inp|txt)(:\d+)?: ")
@@ -85,7 +82,7 @@ class Deck:
             self._instances(mesh_lines, material, length)
         self._without_effect()
         self.words = ["--units", self.units, "--patch", "20mm", "--degree", "2", "--no-stress", "--no-picture"]
-        self.words += ["--stiffness", "calculix" if chance.random() < 0.1 else "own"]
+        self.words += ["--stiffness", "calculix"] if chance.random() < 0.1 else []
 
     def _instances(self, mesh_lines, material, length):
         """The same as one or two instances, moved and turned about z."""
@@ -294,7 +291,7 @@ def computed(words):
     signal.alarm(SECONDS)
     try:
         options = command.arguments(words)
-        found = model.computed(options.mesh, options, "", lambda _: None).bodies[0]
+        found = model.computed(options.mesh, options.settings).bodies[0]
         return found.compliance, [text for text in found.remarks if text.startswith("warning")]
     except (petsam.Error, OSError) as error:
         return None, str(error)
@@ -309,7 +306,7 @@ def reference(kind, found={}):  # noqa: B006
             lines, material = pieces(kind, 1.0, 1.0, "LOW", random.Random(1))
             Path(folder, "r.inp").write_text("\n".join([*lines, *material]) + "\n")
             words = ["--mesh", f"{folder}/r.inp", "--contact", "TOP", "--fixed", "LOW", "--frame", "0,0,0:1,0,0"]
-            words += ["--patch", "20mm", "--degree", "2", "--no-stress", "--no-picture", "--stiffness", "own"]
+            words += ["--patch", "20mm", "--degree", "2", "--no-stress", "--no-picture"]
             found[kind] = computed(words)[0]
             assert found[kind] is not None, computed(words)[1]
     return found[kind]
@@ -332,45 +329,29 @@ def judged(kind, compliance, said, exact):
     return ("another compliance", kind is not damaged)
 
 
-def examine(seed):
-    """(kind, outcome, fault, text) of a seed."""
+def trial(seed, folder, given=None):
+    """What became of a deck: rejected, computed to the same compliance, or another one."""
     chance = random.Random(seed)
     kind = KINDS[seed % len(KINDS)]
-    with tempfile.TemporaryDirectory(prefix="petsam-decks-") as folder:
-        os.mkfifo(Path(folder, "fifo"))
-        deck = Deck(chance, folder)
-        what = kind(deck)
-        words = deck.write()
-        try:
-            exact = reference(deck.kind)
-            compliance, said = computed(words)
-            outcome, fault = judged(kind, compliance, said, exact)
-        except Exception as error:  # what no user may see
-            outcome, fault, said = "exception", True, f"{type(error).__name__}: {error}"
-        text = f"seed {seed}: {kind.__name__} ({what}, {deck.encoding}, {deck.kind}): {outcome}: {said}"
-    return kind.__name__, outcome, fault, text.replace(folder, "")
+    os.mkfifo(folder / "fifo")
+    deck = Deck(chance, folder)
+    what = kind(deck)
+    words = deck.write()
+    try:
+        exact = reference(deck.kind)
+        compliance, said = computed(words)
+        outcome, fault = judged(kind, compliance, said, exact)
+    except Exception as error:  # what no user may see
+        outcome, fault, said = "exception", True, f"{type(error).__name__}: {error}"
+    text = f"{kind.__name__}, {what}, {deck.encoding}, {deck.kind}: {outcome}: {said}".replace(str(folder), "")
+    return Outcome(text, fault, dict(kind_of_deck=kind.__name__, outcome=outcome))
 
 
-def main():
-    """Prints the counts of outcomes, and the faults."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--trials", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--show", action="store_true", help="print all, not the faults alone")
-    given = parser.parse_args()
+def begin():
+    """Limits the memory."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    counts, faults = collections.Counter(), 0
-    for seed in range(given.seed, given.seed + given.trials):
-        kind, outcome, fault, text = examine(seed)
-        counts[kind, outcome] += 1
-        faults += fault
-        if fault or given.show:
-            print(("FAULT " if fault else "") + text, flush=True)
-    for (kind, outcome), count in sorted(counts.items()):
-        print(f"{count:5d} {kind}: {outcome}")
-    print(f"{faults} faults in {given.trials} decks")
-    return min(faults, 1)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def summary(found):
+    counts = collections.Counter((one["kind_of_deck"], one["outcome"]) for one in found.values())
+    return [f"{count:5d} {kind}: {outcome}" for (kind, outcome), count in sorted(counts.items())]

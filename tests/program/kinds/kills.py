@@ -1,34 +1,28 @@
-#!/usr/bin/env python3
 """Kills runs with checkpoints at random moments, by the signal that nothing can catch, and goes on from what is left.
 
 After every kill there is a checkpoint that can be read, if one was told of, and the results hold the steps that were
 told, with the values of a run without kills. What the last run ends with is what a run without kills ends with, to the
-last bit. Ends with 0 when all of that holds. Kinds: friction, and histories and wear cycles of bodies that yield.
-
-    python3 tests/program/kill_at_random.py [--build build] [--kills 50] [--ranks 1] [--seed 1] [--kind friction]
+last bit. Cases: friction, and histories and wear cycles of bodies that yield. A trial is a campaign of --kills.
 """
 
-import argparse
 import math
 import random
 import re
 import subprocess
-import sys
-import tempfile
 import time
-from pathlib import Path
 
 import numpy as np
 
 import capabilities
 import conftest
 import petsam
+from kinds import Outcome
 from support import SPHERE, read_run
 
 STEPS = 40
 CASE = dict(SPHERE, load_n=None, grid_n=32, history="history.csv", output="out.h5")
 KEPT = dict(checkpoint="state.h5", checkpoint_every=1)
-# {kind: (plane strain, capability, options)}, beside "friction"; the bodies yield from the first step or cycle on
+# {case: (plane strain, capability, options)}, beside "friction"; the bodies yield from the first step or cycle on
 YIELDING = {
     "yield": (False, "yield", dict(steps=10)),
     "plane yield": (True, "yield", dict(steps=10, body2_yield=1e8)),
@@ -38,7 +32,7 @@ YIELDING = {
     "life": (False, "cycles of wear and yield", dict(wear_cycles=60)),
     "plane life": (True, "cycles of wear and yield", dict(wear_cycles=100, body2_yield=1e8)),
 }
-KINDS = ["friction", *YIELDING]
+OPTIONS = dict(trials=1, kills=50, ranks=1, case=("friction", *YIELDING))
 
 
 def write_history(folder, steps=STEPS):
@@ -99,7 +93,7 @@ def assert_told(told, steps, folder):
         assert not told or (int(told[-1]) in run.wear["cycle"] if run.wear else steps >= int(told[-1])), (steps, told)
 
 
-def torture(launcher, folder, kills, ranks, seed, kind="friction"):
+def torture(launcher, folder, kills, ranks, seed, kind="friction", tell=print):
     """So many kills over as many runs as it takes; returns how many went on from a checkpoint.
 
     Where none did, as each kill was earlier than the first checkpoint, up to ten times as many kills.
@@ -132,7 +126,7 @@ def torture(launcher, folder, kills, ranks, seed, kind="friction"):
             assert not wrong, wrong
             if kills <= 0:
                 return restarts
-            print("a run got to its end; the next begins anew")
+            tell("a run got to its end; the next begins anew")
             for name in [*folder.glob("state.h5*"), *folder.glob("out*.h5")]:
                 name.unlink()
             continue
@@ -143,26 +137,20 @@ def torture(launcher, folder, kills, ranks, seed, kind="friction"):
             assert_told(told, steps, folder)
             assert told or goes_on
             kept = "yes" if (folder / "state.h5").exists() else "no"
-            print(f"killed after {told[-1] if told else 'no step'}, {steps} complete, checkpoint {kept}")
+            tell(f"killed after {told[-1] if told else 'no step'}, {steps} complete, checkpoint {kept}")
         else:
-            print("killed before its first step")
+            tell("killed before its first step")
         assert not goes_on or (folder / "state.h5").exists()
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--build", default="build")
-    parser.add_argument("--kills", type=int, default=50)
-    parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kind", choices=KINDS, default="friction")
-    args = parser.parse_args()
-    conftest.PROGRAM = Path(args.build).resolve() / "bin" / "petsam"
-    with tempfile.TemporaryDirectory(prefix="petsam") as folder:
-        words = conftest.launcher_words()
-        restarts = torture(words, Path(folder), args.kills, args.ranks, args.seed, args.kind)
-    print(f"{args.kills} kills, {restarts} runs went on from a checkpoint: fields and scalars as without them")
+def trial(seed, folder, given):
+    """A campaign of kills."""
+    tell = print if given.show else lambda _: None
+    restarts = torture(conftest.launcher_words(), folder, given.kills, given.ranks, seed, given.case, tell)
+    text = f"{given.case}: {given.kills} kills, {restarts} runs went on from a checkpoint"
+    return Outcome(text, False, dict(restarts=restarts))
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def summary(found):
+    restarts = sum(one["restarts"] for one in found.values())
+    return [f"{restarts} runs went on from a checkpoint: fields and scalars as without kills"]

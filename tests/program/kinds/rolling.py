@@ -1,26 +1,21 @@
-#!/usr/bin/env python3
 """Steady rolling, random problems: each must be solved within 80 products and agree with formulas in numpy.
 
-    python3 tests/fuzz/rolling.py [--build build] [--count 500] [--seed 1] [--show]
-
 Ellipses a/b 0.1 to 10, nu 0 to 0.5, roughness, films, friction fields, dissimilar bodies; creepages and loads to 0.99
-of the limit in all combinations; grids of 32 to 128 cells. Prints what repeats a failure, and at the end the products
-of each kind. Ends with 1 after a failure.
+of the limit in all combinations; grids of 32 to 128 cells. The summary has the products by properties.
 """
 
 import subprocess
-import sys
-import tempfile
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
-from random_problems import main  # noqa: E402
-from support import words  # noqa: E402
-from test_rolling import integrals  # noqa: E402
+import conftest
+from kinds import costs
+from support import words
+from test_rolling import integrals
 
+OPTIONS = dict(trials=500)
+summary = costs.summary
 MOST = 80  # products of each coupling iteration
 SIZES = (33, 35, 36, 40, 42, 45, 48, 50, 54, 55, 60, 63, 70, 72, 77, 90, 96, 105, 120, 127)
 
@@ -210,36 +205,9 @@ class Problem:
             self.kinds.append("loads")
 
 
-def run(program, folder, case, name):
-    line = [str(program), *words(dict(case, output=name, overwrite=True))]
+def run(folder, case, name):
+    line = [str(conftest.PROGRAM), *words(dict(case, output=name, overwrite=True))]
     return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=300)
-
-
-def trial(program, seed):
-    """Kinds, history and faults of a problem."""
-    with tempfile.TemporaryDirectory() as folder:
-        folder = Path(folder)
-        for _ in range(20):
-            problem = Problem(seed)
-            for name, field in problem.files.items():
-                with h5py.File(folder / f"{name}.h5", "w") as f:
-                    f[name] = field
-            still = dict(problem.case, rolling=None, friction=None, friction_file=None)
-            done = run(program, folder, dict(still, film_thickness=None, film_shear=None), "still.h5")
-            if done.returncode == 0:
-                break
-            seed += 10**6  # rough, and larger than the grid
-        with h5py.File(folder / "still.h5") as f:
-            p, x, y = f["pressure"][-1], f["x"][:], f["y"][:]
-        problem.drive(p, x, y)
-        done = run(program, folder, dict(problem.case, output_fields="all"), "rolled.h5")
-        line = " ".join(words({k: v for k, v in problem.case.items() if v is not None}))
-        if done.returncode:
-            return problem.kinds, None, {f"code {done.returncode}": done.stderr.strip()[-300:]}, line
-        with h5py.File(folder / "rolled.h5") as f:
-            h, wrong = faults(problem.case, problem.bodies, problem.film, problem.mu, f)
-        h["share"] = (p > 0).sum() * (x[1] - x[0]) * (y[1] - y[0]) / (np.pi * problem.a * problem.b)
-        return problem.kinds, h, wrong, line
 
 
 def numbers(history):
@@ -248,5 +216,26 @@ def numbers(history):
     return {"products": float(history["tangential_applies"] / passes), "area": float(history["share"])}
 
 
-if __name__ == "__main__":
-    sys.exit(main(__doc__, trial, numbers, count=500))
+def trial(seed, folder, given=None):
+    """What is wrong with the steps of a problem."""
+    for _ in range(20):
+        problem = Problem(seed)
+        for name, field in problem.files.items():
+            with h5py.File(folder / f"{name}.h5", "w") as f:
+                f[name] = field
+        still = dict(problem.case, rolling=None, friction=None, friction_file=None)
+        done = run(folder, dict(still, film_thickness=None, film_shear=None), "still.h5")
+        if done.returncode == 0:
+            break
+        seed += 10**6  # rough, and larger than the grid
+    with h5py.File(folder / "still.h5") as f:
+        p, x, y = f["pressure"][-1], f["x"][:], f["y"][:]
+    problem.drive(p, x, y)
+    done = run(folder, dict(problem.case, output_fields="all"), "rolled.h5")
+    line = " ".join(words({k: v for k, v in problem.case.items() if v is not None}))
+    if done.returncode:
+        return costs.outcome(problem.kinds, {}, {f"code {done.returncode}": done.stderr.strip()[-300:]}, line)
+    with h5py.File(folder / "rolled.h5") as f:
+        h, wrong = faults(problem.case, problem.bodies, problem.film, problem.mu, f)
+    h["share"] = (p > 0).sum() * (x[1] - x[0]) * (y[1] - y[0]) / (np.pi * problem.a * problem.b)
+    return costs.outcome(problem.kinds, numbers(h), wrong, line)

@@ -1,23 +1,21 @@
-#!/usr/bin/env python3
 """Random problems of all capabilities on several ranks: the same bits as on one, and an end.
 
-    python3 tests/program/random_ranks.py [--trials 60] [--seed 1]
-
 A problem joins two cases of capabilities.py on a random grid under random loads. It runs on one rank and on 2, 3 or 5;
-half of the problems have so few rows of cells that some ranks are without. What differs or does not end is printed; a
+half of the problems have so few rows of cells that some ranks are without. What differs or does not end is a fault; a
 pair that petsam rejects is drawn again.
 """
 
 import subprocess
-import sys
 
 import numpy as np
 
 import capabilities
 import conftest
-from random_problems import ask, seeds
+from kinds import Outcome, codes_of
 from support import flatten
 from test_every_capability import read
+
+OPTIONS = dict(trials=60)
 
 
 def draw(rng, folder):
@@ -62,33 +60,20 @@ def differences(one, many):
     ]
 
 
-def judge(launcher, rng, folder):
-    """Name of a problem, and its fault; None: it is rejected."""
-    name, case, ranks = draw(rng, folder)
+def trial(seed, folder, given):
+    """What differs; None: the problem is rejected."""
+    launcher = conftest.launcher_words()
+    name, case, ranks = draw(np.random.default_rng(seed), folder)
     code = run(launcher, folder, case, 1, "one.h5")
     if code in (2, 3):
         return None
     other = run(launcher, folder, case, ranks, "many.h5")
     if other != code:
-        return name, f"exit {other}, on one rank {code}: {' '.join(flatten([case]))}"
-    return name, ", ".join(differences(folder / "one.h5", folder / "many.h5"))
+        fault = f"exit {other}, on one rank {code}: {' '.join(flatten([case]))}"
+    else:
+        fault = ", ".join(differences(folder / "one.h5", folder / "many.h5"))
+    return Outcome(f"{name}: {fault or 'the same'}", bool(fault), dict(code=code))
 
 
-def main():
-    args = ask(__doc__, trials=60)
-    launcher, judged, faults = conftest.launcher_words(), 0, 0
-    for seed, folder in seeds(args.seed, 20 * args.trials):
-        if judged == args.trials:
-            break
-        found = judge(launcher, np.random.default_rng(seed), folder)
-        if found is None:
-            continue
-        judged += 1
-        faults += bool(found[1])
-        print(f"{seed}: {found[0]}: {found[1] or 'the same'}", flush=True)
-    print(f"{judged} problems, {faults} differ")
-    return 1 if faults else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def summary(found):
+    return [codes_of(found)]

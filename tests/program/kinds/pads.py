@@ -1,25 +1,22 @@
-#!/usr/bin/env python3
 """Random pads in plane strain: numbers that are wrong without a warning, and right with one.
 
 Flat pads with rounded edges of all radii under N and T, with load reversals, moments, bulk stress, on 48 to 256 cells,
 against grids and steps four times finer. Wrong: one of the energy of all steps, the maximum shear, slip and pressure of
 the last step by more than 5 %; right: all within 2 %.
-
-    python3 tests/program/random_pads.py [--trials 100] [--seed 1] [--finer 4] [--show]
 """
 
-import sys
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 import conftest
-from random_problems import ask, seeds
+from kinds import Outcome
 from support import history
 
 NUMBERS = ("shear_max", "slip_max", "pressure_max")
 WRONG, RIGHT = 0.05, 0.02
+OPTIONS = dict(trials=100, finer=4)
 
 
 def random_case(seed, folder, finer=1):
@@ -80,38 +77,27 @@ def compare(found, true, least):
     return errors[worst], worst
 
 
-def main():
-    arguments = ask(__doc__, trials=100, finer=4, show=False)
-    launcher = conftest.launcher_words()
-    silent, loud, solved, warned_wrong = [], [], 0, 0
-    for seed, folder in seeds(arguments.seed, arguments.trials):
-        found = []
-        for finer in (1, arguments.finer):
-            case = dict(random_case(seed, folder, finer), output=f"{finer}.h5")
-            done = conftest.execute(launcher, folder, [case], 1, None)
-            if done.code:
-                break
-            found.append((read(folder / f"{finer}.h5"), done))
-        if len(found) < 2:
-            if arguments.show:
-                print(f"seed {seed}: not solved: {done.stderr.splitlines()[-1:]}")
-            continue
-        solved += 1
-        warnings = [line for line in found[0][1].stderr.splitlines() if "warning" in line]
-        error, number = compare(found[0][0], found[1][0], dict(energy=0, slip_max=0))
-        if error > WRONG and not warnings:
-            silent.append(seed)
-        warned_wrong += bool(error > WRONG and warnings)
-        if error < RIGHT and warnings:
-            loud.append(seed)
-        if arguments.show or (error > WRONG and not warnings) or (error < RIGHT and warnings):
-            print(f"seed {seed}: {number} wrong by {100 * error:.3g} %", *warnings, sep="\n    ", flush=True)
-    print(
-        f"{solved} solved: {len(silent)} wrong without a warning {silent}, {warned_wrong} wrong with one, "
+def trial(seed, folder, given):
+    """The largest error, and the warnings."""
+    found = []
+    for finer in (1, given.finer):
+        case = dict(random_case(seed, folder, finer), output=f"{finer}.h5")
+        done = conftest.execute(conftest.launcher_words(), folder, [case], 1, None)
+        if done.code:
+            return Outcome(f"not solved: {done.stderr.splitlines()[-1:]}")
+        found.append((read(folder / f"{finer}.h5"), done))
+    warnings = [line for line in found[0][1].stderr.splitlines() if "warning" in line]
+    error, number = compare(found[0][0], found[1][0], dict(energy=0, slip_max=0))
+    told = error < RIGHT if warnings else error > WRONG
+    text = "\n    ".join([f"{number} wrong by {100 * error:.3g} %", *warnings])
+    return Outcome(text, None, dict(error=error, warnings=warnings), telling=told)
+
+
+def summary(found):
+    silent = [seed for seed, one in found.items() if one["error"] > WRONG and not one["warnings"]]
+    warned = [seed for seed, one in found.items() if one["error"] > WRONG and one["warnings"]]
+    loud = [seed for seed, one in found.items() if one["error"] < RIGHT and one["warnings"]]
+    return [
+        f"{len(found)} solved: {len(silent)} wrong without a warning {silent}, {len(warned)} wrong with one, "
         f"{len(loud)} right with one {loud}"
-    )
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    ]

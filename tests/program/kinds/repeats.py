@@ -1,20 +1,17 @@
-#!/usr/bin/env python3
 """Random loads that repeat, on pairs of capabilities: with kept steps of the cycle before and without them the same.
 
 A cycle of random rows, three times, with a larger normal load between two of them; -cycle_memory 0 keeps no steps.
-Compares exit codes, the numbers of all steps and the last fields, and prints what differs. A pair that petsam refuses
+Compares exit codes, the numbers of all steps and the last fields; what differs is a fault. A pair that petsam refuses
 is drawn again.
-
-    python3 tests/program/random_repeats.py [--trials 30] [--seed 1]
 """
 
-import sys
+import collections
 
 import numpy as np
 
 import compliances
 import conftest
-from random_problems import ask, seeds
+from kinds import Outcome, codes_of
 from support import history, read_run
 
 STEEL = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
@@ -29,6 +26,7 @@ COLUMNS = dict(default=1e-4, dissipated_energy=2e-3, friction_work=2e-3)
 FIELDS = dict(pressure=1e-5, shear_x=2e-3, shear_y=1e-2, plastic_depth=1e-5, wear_depth1=1e-4, wear_depth2=1e-4)
 NAMES = ("load_n", "load_tx", "disp_z", "disp_x", "contact_area", "pressure_max", "dissipated_energy", "wear_volume1",
          "wear_volume2", "plastic_depth_max", "plastic_area", "hardness_work", "plastic_max")  # fmt: skip
+OPTIONS = dict(trials=30)
 
 
 def hardness(rng, case, columns, folder):
@@ -173,7 +171,7 @@ def compare(case, folder, launcher=()):
     return codes, ", ".join(f"{name} {error:.1e}" for name, error in differences(*runs).items())
 
 
-def trial(seed, folder, launcher=()):
+def first_pair(seed, folder, launcher=()):
     """Of the first pair of a seed that is not refused: names, exit codes, what is wrong; and the pairs refused."""
     refused = []
     for draw in range(DRAWS):
@@ -187,21 +185,16 @@ def trial(seed, folder, launcher=()):
     return pair, codes, f"{DRAWS} pairs refused", refused
 
 
-def main():
-    given = ask(__doc__, trials=30)
-    ends, failed, refused, drawn = {}, 0, 0, {}
-    for seed, folder in seeds(given.seed, given.trials):
-        pair, codes, wrong, without = trial(seed, folder)
-        ends[codes[0]] = ends.get(codes[0], 0) + 1
-        failed += bool(wrong)
-        refused += len(without)
-        for one in pair:
-            drawn[one] = drawn.get(one, 0) + 1
-        print(f"seed {seed} ({', '.join(pair)}): exit code {codes[0]} {wrong}", flush=True)
-    print(f"{given.trials} pairs, exit codes {dict(sorted(ends.items()))}, {failed} wrong; {refused} refused")
-    print(", ".join(f"{name} {count}" for name, count in sorted(drawn.items())))
-    return failed > 0
+def trial(seed, folder, given):
+    """What differs of the first pair that is not refused."""
+    pair, codes, wrong, refused = first_pair(seed, folder)
+    numbers = dict(pair=pair, code=codes[0], refused=len(refused))
+    return Outcome(f"{', '.join(pair)}: exit code {codes[0]} {wrong}", bool(wrong), numbers)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def summary(found):
+    drawn = collections.Counter(name for one in found.values() for name in one["pair"])
+    return [
+        f"{codes_of(found)}, {sum(one['refused'] for one in found.values())} refused",
+        ", ".join(f"{name} {count}" for name, count in sorted(drawn.items())),
+    ]

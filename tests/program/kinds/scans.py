@@ -1,25 +1,23 @@
-#!/usr/bin/env python3
 """Random scans as petsam-surface meets them: arrays, tables, headers, units, orders, holes, lists of points, positions.
-
-    random_scans.py [--count 100] [--seed 1]
 
 Each is a known surface in a file that states some of what it is, with options that give the rest, or contradict it.
 What ends with 0 must be that surface, at its place, or have a warning; what is rejected must name the file and a cure,
-in one line. Prints what fails, and a line of numbers; ends with 1 if something failed.
+in one line. The surfaces of another --seed are all others.
 """
 
-import argparse
+import collections
 import os
 import re
 import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
+from kinds import Outcome
+from support import ROOT
+
+OPTIONS = dict(trials=100)
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 CURE = re.compile(
     r"--|give|use|remove|write|correct|leave|keep|interpolate|reads|write|export|multiply|are read|unpack"
@@ -221,31 +219,23 @@ def fault(scan, done, name):
     return "" if any("warning" in line for line in lines) else "wrong without a word"
 
 
-def main():
-    """Runs them; returns the exit code."""
-    reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    reader.add_argument("--count", type=int, default=100)
-    reader.add_argument("--seed", type=int, default=1)
-    args = reader.parse_args()
-    faults, counts = 0, {"right": 0, "rejected": 0, "warned": 0}
-    for k in range(args.count):
-        with tempfile.TemporaryDirectory() as folder:
-            scan = Scan(np.random.default_rng([args.seed, k]), Path(folder))
-            make = KINDS[k % len(KINDS)]
-            name = make(scan)
-            words = [name, *scan.options, *([] if make is hdf5 else ["--body", "2"]), "--no-picture", "-o", "out.h5"]
-            done = subprocess.run(
-                [sys.executable, str(ROOT / "scripts/petsam-surface"), *words],
-                cwd=folder, capture_output=True, text=True, timeout=100, env={**os.environ, "OMP_NUM_THREADS": "1"},
-            )  # fmt: skip
-            found = fault(scan, done, name)
-            counts["rejected" if done.returncode else "warned" if "warning" in done.stderr else "right"] += 1
-            if found:
-                faults += 1
-                print(f"{k} {make.__name__}: {found}: {' '.join(words)}\n    {done.stderr.strip()}")
-    print(f"{args.count} scans: " + ", ".join(f"{n} {what}" for what, n in counts.items()) + f", {faults} faults")
-    return int(faults > 0)
+def trial(seed, folder, given):
+    """How the command ends; the problem is that of the first seed and the number of the trial."""
+    number = seed - given.seed
+    scan = Scan(np.random.default_rng([given.seed, number]), folder)
+    make = KINDS[number % len(KINDS)]
+    name = make(scan)
+    words = [name, *scan.options, *([] if make is hdf5 else ["--body", "2"]), "--no-picture", "-o", "out.h5"]
+    done = subprocess.run(
+        [sys.executable, str(ROOT / "scripts/petsam-surface"), *words],
+        cwd=folder, capture_output=True, text=True, timeout=100, env={**os.environ, "OMP_NUM_THREADS": "1"},
+    )  # fmt: skip
+    found = fault(scan, done, name)
+    end = "rejected" if done.returncode else "warned" if "warning" in done.stderr else "right"
+    text = f"{make.__name__}: {found or end}: {' '.join(words)}\n    {done.stderr.strip()}".rstrip()
+    return Outcome(text, bool(found), dict(end=end))
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def summary(found):
+    ends = collections.Counter(one["end"] for one in found.values())
+    return [", ".join(f"{ends[end]} {end}" for end in ("right", "rejected", "warned"))]

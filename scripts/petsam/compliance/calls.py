@@ -1,0 +1,77 @@
+"""The compliance of a body or of a pair, called from a notebook: of_deck(), of_mesh()."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+
+from ..core.errors import Useless
+from . import model
+from .result import Compliance
+from .settings import settings
+
+
+def of_deck(
+    deck: str | os.PathLike, patch: float | tuple, contact: str, supports: object = (),
+    progress: Callable = model.quiet, **more: object,
+) -> Compliance:  # fmt: skip
+    """The compliance of a body, or of a pair joined by bolts, from a deck of CalculiX or Abaqus (.inp).
+
+    Parameters
+    ----------
+    deck : file with mesh, sets, materials and steps
+    patch : full widths (m) of the patch in x and y, or one of a square
+    contact : element surface on which the patch lies: its name, or a box of two corners, ((x, y, z), (x, y, z)), in the
+        mesh's coordinates and units, None leaving a coordinate free
+    supports : node set that is held in x, y and z, or several: names or boxes
+    progress : function that is told in a text what is being computed
+    more : the other fields of settings.Settings: units="mm", frame=((0, 0, 0), (1, 0, 0)), centers=[(0, 0)], degree=6,
+        symmetry=set, cases={name: step}, coarse=deck, method="auto", stiffness="own", depth=m, stress=True; of a pair
+        pair=surface, bolts={name: (surface 1, surface 2, diameter in m, modulus in Pa)}, modes=12,
+        sensors={name: node}, free=True
+
+    Returns
+    -------
+    Compliance : bodies, moduli, modes, checks; .write(path), .table(), .to_dataframe(), .to_csv(path);
+        petsam.plot.compliance() draws it
+
+    Raises
+    ------
+    Error
+        A deck that cannot be read, or values that do not fit it; the message names the options of petsam-compliance.
+    """
+    if more.get("materials") is not None:
+        raise Useless("a deck has its own materials: use of_mesh(), or omit the materials")
+    return model.computed(deck, settings(contact, patch, supports, **more), "petsam.compliance.of_deck()", progress)
+
+
+def of_mesh(
+    mesh: object, patch: float | tuple, young: float | Mapping, poisson: float | Mapping,
+    density: float | Mapping | None = None, supports: object = (), **more: object,
+) -> Compliance:  # fmt: skip
+    """The compliance of a mesh of any mesher.
+
+    Parameters
+    ----------
+    mesh : meshio.Mesh, or name of a file that meshio reads
+    patch, supports, more : as of of_deck(), `contact` among them; sets are point_sets, cell_sets, physical groups of
+        Gmsh, or boxes. A mesh has no steps for load cases
+    young, poisson : Young's modulus (Pa) and Poisson's ratio of all elements, or {set of elements: value}
+    density : kg/m3, needed for modes, likewise
+
+    Returns
+    -------
+    Compliance : as of of_deck()
+
+    Raises
+    ------
+    Missing
+        meshio is not installed.
+    Error
+        As of of_deck().
+    """
+    contact, progress = more.pop("contact", None), more.pop("progress", model.quiet)
+    if contact is None:
+        raise Useless("--mesh needs --contact")
+    given = settings(contact, patch, supports, materials=(young, poisson, density), **more)
+    return model.computed(mesh, given, "petsam.compliance.of_mesh()", progress)

@@ -1,0 +1,210 @@
+"""What is to be computed of a mesh: Settings, and the checks that they make sense together.
+
+Messages have the names of petsam-compliance's options: --fixed of `supports`, --bolt of `bolts`, --case of `cases`,
+--center of `centers`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.errors import Useless, short
+from . import basis, several
+
+HIGHEST = 10  # highest degree that petsam reads
+HIGHEST_EACH, MOST_FUNCTIONS = 24, 325  # the same of degrees in x and y, and the number of their products
+NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
+MOST_CASES, MOST_OF_PAIR = 8, 40
+LONGEST = 20  # letters of the name of a load case
+RESERVED = ("closing", "closing_by")  # names beside those of bolts in the file
+METHODS = ("auto", "image", "cutoff")
+
+
+class Bolt(NamedTuple):
+    """A bolt: its name, the surfaces of its washers on body 1 and on body 2, its diameter (m), and its modulus, Pa
+    (that of the washers)."""
+
+    name: str
+    surfaces: tuple
+    diameter: float
+    young: float | None = None
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What is to be computed. Sets and surfaces are names of the mesh, or boxes (place()); lengths in m.
+
+    contact    surface on which the patches lie
+    patch      full widths (2) in x and y
+    centers    centre (x, y) of each patch in the frame
+    supports   node sets that are held in x, y, z;  symmetry: node sets in planes of symmetry
+    free       True: nothing holds the bodies of a pair
+    units      "m" (m, N, Pa) or "mm" (mm, N, MPa): the mesh's
+    frame      origin, x and z (or the first ones of them) of the contact, in the mesh's coordinates and units
+    pair       surface of body 1 that faces the contact;  bolts: the Bolts
+    modes      number of modes without contact;  sensors: (name, node or set of one node) of each
+    cases      (name, step of the deck) of each load case
+    degree     of the polynomials: their sum in x and y, or the largest in x and in y
+    method     auto, image or cutoff;  stiffness: own, calculix or None (own, for elements that petsam assembles)
+    depth      of the stress points (twice the smaller half width);  stress: whether there are any
+    coarse     a coarser mesh, to estimate the error of the mesh
+    materials  (young, poisson, density) of a mesh that has none (foreign.py)
+    ccx        the program CalculiX
+    """
+
+    contact: str
+    patch: tuple
+    centers: tuple = ((0.0, 0.0),)
+    supports: tuple = ()
+    symmetry: tuple = ()
+    free: bool = False
+    units: str = "m"
+    frame: tuple = ((0.0, 0.0, 0.0),)
+    pair: str | None = None
+    bolts: tuple = ()
+    modes: int = 0
+    sensors: tuple = ()
+    cases: tuple = ()
+    degree: int | tuple = 6
+    method: str = "auto"
+    stiffness: str | None = None
+    depth: float | None = None
+    stress: bool = True
+    coarse: object = None
+    materials: tuple | None = None
+    ccx: str = "ccx"
+
+
+def place(where):
+    """The name of a set or surface: a text as it is, or a box of the points (x, y, z) of two corners in the mesh's
+    coordinates and units, such as ((0, 0, 4), (4, 4, 4)); None leaves a coordinate free."""
+    if where is None or isinstance(where, str):
+        return where
+    low, high = (np.array([free if x is None else x for x in point], dtype=float)
+                 for point, free in zip(where, (-math.inf, math.inf)))  # fmt: skip
+    return ":".join(",".join(repr(float(x)) for x in point) for point in (low, high))
+
+
+def _places(names):
+    """The names of one or several sets."""
+    if names is None:
+        return ()
+    single = isinstance(names, str) or len(names) == 2 and all(np.ndim(one) == 1 for one in names)
+    return tuple(place(one) for one in ([names] if single else names))
+
+
+def _pairs(given):
+    """Pairs of {name: value}, or of such pairs."""
+    return tuple(given.items()) if hasattr(given, "items") else tuple(tuple(one) for one in given)
+
+
+def _bolts(given):
+    """Bolts of {name: (surface 1, surface 2, diameter[, modulus])}, or of Bolts."""
+    if not hasattr(given, "items"):
+        return tuple(given)
+    return tuple(
+        Bolt(name, (place(first), place(second)), *more) for name, (first, second, *more) in given.items()
+    )  # fmt: skip
+
+
+def settings(contact, patch, supports=(), **more):
+    """The checked Settings by what a notebook gives: a number as the patch of a square, one name for several, mappings
+    of bolts, cases and sensors, boxes as places."""
+    forms = {"symmetry": _places, "pair": place, "bolts": _bolts, "cases": _pairs, "sensors": _pairs}
+    more = {name: forms.get(name, lambda value: value)(value) for name, value in more.items()}
+    widths = tuple(np.broadcast_to(np.asarray(patch, dtype=float), 2).tolist())
+    found = Settings(place(contact), widths, supports=_places(supports), **more)
+    frame = (found.frame,) if np.ndim(found.frame) == 1 and np.isscalar(found.frame[0]) else tuple(found.frame)
+    sensors = tuple((name, str(node)) for name, node in found.sensors)
+    found = replace(found, frame=frame, sensors=sensors, centers=tuple(map(tuple, found.centers)))
+    need_sense(found)
+    return found
+
+
+def need_degree(degree):
+    """Raises Useless unless petsam reads polynomials of the degree."""
+    most = HIGHEST if np.ndim(degree) == 0 else HIGHEST_EACH
+    each = np.atleast_1d(degree)
+    if len(each) > 2 or not all(value == int(value) and 0 <= value <= most for value in each):
+        raise Useless(
+            f"{short(str(degree))}: expected an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and "
+            "y: 12,6"
+        )
+    count = len(basis.powers(degree))
+    if count > MOST_FUNCTIONS:
+        raise Useless(
+            f"{basis.written(degree)} gives {count} polynomials, limit {MOST_FUNCTIONS}: lower the degree in one "
+            "direction"
+        )
+
+
+def need_sense(given):
+    """Raises Useless unless the Settings make sense together."""
+    if not all(0.0 < width < math.inf for width in given.patch):
+        raise Useless(f"--patch {given.patch[0]:g},{given.patch[1]:g}: expected lengths above 0")
+    if given.method not in METHODS:
+        raise Useless(f"--method {short(given.method)}: use {', '.join(METHODS)}")
+    need_degree(given.degree)
+    _check_held(given)
+    _check_pair(given)
+    _check_names(given)
+
+
+def _check_held(given):
+    """Checks --fixed, and what belongs to --free."""
+    if given.free and given.supports:
+        raise Useless("--free holds nothing: remove it, or --fixed")
+    if given.free and not given.pair:
+        raise Useless(
+            "--free is for a pair: a body alone moves away under the loads of its contact: hold it by --fixed, or give "
+            "the surface of body 1 by --pair"
+        )
+    if not given.free and not given.supports:
+        other = ", or --free for a pair that nothing holds" if given.pair else ""
+        raise Useless(f"--mesh needs --fixed{other}")
+
+
+def _check_pair(given):
+    """Checks --pair and what belongs to it, or to one body alone."""
+    if not given.pair:
+        for name, value in (("bolt", given.bolts), ("modes", given.modes), ("sensor", given.sensors)):
+            if value:
+                raise Useless(f"--{name} is for a pair: give the surface of body 1 by --pair, or remove it")
+    elif given.depth or given.method == "cutoff":
+        name = "--depth" if given.depth else "--method cutoff"
+        raise Useless(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
+    elif given.symmetry:
+        raise Useless("--symmetry: a pair is given as a whole: remove it, or give one body alone, without --pair")
+
+
+def need_bolt(name, text=None):
+    """Raises Useless unless the file can have a bolt of this name."""
+    if not NAME.fullmatch(name) or name in RESERVED:
+        raise Useless(f"{short(text or name)}: expected NAME=SURFACE1,SURFACE2:DIAMETER[:YOUNG], as in B1=HEAD,NUT:8mm")
+    if len("bolt_" + name) > LONGEST:
+        raise Useless(f"{short(name)}: use a name of at most {LONGEST - len('bolt_')} letters")
+
+
+def _check_names(given):
+    """Checks the names and the numbers of load cases, patches, bolts and sensors."""
+    for bolt in given.bolts:
+        need_bolt(bolt.name)
+    if len(given.centers) > 1 and not given.pair:
+        raise Useless("--center: several patches are for a pair: give the surface of body 1 by --pair, or one centre")
+    if len(given.centers) > 1 and any(re.fullmatch(several.NAME + r"[0-9]+", name) for name, _ in given.cases):
+        raise Useless(f"--case: {several.NAME} with a number is a name of the file's own: give another one")
+    if given.sensors and not given.modes:
+        raise Useless("--sensor needs --modes: give their number, or remove it")
+    if len({name for name, _ in given.sensors}) < len(given.sensors):
+        raise Useless("--sensor: give each name once")
+    names = [name for name, _ in given.cases] + [f"bolt_{one.name}" for one in given.bolts]
+    names += [f"mode{k}" for k in range(1, 1 + given.modes)]
+    most = MOST_OF_PAIR if given.pair else MOST_CASES
+    if len(set(names)) < len(names) or len(names) > most:
+        bolts = ", with those of --bolt and --modes" if given.pair else ""
+        raise Useless(f"--case: give each name once, at most {most} of them{bolts}")

@@ -1,0 +1,127 @@
+"""Lives of a spectrum in one call: lives() takes files or stresses and constants, and returns Lives."""
+
+import os
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+
+from ..core.errors import Error
+from ..core.tables import Tabled
+from ..results.stresses import FATIGUE, Stresses
+from . import evaluation, materials, strength
+from .stresses import Cycle
+
+MOST = 5  # parameters on the line, unless quantities are named
+
+
+@dataclass
+class Lives(Tabled):
+    """Lives, safety factors and short cracks of the cycles of a spectrum.
+
+    cycles     the Cycle of each file or contact
+    constants  {name: number} of the material, SI units
+    values     {criterion: lives (cycles) or safety factors at all points, (z, y, x), of each cycle}
+    least      {criterion: evaluation.Place of the least one, of each cycle}
+    damage     {criterion: Place of the largest damage of the spectrum}, of lives
+    cracks     of each cycle the least length (m) at which a short crack grows, that of its arrest, and whether it grows
+               from the surface on; empty without that criterion
+    lines      label of each cycle, and evaluation.Line below the place
+    place      what that place is, in words
+    """
+
+    cycles: list
+    constants: dict
+    values: dict
+    least: dict
+    damage: dict
+    cracks: list
+    lines: list
+    place: str
+
+    def table(self) -> list:
+        """The lines below one another, as tables.Column: file, x, y, z, quantities, lives and factors."""
+        return evaluation.columns(self.lines)
+
+
+def lives(
+    sources, constants=None, *, counts=None, criteria=None, plane: float = 0.0, below=None, quantities=None
+) -> Lives:
+    """Lives, safety factors and short cracks of one cycle, or of a spectrum of several.
+
+    Parameters
+    ----------
+    sources : a file of petsam-stress, a petsam.Stresses or a petsam.lives.stresses.Cycle, or a list of them: the blocks
+        of a spectrum
+    constants : {name: value} of the material, in SI units or texts with their unit (sigma_f="1.76GPa"), or the name of
+        a YAML file of them; Young's modulus and Poisson's ratio are those of the files, if they are not given
+    counts : cycles of each source in the spectrum (1)
+    criteria : names of evaluation.CRITERIA; by default all for which there are constants and data
+    plane : angle of the plane's normal to x, degrees, of stresses on planes normal to the surface
+    below : (x, y) in m of the line along the depth, or the quantity whose maximum on the surface is above it; by
+        default the first criterion or parameter
+    quantities : names of quantities on the line, maxima of the cycle; by default the fatigue parameters
+
+    Raises
+    ------
+    Error : for constants that are missing or outside their range, and for files without the data
+    """
+    alone = isinstance(sources, (str, os.PathLike, Stresses, Cycle))
+    cycles = [_cycle(one) for one in ([sources] if alone else sources)]
+    constants = _constants(constants)
+    counts = [1.0] * len(cycles) if counts is None else [float(one) for one in np.atleast_1d(counts)]
+    if len(counts) != len(cycles) or not all(0.0 < one < np.inf for one in counts):
+        raise Error(f"counts: {len(cycles)} files need as many numbers above 0")
+    names = list(criteria or evaluation.possible(cycles[0], constants, plane))
+    values = {name: evaluation.lives(cycles, name, constants, plane) for name in names if name != "crack"}
+    least = {
+        name: [evaluation.least(cycle, one) for cycle, one in zip(cycles, found)] for name, found in values.items()
+    }
+    row, column, place = _place(cycles[0], below, names)
+    on_line = quantities or [name for name in FATIGUE[:MOST] if name in cycles[0]] or ["mises"]
+    lines, cracks = [], []
+    for k, cycle in enumerate(cycles):
+        computed = {f"{_word(name)}_{name}": ("1", found[k]) for name, found in values.items()}
+        line = evaluation.line(cycle, on_line, row, column, computed)
+        if "crack" in names:
+            found, *lengths = evaluation.crack(cycle, constants, plane, row, column)
+            line.columns.update(found)
+            cracks.append(lengths)
+        lines.append((cycle.label, line))
+    return Lives(cycles, constants, values, least, _damage(cycles[0], values, counts), cracks, lines, place)
+
+
+def _cycle(source):
+    if isinstance(source, Cycle):
+        return source
+    return Cycle(source if isinstance(source, Stresses) else Stresses(os.fspath(source)))
+
+
+def _constants(given):
+    """{name: number} of a file's name, or of {name: value}."""
+    if given is None or isinstance(given, (str, os.PathLike)):
+        return materials.read(os.fspath(given)) if given else {}
+    return {name: materials.checked(name, value) for name, value in given.items()}
+
+
+def _word(name):
+    return "life" if name in evaluation.LIVES else "factor"
+
+
+def _damage(first, values, counts):
+    """Place of the largest damage by each life."""
+    found = {name: evaluation.least(first, -strength.damage(values[name], counts)) for name in values
+             if name in evaluation.LIVES}  # fmt: skip
+    return {name: one._replace(value=abs(one.value)) for name, one in found.items()}
+
+
+def _place(cycle, below, criteria) -> tuple[int, int, str]:
+    """Row, column, and a description of the line's place."""
+    if below is not None and not isinstance(below, str):
+        return *cycle.nearest(*below), "point nearest to --at"
+    name: Optional[str] = below or next((name for name in (*criteria, *FATIGUE, "mises") if name in cycle), None)
+    if name is None:
+        raise Error(
+            f"{cycle.path}: has no fatigue parameter and no mises; name a place by --at, or a quantity by --hot"
+        )
+    return *cycle.hot_spot(name), f"largest {name} on the surface"

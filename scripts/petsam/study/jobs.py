@@ -1,0 +1,138 @@
+"""A study as a whole: Jobs has its table, folder and how cases are run; run() is all of it in one call."""
+
+import os
+import signal
+from dataclasses import dataclass
+from typing import Optional
+
+from ..core import environment
+from ..core import options as command_line
+from ..core.errors import Error
+from ..core.files import same
+from ..results.studies import Study as Results
+from . import tables
+from .cases import Case, common_options, read
+from .reading import TableError
+from .runs import STOPPED, Study, check_folders, record
+
+
+@dataclass(frozen=True)
+class Jobs:
+    """The cases of a table and how they are run.
+
+    table        path of the table, CSV or YAML
+    directory    folder of the cases and of the tables of their results
+    words        petsam's options for all cases, as words of a command line
+    ranks        MPI ranks of cases without a value in the table
+    cores        cores to use; None: all available to this process
+    launcher     words of the MPI launcher; None: $MPIRUN, mpirun
+    checkpoint   steps between checkpoints, from which a case that was stopped resumes; None: none
+    skip_failed  failed cases are not run again
+    figures      cycles whose energies are columns of the tables
+    """
+
+    table: str
+    directory: str
+    words: tuple = ()
+    ranks: int = 1
+    cores: Optional[int] = None
+    launcher: Optional[str] = None
+    checkpoint: Optional[int] = None
+    skip_failed: bool = False
+    figures: tables.Figures = tables.LAST
+
+    def cases(self) -> list[Case]:
+        """All cases of the table; raises TableError where it cannot be understood."""
+        return read(self.table, common_options(self.words), self.ranks)
+
+    def prepare(self, cases):
+        """Makes the study's folder; raises Error if the results would replace another file."""
+        if os.path.lexists(self.directory) and not os.path.isdir(self.directory):
+            raise Error(f"{self.directory}: is not a folder; choose another by --directory")
+        os.makedirs(self.directory, exist_ok=True)
+        for name in ("results.csv", "results.h5"):
+            path = os.path.join(self.directory, name)
+            if same(path, self.table) or same(path + ".tmp", self.table):
+                raise Error(f"{self.table}: would be replaced by the results; choose another folder by --directory")
+        check_folders(self.directory, cases)
+
+    def due(self, cases):
+        """Returns those of some cases that have to be run, in order."""
+        codes = [record(self.directory, case).get("exit_code") for case in cases]
+        kept = lambda code: code == 0 or self.skip_failed and code not in (None, STOPPED)  # noqa: E731
+        return [case for case, code in zip(cases, codes) if not kept(code)]
+
+    def most(self, waiting, alone=False):
+        """Cores to use; raises TableError where a case needs more, unless it is run alone."""
+        cores = self.cores or environment.cores()
+        for case in waiting:
+            if case.ranks > cores and not alone:
+                raise TableError(
+                    f"case {case.name}: {case.ranks} ranks do not fit into {cores} cores; use fewer ranks or larger "
+                    "--cores"
+                )
+        return max([cores, *[case.ranks for case in waiting]]) if alone else cores
+
+    def command(self):
+        """command(ranks) returns the words that start petsam; raises Missing without launcher or program."""
+        launched, program = environment.launcher(self.launcher), environment.petsam()
+        return lambda ranks: [*launched, "-n", str(ranks), program]
+
+    def write(self, cases):
+        """Writes the tables of the results; their names, and the error in the chosen cycles, or None."""
+        return tables.write(self.directory, cases, os.path.basename(self.table), self.figures)
+
+
+def check_files(cases):
+    """Error where a file that every case reads does not exist, so that every case would fail."""
+    for name, path in cases[0].paths().items():
+        if not os.path.exists(path) and all(case.paths().get(name) == path for case in cases):
+            raise Error(f"-{name} {path}: no such file, and every case reads it")
+
+
+def run(
+    table, directory=None, options: Optional[dict] = None, *, cores: Optional[int] = None, report=None, **how
+) -> Results:
+    """Runs all cases of a table side by side, as petsam-study does, and returns their results.
+
+    Cases that have finished with the same inputs in this folder are not run again.
+
+    Parameters
+    ----------
+    table : path of the cases, .csv or .yaml
+    directory : folder of the cases and of results.csv, results.h5; by default the table's name, here
+    options : petsam's options for all cases, {name without dash: value}
+    cores : cores to use; by default all available to this process
+    report : called with the petsam.study.Case and its exit code (None: another study runs it) as cases end
+    how : other fields of petsam.study.Jobs: ranks, checkpoint, skip_failed, launcher, and figures, a
+        petsam.study.Figures(turns, period, numbers) of the cycles whose energies are columns
+
+    Returns
+    -------
+    petsam.Study of results.h5: `codes` has the exit codes, 0 where a case has finished
+
+    Raises
+    ------
+    Error : for a table that cannot be understood, files that cannot be read or written, and cycles that do not exist
+    KeyboardInterrupt : at Ctrl-C, after the cases have been ended in order; the same call resumes
+    """
+    table = os.fspath(table)
+    folder = os.path.abspath(directory or os.path.splitext(os.path.basename(table))[0])
+    jobs = Jobs(table, folder, tuple(command_line.words(options or {})), cores=cores, **how)
+    cases = jobs.cases()
+    check_files(cases)
+    jobs.prepare(cases)
+    waiting, ended = jobs.due(cases), 0
+    if waiting:
+        study = Study(folder, jobs.command(), jobs.most(waiting), report or _ignore, _ignore, jobs.checkpoint)
+        ended = study.run(waiting)
+    names, complaint = jobs.write(cases)
+    if ended == signal.SIGINT:
+        raise KeyboardInterrupt
+    if ended or complaint:
+        raise Error(complaint or f"{folder}: ended by signal {ended}; the same call resumes")
+    return Results(names[-1])
+
+
+def _ignore(*_):
+    """Does nothing with a report."""

@@ -1,0 +1,8 @@
+"""What all modules here share: the quantities of a map, and when two lengths are the same."""
+
+QUANTITIES = {
+    "height1": "heights of body 1, peaks positive",
+    "height2": "heights of body 2, peaks positive",
+    "separation": "separation of the bodies",
+}
+SAME = 1e-6  # relative difference of lengths that are meant to be the same

@@ -1,0 +1,96 @@
+"""What a file states about its map, and what a reader of one format is."""
+
+import os
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.files import SAMPLE, decoded
+from .. import headers
+from ..tables import Form, header_lines, read_table
+
+NUMPY, HDF5 = b"\x93NUMPY", b"\x89HDF\r\n\x1a\n"
+TEXTS = (".csv", ".txt")  # endings of texts
+OTHERS = (".tsv", ".dat", ".xyz", ".prn", ".asc", ".grd", "")  # endings that texts may have, and files of instruments
+
+
+class Stated(NamedTuple):
+    """Statements of a file about its values (all lengths in m); None where it makes none."""
+
+    values: np.ndarray  # (rows, columns)
+    unit: float = None
+    size: tuple = None
+    center: tuple = None
+    quantity: str = None
+    top: bool = None  # whether the first row has the largest y
+    remarks: tuple = ()
+    doubts: tuple = ()  # texts of warnings
+    sides: tuple = (None, None)  # size along x, y of a file that may state only one of them
+    lines: dict = {}  # of the statements unit, x and y in a text
+    name: str = ""  # of the dataset
+    spans: tuple = None  # size along x, y in a unit that the file does not state
+    missing: float = None  # value of missing points, which the file states
+
+
+@dataclass(frozen=True)
+class How:
+    """How a file is read: what no file states of itself."""
+
+    form: Form = field(default_factory=Form)  # of a text
+    units: float = None  # m, as given beside the file
+    dataset: str = None
+    channel: str = None
+    table: bool = False  # whether it is a text by the caller's word
+
+
+class Source:
+    """A file that a reader may recognize; a text is parsed once for all readers."""
+
+    def __init__(self, path, how):
+        self.path, self.how = path, how
+        self.ending = os.path.splitext(path)[1].lower()
+        with open(path, "rb") as file:
+            self.start = file.read(SAMPLE)
+
+    @cached_property
+    def is_text(self):
+        """Whether the file is a text by its name, or by its contents where the name leaves this open."""
+        if self.how.table or self.ending in TEXTS:
+            return not self.start.startswith((NUMPY, HDF5))
+        return self.ending in OTHERS and all(c.isprintable() or c in "\r\n\t\f" for c in decoded(self.start))
+
+    @cached_property
+    def lines(self):
+        """Numbers and texts of the lines of the header."""
+        return header_lines(self.path, self.how.form)
+
+    @cached_property
+    def table(self):
+        """Values (rows, columns), number of header lines, line of the first row."""
+        return read_table(self.path, self.how.form)
+
+    @cached_property
+    def is_list(self):
+        """Whether a text is one that this package takes without a structure of its own: .asc is an instrument's."""
+        return self.is_text and (self.how.table or self.ending not in (".asc", ".grd", ""))
+
+    def header(self, lateral=None):
+        """The Header of a text; lateral: unit (m) of lengths along x and y that have none."""
+        return headers.stated(self.path, self.lines, lateral)
+
+
+class Reader:
+    """One format."""
+
+    family = ""  # name for --format
+    states = ()  # what a file of it may state
+
+    def recognizes(self, source) -> bool:
+        """Whether the file is one of this format."""
+        raise NotImplementedError
+
+    def read(self, source) -> Stated:
+        """The statements of the file; Error with the cure for one that is no map."""
+        raise NotImplementedError

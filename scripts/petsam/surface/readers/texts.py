@@ -1,0 +1,94 @@
+"""Texts: one line per y, one number per x, and what headers of instruments and programs state of them."""
+
+import re
+
+import numpy as np
+
+from ...core import units
+from ...core.errors import Error, short
+from .. import headers
+from ..basics import SAME
+from ..doubts import need_map
+from ..tables import empty_line
+from .stated import Reader, Stated
+
+SPIP = re.compile(r"file format\s*=\s*ascii", re.IGNORECASE)
+NANOMETRE = 1e-9  # unit of lengths in SPIP's header
+
+
+def unread(header):
+    """Warnings of the lines of a header that no rule understands."""
+    return tuple(
+        f"line {number}: {short(line)}: is not understood: make sure that it agrees with the options"
+        for number, line in header.unread
+    )
+
+
+def need_mentioned(path, header, unit):
+    """Error where the units in a header's brackets do not contain that of the option."""
+    if header.unit is None and header.mentioned and unit:
+        if not any(np.isclose(units.size(name), unit, rtol=SAME, atol=0.0) for name in header.mentioned):
+            raise Error(
+                f"{path}: its header has {', '.join(header.mentioned)}, which contradicts --units: give the file's unit"
+            )
+
+
+def left_out(count):
+    """The remark about lines of a header."""
+    return (f"{count} header line{'s' if count > 1 else ''} left out",) if count else ()
+
+
+class Table(Reader):
+    """Lines of numbers under a header that may state unit, size, pixel and the first row in any of its usual forms."""
+
+    family = "table"
+    states = ("unit", "size", "first row", "missing points")
+
+    def recognizes(self, source):
+        """Any text of a usual name."""
+        return source.is_list
+
+    def header(self, source):
+        """The Header of the text."""
+        return source.header()
+
+    def read(self, source):
+        """The lines as rows of a map."""
+        path = source.path
+        values, count, first = source.table
+        header = self.header(source)
+        need_map(f"{path}: line {first}", values, text=True)
+        need_mentioned(path, header, source.how.units)
+        x, y = headers.size_of(path, header, values.shape[::-1])
+        size = (x, y) if x and y else None
+        doubts, empty = unread(header), empty_line(path, first)
+        if empty:
+            doubts += (f"line {empty} is empty: if it ends a map, leave out what follows it, or give each map a file",)
+        return Stated(
+            values, header.unit, size, top=header.top, remarks=left_out(count), doubts=doubts, sides=(x, y),
+            lines=header.lines,
+        )  # fmt: skip
+
+
+class Gwyddion(Table):
+    """Gwyddion's text: "# Width: 80 um", "# Height: 60 um", "# Value units: m" in any language, first row on top."""
+
+    def recognizes(self, source):
+        """By the three lines, whatever their words are."""
+        return source.is_text and headers.of_gwyddion(source.path, source.lines) is not None
+
+    def header(self, source):
+        """The three lines, and others as of any table."""
+        return headers.of_gwyddion(source.path, source.lines)
+
+
+class Spip(Table):
+    """SPIP's and other microscopes' "# File Format = ASCII": lengths without a unit are in nm."""
+
+    def recognizes(self, source):
+        """By its first line."""
+        return source.is_text and any(SPIP.search(line) for _, line in source.lines[:3])
+
+    def header(self, source):
+        """As of any table, in nm."""
+        return source.header(NANOMETRE)

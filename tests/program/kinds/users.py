@@ -1,0 +1,264 @@
+"""Random problems as users give them: numbers that are wrong without a warning, and warnings of right ones.
+
+Kinds: `yield`, bodies that yield below their surface; `slide`, worn surfaces that slide past each other; `zone`, lives
+in partial slip, whose scars end at a stick zone; `usual`, spheres, ellipsoids, pads, cylinders, rough, layered,
+dissimilar and rolling bodies, bulk stress and moments. Each is solved on its grid and by its steps, and on finer grids
+by finer steps; a single step in which contact is made goes on the path that it has by definition, N first. Wrong: a
+printed number, of the last step or of all steps, differs by more than 5 % and no warning names it or its cause; right:
+all are within 2 %. For each wrong problem the worst number is found again on finer cells alone, and by finer steps
+alone.
+"""
+
+import re
+import subprocess
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+import conftest
+from kinds import Outcome
+from kinds.contacts import random_problem
+from kinds.pads import RIGHT, WRONG, compare
+from support import history, words
+
+OPTIONS = dict(trials=100, finer=4, timeout=100.0)
+FINE_LAYERS = 64
+SLACK = 1e-6  # of the normal work: energies below it are none
+YIELDED = 1e-5  # plastic strain, about a hundredth of the elastic one at yield, and dent over approach: none below
+RESIDUAL = 0.2  # of all plastic work: 5 % of it is the stated accuracy of residual_energy, 1 % of that work
+NORMAL = ("time", "load_n", "load_mx", "load_my", "disp_z")
+LAST = (
+    "contact_area",
+    "stick_area",
+    "pressure_max",
+    "shear_max",
+    "slip_max",
+    "disp_z",
+    "plastic_max",
+    "residual_energy",
+)
+STEADY = ("slip_velocity_max", "rolling_energy", "load_tx", "load_ty", "creep_x", "creep_y", "creep_spin")
+SUMS = ("dissipated_energy", "plastic_work")
+LIFE = ("volume1", "volume2", "depth_max1", "depth_max2", "pressure_max", "contact_area", "dissipated_energy")
+FRICTIONAL = ("dissipated_energy", "shear_max", "slip_max", "stick_area", "last_energy")
+PLASTIC = ("plastic_max", "plastic_work", "residual_z", "residual_energy")
+# numbers that a warning names, or whose cause it is; others name all numbers
+STATED = "error by the length of the load steps about"
+NAMED = (
+    (STATED, ("dissipated_energy",)),
+    ("plastic_max, plastic_work and residual_z", PLASTIC),
+    ("contact_area may be wrong", ("contact_area",)),
+    ("largest at the surface", ("plastic_max",)),
+    ("the shear and the stick area may", ("shear_max", "stick_area")),
+    ("and plastic_work, the dissipated energy", ("plastic_work", "dissipated_energy", "slip_max", "stick_area")),
+    ("pressure is not resolved|maximum pressure is about", ("pressure_max", "shear_max")),
+    ("in the energy of the last cycle", ("dissipated_energy",)),
+    ("in the worn volumes", ("volume1", "volume2")),
+    ("in the maximum depths", ("depth_max1", "depth_max2")),
+    ("plastic work is done in one step", ("pressure_max", "contact_area", *PLASTIC)),
+    ("plastic strain below slip zones", ("plastic_max",)),
+    ("slips only within a cell", ("shear_max", "slip_max", "dissipated_energy", "stick_area")),
+    (
+        "the load steps are long|slip zones are|widest slip zone|before cells touch|before they merge|in one step",
+        FRICTIONAL,
+    ),
+    ("the plastic strain that it causes", PLASTIC),
+    ("maximum shear there", ("shear_max",)),
+    ("stick zone is|area of stick may", ("stick_area",)),
+    ("in a ring", FRICTIONAL),
+    ("has a tip", ("pressure_max", "shear_max")),
+    ("wears in stripes", ("depth_max1", "depth_max2", "pressure_max", "shear_max", "contact_area")),
+    ("since the last load reversal", ("slip_max",)),
+)
+MODEL = "half-space theory|linear elasticity|strains are taken as small|periodic images|less than 0.001 of it"
+
+
+# ---------------------------------------------------------------- runs
+
+
+def path_of(problem, steps):
+    """The rows; for more steps than the one in which contact is made those of its path: N first, then the rest."""
+    first, *others = problem.rows
+    columns = problem.header.split(",")
+    normal = [v if name in NORMAL else 0.0 for name, v in zip(columns, first)]
+    if problem.steps > 1 or steps == 1 or normal == list(first) or "load_n" not in columns:
+        return problem.rows
+    normal[0] -= 0.5
+    return [tuple(normal), first, *others]
+
+
+def options_of(kind, problem, folder, cells, steps):
+    """Options with so many times finer cells and steps; writes the files that they name."""
+    n = [count * cells for count in problem.cells]
+    case = dict(problem.case, grid_n=tuple(n), output_every=1, steps=problem.steps * steps)
+    case.pop("history", None)
+    if len(n) == 1:
+        case["grid_n"] = n[0]
+    case.update(history(Path(folder) / "loads.csv", problem.header, *path_of(problem, steps)))
+    if problem.heights:
+        size = problem.case["grid_size"]
+        x = [(np.arange(count) + 0.5) * size / count for count in (n if len(n) == 2 else [n[0], 1])]
+        with h5py.File(Path(folder) / "rough.h5", "w") as file:
+            file["height"] = problem.heights(*np.meshgrid(x[0], x[1] if len(n) == 2 else [0.0]))
+        case["gap_rough_file"] = "rough.h5"
+    if kind == "yield":
+        case.update(yield_layers=FINE_LAYERS if cells > 1 and len(n) == 1 else None, output_every=10000)
+    elif kind in ("slide", "zone"):
+        case.update(output_every=10000)
+    return case
+
+
+def said(line):
+    """The error that is printed beside the dissipated energy, relative to it."""
+    found = re.search(STATED + r" (\S+) %", line)
+    return float(found[1]) / 100 if found else 0.0
+
+
+def run(program, case, folder, timeout):
+    """Exit code, warnings with errors printed beside numbers, last line of stderr; code None after so many seconds."""
+    try:
+        done = subprocess.run(
+            [str(program), *words(dict(case, output="out.h5"))], cwd=folder, capture_output=True, text=True,
+            timeout=timeout, env=conftest.environment(), stdin=subprocess.DEVNULL,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return None, [], f"more than {timeout:g} s"
+    lines = done.stderr.splitlines()
+    found = [line.partition("warning: ")[2] for line in lines if "warning: " in line]
+    found += [line.strip() for line in done.stdout.splitlines() if said(line) > WRONG]
+    return done.returncode, [line for line in found if not re.search(MODEL, line)], (lines or [""])[-1]
+
+
+def read(path):
+    """Printed numbers of a run, and the least values that count, by name."""
+    with h5py.File(path) as file:
+        table = {name: column[:] for name, column in file["history"].items()}
+        numbers = {name: table[name][-1] for name in (*LAST, *STEADY) if name in table}
+        numbers.update({name: np.nansum(table[name]) for name in SUMS if name in table})
+        if "residual_z" in file:
+            numbers["residual_z"] = file["residual_z"][-1].max()
+        if "wear" in file:
+            numbers.update({name: file[f"wear/{name}"][-1] for name in LIFE if name in file["wear"]})
+            for name in ("slip_max", "disp_z"):
+                numbers.pop(name, None)
+    work = np.nanmax(np.abs(table["load_n"] * table["disp_z"]))
+    least = dict.fromkeys(("dissipated_energy", "plastic_work", "residual_energy"), SLACK * work)
+    least["residual_energy"] += RESIDUAL * numbers.get("plastic_work", 0)
+    least.update(stick_area=1e-3 * numbers["contact_area"], shear_max=1e-4 * numbers["pressure_max"])
+    least.update(slip_max=1e-5 * np.nanmax(np.abs(table["disp_z"])), plastic_max=YIELDED)
+    least["residual_z"] = YIELDED * np.nanmax(np.abs(table["disp_z"]))
+    least.update(
+        load_tx=1e-3 * table["load_n"][-1],
+        load_ty=1e-3 * table["load_n"][-1],
+        creep_x=1e-7,
+        creep_y=1e-7,
+        creep_spin=1e-2,
+    )
+    return {name: float(value) for name, value in numbers.items() if np.isfinite(value)}, least
+
+
+def errors_of(found, true, least):
+    return {name: compare({name: found[name]}, {name: true[name]}, least)[0] for name in true if name in found}
+
+
+def named(warnings):
+    """Numbers that the warnings name; None: all."""
+    numbers = set()
+    for line in warnings:
+        names = [names for pattern, names in NAMED if re.search(pattern, line)]
+        if not names or re.search(r"cells? across \(", line):
+            return None
+        numbers.update(*names)
+    return numbers
+
+
+class Trial:
+    """A problem with its errors, warnings and, if it is silently wrong, what finer cells and finer steps change."""
+
+    def __init__(self, kind, seed, folder, finer, timeout):
+        self.kind, self.folder, self.timeout = kind, folder, timeout
+        self.errors, self.warnings, self.failure, self.cause, self.parts = {}, [], "", {}, {}
+        self.problem = random_problem(kind, seed, folder)
+        self.finer = min(finer, self.problem.most)
+        self.solve(finer)
+
+    def numbers(self, cells, steps, **more):
+        case = dict(options_of(self.kind, self.problem, self.folder, cells, steps), **more)
+        code, warnings, line = run(conftest.PROGRAM, case, self.folder, self.timeout)
+        self.case = case
+        if code:
+            self.failure = f"exit code {code}, {cells} x finer: {line}"
+        elif code is None:
+            self.failure = f"{line}, {cells} x finer"
+        return (None, warnings) if self.failure else (read(self.folder / "out.h5"), warnings)
+
+    def solve(self, finer):
+        found, self.warnings = self.numbers(1, 1)
+        self.line = " ".join(words(self.case)) if self.failure else ""
+        if self.failure:
+            return
+        steps = dict(zone=2).get(self.kind, self.finer if self.kind == "yield" else finer)
+        steps = 1 if self.problem.name == "rolling" else steps
+        fine = dict(slide=dict(wear_rtol=0.02), zone=dict(wear_rtol=5e-3)).get(self.kind, {})
+        true, _ = self.numbers(self.finer, steps, **fine)
+        if self.failure:
+            return
+        self.errors, self.true, self.found = errors_of(found[0], true[0], true[1]), true[0], found[0]
+        if self.silent:
+            worst = max(self.silent, key=self.silent.get)
+            for part, (cells, many, words_) in dict(
+                cells=(self.finer, 1, {}), steps=(1, steps, {}), jumps=(1, 1, fine)
+            ).items():
+                if part == "steps" and steps == 1 or part == "jumps" and not fine:
+                    continue
+                other, _ = self.numbers(cells, many, **words_)
+                self.failure = ""
+                if other and worst in other[0]:
+                    self.cause[part] = errors_of(found[0], other[0], true[1])[worst]
+
+    @property
+    def wrong(self):
+        return {name: error for name, error in self.errors.items() if error > WRONG}
+
+    @property
+    def silent(self):
+        numbers = named(self.warnings)
+        return {} if numbers is None else {name: error for name, error in self.wrong.items() if name not in numbers}
+
+    @property
+    def loud(self):
+        warned = any(STATED not in line for line in self.warnings)
+        return warned and bool(self.errors) and max(self.errors.values()) < RIGHT
+
+    def tell(self):
+        p = self.problem
+        head = f"{p.name}, {'x'.join(map(str, p.cells))} cells, {p.steps} steps: "
+        if self.failure:
+            return head + self.failure + (f"\n    {self.line}" if self.line else "")
+        texts = sorted(self.errors.items(), key=lambda item: -item[1])[:4]
+        text = head + ", ".join(f"{name} {100 * error:.2g} %" for name, error in texts)
+        if self.silent:
+            text += f" SILENT: {', '.join(self.silent)}; by " + ", ".join(
+                f"{part} {100 * error:.2g} %" for part, error in self.cause.items()
+            )
+        return "\n    ".join([text + (" LOUD" if self.loud else ""), *self.warnings])
+
+
+def trial(seed, folder, given):
+    """The errors of the printed numbers, and what is told of them."""
+    found = Trial(given.kind, seed, folder, given.finer, given.timeout)
+    names = ("errors", "warnings", "failure", "cause", "wrong", "silent", "loud")
+    numbers = dict(name=found.problem.name, **{name: getattr(found, name) for name in names})
+    return Outcome(found.tell(), None, numbers, bool(found.silent or found.loud or found.failure))
+
+
+def summary(found):
+    solved = {seed: one for seed, one in found.items() if one["errors"]}
+    silent = [seed for seed, one in solved.items() if one["silent"]]
+    warned = [seed for seed, one in solved.items() if one["wrong"] and not one["silent"]]
+    loud = [seed for seed, one in solved.items() if one["loud"]]
+    return [
+        f"{len(solved)} of {len(found)} solved: {len(silent)} wrong without a warning {silent}, "
+        f"{len(warned)} wrong with one, {len(loud)} right with one {loud}"
+    ]
