@@ -63,8 +63,7 @@ def _ends(program, path):
 
 
 def need_readable(path: str) -> None:
-    """Raises Damaged if HDF5 cannot read the structure of an existing file, which is read once in each of its
-    states."""
+    """Raises Damaged if HDF5 cannot read the structure of an existing file; it is read once in each of its states."""
     now = _state(path)
     name = os.path.abspath(path)
     if now is None:
