@@ -217,11 +217,12 @@ format: $(B)/venv/tests-done ## format C and Python by .clang-format and .ruff.t
 	@$(B)/venv/bin/clang-format -i $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)
 
-check-format: $(B)/venv/tests-done ## check the format of C and Python, the words of texts, the comments of public functions, and decisions by one rank's own data
+check-format: $(B)/venv/tests-done ## check the format of C and Python, the type hints of the Python package, the words of texts, the comments of public functions, and decisions by one rank's own data
 	@$(B)/venv/bin/clang-format --dry-run -Werror $(C_SOURCES)
 	@awk 'length > 120 {print FILENAME ":" FNR ": more than 120 columns"; n++} END {exit n > 0}' $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q --check $(PYTHON_SOURCES)
 	@$(B)/venv/bin/ruff check -q $(PYTHON_SOURCES)
+	@$(B)/venv/bin/python -m mypy --cache-dir $(B)/mypy --no-error-summary
 	@$(PYTHON) scripts/maintain/check_words.py
 	@$(PYTHON) scripts/maintain/functions.py --check
 	@$(PYTHON) scripts/maintain/check_ranks.py

@@ -3,11 +3,13 @@
     python3 scripts/maintain/modules.py > build/python.md
 
 It reads the sources and imports nothing, so that it needs none of the package's libraries. Names of the package itself
-are those of petsam.__all__, and of the modules all functions and classes without a leading underscore.
+are those of petsam.__all__, of petsam.plot and packages such as petsam.joint those that they list, and of other modules
+all functions and classes without a leading underscore. A class has the methods of its bases in the package, too.
 """
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import functions
@@ -16,14 +18,33 @@ PACKAGE = Path(__file__).resolve().parents[1] / "petsam"
 # names of the package that users meet first, in the order of work; the others follow, errors and warnings at the end
 FIRST = ("open", "run", "Contact", "Element", "Results", "Snapshot", "Stresses", "Study")
 # classes of which users get objects from those, by their modules
-OBTAINED = {"contact": ("Step", "Cycle"), "results.file": ("Datafile",)}
+OBTAINED = {"contact": ("Step", "Cycle")}
 # modules in the order of the page; of a folder the modules that its __init__.py represents
 MODULES = (
     "results.cycles",
     "results.sliding",
     "plot.pictures",
     "plot.of_joints",
+    "plot.of_compliance",
+    "plot.of_lives",
+    "plot.of_surface",
     "joint.interface",
+    "joint.structure",
+    "joint.pair",
+    "joint.backbone",
+    "joint.band",
+    "joint.balance",
+    "joint.wear",
+    "compliance.calls",
+    "compliance.settings",
+    "compliance.result",
+    "surface.reading",
+    "surface.maps",
+    "study.jobs",
+    "study.cases",
+    "study.reading",
+    "study.tables",
+    "lives.spectrum",
     "lives.stresses",
     "lives.materials",
     "lives.strength",
@@ -38,11 +59,15 @@ MODULES = (
     "closed.punch",
     "closed.plane",
 )
+# packages that list what users call, and the constant of their __init__.py that has the names
+LISTING = {"compliance": "__all__", "joint": "__all__", "study": "__all__", "surface": "_HOMES"}
+PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")
 COLUMNS = re.compile(r"\S {2,}\S")  # of a table in a docstring
 
 
+@cache
 def tree_of(module):
     return ast.parse((PACKAGE / (module.replace(".", "/") + ".py")).read_text(encoding="utf-8"))
 
@@ -51,6 +76,52 @@ def definitions(tree):
     """Returns the public functions and classes of a module or methods of a class by name."""
     kinds = (ast.FunctionDef, ast.ClassDef)
     return {node.name: node for node in tree.body if isinstance(node, kinds) and not node.name.startswith("_")}
+
+
+def public(module):
+    """Returns the public functions and classes of a module by name; pictures and classes as users meet them."""
+    return {name: whole(module, looking(module, node)) for name, node in definitions(tree_of(module)).items()}
+
+
+def called(module):
+    """Returns those that users call: of some packages the names that these list."""
+    found, (folder, _, last) = public(module), module.partition(".")
+    listed = list(found)
+    if folder == "plot":
+        listed = literal(tree_of("plot/__init__"), "_HOMES")[last]
+    elif folder in LISTING:
+        listed = [name for name in literal(tree_of(f"{folder}/__init__"), LISTING[folder]) if name in found]
+    return {name: found[name] for name in listed}
+
+
+def looking(module, node):
+    """Returns a picture with the parameters that its decorator adds; anything else unchanged."""
+    if {ast.unparse(decorator) for decorator in node.decorator_list} & set(PICTURES):
+        table = next(part for part in tree_of(module).body if ast.unparse(part).startswith("LOOK = ")).value
+        for name, kind in zip(table.keys, table.values):
+            if name.value not in {arg.arg for arg in node.args.kwonlyargs}:
+                node.args.kwonlyargs.append(ast.arg(name.value, kind))
+                node.args.kw_defaults.append(ast.Constant(None))
+    return node
+
+
+def whole(module, node):
+    """Returns a class with the methods that it has of its bases in the package; anything else unchanged."""
+    for base in (getattr(base, "id", None) for base in getattr(node, "bases", [])):
+        home = module if base in definitions(tree_of(module)) else origin(module, base)
+        if home:
+            own = {getattr(part, "name", None) for part in node.body}
+            parts = whole(home, definitions(tree_of(home))[base]).body
+            node.body += [part for part in parts if isinstance(part, ast.FunctionDef) and part.name not in own]
+    return node
+
+
+def origin(module, name):
+    """Returns the module beside this one from which it imports a name; None if there is none."""
+    for node in tree_of(module).body:
+        if isinstance(node, ast.ImportFrom) and node.level == 1 and name in {alias.name for alias in node.names}:
+            return ".".join([*module.split(".")[:-1], node.module])
+    return None
 
 
 def literal(tree, name):
@@ -75,7 +146,7 @@ def package_names():
     ]
     names.sort(key=lambda name: (FIRST.index(name) if name in FIRST else len(FIRST), name))
     modules = {name: homes.get(name, "__init__") for name in names}
-    return {name: (module, definitions(tree_of(module))[name]) for name, module in modules.items()}
+    return {name: (module, public(module)[name]) for name, module in modules.items()}
 
 
 def signature(name, node):
@@ -85,13 +156,34 @@ def signature(name, node):
         return [f"class {name}{arguments(made.args, True) if made else ''}"]
     if {ast.unparse(decorator) for decorator in node.decorator_list} & set(PROPERTIES):
         return [name]
-    is_method = bool(node.args.args) and node.args.args[0].arg in ("self", "cls")
-    return [name + arguments(node.args, is_method)]
+    result = "" if node.returns is None or ast.unparse(node.returns) == "None" else f" -> {text_of(node.returns)}"
+    return [name + arguments(node.args, bool(callers(node.args))) + result]
+
+
+def callers(args):
+    """Returns self or cls of a method, in a list."""
+    return [arg for arg in args.args[:1] if arg.arg in ("self", "cls")]
+
+
+def text_of(hint):
+    """Returns a hint as it reads: one that is a text, of what is not imported, without its quotes."""
+    return hint.value if isinstance(hint, ast.Constant) and isinstance(hint.value, str) else ast.unparse(hint)
 
 
 def arguments(args, is_method):
-    listed = ast.unparse(args)
-    return f"({re.sub(r'^(self|cls)(, )?', '', listed) if is_method else listed})"
+    shown = ast.parse(f"def f({ast.unparse(args)}): pass").body[0].args
+    for arg in parameters(shown):
+        if arg.annotation is not None:
+            arg.annotation = ast.Name(text_of(arg.annotation))
+    listed = ast.unparse(shown)
+    listed = re.sub(r"^(self|cls)(: \w+)?(, )?", "", listed) if is_method else listed
+    return f"({listed})"
+
+
+def parameters(args):
+    """Returns the parameters of a function or method without self and cls."""
+    listed = [*args.posonlyargs, *args.args, args.vararg, *args.kwonlyargs, args.kwarg]
+    return [arg for arg in listed if arg and arg not in callers(args)]
 
 
 def section(title, text):
@@ -141,7 +233,7 @@ def listed():
     parts = {"petsam": (ast.get_docstring(tree_of("__init__")).split("\n\n")[0], package)}
     for module in MODULES:
         tree = tree_of(module)
-        found = {f"petsam.{module}.{name}": node for name, node in definitions(tree).items()}
+        found = {f"petsam.{module}.{name}": node for name, node in called(module).items()}
         parts[f"petsam.{module}"] = (ast.get_docstring(tree).split("\n\n")[0], found)
     return parts
 
@@ -155,6 +247,38 @@ def undocumented():
             parts = {name: node, **{f"{name}.{method}": part for method, part in methods.items()}}
             found += [part for part, definition in parts.items() if not ast.get_docstring(definition)]
     return found
+
+
+def sections(text):
+    """Returns the names in each section of a docstring: {title: names}."""
+    found = {}
+    for part in re.split(r"\n\s*\n", text or ""):
+        head = SECTION.match(part)
+        if head:
+            heads = re.findall(r"^(\S.*?)(?: : .*)?$", part[head.end() :], re.M)
+            found[head[1]] = {name.lstrip("*") for one in heads for name in one.split(", ")}
+    return found
+
+
+def unhinted(name, node, text=None):
+    """Returns what hints and sections lack of a function, or of a class with its methods."""
+    if isinstance(node, ast.ClassDef):
+        made = [part for part in node.body if getattr(part, "name", None) == "__init__"]
+        lacks = [lack for part in made for lack in unhinted(name, part, ast.get_docstring(node))]
+        return lacks + [lack for one, part in definitions(node).items() for lack in unhinted(f"{name}.{one}", part)]
+    told = sections(ast.get_docstring(node) if text is None else text)
+    lacks = [f"{name}: {arg.arg} has no hint" for arg in parameters(node.args) if arg.annotation is None]
+    lacks += [
+        f"{name}: {arg.arg} is not in Parameters"
+        for arg in parameters(node.args)
+        if arg.arg not in told.get("Parameters", ())
+    ]
+    is_property = {ast.unparse(decorator) for decorator in node.decorator_list} & set(PROPERTIES)
+    if node.returns is None:
+        lacks.append(f"{name}: no hint of what it returns")
+    elif ast.unparse(node.returns) != "None" and not is_property and "Returns" not in told:
+        lacks.append(f"{name}: no section Returns")
+    return lacks
 
 
 def page():

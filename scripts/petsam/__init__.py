@@ -30,6 +30,30 @@ import os
 
 from .core.errors import Error, Missing, MissingFile
 
+TYPE_CHECKING = False  # checkers of types take it for True; to import typing here would slow the start of every command
+if TYPE_CHECKING:
+    from typing import Any, Optional, Union
+
+    from . import closed
+    from .contact import (
+        AdviceWarning,
+        Contact,
+        ContactError,
+        CycleWarning,
+        EdgeContactWarning,
+        NoEquilibrium,
+        NotConverged,
+        PrescribedError,
+        WearWarning,
+    )  # fmt: skip
+    from .joint.element import Element
+    from .results import cycles
+    from .results.file import Results
+    from .results.snapshot import Snapshot
+    from .results.stresses import Stresses
+    from .results.studies import Study
+    from .running import run
+
 __version__ = "1.0.0"
 __all__ = [
     "AdviceWarning",
@@ -67,7 +91,7 @@ _HOMES = {
     "NotConverged": ".contact",
     "PrescribedError": ".contact",
     "Results": ".results.file",
-    "Snapshot": ".results.file",
+    "Snapshot": ".results.snapshot",
     "Stresses": ".results.stresses",
     "Study": ".results.studies",
     "WearWarning": ".contact",
@@ -92,13 +116,27 @@ def __dir__():
     return sorted({*__all__, *_PARTS, *_OF_RESULTS, "__doc__", "__file__", "__name__", "__version__"})
 
 
-def open(path, label=None):
-    """Opens a file: returns the Results of petsam, the Stresses of petsam-stress, or the Study of petsam-study's
-    results.h5.
+def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any":
+    """Opens a file of petsam, of petsam-stress, or petsam-study's results.h5.
 
-    Raises Error if it cannot be read, and MissingFile, which is a FileNotFoundError, too, if there is none.
+    Parameters
+    ----------
+    path : path
+        The file.
+    label : str, optional
+        Its name in pictures; the file's name.
 
-    label names it in pictures (the file's name).
+    Returns
+    -------
+    Results, Stresses or Study
+        By what is in the file.
+
+    Raises
+    ------
+    MissingFile
+        If there is no such file; it is a FileNotFoundError, too.
+    Error
+        If the file cannot be read.
     """
     from .results.stresses import open_any
 

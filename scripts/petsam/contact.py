@@ -19,9 +19,12 @@ import shutil
 import sys
 import threading
 import warnings
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import __version__
 from .core import options as command_line
@@ -42,11 +45,24 @@ _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctyp
 
 
 class ContactError(Error):
-    """A call that was rejected, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
+    """A call that was rejected.
 
-    results = None  # of petsam.run(): those so far
+    Parameters
+    ----------
+    code : int
+        Exit code: 2 a wrong argument, 3 a file, 10 to 12 those of steps, others of PETSc.
+    message : str
+        What is wrong.
 
-    def __init__(self, code, message):
+    Attributes
+    ----------
+    results : Results or None
+        Of petsam.run(): the steps so far.
+    """
+
+    results: Any = None
+
+    def __init__(self, code: int, message: str) -> None:
         super().__init__(code, message)  # makes it picklable
         self.code, self.message = code, message
 
@@ -59,7 +75,13 @@ class ContactError(Error):
 
 
 class PrescribedError(ContactError, TypeError):
-    """A prescribed value of a step was rejected: an unknown name, two names for one component, a value out of range."""
+    """A prescribed value of a step was rejected: an unknown name, two names for one component, a value out of range.
+
+    Parameters
+    ----------
+    code, message : int, str
+        See ContactError.
+    """
 
 
 class MissingInput(ContactError, MissingFile):
@@ -71,15 +93,43 @@ class MissingInput(ContactError, MissingFile):
 
 
 class NotConverged(ContactError):
-    """A step (step) or stiffness did not converge."""
+    """A step or a stiffness did not converge.
 
-    step = None
+    Parameters
+    ----------
+    code, message : int, str
+        See ContactError.
+
+    Attributes
+    ----------
+    step : Step or None
+        The step.
+    steps : list of Step or Cycle
+        Of Contact.run() and Contact.live(): those before it.
+    """
+
+    step: Any = None
+    steps: Sequence = ()
 
 
 class NoEquilibrium(ContactError):
-    """No equilibrium exists for a step (step): gross slip, or a moment that no pressure balances."""
+    """No equilibrium exists for a step: gross slip, or a moment that no pressure balances.
 
-    step = None
+    Parameters
+    ----------
+    code, message : int, str
+        See ContactError.
+
+    Attributes
+    ----------
+    step : Step or None
+        The step.
+    steps : list of Step or Cycle
+        Of Contact.run() and Contact.live(): those before it.
+    """
+
+    step: Any = None
+    steps: Sequence = ()
 
 
 class EdgeContactWarning(UserWarning):
@@ -105,14 +155,43 @@ def _shown(values, scales):
 
 
 class Step:
-    """A tried step: time (s), load (N, Tx, Ty, Mx, My, Mz) and rigid in this order, each of them by its name, and the
-    further numbers of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none. In steady
-    rolling rigid has the creepages, by their own names.
+    """A tried step: a number of each name, step.load_n, step.disp_x, step.dissipated_energy, step.contact_area, ...
 
-    numbers   {name: value} of loads, displacements and the further numbers
+    Its parameters are its attributes, too, but the names.
+
+    Parameters
+    ----------
+    time : float
+        Time, s.
+    load : ndarray
+        N, Tx, Ty (N), Mx, My, Mz (N m), (6,).
+    rigid : ndarray
+        Displacements z, x, y (m) and rotations x, y, z (rad), (6,); in steady rolling creepages, by their own names.
+    status : int
+        0, or the code of a step without a solution or at the edge of the grid.
+    message : str
+        The message of such a step.
+    numbers : dict
+        {name: value} of the further numbers of /history, NaN where a step has none; the attribute has loads and
+        displacements, too.
+    names : list of str
+        Names of loads and displacements, (12,).
     """
 
-    def __init__(self, time, load, rigid, status, message, numbers, names):
+    if TYPE_CHECKING:  # numbers are attributes by their names
+
+        def __getattr__(self, name: str) -> float: ...
+
+    def __init__(
+        self,
+        time: float,
+        load: np.ndarray,
+        rigid: np.ndarray,
+        status: int,
+        message: str,
+        numbers: Mapping[str, float],
+        names: Sequence[str],
+    ) -> None:
         self.time, self.load, self.rigid, self.status, self.message = time, load, rigid, status, message
         self.numbers, self._names = dict(zip(names, map(float, [*load, *rigid]))), names
         self.numbers.update(numbers)
@@ -131,10 +210,17 @@ class Step:
 class Cycle:
     """A computed cycle of a life: its numbers by their names in /wear, cycle.depth_max1, cycle.jump, ...
 
-    numbers   {name: value}
+    Parameters
+    ----------
+    numbers : dict
+        {name: value}.
     """
 
-    def __init__(self, numbers):
+    if TYPE_CHECKING:  # numbers are attributes by their names
+
+        def __getattr__(self, name: str) -> float: ...
+
+    def __init__(self, numbers: dict[str, float]) -> None:
         self.numbers = numbers
         self.__dict__.update(numbers)
 
@@ -142,8 +228,20 @@ class Cycle:
         return f"Cycle({', '.join(f'{name}={value:.6g}' for name, value in self.numbers.items())})"
 
 
-def error_of(code, message):
-    """Returns the exception for a code of the library or of the program, and its message."""
+def error_of(code: int, message: str) -> ContactError:
+    """The exception for an exit code of the library or of the program.
+
+    Parameters
+    ----------
+    code : int
+        Exit code.
+    message : str
+        The message of the library or the program.
+
+    Returns
+    -------
+    ContactError
+    """
     if code == UNREADABLE and message.endswith(_MISSING):
         return MissingInput(code, message)
     return {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium}.get(code, ContactError)(code, message)
@@ -245,12 +343,20 @@ class Stiffness(np.ndarray):
 
     What is computed or cut from it is a plain array without labels, since those would not hold for it.
 
-    loads, displacements   {name: unit} of rows and columns: load_n, ... and disp_z, ... as in try_step()
+    Parameters
+    ----------
+    values : array_like
+        The numbers, (n, n).
+    loads : mapping
+        {name: unit} of the rows: load_n, ... as in try_step().
+    displacements : mapping
+        {name: unit} of the columns: disp_z, ...
     """
 
-    loads, displacements = {}, {}
+    loads: Mapping[str, str] = {}
+    displacements: Mapping[str, str] = {}
 
-    def __new__(cls, values, loads, displacements):
+    def __new__(cls, values: ArrayLike, loads: Mapping[str, str], displacements: Mapping[str, str]) -> "Stiffness":
         matrix = np.array(values, dtype=float).view(cls)
         matrix.loads, matrix.displacements = dict(loads), dict(displacements)
         return matrix
@@ -266,7 +372,7 @@ class Stiffness(np.ndarray):
         return np.asarray(self)[key]
 
     @property
-    def T(self):
+    def T(self) -> np.ndarray:
         """The transpose, a plain array."""
         return np.asarray(self).T
 
@@ -315,24 +421,49 @@ def _condensed(k, names):
 class Contact:
     """A contact of two bodies that have never touched.
 
-    Keywords are the options of the program petsam (examples/manual/OPTIONS.md): grid_n=256, grid_size=(2e-3, 1e-3),
-    friction=0.1, gap_type="sphere", wear_coefficient1=1e-14, ... Loads are given to try_step(). comm, a communicator of
-    mpi4py, spreads the contact over its ranks, which then call all functions together; None: this process alone.
+    Parameters
+    ----------
+    comm : communicator of mpi4py, optional
+        Spreads the contact over its ranks, which then call all functions together; None: this process alone.
+    **options
+        Options of the program petsam (examples/manual/OPTIONS.md) without the dash: grid_n=256, grid_size=(2e-3, 1e-3),
+        friction=0.1, gap_type="sphere", wear_coefficient1=1e-14, ... Loads are given to try_step().
 
-    n, size, center   cells, widths and centre (m) of the grid in x and y
-    x, y              cell centres, m; y of this rank's rows
-    first_row, rows   this rank's rows: fields are arrays of (rows, n[0])
-    prescribable      {name: unit} of all that try_step() takes
+    Attributes
+    ----------
+    n : tuple of int
+        Numbers of cells (nx, ny).
+    size, center : tuple of float
+        Widths and centre of the grid in x and y, m.
+    x, y : ndarray
+        Cell centres, m: (nx,), and (rows,) of this rank's rows.
+    first_row, rows : int
+        This rank's rows: fields are arrays of (rows, nx).
+    prescribable : dict
+        {name: unit} of all that try_step() takes.
+
+    Raises
+    ------
+    ContactError
+        If an option is wrong, or the memory does not suffice.
+    MissingFile
+        If a file that an option names is missing.
+    TypeError
+        If comm is no communicator, or an option is a field, which is given afterwards.
+    Missing
+        If there is no libpetsam.
     """
 
-    def __init__(self, *, comm=None, **options):
+    def __init__(self, *, comm: Any = None, **options: Any) -> None:
         self._contact = ctypes.c_void_p()
         if comm is not None and not hasattr(comm, "py2f"):
             raise TypeError(f"comm: expected a communicator of mpi4py, and not {type(comm).__name__}")
         for name in ("gap", "friction"):
             if np.ndim(options.get(name, 0.0)) > 1:
                 raise TypeError(f"{name}: a field is given afterwards, contact.{name} = ...")
-        self._made, self._given, self._advised = dict(comm=comm, **options), {}, set()
+        self._made: dict[str, Any] = dict(comm=comm, **options)
+        self._given: dict[str, np.ndarray] = {}
+        self._advised: set[str] = set()  # kinds of advice that have been given
         self._c = _load()
         with _lock:
             code = self._c.petsam_create(
@@ -400,18 +531,39 @@ class Contact:
 
     # ------------------------------------------------------------ steps
 
-    def try_step(self, time=0.0, **given):
-        """Solve a step from the committed state: a Step.
+    def try_step(self, time: float = 0.0, **given: float) -> Step:
+        """Solves a step from the committed state; replaces an earlier try.
 
-        Each component is given by its load (load_n, N ... load_mz, N m), its displacement (disp_z, m ... rot_z, rad) or
-        its creepage (creep_x, creep_y, creep_spin, 1/m); components that are not given are loads of 0. Besides them a
-        step takes the conditions that are columns of a history: friction_scale, bulk2_stress_xx (Pa), body2_case_NAME,
-        ... (contact.prescribable). With roll, roll_y (m) the contact rolls towards +x, +y: the grid moves over the
-        bodies, and a creepage times the distance is the motion of body 1. They hold for this step; what is not given
-        has the value of the contact's option. NoEquilibrium or NotConverged where there is no solution, with the step;
-        an EdgeContactWarning where the contact has reached the edge of the grid, an AdviceWarning, once of each kind,
-        where the grid does not resolve the step. Replaces an earlier try. With rolling="steady" each try is a steady
-        state of rolling.
+        Parameters
+        ----------
+        time : float
+            Time, s.
+        **given : float
+            Each component by its load (load_n, N ... load_mz, N m), its displacement (disp_z, m ... rot_z, rad) or its
+            creepage (creep_x, creep_y, creep_spin, 1/m); components that are not given are loads of 0. Besides them the
+            conditions that are columns of a history: friction_scale, bulk2_stress_xx (Pa), body2_case_NAME, ...
+            (contact.prescribable), which hold for this step; what is not given has the value of the contact's option.
+
+        Returns
+        -------
+        Step
+
+        Raises
+        ------
+        NoEquilibrium, NotConverged
+            If there is no solution; the attribute `step` is the step.
+        PrescribedError
+            If a name is unknown, two names are of one component, or a value is out of range.
+        TypeError
+            If a value is no number.
+
+        Notes
+        -----
+        With roll, roll_y (m) the contact rolls towards +x, +y: the grid moves over the bodies, and a creepage times the
+        distance is the motion of body 1. With rolling="steady" each try is a steady state of rolling.
+
+        An EdgeContactWarning is issued where the contact has reached the edge of the grid, an AdviceWarning, once of
+        each kind, where the grid does not resolve the step.
         """
         values = np.array([_real(number, f"try_step: {name}").value for name, number in given.items()])
         seconds, load, rigid = _real(time, "try_step: time"), np.full(6, np.nan), np.full(6, np.nan)
@@ -457,10 +609,17 @@ class Contact:
                     found[name] = value.value
         return found
 
-    def commit(self):
+    def commit(self) -> None:
         """Makes the tried step the state from which the next one continues; the wear of the step is removed.
 
-        WearWarning if the step wears more than the limit of a step.
+        Raises
+        ------
+        ContactError
+            If no step with a solution has been tried.
+
+        Notes
+        -----
+        A WearWarning is issued if the step wears more than the limit of a step.
         """
         with _lock:
             self._call("commit")
@@ -468,25 +627,43 @@ class Contact:
         if message:
             warnings.warn(message, WearWarning, stacklevel=2)
 
-    def reject(self):
+    def reject(self) -> None:
         """Discards the tried step: later steps are, to the last bit, as if it had not been tried."""
         self._call("reject")
 
-    def stiffness(self, reversal=False, condense=None, cases=()):
-        """d(loads)/d(displacements) of the tried step, (6, 6): N/m, N/rad, N, N m/rad.
+    def stiffness(
+        self,
+        reversal: bool = False,
+        condense: Union[str, Sequence[str], None] = None,
+        cases: Union[str, Sequence[str]] = (),
+    ) -> Any:
+        """The stiffness d(loads)/d(displacements) of the tried step.
 
-        A Stiffness: an array of numpy, for np.linalg.solve() and so on, that is printed with labels: rows N, Tx, Ty,
-        Mx, My, Mz, columns disp_z, disp_x, disp_y, rot_x, rot_y, rot_z.
+        Parameters
+        ----------
+        reversal : bool
+            False: cells that slip go on slipping, the derivative of try_step(); True: all cells in contact stick,
+            without a tried step those of the committed one.
+        condense : str or sequence of str, optional
+            "disp_x" or another displacement: the stiffness (a number) of its load while the other five loads stay, and
+            their displacements follow; or several of them, for a matrix. For components that are held, use the whole
+            matrix.
+        cases : str or sequence of str
+            Names of factors on load cases, "body2_case_pull": they are further columns, and their loads, the numbers
+            "body2_case_pull_load", further rows.
 
-        Cells that slip go on slipping: the derivative of try_step(); or, with reversal, all cells in contact stick,
-        without a tried step those of the committed one.
+        Returns
+        -------
+        Stiffness or float
+            (6, 6) and more with cases: rows N, Tx, Ty, Mx, My, Mz, columns disp_z, disp_x, disp_y, rot_x, rot_y, rot_z,
+            of N/m, N/rad, N, N m/rad. An array of numpy, for np.linalg.solve() and so on, that is printed with labels.
 
-        condense is "disp_x" or another displacement: the stiffness (a number) of its load while the other five loads
-        stay, and their displacements follow; or several of them, for a matrix. For components that are held, use the
-        whole matrix.
-
-        cases are names of factors on load cases, "body2_case_pull": they are further columns, and their loads, the
-        numbers "body2_case_pull_load", further rows.
+        Raises
+        ------
+        NotConverged
+            If the stiffness does not converge.
+        ContactError
+            If there is no step, or condense names no displacement or components without stiffness.
         """
         names = [cases] if isinstance(cases, str) else list(cases)
         k = np.empty((6 + len(names), 6 + len(names)))
@@ -501,21 +678,66 @@ class Contact:
 
     # ------------------------------------------------------------ histories and lives
 
-    def run(self, history, each=None):
-        """Solve a history from the committed state on and commit each step: a list of Step.
+    def run(self, history: Any, each: Optional[Callable[["Contact", Step], Any]] = None) -> list[Step]:
+        """Solves a history from the committed state on and commits each step.
 
-        history is a file as the option -history has it, or {column: values}: time, load_n, load_tx, disp_x, ... The
-        option steps of the contact divides the change to each row. each(contact, step) is called after each step, may
-        ask for fields, and ends the run by returning True. Where a step has no solution: NoEquilibrium or NotConverged,
-        with the step, and in error.steps those before it. An EdgeContactWarning where the run ends because the contact
-        has reached the edge of the grid.
+        Parameters
+        ----------
+        history : path or mapping
+            A file as the option -history has it, or {column: values}: time, load_n, load_tx, disp_x, ..., each (rows,).
+            The option steps of the contact divides the change to each row.
+        each : callable, optional
+            each(contact, step) is called after each step, may ask for fields, and ends the run by returning True.
+
+        Returns
+        -------
+        list of Step
+
+        Raises
+        ------
+        NoEquilibrium, NotConverged
+            If a step has no solution; the attributes are `step`, and `steps`, those before it.
+        ContactError
+            If a column or a value is rejected.
+        MissingFile
+            If there is no such file.
+        ValueError
+            If rows of the file have different numbers of fields, or a field is no number.
+        TypeError
+            If the history is neither a file nor a mapping, or each cannot be called.
+
+        Notes
+        -----
+        An EdgeContactWarning is issued where the run ends because the contact has reached the edge of the grid.
         """
         return self._run("history", (), history, each)
 
-    def live(self, cycles, history, each=None):
-        """Wear over so many cycles of a closed history (see run()), most of them jumped over: a list of Cycle.
+    def live(
+        self, cycles: float, history: Any, each: Optional[Callable[["Contact", Cycle], Any]] = None
+    ) -> list[Cycle]:
+        """Wear over many cycles of a closed history, most of them jumped over.
 
-        The options wear_rtol and wear_jump of the contact count. each(contact, cycle) as in run().
+        Parameters
+        ----------
+        cycles : float
+            Number of cycles.
+        history : path or mapping
+            One cycle: see run().
+        each : callable, optional
+            each(contact, cycle) as in run(), after each computed cycle.
+
+        Returns
+        -------
+        list of Cycle
+
+        Raises
+        ------
+        ContactError
+            If the history or a value is rejected; other errors are those of run().
+
+        Notes
+        -----
+        The options wear_rtol and wear_jump of the contact count.
         """
         return self._run("live", (_real(cycles, "live: cycles"),), history, each)
 
@@ -563,10 +785,29 @@ class Contact:
 
     # ------------------------------------------------------------ fields and numbers
 
-    def field(self, name, out=None):
-        """A field of the tried step, else of the committed one, by its name in results; this rank's rows.
+    def field(self, name: str, out: Optional[np.ndarray] = None) -> np.ndarray:
+        """A field of the tried step, else of the committed one; also contact["pressure"].
 
-        out is an array to write to: of (rows, n[0]) doubles, contiguous.
+        Parameters
+        ----------
+        name : str
+            Its name in results files.
+        out : ndarray, optional
+            An array to write to: of (rows, nx) doubles, contiguous.
+
+        Returns
+        -------
+        ndarray
+            This rank's rows, (rows, nx), in SI units.
+
+        Raises
+        ------
+        ContactError
+            If there is no such field, or no step.
+        ValueError
+            If out has another shape or type.
+        TypeError
+            If the name is no text, or out no array.
         """
         shape = (self.rows, self.n[0])
         if out is None:
@@ -582,10 +823,26 @@ class Contact:
 
     __getitem__ = field
 
-    def number(self, name):
-        """A number of the last step, by its name in /history: contact_area, dissipated_energy, ...
+    def number(self, name: str) -> float:
+        """A number of the last step; after reject() that of the committed step.
 
-        After reject() the number is that of the committed step; for a tried step, step.contact_area is the same number.
+        Parameters
+        ----------
+        name : str
+            Its name in /history: contact_area, dissipated_energy, ... For a tried step, step.contact_area is the same
+            number.
+
+        Returns
+        -------
+        float
+            The number, in SI units.
+
+        Raises
+        ------
+        ContactError
+            If there is no such number.
+        TypeError
+            If the name is no text.
         """
         value = ctypes.c_double()
         if not isinstance(name, str):
@@ -605,8 +862,25 @@ class Contact:
             text = f"{short(name)}: there is no {what} of this name{there_are(name, names)}"
             raise ContactError(error.code, text) from None
 
-    def set_field(self, name, values):
-        """Give the gap (separation of the undeformed, unworn bodies, m) or the friction: (rows, n[0]) or a number."""
+    def set_field(self, name: str, values: ArrayLike) -> None:
+        """Gives the gap or the friction; also contact["gap"] = values, and contact.gap = values.
+
+        Parameters
+        ----------
+        name : str
+            "gap", the separation of the undeformed, unworn bodies, m, or "friction".
+        values : array_like
+            This rank's rows, (rows, nx), or a number.
+
+        Raises
+        ------
+        ContactError
+            If there is no such field, or a value is out of range.
+        ValueError
+            If the shape is another one.
+        TypeError
+            If the name is no text, or the values are no real numbers.
+        """
         values = np.asarray(values)
         if not isinstance(name, str):
             raise TypeError(f"{name!r} is no name of a field: expected gap or friction")
@@ -631,38 +905,105 @@ class Contact:
 
     # ------------------------------------------------------------ stresses
 
-    def stress(self, depths=0.0, section=None, body=2, quantities=("stress", "mises")):
-        """Stresses in a body under the tried step, else the committed one: {name: array}, as in petsam-stress's file.
+    def stress(
+        self,
+        depths: Union[float, Sequence[float], str] = 0.0,
+        section: Optional[str] = None,
+        body: int = 2,
+        quantities: Union[str, Sequence[str]] = ("stress", "mises"),
+    ) -> dict[str, np.ndarray]:
+        """Stresses in a body under the tried step, else the committed one.
 
-        depths      m below the surface: a number, several, or "first:last:number"
-        section     "y=0" or "x=1e-4" (m): only the line of cells nearest to it, not whole maps
-        quantities  of stress, mises, principal, shear_max, strain
+        Parameters
+        ----------
+        depths : float, sequence or str
+            m below the surface: a number, several, or "first:last:number".
+        section : str, optional
+            "y=0" or "x=1e-4" (m): only the line of cells nearest to it, not whole maps.
+        body : int
+            1 or 2.
+        quantities : sequence of str
+            Of stress, mises, principal, shear_max, strain.
 
-        stress_xx, mises, ... have the shape (1, z, y, x), "time", "z", "y" and "x" are the coordinates. Of maps each
-        rank has its rows, of sections all. To the last bit what petsam-stress finds of this step.
+        Returns
+        -------
+        dict
+            {name: array} as in petsam-stress's file: stress_xx, mises, ... have the shape (1, z, y, x), Pa, strains 1;
+            "time" (s), "z", "y" and "x" (m) are the coordinates. Of maps each rank has its rows, of sections all.
+
+        Raises
+        ------
+        ContactError
+            If an argument is rejected, or there is no step.
+
+        Notes
+        -----
+        To the last bit what petsam-stress finds of this step.
         """
         return self._evaluate("stress", depths=depths, section=section, body=body, quantities=quantities)
 
-    def record(self, on=True):
-        """Record each step that is committed from now on, for fatigue(). Forgets earlier ones.
+    def record(self, on: bool = True) -> None:
+        """Records each step that is committed from now on, for fatigue(). Forgets earlier ones.
 
-        A step takes 40 bytes a cell, and 48 more for each layer of bodies that yield.
+        Parameters
+        ----------
+        on : bool
+            False ends recording.
 
-        Steps of a history too; of a life those of the last computed cycle.
+        Raises
+        ------
+        ContactError
+            If the memory does not suffice.
+
+        Notes
+        -----
+        A step takes 40 bytes a cell, and 48 more for each layer of bodies that yield. Steps of a history are recorded
+        too; of a life those of the last computed cycle.
         """
         self._call("record", ctypes.c_int(bool(on)))
 
-    def fatigue(self, parameters, depths=None, section=None, body=2, quantities=(), **constants):
-        """Fatigue parameters over the recorded steps, taken as one closed cycle: {name: array}, as stress().
+    def fatigue(
+        self,
+        parameters: Union[str, Sequence[str]],
+        depths: Union[float, Sequence[float], str, None] = None,
+        section: Optional[str] = None,
+        body: int = 2,
+        quantities: Union[str, Sequence[str]] = (),
+        **constants: Any,
+    ) -> dict[str, np.ndarray]:
+        """Fatigue parameters over the recorded steps, taken as one closed cycle.
 
-        parameters  of crossland, dang_van, findley, swt, fatemi_socie, ruiz; their arrays have the shape (z, y, x)
-        constants   fatigue_crossland_alpha, fatigue_dang_van_alpha, fatigue_findley_k, fatigue_fatemi_socie_k,
-                    fatigue_yield (Pa), passing (True: of a point that passes along x under the one recorded step):
-                    fatigue_length (m) and fatigue_average (point, line, area) instead of depths, of which the default
-                    is the surface: the options of petsam-stress
-        quantities  those of stress() that are wanted too, of all steps: (time, z, y, x)
+        Parameters
+        ----------
+        parameters : str or sequence of str
+            Of crossland, dang_van, findley, swt, fatemi_socie, ruiz.
+        depths : float, sequence or str, optional
+            See stress(); the default is the surface.
+        section : str, optional
+            See stress().
+        body : int
+            1 or 2.
+        quantities : sequence of str
+            Those of stress() that are wanted too, of all steps: (time, z, y, x).
+        **constants
+            The options of petsam-stress: fatigue_crossland_alpha, fatigue_dang_van_alpha, fatigue_findley_k,
+            fatigue_fatemi_socie_k, fatigue_yield (Pa), passing (True: of a point that passes along x under the one
+            recorded step); fatigue_length (m) and fatigue_average (point, line, area) instead of depths.
 
-        CycleWarning if the tractions of the last step differ from those of the state in which recording began.
+        Returns
+        -------
+        dict
+            {name: array} as stress(); the parameters have the shape (z, y, x).
+
+        Raises
+        ------
+        ContactError
+            If an argument is rejected, or no step was recorded.
+
+        Notes
+        -----
+        A CycleWarning is issued if the tractions of the last step differ from those of the state in which recording
+        began.
         """
         given = dict(depths=depths, section=section, body=body, quantities=quantities)
         return self._evaluate("fatigue", fatigue=parameters, **given, **constants)
@@ -687,40 +1028,97 @@ class Contact:
 
     # ------------------------------------------------------------ files, end
 
-    def save(self, file):
-        """Writes the committed state to a file."""
+    def save(self, file: Union[str, os.PathLike]) -> None:
+        """Writes the committed state to a file.
+
+        Parameters
+        ----------
+        file : path
+            The file, which is replaced.
+
+        Raises
+        ------
+        ContactError
+            If no step has been committed, or the file cannot be written.
+        """
         self._call("save", os.fsencode(file))
 
-    def load(self, file):
-        """Takes over the state in a file that a contact of the same options has saved."""
+    def load(self, file: Union[str, os.PathLike]) -> None:
+        """Takes over the state in a file that a contact of the same options has saved.
+
+        Parameters
+        ----------
+        file : path
+            The file.
+
+        Raises
+        ------
+        ContactError
+            If the file cannot be read, or its state does not fit this contact.
+        MissingFile
+            If there is no such file.
+        """
         self._call("load", os.fsencode(file))
 
     @property
-    def options(self):
+    def options(self) -> dict[str, Any]:
         """The keywords by which it was made."""
         return {name: value for name, value in self._made.items() if name != "comm"}
 
-    def copy(self, **options):
-        """Another contact of the same options, gap and friction, in the committed state of this one; options of the
-        solvers, such as tangential_rtol, that change."""
+    def copy(self, **options: Any) -> "Contact":
+        """Another contact of the same options, gap and friction, in the committed state of this one.
+
+        Parameters
+        ----------
+        **options
+            Options of the solvers, such as tangential_rtol, that change.
+
+        Returns
+        -------
+        Contact
+
+        Raises
+        ------
+        ContactError
+            If an option is wrong, or the state does not fit the options.
+        """
         other = Contact(**{**self._made, **options})
         for name, values in self._given.items():
             other.set_field(name, values)
         other._call("copy", self._contact)
         return other
 
-    def take(self, other):
-        """Takes over the committed state of another contact of the same options, gap and friction."""
+    def take(self, other: "Contact") -> None:
+        """Takes over the committed state of another contact of the same options, gap and friction.
+
+        Parameters
+        ----------
+        other : Contact
+            The contact, which stays as it is.
+
+        Raises
+        ------
+        TypeError
+            If other is no open contact.
+        ContactError
+            If the state does not fit this contact.
+        """
         if not isinstance(other, Contact) or not other._contact:
             raise TypeError("take: expected an open Contact")
         self._call("copy", other._contact)
 
-    def reset(self):
+    def reset(self) -> None:
         """Resets the contact to bodies that have never touched."""
         self._call("reset")
 
-    def close(self):
-        """Frees the contact."""
+    def close(self) -> None:
+        """Frees the contact.
+
+        Raises
+        ------
+        ContactError
+            If it is called within the function of a run.
+        """
         with _lock:
             if self._contact:
                 self._c.petsam_destroy(ctypes.byref(self._contact))

@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import warnings
 from collections.abc import Callable, Mapping
-from typing import Optional
+from typing import Any, Optional
 
 import numpy as np
 
@@ -23,8 +23,8 @@ _SOLVED = (0, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE)  # exit codes of runs that ha
 
 
 def run(
-    options: Optional[Mapping] = None, /, *, history=None, ranks: int = 1,
-    report: Optional[Callable[[str], object]] = None, **more,
+    options: Optional[Mapping] = None, /, *, history: Any = None, ranks: int = 1,
+    report: Optional[Callable[[str], object]] = None, **more: Any,
 ) -> Results:  # fmt: skip
     """Runs petsam with these options, and returns its Results: petsam.run(grid_n=64, load_n=100, ...).
 
@@ -43,6 +43,8 @@ def run(
         Number of MPI ranks; more than 1 are started by the launcher in $MPIRUN, or mpirun.
     report : callable, optional
         Called with each line that the program prints, for example print; None: it prints nothing.
+    **more
+        Options as keywords.
 
     Returns
     -------

@@ -326,7 +326,7 @@ def test_maps_are_of_the_contact_unless_the_whole_grid_is_asked_for(strokes):
 
 
 def test_windows_and_strides_are_those_of_the_field(strokes, monkeypatch):
-    monkeypatch.setattr("petsam.results.file.BLOCK", 8)
+    monkeypatch.setattr("petsam.results.fields.BLOCK", 8)
     results = Results(str(strokes))
     with h5py.File(strokes, "r") as file:
         expected = file["pressure"][1][5:41:2, 3:30:2]

@@ -16,7 +16,17 @@ NARROW = 1e-8  # ratio of the half axes down to which a contact is searched
 
 
 class Ellipse(NamedTuple):
-    """Hertz's elliptic contact: half axes along x and y (m), maximum pressure (Pa), approach of the bodies (m)."""
+    """Hertz's elliptic contact.
+
+    Attributes
+    ----------
+    half_x, half_y : float
+        Half axes along x and y, m.
+    pressure : float
+        Maximum pressure, Pa.
+    approach : float
+        Approach of the bodies, m.
+    """
 
     half_x: float
     half_y: float
@@ -67,8 +77,8 @@ def hertz_ellipse(load_n: float, radius_x: float, radius_y: float, e_star: float
     # 1/(2 large) = p0 along/(E* a) with p0 = 3 N/(2 pi k a^2)
     a = np.cbrt(3.0 * load_n * large * along / (np.pi * k * e_star))
     pressure = 1.5 * load_n / (np.pi * k * a * a)
-    halves = (a, k * a) if radius_x >= radius_y else (k * a, a)
-    return Ellipse(*map(float, halves), float(pressure), float(pressure / e_star * deep * a))
+    half_x, half_y = (a, k * a) if radius_x >= radius_y else (k * a, a)
+    return Ellipse(float(half_x), float(half_y), float(pressure), float(pressure / e_star * deep * a))
 
 
 def hertz_radii(half_x: float, half_y: float, load_n: float, e_star: float) -> tuple[float, float]:

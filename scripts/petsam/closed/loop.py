@@ -11,39 +11,143 @@ References
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 
-def first_loading(load, limit, gross):
-    """d_x, m, of the first loading to load (N); limit = mu N, gross = displacement of incipient sliding (m)."""
+def first_loading(load: ArrayLike, limit: float, gross: float) -> np.ndarray:
+    """The displacement d_x of the first loading.
+
+    Parameters
+    ----------
+    load : array_like
+        Tangential load, N, from 0 to limit.
+    limit : float
+        Load mu N of gross slip, N.
+    gross : float
+        Displacement of incipient sliding, m.
+
+    Returns
+    -------
+    ndarray
+        Displacement, m, of the shape of load.
+    """
     return gross * (1.0 - np.cbrt(1.0 - np.asarray(load, dtype=float) / limit) ** 2)
 
 
-def masing_displacement(load, turn_load, turn_displacement, limit, gross):
-    """d_x, m, at load (N) after a turning point: the first loading's curve doubled, down or up."""
+def masing_displacement(
+    load: ArrayLike, turn_load: float, turn_displacement: float, limit: float, gross: float
+) -> np.ndarray:
+    """The displacement d_x after a turning point: the first loading's curve doubled, down or up.
+
+    Parameters
+    ----------
+    load : array_like
+        Tangential load, N.
+    turn_load : float
+        Load of the turning point, N.
+    turn_displacement : float
+        Displacement of the turning point, m.
+    limit : float
+        Load mu N of gross slip, N.
+    gross : float
+        Displacement of incipient sliding, m.
+
+    Returns
+    -------
+    ndarray
+        Displacement, m, of the shape of load.
+    """
     swing = np.asarray(load, dtype=float) - turn_load
     return turn_displacement + 2.0 * np.sign(swing) * first_loading(0.5 * np.abs(swing), limit, gross)
 
 
-def partial_loop_energy(amplitude, limit, gross):
-    """Energy, J, that friction dissipates in one cycle between -amplitude and amplitude (N), amplitude <= mu N.
+def partial_loop_energy(amplitude: float, limit: float, gross: float) -> float:
+    """The energy that friction dissipates in one cycle between two opposite loads.
 
+    Parameters
+    ----------
+    amplitude : float
+        The largest load, N, at most limit.
+    limit : float
+        Load mu N of gross slip, N.
+    gross : float
+        Displacement of incipient sliding, m.
+
+    Returns
+    -------
+    float
+        Energy of a cycle, J.
+
+    Notes
+    -----
     Mindlin and Deresiewicz; with gross = 3 mu N (sum of (2 - nu)/G)/(16 a) it is Johnson's eq. 7.59.
     """
     t = amplitude / limit
     return 4.0 * limit * gross * (1.2 * (1.0 - np.cbrt(1.0 - t) ** 5) - t * (1.0 + np.cbrt(1.0 - t) ** 2))
 
 
-def sliding_displacement_load(displacement, limit, gross):
-    """T, N, of the first loading to displacement (m) >= 0; mu N beyond gross."""
+def sliding_displacement_load(displacement: ArrayLike, limit: float, gross: float) -> np.ndarray:
+    """The load of the first loading up to a displacement; mu N beyond that of incipient sliding.
+
+    Parameters
+    ----------
+    displacement : array_like
+        Displacement, m, at least 0.
+    limit : float
+        Load mu N of gross slip, N.
+    gross : float
+        Displacement of incipient sliding, m.
+
+    Returns
+    -------
+    ndarray
+        Tangential load, N, of the shape of displacement.
+    """
     return limit * (1.0 - np.clip(1.0 - np.asarray(displacement, dtype=float) / gross, 0.0, None) ** 1.5)
 
 
-def sliding_masing_load(displacement, turn_load, turn_displacement, limit, gross):
-    """T, N, at displacement (m) after a turning point; the loop's branches end in sliding at mu N."""
+def sliding_masing_load(
+    displacement: ArrayLike, turn_load: float, turn_displacement: float, limit: float, gross: float
+) -> np.ndarray:
+    """The load after a turning point; the loop's branches end in sliding at mu N.
+
+    Parameters
+    ----------
+    displacement : array_like
+        Displacement, m.
+    turn_load : float
+        Load of the turning point, N.
+    turn_displacement : float
+        Displacement of the turning point, m.
+    limit : float
+        Load mu N of gross slip, N.
+    gross : float
+        Displacement of incipient sliding, m.
+
+    Returns
+    -------
+    ndarray
+        Tangential load, N, of the shape of displacement.
+    """
     swing = np.asarray(displacement, dtype=float) - turn_displacement
     return turn_load + 2.0 * np.sign(swing) * sliding_displacement_load(0.5 * np.abs(swing), limit, gross)
 
 
-def sliding_loop_energy(amplitude, limit, gross):
-    """Energy, J, of one cycle between displacements -amplitude and amplitude (m) >= gross, from sliding to sliding."""
+def sliding_loop_energy(amplitude: float, limit: float, gross: float) -> float:
+    """The energy of one cycle between two opposite displacements, from sliding to sliding.
+
+    Parameters
+    ----------
+    amplitude : float
+        The largest displacement, m, at least gross.
+    limit : float
+        Load mu N of gross slip, N.
+    gross : float
+        Displacement of incipient sliding, m.
+
+    Returns
+    -------
+    float
+        Energy of a cycle, J.
+    """
     return partial_loop_energy(limit, limit, gross) + 4.0 * limit * (amplitude - gross)

@@ -32,20 +32,31 @@ References
   2349-2378.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
+
+from .punch import Punch
 
 
 class Contact(NamedTuple):
-    """Middle m and half width a of the contact, m."""
+    """A contact, or a zone of it.
+
+    Attributes
+    ----------
+    middle : float
+        Middle m, m.
+    half_width : float
+        Half width a, m.
+    """
 
     middle: float
     half_width: float
 
     @property
-    def ends(self):
+    def ends(self) -> tuple[float, float]:
         """Left and right end, m."""
         return self.middle - self.half_width, self.middle + self.half_width
 
@@ -59,16 +70,42 @@ def _edges(punch, contact):
     return tuple(np.arccos(np.clip((edge - m) / a, -1.0, 1.0)) for edge in (punch.c, -punch.c))
 
 
-def plane_load(punch, contact):
-    """Load per length P', N/m."""
+def plane_load(punch: Punch, contact: Contact) -> float:
+    """The load per length under which the contact is this one.
+
+    Parameters
+    ----------
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    contact : Contact
+        The contact.
+
+    Returns
+    -------
+    float
+        Load P', N/m.
+    """
     total = 0.0
     for phi in (_edges(punch, contact)[0], np.pi - _edges(punch, contact)[1]):
         total += phi - 0.5 * np.sin(2.0 * phi)
     return punch.e_star * contact.half_width**2 / (4.0 * punch.edge_radius) * total
 
 
-def plane_moment(punch, contact):
-    """Moment per length about x = 0, M' = integral of x p, N."""
+def plane_moment(punch: Punch, contact: Contact) -> float:
+    """The moment per length about x = 0, M' = integral of x p, under which the contact is this one.
+
+    Parameters
+    ----------
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    contact : Contact
+        The contact.
+
+    Returns
+    -------
+    float
+        Moment M', N.
+    """
     phi1, phi2 = _edges(punch, contact)
     about_middle = (
         punch.e_star * contact.half_width**3 / (12.0 * punch.edge_radius) * (np.sin(phi1) ** 3 - np.sin(phi2) ** 3)
@@ -76,16 +113,44 @@ def plane_moment(punch, contact):
     return about_middle + contact.middle * plane_load(punch, contact)
 
 
-def plane_tilt(punch, contact):
-    """Tilt r, rad: positive where the side of positive x is pressed deeper."""
+def plane_tilt(punch: Punch, contact: Contact) -> float:
+    """The tilt of a punch with this contact.
+
+    Parameters
+    ----------
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    contact : Contact
+        The contact.
+
+    Returns
+    -------
+    float
+        Tilt r, rad: positive where the side of positive x is pressed deeper.
+    """
     (m, a), (phi1, phi2) = contact, _edges(punch, contact)
     right = (m - punch.c) * phi1 + a * np.sin(phi1)
     left = (m + punch.c) * (np.pi - phi2) - a * np.sin(phi2)
     return (right + left) / (np.pi * punch.edge_radius)
 
 
-def plane_pressure(x, punch, contact):
-    """Pressure, Pa, at x (m); 0 outside the contact."""
+def plane_pressure(x: ArrayLike, punch: Punch, contact: Contact) -> np.ndarray:
+    """The pressure of a contact; 0 outside of it.
+
+    Parameters
+    ----------
+    x : array_like
+        Places, m.
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    contact : Contact
+        The contact.
+
+    Returns
+    -------
+    ndarray
+        Pressure, Pa, of the shape of x.
+    """
     (m, a), (phi1, phi2) = contact, _edges(punch, contact)
     xi = np.clip((np.asarray(x, dtype=float) - m) / a, -1.0, 1.0)
     theta = np.arccos(xi)
@@ -131,24 +196,87 @@ def _contact(punch, load, quantity, value):
     return Contact(float(sign * middle), _half_width(punch, load, middle))
 
 
-def contact_under_moment(punch, load, moment=0.0):
-    """The contact under P' (N/m) and M' (N)."""
+def contact_under_moment(punch: Punch, load: float, moment: float = 0.0) -> Contact:
+    """The contact under a load and a moment.
+
+    Parameters
+    ----------
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    load : float
+        Load P', N/m, above 0.
+    moment : float
+        Moment M', N, about x = 0.
+
+    Returns
+    -------
+    Contact
+    """
     return _contact(punch, load, plane_moment, moment)
 
 
-def contact_at_tilt(punch, load, tilt=0.0):
-    """The contact under P' (N/m) at a tilt (rad)."""
+def contact_at_tilt(punch: Punch, load: float, tilt: float = 0.0) -> Contact:
+    """The contact under a load at a tilt.
+
+    Parameters
+    ----------
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    load : float
+        Load P', N/m, above 0.
+    tilt : float
+        Tilt r, rad.
+
+    Returns
+    -------
+    Contact
+    """
     return _contact(punch, load, plane_tilt, tilt)
 
 
-def stick_zone(punch, contact, shear_load, friction):
-    """The zone, as a Contact, that sticks under Q' (N/m) with 0 <= Q' < mu P'."""
+def stick_zone(punch: Punch, contact: Contact, shear_load: float, friction: float) -> Contact:
+    """The zone that sticks.
+
+    Parameters
+    ----------
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    contact : Contact
+        The contact.
+    shear_load : float
+        Shear Q', N/m, with 0 <= Q' < mu P'.
+    friction : float
+        Coefficient of friction mu.
+
+    Returns
+    -------
+    Contact
+    """
     load = plane_load(punch, contact) - shear_load / friction
     return contact_at_tilt(punch, load, plane_tilt(punch, contact))
 
 
-def plane_shear(x, punch, contact, stick, friction):
-    """Shear q, Pa, at x (m): mu (p - p*)."""
+def plane_shear(x: ArrayLike, punch: Punch, contact: Contact, stick: Contact, friction: float) -> np.ndarray:
+    """The shear q = mu (p - p*).
+
+    Parameters
+    ----------
+    x : array_like
+        Places, m.
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    contact : Contact
+        The contact.
+    stick : Contact
+        The zone that sticks: see stick_zone().
+    friction : float
+        Coefficient of friction mu.
+
+    Returns
+    -------
+    ndarray
+        Shear, Pa, of the shape of x.
+    """
     return friction * (plane_pressure(x, punch, contact) - plane_pressure(x, punch, stick))
 
 
@@ -156,9 +284,26 @@ def plane_shear(x, punch, contact, stick, friction):
 
 
 class PlaneCells:
-    """The plane problem on strips with centres x (m), of equal width; dense, for up to a few thousand strips."""
+    """The plane problem on strips of equal width and constant traction; dense, for up to a few thousand strips.
 
-    def __init__(self, punch, x):
+    Parameters
+    ----------
+    punch : Punch
+        Half width of the flat base, radius of the edges, E*.
+    x : ndarray
+        Centres of the strips, (n,), m, of equal distances.
+
+    Attributes
+    ----------
+    width : float
+        Width of a strip, m.
+    gap : ndarray
+        Separation of the undeformed bodies, (n,), m.
+    influence : ndarray
+        Displacement by the pressure of a strip, (n, n), m/Pa.
+    """
+
+    def __init__(self, punch: Punch, x: np.ndarray) -> None:
         self.punch, self.x, self.width = punch, x, x[1] - x[0]
         reach = (np.arange(x.size + 1) - 0.5) * self.width
         primitive = reach * np.log(np.abs(reach))
@@ -167,8 +312,32 @@ class PlaneCells:
         self.influence = column[np.abs(index[:, None] - index)]
         self.gap = punch.gap(x)
 
-    def solve(self, load, moment=None, tilt=None):
-        """Pressure (Pa) and tilt (rad) under P' (N/m) and either M' (N) or a tilt (rad)."""
+    def solve(
+        self, load: float, moment: Optional[float] = None, tilt: Optional[float] = None
+    ) -> tuple[np.ndarray, float]:
+        """The contact under a load and either a moment or a tilt.
+
+        Parameters
+        ----------
+        load : float
+            Load P', N/m.
+        moment : float, optional
+            Moment M', N, where there is no tilt.
+        tilt : float, optional
+            Tilt r, rad.
+
+        Returns
+        -------
+        pressure : ndarray
+            Pressure of the strips, (n,), Pa.
+        tilt : float
+            Tilt r, rad.
+
+        Raises
+        ------
+        RuntimeError
+            If the contact does not settle in 100 iterations.
+        """
         rigid = np.stack([np.ones_like(self.x), self.x], axis=1)
         active = self.gap <= self.gap.max() * 0.5
         for _ in range(100):
@@ -192,8 +361,36 @@ class PlaneCells:
             active = update
         raise RuntimeError("PlaneCells: the contact does not settle")
 
-    def partial_slip(self, load, moment, shear_load, friction):
-        """Pressure, shear (Pa), tilt (rad) and the strips that stick, under P' (N/m), M' (N) and Q' (N/m)."""
+    def partial_slip(
+        self, load: float, moment: float, shear_load: float, friction: float
+    ) -> tuple[np.ndarray, np.ndarray, float, np.ndarray]:
+        """Partial slip by a shear load after the normal load and the moment.
+
+        Parameters
+        ----------
+        load : float
+            Load P', N/m.
+        moment : float
+            Moment M', N.
+        shear_load : float
+            Shear Q', N/m, with 0 <= Q' < mu P'.
+        friction : float
+            Coefficient of friction mu.
+
+        Returns
+        -------
+        pressure, shear : ndarray
+            Tractions of the strips, (n,), Pa.
+        tilt : float
+            Tilt r, rad.
+        sticks : ndarray of bool
+            The strips that stick, (n,).
+
+        Raises
+        ------
+        RuntimeError
+            If the contact does not settle in 100 iterations.
+        """
         pressure, tilt = self.solve(load, moment=moment)
         less = self.solve(load - shear_load / friction, tilt=tilt)[0]
         return pressure, friction * (pressure - less), tilt, less > 0.0

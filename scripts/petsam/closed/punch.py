@@ -21,20 +21,42 @@ References
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 
 
 class Punch(NamedTuple):
-    """Radius, or half width, of the flat base (m), radius of the edge (m), E* (Pa)."""
+    """A flat punch with a rounded edge.
+
+    Attributes
+    ----------
+    c : float
+        Radius, or half width, of the flat base, m.
+    edge_radius : float
+        Radius of the edge, m.
+    e_star : float
+        E* of both bodies, Pa.
+    """
 
     c: float
     edge_radius: float
     e_star: float
 
-    def gap(self, r):
-        """Separation h, m, of the undeformed surfaces at r (m): flat up to c, of radius edge_radius beyond."""
+    def gap(self, r: ArrayLike) -> np.ndarray:
+        """The separation h of the undeformed surfaces: flat up to c, of radius edge_radius beyond.
+
+        Parameters
+        ----------
+        r : array_like
+            Distance from the punch's middle, m.
+
+        Returns
+        -------
+        ndarray
+            Separation, m, of the shape of r.
+        """
         return np.clip(np.abs(np.asarray(r, dtype=float)) - self.c, 0.0, None) ** 2 / (2.0 * self.edge_radius)
 
 
@@ -43,31 +65,86 @@ def _slope(v, c):
     return 2.0 * v - c * np.arctan2(v, c)
 
 
-def punch_approach(punch, a):
-    """Approach of the bodies, m, at contact radius a >= c (m)."""
+def punch_approach(punch: Punch, a: float) -> float:
+    """The approach of the bodies at a contact radius.
+
+    Parameters
+    ----------
+    punch : Punch
+        Radius of the flat base, radius of the edge, E*.
+    a : float
+        Contact radius, m, at least that of the flat base.
+
+    Returns
+    -------
+    float
+        Approach, m.
+    """
     return a / punch.edge_radius * (np.sqrt(a**2 - punch.c**2) - punch.c * np.arccos(punch.c / a))
 
 
-def punch_load(punch, a):
-    """Normal load, N, at contact radius a >= c (m): 2 E* times the integral of s delta'(s) over [c, a]."""
+def punch_load(punch: Punch, a: float) -> float:
+    """The normal load at a contact radius: 2 E* times the integral of s delta'(s) over [c, a].
+
+    Parameters
+    ----------
+    punch : Punch
+        Radius of the flat base, radius of the edge, E*.
+    a : float
+        Contact radius, m, at least that of the flat base.
+
+    Returns
+    -------
+    float
+        Normal load, N.
+    """
     c, edge_radius, e_star = punch
     b = np.sqrt(a**2 - c**2)
     return 2.0 * e_star / edge_radius * (2.0 / 3.0 * b**3 - 0.5 * c * a**2 * np.arccos(c / a) + 0.5 * c**2 * b)
 
 
-def punch_radius(punch, load_n):
-    """Contact radius a, m, under load_n (N)."""
+def punch_radius(punch: Punch, load_n: float) -> float:
+    """The contact radius under a load: the inverse of punch_load().
+
+    Parameters
+    ----------
+    punch : Punch
+        Radius of the flat base, radius of the edge, E*.
+    load_n : float
+        Normal load, N.
+
+    Returns
+    -------
+    float
+        Contact radius a, m.
+    """
     low, high = punch.c, punch.c + np.cbrt(3.0 * load_n * punch.edge_radius / (4.0 * punch.e_star))
     while punch_load(punch, high) < load_n:
         low, high = high, 2.0 * high
     return brentq(lambda a: punch_load(punch, a) - load_n, low, high, xtol=1e-15, rtol=1e-14)
 
 
-def punch_pressure(r, punch, a):
-    """Pressure, Pa, at r (m), 0 for r > a: E*/pi times the integral of delta'(s)/sqrt(s^2 - r^2) over [max(r, c), a].
+def punch_pressure(r: ArrayLike, punch: Punch, a: float) -> np.ndarray:
+    """The pressure: E*/pi times the integral of delta'(s)/sqrt(s^2 - r^2) over [max(r, c), a]; 0 outside the contact.
 
-    With v = e sinh(t) for r < c and v = e cosh(t) for r > c, e^2 = |c^2 - r^2|, the integral is that of the
-    smooth function F(v) v/s over t, for which Gauss's rule is exact to rounding.
+    Parameters
+    ----------
+    r : array_like
+        Distance from the contact's centre, m.
+    punch : Punch
+        Radius of the flat base, radius of the edge, E*.
+    a : float
+        Contact radius, m, at least that of the flat base.
+
+    Returns
+    -------
+    ndarray
+        Pressure, Pa, of the shape of r.
+
+    Notes
+    -----
+    With v = e sinh(t) for r < c and v = e cosh(t) for r > c, e^2 = |c^2 - r^2|, the integral is that of the smooth
+    function F(v) v/s over t, for which Gauss's rule is accurate to rounding.
     """
     c, edge_radius, e_star = punch
     r = np.asarray(r, dtype=float)[..., None]
@@ -81,10 +158,26 @@ def punch_pressure(r, punch, a):
     return e_star / (np.pi * edge_radius) * np.where(r[..., 0] < a, integral, 0.0)
 
 
-def punch_torsion_limit(punch, a, friction):
-    """Torque limit, N m, at which the whole contact slips: mu E* pi/2 times the integral of s^2 delta'(s) over [c, a].
+def punch_torsion_limit(punch: Punch, a: float, friction: float) -> float:
+    """The torque at which the whole contact slips: mu E* pi/2 times the integral of s^2 delta'(s) over [c, a].
 
-    (The flat punch of radius s under N carries mu N pi s/4.)
+    Parameters
+    ----------
+    punch : Punch
+        Radius of the flat base, radius of the edge, E*.
+    a : float
+        Contact radius, m, at least that of the flat base.
+    friction : float
+        Coefficient of friction mu.
+
+    Returns
+    -------
+    float
+        Torque limit, N m.
+
+    Notes
+    -----
+    The flat punch of radius s under N carries mu N pi s/4.
     """
     c, edge_radius, e_star = punch
     b = np.sqrt(a**2 - c**2)

@@ -16,30 +16,83 @@ References
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipkm1
 
 
-def goodman_friction(ratio):
-    """mu/beta at which c/a = ratio: (a/2c) ln((a + c)/(a - c)) = (mu/beta) K(sqrt(1 - c^2/a^2)) (Johnson, 5.4)."""
+def goodman_friction(ratio: ArrayLike) -> np.ndarray:
+    """The friction at a stick radius: (a/2c) ln((a + c)/(a - c)) = (mu/beta) K(sqrt(1 - c^2/a^2)) (Johnson, 5.4).
+
+    Parameters
+    ----------
+    ratio : array_like
+        Ratio c/a of stick and contact radius, between 0 and 1.
+
+    Returns
+    -------
+    ndarray
+        mu/beta, of the shape of ratio.
+    """
     x = np.asarray(ratio, dtype=float)
     return np.arctanh(x) / x / ellipkm1(x**2)
 
 
-def spence_friction(ratio, beta):
-    """mu at which c/a = ratio < 1, with the shear's effect on the pressure."""
+def spence_friction(ratio: float, beta: float) -> float:
+    """The coefficient of friction at a stick radius, with the shear's effect on the pressure.
+
+    Parameters
+    ----------
+    ratio : float
+        Ratio c/a of stick and contact radius, below 1.
+    beta : float
+        Dundurs' second constant.
+
+    Returns
+    -------
+    float
+        Coefficient of friction mu.
+    """
     return SpencePunch(ratio, beta).friction
 
 
-def spence_punch(friction, beta):
-    """The SpencePunch of a given mu."""
+def spence_punch(friction: float, beta: float) -> "SpencePunch":
+    """The punch of a given coefficient of friction.
+
+    Parameters
+    ----------
+    friction : float
+        Coefficient of friction mu.
+    beta : float
+        Dundurs' second constant.
+
+    Returns
+    -------
+    SpencePunch
+
+    Raises
+    ------
+    ValueError
+        If the stick radius is above 0.99 a: there is almost no slip.
+    """
     low = 0.5 * goodman_ratio(friction / beta)
     high = 0.99  # mu = 1.6 at beta = 0.5; almost no slip
     return SpencePunch(brentq(lambda c: spence_friction(c, beta) - friction, low, high, xtol=1e-5), beta)
 
 
-def goodman_ratio(friction_over_beta):
-    """c/a for mu/beta."""
+def goodman_ratio(friction_over_beta: float) -> float:
+    """The stick radius at a coefficient of friction: the inverse of goodman_friction().
+
+    Parameters
+    ----------
+    friction_over_beta : float
+        mu/beta, above 0.
+
+    Returns
+    -------
+    float
+        Ratio c/a of stick and contact radius.
+    """
     return brentq(lambda x: float(goodman_friction(x)) - friction_over_beta, 1e-12, 1.0 - 1e-12, xtol=1e-14)
 
 
@@ -52,13 +105,32 @@ def _graded(low, high, count, power=3.0):
 class SpencePunch:
     """Flat punch of radius 1, pressed by 1 into a half-space of E* = 2, with friction and the stick radius c.
 
+    Parameters
+    ----------
+    c : float
+        Ratio c/a of stick and contact radius; 1: no slip.
+    beta : float
+        Dundurs' second constant.
+    coupled : bool
+        Whether the shear moves the surface normally; False: Goodman's approximation.
+    rings : int
+        Number of rings.
+
+    Attributes
+    ----------
+    friction : float
+        The mu that makes the shear finite at c; infinite without slip.
+    load_ratio, pressure_ratio : float
+        Of the sphere with that mu: N and p(0) over Hertz's at equal contact radius.
+
+    Notes
+    -----
     With r = sin(theta) the unknowns are P = p cos(theta) and Q = q cos(theta), constant on each ring, so that the
     variable contains the edge's singularity. The equations are u_z = 1 at the middles of all rings, and u_r = 0 at
-    those of rings that stick. Attributes: c (c/a; 1: no slip), beta, friction (the mu that makes the shear finite at
-    c), and for the sphere with that mu: load_ratio and pressure_ratio: N and p(0) over Hertz's at equal contact radius.
+    those of rings that stick.
     """
 
-    def __init__(self, c, beta, coupled=True, rings=140):
+    def __init__(self, c: float, beta: float, coupled: bool = True, rings: int = 140) -> None:
         stick = rings // 2 if c < 1.0 else rings
         self.c, self.beta = c, beta
         self.ends = _graded(0.0, np.arcsin(c), stick)
@@ -130,8 +202,19 @@ class SpencePunch:
         self.load_ratio = self.approach_ratio * force / 4.0
         self.pressure_ratio = self.approach_ratio * self.pressure[0] * 0.5 * np.pi
 
-    def sphere(self, r):
-        """p and q, over Hertz's p0 for the same contact radius, of the sphere at r/a in (0, 1), a vector."""
+    def sphere(self, r: np.ndarray) -> list[np.ndarray]:
+        """The pressure and the shear of the sphere, over Hertz's p0 for the same contact radius.
+
+        Parameters
+        ----------
+        r : ndarray
+            Places r/a between 0 and 1, (n,).
+
+        Returns
+        -------
+        pressure, shear : ndarray
+            p/p0 and q/p0, (n,).
+        """
         x, weight = np.polynomial.legendre.leggauss(200)
         s, ds = 0.5 * (1.0 + x), 0.5 * weight
         fields = []
@@ -143,6 +226,18 @@ class SpencePunch:
         return fields
 
 
-def full_stick_load(beta):
-    """Mossakovskii: load of a flat punch without slip over the frictionless one, ln((1 + beta)/(1 - beta))/(2 beta)."""
+def full_stick_load(beta: float) -> float:
+    """The load of a flat punch without slip over the frictionless one, ln((1 + beta)/(1 - beta))/(2 beta)
+    (Mossakovskii).
+
+    Parameters
+    ----------
+    beta : float
+        Dundurs' second constant, not 0.
+
+    Returns
+    -------
+    float
+        Ratio of the loads.
+    """
     return np.arctanh(beta) / beta

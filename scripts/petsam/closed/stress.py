@@ -4,13 +4,31 @@ Tension positive, z into the body; a is the contact radius, p0 the maximum press
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 # von Mises' largest stress relative to p0 under Hertz's pressure, and its depth relative to a, for poisson = 0.3
 HERTZ_MISES, HERTZ_MISES_DEPTH = 0.6200410039, 0.48086449
 
 
-def hertz_axis(z, a, p0, poisson):
-    """(s_rr, s_zz) on the axis at depth z (Johnson eqs 3.45)."""
+def hertz_axis(z: ArrayLike, a: float, p0: float, poisson: float) -> tuple[np.ndarray, np.ndarray]:
+    """Stresses on the axis under Hertz's pressure (Johnson eqs 3.45).
+
+    Parameters
+    ----------
+    z : array_like
+        Depth, m.
+    a : float
+        Contact radius, m.
+    p0 : float
+        Maximum pressure, Pa.
+    poisson : float
+        Poisson's ratio of the body.
+
+    Returns
+    -------
+    s_rr, s_zz : ndarray
+        Radial and axial stress, Pa, of the shape of z.
+    """
     t = np.asarray(z, dtype=float) / a
     with np.errstate(divide="ignore"):
         angle = np.arctan(1.0 / t)
@@ -18,8 +36,25 @@ def hertz_axis(z, a, p0, poisson):
     return p0 * (-(1.0 + poisson) * (1.0 - t * angle) + bulge), -2.0 * p0 * bulge
 
 
-def hertz_surface(r, a, p0, poisson):
-    """(s_rr, s_tt) on the surface, inside and outside the contact (Johnson eqs 3.42, 3.43)."""
+def hertz_surface(r: ArrayLike, a: float, p0: float, poisson: float) -> tuple[np.ndarray, np.ndarray]:
+    """Stresses on the surface under Hertz's pressure, inside and outside the contact (Johnson eqs 3.42, 3.43).
+
+    Parameters
+    ----------
+    r : array_like
+        Distance from the contact's centre, m.
+    a : float
+        Contact radius, m.
+    p0 : float
+        Maximum pressure, Pa.
+    poisson : float
+        Poisson's ratio of the body.
+
+    Returns
+    -------
+    s_rr, s_tt : ndarray
+        Radial and circumferential stress, Pa, of the shape of r.
+    """
     t = np.maximum(np.asarray(r, dtype=float) / a, 1e-9)
     root = np.sqrt(np.clip(1.0 - t**2, 0.0, None))
     # (1 - root^3)/t^2 without cancellation at the centre
@@ -27,10 +62,30 @@ def hertz_surface(r, a, p0, poisson):
     return p0 * (part - root), p0 * (-part - 2.0 * poisson * root)
 
 
-def sliding_surface(x, y, a, q0, poisson):
-    """(s_xx, s_yy, s_xy) on the surface inside r < a by the shear q_x = q0 sqrt(1 - r^2/a^2) on it.
+def sliding_surface(
+    x: np.ndarray, y: np.ndarray, a: float, q0: float, poisson: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Stresses on the surface within the contact by the shear q_x = q0 sqrt(1 - r^2/a^2) alone.
 
-    Hamilton 1983, Proc. IMechE C 197, 53. The contact's pressure is not in it.
+    Parameters
+    ----------
+    x, y : ndarray
+        Places with r < a, m.
+    a : float
+        Contact radius, m.
+    q0 : float
+        Maximum shear, Pa.
+    poisson : float
+        Poisson's ratio of the body.
+
+    Returns
+    -------
+    s_xx, s_yy, s_xy : ndarray
+        Stresses, Pa, of the shape of x and y. Those of the pressure are not in them.
+
+    Notes
+    -----
+    G. M. Hamilton, Proc. IMechE C 197 (1983) 53.
     """
     scale = -np.pi * q0 / (8.0 * a)
     return scale * (4.0 + poisson) * x, 3.0 * scale * poisson * x, scale * (2.0 - poisson) * y

@@ -25,11 +25,22 @@ class Missing(Error):
 
 
 class MissingFile(Missing, FileNotFoundError):
-    """A missing file (filename), as Python has it, too."""
+    """A missing file, which is a FileNotFoundError, too.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+
+    Attributes
+    ----------
+    filename : str
+        The file.
+    """
 
     code = FILE
 
-    def __init__(self, path):
+    def __init__(self, path: str) -> None:
         super().__init__(errno.ENOENT, "no such file", os.fspath(path))
 
     def __str__(self):

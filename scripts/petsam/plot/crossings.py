@@ -6,7 +6,7 @@ A saved step is given as a pair (Results, index into its saved fields), and read
 import numpy as np
 
 from ..core.errors import Error
-from ..results.file import DEPTHS, OPEN
+from ..results.fields import DEPTHS, OPEN
 from . import noise, symbols
 from .fields import OF_CONTACT
 from .style import colors, heading, logarithmic, plt

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap, Normalize
 
 from ..core.errors import Error
-from ..results.file import DEPTHS, EDGES, OPEN, SLIP, STICK
+from ..results.fields import DEPTHS, EDGES, OPEN, SLIP, STICK
 from . import colours, noise, symbols
 from .style import bar, extent, field, heading, need_few, plt, ticks
 from .units import label, largest, scale

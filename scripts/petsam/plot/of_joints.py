@@ -2,17 +2,31 @@
 
 import numpy as np
 from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Key
 
-from ..joint.backbone import MODAL
-from ..joint.band import ASSEMBLED, NUMBERS
+from ..joint.backbone import MODAL, Backbone
+from ..joint.balance import Response
+from ..joint.band import ASSEMBLED, NUMBERS, Band
+from ..joint.interface import Interface
+from ..joint.wear import Wear
 from .fields import OPEN, STATES
 from .style import COLORS, STYLE, WHOLE, drawn, logarithmic, plt
 
 
 @drawn(STYLE)
-def interface(found):
-    """The stiffnesses and the real contact area over the pressure, of a joint.Interface."""
+def interface(found: Interface) -> Figure:
+    """The stiffnesses and the real contact area over the pressure.
+
+    Parameters
+    ----------
+    found : joint.Interface
+        The interface, of joint.interface().
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
     pressure = found.numbers["pressure"] / 1e6
     for axes, name, label, unit, color, look in (
@@ -34,8 +48,18 @@ def interface(found):
 
 
 @drawn(WHOLE)
-def backbone(found):
-    """Frequency and damping over the amplitude, of a joint.Backbone."""
+def backbone(found: Backbone) -> Figure:
+    """Frequency and damping over the amplitude.
+
+    Parameters
+    ----------
+    found : joint.Backbone
+        The backbone.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
     reach = 1e6 * found.amplitude
     left.axhline(found.linear, color="0.4", linewidth=0.8, linestyle="--", label="all that touches sticks")
@@ -51,9 +75,19 @@ def backbone(found):
 
 
 @drawn({**STYLE, "axes.grid": False})
-def slip_zones(found):
-    """The patches of a joint.Backbone, one below the other: pressure in the preload, and where the largest
-    amplitude makes them slip."""
+def slip_zones(found: Backbone) -> Figure:
+    """The patches of a backbone, one below the other: pressure in the preload, and where the largest amplitude makes
+    them slip.
+
+    Parameters
+    ----------
+    found : joint.Backbone
+        The backbone.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     words, tints = zip(*(STATES[k] for k in sorted(STATES)))
     size = (8.0, 3.4 * len(found.names))
     figure, rows = plt.subplots(len(found.names), 2, figsize=size, layout="constrained", squeeze=False)
@@ -71,8 +105,18 @@ def slip_zones(found):
 
 
 @drawn(WHOLE)
-def band(found):
-    """The bands of frequency and damping over the amplitude, of a joint.Band."""
+def band(found: Band) -> Figure:
+    """The bands of frequency and damping over the amplitude.
+
+    Parameters
+    ----------
+    found : joint.Band
+        The band.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
     reach = 1e6 * found.given.amplitude[: found.count]
     for ax, name, factor in zip(axes, NUMBERS, (1.0, 100.0)):
@@ -92,8 +136,18 @@ def band(found):
 
 
 @drawn(WHOLE)
-def response(found):
-    """Amplitude and phase over the frequency, of a joint.Response."""
+def response(found: Response) -> Figure:
+    """Amplitude and phase over the frequency.
+
+    Parameters
+    ----------
+    found : joint.Response
+        The response.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
     left.plot(found.frequency, 1e6 * found.amplitude, "o-", color=COLORS[0], markersize=4.0)
     left.set(xlabel="frequency, Hz", ylabel="amplitude, µm")
@@ -104,8 +158,18 @@ def response(found):
 
 
 @drawn(WHOLE)
-def joint_wear(found):
-    """Frequency and damping over the cycles, of a joint.Wear."""
+def joint_wear(found: Wear) -> Figure:
+    """Frequency and damping over the cycles.
+
+    Parameters
+    ----------
+    found : joint.Wear
+        The wear of the joint.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
     for ax, name, factor in zip(axes, ("frequency", "damping"), (1.0, 100.0)):
         values, error = (factor * found.numbers[one] for one in (name, f"{name}_error"))

@@ -15,16 +15,33 @@ log                 what is logarithmic: "x", "y", of maps "colors"; a word or a
 
 import functools
 import inspect
+from collections.abc import Sequence
+from typing import Optional, Union
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..core.errors import Error
 from ..results import cycles
+from ..results.file import Results
+from ..results.stresses import Stresses
+from ..results.studies import Study
 from . import bodies, colours, crossings, fields, looks, loops, planes, series, tables, wear
 from .style import STYLE, drawn
 
 ORIGIN = (0.0, 0.0)
-LOOK = ("xlim", "ylim", "width")  # parameters of all pictures
+
+# what parameters may be, see above
+Names = Union[str, Sequence[str], None]
+Steps = Union[int, Sequence[int], None]
+Times = Union[float, Sequence[float], None]
+Period = Optional[tuple[float, Optional[float]]]
+Point = Optional[tuple[float, float]]
+Span = Optional[tuple[float, float]]
+StepRange = Optional[tuple[Optional[int], Optional[int]]]
+Values = Sequence[tuple[str, object]]
+
+LOOK = {"xlim": Span, "ylim": Span, "width": Optional[float]}  # parameters of all pictures
 KEYWORD = inspect.Parameter.KEYWORD_ONLY
 
 
@@ -39,7 +56,10 @@ def picture(draw, program="petsam"):
     """Makes a public function of one that draws files of a program: the look of all pictures, parts of the axes, the
     width."""
 
-    own, look = inspect.signature(draw), [inspect.Parameter(name, KEYWORD, default=None) for name in LOOK]
+    own, look = (
+        inspect.signature(draw),
+        [inspect.Parameter(name, KEYWORD, default=None, annotation=kind) for name, kind in LOOK.items()],
+    )
 
     @functools.wraps(draw)
     @drawn(STYLE)
@@ -100,12 +120,57 @@ def axes_of(log):
 
 @picture
 def maps(  # noqa: PLR0913  (as the options of the picture)
-    *files, field=None, step=None, time=None, cycle=None, turns=None, period=None, whole_grid=False, limits=None,
-    percentile=None, log=(),
-):  # fmt: skip
-    """Fields over the surface: of the names in field, or pressure, shear, slip and state.
+    *files: Results,
+    field: Names = None,
+    step: Steps = None,
+    time: Times = None,
+    cycle: Steps = None,
+    turns: Optional[str] = None,
+    period: Period = None,
+    whole_grid: bool = False,
+    limits: Span = None,
+    percentile: Optional[float] = None,
+    log: Names = (),
+) -> Figure:
+    """Fields over the surface.
 
-    limits is the range of colours, (low, high), SI units; percentile ends them at this part of the cells.
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    field : str or list of str, optional
+        Names of fields or vectors; None: pressure, shear, slip and state.
+    step : int or list of int, optional
+        Load steps, from 1, or from the end, -1 being the last. Without step, time and cycle: the last saved one.
+    time : float or list of float, optional
+        Times, s: the nearest saved steps.
+    cycle : int or list of int, optional
+        Cycles, from 1, or from the end: the saved step at their end.
+    turns : str, optional
+        Number of the history whose reversals separate cycles; None: the displacement that does most work.
+    period : tuple, optional
+        (T, START), s, of cycles by time; START may be None.
+    whole_grid : bool
+        Whether the whole grid is drawn, not only the contact and a margin.
+    limits : tuple, optional
+        Range of the colours, (low, high), SI units.
+    percentile : float, optional
+        The range of the colours ends at the value that this part of the cells, %, does not exceed.
+    log : str or list of str
+        "colors" for logarithmic colours.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
     """
     choice = colours.Choice(limits, "colors" in listed(log), percentile)
     return fields.maps(snapshots(files, step, time, cycle, turns, period), whole_grid, listed(field) or None, choice)
@@ -113,19 +178,100 @@ def maps(  # noqa: PLR0913  (as the options of the picture)
 
 @picture
 def profiles(  # noqa: PLR0913
-    *files, field=None, step=None, time=None, cycle=None, turns=None, period=None, at=None, whole_grid=False,
-    limits=None, log=(),
-):  # fmt: skip
-    """Fields along x and y through the point `at` (the origin)."""
+    *files: Results,
+    field: Names = None,
+    step: Steps = None,
+    time: Times = None,
+    cycle: Steps = None,
+    turns: Optional[str] = None,
+    period: Period = None,
+    at: Point = None,
+    whole_grid: bool = False,
+    limits: Span = None,
+    log: Names = (),
+) -> Figure:
+    """Fields along x and y through a point.
+
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    field : str or list of str, optional
+        Names of fields or vectors; None: pressure, shear, slip and removed depths.
+    step : int or list of int, optional
+        Load steps, from 1, or from the end, -1 being the last. Without step, time and cycle: the last saved one.
+    time : float or list of float, optional
+        Times, s: the nearest saved steps.
+    cycle : int or list of int, optional
+        Cycles, from 1, or from the end: the saved step at their end.
+    turns : str, optional
+        Number of the history whose reversals separate cycles; None: the displacement that does most work.
+    period : tuple, optional
+        (T, START), s, of cycles by time; START may be None.
+    at : tuple, optional
+        Point (x, y), m; None: the origin.
+    whole_grid : bool
+        Whether the whole grid is drawn, not only the contact and a margin.
+    limits : tuple, optional
+        Range of the values of one field, (low, high), SI units.
+    log : str or list of str
+        Axes that are logarithmic: "x", "y".
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
+    """
     steps = snapshots(files, step, time, cycle, turns, period)
     return crossings.profiles(steps, at or ORIGIN, whole_grid, listed(field) or None, limits, axes_of(log))
 
 
 @picture
-def loop(*files, load=None, cycle=None, range=None, turns=None, period=None):
-    """A load ("tx", "ty", "mz", "n", "mx", "my") over its displacement, of all steps or of some cycles.
+def loop(
+    *files: Results,
+    load: Optional[str] = None,
+    cycle: Steps = None,
+    range: StepRange = None,
+    turns: Optional[str] = None,
+    period: Period = None,
+) -> Figure:
+    """A load over its displacement, of all steps or of some cycles.
 
-    range is (first, last) of the load steps, from 1.
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    load : str, optional
+        "tx", "ty", "mz", "n", "mx" or "my"; None: that which does most work.
+    cycle : int or list of int, optional
+        Cycles, from 1, or from the end.
+    range : tuple, optional
+        First and last load step, from 1; None leaves one of them open.
+    turns : str, optional
+        Number of the history whose reversals separate cycles; None: the displacement that does most work.
+    period : tuple, optional
+        (T, START), s, of cycles by time; START may be None.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
     """
     if not listed(cycle):
         return loops.loop(ranged(files, range), load)
@@ -136,30 +282,160 @@ def loop(*files, load=None, cycle=None, range=None, turns=None, period=None):
 
 
 @picture
-def energy(*files, turns=None, period=None, log=()):
-    """Dissipated energy of every cycle."""
+def energy(*files: Results, turns: Optional[str] = None, period: Period = None, log: Names = ()) -> Figure:
+    """Dissipated energy of every cycle.
+
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    turns : str, optional
+        Number of the history whose reversals separate cycles; None: the displacement that does most work.
+    period : tuple, optional
+        (T, START), s, of cycles by time; START may be None.
+    log : str or list of str
+        Axes that are logarithmic: "x", "y".
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
+    """
     return loops.energy([found(one, turns, period) for one in files], axes_of(log))
 
 
 @picture
-def history(*files, scalar=None, against=None, range=None, log=(), option="--scalar"):
-    """Numbers of the history over time, or over the number `against`; option is what asks for them, in messages."""
+def history(
+    *files: Results,
+    scalar: Names = None,
+    against: Optional[str] = None,
+    range: StepRange = None,
+    log: Names = (),
+    option: str = "--scalar",
+) -> Figure:
+    """Numbers of the history over time, or over another number.
+
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    scalar : str or list of str, optional
+        Names of the numbers; None: those that vary.
+    against : str, optional
+        Number over which they are drawn; None: the time, or the cycles of a life.
+    range : tuple, optional
+        First and last load step, from 1; None leaves one of them open.
+    log : str or list of str
+        Axes that are logarithmic: "x", "y".
+    option : str
+        What asks for the numbers, in messages.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
+    """
     return series.history(ranged(files, range), listed(scalar) or None, against, option, axes_of(log))
 
 
 @picture
-def fretting_log(*files, load=None, cycle=None, turns=None, period=None):
-    """Loops of up to eight cycles, with their energy."""
+def fretting_log(
+    *files: Results, load: Optional[str] = None, cycle: Steps = None, turns: Optional[str] = None, period: Period = None
+) -> Figure:
+    """Loops of up to eight cycles, with their energy.
+
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    load : str, optional
+        "tx", "ty", "mz", "n", "mx" or "my"; None: that which does most work.
+    cycle : int or list of int, optional
+        Cycles, from 1, or from the end.
+    turns : str, optional
+        Number of the history whose reversals separate cycles; None: the displacement that does most work.
+    period : tuple, optional
+        (T, START), s, of cycles by time; START may be None.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
+    """
     return wear.fretting_log(files, load, lambda one: found(one, turns, period), listed(cycle) or None)
 
 
 @picture
 def scar(  # noqa: PLR0913
-    *files, step=None, time=None, cycle=None, turns=None, period=None, at=None, whole_grid=False, measured=None
-):
-    """Removed depth along x and y through the deepest point, or through `at`.
+    *files: Results,
+    step: Steps = None,
+    time: Times = None,
+    cycle: Steps = None,
+    turns: Optional[str] = None,
+    period: Period = None,
+    at: Point = None,
+    whole_grid: bool = False,
+    measured: Optional[tuple[str, str]] = None,
+) -> Figure:
+    """Removed depth along x and y through the deepest point, or through another one.
 
-    measured is a pair of a body ("1", "2", or "" for the last one that wears) and the name of a CSV of heights.
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    step : int or list of int, optional
+        Load steps, from 1, or from the end, -1 being the last. Without step, time and cycle: the last saved one.
+    time : float or list of float, optional
+        Times, s: the nearest saved steps.
+    cycle : int or list of int, optional
+        Cycles, from 1, or from the end: the saved step at their end.
+    turns : str, optional
+        Number of the history whose reversals separate cycles; None: the displacement that does most work.
+    period : tuple, optional
+        (T, START), s, of cycles by time; START may be None.
+    at : tuple, optional
+        Point (x, y), m; None: the deepest one.
+    whole_grid : bool
+        Whether the whole grid is drawn, not only the contact and a margin.
+    measured : tuple, optional
+        A body ("1", "2", or "" for the last one that wears) and the name of a CSV of heights.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
     """
     given = any(map(listed, (step, time, cycle)))
     chosen = snapshots(files, step, time, cycle, turns, period) if given else wear.scar_steps_of(files)
@@ -167,8 +443,27 @@ def scar(  # noqa: PLR0913
 
 
 @picture
-def life(*files):
-    """Volume, depth, energy, area and pressure over the computed cycles."""
+def life(*files: Results) -> Figure:
+    """Volume, depth, energy, area and pressure over the computed cycles.
+
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no life.
+    """
     return wear.life(files)
 
 
@@ -176,26 +471,148 @@ def life(*files):
 
 
 @of_stress
-def stress_maps(*files, component=None, depth=None, step=None, time=None, limits=None):
-    """Stresses over planes at the depths nearest to `depth` (m)."""
+def stress_maps(
+    *files: Stresses,
+    component: Optional[str] = None,
+    depth: Times = None,
+    step: Steps = None,
+    time: Times = None,
+    limits: Span = None,
+) -> Figure:
+    """Stresses over planes.
+
+    Parameters
+    ----------
+    *files : Stresses
+        Files of petsam-stress, which are compared.
+    component : str, optional
+        "xx", "yy", ...: the stress beside von Mises.
+    depth : float or list of float, optional
+        Depths, m: the nearest planes.
+    step : int or list of int, optional
+        Load steps, from 1, or from the end, -1 being the last. Without step, time and cycle: the last saved one.
+    time : float or list of float, optional
+        Times, s: the nearest saved steps.
+    limits : tuple, optional
+        Range of the colours, (low, high), Pa.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
+    """
     return bodies.maps(snapshots(files, step, time), component, listed(depth) or None, limits)
 
 
 @of_stress
-def sections(*files, component=None, at=None, step=None, time=None, limits=None):
-    """Von Mises and another stress over depth: component xx, yy, ..."""
+def sections(
+    *files: Stresses,
+    component: Optional[str] = None,
+    at: Point = None,
+    step: Steps = None,
+    time: Times = None,
+    limits: Span = None,
+) -> Figure:
+    """Von Mises and another stress over depth.
+
+    Parameters
+    ----------
+    *files : Stresses
+        Files of petsam-stress, which are compared.
+    component : str, optional
+        "xx", "yy", ...
+    at : tuple, optional
+        Point (x, y), m; None: the origin.
+    step : int or list of int, optional
+        Load steps, from 1, or from the end, -1 being the last. Without step, time and cycle: the last saved one.
+    time : float or list of float, optional
+        Times, s: the nearest saved steps.
+    limits : tuple, optional
+        Range of the colours, (low, high), Pa.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
+    """
     return bodies.sections(snapshots(files, step, time), component, at or ORIGIN, limits)
 
 
 @of_stress
-def stress_profiles(*files, component=None, at=None, step=None, time=None):
-    """A stress on the surface along x and y."""
+def stress_profiles(
+    *files: Stresses, component: Optional[str] = None, at: Point = None, step: Steps = None, time: Times = None
+) -> Figure:
+    """A stress on the surface along x and y.
+
+    Parameters
+    ----------
+    *files : Stresses
+        Files of petsam-stress, which are compared.
+    component : str, optional
+        "xx", "yy", ...
+    at : tuple, optional
+        Point (x, y), m; None: the origin.
+    step : int or list of int, optional
+        Load steps, from 1, or from the end, -1 being the last. Without step, time and cycle: the last saved one.
+    time : float or list of float, optional
+        Times, s: the nearest saved steps.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no such step, cycle or quantity.
+    """
     return bodies.profiles(snapshots(files, step, time), component, at or ORIGIN)
 
 
 @of_stress
-def fatigue(*files, at=None):
-    """Fatigue parameters, with the place of the maximum."""
+def fatigue(*files: Stresses, at: Point = None) -> Figure:
+    """Fatigue parameters, with the place of the maximum.
+
+    Parameters
+    ----------
+    *files : Stresses
+        Files of petsam-stress, which are compared.
+    at : tuple, optional
+        Point (x, y), m; None: the origin.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no fatigue parameters.
+    """
     return bodies.fatigue(files, at or ORIGIN)
 
 
@@ -203,12 +620,85 @@ def fatigue(*files, at=None):
 
 
 @of_study
-def study(*studies, scalar=None, against=None, by=None, where=(), log=()):
-    """Columns over the input `against`, a curve for each value of the column `by`; where is a list of (name, value)."""
+def study(
+    *studies: Study,
+    scalar: Names = None,
+    against: Optional[str] = None,
+    by: Optional[str] = None,
+    where: Values = (),
+    log: Names = (),
+) -> Figure:
+    """Columns over an input, a curve for each value of another column.
+
+    Parameters
+    ----------
+    *studies : Study
+        Tables of petsam-study, which are compared.
+    scalar : str or list of str, optional
+        Names of the columns; None: the results that vary.
+    against : str, optional
+        The input; None: the one with the most values.
+    by : str, optional
+        The column whose values have a curve each.
+    where : list of tuple
+        (name, value): only cases with these values, SI units.
+    log : str or list of str
+        Axes that are logarithmic: "x", "y".
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is no table of petsam-study, or has no such column.
+    """
     return tables.study(studies, listed(scalar) or None, against, by, where, axes_of(log))
 
 
 @of_study
-def regimes(one, *, against, scalar=None, where=(), border=(), log=()):
-    """A map of a result, or of the regimes, over two inputs; border is a list of (name, value) for lines."""
+def regimes(
+    one: Study,
+    *,
+    against: Sequence[str],
+    scalar: Names = None,
+    where: Values = (),
+    border: Values = (),
+    log: Names = (),
+) -> Figure:
+    """A map of a result, or of the regimes, over two inputs.
+
+    Parameters
+    ----------
+    one : Study
+        A table of petsam-study.
+    against : sequence of str
+        The two inputs, of x and of y.
+    scalar : str or list of str, optional
+        The result; None: the regimes.
+    where : list of tuple
+        (name, value): only cases with these values, SI units.
+    border : list of tuple
+        (name, value) of the lines that are drawn, SI units.
+    log : str or list of str
+        Axes that are logarithmic: "x", "y".
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If the file is no table of petsam-study, or has no such column.
+    """
     return planes.planes(one, list(against), listed(scalar) or None, where, border, axes_of(log))

@@ -7,7 +7,7 @@ are numbered in thousands or millions, and coloured in their order, dark to brig
 import numpy as np
 
 from ..core.errors import Error
-from ..results.file import BLOCK
+from ..results.fields import BLOCK
 from .crossings import crossing, sides_of
 from .loops import LOOPS, cycle_energy, loop_axes, loop_energy, spread
 from .measured import read_profiles

@@ -14,12 +14,16 @@ the cycles follow one another from a start. A cycle that the history does not fi
 """
 
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.errors import Error, short, there_are
-from .file import NotSaved
+from .datafile import NotSaved
+
+if TYPE_CHECKING:
+    from .file import Results
 
 # pairs of loads and conjugate displacements
 PAIRS = {
@@ -35,9 +39,16 @@ SLACK = 1e-6  # of a period, as times are rounded
 
 
 class Cycle(NamedTuple):
-    """Rows, from 0, of the steps that have a solution: first, where the cycle begins, and last, where it ends.
+    """A cycle: rows, from 0, of the steps that have a solution.
 
     Its energy is that of the steps after the first until the last; -1 is the state before the first step.
+
+    Attributes
+    ----------
+    number : int
+        Of the cycle, from 1.
+    first, last : int
+        Rows where it begins and where it ends.
     """
 
     number: int
@@ -45,13 +56,24 @@ class Cycle(NamedTuple):
     last: int
 
     @property
-    def rows(self):
+    def rows(self) -> slice:
         """Rows of its loop, including its beginning if that has been written."""
         return slice(max(0, self.first), self.last + 1)
 
 
-def busiest(results):
-    """Returns the pair of load and displacement whose product varies most; None if none varies."""
+def busiest(results: "Results") -> Optional[str]:
+    """The pair of load and displacement whose product varies most.
+
+    Parameters
+    ----------
+    results : Results
+        The results of a run.
+
+    Returns
+    -------
+    str or None
+        "tx", "ty", "mz" or "n"; None if none varies.
+    """
 
     def work(pair):
         load, way = (results.series(name) for name in PAIRS[pair])
@@ -64,8 +86,19 @@ def busiest(results):
     return "n" if work("n") > 0.0 else None
 
 
-def turning_points(values):
-    """Returns the indices of reversals of the values; since these come from zero, the first one may be one."""
+def turning_points(values: ArrayLike) -> list[int]:
+    """The reversals of values; since these come from zero, the first one may be a reversal.
+
+    Parameters
+    ----------
+    values : array_like
+        Numbers, (n,).
+
+    Returns
+    -------
+    list of int
+        Indices of the reversals.
+    """
     values = np.asarray(values, dtype=float)
     size = float(np.ptp(np.append(values, 0.0))) if values.size else 0.0
     turns, top, at, direction = [], 0.0, -1, 0
@@ -81,8 +114,18 @@ def turning_points(values):
     return turns
 
 
-def by_turns(values):
-    """Cycles from a turning point of the values to the second next one."""
+def by_turns(values: np.ndarray) -> list[Cycle]:
+    """Cycles from a turning point of the values to the second next one.
+
+    Parameters
+    ----------
+    values : ndarray
+        Numbers, (n,).
+
+    Returns
+    -------
+    list of Cycle
+    """
     turns = turning_points(values)
     found = [(one, other) for one, other in zip(turns[::2], turns[2::2])]
     rest = turns[2 * len(found) :]
@@ -94,10 +137,29 @@ def by_turns(values):
     return [Cycle(number, *rows) for number, rows in enumerate(found, 1)]
 
 
-def by_period(times, period, start=None):
-    """Cycles of a period (s) from a start (s); default 0, or the first time if that is at least a period away."""
+def by_period(times: np.ndarray, period: float, start: Optional[float] = None) -> list[Cycle]:
+    """Cycles of a period.
+
+    Parameters
+    ----------
+    times : ndarray
+        Times of the steps, (n,), s.
+    period : float
+        Period, s.
+    start : float, optional
+        Start of the first cycle, s; default 0, or the first time if that is at least a period away.
+
+    Returns
+    -------
+    list of Cycle
+
+    Raises
+    ------
+    Error
+        If the period is shorter than the steps.
+    """
     if start is None:
-        start = 0.0 if abs(times[0]) < period else times[0]  # steps before 0 belong to a first row at 0
+        start = 0.0 if abs(times[0]) < period else float(times[0])  # steps before 0 belong to a first row at 0
     slack = SLACK * period
     count = np.floor((times[-1] - start + slack) / period)
     if count > times.size:
@@ -107,9 +169,19 @@ def by_period(times, period, start=None):
 
 
 class Cycles:
-    """The cycles of one file: a list, how they were found, and the energy of each."""
+    """The cycles of one file: a sequence of Cycle.
 
-    def __init__(self, results, found, manner):
+    Parameters
+    ----------
+    results : Results
+        The results of a run.
+    found : list of Cycle
+        The cycles.
+    manner : str
+        How they were found.
+    """
+
+    def __init__(self, results: "Results", found: list[Cycle], manner: str) -> None:
         self.results, self.found, self.manner = results, found, manner
 
     def __len__(self):
@@ -119,13 +191,28 @@ class Cycles:
         return iter(self.found)
 
     @cached_property
-    def energies(self):
-        """Dissipated energy of every cycle, J."""
+    def energies(self) -> np.ndarray:
+        """Dissipated energy of every cycle, (cycles,), J; J/m in plane strain."""
         steps = self.results.series(ENERGY)
         return np.array([float(np.sum(steps[one.first + 1 : one.last + 1])) for one in self.found])
 
-    def numbered(self, number):
-        """Returns the cycle of a number from 1, or from the end, -1 being the last; NotSaved if there is none."""
+    def numbered(self, number: float) -> Cycle:
+        """The cycle of a number.
+
+        Parameters
+        ----------
+        number : int
+            From 1, or from the end, -1 being the last.
+
+        Returns
+        -------
+        Cycle
+
+        Raises
+        ------
+        NotSaved
+            If there is none.
+        """
         count = len(self.found)
         at = count + 1 + number if number < 0 else number
         if at != int(at) or not 1 <= at <= count:
@@ -134,11 +221,29 @@ class Cycles:
         return self.found[int(at) - 1]
 
 
-def find(results, turns=None, period=None):
-    """The Cycles of Results: of a period (s, start or None), or by reversals.
+def find(
+    results: "Results", turns: Optional[str] = None, period: Optional[tuple[float, Optional[float]]] = None
+) -> Cycles:
+    """The cycles of results: of a period, or by reversals.
 
-    turns names the scalar of /history that reverses; without it the displacement of the pair that does most work, which
-    changes also in gross slip, where its load does not.
+    Parameters
+    ----------
+    results : Results
+        The results of a run.
+    turns : str, optional
+        The number of /history that reverses; None: the displacement of the pair that does most work, which changes also
+        in gross slip, where its load does not.
+    period : tuple, optional
+        (period, start) in s; a start of None is 0, or the first time if that is at least a period away.
+
+    Returns
+    -------
+    Cycles
+
+    Raises
+    ------
+    Error
+        If no step has a solution, there is no such number, or the period is shorter than the steps.
     """
     results.need_solution()
     if period is not None:

@@ -12,13 +12,17 @@ slip to gross slip a sphere passes an energy ratio of 0.2 and a sliding ratio of
 Wear 185 (1995) 35-46).
 """
 
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
 import numpy as np
 
 from ..core.errors import Error
 from .cycles import ENERGY, PAIRS, Cycle, busiest, find
-from .file import BLOCK, OPEN
+from .fields import BLOCK, OPEN
+
+if TYPE_CHECKING:
+    from .file import Results
 
 REGIMES = ("stick", "partial slip", "gross slip", "mixed")  # by their codes in tables
 ALONE = 1e-3  # of a loop's area: smaller areas of the other loads' loops are rounding
@@ -26,7 +30,23 @@ STEPS = 3  # saved steps of a cycle at least for the path of its slip
 
 
 class Numbers(NamedTuple):
-    """Of a cycle: amplitudes of the load (N or N m) and its displacement (m or rad), energy (J), ratios, regime."""
+    """Numbers of a cycle.
+
+    Attributes
+    ----------
+    force : float
+        Amplitude of the load, N or N m.
+    displacement : float
+        Amplitude of its displacement, m or rad.
+    energy : float
+        Energy that the load spends on it, J.
+    energy_ratio : float
+        That energy relative to the product of the ranges.
+    sliding_ratio : float
+        Width of the loop at mean load relative to the range of the displacement.
+    regime : str
+        One of REGIMES.
+    """
 
     force: float
     displacement: float
@@ -36,16 +56,47 @@ class Numbers(NamedTuple):
     regime: str
 
 
-def area(x, y):
-    """Area of a closed polygon, positive when it is passed clockwise, as a load passes its displacement."""
+def area(x: np.ndarray, y: np.ndarray) -> float:
+    """The area of a closed polygon, positive when it is passed clockwise, as a load passes its displacement.
+
+    Parameters
+    ----------
+    x, y : ndarray
+        Its points, (n,).
+
+    Returns
+    -------
+    float
+        Area, in the unit of x times that of y.
+    """
     return 0.5 * float(np.sum((x + np.roll(x, -1)) * (np.roll(y, -1) - y))) * -1.0
 
 
-def loop_energy(results, names, values, energy):
-    """Energy (J) that a load spends on its displacement over a closed loop; values(name) are those of its steps.
+def loop_energy(
+    results: "Results", names: tuple[str, str], values: Callable[[str], np.ndarray], energy: float
+) -> float:
+    """The energy that a load spends on its displacement over a closed loop.
 
-    Where no other load and no bulk stress does work, that is the dissipated energy of the cycle (energy), which needs
-    no fine steps; else the area of the loop as it is drawn, whose sides are straight.
+    Parameters
+    ----------
+    results : Results
+        The results of a run.
+    names : tuple of str
+        The load and its displacement, as in cycles.PAIRS.
+    values : callable
+        values(name) are those of the loop's steps, (n,).
+    energy : float
+        Dissipated energy of the cycle, J.
+
+    Returns
+    -------
+    float
+        Energy, J.
+
+    Notes
+    -----
+    Where no other load and no bulk stress does work, that is the dissipated energy of the cycle, which needs no fine
+    steps; else the area of the loop as it is drawn, whose sides are straight.
     """
     force, way = names
     areas = {pair: area(values(pair[1]), values(pair[0])) for pair in PAIRS.values()}
@@ -56,8 +107,23 @@ def loop_energy(results, names, values, energy):
     return energy
 
 
-def cycle_energy(results, names, cycle):
-    """The same of a petsam.cycles.Cycle."""
+def cycle_energy(results: "Results", names: tuple[str, str], cycle: Cycle) -> float:
+    """The energy that a load spends on its displacement over a cycle: see loop_energy().
+
+    Parameters
+    ----------
+    results : Results
+        The results of a run.
+    names : tuple of str
+        The load and its displacement, as in cycles.PAIRS.
+    cycle : Cycle
+        The cycle.
+
+    Returns
+    -------
+    float
+        Energy, J.
+    """
     friction = float(np.sum(results.series(ENERGY)[cycle.first + 1 : cycle.last + 1]))
     return loop_energy(results, names, lambda name: results.series(name)[cycle.rows], friction)
 
@@ -73,8 +139,21 @@ def _width(way, force):
     return float(np.ptp(way[crossing] + part * (after - way)[crossing]))
 
 
-def regime(results, rows):
-    """The regime of a cycle's rows (a slice of the solved ones): of the step that slips most."""
+def regime(results: "Results", rows: slice) -> str:
+    """The regime of a cycle: that of the step that slips most.
+
+    Parameters
+    ----------
+    results : Results
+        The results of a run.
+    rows : slice
+        Rows of the steps that have a solution, as Cycle.rows.
+
+    Returns
+    -------
+    str
+        "stick", "partial slip" or "gross slip".
+    """
     stick, contact = (results.series(name)[rows] for name in ("stick_area", "contact_area"))
     touching = contact > 0.0
     if np.any(touching & (stick <= 0.0)):
@@ -82,25 +161,56 @@ def regime(results, rows):
     return "partial slip" if np.any(stick < contact * (1.0 - 1e-9)) else "stick"
 
 
-def regime_of(regimes):
-    """The regime of several cycles: mixed where some slip grossly and some do not, else that which slips most."""
+def regime_of(regimes: Iterable[str]) -> str:
+    """The regime of several cycles: mixed where some slip grossly and some do not, else that which slips most.
+
+    Parameters
+    ----------
+    regimes : iterable of str
+        Those of the cycles, at least one.
+
+    Returns
+    -------
+    str
+        One of REGIMES.
+    """
     found = set(regimes)
     if "gross slip" in found and len(found) > 1:
         return "mixed"
     return max(found, key=REGIMES.index)
 
 
-def numbers(results, cycle, pair=None):
-    """The Numbers of a petsam.cycles.Cycle, of a pair such as "tx" (that which does most work)."""
+def numbers(results: "Results", cycle: Cycle, pair: Optional[str] = None) -> Numbers:
+    """The numbers of a cycle: amplitudes, energy, ratios, regime.
+
+    Parameters
+    ----------
+    results : Results
+        The results of a run.
+    cycle : Cycle
+        The cycle, see petsam.cycles.find().
+    pair : str, optional
+        The load and its displacement: "tx", "ty", "mz", "n", "mx" or "my"; None: the pair that does most work.
+
+    Returns
+    -------
+    Numbers
+
+    Raises
+    ------
+    Error
+        If no load varies.
+    """
     pair = pair or busiest(results)
     if pair is None:
         raise Error(f"{results.path}: no load varies, a cycle needs several steps")
     names, rows = PAIRS[pair], cycle.rows
-    force, way = (results.series(name)[rows].astype(float) for name in names)
+    force: np.ndarray = results.series(names[0])[rows].astype(float)
+    way: np.ndarray = results.series(names[1])[rows].astype(float)
     energy = cycle_energy(results, names, cycle)
     box = float(np.ptp(force) * np.ptp(way))
-    ratios = (energy / box, _width(way, force) / float(np.ptp(way))) if box > 0.0 else (0.0, 0.0)
-    return Numbers(0.5 * float(np.ptp(force)), 0.5 * float(np.ptp(way)), energy, *ratios, regime(results, rows))
+    ratio, width = (energy / box, _width(way, force) / float(np.ptp(way))) if box > 0.0 else (0.0, 0.0)
+    return Numbers(0.5 * float(np.ptp(force)), 0.5 * float(np.ptp(way)), energy, ratio, width, regime(results, rows))
 
 
 def _path_cycle(results, index):
@@ -118,11 +228,31 @@ def _path_cycle(results, index):
     return ended[-1]
 
 
-def slip_range(results, index=-1, rows=slice(None), columns=slice(None), stride=1):
-    """Longest chord (m) of the path of each cell's slip over a cycle, between steps in which the cell is in contact.
+def slip_range(
+    results: "Results", index: int = -1, rows: slice = slice(None), columns: slice = slice(None), stride: int = 1
+) -> np.ndarray:
+    """The longest chord of the path of each cell's slip over a cycle, between steps in which the cell is in contact.
 
-    The cycle is that which ends at the saved step index, or the last before it; its saved steps are the path. NaN in
-    cells that are never in contact. The other arguments are those of Results.field().
+    Parameters
+    ----------
+    results : Results
+        The results of a run.
+    index : int
+        Of a saved step: the cycle is that which ends there, or the last before it; its saved steps are the path.
+    rows, columns : slice
+        The window: rows are y, columns x.
+    stride : int
+        Every stride-th cell of the window.
+
+    Returns
+    -------
+    ndarray
+        Slip range, (ny, nx) of the window, m; NaN in cells that are never in contact.
+
+    Raises
+    ------
+    Error
+        If no cycle ends before the step, or fewer than 3 of its steps are saved.
     """
     cycle = _path_cycle(results, index)
     first, last = (int(results.solved[row]) for row in (max(0, cycle.first), cycle.last))
@@ -133,7 +263,7 @@ def slip_range(results, index=-1, rows=slice(None), columns=slice(None), stride=
     low, high, _ = rows.indices(results.y.size)
     block, parts = stride * max(1, BLOCK // stride), []
     for k in range(low, high, block):
-        part = {"rows": slice(k, min(k + block, high)), "columns": columns, "stride": stride}
+        part: dict[str, Any] = {"rows": slice(k, min(k + block, high)), "columns": columns, "stride": stride}
         parts.append(_chords([[results.field(n, j, **part) for n in ("slip_x", "slip_y", "state")] for j in saved]))
     return np.concatenate(parts)
 

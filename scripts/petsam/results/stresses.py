@@ -1,9 +1,13 @@
 """Reading of petsam-stress's files: stresses in a body by step and depth, and fatigue parameters. SI units."""
 
+import os
+from typing import Any, Optional, Union
+
 import numpy as np
 
 from ..core.errors import Error, short, there_are
-from .file import WHOLE, Datafile, NotSaved, Results, _own, _some, need_index
+from .datafile import WHOLE, Datafile, NotSaved, _own, _some, need_index
+from .file import Results
 from .studies import Study, is_study
 
 # parameters of a cycle; the critical plane's normal is in NAME_normal_x, _y, _z
@@ -12,15 +16,38 @@ AXES = ("time", "z", "y", "x")
 
 
 class Stresses(Datafile):
-    """One file of petsam-stress, open for reading; Error where it cannot be read.
+    """One file of petsam-stress, open for reading.
 
-    x, y, z     points, m; z from the surface into the body; a section has one y or one x
-    times       of the load steps, s
-    along       "x" or "y", the direction of a section; None of maps
-    steps       numbers of the load steps, as petsam counts them
-    history     name: array with a value for every step, all of /history
-    units       name: unit, of the same
-    parameters  body, young (Pa), poisson, and the constants of the fatigue parameters
+    Parameters
+    ----------
+    path : str
+        The file.
+    label : str, optional
+        Its name in pictures; the file's name.
+
+    Attributes
+    ----------
+    x, y, z : ndarray
+        Points, m; z from the surface into the body; a section has one y or one x.
+    times : ndarray
+        Times of the load steps, (steps,), s.
+    along : str or None
+        "x" or "y", the direction of a section; None of maps.
+    steps : list of int
+        Numbers of the load steps, as petsam counts them.
+    history : dict
+        {name: array (steps,)} with a value for every step, all of /history.
+    units : dict
+        {name: unit}, of the same.
+    parameters : dict
+        body, young (Pa), poisson, and the constants of the fatigue parameters.
+
+    Raises
+    ------
+    MissingFile
+        If there is no such file.
+    Error
+        If it cannot be read.
     """
 
     program = "petsam-stress"  # that writes such files
@@ -54,45 +81,144 @@ class Stresses(Datafile):
             return name in self.file and name not in AXES
 
     @property
-    def fatigue(self):
+    def fatigue(self) -> list[str]:
         """Names of the fatigue parameters that the file has."""
         return [name for name in FATIGUE if name in self]
 
-    def unit(self, name):
-        """Unit of a dataset."""
+    def unit(self, name: str) -> str:
+        """The unit of a dataset.
+
+        Parameters
+        ----------
+        name : str
+            Its name.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        Error
+            If there is none of this name.
+        """
         with self._reading():
             return self._unit(_own(self.file, name), name)
 
-    def of_last(self):
-        """Index of the last step."""
+    def of_last(self) -> int:
+        """The last step.
+
+        Returns
+        -------
+        int
+            Its index, from 0.
+        """
         return self.times.size - 1
 
-    def is_last(self, index):
-        """True for the last step."""
+    def is_last(self, index: int) -> bool:
+        """Whether a step is the last one.
+
+        Parameters
+        ----------
+        index : int
+            Of the step, from 0.
+
+        Returns
+        -------
+        bool
+        """
         return index == self.of_last()
 
-    def of_step(self, number):
-        """Index of the load step number, as petsam counts them; or from the end, -1 being the last."""
+    def of_step(self, number: int) -> int:
+        """The index of a load step.
+
+        Parameters
+        ----------
+        number : int
+            As petsam counts them; or from the end, -1 being the last.
+
+        Returns
+        -------
+        int
+            Index, from 0.
+
+        Raises
+        ------
+        NotSaved
+            If the file has no such step.
+        """
         if -len(self.steps) <= number < 0:
             return len(self.steps) + number
         if number not in self.steps:
             raise NotSaved(self.path, f"step {number}", f"this file has the steps {_some(self.steps)}")
         return self.steps.index(number)
 
-    def of_time(self, time):
-        """Index of the step nearest to time (s), between the first and the last."""
+    def of_time(self, time: float) -> int:
+        """The step nearest to a time.
+
+        Parameters
+        ----------
+        time : float
+            Time, s, between the first and the last step.
+
+        Returns
+        -------
+        int
+            Index, from 0.
+
+        Raises
+        ------
+        NotSaved
+            If the time lies outside.
+        """
         return self.nearest(self.times, time)
 
-    def title(self, index):
-        """What names a step: the label and the time."""
+    def title(self, index: int) -> str:
+        """What names a step: the label and the time.
+
+        Parameters
+        ----------
+        index : int
+            Of the step.
+
+        Returns
+        -------
+        str
+        """
         return f"{self.label}, {self.when(index)}"
 
-    def when(self, index):
-        """The same without the label."""
+    def when(self, index: int) -> str:
+        """The title without the label.
+
+        Parameters
+        ----------
+        index : int
+            Of the step.
+
+        Returns
+        -------
+        str
+        """
         return f"step {self.steps[index]}, t = {self.times[index]:.4g} s"
 
-    def nearest_row(self, y):
-        """Number of the row of cells nearest to y (m); of two that are as near the upper one, as in petsam-stress."""
+    def nearest_row(self, y: float) -> int:
+        """The row of cells nearest to a line along x; of two that are as near the upper one, as in petsam-stress.
+
+        Parameters
+        ----------
+        y : float
+            The line, m.
+
+        Returns
+        -------
+        int
+            Number of the row, from 0.
+
+        Raises
+        ------
+        Error
+            If it is not on the grid.
+        """
         if self.y.size == 1:
             return 0
         step = self.y[1] - self.y[0]
@@ -100,12 +226,34 @@ class Stresses(Datafile):
             raise Error(f"{self.path}: y = {y:g} m is not on the grid")
         return int(np.clip(np.floor((y - self.y[0]) / step + 0.5), 0, self.y.size - 1))
 
-    def nearest_plane(self, z):
-        """Number of the depth nearest to z (m)."""
+    def nearest_plane(self, z: float) -> int:
+        """The depth nearest to another one.
+
+        Parameters
+        ----------
+        z : float
+            Depth, m.
+
+        Returns
+        -------
+        int
+            Number of the depth, from 0.
+        """
         return int(np.argmin(np.abs(self.z - z)))
 
-    def need(self, *names):
-        """Error where the file lacks one of the datasets."""
+    def need(self, *names: str) -> None:
+        """Checks that the file has datasets.
+
+        Parameters
+        ----------
+        *names : str
+            Their names.
+
+        Raises
+        ------
+        Error
+            If it lacks one of them.
+        """
         for name in names:
             if name not in self:
                 raise Error(f"{self.path}: has no {name} (petsam-stress -quantities){self._there_are(name)}")
@@ -115,8 +263,37 @@ class Stresses(Datafile):
             names = [name for name in self.file if name not in (*AXES, "history")]
         return there_are(name, names, "it has")
 
-    def field(self, name, index=-1, depths=slice(None), rows=slice(None), columns=slice(None)):
-        """A quantity (z, y, x) of a step, or a fatigue parameter, which has no steps; on a window of slices."""
+    def field(
+        self,
+        name: str,
+        index: int = -1,
+        depths: slice = slice(None),
+        rows: slice = slice(None),
+        columns: slice = slice(None),
+    ) -> np.ndarray:
+        """A quantity of a step, or a fatigue parameter, which has no steps.
+
+        Parameters
+        ----------
+        name : str
+            Its name: "stress_xx", "mises", "crossland", ...
+        index : int
+            Of the step, from 0, or from the end with -1.
+        depths, rows, columns : slice
+            The window in z, y and x.
+
+        Returns
+        -------
+        ndarray
+            (z, y, x) of the window, in SI units: unit(name).
+
+        Raises
+        ------
+        NotSaved
+            If there is no step of this index.
+        Error
+            If there is no such quantity, or the window is too large to be read at once.
+        """
         need_index(self, index)
         with self._reading():
             if name not in self:
@@ -133,8 +310,27 @@ class Stresses(Datafile):
             return data[part if timeless else (index % self.shape[0], *part)]
 
 
-def open_any(path, label=None):
-    """The Stresses, the Results or the Study of a file, by what is in it."""
+def open_any(path: Union[str, os.PathLike], label: Optional[str] = None) -> Any:
+    """Opens a file by what is in it.
+
+    Parameters
+    ----------
+    path : str
+        The file.
+    label : str, optional
+        Its name in pictures; the file's name.
+
+    Returns
+    -------
+    Results, Stresses or Study
+
+    Raises
+    ------
+    MissingFile
+        If there is no such file.
+    Error
+        If it cannot be read.
+    """
     if is_study(path):
         return Study(path, label)
     try:

@@ -2,6 +2,7 @@
 
 import os
 import re
+from typing import Optional, Union
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from ..core.declared import FOLLOWING, OPTIONS
 from ..core.errors import Error, short, there_are
 from ..core.files import decoded, need_regular
 from ..core.hdf5 import DAMAGED, opened
-from .file import WHOLE, _own, _reason
+from .datafile import WHOLE, _own, _reason
 
 NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eE]([+-]?\d+))?([a-zA-Z].*)?")
 
@@ -35,18 +36,39 @@ def _in_si(values):
 
 
 class Study:
-    """The table of a study, open for reading; Error where it cannot be read.
+    """The table of a study, petsam-study's results.h5, which is read whole.
 
-    cases     names of the cases
-    codes     their exit codes, -1 where a case has not run
-    inputs    name: an array of numbers, or of texts, a value a case; numbers with units (2.6mm) are in SI units
-    results   name: an array of numbers, a value a case, NaN where there is none
-    units     name: unit, of the results
+    Parameters
+    ----------
+    path : str
+        The file.
+    label : str, optional
+        Its name in pictures; the folder's name.
+
+    Attributes
+    ----------
+    cases : ndarray of str
+        Names of the cases, (cases,).
+    codes : ndarray of int
+        Their exit codes, (cases,); -1 where a case has not run.
+    inputs : dict
+        {name: array (cases,)} of numbers or of texts; numbers with units (2.6mm) are in SI units.
+    results : dict
+        {name: array (cases,)} of numbers, NaN where there is none.
+    units : dict
+        {name: unit}, of the results.
+
+    Raises
+    ------
+    MissingFile
+        If there is no such file.
+    Error
+        If it cannot be read.
     """
 
     program = "petsam-study"  # that writes such files
 
-    def __init__(self, path, label=None):
+    def __init__(self, path: Union[str, os.PathLike], label: Optional[str] = None) -> None:
         self.path = str(path)
         name = os.path.basename(os.path.dirname(os.path.abspath(self.path)))
         self.label = label or name
@@ -92,10 +114,27 @@ class Study:
     def __exit__(self, *_):
         """Nothing is open: the table is read whole."""
 
-    def column(self, name, option=""):
-        """Values of an input or of a result, and the unit; a result that has an input's name ends with _end.
+    def column(self, name: str, option: str = "") -> tuple[np.ndarray, str]:
+        """The values of an input or of a result, and the unit.
 
-        option is what the message names where there is no such column.
+        Parameters
+        ----------
+        name : str
+            Its name; a result that has an input's name ends with _end.
+        option : str
+            What the message names where there is no such column.
+
+        Returns
+        -------
+        values : ndarray
+            Numbers or texts, (cases,).
+        unit : str
+            Unit of a result; "" of an input: see unit_of_input().
+
+        Raises
+        ------
+        Error
+            If there is no such column.
         """
         if name in self.inputs:
             return self.inputs[name], ""
@@ -105,19 +144,41 @@ class Study:
             raise Error(f"{self.path}: {what}: there is no such column{there_are(name, self.names)}")
         return self.results[bare], self.units[bare]
 
-    def unit_of_input(self, name):
-        """Unit of an input: that of the result of its name, in plane strain per metre; else of option or values."""
+    def unit_of_input(self, name: str) -> str:
+        """The unit of an input: that of the result of its name, in plane strain per metre; else of option or values.
+
+        Parameters
+        ----------
+        name : str
+            Its name.
+
+        Returns
+        -------
+        str
+            The unit, "" if there is none.
+        """
         unit = OPTIONS.get(name)
         return self.units.get(name, unit) if unit else self._input_units.get(name, "")
 
     @property
-    def names(self):
+    def names(self) -> list[str]:
         """Names of all columns."""
         return [*self.inputs, *(name + "_end" if name in self.inputs else name for name in self.results)]
 
 
-def is_study(path):
-    """Whether a file looks like the table of a study."""
+def is_study(path: Union[str, os.PathLike]) -> bool:
+    """Whether a file looks like the table of a study.
+
+    Parameters
+    ----------
+    path : str
+        The file.
+
+    Returns
+    -------
+    bool
+        False of a file that cannot be read, too.
+    """
     try:
         need_regular(str(path))
         with opened(str(path)) as file:
