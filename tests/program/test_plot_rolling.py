@@ -134,7 +134,7 @@ def test_what_the_power_needs_is_named(rolled, tmp_path):
 def test_all_pictures_of_a_file(rolled, tmp_path):
     done = finished([ROOT / "scripts/petsam-plot", curve(rolled)], cwd=tmp_path)
     assert [line.rpartition("_")[2] for line in done.stdout.split()[1::2]] == [
-        "fields.png",
+        "maps.png",
         "profiles.png",
         "history.png",
     ]

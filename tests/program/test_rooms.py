@@ -215,6 +215,19 @@ def test_modules_form_no_large_circle():
     assert not large, large
 
 
+def test_numerics_know_no_command_line():
+    """Options of a command line are read in commands/ only: what computes takes values."""
+    found = [
+        f"{name}: {word}"
+        for name, path in modules().items()
+        if name != "petsam" and part(name) != "commands"
+        for word in re.findall(
+            r"\b(?:options|args)\.(?!items|get|update|values|keys)\w+|\bargparse\b", path.read_text(encoding="utf-8")
+        )
+    ]
+    assert not found, found
+
+
 if __name__ == "__main__":
     where = (ROOT / (sys.argv[1] if len(sys.argv) > 1 else "build")).resolve()
     print("upward:", *lines(upward(where)), sep="\n  ")

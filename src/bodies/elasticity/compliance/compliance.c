@@ -586,8 +586,7 @@ PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamO
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, names[b], NULL);
   for (PetscInt b = 0; b < 2; b++) {
-    const SamOptionRow row = {names[b],
-                              "the body's own compliance, by petsam-compliance; FILE:2: of the second patch",
+    const SamOptionRow row = {names[b], "the body's own compliance, by petsam-compliance; FILE:2: of the second patch",
                               SAM_OPTION_FILE, .size = sizeof(file)};
 
     PetscCall(SamOptionsRead(from, NULL, 1, &row, file, &given));
