@@ -28,7 +28,7 @@ MODULES = (
     "plot.of_compliance",
     "plot.of_lives",
     "plot.of_surface",
-    "joint.interface",
+    "joint.interfaces",
     "joint.structure",
     "joint.pair",
     "joint.backbone",

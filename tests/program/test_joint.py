@@ -231,13 +231,13 @@ def test_warnings_of_all_solutions_are_one():
 
 
 def test_the_first_warning_has_its_place():
-    with pytest.warns(petsam.AdviceWarning) as found, joint.interface._gathered() as begins:
+    with pytest.warns(petsam.AdviceWarning) as found, joint.interfaces._gathered() as begins:
         for place in "abc":
             begins(place)
             for one in {"b": ["x: use y", "z"], "c": ["z"]}.get(place, []):
                 warnings.warn(one, petsam.AdviceWarning, stacklevel=1)
     assert [str(one.message).partition(";")[0] for one in found] == ["3 solutions have a warning, the first at b: x"]
-    with pytest.warns(petsam.AdviceWarning, match="the first at the start: z"), joint.interface._gathered():
+    with pytest.warns(petsam.AdviceWarning, match="the first at the start: z"), joint.interfaces._gathered():
         warnings.warn("z", petsam.AdviceWarning, stacklevel=1)
 
 
@@ -442,3 +442,28 @@ def test_an_uneven_axis_is_refused(command, tmp_path):
 def test_numbers_in_other_units_are_refused(command, tmp_path, words, says, periodic):
     write_stated(tmp_path / "a.h5", waves(32, 5))
     assert says in command("a.h5", *words, *periodic, check=2)
+
+
+def test_interface_takes_a_file_a_map_or_an_array(tmp_path):
+    heights = waves(32, 5)
+    one = petsam.surface.read(saved(tmp_path / "heights.npy", heights), units="m", size=(3.2e-4, 3.2e-4), body=1)
+    one.write(str(tmp_path / "heights.h5"))
+    given = dict(PAIR, friction=0.3, steps=1, periodic=True)
+    found = [
+        joint.interface(tmp_path / "heights.h5", [8e6], **given),
+        joint.interface(one, [8e6], **given),
+        joint.interface(-heights, [8e6], spacing=1e-5, **given),
+        joint.of_interface(-heights, 1e-5, [8e6], **dict(PAIR, friction=0.3, steps=1)),
+    ]
+    assert all(other.k_n == pytest.approx(found[0].k_n, rel=1e-12) for other in found[1:])
+    assert joint.interface(one, [8e6], **dict(PAIR, friction=0.3, steps=1)).spread["k_n"] > 0.0
+    with pytest.raises(petsam.Error, match="spacing: give the distance"):
+        joint.interface(heights, [8e6], **given)
+    with pytest.raises(petsam.Error, match="spacing: the surface has its own"):
+        joint.interface(one, [8e6], spacing=1e-5, **given)
+
+
+def saved(path, values):
+    """The path of an array that has been written there."""
+    np.save(path, values)
+    return str(path)

@@ -517,6 +517,30 @@ def test_a_study_runs_from_python_side_by_side(tmp_path, fake, monkeypatch):
         petsam.study.run("t.csv")
 
 
+def test_a_mapping_is_a_study_of_all_combinations(tmp_path, monkeypatch):
+    monkeypatch.setenv("PETSAM", str(PETSAM))
+    monkeypatch.chdir(tmp_path)
+    case = dict(CASE, friction=None, load_tx=None)
+    varied = dict(friction=[0.4, 0.2], load_tx=np.array([5.0, 10.0, 15.0]), steps=2)
+    found = petsam.study.run(
+        varied, "pads", {name: value for name, value in case.items() if value is not None}, cores=2
+    )
+    assert found.codes.tolist() == [0] * 6 and (tmp_path / "pads/results.h5").exists()
+    pandas = pytest.importorskip("pandas", reason="pandas is not installed")
+    table = found.to_dataframe()
+    assert isinstance(table, pandas.DataFrame) and table.attrs["units"]["stick_area"] == "m2"
+    xarray = pytest.importorskip("xarray", reason="xarray is not installed")
+    cube = found.to_xarray()
+    assert isinstance(cube, xarray.Dataset) and dict(cube.sizes) == {"friction": 2, "load_tx": 3}
+    assert cube.load_tx.attrs["units"] == "N" and cube.stick_area.attrs["units"] == "m2"
+    for friction in (0.2, 0.4):
+        for load in (5.0, 10.0, 15.0):
+            row = table[(table.friction == friction) & (table.load_tx == load)]
+            assert float(cube.stick_area.sel(friction=friction, load_tx=load)) == float(row.stick_area.iloc[0])
+    found.inputs["load_tx"][0] = found.inputs["load_tx"][1]  # no longer all combinations
+    assert dict(found.to_xarray().sizes) == {"case": 6}
+
+
 def test_other_cases_run_after_one_with_a_wrong_option(run, tmp_path, fake):
     table(tmp_path, "code,load_tx\n2,1\n0,2\n0,3\n")
     said = run("cases.csv", "--cores", 1, check=1, **fake)

@@ -41,13 +41,12 @@ from ..contact import AdviceWarning
 from ..core import words
 from ..core.errors import USAGE, Error, short
 from ..core.files import need_regular, need_replaceable
-from ..joint import interface
 from ..joint.backbone import backbone
 from ..joint.balance import forced
 from ..joint.band import band
+from ..joint.interfaces import interface
 from ..joint.pair import Pair
 from ..joint.structure import ENDS
-from ..joint.surfaces import read_separation
 from ..joint.sweep import BackboneWarning
 from ..joint.wear import rising, wear
 from ..plot.saving import DPI, write
@@ -222,20 +221,14 @@ def _run():
 def _stiffness(args):
     for ending in (".csv", ".json", ".inp", ".png") if args.output else ():
         need_replaceable(args.output + ending)
-    separation, spacing, doubts = read_separation(args.file)
-    options = dict(friction=args.friction, shear=args.shear, steps=args.steps)
+    options = dict(friction=args.friction, shear=args.shear, steps=args.steps, periodic=args.periodic)
     for body, (young, poisson) in (("body1", args.body1), ("body2", args.body2)):
         options.update({f"{body}_young": young, f"{body}_poisson": poisson})
     if args.hardness:
         options["pressure_limit"] = args.hardness
-    compute = interface.of_interface if args.periodic else interface.of_windows
-    if not args.periodic:
-        options["report"] = _teller("window")
     with _recorded(AdviceWarning) as found:
-        result = compute(separation, spacing, args.pressure, **options)
+        result = interface(args.file, args.pressure, report=_teller("window"), **options)
     _print(result, found)
-    for text in doubts:
-        print(f"petsam-joint: warning: {text}", file=sys.stderr)
     if args.output:
         result.to_csv(args.output + ".csv")
         result.to_json(args.output + ".json", args.area)

@@ -1,6 +1,6 @@
 """Joints: what a structural analysis needs of a contact, and the structure itself.
 
-interface   contact stiffness, damping and real contact area of a rough interface per area (interface.py)
+interface   contact stiffness, damping and real contact area of a rough interface per area (interfaces.py)
 structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
 backbone    frequency and damping of a mode over its amplitude (backbone.py)
 band        the same over the histories of assembly, and their scatter (band.py)
@@ -13,14 +13,13 @@ from . import adapters
 from .backbone import Backbone, backbone, shake
 from .balance import Response, forced
 from .band import Band, band
-from .interface import Interface, mirrored, of_interface, of_windows
+from .interfaces import Interface, interface, mirrored, of_interface, of_windows
 from .pair import Pair
 from .structure import NoSolution, Patch, Structure
 from .sweep import BackboneWarning
 from .wear import Wear, wear
 
 __all__ = [
-    "Backbone", "BackboneWarning", "Band", "Interface", "NoSolution", "Pair", "Patch", "Response",
-    "Structure", "Wear", "adapters", "backbone", "band", "forced", "mirrored", "of_interface", "of_windows", "shake",
-    "wear",
+    "Backbone", "BackboneWarning", "Band", "Interface", "NoSolution", "Pair", "Patch", "Response", "Structure", "Wear",
+    "adapters", "backbone", "band", "forced", "interface", "mirrored", "of_interface", "of_windows", "shake", "wear",
 ]  # fmt: skip

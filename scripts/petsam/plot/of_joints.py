@@ -8,7 +8,7 @@ from matplotlib.patches import Patch as Key
 from ..joint.backbone import MODAL, Backbone
 from ..joint.balance import Response
 from ..joint.band import ASSEMBLED, NUMBERS, Band
-from ..joint.interface import Interface
+from ..joint.interfaces import Interface
 from ..joint.wear import Wear
 from .fields import OPEN, STATES
 from .style import COLORS, STYLE, WHOLE, drawn, logarithmic, plt
@@ -21,7 +21,7 @@ def interface(found: Interface) -> Figure:
     Parameters
     ----------
     found : joint.Interface
-        The interface, of joint.interface().
+        The interface, of petsam.joint.interface().
 
     Returns
     -------

@@ -2,12 +2,12 @@
 
 import os
 import re
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 
 from ..core.declared import FOLLOWING, OPTIONS
-from ..core.errors import Error, short, there_are
+from ..core.errors import Error, library, short, there_are
 from ..core.files import decoded, need_regular
 from ..core.hdf5 import DAMAGED, opened
 from .datafile import WHOLE, _own, _reason
@@ -113,6 +113,61 @@ class Study:
 
     def __exit__(self, *_):
         """Nothing is open: the table is read whole."""
+
+    def to_dataframe(self) -> Any:
+        """The table with a row per case.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns exit_code, the inputs and the results by name, the case as the index; the units in `attrs["units"]`.
+        """
+        results = {self._shown(name): values for name, values in self.results.items()}
+        columns = {"exit_code": self.codes, **self.inputs, **results}
+        table = library("pandas").DataFrame(columns, index=library("pandas").Index(self.cases, name="case"))
+        units = {name: self.unit_of_input(name) for name in self.inputs}
+        table.attrs["units"] = {**units, **{self._shown(name): unit for name, unit in self.units.items()}}
+        return table
+
+    def to_xarray(self) -> Any:
+        """The results over the inputs.
+
+        Returns
+        -------
+        xarray.Dataset
+            The results by name, with their units; its dimensions are the inputs that vary, where the cases are all
+            their combinations, else `case`, along which the inputs are coordinates.
+        """
+        results = {self._shown(name): (values, self.units[name]) for name, values in self.results.items()}
+        results["exit_code"] = self.codes, "1"
+        levels, places = self._levels()
+        if places is None:
+            inputs = {name: ("case", values) for name, values in self.inputs.items()}
+            fields = {name: ("case", values, {"units": unit}) for name, (values, unit) in results.items()}
+            return library("xarray").Dataset(fields, {"case": self.cases, **inputs})
+        shape = [values.size for values in levels.values()]
+        fields = {
+            name: (list(levels), values[places].reshape(shape), {"units": unit})
+            for name, (values, unit) in results.items()
+        }
+        axes = {name: ((name,), values, {"units": self.unit_of_input(name)}) for name, values in levels.items()}
+        return library("xarray").Dataset(fields, axes)
+
+    def _levels(self):
+        """The values of the inputs that vary, and the cases in the order of their combinations; None if these are not
+        all of them, each once."""
+        found = {name: np.unique(values, return_inverse=True) for name, values in self.inputs.items()}
+        found = {name: pair for name, pair in found.items() if pair[0].size > 1}
+        levels = {name: values for name, (values, _) in found.items()}
+        shape = [values.size for values in levels.values()]
+        if not levels or np.prod(shape) != self.cases.size:
+            return levels, None
+        places = np.ravel_multi_index([np.ravel(place) for _, place in found.values()], shape)
+        return levels, np.argsort(places) if np.unique(places).size == places.size else None
+
+    def _shown(self, name):
+        """A result's name in a table beside the inputs."""
+        return name + "_end" if name in self.inputs else name
 
     def column(self, name: str, option: str = "") -> tuple[np.ndarray, str]:
         """The values of an input or of a result, and the unit.

@@ -2,8 +2,12 @@
 
 import os
 import signal
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Optional
+
+import numpy as np
+import yaml
 
 from ..core import environment
 from ..core import options as command_line
@@ -90,6 +94,21 @@ def check_files(cases):
             raise Error(f"-{name} {path}: no such file, and every case reads it")
 
 
+def _written(table, folder):
+    """The path of a YAML table in the folder, of {option: value, or a list of values}."""
+    os.makedirs(folder, exist_ok=True)
+    path = os.path.join(folder, "study.yaml")
+    options = {}
+    for name, values in table.items():
+        several = values.tolist() if isinstance(values, np.ndarray) else values
+        swept = isinstance(several, list)
+        words = [command_line.words({str(name): one})[1] for one in (several if swept else [several])]
+        options[str(name)] = words if swept else words[0]
+    with open(path, "w", encoding="utf-8") as file:
+        yaml.safe_dump({"options": options}, file, sort_keys=False)
+    return path
+
+
 def run(
     table, directory=None, options: Optional[dict] = None, *, cores: Optional[int] = None, report=None, **how
 ) -> Results:
@@ -99,25 +118,38 @@ def run(
 
     Parameters
     ----------
-    table : path of the cases, .csv or .yaml
-    directory : folder of the cases and of results.csv, results.h5; by default the table's name, here
-    options : petsam's options for all cases, {name without dash: value}
-    cores : cores to use; by default all available to this process
-    report : called with the petsam.study.Case and its exit code (None: another study runs it) as cases end
-    how : other fields of petsam.study.Jobs: ranks, checkpoint, skip_failed, launcher, and figures, a
-        petsam.study.Figures(turns, period, numbers) of the cycles whose energies are columns
+    table : path or mapping
+        The cases, .csv or .yaml; or {option: value}, in which each list has several values: all combinations are run.
+    directory : path, optional
+        Folder of the cases and of results.csv, results.h5; by default the table's name, here, or `study`.
+    options : dict, optional
+        petsam's options for all cases, {name without dash: value}.
+    cores : int, optional
+        Cores to use; by default all available to this process.
+    report : callable, optional
+        Called with the petsam.study.Case and its exit code (None: another study runs it) as cases end.
+    **how
+        Other fields of petsam.study.Jobs: ranks, checkpoint, skip_failed, launcher, and figures, a
+        petsam.study.Figures(turns, period, numbers) of the cycles whose energies are columns.
 
     Returns
     -------
-    petsam.Study of results.h5: `codes` has the exit codes, 0 where a case has finished
+    Study
+        Of results.h5: `codes` has the exit codes, 0 where a case has finished; to_xarray() and to_dataframe().
 
     Raises
     ------
-    Error : for a table that cannot be understood, files that cannot be read or written, and cycles that do not exist
-    KeyboardInterrupt : at Ctrl-C, after the cases have been ended in order; the same call resumes
+    Error
+        For a table that cannot be understood, files that cannot be read or written, and cycles that do not exist.
+    KeyboardInterrupt
+        At Ctrl-C, after the cases have been ended in order; the same call resumes.
     """
-    table = os.fspath(table)
-    folder = os.path.abspath(directory or os.path.splitext(os.path.basename(table))[0])
+    if isinstance(table, Mapping):
+        folder = os.path.abspath(directory or "study")
+        table = _written(table, folder)
+    else:
+        table = os.fspath(table)
+        folder = os.path.abspath(directory or os.path.splitext(os.path.basename(table))[0])
     jobs = Jobs(table, folder, tuple(command_line.words(options or {})), cores=cores, **how)
     cases = jobs.cases()
     check_files(cases)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..core.errors import Error, counted
+from ..core.errors import Error, counted, short
 from ..core.tables import Column, to_dataframe, write_csv
 from ..core.units import shown
 from . import filling, levels, resampling, spikes, writing
@@ -44,6 +44,10 @@ class Map:
     places: tuple
     remarks: tuple = ()
     doubts: tuple = ()
+
+    def __repr__(self):
+        sides = " x ".join(shown(side) for side in self.size)
+        return f"Map({short(self.name)}: {QUANTITIES[self.quantity]}, {self.n[0]} x {self.n[1]} cells, {sides})"
 
     @property
     def n(self) -> tuple:

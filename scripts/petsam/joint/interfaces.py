@@ -1,4 +1,4 @@
-"""Contact stiffness of an interface per area, from the separation of its surfaces: of_interface(), of_windows().
+"""Contact stiffness of an interface per area, from its surfaces: interface(), by of_interface() or of_windows().
 
 The surfaces are taken as one period, so that the displacement of the bodies' mean planes is that of the interface
 alone: a uniform pressure displaces nothing. So the stiffnesses are those of springs between two finite element models
@@ -8,8 +8,10 @@ of the bodies below it, which depends on the window's size.
 
 import contextlib
 import json
+import os
 import warnings
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, Optional
 
 import numpy as np
 
@@ -19,7 +21,7 @@ from ..core.tables import Column, Tabled
 from . import elements
 from .arguments import array, integer, positive, real
 from .numbers import columns_of
-from .surfaces import need_fitting
+from .surfaces import need_fitting, read_separation
 
 HALVES = 4  # half cycles of the loop; the last two count
 NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
@@ -317,3 +319,60 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
     loading = np.mean([one.loading * one.numbers["k_t_x"][:, None] for one in found], axis=0)
     loading /= numbers["k_t_x"][:, None]
     return Interface(numbers, spread, friction, shear, bodies, found[0].parts, loading)
+
+
+def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
+    surface, pressures, *, friction: float, spacing=None, periodic: bool = False, shear: float = 0.5,
+    steps: Optional[int] = None, report: Optional[Callable[[int, int], object]] = None, **bodies,
+) -> Interface:  # fmt: skip
+    """The Interface of a surface: a scan in a file, a map of petsam.surface, or an array.
+
+    Parameters
+    ----------
+    surface : path, petsam.surface.Map, or array of shape (ny, nx)
+        Heights or a separation in a file of petsam-surface or in a map; an array is the separation, m.
+    pressures : array of shape (k,)
+        Nominal pressures, Pa, rising.
+    friction : float
+        Coefficient of friction.
+    spacing : float or pair of floats, optional
+        Distance of the points of an array along x and y, m; files and maps have their own.
+    periodic : bool
+        Whether the surface repeats itself; else five windows of it give means and standard deviations.
+    shear : float
+        Shear of the loop over friction times pressure, above 0 and below 1.
+    steps : int, optional
+        Load steps of a quarter of the loop (8).
+    report : callable, optional
+        Called with the number of the windows that are done, and of all.
+    **bodies
+        Options of the bodies, body1_young (Pa), body1_poisson, body2_young, ..., and of the solution.
+
+    Returns
+    -------
+    Interface
+
+    Raises
+    ------
+    Error
+        For wrong values, a surface that cannot be read, and a pressure that closes the interface.
+    ContactError
+        Where petsam finds no solution.
+    """
+    if isinstance(surface, (str, os.PathLike)):
+        surface, own, doubts = read_separation(os.fspath(surface))
+        for text in doubts:
+            warnings.warn(text, AdviceWarning, stacklevel=2)
+    elif hasattr(surface, "quantity"):
+        own = tuple(side / n for side, n in zip(surface.size, surface.n))
+        surface = surface.values if surface.quantity == "separation" else -surface.values
+    else:
+        own = spacing
+        if spacing is None:
+            raise Error("spacing: give the distance of the points of an array, m")
+    if spacing is not None and own is not spacing:
+        raise Error("spacing: the surface has its own: leave it out")
+    given = dict(friction=friction, shear=shear, **({} if steps is None else {"steps": steps}), **bodies)
+    if periodic:
+        return of_interface(surface, own, pressures, **given)
+    return of_windows(surface, own, pressures, report=report, **given)
