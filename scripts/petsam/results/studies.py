@@ -143,7 +143,7 @@ class Study:
         levels, places = self._levels()
         if places is None:
             inputs = {name: ("case", values) for name, values in self.inputs.items()}
-            fields = {name: ("case", values, {"units": unit}) for name, (values, unit) in results.items()}
+            fields: dict = {name: ("case", values, {"units": unit}) for name, (values, unit) in results.items()}
             return library("xarray").Dataset(fields, {"case": self.cases, **inputs})
         shape = [values.size for values in levels.values()]
         fields = {
