@@ -91,7 +91,9 @@ def read_tool(script):
     done = subprocess.run([sys.executable, str(script), "--help"], check=True, capture_output=True, text=True, env=wide)
     said, groups = FIRST_GROUP.split(done.stdout.strip(), maxsplit=1)
     usage, summary, rest = said.split("\n\n", 2)
-    version = re.search(r'^__version__ = "(.*)"$', (SCRIPTS / "petsam/__init__.py").read_text(encoding="utf-8"), re.M)
+    version = re.search(
+        r'^__version__ = "(.*)"$', (SCRIPTS / "petsam/core/version.py").read_text(encoding="utf-8"), re.M
+    )
     program = Path(script).name
     first = f"{program}: {summary[:1].lower()}{summary[1:]}"
     return {

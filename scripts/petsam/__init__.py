@@ -29,6 +29,7 @@ import importlib
 import os
 
 from .core.errors import Error, Missing, MissingFile
+from .core.version import __version__ as __version__
 
 TYPE_CHECKING = False  # checkers of types take it for True; to import typing here would slow the start of every command
 if TYPE_CHECKING:
@@ -54,7 +55,6 @@ if TYPE_CHECKING:
     from .results.studies import Study
     from .running import run
 
-__version__ = "1.0.0"
 __all__ = [
     "AdviceWarning",
     "Contact",

@@ -26,11 +26,11 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import __version__
 from .core import options as command_line
 from .core.environment import PREFIX, TREE
 from .core.errors import Error, Missing, MissingFile, short, there_are
 from .core.files import need_regular
+from .core.version import __version__
 
 # numbers of a computed cycle, by their names in /wear
 CYCLE = (

@@ -43,7 +43,7 @@ def test_every_file_tells_the_version_of_the_headers(file, pattern):
 
 def test_the_Python_package_and_its_wheel_have_the_version_of_the_headers():
     assert petsam.__version__ == VERSION
-    assert 'version = { attr = "petsam.__version__" }' in (ROOT / "scripts/pyproject.toml").read_text()
+    assert 'version = { attr = "petsam.core.version.__version__" }' in (ROOT / "scripts/pyproject.toml").read_text()
 
 
 def test_CITATION_has_what_a_citation_needs_and_README_tells_of_it():

@@ -154,7 +154,7 @@ def imported(name, path, known):
 
 
 def imports():
-    """(importing module, imported module) of the package, but those of its __init__.py, which names all."""
+    """(importing module, imported module) of the package, but those of and to its __init__.py, which names all."""
     known = modules()
     return {(name, other) for name, path in known.items() if name != "petsam"
             for other in imported(name, path, known) if other not in ("petsam", name)}  # fmt: skip

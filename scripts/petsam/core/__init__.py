@@ -7,6 +7,7 @@ examine      examination of HDF5 files by petsam-examine, before they are opened
 options      options of the program as words of a command line
 declared     what petsam declares of its options: units, names of files
 units        the one table of units
+version      the version of the package
 words        reading of a word: a number with its unit, several, a span, a name with its value
 tables       tables as CSV: columns with name, unit and meaning
 environment  search for the interpreter, its libraries and petsam

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from .. import __version__
 from ..core.hdf5 import replacing
+from ..core.version import __version__
 from .basics import QUANTITIES
 
 SIGN = "petsam_surface"  # root attribute by which a file of this command is known
