@@ -106,6 +106,7 @@ def test_the_example_of_the_manual_keeps_the_slip_on_another_gap(tmp_path, monke
             ways.append((self["slip_x"].copy(), self["state"] == 1, self.number("pressure_max")))
             return step
 
+    (tmp_path / "build/run").mkdir(parents=True)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(library, "Contact", Contact)
     exec(SNIPPET, {"print": lambda *words: said.append(words)})
