@@ -106,7 +106,7 @@ $(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/src/front/app/%.o $(APP_OBJ) $(B)
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ '-Wl,-rpath,$$ORIGIN/../lib' $(PC_LIBS)
 
-$(EXAMINE): src/front/examine/examine.c
+$(EXAMINE): src/front/examine/petsam-examine.c
 	@mkdir -p $(@D)
 	$(say) LD $@
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(PC_CFLAGS) $(WARNINGS) $(LDFLAGS) -o $@ $< -Wl,--as-needed $(PC_LIBS)

@@ -27,7 +27,7 @@ SAME = {
     "src/bodies/elasticity/initialstress.c": {"rows"},
     "src/contact/step/fixedpoint.c": {"largest"},
     "src/contact/step/stepcache.c": {"table"},
-    "src/laws/plastic/newton.c": {"energy"},
+    "src/laws/plastic/plasticnewton.c": {"energy"},
     "src/laws/wear/magnified.c": {"lift"},
     "src/post/stress/section.c": {"sums"},
     "src/run/io/kept.c": {"rows"},

@@ -6,7 +6,7 @@ and those of a script, from its `--help`, for its man page.
         for option in group.options:
             print(group.name, option.name, option.argument, option.text, option.default)
 
-src/front/app/help.c describes the whole, which read_help() returns; read_tool() returns the same of a script.
+src/front/app/programhelp.c describes the whole, which read_help() returns; read_tool() returns the same of a script.
 """
 
 from __future__ import annotations

@@ -200,6 +200,13 @@ def test_no_folder_has_a_large_circle_of_files(build):
     assert not large, "\n".join(map(" ".join, large))
 
 
+def test_no_two_sources_have_the_same_name():
+    places = defaultdict(list)
+    for path in (ROOT / "src").rglob("*.c"):
+        places[path.name].append(str(path.relative_to(ROOT)))
+    assert not [found for found in places.values() if len(found) > 1]
+
+
 def test_all_packages_are_in_the_table():
     assert sorted(parts()) == sorted({part(name) for name in modules() if name != "petsam"})
 

@@ -4,7 +4,7 @@
 */
 #include "fields.h"
 
-#include "../../src/laws/plastic/newton.h"
+#include "../../src/laws/plastic/plasticnewton.h"
 
 #define SIZE  (7 + 6) /* strain, its accumulated size and a backstress */
 #define DEPTH 1.0

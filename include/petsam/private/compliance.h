@@ -40,7 +40,7 @@ struct _n_SamCompliance {
 
 /*
   SamComplianceRead - reads the compliance of body 0 or 1 from the file that `option` (without dash) names, of several
-  patches of a structure one, NAME:PATCH, or NAME:PATCH:local[:LOWER] (file.c); `pair`: the bodies without it.
+  patches of a structure one, NAME:PATCH, or NAME:PATCH:local[:LOWER] (compliancefile.c); `pair`: the bodies without it.
   Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and for a body that would gain
   energy, or be too compliant, under some traction.
 */

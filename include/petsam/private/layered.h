@@ -7,14 +7,15 @@
 
 /*
   The flow of data for a pair of bodies of which at least one has layers, that is, several materials:
-    symbols.c  the layers of each body become symbols, functions of the wave number, by a recursion from the substrate
-               up: the symbols themselves, and their differences from those of a half-space of the surface's material
-    spline.c    functions of s = r^2 or s = k^2 become polynomials on short intervals, which are evaluated quickly
-    radial.c   the differences become radial functions, the influence in space that is added to the half-space's
-    cells.c    the radial functions become integrals over cells, which halfspace.c adds to its closed forms. All
-               products, coarse grids and parts are those of half-spaces
-    stress.c   symbols of the stresses at a depth become radial functions and integrals likewise
-    waves.c    the symbols themselves act on waves: products on periodic grids, and the preconditioners of both
+    symbols.c        the layers of each body become symbols, functions of the wave number, by a recursion from the
+                     substrate up: the symbols themselves, and their differences from those of a half-space of the
+                     surface's material
+    spline.c         functions of s = r^2 or s = k^2 become polynomials on short intervals, which are evaluated quickly
+    radial.c         the differences become radial functions, the influence in space that is added to the half-space's
+    cells.c          the radial functions become integrals over cells, which halfspace.c adds to its closed forms. All
+                     products, coarse grids and parts are those of half-spaces
+    layeredstress.c  symbols of the stresses at a depth become radial functions and integrals likewise
+    layeredwaves.c   the symbols themselves act on waves: products on periodic grids, and the preconditioners of both
   Source of formulas: Burmister 1945, J. Appl. Phys. 16, 89; O'Sullivan and King 1988, J. Tribol. 110, 235.
 */
 
@@ -54,14 +55,14 @@ PETSC_INTERN PetscErrorCode SamBodyReadProfile(const SamOptions *from, const cha
 /*
   SamBodyStresses - computes, at a wave number k (1/m) and the depth z (m) below the top of a material, which must be
   elastic, the ten functions that compose the stresses by unit waves of traction, in the order of the transforms at the
-  head of stress.c. In the first of several materials they are the differences from those of a half-space of this
+  head of layeredstress.c. In the first of several materials they are the differences from those of a half-space of this
   material. Not collective.
 */
 #define SAM_LAYERED_STRESSES 10
 PETSC_INTERN void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_LAYERED_STRESSES]);
 /*
-  SamLayeredCreateStress - creates the object for the stresses in a body with layers, body 1 or 2 of a pair (stress.c).
-  Collective.
+  SamLayeredCreateStress - creates the object for the stresses in a body with layers, body 1 or 2 of a pair
+  (layeredstress.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt number,
                                                    SamBody body, SamStress *stress);

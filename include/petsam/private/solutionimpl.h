@@ -67,7 +67,7 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
   SamIncrementTurnRow - rotates the slip of row j by the angle from the mean direction of the shear in the step to that
   at its end, and writes it to `to`; to be called after ComputeRow, and only if there is a solution before. Not
   collective.
-  SamIncrementMeasure - finds how far all cells slide together, for SamIncrementGetSlide(). Collective.
+  SamIncrementMeasure - finds how far all cells slide together, for SamIncrementGetCellMotion(). Collective.
   SamIncrementOpposeRow - subtracts from the slip of row j the part that the shear at the end of the step does not
   oppose (`aside`), so that the friction law holds with that shear; to be called after ComputeRow. Not collective.
 */
@@ -93,21 +93,21 @@ PETSC_INTERN void           SamIncrementTurnRow(const SamIncrement *increment, P
 PETSC_INTERN void           SamIncrementOpposeRow(const SamIncrement *increment, PetscInt j);
 
 /*
-  SamSlide - the sliding of a cell in a step: none; during the whole step; from some time on; since contact was made;
-  until contact was lost; in the first step.
-  SamIncrementGetSlide - returns the sliding of this rank's cell k. If it slid, `share` gets the weights of the bounds
-  (or pressures) before and after the step in the effective bound (or pressure), against which the slip did its work.
-  Not collective.
+  SamCellMotion - how a cell slides in a step: not at all; during the whole step; from some time on; since contact was
+  made; until contact was lost; in the first step.
+  SamIncrementGetCellMotion - returns the motion of this rank's cell k. If it slid, `share` gets the weights of the
+  bounds (or pressures) before and after the step in the effective bound (or pressure), against which the slip did its
+  work. Not collective.
 */
 typedef enum {
-  SAM_SLIDE_NONE,
-  SAM_SLIDE_ALWAYS,
-  SAM_SLIDE_BEGINS,
-  SAM_SLIDE_ENTERS,
-  SAM_SLIDE_LEAVES,
-  SAM_SLIDE_FIRST
-} SamSlide;
-PETSC_INTERN SamSlide SamIncrementGetSlide(const SamIncrement *increment, ptrdiff_t k, double share[2]);
+  SAM_CELL_MOTION_NONE,
+  SAM_CELL_MOTION_ALWAYS,
+  SAM_CELL_MOTION_BEGINS,
+  SAM_CELL_MOTION_ENTERS,
+  SAM_CELL_MOTION_LEAVES,
+  SAM_CELL_MOTION_FIRST
+} SamCellMotion;
+PETSC_INTERN SamCellMotion SamIncrementGetCellMotion(const SamIncrement *increment, ptrdiff_t k, double share[2]);
 /*
   SamIncrementMix - returns the mean of a field's values before and after the step with these weights. Not collective.
 */

@@ -22,7 +22,7 @@ typedef struct SamSymbol {
   double slip;    /* and the inverse symbol over |k| */
   double turn[2]; /* the wave is divided by 1 + i turn.k/|k| besides, in single precision; 0: it is not */
   double film;    /* added to the tangential symbol without a film before it is inverted */
-  /* for layered bodies (layered/waves.c): */
+  /* for layered bodies (layered/layeredwaves.c): */
   const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */
   double           unit;    /* 1/m^2 in units of k^2 */
   double           top;     /* the normal symbol of the materials at the surfaces */

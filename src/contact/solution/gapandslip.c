@@ -278,39 +278,40 @@ static double Reversal(const SamIncrement *s, ptrdiff_t k)
 }
 
 /* The weight of the bound before the step. */
-static double ShareBefore(const SamIncrement *s, SamSlide slide, ptrdiff_t k)
+static double ShareBefore(const SamIncrement *s, SamCellMotion motion, ptrdiff_t k)
 {
   double begun, late;
 
-  if (slide == SAM_SLIDE_NONE || slide == SAM_SLIDE_FIRST) return 0;
-  if (s->follows_slip || slide == SAM_SLIDE_ENTERS) return 0.5;
-  begun = slide == SAM_SLIDE_BEGINS ? 1 : Reversal(s, k);
+  if (motion == SAM_CELL_MOTION_NONE || motion == SAM_CELL_MOTION_FIRST) return 0;
+  if (s->follows_slip || motion == SAM_CELL_MOTION_ENTERS) return 0.5;
+  begun = motion == SAM_CELL_MOTION_BEGINS ? 1 : Reversal(s, k);
   if (begun == 0) return 0.5;
-  late = PetscMax(slide == SAM_SLIDE_LEAVES ? LEAVES : BEGUN, 0.5 * s->slides);
+  late = PetscMax(motion == SAM_CELL_MOTION_LEAVES ? LEAVES : BEGUN, 0.5 * s->slides);
   return 0.5 + begun * (late - 0.5);
 }
 
-SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2])
+SamCellMotion SamIncrementGetCellMotion(const SamIncrement *s, ptrdiff_t k, double share[2])
 {
   const SamValues   *a = &s->at_before, *b = &s->at_now;
   const ptrdiff_t    l      = k + s->grid->cells;
   const SamCellState now    = SamCellStateOf(b->p[k], b->q[k], b->q[l], b->b[k]);
   SamCellState       before = SAM_CELL_OPEN;
-  SamSlide           slide  = SAM_SLIDE_NONE;
+  SamCellMotion      motion = SAM_CELL_MOTION_NONE;
 
   if (s->solutions[0]) before = SamCellStateOf(a->p[k], a->q[k], a->q[l], a->b[k]);
   if (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP && s->solutions[1]->load[SAM_COMPONENT_N] > 0)
-    slide = SAM_SLIDE_LEAVES;
-  if (now == SAM_CELL_SLIP && before == SAM_CELL_SLIP) slide = SAM_SLIDE_ALWAYS;
-  if (now == SAM_CELL_SLIP && before == SAM_CELL_STICK) slide = SAM_SLIDE_BEGINS;
-  if (now == SAM_CELL_SLIP && before == SAM_CELL_OPEN) slide = s->solutions[0] ? SAM_SLIDE_ENTERS : SAM_SLIDE_FIRST;
-  share[0] = ShareBefore(s, slide, k);
-  share[1] = slide == SAM_SLIDE_NONE ? 0 : 1 - share[0];
-  if (s->solutions[1]->touches && (slide == SAM_SLIDE_ENTERS || slide == SAM_SLIDE_FIRST)) {
+    motion = SAM_CELL_MOTION_LEAVES;
+  if (now == SAM_CELL_SLIP && before == SAM_CELL_SLIP) motion = SAM_CELL_MOTION_ALWAYS;
+  if (now == SAM_CELL_SLIP && before == SAM_CELL_STICK) motion = SAM_CELL_MOTION_BEGINS;
+  if (now == SAM_CELL_SLIP && before == SAM_CELL_OPEN)
+    motion = s->solutions[0] ? SAM_CELL_MOTION_ENTERS : SAM_CELL_MOTION_FIRST;
+  share[0] = ShareBefore(s, motion, k);
+  share[1] = motion == SAM_CELL_MOTION_NONE ? 0 : 1 - share[0];
+  if (s->solutions[1]->touches && (motion == SAM_CELL_MOTION_ENTERS || motion == SAM_CELL_MOTION_FIRST)) {
     share[0] = 0;
     share[1] = s->solutions[0] && SamSolutionGetNormal(s->solutions[0]) > 0 ? TOUCHED : TOUCHED_FIRST;
   }
-  return slide;
+  return motion;
 }
 
 PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec *h)

@@ -7,8 +7,8 @@
 /*
   Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of
   the tractions on the displacements, and the frictional work of this step. A cell works under a mean of the bounds
-  before and after the step that depends on how it slid (SamIncrementGetSlide()), which makes the sum over steps second
-  order with the slip of step/direction.c. In the first step, and in steady rolling, it is -sum q.ds dA.
+  before and after the step that depends on how it slid (SamIncrementGetCellMotion()), which makes the sum over steps
+  second order with the slip of step/direction.c. In the first step, and in steady rolling, it is -sum q.ds dA.
 */
 enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, BEFORE_TOUCH, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* the last two are stored as squares */
@@ -17,11 +17,11 @@ enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* the last two are stored as squares */
    below). */
 static double WorkBeforeTouch(const SamIncrement *increment, ptrdiff_t k, double dx, double dy)
 {
-  double         share[2];
-  const SamSlide slide = SamIncrementGetSlide(increment, k, share);
-  const double  *aside = increment->aside, *b = increment->at_now.b;
+  double              share[2];
+  const SamCellMotion motion = SamIncrementGetCellMotion(increment, k, share);
+  const double       *aside = increment->aside, *b = increment->at_now.b;
 
-  if (!aside || (slide != SAM_SLIDE_ENTERS && slide != SAM_SLIDE_FIRST)) return 0;
+  if (!aside || (motion != SAM_CELL_MOTION_ENTERS && motion != SAM_CELL_MOTION_FIRST)) return 0;
   return b[k] * (0.5 * hypot(dx + aside[k], dy + aside[k + increment->grid->cells]) - share[1] * hypot(dx, dy));
 }
 
@@ -39,7 +39,7 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
     const SamCellState state = SamCellStateOf(p[k], q[k], q[l], b[k]);
     double             share[2];
 
-    if (increment->solutions[0] && SamIncrementGetSlide(increment, k, share) != SAM_SLIDE_NONE)
+    if (increment->solutions[0] && SamIncrementGetCellMotion(increment, k, share) != SAM_CELL_MOTION_NONE)
       sums[DISSIPATED] += SamIncrementMix(share, increment->at_before.b, b, k) * hypot(dx[i], dy[i]);
     if (increment->solutions[1]->touches) sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
     if (state == SAM_CELL_OPEN) continue;
@@ -50,7 +50,7 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
     sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
     sums[STORED] += 0.5 * (p[k] * v->u_z[k] + q[k] * v->u_t[k] + q[l] * v->u_t[l]);
     if (increment->solutions[0]) continue;
-    (void)SamIncrementGetSlide(increment, k, share);
+    (void)SamIncrementGetCellMotion(increment, k, share);
     sums[DISSIPATED] -= (share[1] > 0 ? share[1] : 1) * (q[k] * dx[i] + q[l] * dy[i]);
   }
 }
@@ -87,10 +87,10 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
 #define TOUCHES 0.05
 
 /* The error by the time at which a cell begins to slide within the step; more is known of cells that slide back. */
-static double ErrorOfBegin(const SamIncrement *increment, SamSlide slide, const double share[2])
+static double ErrorOfBegin(const SamIncrement *increment, SamCellMotion motion, const double share[2])
 {
-  if (slide == SAM_SLIDE_BEGINS) return BEGINS * (increment->follows_slip ? 0.25 : 0.5 - share[0]);
-  return slide == SAM_SLIDE_ENTERS ? 0 : RETURNS * (0.5 - share[0]);
+  if (motion == SAM_CELL_MOTION_BEGINS) return BEGINS * (increment->follows_slip ? 0.25 : 0.5 - share[0]);
+  return motion == SAM_CELL_MOTION_ENTERS ? 0 : RETURNS * (0.5 - share[0]);
 }
 
 static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt span[2], double *const turned[2],
@@ -103,13 +103,13 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt 
   if (!increment->solutions[0]) return;
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = span[0]; i < span[1]; i++) {
-    const ptrdiff_t k = (ptrdiff_t)j * increment->grid->nx + i;
-    double          share[2];
-    const SamSlide  slide  = SamIncrementGetSlide(increment, k, share);
-    const double    length = hypot(sx[i], sy[i]), work = SamIncrementMix(share, b0, b1, k) * length;
+    const ptrdiff_t     k = (ptrdiff_t)j * increment->grid->nx + i;
+    double              share[2];
+    const SamCellMotion motion = SamIncrementGetCellMotion(increment, k, share);
+    const double        length = hypot(sx[i], sy[i]), work = SamIncrementMix(share, b0, b1, k) * length;
 
     if (work == 0) continue;
-    if (slide == SAM_SLIDE_ALWAYS) {
+    if (motion == SAM_CELL_MOTION_ALWAYS) {
       const double half = hypot(sx[i] - turned[0][i], sy[i] - turned[1][i]) / length;
 
       const double stays = PetscMax(0, 1 - fabs(b1[k] - b0[k]) / (CHANGES * b1[k]));
@@ -121,8 +121,8 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt 
         sums[TURNED] += stays * STAYS / 6 * half * half * work;
       }
     }
-    sums[ERROR] += ErrorOfBegin(increment, slide, share) * fabs(b1[k] - b0[k]) * length;
-    if (slide == SAM_SLIDE_ENTERS || slide == SAM_SLIDE_LEAVES) sums[ERROR] += CROSSES / 5 * work;
+    sums[ERROR] += ErrorOfBegin(increment, motion, share) * fabs(b1[k] - b0[k]) * length;
+    if (motion == SAM_CELL_MOTION_ENTERS || motion == SAM_CELL_MOTION_LEAVES) sums[ERROR] += CROSSES / 5 * work;
   }
 }
 

@@ -260,8 +260,8 @@ PetscErrorCode SamStepFindTurn(SamProblem problem, SamGrid grid, const SamSoluti
     SamIncrementComputeRow(&increment, j);
     SamIncrementTurnRow(&increment, j, to);
     for (PetscInt i = 0; i < grid->nx; i++) {
-      const SamSlide  slide = SamIncrementGetSlide(&increment, first + i, share);
-      const PetscBool turns = slide == SAM_SLIDE_ALWAYS || slide == SAM_SLIDE_BEGINS;
+      const SamCellMotion motion = SamIncrementGetCellMotion(&increment, first + i, share);
+      const PetscBool     turns  = motion == SAM_CELL_MOTION_ALWAYS || motion == SAM_CELL_MOTION_BEGINS;
 
       for (PetscInt c = 0; c < 2; c++) to[c][i] = turns ? increment.row[c][i] - to[c][i] : 0;
     }

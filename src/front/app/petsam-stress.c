@@ -9,7 +9,7 @@
 #include <petsam/private/evaluation.h>
 #include <petsam/private/output.h>
 #include <petsam/private/file.h>
-#include <petsam/private/files.h>
+#include <petsam/private/runfiles.h>
 #include <petsam/private/stress.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/elasticity.h>

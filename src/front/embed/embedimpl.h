@@ -12,7 +12,7 @@
 enum { SAM_EMBED_USAGE = 2, SAM_EMBED_FILE = 3 };
 #define SAM_EMBED_BETWEEN " \t\r\n\v\f" /* blanks, which names must not contain */
 
-/* The recorded steps, and the results of petsam_stress() and petsam_fatigue() (stress.c) */
+/* The recorded steps, and the results of petsam_stress() and petsam_fatigue() (embedstress.c) */
 typedef struct _n_SamEmbedStress *SamEmbedStress;
 
 struct petsam_contact {
@@ -84,7 +84,7 @@ PETSC_INTERN PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOption
 /*
   SamEmbedRecord - records the tried step, else the committed one, if steps are recorded. SamEmbedForgetSteps - discards
   the recorded steps. SamEmbedRecordAnew - does the same after the state has been replaced. SamEmbedDestroyStress -
-  frees all data of stress.c. Collective.
+  frees all data of embedstress.c. Collective.
 */
 PETSC_INTERN PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step);
 PETSC_INTERN void           SamEmbedForgetSteps(petsam_contact *c);

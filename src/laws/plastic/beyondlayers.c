@@ -4,7 +4,7 @@
   no contact yields first deeper than two half widths. So the stress by the tractions and the residual stress of the
   nearest layer are evaluated there, at points between which they vary little.
 */
-#include "newton.h"
+#include "plasticnewton.h"
 
 #define FIRST  0.48 /* depth, relative to the half width of the contact, at which layers must be thin */
 #define DEEP   0.7  /* the deepest such depth at which a contact yields first */

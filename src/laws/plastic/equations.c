@@ -1,5 +1,6 @@
 /*
-  The equations (1 - Q Bc Q) y = Q r of newton.c, on a box of cells, by conjugate gradients, or if cells slip by GMRES.
+  The equations (1 - Q Bc Q) y = Q r of plasticnewton.c, on a box of cells, by conjugate gradients, or if cells slip by
+  GMRES.
 
   Q, the root of the tangent, is 0 where nothing yields. So the unknowns are those of the yielding cells alone, and the
   operators are needed on a box that contains these and the contact. The images of the box are left in its waves, which

@@ -2,7 +2,7 @@
 #ifndef PETSAM_PLASTIC_EQUATIONS_H
 #define PETSAM_PLASTIC_EQUATIONS_H
 
-#include "newton.h"
+#include "plasticnewton.h"
 #include "reaction.h"
 
 /*

@@ -2,7 +2,7 @@
 #ifndef PETSAM_PLASTIC_IMAGES_H
 #define PETSAM_PLASTIC_IMAGES_H
 
-#include "waves.h"
+#include "strainwaves.h"
 
 typedef struct _n_SamImages *SamImages;
 /*

@@ -1,10 +1,10 @@
 /*
   The law of plastic strain: bodies that yield below their surface.
 
-  The equations of a step are solved in newton.c. The law's offset is the displacement by the plastic strain of the
-  state, so that the gap, the check and all other functions include it; the internal variables of the layers' cells are
-  fields of the state. A solved step is checked independently, from the state and the tractions: the stress by both lies
-  on the yield surface where the plastic strain has grown, and nowhere outside of it.
+  The equations of a step are solved in plasticnewton.c. The law's offset is the displacement by the plastic strain of
+  the state, so that the gap, the check and all other functions include it; the internal variables of the layers' cells
+  are fields of the state. A solved step is checked independently, from the state and the tractions: the stress by both
+  lies on the yield surface where the plastic strain has grown, and nowhere outside of it.
 */
 #include "equations.h"
 #include <petsam/private/state.h>

@@ -9,7 +9,7 @@
   effect of slipping cells on the pressure is omitted.
 
   The exact response of frozen sets (solvers/frozen) includes that effect, and is not symmetric. Here a symmetric one is
-  needed, since it is part of the operator of the conjugate gradients of newton.c. An approximate one will do: it
+  needed, since it is part of the operator of the conjugate gradients of plasticnewton.c. An approximate one will do: it
   precedes the residual of Newton's method, which is exact, and sets its rate of convergence only.
 */
 #include "reaction.h"

@@ -1,5 +1,5 @@
 /*
-  The class SamResidual: the operators of plastic strain on a grid, by waves (waves.c).
+  The class SamResidual: the operators of plastic strain on a grid, by waves (strainwaves.c).
 
   The transforms process three planes at a time. All spectra are stored: those of the strain become those of the stress,
   to which that by the tractions is added, so that a product takes one transform of each plane of the strain and one of
@@ -13,7 +13,7 @@
   half-space without them, since long waves bend thin layers freely.
 */
 #include "images.h"
-#include "waves.h"
+#include "strainwaves.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/body.h>

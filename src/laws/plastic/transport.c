@@ -14,7 +14,7 @@
 
   Source: B. van Leer, J. Comput. Phys. 32 (1979) 101-136.
 */
-#include "newton.h"
+#include "plasticnewton.h"
 #include <petsam/private/elasticity.h>
 
 /* Moved layers of one cell: where the top of each lies among the old ones */

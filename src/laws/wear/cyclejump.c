@@ -1,9 +1,9 @@
 /*
   Jumps over cycles.
 
-  In a computed cycle a cell wears by r = e P, the wear load per cycle, under the mean pressure P (cycle.c). In a jump
-  over m cycles e is constant, and P is the mean pressure at the end of the jump: it solves the normal problem on the
-  gap h + m K e P, which is linear in P. In steady rolling a cycle is a passage, and the same holds for lines of the
+  In a computed cycle a cell wears by r = e P, the wear load per cycle, under the mean pressure P (wearcycle.c). In a
+  jump over m cycles e is constant, and P is the mean pressure at the end of the jump: it solves the normal problem on
+  the gap h + m K e P, which is linear in P. In steady rolling a cycle is a passage, and the same holds for lines of the
   running band, P being the integral of the pressure along them.
 
   A jump of m and two of m/2 give w1 and w2. These are of first order. 2 w2 - w1 is of second order, and |w2 - w1|

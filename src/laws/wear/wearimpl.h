@@ -28,7 +28,7 @@ typedef struct {
 PETSC_INTERN PetscBool SamLawIsWear(SamLaw law);
 /*
   SamWearGetLimit - gets the limit on how many times a single step may remove a wear load of `most` per pressure (m)
-  (limit.c); infinite without wear. Collective.
+  (wearlimit.c); infinite without wear. Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscReal *times);
 /*

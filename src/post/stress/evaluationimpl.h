@@ -147,7 +147,7 @@ PETSC_INTERN PetscErrorCode   SamPointsCheck(SamEvaluation e, PetscInt step, con
 */
 PETSC_INTERN void SamStressAddUniform(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
 /*
-  Stresses in layers of the body besides those by tractions (layers.c).
+  Stresses in layers of the body besides those by tractions (layerstress.c).
   SamLayersSetUp - checks the request for a body that has some. Collective. Errors: SAM_ERR_USER.
   SamLayersExist - returns true if the body has some. Not collective.
   SamLayersHaveInitial - returns true if they contain the stress of the body before any load. Not collective.
@@ -207,8 +207,8 @@ PETSC_INTERN void SamLargestKeep(SamEvaluation e, PetscInt kind, PetscInt step, 
 /* ---- cycles ---- */
 
 /*
-  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and passes them on (cycle.c). `done` is
-  the part of all points before these, `share` the part of these points. Collective.
+  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and passes them on (fatiguecycle.c).
+  `done` is the part of all points before these, `share` the part of these points. Collective.
   SamCycleCheckClosed - warns if the steps belong to several cycles of a life, or contain more than one cycle or a
   lead-in; or if the tractions before the first step (zero before step 1) differ from those of the last step. In the
   last case the cycle is not closed, or does not yet repeat itself (closed.c). Collective.

@@ -39,7 +39,7 @@ PETSC_INTERN PetscErrorCode SamOutputGatherPoints(SamOutput output, const SamEdg
 PETSC_INTERN PetscErrorCode SamOutputAppendPoints(SamOutput output, hid_t dataset, hsize_t count,
                                                   const SamOutputPoints points[]);
 
-/* The fields of steps that are not in the file yet (frames.c); NULL where nothing has waited. */
+/* The fields of steps that are not in the file yet (outputframes.c); NULL where nothing has waited. */
 typedef struct {
   PetscInt         most, count; /* number of steps that may wait, 1: each is written at once; number that wait */
   double          *times;       /* of these steps, s */

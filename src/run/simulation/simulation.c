@@ -3,7 +3,7 @@
 #include <petsam/private/checkpoint.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/file.h>
-#include <petsam/private/files.h>
+#include <petsam/private/runfiles.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/stiffness.h>
 

@@ -3,7 +3,7 @@
   varies over a length in proportion to the depth. So layers whose thickness is a fixed part of their depth resolve it
   for any size of the contact, which need not be known.
 */
-#include "newton.h"
+#include "plasticnewton.h"
 
 #define HALVINGS 60 /* of the interval that contains the ratio */
 

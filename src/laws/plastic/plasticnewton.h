@@ -1,6 +1,6 @@
 /* Plastic strain and contact together. */
-#ifndef PETSAM_PLASTIC_NEWTON_H
-#define PETSAM_PLASTIC_NEWTON_H
+#ifndef PETSAM_PLASTICNEWTON_H
+#define PETSAM_PLASTICNEWTON_H
 
 #include "mises.h"
 #include <petsam/private/lawimpl.h>
@@ -43,7 +43,7 @@ typedef struct {
   Vec                       last; /* strain before the step, of the points that now lie under the cells; NULL: none */
   PetscInt                  newton, products; /* counts of the last step */
   struct _n_SamEquations   *equations;        /* of the last step (equations.h); NULL: none */
-  struct _n_SamPlasticWork *work;             /* of an iteration under way (newton.c); NULL: none */
+  struct _n_SamPlasticWork *work;             /* of an iteration under way (plasticnewton.c); NULL: none */
   SamPlasticBegun           begun;
 } SamPlastic;
 

@@ -1,6 +1,6 @@
 /* Waves of stress in a half-space, by eigenstrains in layers and by tractions. */
-#ifndef PETSAM_PLASTIC_WAVES_H
-#define PETSAM_PLASTIC_WAVES_H
+#ifndef PETSAM_STRAINWAVES_H
+#define PETSAM_STRAINWAVES_H
 
 #include "plasticimpl.h"
 #include <complex.h>

@@ -2,7 +2,7 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/compliance.h>
 #include <petsam/private/file.h>
-#include <petsam/private/files.h>
+#include <petsam/private/runfiles.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>

@@ -12,7 +12,7 @@
   Source: the waves are combinations of those of Papkovich and Neuber; for the eigenstrains T. Mura, Micromechanics of
   Defects in Solids (1987), sections 15 and 20.
 */
-#include "waves.h"
+#include "strainwaves.h"
 #include <petsam/private/baseimpl.h>
 
 /*

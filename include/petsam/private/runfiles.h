@@ -1,6 +1,6 @@
 /* The names of all files of a run, so that it replaces none that it reads or has written. */
-#ifndef PETSAM_PRIVATE_FILES_H
-#define PETSAM_PRIVATE_FILES_H
+#ifndef PETSAM_PRIVATE_RUNFILES_H
+#define PETSAM_PRIVATE_RUNFILES_H
 
 #include <petsam/private/arguments.h>
 
