@@ -79,13 +79,8 @@ static PetscErrorCode Refuse(const SamOptions *from)
     {"stiffness", "the gap changes with the displacements, which the tangent leaves out"}};
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(refused) / sizeof(refused[0]); k++) {
-    PetscBool has;
-
-    PetscCall(SamOptionsHas(from, refused[k][0], &has));
-    PetscCheck(!has, from->comm, SAM_ERR_USER, "-%sslide does not work with -%s%s: %s", SamOptionsPrefix(from),
-               SamOptionsPrefix(from), refused[k][0], refused[k][1]);
-  }
+  for (size_t k = 0; k < sizeof(refused) / sizeof(refused[0]); k++)
+    PetscCall(SamOptionsExclude(from, slide_row.name, refused[k][0], refused[k][1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -46,6 +46,22 @@ def test_steps_are_divided_until_the_energy_is_right(loads, solve):
     assert "dissipated_energy" not in many.run.stderr
 
 
+@pytest.mark.parametrize(
+    "given, proposed",
+    [
+        (dict(grid_check=True), False),
+        (dict(grid_check="false"), True),
+        (dict(slide=True), False),
+        (dict(wear_coefficient1=1e-14, wear_cycles=10), False),
+    ],
+)
+def test_no_remedy_proposes_an_option_that_those_given_exclude(given, proposed, petsam, tmp_path):
+    moves = [(1.0, 200.0, 1e-6), (2.0, 150.0, -1e-6), (3.0, 200.0, 1e-6)]
+    case = {**{name: value for name, value in CASE.items() if name != "load_n"}, **given}
+    said = petsam(dict(case, **history(tmp_path / "h.csv", "time,load_n,disp_x", *moves))).stderr
+    assert "the load steps are long" in said and ("-step_rtol" in said) == proposed
+
+
 @pytest.mark.parametrize("part", [0.3, 0.6])
 def test_error_of_loads_that_turn_at_constant_n_is_estimated_well(solve, tmp_path, part):
     """The less sticks, the more an error of the slip moves the bodies."""

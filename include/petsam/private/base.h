@@ -14,11 +14,15 @@ PETSC_INTERN const char *SamOptionsPrefix(const SamOptions *from);
   name after a space, and the option must then have that value. Not collective.
   SamOptionsNeed - rejects an option that is given without another one that it needs; the format is that of a row's
   `needs`.
+  SamOptionsExclude - rejects an option `other`, in the format of SamOptionsHas(), beside the given one that it does not
+  work with; `reason`: why, or what to do.
 */
 PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const SamOptionRow *row, PetscReal values[],
                                             PetscInt *count);
 PETSC_INTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
 PETSC_INTERN PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const char name[],
                                            const char needs[]);
+PETSC_INTERN PetscErrorCode SamOptionsExclude(const SamOptions *from, const char given[], const char other[],
+                                              const char reason[]);
 
 #endif

@@ -170,20 +170,20 @@ static PetscErrorCode PrintEnergy(SamReport r)
 
 static PetscErrorCode WarnOfEnergy(SamReport r)
 {
-  static const char *const without[] = {"-step_rtol", "-wear_cycles", "-grid_check", "-slide"}; /* or it has one */
-  PetscBool                given     = PETSC_FALSE;
+  const SamOptions from  = {r->comm, NULL};
+  PetscBool        given = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (!HasEnergy(r) || r->energy[1] <= LARGE * r->energy[0] || PetscMax(r->energy[0], r->energy[1]) <= NONE * r->work)
     PetscFunctionReturn(PETSC_SUCCESS);
-  for (size_t k = 0; !given && k < sizeof(without) / sizeof(without[0]); k++)
-    PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &given));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-step_rtol", &given));
   if (r->rank) PetscFunctionReturn(PETSC_SUCCESS);
   fflush(stdout);
   SamPrintMessage("petsam",
                   "warning: dissipated_energy: the load steps are long: an error of about %.2g %%: use %smore rows, or "
                   "a larger -steps",
-                  100 * (double)(r->energy[1] / r->energy[0]), given ? "" : "-step_rtol, ");
+                  100 * (double)(r->energy[1] / r->energy[0]),
+                  given || SamOptionsIsExcluded(&from, "step_rtol") ? "" : "-step_rtol, ");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

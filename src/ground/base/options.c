@@ -440,18 +440,16 @@ PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const cha
    given. */
 static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, const void *member, PetscBool given)
 {
-  const char *prefix = SamOptionsPrefix(from);
-  PetscBool   has    = PETSC_TRUE, both;
+  PetscBool has = PETSC_TRUE;
+  char      other[128];
 
   PetscFunctionBegin;
   if (row->kind == SAM_OPTION_BOOL && !row->words) given = given && *(const PetscBool *)member;
   if (row->needs) PetscCall(SamOptionsNeed(from, given, row->name, row->needs));
   if (row->needs && row->missing) PetscCall(SamOptionsHas(from, row->needs, &has));
-  for (const char *other = row->excludes; other && given && *other;
-       other += strcspn(other, ","), other += *other == ',') {
-    PetscCall(SamOptionsHas(from, other, &both));
-    PetscCheck(!both, from->comm, SAM_ERR_USER, "-%s%s does not work with -%s%.*s: give one of them", prefix, row->name,
-               prefix, (int)strcspn(other, ","), other);
+  for (const char *next = row->excludes; next && given && *next; next += strcspn(next, ","), next += *next == ',') {
+    (void)snprintf(other, sizeof(other), "%.*s", (int)strcspn(next, ","), next);
+    PetscCall(SamOptionsExclude(from, row->name, other, "give one of them"));
   }
   if (row->missing && has)
     PetscCall(SamOptionsRequire(from, given || HasDefault(row, member), row->name, row->missing));

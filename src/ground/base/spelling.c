@@ -1,7 +1,8 @@
 /*
   Suggests the intended meaning of a mistyped option: the nearest known name, a decimal comma, a unit.
 
-  Known names are all options that have been queried so far, given or not.
+  Known names are all options that have been queried so far, given or not. Options that do not work with those given
+  are noted, so that no remedy proposes them.
 */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/base.h>
@@ -14,6 +15,10 @@
 
 static char     known[MOST][LENGTH], belongs[MOST][LENGTH]; /* belongs: what the option needs; or empty */
 static PetscInt knowns = 0;
+
+#define MOST_EXCLUDED 64
+static char     excluded[MOST_EXCLUDED][LENGTH]; /* options that do not work with those given */
+static PetscInt excludes = 0;
 
 /* Options that PETSc reads; their names are suggested, too */
 static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
@@ -115,6 +120,35 @@ PetscBool SamOptionsIsKnown(const char name[], const char **with)
 
   if (with) *with = k >= 0 && belongs[k][0] ? belongs[k] : NULL;
   return k >= 0;
+}
+
+PetscBool SamOptionsIsExcluded(const SamOptions *from, const char name[])
+{
+  char option[LENGTH];
+
+  (void)snprintf(option, sizeof(option), "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
+  for (PetscInt k = 0; k < excludes; k++)
+    if (!strcasecmp(excluded[k], option)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+void SamOptionsNoteExcluded(const SamOptions *from, const char name[])
+{
+  if (excludes < MOST_EXCLUDED && !SamOptionsIsExcluded(from, name))
+    (void)snprintf(excluded[excludes++], LENGTH, "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
+}
+
+PetscErrorCode SamOptionsExclude(const SamOptions *from, const char given[], const char other[], const char reason[])
+{
+  const char *prefix = SamOptionsPrefix(from);
+  PetscBool   both;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHas(from, other, &both));
+  PetscCheck(!both, from->comm, SAM_ERR_USER, "-%s%s does not work with -%s%s: %s", prefix, given, prefix, other,
+             reason);
+  SamOptionsNoteExcluded(from, other);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 const char *SamOptionsNearest(const char tried[])
