@@ -26,6 +26,11 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
+<<<<<<< HEAD
+=======
+from . import __version__
+from .core import arrays
+>>>>>>> brk
 from .core import options as command_line
 from .core.environment import PREFIX, TREE
 from .core.errors import Error, Missing, MissingFile, short, there_are
@@ -881,7 +886,7 @@ class Contact:
         TypeError
             If the name is no text, or the values are no real numbers.
         """
-        values = np.asarray(values)
+        values = arrays.real(values) if np.ma.isMA(values) else np.asarray(values)
         if not isinstance(name, str):
             raise TypeError(f"{name!r} is no name of a field: expected gap or friction")
         if values.dtype.kind not in "biufO":
@@ -1157,7 +1162,7 @@ def _table(history):
     if not hasattr(history, "keys") or not all(isinstance(name, str) for name in history):
         raise TypeError("history: expected the name of a file, or {column: values}")
     columns = list(history)
-    return columns, np.ascontiguousarray(np.column_stack([np.asarray(history[name], dtype=float) for name in columns]))
+    return columns, np.ascontiguousarray(np.column_stack([arrays.real(history[name]) for name in columns]))
 
 
 def _pointer(array):

@@ -13,7 +13,7 @@ from typing import Any, Optional
 import numpy as np
 
 from .contact import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, EdgeContactWarning, error_of
-from .core import environment
+from .core import arrays, environment
 from .core import options as command_line
 from .core.errors import Error, short
 from .core.hdf5 import replacing
@@ -115,7 +115,7 @@ def _fields(folder, given):
         if given.get(file) is not None:
             raise Error(f"{name}: an array and {file} are both given: remove one of them")
         try:
-            values = np.asarray(values, float)
+            values = arrays.real(values)
         except (TypeError, ValueError):
             values = np.zeros(0)
         values = values[np.newaxis] if values.ndim == 1 and values.size else values
@@ -174,7 +174,7 @@ def _write_history(path, table):
 def _column(name, values):
     """The values of a column of loads."""
     try:
-        values = np.atleast_1d(np.asarray(values, float))
+        values = np.atleast_1d(arrays.real(values))
     except (TypeError, ValueError):
         values = np.full(1, np.nan)
     if values.ndim != 1 or not np.all(np.isfinite(values)):

@@ -37,6 +37,19 @@ def test_a_deck_gives_in_a_notebook_what_the_command_writes(compliance, tmp_path
     with pytest.raises(petsam.Error, match="was not written by petsam-compliance"):
         found.write("notes.h5")
     assert petsam.plot.compliance(found).axes
+    assert repr(found) == "Compliance(block.inp: 1 contact)"
+    with pytest.raises(petsam.Error, match="cannot be written: its folder .* does not exist"):
+        found.to_csv("nowhere/patches.csv")
+    with pytest.raises(petsam.Error, match="write it to a file by its write"):
+        petsam.run(body2_compliance=found)
+    with pytest.raises(petsam.Error, match="contact: give the surface"):
+        petsam.compliance.of_deck("block.inp", 2.0, None, supports="BOTTOM")
+
+
+@pytest.mark.parametrize("mesh, says", [("absent.msh", "absent.msh: no such file"), (5, "mesh 5: expected a file")])
+def test_what_is_no_mesh_is_an_error_in_a_notebook(mesh, says):
+    with pytest.raises(petsam.Error, match=says):
+        petsam.compliance.of_mesh(mesh, 2.0, 1.0, 0.3, contact="TOP", supports="BOTTOM")
 
 
 def test_a_pair_in_a_notebook_has_bolts_modes_and_sensors(compliance, tmp_path):  # noqa: F811
@@ -68,6 +81,12 @@ def test_a_pair_in_a_notebook_has_bolts_modes_and_sensors(compliance, tmp_path):
         (dict(supports="BOTTOM", method="mirror"), "--method mirror: use auto, image, cutoff"),
         (dict(supports="BOTTOM", free=True), "--free holds nothing"),
         (dict(supports="BOTTOM", patch=(1.0, -1.0)), "--patch 1,-1: expected lengths above 0"),
+        (dict(supports="BOTTOM", patch=(1.0, 1.0, 1.0)), "patch .1.0, 1.0, 1.0.: expected its full widths in m"),
+        (dict(supports="BOTTOM", patch="2mm"), "patch '2mm': expected its full widths in m"),
+        (dict(supports="BOTTOM", degree="two"), "two: expected an integer from 0 to 10"),
+        (dict(supports="BOTTOM", units="furlong"), "--units furlong: use m, mm"),
+        (dict(supports="BOTTOM", unitz="mm"), "unitz: no such argument: is units meant"),
+        (dict(supports="BOTTOM", cases="pull"), "'pull': expected {name: value}"),
     ],
 )
 def test_what_makes_no_sense_is_an_error_in_a_notebook_too(given, says):

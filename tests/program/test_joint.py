@@ -272,6 +272,8 @@ def test_mirror_images_join_without_a_step():
     [
         (dict(pressures=[2e6, 1e6]), "pressures that rise"),
         (dict(pressures=[0.0, 1e6]), "positive pressures"),
+        (dict(pressures=[]), "positive pressures"),
+        (dict(separation=np.ma.masked_array(np.ones((8, 8)), np.eye(8))), "finite numbers"),
         (dict(separation=np.full((8, 8), np.nan)), "finite numbers"),
         (dict(separation=np.zeros(8)), "a field"),
         (dict(friction=0.0), "a coefficient > 0"),

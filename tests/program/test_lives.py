@@ -225,6 +225,11 @@ def test_lives_from_python_are_those_of_the_command(fatigue, folder, tmp_path):
     assert len(petsam.plot.lives(one).axes) == 2
     with pytest.raises(Error, match="counts: 2 files need"):
         petsam.lives.lives(files, words, counts=[1.0])
+    assert repr(one) == "Lives(swt of high; line below the point nearest to --at)"
+    assert petsam.lives.lives(files[1], words, criteria="swt").values.keys() == {"swt"}
+    for nothing in ([], None, 5, [5]):
+        with pytest.raises(Error, match="expected a file of petsam-stress"):
+            petsam.lives.lives(nothing, words)
     with pytest.raises(Error, match="sigma_f 900 Pa is outside"):
         petsam.lives.lives(files, dict(sigma_f=900))
 

@@ -194,3 +194,20 @@ def test_labels_of_logarithmic_axes_do_not_collide(decades, inches, first):
             ticks = [tick for tick in ticks if tick.label1.get_text() and low <= tick.get_loc() <= high]
             boxes = [tick.label1.get_window_extent() for tick in ticks]
             assert boxes and all(not a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
+
+
+def test_pictures_refuse_what_they_do_not_draw(folder):
+    file = petsam.open(folder / "c.h5")
+    for name in ("maps", "interface", "backbone", "band", "response", "joint_wear", "compliance", "lives", "surface"):
+        with pytest.raises(petsam.Error, match=f"{name}: .*expected .*, not a file's name: open it first"):
+            getattr(petsam.plot, name)(str(folder / "c.h5"))
+        with pytest.raises(petsam.Error, match=f"{name}: expected .*, not int"):
+            getattr(petsam.plot, name)(5)
+    with pytest.raises(petsam.Error, match="interface: expected Interface, not Results"):
+        petsam.plot.interface(file)
+    with pytest.raises(petsam.Error, match="maps: expected results of petsam.open"):
+        petsam.plot.maps()
+    with pytest.raises(petsam.Error, match="--load tz: there are"):
+        petsam.plot.loop(file, load="tz")
+    with pytest.raises(petsam.Error, match="--percentile 200"):
+        petsam.plot.maps(file, percentile=200)

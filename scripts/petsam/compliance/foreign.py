@@ -13,6 +13,7 @@ import sys
 import numpy as np
 
 from ..core.errors import Error, Missing, short, there_are
+from ..core.files import need_regular
 from . import sound
 from .boxes import faces_of
 from .cards import folded
@@ -35,8 +36,7 @@ TAGS = ("gmsh:physical", "medit:ref")  # numbers of groups, as data of the cells
 
 def read(path, settings):
     """The Deck of a file that meshio reads."""
-    with open(path, "rb"):
-        pass  # meshio has a message of its own for a file that is not there
+    need_regular(path)  # meshio has a message of its own for a file that is not there
     try:
         import meshio
     except ImportError as error:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..core.errors import Error
+from ..core.errors import Error, short
 from . import bolts, boxes, checks, cutoff, deck, foreign, images, modes, parts, several, stresses
 from . import cases as load_cases
 from .basis import Patch
@@ -97,6 +97,8 @@ def opened(source, settings):
         of_meshio = settings.materials or ending in foreign.ENDINGS
         found = foreign.read(path, settings) if of_meshio else deck.read(path)
         return path, checksum(path), boxes.added(found, settings)
+    if not hasattr(source, "cell_sets"):
+        raise Error(f"mesh {short(repr(source))}: expected a file's name or a meshio.Mesh")
     found = foreign.deck_of(source, "mesh", settings)
     return "mesh", hashlib.sha256(found.mesh.nodes.tobytes()).hexdigest(), boxes.added(found, settings)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import tables
-from ..core.errors import Error, there_are
+from ..core.errors import Error, counted, short, there_are
 from ..core.hdf5 import need_own
 from ..core.tables import Column
 from . import writing
@@ -29,6 +29,9 @@ class Compliance:
     coupling: np.ndarray | None = None
     missed: float = 0.0
     least: float = 1.0
+
+    def __repr__(self):
+        return f"Compliance({short(self.bodies[0].source)}: {counted(len(self.bodies), 'contact')})"
 
     @property
     def moduli(self) -> dict:

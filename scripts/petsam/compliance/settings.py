@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.errors import Useless, short
+from ..core.errors import Useless, short, there_are
 from . import basis, several
+from .units import UNITS
 
 HIGHEST = 10  # highest degree that petsam reads
 HIGHEST_EACH, MOST_FUNCTIONS = 24, 325  # the same of degrees in x and y, and the number of their products
@@ -100,7 +101,10 @@ def _places(names):
 
 def _pairs(given):
     """Pairs of {name: value}, or of such pairs."""
-    return tuple(given.items()) if hasattr(given, "items") else tuple(tuple(one) for one in given)
+    found = tuple(given.items()) if hasattr(given, "items") else tuple(tuple(one) for one in given)
+    if not all(len(one) == 2 for one in found):
+        raise Useless(f"{short(repr(given))}: expected {{name: value}}")
+    return found
 
 
 def _bolts(given):
@@ -112,13 +116,31 @@ def _bolts(given):
     )  # fmt: skip
 
 
+def need_names(given):
+    """Raises Useless unless each name is that of a field of Settings."""
+    known = [one.name for one in fields(Settings)]
+    for name in given:
+        if name not in known:
+            raise Useless(f"{short(name)}: no such argument{there_are(name, known)}")
+
+
+def _widths(patch):
+    """Full widths in x and y of two numbers, or of one of a square."""
+    try:
+        return tuple(np.broadcast_to(np.asarray(patch, dtype=float), 2).tolist())
+    except (TypeError, ValueError):
+        raise Useless(f"patch {short(repr(patch))}: expected its full widths in m, two numbers or one") from None
+
+
 def settings(contact, patch, supports=(), **more):
     """The checked Settings by what a notebook gives: a number as the patch of a square, one name for several, mappings
     of bolts, cases and sensors, boxes as places."""
     forms = {"symmetry": _places, "pair": place, "bolts": _bolts, "cases": _pairs, "sensors": _pairs}
     more = {name: forms.get(name, lambda value: value)(value) for name, value in more.items()}
-    widths = tuple(np.broadcast_to(np.asarray(patch, dtype=float), 2).tolist())
-    found = Settings(place(contact), widths, supports=_places(supports), **more)
+    need_names(more)
+    if contact is None:
+        raise Useless("contact: give the surface on which the patch lies: its name, or a box")
+    found = Settings(place(contact), _widths(patch), supports=_places(supports), **more)
     frame = (found.frame,) if np.ndim(found.frame) == 1 and np.isscalar(found.frame[0]) else tuple(found.frame)
     sensors = tuple((name, str(node)) for name, node in found.sensors)
     found = replace(found, frame=frame, sensors=sensors, centers=tuple(map(tuple, found.centers)))
@@ -130,7 +152,8 @@ def need_degree(degree):
     """Raises Useless unless petsam reads polynomials of the degree."""
     most = HIGHEST if np.ndim(degree) == 0 else HIGHEST_EACH
     each = np.atleast_1d(degree)
-    if len(each) > 2 or not all(value == int(value) and 0 <= value <= most for value in each):
+    numbers = np.issubdtype(each.dtype, np.number)
+    if len(each) > 2 or not numbers or not all(value == int(value) and 0 <= value <= most for value in each):
         raise Useless(
             f"{short(str(degree))}: expected an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and "
             "y: 12,6"
@@ -147,6 +170,8 @@ def need_sense(given):
     """Raises Useless unless the Settings make sense together."""
     if not all(0.0 < width < math.inf for width in given.patch):
         raise Useless(f"--patch {given.patch[0]:g},{given.patch[1]:g}: expected lengths above 0")
+    if given.units not in UNITS:
+        raise Useless(f"--units {short(str(given.units))}: use {', '.join(UNITS)}")
     if given.method not in METHODS:
         raise Useless(f"--method {short(given.method)}: use {', '.join(METHODS)}")
     need_degree(given.degree)

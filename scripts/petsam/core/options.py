@@ -67,7 +67,8 @@ def _word(name, value):
             return text
     elif hasattr(value, "__float__"):
         return repr(float(value))
-    raise OptionError(f"{name}: {short(repr(value))} is neither a number nor a text")
+    cure = ": write it to a file by its write(), and give that name" if hasattr(value, "write") else ""
+    raise OptionError(f"{name}: {short(repr(value))} is neither a number nor a text{cure}")
 
 
 def _quoted(word):

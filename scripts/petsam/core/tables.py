@@ -6,6 +6,7 @@ import re
 from typing import NamedTuple
 
 from .errors import library
+from .files import need_replaceable
 
 HEAD = re.compile(r"(.+?)(?: \[(.*)\])?")
 
@@ -47,7 +48,8 @@ def _cell(column, value, form):
 
 
 def write_csv(path, columns, form=repr):
-    """Writes the table to a file."""
+    """Writes the table to a file; raises Unwritable where none can be written."""
+    need_replaceable(path)
     with open(path, "w", encoding="utf-8", newline="") as file:
         file.write(csv_text(columns, form))
 

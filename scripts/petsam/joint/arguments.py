@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..core import arrays
 from ..core.errors import Error, short
 
 
@@ -35,7 +36,7 @@ def positive(name, values, what):
 def array(name, values, what="numbers"):
     """The values as an array of real numbers."""
     try:
-        return np.asarray(values, dtype=float)
+        return arrays.real(values)
     except (TypeError, ValueError):
         raise Error(f"{name}: expected {what}, not {short(repr(values))}") from None
 

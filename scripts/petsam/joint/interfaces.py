@@ -216,7 +216,7 @@ def _of_interface(separation, spacing, pressures, loop, bodies, begins):
     pressures = np.atleast_1d(array("pressures", pressures))
     if separation.ndim != 2 or not np.isfinite(separation).all():
         raise Error("separation: expected a field (ny, nx) of finite numbers")
-    if pressures.ndim != 1 or not (np.diff(pressures, prepend=0.0) > 0).all():
+    if pressures.ndim != 1 or not pressures.size or not (np.diff(pressures, prepend=0.0) > 0).all():
         raise Error("pressures: expected positive pressures that rise")
     steps = integer("steps", steps)
     what = "a coefficient > 0, without which nothing resists a shear"
@@ -299,7 +299,7 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
     Four windows have the corners, one the middle. Each is mirrored, so that it repeats itself. report(k, count) is
     called when k of the windows are done. Other arguments are those of of_interface().
     """
-    separation = np.asarray(separation, float)
+    separation = array("separation", separation)
     if separation.ndim != 2 or min(separation.shape) < 4:
         raise Error("separation: expected a field of 4 x 4 points or more")
     ny, nx = (size // 2 for size in separation.shape)

@@ -177,7 +177,7 @@ def _far(group):
 
 def _kept(table, lower):
     """The number of polynomials of a patch, degrees (m, 2), that petsam reads where the degree is lower by `lower` in x
-    and in y, but at least 1 (src/bodies/elasticity/compliance/file.c)."""
+    and in y, but at least 1 (src/bodies/elasticity/compliance/compliancefile.c)."""
     if len(table) < np.prod(table.max(axis=0) + 1):  # up to a total degree
         return int(np.sum(table.sum(axis=1) <= max(table.sum(axis=1).max() - lower, 1)))
     return int(np.sum(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1)))

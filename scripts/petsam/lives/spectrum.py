@@ -1,12 +1,13 @@
 """Lives of a spectrum in one call: lives() takes files or stresses and constants, and returns Lives."""
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Optional
 
 import numpy as np
 
-from ..core.errors import Error
+from ..core.errors import Error, short
 from ..core.tables import Tabled
 from ..results.stresses import FATIGUE, Stresses
 from . import evaluation, materials, strength
@@ -39,6 +40,10 @@ class Lives(Tabled):
     lines: list
     place: str
 
+    def __repr__(self):
+        criteria = f"{', '.join(self.values)} of " if self.values else ""
+        return f"Lives({criteria}{', '.join(cycle.label for cycle in self.cycles)}; line below the {self.place})"
+
     def table(self) -> list:
         """The lines below one another, as tables.Column: file, x, y, z, quantities, lives and factors."""
         return evaluation.columns(self.lines)
@@ -66,8 +71,9 @@ def lives(
     ------
     Error : for constants that are missing or outside their range, and for files without the data
     """
-    alone = isinstance(sources, (str, os.PathLike, Stresses, Cycle))
-    cycles = [_cycle(one) for one in ([sources] if alone else sources)]
+    cycles = _cycles(sources)
+    criteria = [criteria] if isinstance(criteria, str) else criteria
+    quantities = [quantities] if isinstance(quantities, str) else quantities
     constants = _constants(constants)
     counts = [1.0] * len(cycles) if counts is None else [float(one) for one in np.atleast_1d(counts)]
     if len(counts) != len(cycles) or not all(0.0 < one < np.inf for one in counts):
@@ -91,9 +97,21 @@ def lives(
     return Lives(cycles, constants, values, least, _damage(cycles[0], values, counts), cracks, lines, place)
 
 
+def _cycles(sources):
+    """The Cycles of one source, or of several."""
+    if isinstance(sources, (str, os.PathLike, Stresses, Cycle)):
+        sources = [sources]
+    found = [_cycle(one) for one in sources] if isinstance(sources, Iterable) else []
+    if not found:
+        raise Error(f"sources {short(repr(sources))}: expected a file of petsam-stress, or several")
+    return found
+
+
 def _cycle(source):
     if isinstance(source, Cycle):
         return source
+    if not isinstance(source, (str, os.PathLike, Stresses)):
+        raise Error(f"source {short(repr(source))}: expected a file of petsam-stress")
     return Cycle(source if isinstance(source, Stresses) else Stresses(os.fspath(source)))
 
 

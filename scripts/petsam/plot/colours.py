@@ -62,6 +62,8 @@ def top(magnitudes, percentile=None, automatic=True):
     if not cells.size:
         return whole, 100.0
     if percentile is not None:
+        if not 0.0 < percentile <= 100.0:
+            raise Error(f"--percentile {percentile:g}: expected a number above 0 and at most 100")
         return float(np.percentile(cells, percentile)), percentile
     for share in PERCENTILES if automatic else ():
         value = float(np.percentile(cells, share))

@@ -25,6 +25,8 @@ HEADROOM = 1.08  # the top of an axis of energies over the largest one
 def loop_axes(results, pair=None):
     """The load and the displacement of a loop, and of each the factor and the unit that suit all files."""
     known = noise.scales(results)
+    if pair and pair not in PAIRS:
+        raise Error(f"--load {pair}: there are {', '.join(PAIRS)}")
     if pair and not all(noise.varies(results, name, known) for name in PAIRS[pair]):
         raise Error(f"{results[0].path}: --load {pair}: {' or '.join(PAIRS[pair])} does not vary")
     pair = pair or busiest(results[0])

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..compliance.basis import written
+from ..compliance.result import Compliance
 from .style import COLORS, STYLE, bar, drawn, field, frame, note, plt
 from .units import label, scale
 
@@ -97,7 +98,7 @@ def _panels(body, unit, name=""):
     return panels
 
 
-@drawn(STYLE)
+@drawn(STYLE, Compliance)
 def compliance(found):
     """The figure of a Compliance: the patches of a body, or of a pair."""
     bodies = found.bodies

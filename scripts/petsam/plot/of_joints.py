@@ -14,7 +14,7 @@ from .fields import OPEN, STATES
 from .style import COLORS, STYLE, WHOLE, drawn, logarithmic, plt
 
 
-@drawn(STYLE)
+@drawn(STYLE, Interface)
 def interface(found: Interface) -> Figure:
     """The stiffnesses and the real contact area over the pressure.
 
@@ -47,7 +47,7 @@ def interface(found: Interface) -> Figure:
     return figure
 
 
-@drawn(WHOLE)
+@drawn(WHOLE, Backbone)
 def backbone(found: Backbone) -> Figure:
     """Frequency and damping over the amplitude.
 
@@ -74,7 +74,7 @@ def backbone(found: Backbone) -> Figure:
     return figure
 
 
-@drawn({**STYLE, "axes.grid": False})
+@drawn({**STYLE, "axes.grid": False}, Backbone)
 def slip_zones(found: Backbone) -> Figure:
     """The patches of a backbone, one below the other: pressure in the preload, and where the largest amplitude makes
     them slip.
@@ -104,7 +104,7 @@ def slip_zones(found: Backbone) -> Figure:
     return figure
 
 
-@drawn(WHOLE)
+@drawn(WHOLE, Band)
 def band(found: Band) -> Figure:
     """The bands of frequency and damping over the amplitude.
 
@@ -135,7 +135,7 @@ def band(found: Band) -> Figure:
     return figure
 
 
-@drawn(WHOLE)
+@drawn(WHOLE, Response)
 def response(found: Response) -> Figure:
     """Amplitude and phase over the frequency.
 
@@ -157,7 +157,7 @@ def response(found: Response) -> Figure:
     return figure
 
 
-@drawn(WHOLE)
+@drawn(WHOLE, Wear)
 def joint_wear(found: Wear) -> Figure:
     """Frequency and damping over the cycles.
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..lives import cracks
+from ..lives.spectrum import Lives
 from .bodies import FATIGUE
 from .style import STYLE, colors, drawn, logarithmic, note, plt
 from .units import label, largest, number, plain, scale
@@ -65,7 +66,7 @@ def _kitagawa(panel, cracked, constants, length, unit):
     panel.legend()
 
 
-@drawn(STYLE)
+@drawn(STYLE, Lives)
 def lives(found):
     """Figure of petsam.lives.lives(): its lines over the depth, and two panels of a crack."""
     lines, constants = found.lines, found.constants

@@ -6,7 +6,7 @@ from mpl_toolkits.axes_grid1 import make_axes_locatable
 
 from ..core.units import shown
 from ..surface.basics import QUANTITIES
-from ..surface.maps import peak_to_valley, rms_height, rms_slope
+from ..surface.maps import Map, peak_to_valley, rms_height, rms_slope
 from .style import COLORS, STYLE, drawn, extent, field, note, plt
 from .units import label, largest, scale
 
@@ -52,7 +52,7 @@ def _profiles(axes, one, lateral, height):
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)  # where no curve can be
 
 
-@drawn(STYLE)
+@drawn(STYLE, Map)
 def surface(one):
     """A map, and profiles through its middle along x and y; a profile alone."""
     lateral = scale("m", largest([one.axis(0)] if one.is_profile else [one.axis(0), one.axis(1)]))

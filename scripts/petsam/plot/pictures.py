@@ -27,7 +27,7 @@ from ..results.file import Results
 from ..results.stresses import Stresses
 from ..results.studies import Study
 from . import bodies, colours, crossings, fields, looks, loops, planes, series, tables, wear
-from .style import STYLE, drawn
+from .style import STYLE, drawn, need_kind
 
 ORIGIN = (0.0, 0.0)
 
@@ -64,6 +64,9 @@ def picture(draw, program="petsam"):
     @functools.wraps(draw)
     @drawn(STYLE)
     def adapted(*files, xlim=None, ylim=None, width=None, **options):
+        need_kind(draw.__name__, files, "results of petsam.open()", lambda one: hasattr(one, "program"))
+        if not files:
+            raise Error(f"{draw.__name__}: expected results of petsam.open(), one or several")
         for one in files:
             if one.program != program:
                 raise Error(f"{one.path}: is no file of {program} but of {one.program}, which another picture draws")

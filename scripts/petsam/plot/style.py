@@ -33,13 +33,15 @@ DAMAGE = "YlOrRd"  # colours of what is zero over most of a picture: light there
 CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed-form solution
 
 
-def drawn(style):
+def drawn(style, kind=None):
     """Makes a function that draws a figure draw it in a style; pyplot, which would show it twice in a notebook, forgets
-    the figure."""
+    the figure. With a kind it draws nothing else than objects of this class."""
 
     def of(draw):
         @functools.wraps(draw)
         def drawing(*given, **options):
+            if kind:
+                need_kind(draw.__name__, given, kind.__name__, lambda one: isinstance(one, kind))
             with plt.rc_context(style):
                 figure = draw(*given, **options)
             plt.close(figure)
@@ -48,6 +50,15 @@ def drawn(style):
         return drawing
 
     return of
+
+
+def need_kind(name, given, kind, fits):
+    """Raises Error unless what a picture of this name is given is of the kind that it draws."""
+    for one in given:
+        if isinstance(one, (str, os.PathLike)):
+            raise Error(f"{name}: {one}: expected {kind}, not a file's name: open it first")
+        if not fits(one):
+            raise Error(f"{name}: expected {kind}, not {type(one).__name__}")
 
 
 def colors(count):

@@ -7,7 +7,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from ..core.declared import FOLLOWING, OPTIONS
-from ..core.errors import Error, library, short, there_are
+from ..core.errors import Error, counted, library, short, there_are
 from ..core.files import decoded, need_regular
 from ..core.hdf5 import DAMAGED, opened
 from .datafile import WHOLE, _own, _reason
@@ -83,6 +83,10 @@ class Study:
 
     def __reduce__(self):
         return type(self), (os.path.abspath(self.path), self.label)
+
+    def __repr__(self):
+        inputs = f" of {', '.join(self.inputs)}" if self.inputs else ""
+        return f"Study({self.path!r}: {counted(self.cases.size, 'case')}{inputs})"
 
     def _read(self, file):
         self.cases = self._column(file, "case")

@@ -36,7 +36,7 @@ def _text(path):
         data = file.read()
     text = decoded(data)
     if "\0" in text[:SAMPLE]:
-        raise Error(f"{path}: is not a text")
+        raise Error(f"{path}: is not a text, as it has bytes of 0: save it as a text in UTF-8")
     return text
 
 
