@@ -26,11 +26,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-<<<<<<< HEAD
-=======
-from . import __version__
 from .core import arrays
->>>>>>> brk
 from .core import options as command_line
 from .core.environment import PREFIX, TREE
 from .core.errors import Error, Missing, MissingFile, short, there_are
