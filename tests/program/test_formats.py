@@ -334,3 +334,14 @@ def test_a_map_is_processed_and_drawn_without_a_command(tmp_path):
 def test_no_reader_knows_a_command_line():
     for path in (ROOT / "scripts/petsam/surface").rglob("*.py"):
         assert "options." not in path.read_text() and "argparse" not in path.read_text(), path
+
+
+@pytest.mark.parametrize("value, told", [(-999.0, True), (32767.0, True), (-997.0, False)])
+def test_a_number_that_stands_for_a_missing_point_is_told(tmp_path, value, told):
+    values = np.random.default_rng(1).standard_normal((16, 12))
+    values[2, 3] = value
+    np.savetxt(tmp_path / "one.txt", values)
+    one = petsam.surface.read(tmp_path / "one.txt", units="um", size=(1.2e-4, 1.6e-4), body=2)
+    assert any(f"give --missing {value:g}" in text for text in one.doubts) == told
+    one = petsam.surface.read(tmp_path / "one.txt", units="um", size=(1.2e-4, 1.6e-4), body=2, missing=value)
+    assert not one.doubts and np.isnan(one.values).sum() == 1

@@ -46,8 +46,9 @@ def need_inside(mesh, patch, contact):
     for group in contact:
         count = mesh.blocks[group.block].shape.face_corners(group.local)
         polygons = mesh.nodes[group.nodes[:, :count], :2]
-        edges = np.roll(polygons, -1, axis=1) - polygons
-        area = np.sum(np.cross(polygons, np.roll(polygons, -1, axis=1)), axis=1)
+        following = np.roll(polygons, -1, axis=1)
+        edges = following - polygons
+        area = np.sum(polygons[..., 0] * following[..., 1] - polygons[..., 1] * following[..., 0], axis=1)
         lengths = np.linalg.norm(edges, axis=2)
         away = points[:, None, None, :] - polygons
         side = (edges[..., 0] * away[..., 1] - edges[..., 1] * away[..., 0]) * np.sign(area)[None, :, None]

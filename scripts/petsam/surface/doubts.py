@@ -11,6 +11,7 @@ STEPS = 0.1  # deviation of the steps of positions from their mean: they are pri
 FEWEST = 5  # positions that are recognized
 JUMP = 3.0  # of a first column of uneven positions from the next: over that between the next two, rms
 REPEATED = 3  # times from which on a value that lies apart from all others may be that of missing points
+STAND_INS = (999.0, 9999.0, 99999.0, 999999.0, 999.9, 999.99, 9999.9, 9999.99, 32767.0, 32768.0)
 SQUARE = 1e-6  # deviation of the ratio of the widths of square cells from 1
 GRID = 8  # points along x and y from which on offsets of rows and outliers are looked for
 WHITE = 1.0  # mean square of successive differences over the variance: 2 of offsets by chance, near 0 of a form
@@ -183,6 +184,20 @@ def _missing(values):
         if repeated and np.ptp(rest) > 0.0 and np.min(np.abs(rest - value)) > 0.5 * np.ptp(rest):
             return float(value)
     return None
+
+
+def of_stand_in(values):
+    """A text about a number of a file that lies apart from all others, and that programs write for a missing point.
+
+    _missing() finds those that stand at several points, whatever they are.
+    """
+    finite = values[np.isfinite(values)]
+    for value in (finite.min(), finite.max()) if finite.size else ():
+        rest = finite[finite != value]
+        if abs(value) in STAND_INS and rest.size and np.min(np.abs(rest - value)) > 0.5 * np.ptp(rest):
+            points = counted(finite.size - rest.size, "point")
+            return [f"the number {value:g} is at {points}, far from all others: give --missing {value:g} if it is none"]
+    return []
 
 
 def of_cells(one):

@@ -14,7 +14,7 @@ from ..core.hdf5 import DAMAGED
 from ..core.units import shown
 from . import words
 from .basics import SAME
-from .doubts import of_cells
+from .doubts import of_cells, of_stand_in
 from .maps import Map, new_map, turned
 from .readers import FORMATS, reader_of
 from .readers.hdf import EVEN, of_hdf5
@@ -240,7 +240,7 @@ def _combined(path, stated, family, given):
         remarks.append(
             "x and y are petsam's, as seen from above; seen from its own side, body 1 is mirrored: --mirror x or y"
         )
-    more = of_cells(one) if given.size and stated.size is None else []
+    more = [*of_stand_in(values), *(of_cells(one) if given.size and stated.size is None else [])]
     doubts = (*stated.doubts, *more)
     return replace(turned(one, top, given.mirror or ""), remarks=(*stated.remarks, *remarks), doubts=doubts)
 
