@@ -459,6 +459,8 @@ def test_interface_takes_a_file_a_map_or_an_array(tmp_path):
     ]
     assert all(other.k_n == pytest.approx(found[0].k_n, rel=1e-12) for other in found[1:])
     assert joint.interface(one, [8e6], **dict(PAIR, friction=0.3, steps=1)).spread["k_n"] > 0.0
+    with pytest.raises(petsam.MissingFile, match="absent.h5: no such file"):
+        joint.interface("absent.h5", [8e6], **given)
     with pytest.raises(petsam.Error, match="spacing: give the distance"):
         joint.interface(heights, [8e6], **given)
     with pytest.raises(petsam.Error, match="spacing: the surface has its own"):

@@ -11,7 +11,9 @@ balance.py.
 """
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 
@@ -20,6 +22,7 @@ from .arguments import integer, positive
 from .arguments import modal as as_modal
 from .balance import Balance
 from .numbers import Numbers, energies, solved
+from .structure import Structure
 from .sweep import CYCLES, STEPS, BackboneWarning, Sweep
 
 UNMOVED = 1e-6  # displacement of a sensor that is rounding, relative to those by the modes
@@ -115,17 +118,39 @@ def _moved(sensor, shape):
     return moved
 
 
-def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=0, report=None):
+def backbone(
+    structure: Structure, amplitudes, mode: int = 1, sensor=None, steps: int = STEPS, harmonics: int = 0,
+    report: Optional[Callable[[int, int], object]] = None,
+) -> Backbone:  # fmt: skip
     """The Backbone of a structure in its preload.
 
-    amplitudes  displacements (m) at the sensor of a linear mode: the forces follow from them, and the amplitudes of the
-                results are larger where the joint is softer
-    mode        number of the mode, from 1, by rising frequency while all that touches sticks
-    sensor      (modes,): displacement of the sensor by each modal coordinate; None: amplitudes are modal (m kg^0.5)
-    steps       load steps of a half cycle
-    harmonics   0: quasi-static modal analysis; else the number of harmonics that are balanced: the resonance under a
-                force along the mode, with the inertia of all modes and harmonics. The amplitudes are then those found
-    report      called with the number of the amplitude and of all of them
+    Parameters
+    ----------
+    structure : Structure
+        A structure, or that of a Pair, in its preload.
+    amplitudes : array of shape (k,)
+        Displacements (m) at the sensor of a linear mode: the forces follow from them, and the amplitudes of the
+        results are larger where the joint is softer.
+    mode : int
+        Number of the mode, from 1, by rising frequency while all that touches sticks.
+    sensor : array of shape (modes,), optional
+        Displacement of the sensor by each modal coordinate; None: amplitudes are modal (m kg^0.5).
+    steps : int
+        Load steps of a half cycle.
+    harmonics : int
+        0: quasi-static modal analysis; else the number of harmonics that are balanced: the resonance under a force
+        along the mode, with the inertia of all modes and harmonics. The amplitudes are then those found.
+    report : callable, optional
+        Called with the number of the amplitude and of all of them.
+
+    Returns
+    -------
+    Backbone
+
+    Raises
+    ------
+    Error
+        For wrong values, and where the structure finds no equilibrium.
     """
     harmonics = integer("harmonics", harmonics, 0)
     sweep = Balance(structure, mode, steps, harmonics) if harmonics else Sweep(structure, mode, steps)
@@ -160,9 +185,28 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
     return found
 
 
-def shake(structure, amplitude, mode=1, sensor=None, steps=STEPS):
+def shake(structure: Structure, amplitude: float, mode: int = 1, sensor=None, steps: int = STEPS) -> None:
     """Vibrates a structure at an amplitude, as of backbone(), until its cycles settle, and lets it come to rest in four
-    cycles; its state is then that after the vibration."""
+    cycles; its state is then that after the vibration.
+
+    Parameters
+    ----------
+    structure : Structure
+        A structure in its preload.
+    amplitude : float
+        Of the vibration, as of backbone(), m.
+    mode : int
+        Number of the mode, from 1.
+    sensor : array of shape (modes,), optional
+        Displacement of the sensor by each modal coordinate; None: the amplitude is modal (m kg^0.5).
+    steps : int
+        Load steps of a half cycle.
+
+    Raises
+    ------
+    Error
+        For wrong values, and where the structure finds no equilibrium.
+    """
     sweep = Sweep(structure, mode, steps)
     point = sweep.point(float(modal_amplitudes(sweep, [amplitude], sensor)[0]))
     ends = 0.125 * np.arange(8.0, -1.0, -1.0) * (-1.0) ** np.arange(9)

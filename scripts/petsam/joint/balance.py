@@ -14,14 +14,16 @@ Modes answer harmonics above H statically. Each cycle begins from the preload an
 Broyden's method begins with sticking contacts, for which eta_hs = G_hs/w_s^2.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 
 from ..core.errors import Error
 from .arguments import integer, modal, positive
 from .numbers import Numbers, energies, solved
-from .structure import BEYOND, NoSolution
+from .structure import BEYOND, NoSolution, Structure
 from .sweep import STEPS, Point, Sweep
 
 TOLERANCE = 1e-5  # of the balance, relative to its forces
@@ -269,15 +271,37 @@ class Response(Numbers):
         return energies(self.patches, self.names)
 
 
-def forced(structure, force, frequencies, sensor, steps=2 * STEPS, harmonics=3, report=None):
+def forced(
+    structure: Structure, force, frequencies, sensor, steps: int = 2 * STEPS, harmonics: int = 3,
+    report: Optional[Callable[[int, int], object]] = None,
+) -> Response:  # fmt: skip
     """The Response of a structure in its preload to a harmonic force, frequency after frequency.
 
-    force        (modes,): modal force, N times the displacement of its place by each modal coordinate
-    frequencies  Hz, in the order in which they are computed: each begins from what the one before has found
-    sensor       (modes,): displacement of the sensor by each modal coordinate
-    steps        load steps of a half cycle
-    harmonics    number of harmonics that are balanced
-    report       called with the number of the frequency and of all of them
+    Parameters
+    ----------
+    structure : Structure
+        A structure in its preload.
+    force : array of shape (modes,)
+        Modal force, N times the displacement of its place by each modal coordinate.
+    frequencies : array of shape (k,)
+        Hz, in the order in which they are computed: each begins from what the one before has found.
+    sensor : array of shape (modes,)
+        Displacement of the sensor by each modal coordinate.
+    steps : int
+        Load steps of a half cycle.
+    harmonics : int
+        Number of harmonics that are balanced.
+    report : callable, optional
+        Called with the number of the frequency and of all of them.
+
+    Returns
+    -------
+    Response
+
+    Raises
+    ------
+    Error
+        For wrong values, and where the structure finds no equilibrium.
     """
     balance = Balance(structure, 1, steps, harmonics)
     force, sensor = (modal(name, one, structure.modes) for name, one in (("force", force), ("sensor", sensor)))

@@ -6,7 +6,9 @@ the change that it makes, by the difference of two backbones.
 """
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 
@@ -96,17 +98,38 @@ class Band(Tabled):
         return [Column("assembly", "", "the assembly", names), *columns_of(COLUMNS, numbers)]
 
 
-def band(make, preload, amplitudes, sensor, scatter=None, report=None, **given):
+def band(
+    make: Callable, preload: dict, amplitudes, sensor: Callable, scatter: Optional[dict] = None,
+    report: Optional[Callable[[str], object]] = None, **given,
+) -> Band:  # fmt: skip
     """The Band of a joint.
 
-    make        make(preload, **changes) returns the joint's Pair; changes are options of it: frictionless=True, or
-                friction_scale=1.1
-    preload     {bolt: initial tension in N} in the order of tightening
-    amplitudes  displacements at the sensor, as of backbone()
-    sensor      sensor(pair) returns the displacement of the sensor by each modal coordinate
-    scatter     {"friction": relative standard deviation, "preload": that of all bolts together}
-    report      called with the name of each assembly
-    given       mode, steps, harmonics of backbone()
+    Parameters
+    ----------
+    make : callable
+        Make(preload, **changes) returns the joint's Pair; changes are options of it: frictionless=True, or
+        friction_scale=1.1.
+    preload : dict
+        {bolt: initial tension in N} in the order of tightening.
+    amplitudes : array of shape (k,)
+        Displacements at the sensor, as of backbone().
+    sensor : callable
+        Sensor(pair) returns the displacement of the sensor by each modal coordinate.
+    scatter : dict, optional
+        {"friction": relative standard deviation, "preload": that of all bolts together}.
+    report : callable, optional
+        Called with the name of each assembly.
+    **given
+        Mode, steps, harmonics of backbone().
+
+    Returns
+    -------
+    Band
+
+    Raises
+    ------
+    Error
+        For wrong values, and where the structure finds no equilibrium.
     """
     reached = positive("amplitudes", amplitudes, "lengths above 0")
 

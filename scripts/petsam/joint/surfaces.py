@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..closed.materials import effective_modulus
-from ..core.errors import Error
+from ..core.errors import Error, MissingFile
 from ..surface.reading import read_hdf5
 from .pair import Unreadable
 
@@ -18,6 +18,8 @@ def read_separation(path):
     """
     try:
         stated = read_hdf5(path, bare=True)
+    except MissingFile:
+        raise
     except Error as error:
         reason = str(error).removeprefix(f"{path}: ")
         raise Unreadable(f"{path}: no surface of petsam-surface: {reason}") from error

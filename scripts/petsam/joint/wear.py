@@ -7,7 +7,9 @@ costs. The cycles until each part's vibration has settled wear too, beside those
 """
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 
@@ -17,7 +19,7 @@ from ..core.tables import Column, split
 from .arguments import array
 from .backbone import modal_amplitudes
 from .numbers import Numbers, reason
-from .structure import DISPLACEMENTS, ENDS, NoSolution
+from .structure import DISPLACEMENTS, ENDS, NoSolution, Structure
 from .sweep import STEPS, Sweep
 
 PARTS = 2  # parts of each span of cycles
@@ -65,13 +67,38 @@ class Wear(Numbers):
         return [Column(name, unit or "1", "measured after the cycles", values) for name, unit, values in heads]
 
 
-def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure=None):
+def wear(
+    structure: Structure, amplitude: float, cycles, mode: int = 1, sensor=None, steps: int = STEPS,
+    measure: Optional[Callable] = None,
+) -> Wear:  # fmt: skip
     """The Wear of a structure in its preload, whose contacts have the options of wear.
 
-    amplitude  of the vibration, as of backbone(); its modal force stays the same
-    cycles     rising whole numbers of cycles at which the numbers are wanted, the first above 0
-    measure    measure(structure) returns {name: number} of a structure at rest, such as Pair.left; a name may
-               have its unit: B1 [N]
+    Parameters
+    ----------
+    structure : Structure
+        A structure in its preload.
+    amplitude : float
+        Of the vibration, as of backbone(); its modal force stays the same.
+    cycles : array of shape (k,)
+        Rising whole numbers of cycles at which the numbers are wanted, the first above 0.
+    mode : int
+        Number of the mode, from 1.
+    sensor : array of shape (modes,), optional
+        Displacement of the sensor by each modal coordinate; None: the amplitude is modal (m kg^0.5).
+    steps : int
+        Load steps of a half cycle.
+    measure : callable, optional
+        Measure(structure) returns {name: number} of a structure at rest, such as Pair.left; a name may have its
+        unit: B1 [N].
+
+    Returns
+    -------
+    Wear
+
+    Raises
+    ------
+    Error
+        For wrong values, and where the structure finds no equilibrium.
     """
     cycles = np.atleast_1d(array("cycles", cycles, "rising whole numbers above 0"))
     if not (cycles.size and rising(cycles)):
