@@ -380,7 +380,7 @@ def test_what_is_lacking_is_said_at_once(surface, tmp_path):
 def test_damaged_hdf5_and_none_at_all(surface, tmp_path):
     (tmp_path / "in.h5").write_text("text")
     assert "in.h5: cannot be read" in surface("in.h5", "-o", "out.h5", check=3)[0]
-    assert "no.npy: cannot be read: no such file" in surface("no.npy", check=3)[0]
+    assert "no.npy: no such file" in surface("no.npy", check=3)[0]
     (tmp_path / "d.csv").mkdir()
     assert "d.csv: is a directory" in surface("d.csv", check=3)[0]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core import units as unit_table
-from ..core.errors import Error, short
+from ..core.errors import Error, MissingFile, short
 from ..core.files import need_regular
 from ..core.hdf5 import DAMAGED
 from ..core.units import shown
@@ -145,6 +145,8 @@ def _guarded(path, read_it):
         if need_regular(path).st_size == 0:
             raise Error(f"{path}: is empty")
         return read_it()
+    except MissingFile:
+        raise
     except MemoryError as error:
         raise Error(f"{path}: is too large for the memory") from error
     except DAMAGED as error:
