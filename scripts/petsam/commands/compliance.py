@@ -31,7 +31,6 @@ import re
 import shlex
 import sys
 import time
-import warnings
 
 from .. import plot
 from ..compliance import basis, model, several, writing
@@ -53,7 +52,7 @@ from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
 from ..core.units import shown
 from ..plot.saving import write
-from .line import Parser, add_choice, fail, guarded, joined, word
+from .line import Parser, add_choice, guarded, joined, quietly, word
 
 PROGRAM = "petsam-compliance"
 
@@ -372,7 +371,7 @@ def _joint(body):
 
 
 def carry_out(options, given):
-    """Computes, writes, draws and prints; in a child process, as it may read an HDF5 file."""
+    """Computes, writes, draws and prints."""
     inputs = [name for name in (options.mesh, options.coarse_mesh) if name]
     for name in [options.output] + ([] if options.no_picture else [options.picture]):
         if any(same(name, path) for path in inputs):
@@ -405,14 +404,7 @@ def carry_out(options, given):
 
 def _run():
     given = sys.argv[1:]
-    options = arguments(given)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            carry_out(options, given)
-        except (Error, OSError) as error:
-            return fail(PROGRAM, error)
-    return 0
+    return quietly(carry_out, arguments(given), given)
 
 
 def main():

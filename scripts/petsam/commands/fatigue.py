@@ -16,7 +16,6 @@ Constants, in SI units or with their unit (1.76GPa), in a YAML file of lines NAM
 import argparse
 import os
 import sys
-import warnings
 
 import numpy as np
 
@@ -27,7 +26,7 @@ from ..lives import evaluation, materials, spectrum, strength
 from ..lives.stresses import Cycle
 from ..plot import saving
 from ..results.stresses import Stresses
-from .line import Parser, add_choice, fail, guarded, joined, word
+from .line import Parser, add_choice, guarded, joined, quietly, word
 from .plot_arguments import NAMES, POINT, numbers
 
 ROWS = 10  # number of printed rows of the line
@@ -200,7 +199,6 @@ def carry_out(options):
         print(f"{cycle.path}: below x = {line.x:.4g} m, y = {line.y:.4g} m ({found.place}):")
         _print_line(line)
     if options.csv:
-        need_replaceable(options.csv)
         found.to_csv(options.csv)
         print("wrote " + options.csv)
     if found.cycles[0].z.size > 1 and not options.no_picture:
@@ -211,17 +209,6 @@ def carry_out(options):
     _warn(found.cycles)
 
 
-def _run():
-    options = arguments(sys.argv[1:])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            carry_out(options)
-        except (Error, OSError) as error:
-            return fail("petsam-fatigue", error)
-    return 0
-
-
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data."""
-    return guarded("petsam-fatigue", _run)
+    return guarded("petsam-fatigue", lambda: quietly(carry_out, arguments(sys.argv[1:])))

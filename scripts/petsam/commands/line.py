@@ -5,6 +5,7 @@ import difflib
 import os
 import re
 import sys
+import warnings
 
 from ..core import words
 from ..core.errors import FILE, USAGE, Error, one_line
@@ -97,8 +98,19 @@ def _flush():
         raise
 
 
-def guarded(command, body):
-    """Returns the exit code of body(), which is a command; unexpected errors end with a line, too."""
+def quietly(body, *given):
+    """Returns 0 after body(*given), without warnings of numbers that overflow and of letters that a font lacks."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        body(*given)
+    return 0
+
+
+def guarded(command, body, usage=()):
+    """Returns the exit code of body(), which is a command; unexpected errors end with a line, too.
+
+    An Error is one of a file, unless it is of these classes, whose cause is the usage.
+    """
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:  # closed: the next opened file would get its number
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), "r" if number == 0 else "w"))
@@ -112,8 +124,8 @@ def guarded(command, body):
             _flush()
     except KeyboardInterrupt:
         return INTERRUPTED
-    except OSError as error:
-        return fail(command, error)
+    except (Error, OSError) as error:
+        return fail(command, error, USAGE if isinstance(error, usage) else FILE)
     except Exception as error:
         if os.environ.get(TRACEBACK):
             raise

@@ -27,9 +27,8 @@ study its folder's. An older picture of this name is replaced.
 """
 
 import os
-import warnings
 
-from ..core.errors import FILE, USAGE, Error, Useless
+from ..core.errors import Error, Useless
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
 from ..plot import fields, looks, noise, pictures, saving, tables, wear
@@ -40,7 +39,7 @@ from ..results.stresses import Stresses, open_any
 from ..results.studies import Study
 from . import plot_arguments as arguments
 from . import plot_uses as uses
-from .line import fail, guarded
+from .line import guarded, quietly
 from .plot_arguments import FORMATS
 from .plot_uses import STUDY
 
@@ -228,18 +227,7 @@ def draw_all(options):
                 raise Error(text) from error
 
 
-def carry_out(options):
-    """The exit code."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
-        try:
-            draw_all(options)
-        except Error as error:
-            return fail("petsam-plot", error, USAGE if isinstance(error, Useless) else FILE)
-    return 0
-
-
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
 
-    return guarded("petsam-plot", lambda: carry_out(arguments.read(__doc__)))
+    return guarded("petsam-plot", lambda: quietly(draw_all, arguments.read(__doc__)), Useless)

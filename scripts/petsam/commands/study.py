@@ -32,13 +32,13 @@ import os
 import sys
 
 from ..core import words
-from ..core.errors import USAGE, Error, counted
+from ..core.errors import Error, counted
 from ..study import slurm, tables
 from ..study.jobs import Jobs, check_files
 from ..study.progress import Progress, standing, summary
 from ..study.reading import TableError
 from ..study.runs import Study
-from .line import Parser, fail, guarded, joined, period, word
+from .line import Parser, guarded, joined, period, word
 
 MOST = 1 << 30  # maximum of numbers on the command line
 
@@ -191,16 +191,7 @@ def carry_out(options):
     return 128 + ended if ended else code
 
 
-def _main():
-    try:
-        return carry_out(arguments())
-    except (TableError, slurm.SubmitError) as error:
-        return fail("petsam-study", error, USAGE)
-    except Error as error:
-        return fail("petsam-study", error)
-
-
 def main():
     """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
     128 + the signal that ended the study."""
-    return guarded("petsam-study", _main)
+    return guarded("petsam-study", lambda: carry_out(arguments()), (TableError, slurm.SubmitError))

@@ -18,7 +18,6 @@ import argparse
 import os
 import shlex
 import sys
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -37,7 +36,7 @@ from ..surface.doubts import doubts as doubts_of
 from ..surface.maps import combined, moments, new_map, peak_to_valley, rms_height, rms_slope
 from ..surface.reading import FORMATS, read
 from ..surface.words import sides, unit
-from .line import Parser, add_choice, fail, guarded, word
+from .line import Parser, add_choice, guarded, quietly, word
 
 MOST = 1 << 16  # cells in x or y
 WIDE = 1.0  # m: few instruments measure a surface of this size
@@ -360,7 +359,7 @@ def _both(one, name, grid):
 
 
 def carry_out(options, words):
-    """Read, combine, write, draw and print; in a child, as files are read here."""
+    """Read, combine, write, draw and print."""
     outputs = [options.output] + ([] if options.no_picture else [options.picture])
     for name in outputs:
         if any(same(name, path) for path in options.files):
@@ -388,14 +387,7 @@ def carry_out(options, words):
 
 def _run():
     words = sys.argv[1:]
-    options = arguments(words)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of numbers that overflow and of letters that a font lacks
-        try:
-            carry_out(options, words)
-        except (Error, OSError) as error:
-            return fail("petsam-surface", error)
-    return 0
+    return quietly(carry_out, arguments(words), words)
 
 
 def main():
