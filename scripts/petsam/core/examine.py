@@ -8,12 +8,12 @@ Without the program, as where the package alone is installed, files are opened w
 
 import functools
 import os
-import stat
 import subprocess
 from pathlib import Path
 
 from . import environment
 from .errors import Error, Missing
+from .files import state_of
 
 SECONDS = 60.0  # that an examination may take
 
@@ -38,16 +38,6 @@ def _program():
         return None
 
 
-def _state(path):
-    """What changes when a regular file is written to; None if there is none."""
-    try:
-        status = os.stat(path)
-    except (OSError, ValueError):
-        return None
-    regular = stat.S_ISREG(status.st_mode)
-    return (status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns) if regular else None
-
-
 def _ends(program, path):
     """Whether the program reads the file to its end: it writes a character when it begins, and one when it ends."""
     try:
@@ -64,7 +54,7 @@ def _ends(program, path):
 
 def need_readable(path: str) -> None:
     """Raises Damaged if HDF5 cannot read the structure of an existing file; it is read once in each of its states."""
-    now = _state(path)
+    now = state_of(path)
     name = os.path.abspath(path)
     if now is None:
         return

@@ -28,6 +28,16 @@ def need_regular(path):
     return status
 
 
+def state_of(path):
+    """What changes when a regular file is written to: device, inode, size and time; None if there is none."""
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    regular = stat.S_ISREG(status.st_mode)
+    return (status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns) if regular else None
+
+
 class Unwritable(Error):
     """A file that cannot be written."""
 

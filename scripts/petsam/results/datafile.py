@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from ..core.errors import Error, one_line, short, there_are
-from ..core.files import decoded, need_regular
+from ..core.files import decoded, need_regular, state_of
 from ..core.hdf5 import DAMAGED, fresh
 
 WHOLE = 1 << 27  # maximum number of values read at once; a damaged file may claim any number
@@ -84,7 +84,7 @@ class Datafile:
     units: Named
     parameters: Named
     file: Any = None  # of HDF5
-    _state: Any = None  # what _state() has found when the file was opened
+    _state: Any = None  # what state_of() has found when the file was opened
     temporary = False  # whether the file goes with this object: see petsam.run()
 
     def __init__(self, path: Union[str, os.PathLike], label: Optional[str] = None) -> None:
@@ -129,14 +129,14 @@ class Datafile:
             raise self._error(error) from error
 
     def _open(self):
-        self._state, self.file = _state(self.path), fresh(self.path)
+        self._state, self.file = state_of(self.path), fresh(self.path)
 
     def _renew(self):
         """Opens the file once more where a run has written to it since: nodes of indices, which are read when they are
         needed, may lie beyond the end that HDF5 noted when it opened the file."""
         if not self.file or self.parameters.get("closed", 1):
             return
-        now = _state(self.path)
+        now = state_of(self.path)
         if now and now != self._state and now[:2] == self._state[:2]:
             self._open()
 
@@ -208,7 +208,7 @@ class Datafile:
         self.file.close()
 
     def _error(self, error):
-        changed = self._state not in (None, _state(self.path))
+        changed = self._state not in (None, state_of(self.path))
         return Error(f"{self.path}: {'has changed since it was opened: open it again' if changed else _reason(error)}")
 
     def nearest(self, saved: np.ndarray, wanted: float, what: str = "time") -> int:
@@ -238,13 +238,6 @@ class Datafile:
         if not low - slack <= wanted <= high + slack:
             raise NotSaved(self.path, f"{what} {wanted:g}", f"fields were saved from {low:g} to {high:g}")
         return int(np.argmin(np.abs(saved - wanted)))
-
-
-def _state(path):
-    """What changes when a file is written to; None if there is none."""
-    with contextlib.suppress(OSError):
-        status = os.stat(path)
-        return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
 
 
 def _own(group, name):
