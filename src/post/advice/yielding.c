@@ -87,9 +87,8 @@ static void Narrow(SamAdvice *a, double part)
   True if plastic strain is larger than elastic strain, and the body hardens no more. Then nothing keeps the shear at
   the surface from becoming a line along which a part of the body slides: the finer the layers, the larger the strain.
 */
-static PetscBool Concentrates(const SamAdvice *a, double most)
+static PetscBool Concentrates(const SamAdvice *a, SamLaw law, double most)
 {
-  const SamLaw law  = SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC);
   const double flow = (double)SamPlasticGetFlowStress(law, (PetscReal)most),
                more = (double)SamPlasticGetFlowStress(law, (PetscReal)(2 * most));
 
@@ -100,7 +99,7 @@ static PetscBool Concentrates(const SamAdvice *a, double most)
   Advises on plastic strain that is largest at the surface and decays within the first layers, as under friction. Much
   of it shears the surface, on which the slip depends.
 */
-static void Shallow(SamAdvice *a, double most)
+static void Shallow(SamAdvice *a, SamLaw law, double most)
 {
   PetscReal surface = 0;
   double    error;
@@ -118,7 +117,7 @@ static void Shallow(SamAdvice *a, double most)
       slip, sizeof(slip),
       ", and plastic_work, the dissipated energy, the stick area and the maximum slip may be wrong by %.0f %%",
       100 * SLIPS * error);
-  line = error > DEEP ? Concentrates(a, most) : PETSC_FALSE;
+  line = error > DEEP ? Concentrates(a, law, most) : PETSC_FALSE;
   SamAdviceSay(a, line ? "" : "grid_n",
                "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
                "small by %.0f %%%s%s",
@@ -257,7 +256,7 @@ void SamAdviceYielding(SamAdvice *a)
                  STRAINED);
   Coarse(a);
   if (thick <= SAM_PLASTIC_THICK) Begun(a);
-  Shallow(a, (double)most);
+  Shallow(a, law, (double)most);
   Sudden(a, (double)most);
   Carried(a);
   if (left < 1 && !(outside > BEYOND))
