@@ -10,7 +10,7 @@ import pytest
 from petsam.core import units, words
 from petsam.core.errors import Error
 from petsam.surface import basics, filling, levels, maps, resampling
-from petsam.surface.tables import Form, read_table
+from petsam.surface.tables import Form, Text
 from support import ROOT, assert_close, assert_same, ball, hertz
 from test_plot import pixels
 
@@ -276,14 +276,14 @@ def lines(separator, point="."):
 def test_tables_of_every_form(tmp_path, text, more, header, encoding):
     path = tmp_path / "t.csv"
     path.write_bytes(text.replace("\ufeff", "" if encoding != "utf-8" else "\ufeff").encode(encoding))
-    values, left_out, first = read_table(path, Form(**more))
+    values, left_out, first = Text(path, Form(**more)).table
     assert np.array_equal(values, TABLE) and left_out == header
 
 
 def test_words_for_missing_points(tmp_path):
     path = tmp_path / "t.csv"
     path.write_text("1,NaN,BAD,4\n,2,***,3\n1,2,3,\n")
-    values, *_ = read_table(path)
+    values, *_ = Text(path).table
     nan = np.nan
     assert np.array_equal(values, [[1, nan, nan, 4], [nan, 2, nan, 3], [1, 2, 3, nan]], equal_nan=True)
 

@@ -17,7 +17,7 @@ from scipy.special import ndtr
 
 from ..core.errors import Error
 from ..core.units import shown
-from .tables import read_table
+from .tables import Text
 
 RESOLVED = 2.0  # cells in the shortest wavelength at least
 MOST = 1 << 13  # waves along a side
@@ -33,7 +33,7 @@ def self_affine(hurst, longest, shortest):
 
 def tabulated(path):
     """The spectrum of a table of q (rad/m) and C (m^4), linear in logarithms, 0 outside; its shortest wavelength."""
-    table, *_ = read_table(path)
+    table, *_ = Text(path).table
     if table.shape[1] != 2 or table.shape[0] < 2 or not np.all(table > 0.0) or not np.all(np.diff(table[:, 0]) > 0.0):
         raise Error(f"{path}: expected lines of q (rad/m), increasing, and C (m^4), both above 0")
     q, c = np.log(table).T
@@ -66,7 +66,7 @@ def cubic(skewness, kurtosis):
 
 def distributed(path):
     """The function of Gaussian heights of mean square 1 to those of a table of heights (m) and shares below them."""
-    table, *_ = read_table(path)
+    table, *_ = Text(path).table
     good = table.shape[1] == 2 and table.shape[0] >= 2 and np.all(np.diff(table, axis=0) > 0.0)
     if not good or table[0, 1] < 0.0 or table[-1, 1] > 1.0:
         raise Error(f"{path}: expected lines of a height (m) and the share of points below it, 0 to 1, both increasing")

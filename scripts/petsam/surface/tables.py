@@ -3,6 +3,7 @@
 import csv
 import re
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -38,13 +39,6 @@ def _text(path):
     if "\0" in text[:SAMPLE]:
         raise Error(f"{path}: is not a text, as it has bytes of 0: save it as a text in UTF-8")
     return text
-
-
-def _lines(path, skip):
-    """Numbers, from 1, and contents of the lines that are not empty, skipped or comments."""
-    for number, line in enumerate(lines_of(_text(path)), 1):
-        if number > skip and line.strip() and not line.lstrip().startswith(COMMENTS):
-            yield number, line
 
 
 def _separator(line):
@@ -140,40 +134,76 @@ def _first_row(lines, form, decimal):
     return len(lines)
 
 
-def read_table(path, form=Form()):  # noqa: B008 - it is never changed
-    """Values (rows, columns) of a text file, NaN where one is missing; how many header lines; line of the first row."""
-    lines = list(_lines(path, form.skip_rows))
-    decimal = form.decimal or _decimal(lines)
-    header = _first_row(lines, form, decimal)
-    rows, first = [], lines[header][0] if header < len(lines) else 0
-    for number, line in lines[header:]:
-        words, separator = split(line, decimal)
-        row = _row(path, number, words[form.skip_columns :], separator, form, decimal)
-        if rows and row.size != rows[0].size:
-            raise Error(f"{path}: line {number} has {row.size} numbers, line {first} has {rows[0].size}")
-        rows.append(row)
-    if not rows:
-        raise Error(f"{path}: contains no numbers")
-    values = np.array(rows)
-    if values.shape[1] > 1 and np.all(np.isnan(values[:, -1])) and line.rstrip(" ").endswith((",", ";", "\t")):
-        values = values[:, :-1]  # every line ends with a separator
-    return values, header, first
+class Text:
+    """A text of numbers, whose file is read once, and whose header is looked for once.
 
+    Parameters
+    ----------
+    path : path
+        The file.
+    form : Form
+        How its words are read.
+    """
 
-def empty_line(path, first):
-    """The first empty line between rows of numbers, which may end a map; None without one, or where most rows have
-    one between them. first: line of the first row."""
-    full = [number for number, line in enumerate(lines_of(_text(path)), 1) if number >= first and line.strip()]
-    before = [one for one, other in zip(full, full[1:]) if other > one + 1]
-    return before[0] + 1 if 0 < len(before) < len(full) // 2 else None
+    def __init__(self, path, form=Form()):  # noqa: B008 - it is never changed
+        self.path, self.form = path, form
 
+    @cached_property
+    def lines(self):
+        """All lines, the first of which has number 1."""
+        return lines_of(_text(self.path))
 
-def header_lines(path, form=Form()):  # noqa: B008
-    """Numbers and texts of the lines that are no rows of the map: skipped ones, comments, and those before the rows."""
-    lines = list(_lines(path, form.skip_rows))
-    before = {number for number, _ in lines[: _first_row(lines, form, form.decimal or _decimal(lines))]}
-    return [
-        (number, line)
-        for number, line in enumerate(lines_of(_text(path)), 1)
-        if line.strip() and (number <= form.skip_rows or number in before or line.lstrip().startswith(COMMENTS))
-    ]
+    @cached_property
+    def kept(self):
+        """Numbers and contents of the lines that are not empty, skipped or comments."""
+        return [
+            (number, line)
+            for number, line in enumerate(self.lines, 1)
+            if number > self.form.skip_rows and line.strip() and not line.lstrip().startswith(COMMENTS)
+        ]
+
+    @cached_property
+    def decimal(self):
+        """The decimal sign, "point" or "comma"; None for a point that nothing states."""
+        return self.form.decimal or _decimal(self.kept)
+
+    @cached_property
+    def before(self):
+        """How many of the lines kept stand before the first row."""
+        return _first_row(self.kept, self.form, self.decimal)
+
+    @cached_property
+    def table(self):
+        """Values (rows, columns), NaN where one is missing; how many header lines; line of the first row."""
+        rows, first = [], self.kept[self.before][0] if self.before < len(self.kept) else 0
+        for number, line in self.kept[self.before :]:
+            words, separator = split(line, self.decimal)
+            row = _row(self.path, number, words[self.form.skip_columns :], separator, self.form, self.decimal)
+            if rows and row.size != rows[0].size:
+                raise Error(f"{self.path}: line {number} has {row.size} numbers, line {first} has {rows[0].size}")
+            rows.append(row)
+        if not rows:
+            raise Error(f"{self.path}: contains no numbers")
+        values = np.array(rows)
+        if values.shape[1] > 1 and np.all(np.isnan(values[:, -1])) and line.rstrip(" ").endswith((",", ";", "\t")):
+            values = values[:, :-1]  # every line ends with a separator
+        return values, self.before, first
+
+    @cached_property
+    def header(self):
+        """Numbers and texts of the lines that are no rows of the map: skipped ones, comments, those before the rows."""
+        before = {number for number, _ in self.kept[: self.before]}
+        return [
+            (number, line)
+            for number, line in enumerate(self.lines, 1)
+            if line.strip()
+            and (number <= self.form.skip_rows or number in before or line.lstrip().startswith(COMMENTS))
+        ]
+
+    def empty_line(self):
+        """The first empty line between rows of numbers, which may end a map; None without one, or where most rows have
+        one between them."""
+        first = self.table[2]
+        full = [number for number, line in enumerate(self.lines, 1) if number >= first and line.strip()]
+        before = [one for one, other in zip(full, full[1:]) if other > one + 1]
+        return before[0] + 1 if 0 < len(before) < len(full) // 2 else None

@@ -8,7 +8,7 @@ from ...core import units
 from ...core.errors import Error, short
 from .. import headers
 from ..doubts import need_map
-from ..tables import header_lines, read_table
+from ..tables import Text
 from .stated import Reader, Stated
 
 LIBRARY = "SurfaceTopography"
@@ -27,7 +27,7 @@ class Instrument(Reader):
 
     def read(self, source):
         """The channel of the heights, or the one that is wanted."""
-        return _read(source.path, source.how)
+        return _read(source)
 
 
 def _library(path):
@@ -55,7 +55,8 @@ def _channel(path, reader, wanted):
     raise Error(f"{path}: --channel {short(wanted)}: use one of {stated}")
 
 
-def _read(path, how):
+def _read(source):
+    path, how = source.path, source.how
     library = _library(path)
     try:
         with library.open_topography(path) as reader:
@@ -91,25 +92,25 @@ def _read(path, how):
     top = False  # the library's first index is x, and its y goes up
     if kind == "AscReader":  # but those of a text are as in the file
         need_map(path, heights.T, text=True, library=True)
-        top = headers.stated(path, header_lines(path)).top
+        top = headers.stated(path, Text(path).header).top
     spans = None
     if kind == "XYZReader":
-        _need_grid(path, heights, how)
+        _need_grid(source, heights)
         spans = sizes if unit is None else None
     return Stated(heights.T, unit, size, top=top, remarks=remarks, spans=spans)
 
 
-def _need_grid(path, heights, how):
+def _need_grid(source, heights):
     """Error unless the heights are those of all points of a text, on a full regular grid."""
-    values, *_ = read_table(path, how.form)
+    values, *_ = source.text.table
     points = values[:, :3] if values.shape[1] >= 3 else np.empty((0, 3))
     axes = [np.unique(points[:, d], return_inverse=True) for d in (0, 1)]
     grid = np.full([axis.size for axis, _ in axes], np.nan)
     grid[axes[0][1], axes[1][1]] = points[:, 2]
     if grid.shape != heights.shape or grid.size != len(points) or not _proportional(grid, heights):
         raise Error(
-            f"{path}: its points x, y, z are not those of a full regular grid, each once: interpolate them, and save "
-            "the heights as a map"
+            f"{source.path}: its points x, y, z are not those of a full regular grid, each once: interpolate them, and "
+            "save the heights as a map"
         )
 
 

@@ -44,7 +44,7 @@ def _agreed(path, one, other):
 def _stated(source, values, spans, remarks):
     """The statements about values whose columns span lengths along x, y in the file's unit."""
     path, header = source.path, source.header()
-    heads = headers.of_columns(path, source.lines, source.table[0].shape[1])
+    heads = headers.of_columns(path, source.text.header, source.text.table[0].shape[1])
     lateral = _agreed(path, heads.lateral, header.lateral)
     unit = _agreed(path, heads.unit, header.unit)
     if unit is None:
@@ -54,7 +54,7 @@ def _stated(source, values, spans, remarks):
     for side, span in zip(sides, spans):
         if side and lateral and abs(side - span * lateral) > EVEN * side:
             raise Error(f"{path}: its positions and the size in its header contradict each other: correct one of them")
-    remarks = (*left_out(source.table[1]), *remarks, "positions left out: the middle is x = y = 0")
+    remarks = (*left_out(source.text.table[1]), *remarks, "positions left out: the middle is x = y = 0")
     return Stated(
         values, unit, size, top=False, remarks=remarks, doubts=unread(header), lines={**header.lines, **heads.lines},
         sides=(None, None) if size else sides, spans=None if lateral else spans,
@@ -74,7 +74,7 @@ class Points(Reader):
     @staticmethod
     def _axes(source):
         """The axes of a list of points, or None."""
-        values = source.table[0]
+        values = source.text.table[0]
         rows, columns = values.shape
         if not 3 <= columns <= NARROW or rows < 4:
             return None
@@ -85,7 +85,7 @@ class Points(Reader):
 
     def read(self, source):
         """The heights on the grid."""
-        values = source.table[0]
+        values = source.text.table[0]
         x, y = self._axes(source)
         heights = np.full((y.n, x.n), np.nan)
         heights[y.index, x.index] = values[:, 2]
@@ -105,14 +105,15 @@ class Profile(Reader):
 
     def recognizes(self, source):
         """By two columns, the first of which rises or falls in even steps."""
-        if not source.is_list or source.table[0].shape[1] != 2 or len(source.table[0]) < FEWEST:
+        if not source.is_list or source.text.table[0].shape[1] != 2 or len(source.text.table[0]) < FEWEST:
             return False
-        steps = np.diff(source.table[0][:, 0])
-        return bool(Axis(source.table[0][:, 0]).n == len(steps) + 1 and (np.all(steps > 0.0) or np.all(steps < 0.0)))
+        x = source.text.table[0][:, 0]
+        steps = np.diff(x)
+        return bool(Axis(x).n == len(steps) + 1 and (np.all(steps > 0.0) or np.all(steps < 0.0)))
 
     def read(self, source):
         """The heights, from the smallest x on."""
-        values = source.table[0]
+        values = source.text.table[0]
         axis = Axis(values[:, 0])
         heights = np.empty((1, axis.n))
         heights[0, axis.index] = values[:, 1]

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.files import SAMPLE, decoded
 from .. import headers
-from ..tables import Form, header_lines, read_table
+from ..tables import Form, Text
 
 NUMPY, HDF5 = b"\x93NUMPY", b"\x89HDF\r\n\x1a\n"
 TEXTS = (".csv", ".txt")  # endings of texts
@@ -46,10 +46,10 @@ class How:
 
 
 class Source:
-    """A file that a reader may recognize; a text is parsed once for all readers."""
+    """A file that a reader may recognize; text: its lines, read once for all readers where it is one."""
 
     def __init__(self, path, how):
-        self.path, self.how = path, how
+        self.path, self.how, self.text = path, how, Text(path, how.form)
         self.ending = os.path.splitext(path)[1].lower()
         with open(path, "rb") as file:
             self.start = file.read(SAMPLE)
@@ -62,23 +62,13 @@ class Source:
         return self.ending in OTHERS and all(c.isprintable() or c in "\r\n\t\f" for c in decoded(self.start))
 
     @cached_property
-    def lines(self):
-        """Numbers and texts of the lines of the header."""
-        return header_lines(self.path, self.how.form)
-
-    @cached_property
-    def table(self):
-        """Values (rows, columns), number of header lines, line of the first row."""
-        return read_table(self.path, self.how.form)
-
-    @cached_property
     def is_list(self):
         """Whether a text is one that this package takes without a structure of its own: .asc is an instrument's."""
         return self.is_text and (self.how.table or self.ending not in (".asc", ".grd", ""))
 
     def header(self, lateral=None):
         """The Header of a text; lateral: unit (m) of lengths along x and y that have none."""
-        return headers.stated(self.path, self.lines, lateral)
+        return headers.stated(self.path, self.text.header, lateral)
 
 
 class Reader:

@@ -9,7 +9,6 @@ from ...core.errors import Error, short
 from .. import headers
 from ..basics import SAME
 from ..doubts import need_map
-from ..tables import empty_line
 from .stated import Reader, Stated
 
 SPIP = re.compile(r"file format\s*=\s*ascii", re.IGNORECASE)
@@ -55,13 +54,13 @@ class Table(Reader):
     def read(self, source):
         """The lines as rows of a map."""
         path = source.path
-        values, count, first = source.table
+        values, count, first = source.text.table
         header = self.header(source)
         need_map(f"{path}: line {first}", values, text=True)
         need_mentioned(path, header, source.how.units)
         x, y = headers.size_of(path, header, values.shape[::-1])
         size = (x, y) if x and y else None
-        doubts, empty = unread(header), empty_line(path, first)
+        doubts, empty = unread(header), source.text.empty_line()
         if empty:
             doubts += (f"line {empty} is empty: if it ends a map, leave out what follows it, or give each map a file",)
         return Stated(
@@ -75,11 +74,11 @@ class Gwyddion(Table):
 
     def recognizes(self, source):
         """By the three lines, whatever their words are."""
-        return source.is_text and headers.of_gwyddion(source.path, source.lines) is not None
+        return source.is_text and headers.of_gwyddion(source.path, source.text.header) is not None
 
     def header(self, source):
         """The three lines, and others as of any table."""
-        return headers.of_gwyddion(source.path, source.lines)
+        return headers.of_gwyddion(source.path, source.text.header)
 
 
 class Spip(Table):
@@ -87,7 +86,7 @@ class Spip(Table):
 
     def recognizes(self, source):
         """By its first line."""
-        return source.is_text and any(SPIP.search(line) for _, line in source.lines[:3])
+        return source.is_text and any(SPIP.search(line) for _, line in source.text.header[:3])
 
     def header(self, source):
         """As of any table, in nm."""
