@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.errors import Error, counted, short
-from ..core.tables import Column, to_dataframe, write_csv
+from ..core.tables import Column, Tabled
 from ..core.units import shown
 from . import filling, levels, resampling, spikes, writing
 from .basics import QUANTITIES, SAME
@@ -17,7 +17,7 @@ HIGHEST = 1e4  # values over the size, beyond which they are none of a surface
 
 
 @dataclass(frozen=True)
-class Map:
+class Map(Tabled):
     """A map of heights, or of the separation of two bodies, on cells; a profile, for plane strain, has one row.
 
     Attributes
@@ -120,14 +120,6 @@ class Map:
         texts = {"x": x, "y": y, writing.dataset(self): self.values}
         about = ("of the cell's centre", "of the cell's centre", QUANTITIES[self.quantity])
         return [Column(name, "m", text, part.ravel()) for (name, part), text in zip(texts.items(), about)]
-
-    def to_dataframe(self):
-        """The table as one of pandas."""
-        return to_dataframe(self.table())
-
-    def to_csv(self, path) -> None:
-        """Writes the table to a file."""
-        write_csv(path, self.table())
 
     def write(self, path, command: str = "") -> None:
         """Writes HDF5 for petsam's -gap_file and -gap_rough_file."""
