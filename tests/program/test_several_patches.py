@@ -134,7 +134,7 @@ def test_patches_that_make_no_sense_are_rejected(words, says, code, compliance, 
     assert says in said[0]
 
 
-def test_load_cases_beyond_what_a_file_holds_are_left_out_with_a_warning(compliance, tmp_path, monkeypatch):  # noqa: F811
+def test_load_cases_beyond_what_a_file_holds_are_left_out_with_warning(compliance, tmp_path, monkeypatch):  # noqa: F811
     write(tmp_path / "pair.inp", both(bodies=[body(number, edges=(X, Y, Z)) for number in (2, 1)]))
     monkeypatch.setattr(several, "MOST", 4)
     bare = WORDS[: WORDS.index("--modes")]
