@@ -8,11 +8,10 @@ or {set of elements: number}.
 
 import contextlib
 import io
-import sys
 
 import numpy as np
 
-from ..core.errors import Error, Missing, short, there_are
+from ..core.errors import Error, library, short, there_are
 from ..core.files import need_regular
 from . import sound
 from .boxes import faces_of
@@ -37,13 +36,7 @@ TAGS = ("gmsh:physical", "medit:ref")  # numbers of groups, as data of the cells
 def read(path, settings):
     """The Deck of a file that meshio reads."""
     need_regular(path)  # meshio has a message of its own for a file that is not there
-    try:
-        import meshio
-    except ImportError as error:
-        raise Missing(
-            f"{path}: such a mesh is read by the library meshio, which {sys.executable} has not ({error}): "
-            f"{sys.executable} -m pip install meshio"
-        ) from error
+    meshio = library("meshio", f"{path}: such a mesh")
     told = io.StringIO()
     try:
         with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told):

@@ -50,12 +50,16 @@ class MissingFile(Missing, FileNotFoundError):
         return type(self), (self.filename,)
 
 
-def library(name):
-    """A library that only one form of results needs; Missing says how it is installed."""
+def library(name, read=None):
+    """A library, or a module of it, that few need; Missing says how it is installed, and what is read by it."""
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise Missing(f"{name} is not installed: {sys.executable} -m pip install {name}") from error
+        package = name.partition(".")[0]
+        lacks = f"{name} is not installed"
+        if read:
+            lacks = f"{read} is read by the library {package}, which {sys.executable} has not ({error})"
+        raise Missing(f"{lacks}: {sys.executable} -m pip install {package}") from error
 
 
 def one_line(text, most=LINE):

@@ -19,9 +19,7 @@ APART = 1.0  # rms of the steps from row to row over the rms of what else change
 LINES = 32  # rows and columns from which on their variances are compared
 TIMES = 6.0  # variance between rows over that between columns
 REMOVED = 1e-9  # variance between columns over that between rows, below which they have been removed
-NOTED = (
-    0.05  # rms of what changes from row to row as a whole over the rms of all changes, below which it matters little
-)
+NOTED = 0.05  # rms of what changes from row to row as a whole over the rms of all changes: below, it matters little
 FEW = 1e-3  # share of the points that outliers are at most
 
 

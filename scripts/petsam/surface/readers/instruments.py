@@ -1,11 +1,10 @@
 """Files of instruments, by the library SurfaceTopography, which states unit and size of over thirty kinds."""
 
-import sys
-
 import numpy as np
 
 from ...core import units
-from ...core.errors import Error, short
+from ...core.arrays import real
+from ...core.errors import Error, library, short
 from .. import headers
 from ..doubts import need_map
 from ..tables import Text
@@ -30,18 +29,6 @@ class Instrument(Reader):
         return _read(source)
 
 
-def _library(path):
-    """The library for instruments' files."""
-    try:
-        import SurfaceTopography.IO as library
-    except ImportError as error:
-        raise Error(
-            f"{path}: such a file is read by the library {LIBRARY}, which {sys.executable} has not ({error}): "
-            f"{sys.executable} -m pip install {LIBRARY}"
-        ) from error
-    return library
-
-
 def _channel(path, reader, wanted):
     """The channel of that number, from 0, or name; without one that of the heights, the first."""
     names = [channel.name for channel in reader.channels]
@@ -57,9 +44,9 @@ def _channel(path, reader, wanted):
 
 def _read(source):
     path, how = source.path, source.how
-    library = _library(path)
+    their = library(LIBRARY + ".IO", f"{path}: such a file")
     try:
-        with library.open_topography(path) as reader:
+        with their.open_topography(path) as reader:
             kind = type(reader).__name__
             channel = _channel(path, reader, how.channel)
             if channel.dim != 2:
@@ -78,7 +65,7 @@ def _read(source):
                 f"{path}: has no format known to {LIBRARY}: write the heights as a text of one line per y, or as HDF5"
             ) from error
         raise Error(f"{path}: {LIBRARY} cannot read it: {error or reason}") from error
-    heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+    heights = real(heights)
     unit = None if text is None else units.size(THEIRS.get(text, text))
     if text is not None and unit is None:
         raise Error(
