@@ -107,20 +107,20 @@ def band(
     Parameters
     ----------
     make : callable
-        Make(preload, **changes) returns the joint's Pair; changes are options of it: frictionless=True, or
+        Returns the joint's Pair, as make(preload, **changes); changes are options of it: frictionless=True, or
         friction_scale=1.1.
     preload : dict
         {bolt: initial tension in N} in the order of tightening.
     amplitudes : array of shape (k,)
         Displacements at the sensor, as of backbone().
     sensor : callable
-        Sensor(pair) returns the displacement of the sensor by each modal coordinate.
+        Returns, as sensor(pair), the displacement of the sensor by each modal coordinate.
     scatter : dict, optional
         {"friction": relative standard deviation, "preload": that of all bolts together}.
     report : callable, optional
         Called with the name of each assembly.
     **given
-        Mode, steps, harmonics of backbone().
+        The arguments mode, steps and harmonics of backbone().
 
     Returns
     -------

@@ -88,7 +88,7 @@ def wear(
     steps : int
         Load steps of a half cycle.
     measure : callable, optional
-        Measure(structure) returns {name: number} of a structure at rest, such as Pair.left; a name may have its
+        Returns, as measure(structure), {name: number} of a structure at rest, such as Pair.left; a name may have its
         unit: B1 [N].
 
     Returns

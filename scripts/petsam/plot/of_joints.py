@@ -93,8 +93,8 @@ def slip_zones(found: Backbone) -> Figure:
     figure, rows = plt.subplots(len(found.names), 2, figsize=size, layout="constrained", squeeze=False)
     for k, ((left, right), (x, y)) in enumerate(zip(rows, found.axes)):
         pressed = np.where(found.pressure[k] > 0.0, 1e-6 * found.pressure[k], np.nan)
-        drawn = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, rasterized=True)
-        figure.colorbar(drawn, ax=left, label="pressure, MPa")
+        mesh = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, rasterized=True)
+        figure.colorbar(mesh, ax=left, label="pressure, MPa")
         given = dict(cmap=ListedColormap(tints), vmin=-0.5, vmax=len(tints) - 0.5, rasterized=True)
         right.pcolormesh(1e3 * x, 1e3 * y, found.states[k], **given)
         keys = [Key(color=tint, label=word) for word, tint in zip(words, tints) if word != STATES[OPEN][0]]

@@ -84,16 +84,11 @@ of_study = functools.partial(picture, program="petsam-study")
 # ---------------------------------------------------------------- steps and cycles
 
 
-def found(one, turns=None, period=None):
-    """The Cycles of a file, by turning points or a period."""
-    return cycles.find(one, turns, period)
-
-
 def of_cycle(one, number, turns=None, period=None):
     """Index into the fields of the end of a cycle: of a life the nearest saved one, else by its number."""
     if one.has_life:
         return one.of_cycle(number)
-    cycle = found(one, turns, period).numbered(number)
+    cycle = cycles.find(one, turns, period).numbered(number)
     return one.of_step(int(one.solved[cycle.last]) + 1)
 
 
@@ -281,7 +276,7 @@ def loop(
     for one in files:
         if one.has_life:
             raise Error(f"{one.path}: --loop: has wear cycles: draw their loops by --fretting-log --cycle")
-    return loops.cycle_loops([found(one, turns, period) for one in files], load, listed(cycle))
+    return loops.cycle_loops([cycles.find(one, turns, period) for one in files], load, listed(cycle))
 
 
 @picture
@@ -312,7 +307,7 @@ def energy(*files: Results, turns: Optional[str] = None, period: Period = None, 
     Error
         If a file is of another program, or has no such step, cycle or quantity.
     """
-    return loops.energy([found(one, turns, period) for one in files], axes_of(log))
+    return loops.energy([cycles.find(one, turns, period) for one in files], axes_of(log))
 
 
 @picture
@@ -389,7 +384,7 @@ def fretting_log(
     Error
         If a file is of another program, or has no such step, cycle or quantity.
     """
-    return wear.fretting_log(files, load, lambda one: found(one, turns, period), listed(cycle) or None)
+    return wear.fretting_log(files, load, lambda one: cycles.find(one, turns, period), listed(cycle) or None)
 
 
 @picture
