@@ -85,7 +85,7 @@ def test_options_of_stresses_and_studies_are_looked_at_too(kind, kinds, option, 
     if used:
         uses.need_use(options, [a_file(kind, along)], kinds)
     else:
-        with pytest.raises(uses.Useless, match="has no effect on the picture"):
+        with pytest.raises(uses.Unusable, match="has no effect on the picture"):
             uses.need_use(options, [a_file(kind, along)], kinds)
 
 

@@ -47,7 +47,7 @@ from ..compliance.settings import (
 )
 from ..compliance.units import UNITS
 from ..core import words
-from ..core.errors import Error, Useless, short
+from ..core.errors import Error, Unusable, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
 from ..core.units import shown
@@ -252,7 +252,7 @@ def _material(given, name):
     if given is None:
         return None
     if len(dict(given)) < len(given) or len(given) > 1 and "" in dict(given):
-        raise Useless(f"--{name}: give one value for all elements, or SET=VALUE once for each set")
+        raise Unusable(f"--{name}: give one value for all elements, or SET=VALUE once for each set")
     return dict(given).get("", dict(given))
 
 
@@ -290,11 +290,9 @@ def arguments(given):
     """Reads the command line; what is to be computed of it as `settings`."""
     reader = parser()
     options = reader.parse_args(joined(given))
-    if options.contact is None:
-        reader.error("--mesh needs --contact")
     try:
         options.settings = settings(options)
-    except Useless as error:
+    except Unusable as error:
         reader.error(str(error))
     base = os.path.splitext(os.path.basename(options.mesh))[0]
     options.output = options.output or base + ".h5"

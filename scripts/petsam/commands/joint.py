@@ -39,7 +39,7 @@ import numpy as np
 from .. import plot
 from ..contact import AdviceWarning
 from ..core import words
-from ..core.errors import USAGE, Error, short
+from ..core.errors import Unusable, short
 from ..core.files import need_regular, need_replaceable
 from ..joint.backbone import backbone
 from ..joint.balance import forced
@@ -50,7 +50,7 @@ from ..joint.structure import ENDS
 from ..joint.sweep import BackboneWarning
 from ..joint.wear import rising, wear
 from ..plot.saving import DPI, write
-from .line import Parser, add_resolution, fail, guarded, joined, word
+from .line import Parser, add_resolution, guarded, joined, word
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest
@@ -214,7 +214,7 @@ def _run():
     args = reader.parse_args(joined(sys.argv[1:]))
     _need(reader, args)
     if args.dpi != DPI and not args.output:
-        raise Error("--dpi: is for the picture, which --output writes; give both or none")
+        raise Unusable("--dpi: is for the picture, which --output writes; give both or none")
     return ACTIONS[args.action][2](args)
 
 
@@ -265,7 +265,7 @@ def _sensor(text, pair, option="--sensor"):
     """(modes,) displacement of the sensor NAME:D by each modal coordinate."""
     name, _, direction = text.partition(":")
     if name not in pair.sensors or direction not in ("x", "y", "z"):
-        raise Error(
+        raise Unusable(
             f"{option} {short(text)}: expected NAME:x, :y or :z with a sensor of {pair.path}: "
             f"{', '.join(pair.sensors) or 'it has none; make it with --sensor NAME=NODE'}"
         )
@@ -279,7 +279,7 @@ def _checked_preload(args):
     need_regular(args.contact)
     preload = dict(args.preload or [])
     if len(preload) < len(args.preload or []):
-        raise Error("--preload: a bolt is given twice; give each once, in the order of tightening")
+        raise Unusable("--preload: a bolt is given twice; give each once, in the order of tightening")
     return preload
 
 
@@ -336,7 +336,7 @@ def _band(args):
 def _wear(args):
     preload = _checked_preload(args)
     if len(args.amplitudes) != 1:
-        raise Error(f"--amplitudes: petsam-joint wear needs one amplitude, not {len(args.amplitudes)}")
+        raise Unusable(f"--amplitudes: petsam-joint wear needs one amplitude, not {len(args.amplitudes)}")
     pair = _pair(args, preload)
     sensor = _sensor(args.sensor, pair)
     tension = lambda structure: {f"{name} [N]": left for name, left in pair.left(structure).items()}  # noqa: E731
@@ -352,7 +352,7 @@ def _check_frequencies(given, structure):
     """Error for frequencies above all modes, as those in rad/s or rpm are."""
     highest = structure.stuck_modes()[0].max() / (2.0 * np.pi)
     if min(given) > BEYOND * highest:
-        raise Error(
+        raise Unusable(
             f"--frequencies {min(given):g} Hz and more: are above {BEYOND:g} times that of the highest mode while all "
             f"that touches sticks, {highest:.4g} Hz: give Hz, not rad/s or rpm"
         )
@@ -376,15 +376,15 @@ def _response(args):
 
 def _degree_line(args, compute, pair, result):
     """What fewer polynomials change at the largest amplitude."""
+    if pair.degree <= 1:
+        return f"--degree-check: the file has {pair.functions} polynomials and no lower degree: nothing is compared"
     last = len(result.alpha) - 1
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", BackboneWarning)
-            lower, other = compute(2, args.amplitudes[last : last + 1])
+            _, other = compute(2, args.amplitudes[last : last + 1])
     except ENDS as error:
         return f"degree lower by 2: {error}"
-    if lower.functions == pair.functions:
-        return f"--degree-check: the file has {pair.functions} polynomials and no lower degree: nothing is compared"
     frequency = other.frequency[-1] / result.frequency[-1] - 1.0
     damping = other.damping[-1] / result.damping[-1] - 1.0 if result.damping[-1] else float("nan")
     return f"degree lower by 2: frequency {frequency:+.1e}, damping {damping:+.1e} at the largest amplitude"
@@ -416,13 +416,6 @@ ACTIONS = {
 }
 
 
-def _main():
-    try:
-        return _run()
-    except Error as error:
-        return fail("petsam-joint", error, getattr(error, "code", USAGE))
-
-
 def main():
     """Runs the command; returns its exit code."""
-    return guarded("petsam-joint", _main)
+    return guarded("petsam-joint", _run)

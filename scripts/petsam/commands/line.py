@@ -53,11 +53,13 @@ class Parser(argparse.ArgumentParser):
         return f": is {near[0]} meant?" if near else ""
 
 
-def joined(words):
-    """Joins values that begin with a minus to their options, as argparse would take them for options."""
+def joined(words, texts=()):
+    """Joins values that begin with a minus to their options, as argparse would take them for options: numbers, and any
+    word after the options of texts."""
     found = []
     for word in words:
-        if found and re.match(r"-[\d.]", word) and re.fullmatch(r"--[a-z][a-z-]*", found[-1]):
+        before = found[-1] if found else ""
+        if before in texts or (re.match(r"-[\d.]", word) and re.fullmatch(r"--[a-z][a-z0-9-]*", before)):
             found[-1] += "=" + word
         else:
             found.append(word)
@@ -106,11 +108,8 @@ def quietly(body, *given):
     return 0
 
 
-def guarded(command, body, usage=()):
-    """Returns the exit code of body(), which is a command; unexpected errors end with a line, too.
-
-    An Error is one of a file, unless it is of these classes, whose cause is the usage.
-    """
+def guarded(command, body):
+    """Returns the exit code of body(), which is a command; unexpected errors end with a line, too."""
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:  # closed: the next opened file would get its number
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), "r" if number == 0 else "w"))
@@ -125,7 +124,7 @@ def guarded(command, body, usage=()):
     except KeyboardInterrupt:
         return INTERRUPTED
     except (Error, OSError) as error:
-        return fail(command, error, USAGE if isinstance(error, usage) else FILE)
+        return fail(command, error, getattr(error, "code", FILE))
     except Exception as error:
         if os.environ.get(TRACEBACK):
             raise

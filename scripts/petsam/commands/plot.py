@@ -28,7 +28,7 @@ study its folder's. An older picture of this name is replaced.
 
 import os
 
-from ..core.errors import Error, Useless
+from ..core.errors import Error
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
 from ..plot import fields, looks, noise, pictures, saving, tables, wear
@@ -230,4 +230,4 @@ def draw_all(options):
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
 
-    return guarded("petsam-plot", lambda: quietly(draw_all, arguments.read(__doc__)), Useless)
+    return guarded("petsam-plot", lambda: quietly(draw_all, arguments.read(__doc__)))

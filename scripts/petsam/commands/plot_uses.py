@@ -2,7 +2,7 @@
 
 import inspect
 
-from ..core.errors import Useless
+from ..core.errors import Unusable
 from ..plot import pictures
 from ..results.stresses import Stresses
 from ..results.studies import Study
@@ -83,7 +83,7 @@ def _users(name, options, results):
 
 
 def need_use(options, results, kinds):
-    """Useless where an option is given that none of the kinds of picture uses; the message says which would."""
+    """Unusable where an option is given that none of the kinds of picture uses; the message says which would."""
     for name in NAMES:
         if not _given(options, name):
             continue
@@ -96,7 +96,7 @@ def need_use(options, results, kinds):
         text += f"; it is for {_listed('--' + kind for kind in there)}" if there else " of such a file"
         if name in INSTEAD and {"history", "loop"} & set(kinds):
             text += f" ({INSTEAD[name]} chooses load steps of --history and --loop)"
-        raise Useless(text)
+        raise Unusable(text)
 
 
 def _listed(words):

@@ -194,4 +194,4 @@ def carry_out(options):
 def main():
     """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
     128 + the signal that ended the study."""
-    return guarded("petsam-study", lambda: carry_out(arguments()), (TableError, slurm.SubmitError))
+    return guarded("petsam-study", lambda: carry_out(arguments()))

@@ -36,7 +36,7 @@ from ..surface.doubts import doubts as doubts_of
 from ..surface.maps import combined, moments, new_map, peak_to_valley, rms_height, rms_slope
 from ..surface.reading import FORMATS, read
 from ..surface.words import sides, unit
-from .line import Parser, add_choice, guarded, quietly, word
+from .line import Parser, add_choice, guarded, joined, quietly, word
 
 MOST = 1 << 16  # cells in x or y
 WIDE = 1.0  # m: few instruments measure a surface of this size
@@ -44,8 +44,6 @@ OF_FILES = (
     "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
     "dataset", "channel", "window", "outliers", "fill", "level", "grid_size",
 )  # fmt: skip
-SIGNED = ("--window", "--center", "--missing", "--skewness")  # options whose values may begin with a minus sign
-
 
 READ_BY = (
     "units", "size", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "decimal", "skip_rows",
@@ -177,7 +175,7 @@ def arguments(words):
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the first file's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
     add_choice(out)
-    options = parser.parse_args(_joined(words))
+    options = parser.parse_args(joined(words, ["--missing"]))
     _check_random(parser, options)
     if len(options.files) > 2:
         parser.error(f"{len(options.files)} files: use one, or two for a separation")
@@ -257,15 +255,6 @@ def random_map(options):
     one = new_map(values, options.size, quantity, options.output)
     warn_of_unit(one, options.output)
     return one
-
-
-def _joined(words):
-    """Values that begin with a minus sign as `--option=value`: argparse would take them for options."""
-    joined, words = [], list(words)
-    while words:
-        word = words.pop(0)
-        joined.append(f"{word}={words.pop(0)}" if word in SIGNED and words else word)
-    return joined
 
 
 def warn_of_unit(one, name, more=""):

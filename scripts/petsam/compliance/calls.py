@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 
-from ..core.errors import Useless
+from ..core.errors import Unusable
 from . import model
 from .result import Compliance
 from .settings import settings
@@ -41,7 +41,7 @@ def of_deck(
         A deck that cannot be read, or values that do not fit it; the message names the options of petsam-compliance.
     """
     if more.get("materials") is not None:
-        raise Useless("a deck has its own materials: use of_mesh(), or omit the materials")
+        raise Unusable("a deck has its own materials: use of_mesh(), or omit the materials")
     return model.computed(deck, settings(contact, patch, supports, **more), "petsam.compliance.of_deck()", progress)
 
 
@@ -71,7 +71,5 @@ def of_mesh(
         As of of_deck().
     """
     contact, progress = more.pop("contact", None), more.pop("progress", model.quiet)
-    if contact is None:
-        raise Useless("--mesh needs --contact")
     given = settings(contact, patch, supports, materials=(young, poisson, density), **more)
     return model.computed(mesh, given, "petsam.compliance.of_mesh()", progress)

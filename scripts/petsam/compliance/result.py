@@ -7,15 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import tables
 from ..core.errors import Error, counted, short, there_are
 from ..core.hdf5 import need_own
-from ..core.tables import Column
+from ..core.tables import Column, Tabled
 from . import writing
 
 
 @dataclass
-class Compliance:
+class Compliance(Tabled):
     """What of_deck() and of_mesh() have found.
 
     bodies    the Bodies (model.py), one for each patch
@@ -79,14 +78,6 @@ class Compliance:
         if of not in made:
             raise Error(f"table {of}{there_are(of, made)}")
         return made[of](self)
-
-    def to_dataframe(self, of: str = "patches"):
-        """The table as one of pandas, units in .attrs["units"]."""
-        return tables.to_dataframe(self.table(of))
-
-    def to_csv(self, path: str | os.PathLike, of: str = "patches") -> None:
-        """Writes the table as CSV, heads with units: width_x [m]."""
-        tables.write_csv(path, self.table(of))
 
 
 def _patches(found):

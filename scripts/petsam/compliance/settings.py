@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.errors import Useless, short, there_are
+from ..core.errors import Unusable, short, there_are
 from . import basis, several
 from .units import UNITS
 
@@ -103,7 +103,7 @@ def _pairs(given):
     """Pairs of {name: value}, or of such pairs."""
     found = tuple(given.items()) if hasattr(given, "items") else tuple(tuple(one) for one in given)
     if not all(len(one) == 2 for one in found):
-        raise Useless(f"{short(repr(given))}: expected {{name: value}}")
+        raise Unusable(f"{short(repr(given))}: expected {{name: value}}")
     return found
 
 
@@ -117,11 +117,11 @@ def _bolts(given):
 
 
 def need_names(given):
-    """Raises Useless unless each name is that of a field of Settings."""
+    """Raises Unusable unless each name is that of a field of Settings."""
     known = [one.name for one in fields(Settings)]
     for name in given:
         if name not in known:
-            raise Useless(f"{short(name)}: no such argument{there_are(name, known)}")
+            raise Unusable(f"{short(name)}: no such argument{there_are(name, known)}")
 
 
 def _widths(patch):
@@ -129,7 +129,7 @@ def _widths(patch):
     try:
         return tuple(np.broadcast_to(np.asarray(patch, dtype=float), 2).tolist())
     except (TypeError, ValueError):
-        raise Useless(f"patch {short(repr(patch))}: expected its full widths in m, two numbers or one") from None
+        raise Unusable(f"patch {short(repr(patch))}: expected its full widths in m, two numbers or one") from None
 
 
 def settings(contact, patch, supports=(), **more):
@@ -138,9 +138,8 @@ def settings(contact, patch, supports=(), **more):
     forms = {"symmetry": _places, "pair": place, "bolts": _bolts, "cases": _pairs, "sensors": _pairs}
     more = {name: forms.get(name, lambda value: value)(value) for name, value in more.items()}
     need_names(more)
-    if contact is None:
-        raise Useless("contact: give the surface on which the patch lies: its name, or a box")
-    found = Settings(place(contact), _widths(patch), supports=_places(supports), **more)
+    contact = None if contact is None else place(contact)
+    found = Settings(contact, _widths(patch), supports=_places(supports), **more)
     frame = (found.frame,) if np.ndim(found.frame) == 1 and np.isscalar(found.frame[0]) else tuple(found.frame)
     sensors = tuple((name, str(node)) for name, node in found.sensors)
     found = replace(found, frame=frame, sensors=sensors, centers=tuple(map(tuple, found.centers)))
@@ -149,31 +148,33 @@ def settings(contact, patch, supports=(), **more):
 
 
 def need_degree(degree):
-    """Raises Useless unless petsam reads polynomials of the degree."""
+    """Raises Unusable unless petsam reads polynomials of the degree."""
     most = HIGHEST if np.ndim(degree) == 0 else HIGHEST_EACH
     each = np.atleast_1d(degree)
     numbers = np.issubdtype(each.dtype, np.number)
     if len(each) > 2 or not numbers or not all(value == int(value) and 0 <= value <= most for value in each):
-        raise Useless(
+        raise Unusable(
             f"{short(str(degree))}: expected an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and "
             "y: 12,6"
         )
     count = len(basis.powers(degree))
     if count > MOST_FUNCTIONS:
-        raise Useless(
+        raise Unusable(
             f"{basis.written(degree)} gives {count} polynomials, limit {MOST_FUNCTIONS}: lower the degree in one "
             "direction"
         )
 
 
 def need_sense(given):
-    """Raises Useless unless the Settings make sense together."""
+    """Raises Unusable unless the Settings make sense together."""
+    if given.contact is None:
+        raise Unusable("--mesh needs --contact: the surface on which the patch lies, its name or a box")
     if not all(0.0 < width < math.inf for width in given.patch):
-        raise Useless(f"--patch {given.patch[0]:g},{given.patch[1]:g}: expected lengths above 0")
+        raise Unusable(f"--patch {given.patch[0]:g},{given.patch[1]:g}: expected lengths above 0")
     if given.units not in UNITS:
-        raise Useless(f"--units {short(str(given.units))}: use {', '.join(UNITS)}")
+        raise Unusable(f"--units {short(str(given.units))}: use {', '.join(UNITS)}")
     if given.method not in METHODS:
-        raise Useless(f"--method {short(given.method)}: use {', '.join(METHODS)}")
+        raise Unusable(f"--method {short(given.method)}: use {', '.join(METHODS)}")
     need_degree(given.degree)
     _check_held(given)
     _check_pair(given)
@@ -183,15 +184,15 @@ def need_sense(given):
 def _check_held(given):
     """Checks --fixed, and what belongs to --free."""
     if given.free and given.supports:
-        raise Useless("--free holds nothing: remove it, or --fixed")
+        raise Unusable("--free holds nothing: remove it, or --fixed")
     if given.free and not given.pair:
-        raise Useless(
+        raise Unusable(
             "--free is for a pair: a body alone moves away under the loads of its contact: hold it by --fixed, or give "
             "the surface of body 1 by --pair"
         )
     if not given.free and not given.supports:
         other = ", or --free for a pair that nothing holds" if given.pair else ""
-        raise Useless(f"--mesh needs --fixed{other}")
+        raise Unusable(f"--mesh needs --fixed{other}")
 
 
 def _check_pair(given):
@@ -199,20 +200,22 @@ def _check_pair(given):
     if not given.pair:
         for name, value in (("bolt", given.bolts), ("modes", given.modes), ("sensor", given.sensors)):
             if value:
-                raise Useless(f"--{name} is for a pair: give the surface of body 1 by --pair, or remove it")
+                raise Unusable(f"--{name} is for a pair: give the surface of body 1 by --pair, or remove it")
     elif given.depth or given.method == "cutoff":
         name = "--depth" if given.depth else "--method cutoff"
-        raise Useless(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
+        raise Unusable(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
     elif given.symmetry:
-        raise Useless("--symmetry: a pair is given as a whole: remove it, or give one body alone, without --pair")
+        raise Unusable("--symmetry: a pair is given as a whole: remove it, or give one body alone, without --pair")
 
 
 def need_bolt(name, text=None):
-    """Raises Useless unless the file can have a bolt of this name."""
+    """Raises Unusable unless the file can have a bolt of this name."""
     if not NAME.fullmatch(name) or name in RESERVED:
-        raise Useless(f"{short(text or name)}: expected NAME=SURFACE1,SURFACE2:DIAMETER[:YOUNG], as in B1=HEAD,NUT:8mm")
+        raise Unusable(
+            f"{short(text or name)}: expected NAME=SURFACE1,SURFACE2:DIAMETER[:YOUNG], as in B1=HEAD,NUT:8mm"
+        )
     if len("bolt_" + name) > LONGEST:
-        raise Useless(f"{short(name)}: use a name of at most {LONGEST - len('bolt_')} letters")
+        raise Unusable(f"{short(name)}: use a name of at most {LONGEST - len('bolt_')} letters")
 
 
 def _check_names(given):
@@ -220,16 +223,16 @@ def _check_names(given):
     for bolt in given.bolts:
         need_bolt(bolt.name)
     if len(given.centers) > 1 and not given.pair:
-        raise Useless("--center: several patches are for a pair: give the surface of body 1 by --pair, or one centre")
+        raise Unusable("--center: several patches are for a pair: give the surface of body 1 by --pair, or one centre")
     if len(given.centers) > 1 and any(re.fullmatch(several.NAME + r"[0-9]+", name) for name, _ in given.cases):
-        raise Useless(f"--case: {several.NAME} with a number is a name of the file's own: give another one")
+        raise Unusable(f"--case: {several.NAME} with a number is a name of the file's own: give another one")
     if given.sensors and not given.modes:
-        raise Useless("--sensor needs --modes: give their number, or remove it")
+        raise Unusable("--sensor needs --modes: give their number, or remove it")
     if len({name for name, _ in given.sensors}) < len(given.sensors):
-        raise Useless("--sensor: give each name once")
+        raise Unusable("--sensor: give each name once")
     names = [name for name, _ in given.cases] + [f"bolt_{one.name}" for one in given.bolts]
     names += [f"mode{k}" for k in range(1, 1 + given.modes)]
     most = MOST_OF_PAIR if given.pair else MOST_CASES
     if len(set(names)) < len(names) or len(names) > most:
         bolts = ", with those of --bolt and --modes" if given.pair else ""
-        raise Useless(f"--case: give each name once, at most {most} of them{bolts}")
+        raise Unusable(f"--case: give each name once, at most {most} of them{bolts}")

@@ -11,13 +11,19 @@ LINE = 4000  # maximum characters of a message
 
 
 class Error(Exception):
-    """A file or value that cannot be read, found or understood; lines of an example are printed below the message."""
+    """A file or value that cannot be read, found or understood; lines of an example are printed below the message.
 
+    code is the exit code of a command that ends with it.
+    """
+
+    code = FILE
     example = ()
 
 
-class Useless(Error):
-    """An option that has no effect, or that leaves nothing: bad usage."""
+class Unusable(Error):
+    """An option or a value that cannot be used, has no effect, or leaves nothing: bad usage."""
+
+    code = USAGE
 
 
 class Missing(Error):

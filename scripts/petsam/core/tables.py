@@ -70,10 +70,10 @@ class Tabled:
         """The columns, tables.Column each with name, unit, meaning and values."""
         raise NotImplementedError
 
-    def to_csv(self, path) -> None:
-        """Writes table() as CSV, with heads `name [unit]`, to the file of this name."""
-        write_csv(path, self.table(), self.form)
+    def to_csv(self, path, *which: str) -> None:
+        """Writes table(*which) as CSV, with heads `name [unit]`, to the file of this name."""
+        write_csv(path, self.table(*which), self.form)
 
-    def to_dataframe(self):
-        """table() as one of pandas, which must be installed; units stand in .attrs["units"]."""
-        return to_dataframe(self.table())
+    def to_dataframe(self, *which: str):
+        """table(*which) as one of pandas, which must be installed; units stand in .attrs["units"]."""
+        return to_dataframe(self.table(*which))

@@ -3,13 +3,13 @@
 import numpy as np
 
 from ..core import arrays
-from ..core.errors import Error, short
+from ..core.errors import Unusable, short
 
 
 def integer(name, value, least=1):
     """The value, an integer of `least` or more."""
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or value < least:
-        raise Error(f"{name} {short(repr(value))}: expected an integer >= {least}")
+        raise Unusable(f"{name} {short(repr(value))}: expected an integer >= {least}")
     return int(value)
 
 
@@ -21,7 +21,7 @@ def real(name, value, what, good):
             return number
     except (TypeError, ValueError):
         pass
-    raise Error(f"{name} {short(repr(value))}: expected {what}")
+    raise Unusable(f"{name} {short(repr(value))}: expected {what}")
 
 
 def positive(name, values, what):
@@ -29,7 +29,7 @@ def positive(name, values, what):
     found = array(name, values, what)
     found = np.atleast_1d(found)
     if not (found.ndim == 1 and found.size and np.all((found > 0.0) & np.isfinite(found))):
-        raise Error(f"{name}: expected {what}")
+        raise Unusable(f"{name}: expected {what}")
     return found
 
 
@@ -38,14 +38,14 @@ def array(name, values, what="numbers"):
     try:
         return arrays.real(values)
     except (TypeError, ValueError):
-        raise Error(f"{name}: expected {what}, not {short(repr(values))}") from None
+        raise Unusable(f"{name}: expected {what}, not {short(repr(values))}") from None
 
 
 def modal(name, values, count):
     """The values, a finite number for each of so many modes."""
     found = array(name, values, f"a number for each of {count} modes")
     if found.shape != (count,):
-        raise Error(f"{name}: has the shape {found.shape}: expected a number for each of {count} modes")
+        raise Unusable(f"{name}: has the shape {found.shape}: expected a number for each of {count} modes")
     if not np.all(np.isfinite(found)):
-        raise Error(f"{name}: expected finite numbers")
+        raise Unusable(f"{name}: expected finite numbers")
     return found

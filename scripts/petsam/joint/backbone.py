@@ -17,7 +17,7 @@ from typing import Optional
 
 import numpy as np
 
-from ..core.errors import Error
+from ..core.errors import Unusable
 from .arguments import integer, positive
 from .arguments import modal as as_modal
 from .balance import Balance
@@ -114,7 +114,7 @@ def _moved(sensor, shape):
     sensor = as_modal("sensor", sensor, len(shape))
     moved = abs(float(sensor @ shape))
     if moved <= UNMOVED * np.linalg.norm(sensor) * np.linalg.norm(shape):
-        raise Error("sensor: the mode does not move it in this direction: take another direction, sensor or mode")
+        raise Unusable("sensor: the mode does not move it in this direction: take another direction, sensor or mode")
     return moved
 
 

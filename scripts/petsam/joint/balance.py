@@ -20,7 +20,7 @@ from typing import Optional
 
 import numpy as np
 
-from ..core.errors import Error
+from ..core.errors import Unusable
 from .arguments import integer, modal, positive
 from .numbers import Numbers, energies, solved
 from .structure import BEYOND, NoSolution, Structure
@@ -41,7 +41,7 @@ class Balance(Sweep):
     def __init__(self, structure, mode=1, steps=STEPS, harmonics=3):
         harmonics, steps = integer("harmonics", harmonics), integer("steps", steps)
         if 2 * steps < PER_HARMONIC * harmonics:
-            raise Error(f"steps {steps}: with {harmonics} harmonics use {PER_HARMONIC * harmonics // 2} or more")
+            raise Unusable(f"steps {steps}: with {harmonics} harmonics use {PER_HARMONIC * harmonics // 2} or more")
         super().__init__(structure, mode, steps)
         self.order = np.arange(1, harmonics + 1)[:, None]
         self.mode, self.least = mode - 1, 2
@@ -136,7 +136,7 @@ class Balance(Sweep):
         given = np.zeros(inertia.shape, dtype=complex)
         given[0] = self.shapes.T @ force
         if not np.any(given):
-            raise Error("force: moves no mode: take another place or direction")
+            raise Unusable("force: moves no mode: take another place or direction")
         slope = self.slope(inertia)
         still = np.abs(slope[0]) * self.omegas**2 / np.maximum(np.abs(given[0]), 1e-12 * np.abs(given[0]).max())
         at = 0, int(np.argmin(still))

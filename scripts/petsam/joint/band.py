@@ -12,7 +12,7 @@ from typing import Optional
 
 import numpy as np
 
-from ..core.errors import Error, short
+from ..core.errors import Unusable, short
 from ..core.tables import Column, Tabled
 from .arguments import positive, real
 from .backbone import COLUMNS, Backbone, backbone, shake
@@ -175,7 +175,7 @@ def _warn(found):
 def _scattered(name, value, sign, preload):
     """Changes of make() by a standard deviation of a parameter."""
     if name not in ("friction", "preload"):
-        raise Error(f"scatter {short(name)}: expected friction or preload")
+        raise Unusable(f"scatter {short(name)}: expected friction or preload")
     what = "a standard deviation as a part of it, from 0 to below 1"
     value = real(f"scatter {name}", value, what, lambda part: 0.0 <= part < 1.0)
     if name == "friction":

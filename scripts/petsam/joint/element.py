@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..contact import Contact
-from ..core.errors import Error
+from ..core.errors import Unusable
 from .structure import Patch, Structure
 
 
@@ -85,7 +85,9 @@ class Element:
         spring = np.asarray(stiffness, dtype=float) * (np.eye(count) if np.ndim(stiffness) == 0 else 1.0)
         good = spring.shape == (count, count) and np.all(np.isfinite(spring)) and np.allclose(spring, spring.T)
         if not good or np.linalg.eigvalsh(spring)[0] <= 0.0:
-            raise Error(f"condense: expected a positive stiffness: a number, or a symmetric ({count}, {count}) matrix")
+            raise Unusable(
+                f"condense: expected a positive stiffness: a number, or a symmetric ({count}, {count}) matrix"
+            )
         old = self._structure
         new = Structure(old.patches, old.omega, old.shapes, old.coupling + np.linalg.inv(spring))
         new.z, new.loads = old.z, old.loads
@@ -114,7 +116,7 @@ class Element:
         """
         u = np.atleast_1d(np.asarray(u, dtype=float))
         if u.shape != self._structure.z.shape or not np.all(np.isfinite(u)):
-            raise Error(f"try_: expected {self._structure.z.size} finite coordinates, and not {u.tolist()}")
+            raise Unusable(f"try_: expected {self._structure.z.size} finite coordinates, and not {u.tolist()}")
         if self._response is None:
             self._response = self._structure.respond_to(self._structure.tangent())
         self._response = self._structure.try_step(u, response=self._response)

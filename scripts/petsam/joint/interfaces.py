@@ -16,7 +16,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 
 from ..contact import AdviceWarning, Contact
-from ..core.errors import Error
+from ..core.errors import Unusable
 from ..core.tables import Column, Tabled
 from . import elements
 from .arguments import array, integer, positive, real
@@ -215,9 +215,9 @@ def _of_interface(separation, spacing, pressures, loop, bodies, begins):
     separation = array("separation", separation)
     pressures = np.atleast_1d(array("pressures", pressures))
     if separation.ndim != 2 or not np.isfinite(separation).all():
-        raise Error("separation: expected a field (ny, nx) of finite numbers")
+        raise Unusable("separation: expected a field (ny, nx) of finite numbers")
     if pressures.ndim != 1 or not pressures.size or not (np.diff(pressures, prepend=0.0) > 0).all():
-        raise Error("pressures: expected positive pressures that rise")
+        raise Unusable("pressures: expected positive pressures that rise")
     steps = integer("steps", steps)
     what = "a coefficient > 0, without which nothing resists a shear"
     friction = real("friction", friction, what, lambda one: 0.0 < one < np.inf)
@@ -225,7 +225,7 @@ def _of_interface(separation, spacing, pressures, loop, bodies, begins):
     shear = real("shear", shear, what, lambda part: 0.0 < part < 1.0)
     step = positive("spacing", spacing, "lengths above 0")
     if step.size > 2:
-        raise Error(f"spacing {spacing!r}: expected the distance of points along x and y, or one for both")
+        raise Unusable(f"spacing {spacing!r}: expected the distance of points along x and y, or one for both")
     step = np.broadcast_to(step, 2)
     need_fitting(separation, step, pressures, friction, bodies)
     n = separation.shape[::-1]
@@ -251,7 +251,7 @@ def _at(contact, pressure, area, friction, parts, steps):
     """The computed numbers of COLUMNS at a pressure, to which the contact is loaded, and the first loading."""
     contact.try_step(time=pressure, load_n=pressure * area)
     if contact.number("contact_cells") == contact.n[0] * contact.n[1]:
-        raise Error(
+        raise Unusable(
             f"pressures: {pressure:.6g} Pa: all of the surface touches, and its stiffness is infinite: give less, or "
             "check the units of heights and moduli"
         )
@@ -301,7 +301,7 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
     """
     separation = array("separation", separation)
     if separation.ndim != 2 or min(separation.shape) < 4:
-        raise Error("separation: expected a field of 4 x 4 points or more")
+        raise Unusable("separation: expected a field of 4 x 4 points or more")
     ny, nx = (size // 2 for size in separation.shape)
     y, x = separation.shape[0] - ny, separation.shape[1] - nx
     places = [(0, 0), (0, x), (y, 0), (y, x), (y // 2, x // 2)]
@@ -369,9 +369,9 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     else:
         own = spacing
         if spacing is None:
-            raise Error("spacing: give the distance of the points of an array, m")
+            raise Unusable("spacing: give the distance of the points of an array, m")
     if spacing is not None and own is not spacing:
-        raise Error("spacing: the surface has its own: leave it out")
+        raise Unusable("spacing: the surface has its own: leave it out")
     given = dict(friction=friction, shear=shear, **({} if steps is None else {"steps": steps}), **bodies)
     if periodic:
         return of_interface(surface, own, pressures, **given)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..contact import Contact
-from ..core.errors import FILE, Error, short, there_are
+from ..core.errors import Error, Unusable, short, there_are
 from ..core.files import need_regular
 from ..core.hdf5 import DAMAGED, opened
 from .arguments import integer, real
@@ -16,12 +16,6 @@ PRESS = 4  # steps in which each bolt is tightened
 SNUG = 0.1  # part of the tension of several bolts that all get before the first one is tightened
 FIRST = 0.1  # the first guess of the loads over the tension: from loads that are too large the iteration may not end
 PRESSING = ("disp_z", "rot_x", "rot_y")  # displacements whose loads press the bodies together
-
-
-class Unreadable(Error):
-    """A file that is not of the kind that is needed: a surface, or a pair of petsam-compliance."""
-
-    code = FILE
 
 
 class Pair:
@@ -56,9 +50,10 @@ class Pair:
             with opened(path) as file:
                 self._read(file)
                 grids = [dict(grid_size=2 * group["patch/half"][()], gap_type="flat") for group in patches_of(file)]
-                self.functions = _kept(patches_of(file)[0]["basis/degree_xy"][()], lower)
+                degrees = patches_of(file)[0]["basis/degree_xy"][()]
+                self.functions, self.degree = len(degrees), int(degrees.max())
         except DAMAGED as error:
-            raise Unreadable(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
+            raise Error(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
         self._check(preload)
         # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
         # of each patch what is local: the structure has the motions as a whole
@@ -114,15 +109,15 @@ class Pair:
 
     def _check(self, preload):
         if not isinstance(preload, Mapping):
-            raise Error(f"preload {short(repr(preload))}: expected {{bolt: tension in N}}")
+            raise Unusable(f"preload {short(repr(preload))}: expected {{bolt: tension in N}}")
         for name, force in preload.items():
             if name not in self.bolts:
-                raise Error(f"preload {short(name)}: is no bolt of {self.path}{there_are(name, self.bolts)}")
+                raise Unusable(f"preload {short(name)}: is no bolt of {self.path}{there_are(name, self.bolts)}")
             real(f"preload {name}", force, "a tension from 0 on, in N", lambda one: 0.0 <= one < np.inf)
         if not self.bolts:
-            raise Error(f"{self.path}: has no bolt, so nothing presses the bodies together: make it with --bolt")
+            raise Unusable(f"{self.path}: has no bolt, so nothing presses the bodies together: make it with --bolt")
         if not preload:
-            raise Error(f"preload: give the tension of {', '.join(self.bolts)}, in N")
+            raise Unusable(f"preload: give the tension of {', '.join(self.bolts)}, in N")
 
     def _tighten(self, structure, preload, press, friction_scale):
         """Tightens the bolts one after the other, in the order given, each in `press` steps; several ones after a part
@@ -173,11 +168,3 @@ def _far(group):
     """Names of the load cases by which other patches move a patch, in the order of their numbers."""
     names = [name for name in group["cases"] if re.fullmatch("far[0-9]+", name)]
     return sorted(names, key=lambda name: int(name[3:]))
-
-
-def _kept(table, lower):
-    """The number of polynomials of a patch, degrees (m, 2), that petsam reads where the degree is lower by `lower` in x
-    and in y, but at least 1 (src/bodies/elasticity/compliance/compliancefile.c)."""
-    if len(table) < np.prod(table.max(axis=0) + 1):  # up to a total degree
-        return int(np.sum(table.sum(axis=1) <= max(table.sum(axis=1).max() - lower, 1)))
-    return int(np.sum(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1)))

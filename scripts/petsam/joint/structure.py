@@ -21,7 +21,7 @@ import warnings
 import numpy as np
 
 from ..contact import AdviceWarning, ContactError, EdgeContactWarning, NoEquilibrium, NotConverged, PrescribedError
-from ..core.errors import Error, short
+from ..core.errors import Unusable, short
 from .arguments import array, real
 
 TOLERANCE = 1e-7  # of the work and of the energy of the errors, relative to the work of the loads
@@ -37,7 +37,7 @@ DISPLACEMENTS = {
 }  # fmt: skip
 
 
-class NoSolution(Error):
+class NoSolution(Unusable):
     """Equilibrium of patches and structure was not found, or the contact leaves its patch."""
 
 
@@ -63,10 +63,10 @@ class Patch:
 
     def __init__(self, contact, coordinates, held=None, by_load=(), name="", center=(0.0, 0.0)):
         if isinstance(coordinates, str):
-            raise Error(f"coordinates {short(repr(coordinates))}: expected a list of names")
+            raise Unusable(f"coordinates {short(repr(coordinates))}: expected a list of names")
         for one in by_load:
             if one not in coordinates:
-                raise Error(f"by_load {short(repr(one))}: is none of the coordinates {', '.join(coordinates)}")
+                raise Unusable(f"by_load {short(repr(one))}: is none of the coordinates {', '.join(coordinates)}")
         self.contact, self.coordinates, self.held, self.name = contact, list(coordinates), dict(held or {}), name
         self.by_load = np.array([name in by_load for name in self.coordinates])
         self.center = np.asarray(center, dtype=float)
@@ -177,7 +177,7 @@ class Structure:
         self.rigid = self._matrix(rigid, (n, None), "rigid")
         self.coupling = self._matrix(coupling, (n, n), "coupling")
         if not np.all((self.omega > 0.0) & np.isfinite(self.omega)):
-            raise Error("omega: expected frequencies above 0; modes of 0 are given by rigid")
+            raise Unusable("omega: expected frequencies above 0; modes of 0 are given by rigid")
         self.direct = not self.rigid.size and not np.any(self.coupling)
         floats = n == self.rigid.shape[1] and np.all(self.by_load)
         self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
@@ -191,7 +191,7 @@ class Structure:
         rows, columns = shape
         found = np.zeros((rows, columns or 0)) if values is None else array(name, values)
         if found.ndim != 2 or found.shape[0] != rows or columns not in (None, found.shape[1]):
-            raise Error(f"{name}: has the shape {found.shape}: expected ({rows}, {columns or 'modes'})")
+            raise Unusable(f"{name}: has the shape {found.shape}: expected ({rows}, {columns or 'modes'})")
         return found
 
     @property

@@ -3,9 +3,8 @@
 import numpy as np
 
 from ..closed.materials import effective_modulus
-from ..core.errors import Error, MissingFile
+from ..core.errors import Error, MissingFile, Unusable
 from ..surface.reading import read_hdf5
-from .pair import Unreadable
 
 AREA = 0.01  # cells of expected contact below which a pressure is no pressure of the surface
 FRICTIONS = (1e-4, 5.0)  # range of coefficients of friction
@@ -22,7 +21,7 @@ def read_separation(path):
         raise
     except Error as error:
         reason = str(error).removeprefix(f"{path}: ")
-        raise Unreadable(f"{path}: no surface of petsam-surface: {reason}") from error
+        raise Error(f"{path}: no surface of petsam-surface: {reason}") from error
     values = stated.values.astype(float) * (stated.unit or 1.0)
     count = values.size - np.isfinite(values).sum()
     for wrong, text in (
@@ -31,7 +30,7 @@ def read_separation(path):
         (stated.size is None, "has neither axes x and y beside it nor an attribute size"),
     ):
         if wrong:
-            raise Unreadable(f"{path}: no surface of petsam-surface: /{stated.name} {text}")
+            raise Error(f"{path}: no surface of petsam-surface: /{stated.name} {text}")
     doubts = []
     if stated.quantity is None and stated.name != "separation":
         doubts.append(
@@ -56,21 +55,23 @@ def need_fitting(separation, step, pressures, friction, bodies):
     """Error where pressures do not fit the bodies and the slope of the surface, or friction is none: wrong units."""
     if not FRICTIONS[0] <= friction <= FRICTIONS[1]:
         low, high = FRICTIONS
-        raise Error(f"friction {friction:g}: use a coefficient from {low:g} to {high:g}, such as 0.4: not in per cent")
+        raise Unusable(
+            f"friction {friction:g}: use a coefficient from {low:g} to {high:g}, such as 0.4: not in per cent"
+        )
     star = modulus(bodies)
     slopes = [np.diff(separation, axis=1 - d) / step[d] for d in (0, 1)]
     slope = np.sqrt(sum(np.mean(one**2) for one in slopes))
     if not star or not slope > 0.0:
         return
     if pressures[-1] > star:
-        raise Error(
+        raise Unusable(
             f"pressures: {pressures[-1]:.6g} Pa: all of the surface touches, as it is above E* = {star:.4g} Pa: check "
             "the units of both"
         )
     # real contact area of random roughness under small pressures: 2 p / (E* slope) of the nominal one
     least = 0.5 * star * slope * AREA / separation.size
     if pressures[0] < least:
-        raise Error(
+        raise Unusable(
             f"pressures: {pressures[0]:.6g} Pa is {pressures[0] / (star * slope):.2g} of E* times the rms slope, "
             f"{slope:.3g}: less than {AREA:g} of a point of the surface would touch: check the units (20MPa), or give "
             f"more than {least:.2g} Pa"

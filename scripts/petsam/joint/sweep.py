@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.linalg import norm
 
-from ..core.errors import Error
+from ..core.errors import Unusable
 from ..results.file import SLIP
 from .arguments import integer
 from .structure import Structure
@@ -104,7 +104,9 @@ class Sweep:
 
     def __init__(self, structure, mode=1, steps=STEPS):
         if not isinstance(structure, Structure):
-            raise Error(f"structure: expected a Structure, such as a Pair's structure, not {type(structure).__name__}")
+            raise Unusable(
+                f"structure: expected a Structure, such as a Pair's structure, not {type(structure).__name__}"
+            )
         mode, self.steps = integer("mode", mode), integer("steps", steps)
         self.preload, self.work = structure, structure.copy()
         self.tangent = structure.tangent()
@@ -112,7 +114,7 @@ class Sweep:
         self.pressed = sum(_pressed(patch.contact) for patch in structure.patches)
         self.omegas, self.shapes = structure.stuck_modes(self.tangent)  # rad/s; in modal coordinates, as columns
         if mode > len(self.omegas):
-            raise Error(f"mode {mode}: the structure has modes 1 to {len(self.omegas)}")
+            raise Unusable(f"mode {mode}: the structure has modes 1 to {len(self.omegas)}")
         self.omega, self.shape = self.omegas[mode - 1], self.shapes[:, mode - 1]
         self.unit = structure.respond(self.tangent, self.shape)
         self.reversed = structure.respond_to(self.tangent)

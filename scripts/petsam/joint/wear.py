@@ -14,7 +14,7 @@ from typing import Optional
 import numpy as np
 
 from ..contact import ContactError
-from ..core.errors import Error
+from ..core.errors import Unusable
 from ..core.tables import Column, split
 from .arguments import array
 from .backbone import modal_amplitudes
@@ -102,10 +102,10 @@ def wear(
     """
     cycles = np.atleast_1d(array("cycles", cycles, "rising whole numbers above 0"))
     if not (cycles.size and rising(cycles)):
-        raise Error("cycles: expected rising whole numbers above 0")
+        raise Unusable("cycles: expected rising whole numbers above 0")
     first = Sweep(structure, mode, steps)
     if not any(_wears(patch) for patch in structure.patches):
-        raise Error(
+        raise Unusable(
             "no contact wears: give -wear_coefficient1, -wear_coefficient2, -wear_energy1 or -wear_energy2 among its "
             "options"
         )

@@ -5,7 +5,7 @@ sections, stress_profiles, fatigue. The table of petsam-study: study, regimes. S
 
 Parameters that many of them have:
 
-step, time, cycle   saved steps: load steps from 1 (-1: the last), times (s), or cycles; a value or a list of them
+step, time, cycle   saved steps: load steps from 1 (-1: the last), times (s, or "1ms"), or cycles; one or a list
 turns, period       what a cycle is: reversals of another number of the history, or (T, START) in s
 at                  (x, y) of a point, m
 xlim, ylim          part of the axes, (low, high), SI units
@@ -21,6 +21,7 @@ from typing import Optional, Union
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..core import words
 from ..core.errors import Error
 from ..results import cycles
 from ..results.file import Results
@@ -34,7 +35,7 @@ ORIGIN = (0.0, 0.0)
 # what parameters may be, see above
 Names = Union[str, Sequence[str], None]
 Steps = Union[int, Sequence[int], None]
-Times = Union[float, Sequence[float], None]
+Times = Union[float, str, Sequence[Union[float, str]], None]
 Period = Optional[tuple[float, Optional[float]]]
 Point = Optional[tuple[float, float]]
 Span = Optional[tuple[float, float]]
@@ -92,12 +93,20 @@ def of_cycle(one, number, turns=None, period=None):
     return one.of_step(int(one.solved[cycle.last]) + 1)
 
 
+def _number(text):
+    return words.integer(text, "the number of a load step; -1 is the last")
+
+
+def _second(text):
+    return words.number(text, "a time, such as 1ms", "s")
+
+
 def snapshots(files, step=None, time=None, cycle=None, turns=None, period=None):
     """Pairs of a file and an index into its fields, for each step asked for; of the last step unless told."""
-    asked = [(step, "of_step"), (time, "of_time")]
-    for values, method in asked:
-        if listed(values):
-            return [(one, getattr(one, method)(value)) for one in files for value in listed(values)]
+    for values, method, read in ((step, "of_step", _number), (time, "of_time", _second)):
+        values = [read(value) if isinstance(value, str) else value for value in listed(values)]
+        if values:
+            return [(one, getattr(one, method)(value)) for one in files for value in values]
     if listed(cycle):
         return [(one, of_cycle(one, number, turns, period)) for one in files for number in listed(cycle)]
     return [(one, one.of_last()) for one in files]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..core.errors import Error, Useless, short, there_are
+from ..core.errors import Error, Unusable, short, there_are
 from ..results.cycles import ENERGY, PAIRS
 from . import noise, symbols
 from .style import MARKED, colors, logarithmic, named, need_few, outlined, plt, scattered
@@ -110,12 +110,12 @@ def _why_not(results, name):
 
 
 def need_numbers(results, names, option):
-    """Raises Useless if one of the names that the option requests is NaN in all steps of all results."""
+    """Raises Unusable if one of the names that the option requests is NaN in all steps of all results."""
     for name in names:
         if all(np.isnan(series(one, name)[1]).all() for one in results):
             others = [other for other in _varying(results) if other not in names]
             text = f"{option} {name}: is NaN in all steps: {_why_not(results[0], name)}; choose {', '.join(others)}"
-            raise Useless(f"{results[0].path}: {text}")
+            raise Unusable(f"{results[0].path}: {text}")
 
 
 def _panel(panel, results, name, other, across):

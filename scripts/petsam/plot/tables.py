@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..core import words
-from ..core.errors import Error, Useless, counted, short
+from ..core.errors import Error, Unusable, counted, short
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
 from .units import label, largest, number, on_axis, plain, scale
@@ -27,9 +27,9 @@ def numbers(study, name, option):
 
 
 def need_case(study, name, option, chosen):
-    """Raises Useless if a column has a number in none of the chosen cases."""
+    """Raises Unusable if a column has a number in none of the chosen cases."""
     if not np.isfinite(numbers(study, name, option)[0][chosen]).any():
-        raise Useless(f"{study.path}: {option} {short(name)}: no chosen case has a number; use another column")
+        raise Unusable(f"{study.path}: {option} {short(name)}: no chosen case has a number; use another column")
 
 
 def titled(name):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import yaml
 
-from ..core.errors import Error, short
+from ..core.errors import Unusable, short
 from ..core.files import need_regular
 from .expressions import check
 
@@ -27,7 +27,7 @@ ALIKE = re.compile(r"[-+]?(0|[1-9]\d*|\d*\.\d*(e[-+]?\d+)?|\.(inf|nan))", re.IGN
 SCALARS = {"tag:yaml.org,2002:" + kind for kind in ("null", "bool", "int", "float", "str", "timestamp")}
 
 
-class TableError(Error):
+class TableError(Unusable):
     """A table that cannot be understood; the message names the file, and the line or the key."""
 
 

@@ -7,10 +7,10 @@ import shutil
 import subprocess
 
 from ..core import environment
-from ..core.errors import Error, counted, short
+from ..core.errors import Unusable, counted, short
 
 
-class SubmitError(Error):
+class SubmitError(Unusable):
     """sbatch is missing or rejects the job; the message is its own."""
 
 

@@ -15,7 +15,7 @@ elsewhere: a solver then needs more iterations and finds the same solution.
 
 import numpy as np
 
-from ...core.errors import Error
+from ...core.errors import Unusable
 from ..sweep import CYCLES, SETTLED
 
 PER_WAVE = 4  # least samples of a period of the highest harmonic
@@ -44,7 +44,7 @@ class Cycles:
         """
         order = np.asarray(order)
         if samples < PER_WAVE * order.max():
-            raise Error(f"{samples} time samples: {order.max()} harmonics need {PER_WAVE * order.max()} or more")
+            raise Unusable(f"{samples} time samples: {order.max()} harmonics need {PER_WAVE * order.max()} or more")
         times = self._peak(coefficients, order) + 2.0 * np.pi * np.arange(samples + 1) / samples
         wave = waves(order, times)
         moved = wave @ coefficients

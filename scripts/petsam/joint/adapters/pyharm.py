@@ -8,7 +8,7 @@ pyHarm.Maestro({"plugin": [pyharm.Contact], "connectors": {"joint": connector}, 
 import numpy as np
 from pyHarm.Elements.ABCElement import ABCElement
 
-from ...core.errors import Error
+from ...core.errors import Unusable
 from .cycles import Cycles
 
 
@@ -29,7 +29,7 @@ class Contact(ABCElement):
         self.Q = np.atleast_2d(np.asarray(data["Q"], dtype=float))
         self.cycles, self.length = Cycles(data["element"]), 1.0
         if len(self.Q) != self.cycles.u.size:
-            raise Error(f"connector {name}: Q has the shape {self.Q.shape}: expected ({self.cycles.u.size}, N)")
+            raise Unusable(f"connector {name}: Q has the shape {self.Q.shape}: expected ({self.cycles.u.size}, N)")
 
     def __flag_update__(self, *_):
         self.flag_nonlinear = self.flag_AFT = True
@@ -43,7 +43,7 @@ class Contact(ABCElement):
         waves = len(expl_dofs[["harm", "cs"]].drop_duplicates())
         if self.indices.size != waves * self.Q.shape[1]:
             count = self.indices.size // waves
-            raise Error(f"connector {self.name}: Q has {self.Q.shape[1]} columns, and {self.sub} {count} of these")
+            raise Unusable(f"connector {self.name}: Q has {self.Q.shape[1]} columns, and {self.sub} {count} of these")
 
     def adim(self, lc, wc):
         """Displacements are relative to the length lc."""

@@ -7,7 +7,7 @@ system.add_nl_force(Force(element, Q))
 
 import numpy as np
 
-from ...core.errors import Error
+from ...core.errors import Unusable
 from .cycles import Cycles
 
 HYSTERETIC = 1  # kind of force in tmdsimpy
@@ -29,7 +29,7 @@ class Force:
         self.T = self.Q.T if T is None else np.asarray(T, dtype=float)
         count = element.u.size
         if self.Q.shape[0] != count or self.T.shape != self.Q.T.shape:
-            raise Error(f"Q: has the shape {self.Q.shape}: expected ({count}, N), and T its transpose's")
+            raise Unusable(f"Q: has the shape {self.Q.shape}: expected ({count}, N), and T its transpose's")
         self._element, self.cycles = element, Cycles(element)
 
     def nl_force_type(self):
@@ -45,7 +45,9 @@ class Force:
     def force(self, U, update_hist=False):
         """Force (N,) at displacements from the preload in one step, and its derivative (N, N)."""
         if update_hist:
-            raise Error("update_hist: the preload of a contact is given by its own steps, before the Element is made")
+            raise Unusable(
+                "update_hist: the preload of a contact is given by its own steps, before the Element is made"
+            )
         moved = self._element.copy()
         force = moved.try_(moved.u + self.Q @ np.asarray(U)) - self._element.force
         return -self.T @ force, -self.T @ moved.tangent() @ self.Q
