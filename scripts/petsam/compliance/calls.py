@@ -19,26 +19,34 @@ def of_deck(
 
     Parameters
     ----------
-    deck : file with mesh, sets, materials and steps
-    patch : full widths (m) of the patch in x and y, or one of a square
-    contact : element surface on which the patch lies: its name, or a box of two corners, ((x, y, z), (x, y, z)), in the
-        mesh's coordinates and units, None leaving a coordinate free
-    supports : node set that is held in x, y and z, or several: names or boxes
-    progress : function that is told in a text what is being computed
-    more : the other fields of settings.Settings: units="mm", frame=((0, 0, 0), (1, 0, 0)), centers=[(0, 0)], degree=6,
+    deck : str or path
+        File with mesh, sets, materials and steps.
+    patch : float or tuple
+        Full widths (m) of the patch in x and y, or one of a square.
+    contact : str or tuple
+        Element surface on which the patch lies: its name, or a box of two corners, ((x, y, z), (x, y, z)), in the
+        mesh's coordinates and units, None leaving a coordinate free.
+    supports : str, tuple or list of them
+        Node set that is held in x, y and z, or several: names or boxes.
+    progress : callable
+        Called with a text that says what is being computed.
+    **more
+        The other fields of settings.Settings: units="mm", frame=((0, 0, 0), (1, 0, 0)), centers=[(0, 0)], degree=6,
         symmetry=set, cases={name: step}, coarse=deck, method="auto", stiffness="own", depth=m, stress=True; of a pair
         pair=surface, bolts={name: (surface 1, surface 2, diameter in m, modulus in Pa)}, modes=12,
-        sensors={name: node}, free=True
+        sensors={name: node}, free=True.
 
     Returns
     -------
-    Compliance : bodies, moduli, modes, checks; .write(path), .table(), .to_dataframe(), .to_csv(path);
-        petsam.plot.compliance() draws it
+    Compliance
+        Bodies, moduli, modes, checks; .write(path), .table(), .to_dataframe(), .to_csv(path); petsam.plot.compliance()
+        draws it.
 
     Raises
     ------
     Error
-        A deck that cannot be read, or values that do not fit it; the message names the options of petsam-compliance.
+        For a deck that cannot be read, or values that do not fit it; the message names the options of
+        petsam-compliance.
     """
     if more.get("materials") is not None:
         raise Unusable("a deck has its own materials: use of_mesh(), or omit the materials")
@@ -53,20 +61,26 @@ def of_mesh(
 
     Parameters
     ----------
-    mesh : meshio.Mesh, or name of a file that meshio reads
-    patch, supports, more : as of of_deck(), `contact` among them; sets are point_sets, cell_sets, physical groups of
-        Gmsh, or boxes. A mesh has no steps for load cases
-    young, poisson : Young's modulus (Pa) and Poisson's ratio of all elements, or {set of elements: value}
-    density : kg/m3, needed for modes, likewise
+    mesh : meshio.Mesh, str or path
+        A mesh, or the name of a file that meshio reads.
+    patch, supports
+        As of of_deck(); sets are point_sets, cell_sets, physical groups of Gmsh, or boxes.
+    young, poisson : float or mapping
+        Young's modulus (Pa) and Poisson's ratio of all elements, or {set of elements: value}.
+    density : float or mapping, optional
+        Density (kg/m3), needed for modes, likewise.
+    **more
+        The other arguments of of_deck(), `contact` among them. A mesh has no steps for load cases.
 
     Returns
     -------
-    Compliance : as of of_deck()
+    Compliance
+        As of of_deck().
 
     Raises
     ------
     Missing
-        meshio is not installed.
+        If meshio is not installed.
     Error
         As of of_deck().
     """

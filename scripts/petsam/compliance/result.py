@@ -11,17 +11,24 @@ from ..core.errors import Error, counted, short, there_are
 from ..core.hdf5 import need_own
 from ..core.tables import Column, Tabled
 from . import writing
+from .modes import Modes
 
 
 @dataclass
 class Compliance(Tabled):
     """What of_deck() and of_mesh() have found.
 
-    bodies    the Bodies (model.py), one for each patch
-    coupling  (n, n): displacements of body 1 against body 2 as a whole, and factors on the load cases far1, far2, ...,
-              of one patch after the other, by the loads that belong to them; None: of one patch
-    missed    singular value of the compliance between patches that the load cases leave out, relative to the half-space
-    least     smallest eigenvalue of all patches together, relative to the half-space's compliance
+    Attributes
+    ----------
+    bodies : list
+        The Bodies (model.py), one for each patch.
+    coupling : ndarray or None
+        Displacements of body 1 against body 2 as a whole, and factors on the load cases far1, far2, ..., of one patch
+        after the other, by the loads that belong to them, (n, n); None: of one patch.
+    missed : float
+        Singular value of the compliance between patches that the load cases leave out, relative to the half-space.
+    least : float
+        Smallest eigenvalue of all patches together, relative to the half-space's compliance.
     """
 
     bodies: list
@@ -41,8 +48,8 @@ class Compliance(Tabled):
         return {**found, **dict(zip(("body1_young", "body1_poisson"), body.other or ()))}
 
     @property
-    def modes(self):
-        """The Modes without contact (modes.py): omega in rad/s, shapes, sensors; None without."""
+    def modes(self) -> Modes | None:
+        """The modes without contact (modes.py): omega in rad/s, shapes, sensors; None without."""
         return self.bodies[0].modes
 
     @property
@@ -58,21 +65,36 @@ class Compliance(Tabled):
     def write(self, path: str | os.PathLike) -> None:
         """Writes the HDF5 file for petsam's -body2_compliance; replaces one that petsam-compliance has written.
 
+        Parameters
+        ----------
+        path : str or path
+            Name of the file.
+
         Raises
         ------
         Error
-            The name is that of another file, or it cannot be written.
+            If the name is that of another file, or it cannot be written.
         """
         path = os.fspath(path)
         need_own(path, writing.SIGN, "petsam-compliance")
         writing.write(self, path)
 
-    def table(self, of: str = "patches") -> list:
-        """The Columns of a table (core/tables.py).
+    def table(self, of: str = "patches") -> list[Column]:
+        """A table of what was found.
 
         Parameters
         ----------
-        of : what a row is: "patches", "cases", "bolts" or "modes"
+        of : str
+            What a row is: "patches", "cases", "bolts" or "modes".
+
+        Returns
+        -------
+        list of tables.Column
+
+        Raises
+        ------
+        Error
+            If there is no such table.
         """
         made = {"patches": _patches, "cases": _cases, "bolts": _bolts, "modes": _modes}
         if of not in made:

@@ -38,24 +38,52 @@ class Bolt(NamedTuple):
 
 @dataclass(frozen=True)
 class Settings:
-    """What is to be computed. Sets and surfaces are names of the mesh, or boxes (place()); lengths in m.
+    """What is to be computed. Sets and surfaces are names of the mesh, or boxes (place()).
 
-    contact    surface on which the patches lie
-    patch      full widths (2) in x and y
-    centers    centre (x, y) of each patch in the frame
-    supports   node sets that are held in x, y, z;  symmetry: node sets in planes of symmetry
-    free       True: nothing holds the bodies of a pair
-    units      "m" (m, N, Pa) or "mm" (mm, N, MPa): the mesh's
-    frame      origin, x and z (or the first ones of them) of the contact, in the mesh's coordinates and units
-    pair       surface of body 1 that faces the contact;  bolts: the Bolts
-    modes      number of modes without contact;  sensors: (name, node or set of one node) of each
-    cases      (name, step of the deck) of each load case
-    degree     of the polynomials: their sum in x and y, or the largest in x and in y
-    method     auto, image or cutoff;  stiffness: own, calculix or None (own, for elements that petsam assembles)
-    depth      of the stress points (twice the smaller half width);  stress: whether there are any
-    coarse     a coarser mesh, to estimate the error of the mesh
-    materials  (young, poisson, density) of a mesh that has none (foreign.py)
-    ccx        the program CalculiX
+    Attributes
+    ----------
+    contact : str
+        Surface on which the patches lie.
+    patch : tuple
+        Full widths in x and y, m.
+    centers : tuple
+        Centre (x, y) of each patch in the frame, m.
+    supports : tuple
+        Node sets that are held in x, y, z.
+    symmetry : tuple
+        Node sets in planes of symmetry.
+    free : bool
+        Whether nothing holds the bodies of a pair.
+    units : str
+        Those of the mesh: "m" (m, N, Pa) or "mm" (mm, N, MPa).
+    frame : tuple
+        Origin, x and z (or the first ones of them) of the contact, in the mesh's coordinates and units.
+    pair : str or None
+        Surface of body 1 that faces the contact.
+    bolts : tuple of Bolt
+        Bolts of a pair.
+    modes : int
+        Number of modes without contact.
+    sensors : tuple
+        (name, node or set of one node) of each sensor.
+    cases : tuple
+        (name, step of the deck) of each load case.
+    degree : int or tuple
+        Of the polynomials: their sum in x and y, or the largest in x and in y.
+    method : str
+        "auto", "image" or "cutoff".
+    stiffness : str or None
+        "own", "calculix" or None (own, for elements that petsam assembles).
+    depth : float or None
+        Depth of the stress points, m; None: twice the smaller half width.
+    stress : bool
+        Whether there are any stress points.
+    coarse : path or meshio.Mesh, optional
+        A coarser mesh, to estimate the error of the mesh.
+    materials : tuple or None
+        (young, poisson, density) of a mesh that has none (foreign.py).
+    ccx : str
+        The program CalculiX.
     """
 
     contact: str
