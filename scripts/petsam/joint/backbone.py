@@ -16,8 +16,10 @@ from dataclasses import dataclass
 from typing import Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.errors import Unusable
+from ..core.tables import Column
 from .arguments import integer, positive
 from .arguments import modal as as_modal
 from .balance import Balance
@@ -50,17 +52,31 @@ COLUMNS = {
 class Backbone(Numbers):
     """Numbers over amplitude, each an array: alpha, amplitude, frequency, damping ... (COLUMNS).
 
-    linear    frequency (Hz) of the mode while all that touches sticks
-    stuck     those of all modes
-    unit      of the amplitude: m at a sensor, m kg^0.5 of the modal one
-    shape     the mode in modal coordinates
-    patches   dissipated energy of a cycle in each patch, (amplitudes, patches), J
-    names     names of the patches
-    pressure  field of each patch in the preload, Pa
-    states    field of each patch at the largest amplitude, before the reversal: 0 open, 1 stick, 2 slip
-    axes      x and y (m) of each patch's cells, in the structure's frame
-    modes_change  relative change of `linear` without the inertia of the highest quarter of the structure's modes; NaN
-                  where there are fewer than four
+    Attributes
+    ----------
+    linear : float
+        Frequency (Hz) of the mode while all that touches sticks.
+    shape : ndarray
+        The mode in modal coordinates, (modes,).
+    numbers : dict
+        {name: (amplitudes,)}, in the units of COLUMNS.
+    patches : ndarray
+        Dissipated energy of a cycle in each patch, (amplitudes, patches), J.
+    names : list of str
+        Names of the patches.
+    modes_change : float
+        Relative change of `linear` without the inertia of the highest quarter of the structure's modes; NaN where there
+        are fewer than four.
+    stuck : ndarray
+        Frequencies of all modes while all that touches sticks, (modes,), Hz.
+    unit : str
+        Of the amplitude: m at a sensor, m kg^0.5 of the modal one.
+    pressure : list of ndarray
+        Field of each patch in the preload, (ny, nx), Pa.
+    states : list of ndarray
+        Field of each patch at the largest amplitude, before the reversal, (ny, nx): 0 open, 1 stick, 2 slip.
+    axes : list of tuple
+        x and y (m) of each patch's cells, in the structure's frame.
     """
 
     columns = COLUMNS
@@ -77,8 +93,14 @@ class Backbone(Numbers):
     states: list
     axes: list
 
-    def lines(self):
-        """Lines of a printed table."""
+    def lines(self) -> list[str]:
+        """The printed table.
+
+        Returns
+        -------
+        list of str
+            Frequencies of the modes, heads, and a line for each amplitude.
+        """
         stuck = ", ".join(f"{one:.6g}" for one in self.stuck[:LISTED])
         lines = [f"modes while all that touches sticks, Hz: {stuck}", f"mode of {self.linear:.6g} Hz"]
         if np.isfinite(self.modes_change):
@@ -97,8 +119,14 @@ class Backbone(Numbers):
             )
         return lines
 
-    def more_columns(self):
-        """The energy of each patch."""
+    def more_columns(self) -> list[Column]:
+        """The energy of each patch.
+
+        Returns
+        -------
+        list of tables.Column
+            A column for each patch, J.
+        """
         return energies(self.patches, self.names)
 
 
@@ -119,8 +147,8 @@ def _moved(sensor, shape):
 
 
 def backbone(
-    structure: Structure, amplitudes, mode: int = 1, sensor=None, steps: int = STEPS, harmonics: int = 0,
-    report: Optional[Callable[[int, int], object]] = None,
+    structure: Structure, amplitudes: ArrayLike, mode: int = 1, sensor: Optional[ArrayLike] = None,
+    steps: int = STEPS, harmonics: int = 0, report: Optional[Callable[[int, int], object]] = None,
 ) -> Backbone:  # fmt: skip
     """The Backbone of a structure in its preload.
 
@@ -185,7 +213,9 @@ def backbone(
     return found
 
 
-def shake(structure: Structure, amplitude: float, mode: int = 1, sensor=None, steps: int = STEPS) -> None:
+def shake(
+    structure: Structure, amplitude: float, mode: int = 1, sensor: Optional[ArrayLike] = None, steps: int = STEPS
+) -> None:
     """Vibrates a structure at an amplitude, as of backbone(), until its cycles settle, and lets it come to rest in four
     cycles; its state is then that after the vibration.
 

@@ -19,8 +19,10 @@ from dataclasses import dataclass
 from typing import Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.errors import Unusable
+from ..core.tables import Column
 from .arguments import integer, modal, positive
 from .numbers import Numbers, energies, solved
 from .structure import BEYOND, NoSolution, Structure
@@ -244,9 +246,16 @@ RESPONSE = {
 class Response(Numbers):
     """Numbers over frequency, each an array: frequency, amplitude, phase, ... (RESPONSE).
 
-    motion   harmonics of the modal coordinates without contact, (frequencies, harmonics, modes), m kg^0.5
-    patches  dissipated energy of a cycle in each patch, (frequencies, patches), J
-    names    names of the patches
+    Attributes
+    ----------
+    numbers : dict
+        {name: (frequencies,)}, in the units of RESPONSE.
+    motion : ndarray
+        Harmonics of the modal coordinates without contact, (frequencies, harmonics, modes), complex, m kg^0.5.
+    patches : ndarray
+        Dissipated energy of a cycle in each patch, (frequencies, patches), J.
+    names : list of str
+        Names of the patches.
     """
 
     columns = RESPONSE
@@ -256,8 +265,14 @@ class Response(Numbers):
     patches: np.ndarray
     names: list
 
-    def lines(self):
-        """Lines of a printed table."""
+    def lines(self) -> list[str]:
+        """The printed table.
+
+        Returns
+        -------
+        list of str
+            A line of heads, and one for each frequency.
+        """
         lines = [f"{'f/Hz':>11} {'amplitude/m':>12} {'phase/deg':>9} {'higher/m':>10} {'W/J':>10} {'slip':>6} cycles"]
         for k in range(len(self.frequency)):
             lines.append(
@@ -266,14 +281,20 @@ class Response(Numbers):
             )
         return lines
 
-    def more_columns(self):
-        """The energy of each patch."""
+    def more_columns(self) -> list[Column]:
+        """The energy of each patch.
+
+        Returns
+        -------
+        list of tables.Column
+            A column for each patch, J.
+        """
         return energies(self.patches, self.names)
 
 
 def forced(
-    structure: Structure, force, frequencies, sensor, steps: int = 2 * STEPS, harmonics: int = 3,
-    report: Optional[Callable[[int, int], object]] = None,
+    structure: Structure, force: ArrayLike, frequencies: ArrayLike, sensor: ArrayLike, steps: int = 2 * STEPS,
+    harmonics: int = 3, report: Optional[Callable[[int, int], object]] = None,
 ) -> Response:  # fmt: skip
     """The Response of a structure in its preload to a harmonic force, frequency after frequency.
 

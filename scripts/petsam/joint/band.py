@@ -8,15 +8,17 @@ the change that it makes, by the difference of two backbones.
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Optional
+from typing import Any, Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.errors import Unusable, short
 from ..core.tables import Column, Tabled
 from .arguments import positive, real
 from .backbone import COLUMNS, Backbone, backbone, shake
 from .numbers import columns_of, reason
+from .pair import Pair
 from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
 
@@ -35,8 +37,12 @@ NUMBERS = ("frequency", "damping")
 class Band(Tabled):
     """Backbones of a joint.
 
-    backbones  {assembly: Backbone}, the first one as given
-    scatter    {parameter: (low, high)}, backbones with the parameter a standard deviation lower and higher
+    Attributes
+    ----------
+    backbones : dict
+        {assembly: Backbone}, the first one as given.
+    scatter : dict
+        {parameter: (low, high)}, backbones with the parameter a standard deviation lower and higher.
     """
 
     form = staticmethod("{:.10g}".format)
@@ -50,33 +56,63 @@ class Band(Tabled):
         return self.backbones[ASSEMBLED]
 
     @property
-    def sides(self):
+    def sides(self) -> dict[str, Backbone]:
         """{parameter and side: Backbone} of the scatter."""
         return {f"{name} {side}": one for name, two in self.scatter.items() for side, one in zip(SIDES, two)}
 
     @property
-    def every(self):
+    def every(self) -> dict[str, Backbone]:
         """{assembly, or parameter and side: Backbone} of all."""
         return self.backbones | self.sides
 
     @property
-    def count(self):
+    def count(self) -> int:
         """Number of amplitudes that all backbones have."""
         return min(len(one.alpha) for one in self.every.values())
 
-    def limits(self, name):
-        """Lowest and highest frequency or damping of all assemblies, an array each."""
+    def limits(self, name: str) -> tuple[np.ndarray, np.ndarray]:
+        """The limits of a number among all assemblies.
+
+        Parameters
+        ----------
+        name : str
+            "frequency" or "damping", or another number of a Backbone.
+
+        Returns
+        -------
+        tuple of two ndarrays
+            Lowest and highest values, (count,), in the unit of the number.
+        """
         rows = np.array([one.numbers[name][: self.count] for one in self.backbones.values()])
         return rows.min(axis=0), rows.max(axis=0)
 
-    def deviation(self, name, parameter=None):
-        """Standard deviation of frequency or damping by one parameter, or by all, to first order."""
+    def deviation(self, name: str, parameter: Optional[str] = None) -> np.ndarray:
+        """The standard deviation of a number, to first order.
+
+        Parameters
+        ----------
+        name : str
+            "frequency" or "damping", or another number of a Backbone.
+        parameter : str, optional
+            Parameter of the scatter that causes it; None: all of them.
+
+        Returns
+        -------
+        ndarray
+            Standard deviation, (count,), in the unit of the number; 0 without scatter.
+        """
         names = list(self.scatter) if parameter is None else [parameter]
         parts = [0.5 * np.subtract(*(one.numbers[name][: self.count] for one in self.scatter[of])) for of in names]
         return np.sqrt(np.sum(np.square(parts), axis=0)) if parts else np.zeros(self.count)
 
-    def lines(self):
-        """Lines of a printed table."""
+    def lines(self) -> list[str]:
+        """The printed table.
+
+        Returns
+        -------
+        list of str
+            The assemblies, heads, and a line for each amplitude.
+        """
         lines = [f"{name}: {TEXTS[name]}" for name in self.backbones]
         lines += ["", f"{'amplitude/m':>12} {'f/Hz':>13} {'lowest':>13} {'highest':>13} {'zeta':>10} {'lowest':>10} "
                  f"{'highest':>10}" + (f" {'f +-':>9} {'zeta +-':>9}" if self.scatter else "")]  # fmt: skip
@@ -90,8 +126,13 @@ class Band(Tabled):
             )
         return lines
 
-    def table(self) -> list:
-        """The numbers of all backbones, a row for each assembly and amplitude, as tables.Column."""
+    def table(self) -> list[Column]:
+        """The numbers of all backbones, a row for each assembly and amplitude.
+
+        Returns
+        -------
+        list of tables.Column
+        """
         every = self.every.values()
         names = [name for name, one in self.every.items() for _ in one.alpha]
         numbers = {name: np.concatenate([one.numbers[name] for one in every]) for name in COLUMNS}
@@ -99,8 +140,8 @@ class Band(Tabled):
 
 
 def band(
-    make: Callable, preload: dict, amplitudes, sensor: Callable, scatter: Optional[dict] = None,
-    report: Optional[Callable[[str], object]] = None, **given,
+    make: Callable[..., Pair], preload: dict, amplitudes: ArrayLike, sensor: Callable[[Pair], ArrayLike],
+    scatter: Optional[dict] = None, report: Optional[Callable[[str], object]] = None, **given: Any,
 ) -> Band:  # fmt: skip
     """The Band of a joint.
 

@@ -11,9 +11,10 @@ import json
 import os
 import warnings
 from collections.abc import Callable
-from typing import NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..contact import AdviceWarning, Contact
 from ..core.errors import Unusable
@@ -57,16 +58,35 @@ class _Loop(NamedTuple):
 class Interface(Tabled):
     """Numbers of an interface at nominal pressures, each an array: pressure, k_n, k_t_x, area ... (COLUMNS).
 
-    spread      standard deviation of the same among the windows, by name; empty for one window
-    friction    coefficient of friction
-    shear       amplitude of the mean shear in the loop over friction times pressure
-    bodies      options of the bodies, as given
-    parts       shears of the first loading over friction times pressure, rising
-    loading     displacements (m) at them, (pressures, parts), to which the Iwan element is fitted; of windows the mean,
-                weighted by their k_t_x
+    Parameters
+    ----------
+    numbers : dict
+        {name: (pressures,)} of the computed numbers, in the units of COLUMNS; those of the Iwan element are added.
+    spread : dict
+        {name: (pressures,)}: standard deviation of the same among the windows; empty for one window.
+    friction : float
+        Coefficient of friction.
+    shear : float
+        Amplitude of the mean shear in the loop over friction times pressure.
+    bodies : dict
+        Options of the bodies, as given.
+    parts : ndarray
+        Shears of the first loading over friction times pressure, rising, (parts,).
+    loading : ndarray
+        Displacements at them, (pressures, parts), m, to which the Iwan element is fitted; of windows the mean,
+        weighted by their k_t_x.
     """
 
-    def __init__(self, numbers, spread, friction, shear, bodies, parts, loading):
+    def __init__(
+        self,
+        numbers: dict[str, np.ndarray],
+        spread: dict[str, np.ndarray],
+        friction: float,
+        shear: float,
+        bodies: dict[str, Any],
+        parts: np.ndarray,
+        loading: np.ndarray,
+    ) -> None:
         self.spread, self.friction, self.shear, self.bodies = spread, friction, shear, bodies
         self.parts, self.loading = parts, loading
         unit = numbers["k_t_x"] / (friction * numbers["pressure"])
@@ -86,10 +106,14 @@ class Interface(Tabled):
         p = self.numbers["pressure"]
         return f"Interface({len(p)} pressures from {p[0]:.4g} to {p[-1]:.4g} Pa: {', '.join(self.numbers)})"
 
-    def table(self) -> list:
-        """The columns, as tables.Column, with a row for each pressure; NAME_spread are standard deviations of windows.
+    def table(self) -> list[Column]:
+        """The columns, with a row for each pressure; NAME_spread are standard deviations of windows.
 
         The last columns are the coefficient of friction and the shear of the loop over friction times pressure.
+
+        Returns
+        -------
+        list of tables.Column
         """
         found = columns_of(COLUMNS, self.numbers)
         for name, values in self.spread.items():
@@ -99,11 +123,19 @@ class Interface(Tabled):
             found.append(Column(name, "1", text, np.full_like(self.numbers["pressure"], getattr(self, name))))
         return found
 
-    def elements(self, area=1.0):
-        """Elements for programs of harmonic balance, of this area (m2), one for each pressure; see elements.of_codes().
+    def elements(self, area: float = 1.0) -> list[dict[str, Any]]:
+        """Elements for programs of harmonic balance, one for each pressure; see elements.of_codes().
 
-        A list of dictionaries with the pressure, the elements by program and class, and the Iwan element's error. The
-        tangential stiffness is that along x, as the loop's.
+        Parameters
+        ----------
+        area : float
+            Area of an element, m2.
+
+        Returns
+        -------
+        list of dict
+            Of each pressure: the pressure (Pa), the elements by program and class, and the Iwan element's errors. The
+            tangential stiffness is that along x, as the loop's.
         """
         rows = zip(*(self.numbers[name] for name in ("pressure", "k_n", "k_t_x", *FITTED)))
         return [
@@ -116,19 +148,44 @@ class Interface(Tabled):
             for p, k_n, k_t, chi, beta, error, shear_error in rows
         ]
 
-    def to_json(self, path, area=1.0):
-        """Writes elements() as JSON, in SI units, and what they are of; NaN as null."""
+    def to_json(self, path: Union[str, os.PathLike], area: float = 1.0) -> None:
+        """Writes elements() as JSON, in SI units, and what they are of; NaN as null.
+
+        Parameters
+        ----------
+        path : str or path
+            Name of the file, which is replaced.
+        area : float
+            Area of an element, m2.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
+        """
         about = {"units": "SI: N, m, Pa, N/m; displacements of body 2 against body 1", "area": area}
         about.update(friction=self.friction, shear=self.shear, bodies=self.bodies)
         text = json.dumps({**about, "elements": self.elements(area)}, indent=1, default=str).replace("NaN", "null")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text + "\n")
 
-    def to_abaqus(self, path, name="INTERFACE"):
+    def to_abaqus(self, path: Union[str, os.PathLike], name: str = "INTERFACE") -> None:
         """Writes the interaction for a deck of Abaqus in N, mm: pressure over overclosure, friction.
 
         The allowable elastic slip of the penalty method is friction times pressure over the tangential stiffness. The
         deck has one for all pressures, the median, and in a comment the range.
+
+        Parameters
+        ----------
+        path : str or path
+            Name of the file, which is replaced.
+        name : str
+            Name of the interaction in the deck.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
         """
         slips = self.friction * self.numbers["pressure"] * 2 / (self.numbers["k_t_x"] + self.numbers["k_t_y"])
         slip = np.median(slips)
@@ -148,8 +205,14 @@ class Interface(Tabled):
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(lines) + "\n")
 
-    def lines(self):
-        """The table that petsam-joint prints, as lines: in MPa, N/mm3, %, mJ/m2, with the windows' deviations in %."""
+    def lines(self) -> list[str]:
+        """The table that petsam-joint prints: in MPa, N/mm3, %, mJ/m2, with the windows' deviations in %.
+
+        Returns
+        -------
+        list of str
+            A line of heads, and one for each pressure.
+        """
         with np.errstate(invalid="ignore"):  # no energy, if nothing slips
             part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}
         none = np.full_like(self.numbers["pressure"], np.nan)
@@ -187,23 +250,55 @@ def _gathered():
         warnings.warn(text, AdviceWarning, stacklevel=4)
 
 
-def mirrored(separation):
-    """The separation and its mirror images beside it: repeated, it has no steps at its borders; (2 ny, 2 nx)."""
+def mirrored(separation: np.ndarray) -> np.ndarray:
+    """The separation and its mirror images beside it: repeated, it has no steps at its borders.
+
+    Parameters
+    ----------
+    separation : ndarray
+        Separation, (ny, nx), m.
+
+    Returns
+    -------
+    ndarray
+        Separation, (2 ny, 2 nx), m.
+    """
     return np.pad(separation, [(0, size) for size in separation.shape], mode="symmetric")
 
 
-def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8, **bodies):
-    """Interface of a separation that repeats itself: an array (ny, nx), m, larger where the surfaces are farther apart.
+def of_interface(
+    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: float, shear: float = 0.5,
+    steps: int = 8, **bodies: Any,
+) -> Interface:  # fmt: skip
+    """The Interface of a separation that repeats itself. Warnings of its solutions are gathered in one.
 
-    spacing     distance of its points along x and y, m, or one for both
-    pressures   nominal pressures, Pa, rising
-    friction    coefficient of friction
-    shear       amplitude of the mean shear of the loop over friction times pressure, below 1
-    steps       load steps of a quarter of the loop
-    bodies      options of the two bodies: body1_young, body1_poisson, body2_young ... and of the solution
+    Parameters
+    ----------
+    separation : array_like
+        Separation, (ny, nx), m, larger where the surfaces are farther apart.
+    spacing : float or pair of floats
+        Distance of its points along x and y, m, or one for both.
+    pressures : array_like
+        Nominal pressures, (pressures,), Pa, rising.
+    friction : float
+        Coefficient of friction.
+    shear : float
+        Amplitude of the mean shear of the loop over friction times pressure, above 0 and below 1.
+    steps : int
+        Load steps of a quarter of the loop.
+    **bodies
+        Options of the two bodies, body1_young (Pa), body1_poisson, body2_young, ..., and of the solution.
 
-    Raises Error for wrong values, and for a pressure that closes the interface; and the errors of Contact. Warnings of
-    its solutions are gathered in one.
+    Returns
+    -------
+    Interface
+
+    Raises
+    ------
+    Error
+        For wrong values, and for a pressure that closes the interface.
+    ContactError
+        Where petsam finds no solution.
     """
     with _gathered() as begins:
         return _of_interface(separation, spacing, pressures, _Loop(friction, shear, steps), bodies, begins)
@@ -293,11 +388,36 @@ def _loop(contact, normal, part, steps):
     return sum(energies[-2:]), abs(ends[-1] - ends[-2]) / 2
 
 
-def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, report=None, **bodies):
-    """Interface of a measured separation: means and standard deviations of five windows of it, half as wide as it is.
+def of_windows(
+    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: float, shear: float = 0.5,
+    steps: int = 8, report: Optional[Callable[[int, int], object]] = None, **bodies: Any,
+) -> Interface:  # fmt: skip
+    """The Interface of a measured separation: means and standard deviations of five windows of it, half as wide.
 
-    Four windows have the corners, one the middle. Each is mirrored, so that it repeats itself. report(k, count) is
-    called when k of the windows are done. Other arguments are those of of_interface().
+    Four windows have the corners, one the middle. Each is mirrored, so that it repeats itself.
+
+    Parameters
+    ----------
+    separation : array_like
+        Separation, (ny, nx), m, of 4 x 4 points or more.
+    spacing, pressures, friction, shear, steps
+        As of of_interface().
+    report : callable, optional
+        Called with the number of the windows that are done, and of all.
+    **bodies
+        Options of the bodies and of the solution, as of of_interface().
+
+    Returns
+    -------
+    Interface
+        The means; `spread` has the standard deviations.
+
+    Raises
+    ------
+    Error
+        For wrong values, and for a pressure that closes the interface.
+    ContactError
+        Where petsam finds no solution.
     """
     separation = array("separation", separation)
     if separation.ndim != 2 or min(separation.shape) < 4:
@@ -322,17 +442,18 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
 
 
 def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
-    surface, pressures, *, friction: float, spacing=None, periodic: bool = False, shear: float = 0.5,
-    steps: Optional[int] = None, report: Optional[Callable[[int, int], object]] = None, **bodies,
+    surface: Any, pressures: ArrayLike, *, friction: float, spacing: Optional[ArrayLike] = None,
+    periodic: bool = False, shear: float = 0.5, steps: Optional[int] = None,
+    report: Optional[Callable[[int, int], object]] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a surface: a scan in a file, a map of petsam.surface, or an array.
 
     Parameters
     ----------
-    surface : path, petsam.surface.Map, or array of shape (ny, nx)
-        Heights or a separation in a file of petsam-surface or in a map; an array is the separation, m.
-    pressures : array of shape (k,)
-        Nominal pressures, Pa, rising.
+    surface : path, petsam.surface.Map, or array_like
+        Heights or a separation in a file of petsam-surface or in a map; an array (ny, nx) is the separation, m.
+    pressures : array_like
+        Nominal pressures, (pressures,), Pa, rising.
     friction : float
         Coefficient of friction.
     spacing : float or pair of floats, optional

@@ -10,7 +10,10 @@ from .sweep import BackboneWarning
 class Numbers(Tabled):
     """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"].
 
-    columns  {name: (unit, text)} of the kind of result
+    Attributes
+    ----------
+    columns : dict
+        {name: (unit, text)} of the kind of result.
     """
 
     columns = {}
@@ -21,12 +24,23 @@ class Numbers(Tabled):
             return self.numbers[name]
         raise AttributeError(name)
 
-    def more_columns(self) -> list:
-        """Columns beside the numbers."""
+    def more_columns(self) -> list[Column]:
+        """Columns beside the numbers.
+
+        Returns
+        -------
+        list of tables.Column
+            Empty, unless a kind of result has some.
+        """
         return []
 
-    def table(self) -> list:
-        """All numbers, and what stands beside them, as tables.Column."""
+    def table(self) -> list[Column]:
+        """All numbers, and what stands beside them.
+
+        Returns
+        -------
+        list of tables.Column
+        """
         return [*columns_of(self.columns, self.numbers), *self.more_columns()]
 
 

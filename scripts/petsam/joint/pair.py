@@ -1,7 +1,9 @@
 """The structure of a pair of bodies, from a file of petsam-compliance --pair."""
 
+import os
 import re
 from collections.abc import Mapping
+from typing import Any, Optional, Union
 
 import numpy as np
 
@@ -21,27 +23,57 @@ PRESSING = ("disp_z", "rot_x", "rot_y")  # displacements whose loads press the b
 class Pair:
     """Modes, bolts and sensors of a file, and the structure with its contacts, one for each patch of the file.
 
-    path          the file
-    preload       {bolt: initial tension in N}; the bolts are tightened in this order
-    press         load steps in which each bolt is tightened; several bolts are snug first, with a tenth of the tension
-    frictionless  True: without friction while they are tightened, as if a vibration settled the surfaces
-    friction_scale  factor on the friction of the options
-    lower         by how much the degree of the file's polynomials is lowered
-    damping       damping of the material as a part of critical
-    options       of each contact: grid_n=..., friction=..., options_file=...
+    Parameters
+    ----------
+    path : str or path
+        File of petsam-compliance --pair with --modes.
+    preload : mapping
+        {bolt: initial tension in N}; the bolts are tightened in this order.
+    press : int
+        Load steps in which each bolt is tightened; several bolts are snug first, with a tenth of the tension.
+    frictionless : bool
+        Whether they are tightened without friction, as if a vibration settled the surfaces.
+    lower : int
+        By how much the degree of the file's polynomials is lowered.
+    damping : float
+        Damping of the material as a part of critical.
+    friction_scale : float
+        Factor on the friction of the options.
+    **options
+        Options of each contact: grid_n=..., friction=..., options_file=...
 
-    Attributes:
+    Attributes
+    ----------
+    structure : Structure
+        Its bolts are tightened.
+    omega : ndarray
+        Angular frequencies of the modes without contact, (modes,), rad/s.
+    sensors : dict
+        {name: (modes, 3)}: displacement (m) of a sensor by each modal coordinate.
+    tensions : dict
+        {name: N}: tension left in each bolt after all are tightened.
+    functions : int
+        Number of polynomials of a patch.
 
-    structure   the Structure, its bolts tightened
-    omega       angular frequencies (rad/s) of the modes without contact
-    sensors     {name: (modes, 3)}: displacement (m) of a sensor by each modal coordinate
-    tensions    {name: N}: tension left in each bolt after all are tightened
-    functions   number of polynomials of a patch
+    Raises
+    ------
+    Error
+        For wrong values, a file that is no such pair, and where the structure finds no equilibrium.
+    ContactError
+        Where a contact rejects its options or has no solution.
     """
 
     def __init__(
-        self, path, preload, press=PRESS, frictionless=False, lower=0, damping=0.0, friction_scale=1.0, **options
-    ):
+        self,
+        path: Union[str, os.PathLike],
+        preload: Mapping[str, float],
+        press: int = PRESS,
+        frictionless: bool = False,
+        lower: int = 0,
+        damping: float = 0.0,
+        friction_scale: float = 1.0,
+        **options: Any,
+    ) -> None:
         press, lower = integer("press", press), integer("lower", lower, 0)
         friction_scale = real("friction_scale", friction_scale, "a factor from 0 on", lambda one: 0.0 <= one < np.inf)
         need_regular(path)
@@ -151,8 +183,19 @@ class Pair:
         self.structure.z, self.structure.loads = pressed.z, pressed.loads
         self.structure.step(np.zeros(self.omega.size))
 
-    def left(self, structure=None):
-        """{bolt: tension in N} that is left in the last step of the structure, or of a copy of it."""
+    def left(self, structure: Optional[Structure] = None) -> dict[str, float]:
+        """The tension that is left in each bolt.
+
+        Parameters
+        ----------
+        structure : Structure, optional
+            A copy of the pair's structure; None: that itself.
+
+        Returns
+        -------
+        dict
+            {bolt: tension in N} in its last step.
+        """
         patches = (structure or self.structure).patches
         given = np.array([patches[0].held.get(f"body2_case_bolt_{name}", 0.0) for name in self.bolts])
         loads = [sum(patch.number(f"body2_case_bolt_{name}_load") for patch in patches) for name in self.bolts]

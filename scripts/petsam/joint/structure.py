@@ -17,10 +17,21 @@ contacts at a reversal, and takes the contacts' own stiffness where it is slow.
 
 import contextlib
 import warnings
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..contact import AdviceWarning, ContactError, EdgeContactWarning, NoEquilibrium, NotConverged, PrescribedError
+from ..contact import (
+    AdviceWarning,
+    Contact,
+    ContactError,
+    EdgeContactWarning,
+    NoEquilibrium,
+    NotConverged,
+    PrescribedError,
+)
 from ..core.errors import Unusable, short
 from .arguments import array, real
 
@@ -48,20 +59,44 @@ class Apart(NoSolution):
 BEYOND = (NoEquilibrium, NotConverged, PrescribedError, Apart)  # of a guess that contacts do not bear
 ENDS = (NoSolution, *BEYOND)  # of a step
 
+Held = Mapping[str, float]  # what a patch prescribes besides its coordinates
+Scale = tuple[np.ndarray, np.ndarray, np.ndarray]  # changes of z, loads and a
+
 
 class Patch:
     """A contact of the structure.
 
-    contact      a Contact; its committed state is the one from which the structure's steps begin
-    coordinates  names of what the structure prescribes: "disp_x", "body2_case_mode1", ...
-    held         {name: value} of what every step prescribes besides: load_n=1000.0, or displacements of 0
-    by_load      names of those coordinates, displacements of body 1, whose load a step prescribes instead: where the
-                 structure is softer than the contact, this converges better
-    name         of the patch in tables
-    center       x and y (m) of the contact's origin in the structure's frame
+    Parameters
+    ----------
+    contact : Contact
+        Its committed state is the one from which the structure's steps begin.
+    coordinates : list of str
+        Names of what the structure prescribes: "disp_x", "body2_case_mode1", ...
+    held : mapping, optional
+        {name: value} of what every step prescribes besides: load_n=1000.0, or displacements of 0.
+    by_load : collection of str
+        Those coordinates, displacements of body 1, whose load a step prescribes instead: where the structure is softer
+        than the contact, this converges better.
+    name : str
+        Name of the patch in tables.
+    center : pair of floats
+        x and y (m) of the contact's origin in the structure's frame.
+
+    Raises
+    ------
+    Error
+        If coordinates is one name and not a list, or a name of by_load is none of them.
     """
 
-    def __init__(self, contact, coordinates, held=None, by_load=(), name="", center=(0.0, 0.0)):
+    def __init__(
+        self,
+        contact: Contact,
+        coordinates: Sequence[str],
+        held: Optional[Held] = None,
+        by_load: Collection[str] = (),
+        name: str = "",
+        center: ArrayLike = (0.0, 0.0),
+    ) -> None:
         if isinstance(coordinates, str):
             raise Unusable(f"coordinates {short(repr(coordinates))}: expected a list of names")
         for one in by_load:
@@ -78,9 +113,28 @@ class Patch:
         self._rows = [order.index(name) for name in self.coordinates]
         self._loads = [DISPLACEMENTS.get(name, f"{name}_load") for name in self.coordinates]
 
-    def step(self, values, held=None):
-        """Tries a step with these coordinates, or loads on the structure where it is by_load; returns coordinates and
-        loads."""
+    def step(self, values: np.ndarray, held: Optional[Held] = None) -> tuple[np.ndarray, np.ndarray]:
+        """Tries a step of the contact from its committed state.
+
+        Parameters
+        ----------
+        values : ndarray
+            Of each coordinate its value, m, rad or 1, or where it is by_load the load on the structure, N, N m or J.
+        held : mapping, optional
+            {name: value} of what this step prescribes besides.
+
+        Returns
+        -------
+        tuple of two ndarrays
+            Coordinates, and loads on the structure, (n,) each.
+
+        Raises
+        ------
+        NoSolution
+            If the structure pulls the bodies apart.
+        ContactError
+            If the contact has no solution.
+        """
         given = {**self.held, **(held or {})}
         for k, value in enumerate(values):
             given[self._loads[k] if self.by_load[k] else self.coordinates[k]] = value * (
@@ -106,48 +160,111 @@ class Patch:
         return z, loads
 
     @property
-    def limited(self):
+    def limited(self) -> bool:
         """True if steps prescribe loads that friction limits."""
         return bool(np.any(self.by_load & np.isin(self.coordinates, SLIDING)))
 
-    def need_closed(self):
-        """Raises Apart if the bodies do not touch where steps prescribe the normal load."""
+    def need_closed(self) -> None:
+        """Checks that the bodies touch where steps prescribe the normal load.
+
+        Raises
+        ------
+        NoSolution
+            If they do not.
+        """
         if self.number("load_n") == 0.0 and "disp_z" in np.array(self.coordinates)[self.by_load]:
             raise Apart(
                 f"{self.name or 'a contact'}: the bodies do not touch, load_n = 0 N, limit above 0: use a higher "
                 "preload, a smaller amplitude, or a finer grid where the gap is less than the height of a cell's centre"
             )
 
-    def need_inside(self):
-        """Raises NoSolution if the contact of the last step reaches the border of its grid or patch."""
+    def need_inside(self) -> None:
+        """Checks the border of the contact's grid or patch.
+
+        Raises
+        ------
+        NoSolution
+            If the contact of the last step reaches it.
+        """
         if self.outgrown:
             raise NoSolution(
                 f"{self.name or 'a contact'}: reaches the border of its grid or patch: use smaller amplitudes, a "
                 "higher preload, or a larger grid and patch"
             )
 
-    def state(self):
-        """Coordinates and loads on the structure of the contact's last step. A factor that no step has given is 0."""
+    def state(self) -> tuple[np.ndarray, np.ndarray]:
+        """The contact's last step.
+
+        Returns
+        -------
+        tuple of two ndarrays
+            Coordinates (m, rad or 1) and loads on the structure (N, N m or J), (n,) each. A factor that no step has
+            given is 0.
+        """
         z = np.zeros(len(self.coordinates))
         for k, name in enumerate(self.coordinates):
             with contextlib.suppress(ContactError if name in self.cases else ()):
                 z[k] = self.contact.number(name)
         return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
 
-    def stiffness(self, reversal):
-        """d(loads on the structure)/d(coordinates); displacements whose loads steps give follow."""
+    def stiffness(self, reversal: bool) -> np.ndarray:
+        """The derivative of the loads on the structure by the coordinates; displacements whose loads steps give follow.
+
+        Parameters
+        ----------
+        reversal : bool
+            Whether it is that of sticking contacts: see Contact.stiffness().
+
+        Returns
+        -------
+        ndarray
+            Derivative, (n, n), N/m, N/rad, N m/rad, ...
+
+        Raises
+        ------
+        ContactError
+            If the stiffness does not converge, or no step has been tried.
+        NoSolution
+            If the displacements that follow have no stiffness.
+        """
         k = np.array(self.contact.stiffness(reversal, cases=self.cases))
         given = {*self.coordinates, *self.held}
         free = [c for c, name in enumerate(DISPLACEMENTS) if name not in given and (k[c, c] > 0.0 or k[c, c] < 0.0)]
         k -= k[:, free] @ _solved(k[np.ix_(free, free)], k[free])
         return self.sign[:, None] * k[np.ix_(self._rows, self._rows)]
 
-    def number(self, name):
-        """A number of the last step."""
+    def number(self, name: str) -> float:
+        """A number of the last step.
+
+        Parameters
+        ----------
+        name : str
+            Its name in /history: "dissipated_energy", "contact_area", ...
+
+        Returns
+        -------
+        float
+            The number, in SI units.
+
+        Raises
+        ------
+        ContactError
+            If there is no such number.
+        """
         return self.contact.number(name)
 
-    def copy(self, **options):
-        """Another patch in the committed state of this one; tolerances of its contact that are smaller."""
+    def copy(self, **options: float) -> "Patch":
+        """Another patch with a copy of the contact in its committed state.
+
+        Parameters
+        ----------
+        **options
+            Tolerances of the contact, each of which counts if it is smaller than its own.
+
+        Returns
+        -------
+        Patch
+        """
         made = self.contact.options
         options = {name: min(value, float(made.get(name, value))) for name, value in options.items()}
         names = [name for name, load in zip(self.coordinates, self.by_load) if load]
@@ -157,16 +274,46 @@ class Patch:
 class Structure:
     """Patches and the structure that joins them.
 
-    patches   list of Patch; all their coordinates, one patch after the other, are the n coordinates below
-    omega     angular frequencies (rad/s) of the elastic modes without contact
-    shapes    (n, modes): the coordinates by a unit of each mode; for coordinates that are the modes themselves
-              np.eye(n)
-    coupling  (n, n): X, the static compliance between coordinates that no contact has of itself; None: none
-    rigid     (n, r): the coordinates by a unit of each mode without stiffness; None: the structure is supported
-    damping   damping of the material as a part of critical, of all modes while all that touches sticks
+    Parameters
+    ----------
+    patches : iterable of Patch
+        All their coordinates, one patch after the other, are the n coordinates below.
+    omega : array_like
+        Angular frequencies (rad/s) of the elastic modes without contact.
+    shapes : array_like, optional
+        The coordinates by a unit of each elastic mode, (n, elastic modes); for coordinates that are the modes
+        themselves np.eye(n). None: zeros.
+    coupling : array_like, optional
+        X, the static compliance between coordinates that no contact has of itself, (n, n); None: none.
+    rigid : array_like, optional
+        The coordinates by a unit of each mode without stiffness, (n, r); None: the structure is supported.
+    damping : float
+        Damping of the material as a part of critical, of all modes while all that touches sticks.
+
+    Attributes
+    ----------
+    z, loads : ndarray
+        Coordinates (m, rad or 1) and loads on the structure (N, N m or J) of the last step, (n,).
+    a : ndarray
+        Amplitudes of the modes without stiffness, (r,), m kg^0.5.
+    force : ndarray
+        Modal force of the last step, (modes,), m/s2 kg^0.5.
+
+    Raises
+    ------
+    Error
+        For matrices of other shapes, frequencies that are not above 0, and damping outside 0 to 1.
     """
 
-    def __init__(self, patches, omega=(), shapes=None, coupling=None, rigid=None, damping=0.0):
+    def __init__(
+        self,
+        patches: Iterable[Patch],
+        omega: ArrayLike = (),
+        shapes: Optional[ArrayLike] = None,
+        coupling: Optional[ArrayLike] = None,
+        rigid: Optional[ArrayLike] = None,
+        damping: float = 0.0,
+    ) -> None:
         damping = real(
             "damping", damping, "a part of critical damping, from 0 to below 1", lambda part: 0.0 <= part < 1.0
         )
@@ -195,29 +342,50 @@ class Structure:
         return found
 
     @property
-    def modes(self):
+    def modes(self) -> int:
         """Number of modes: elastic ones, then those without stiffness."""
         return self.omega.size + self.rigid.shape[1]
 
     @property
-    def by_load(self):
+    def by_load(self) -> np.ndarray:
         """(n,) mask of the coordinates whose loads steps prescribe."""
         return np.concatenate([patch.by_load for patch in self.patches])
 
     @property
-    def names(self):
+    def names(self) -> list[str]:
         """Names of the patches."""
         return [patch.name or f"patch{k}" for k, patch in enumerate(self.patches, 1)]
 
-    def copy(self, **options):
-        """The structure with copies of its contacts; tolerances of all contacts that are smaller."""
+    def copy(self, **options: float) -> "Structure":
+        """The structure with copies of its contacts in their committed states.
+
+        Parameters
+        ----------
+        **options
+            Tolerances of all contacts, each of which counts where it is smaller than a contact's own.
+
+        Returns
+        -------
+        Structure
+        """
         patches = [patch.copy(**options) for patch in self.patches]
         other = Structure(patches, self.omega, self.shapes, self.coupling, self.rigid, self.damping)
         other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
         return other
 
-    def take(self, other):
-        """Takes over the state of another one of the same patches."""
+    def take(self, other: "Structure") -> None:
+        """Takes over the state of another structure of the same patches.
+
+        Parameters
+        ----------
+        other : Structure
+            The structure, for example a copy of the preload.
+
+        Raises
+        ------
+        ContactError
+            If the state does not fit a contact.
+        """
         for mine, its in zip(self.patches, other.patches):
             mine.contact.take(its.contact)
         self.z, self.a, self.loads, self.force = other.z, other.a, other.loads, other.force
@@ -228,8 +396,24 @@ class Structure:
         ends = np.cumsum([len(patch.coordinates) for patch in self.patches])[:-1]
         return np.split(values, ends)
 
-    def tangent(self, reversal=True):
-        """d(loads)/d(coordinates) of all patches."""
+    def tangent(self, reversal: bool = True) -> np.ndarray:
+        """The derivative of the loads of all patches by their coordinates.
+
+        Parameters
+        ----------
+        reversal : bool
+            Whether it is that of sticking contacts: see Contact.stiffness().
+
+        Returns
+        -------
+        ndarray
+            Derivative, (n, n), N/m, N/rad, N m/rad, ...; 0 between patches.
+
+        Raises
+        ------
+        ContactError
+            If a stiffness does not converge.
+        """
         blocks = [patch.stiffness(reversal) for patch in self.patches]
         found, at = np.zeros((self.z.size, self.z.size)), 0
         for block in blocks:
@@ -242,9 +426,25 @@ class Structure:
         slope = self.tangent(False)
         return slope + stiff * self.tangent() if stiff else slope
 
-    def response_of(self, tangent):
-        """d(what steps find)/d(what steps prescribe): loads by coordinates, and the reverse where patches are
-        by_load."""
+    def response_of(self, tangent: np.ndarray) -> np.ndarray:
+        """The derivative of what steps find by what they prescribe: loads by coordinates, and the reverse where patches
+        are by_load.
+
+        Parameters
+        ----------
+        tangent : ndarray
+            Of tangent(), (n, n).
+
+        Returns
+        -------
+        ndarray
+            Derivative, (n, n).
+
+        Raises
+        ------
+        NoSolution
+            If a contact that is given loads does not resist them.
+        """
         load, rest = np.flatnonzero(self.by_load), np.flatnonzero(~self.by_load)
         found = np.zeros_like(tangent)
         inverse = _solved(
@@ -277,20 +477,69 @@ class Structure:
         elastic, free = np.split(np.asarray(force, dtype=float), [self.omega.size])
         return self.shapes @ (elastic / self.omega**2), free
 
-    def respond(self, tangent, force):
-        """Changes of z, of the loads and of a by a change of the modal force, where loads follow the tangent."""
+    def respond(self, tangent: np.ndarray, force: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Changes by a change of the modal force, where loads follow the tangent.
+
+        Parameters
+        ----------
+        tangent : ndarray
+            Of tangent(), (n, n).
+        force : array_like
+            Modal force, (modes,), m/s2 kg^0.5.
+
+        Returns
+        -------
+        tuple of three ndarrays
+            Changes of z and of the loads, (n,), and of a, (r,).
+
+        Raises
+        ------
+        NoSolution
+            If structure and contacts leave a motion without stiffness.
+        """
         z, free = self._driven(force)
         n = z.size
         both = _solved(self._equations(np.eye(n), tangent), np.concatenate([z, -free]))
         return both[:n], tangent @ both[:n], both[n:]
 
-    def modal(self, force, loads, a):
-        """Modal coordinates by a modal force and the loads of the patches."""
+    def modal(self, force: ArrayLike, loads: np.ndarray, a: np.ndarray) -> np.ndarray:
+        """Modal coordinates by a modal force and the loads of the patches.
+
+        Parameters
+        ----------
+        force : array_like
+            Modal force, (modes,), m/s2 kg^0.5.
+        loads : ndarray
+            Loads on the structure, (n,), N, N m or J.
+        a : ndarray
+            Amplitudes of the modes without stiffness, (r,), m kg^0.5.
+
+        Returns
+        -------
+        ndarray
+            Modal coordinates, (modes,), m kg^0.5.
+        """
         elastic = (np.asarray(force)[: self.omega.size] + self.shapes.T @ loads) / self.omega**2
         return np.concatenate([elastic, a])
 
-    def flexibility(self, tangent):
-        """(modes, modes): modal coordinates by a unit of each modal force, where loads follow the tangent."""
+    def flexibility(self, tangent: np.ndarray) -> np.ndarray:
+        """Modal coordinates by a unit of each modal force, where loads follow the tangent.
+
+        Parameters
+        ----------
+        tangent : ndarray
+            Of tangent(), (n, n).
+
+        Returns
+        -------
+        ndarray
+            Flexibility, (modes, modes), s2.
+
+        Raises
+        ------
+        NoSolution
+            If structure and contacts leave a motion without stiffness.
+        """
         columns = []
         for unit in np.eye(self.modes):
             _, loads, a = self.respond(tangent, unit)
@@ -298,10 +547,27 @@ class Structure:
         found = np.array(columns).T
         return 0.5 * (found + found.T)
 
-    def stuck_modes(self, tangent=None, without=0):
-        """Angular frequencies (rad/s), rising, and shapes (modes, modes), as columns in modal coordinates, while all
-        that touches sticks; `without` the inertia of the so many highest elastic modes. tangent: that of tangent(), if
-        it is known."""
+    def stuck_modes(self, tangent: Optional[np.ndarray] = None, without: int = 0) -> tuple[np.ndarray, np.ndarray]:
+        """The modes while all that touches sticks.
+
+        Parameters
+        ----------
+        tangent : ndarray, optional
+            That of tangent(), (n, n), if it is known.
+        without : int
+            The inertia of so many of the highest elastic modes is left out.
+
+        Returns
+        -------
+        tuple of two ndarrays
+            Angular frequencies (rad/s), rising, (kept,), and shapes, as columns in modal coordinates, (kept, kept);
+            kept are all modes but those that are left out.
+
+        Raises
+        ------
+        NoSolution
+            If a mode has no positive stiffness.
+        """
         tangent = self.tangent() if tangent is None else tangent
         kept = np.r_[: self.omega.size - without, self.omega.size : self.modes]
         values, vectors = np.linalg.eigh(self.flexibility(tangent)[np.ix_(kept, kept)])
@@ -321,25 +587,70 @@ class Structure:
         found = [p.step(part, one) for p, part, one in zip(self.patches, self._split(values), every)]
         return [np.concatenate(parts) for parts in zip(*found)]
 
-    def step(self, force, held=None, response=None, scale=None):
-        """try_step(), and commit()."""
+    def step(
+        self,
+        force: ArrayLike,
+        held: Optional[Sequence[Optional[Held]]] = None,
+        response: Optional[np.ndarray] = None,
+        scale: Optional[Scale] = None,
+    ) -> Optional[np.ndarray]:
+        """Solves a step and commits it: try_step(), and commit().
+
+        Parameters
+        ----------
+        force, held, response, scale
+            As of try_step().
+
+        Returns
+        -------
+        ndarray or None
+            The response with which the next step may begin, (n, n).
+
+        Raises
+        ------
+        NoSolution, ContactError
+            As try_step() does.
+        """
         response = self.try_step(force, held, response, scale)
         self.commit()
         return response
 
-    def commit(self):
+    def commit(self) -> None:
         """Makes the tried step of all patches the state from which the next one continues."""
         for patch in self.patches:
             patch.contact.commit()
 
-    def try_step(self, force, held=None, response=None, scale=None):
+    def try_step(
+        self,
+        force: ArrayLike,
+        held: Optional[Sequence[Optional[Held]]] = None,
+        response: Optional[np.ndarray] = None,
+        scale: Optional[Scale] = None,
+    ) -> Optional[np.ndarray]:
         """Solves a step under a modal force from the committed state; sets force, z, a and loads.
 
-        held      for each patch {name: value} that it prescribes besides; None: what patches have
-        response  of respond_to(), with which the iteration begins; None: that of the patches' last steps
-        scale     (z, loads, a): changes to which the tolerance is relative; None: what the step has
+        Parameters
+        ----------
+        force : array_like
+            Modal force, (modes,), m/s2 kg^0.5.
+        held : sequence of mappings, optional
+            For each patch {name: value} that it prescribes besides; None: what patches have.
+        response : ndarray, optional
+            Of respond_to(), (n, n), with which the iteration begins; None: that of the patches' last steps.
+        scale : tuple of three ndarrays, optional
+            Changes of z, loads and a to which the tolerance is relative; None: what the step has.
 
-        Returns the response with which the next step may begin.
+        Returns
+        -------
+        ndarray or None
+            The response with which the next step may begin, (n, n).
+
+        Raises
+        ------
+        NoSolution
+            If patches and structure find no equilibrium, or a contact opens or reaches the border of its grid or patch.
+        ContactError
+            If a contact has no solution.
         """
         driven, free = self._driven(force)
         if self.direct:
@@ -358,8 +669,24 @@ class Structure:
         self.force = np.array(force, dtype=float)
         return response
 
-    def respond_to(self, tangent):
-        """The response with which step() may begin, of a tangent."""
+    def respond_to(self, tangent: np.ndarray) -> Optional[np.ndarray]:
+        """The response with which step() may begin.
+
+        Parameters
+        ----------
+        tangent : ndarray
+            Of tangent(), (n, n).
+
+        Returns
+        -------
+        ndarray or None
+            Response, (n, n); None where steps need no iteration.
+
+        Raises
+        ------
+        NoSolution
+            If a contact that is given loads does not resist them.
+        """
         return None if self.direct or self.given else self.response_of(tangent)
 
     def _find(self, driven, free, held, response, scale):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..contact import ContactError
 from ..core.errors import Unusable
@@ -38,8 +39,14 @@ WEAR = {
 class Wear(Numbers):
     """Numbers over the cycles of a vibration, each an array: cycles, frequency, damping, ... (WEAR).
 
-    measured    {name: array} of what `measure` returned after each span, such as the tension of the bolts
-    structures  copies of the structure at rest, at each number of cycles, for backbone()
+    Attributes
+    ----------
+    numbers : dict
+        {name: (1 + k,)} at 0 cycles and at the k wanted numbers of them, in the units of WEAR.
+    measured : dict
+        {name: (1 + k,)} of what `measure` returned there, such as the tension of the bolts.
+    structures : list of Structure
+        Copies of the structure at rest, at each number of cycles, for backbone().
     """
 
     columns = WEAR
@@ -48,8 +55,14 @@ class Wear(Numbers):
     measured: dict
     structures: list
 
-    def lines(self):
-        """Lines of a printed table."""
+    def lines(self) -> list[str]:
+        """The printed table.
+
+        Returns
+        -------
+        list of str
+            A line of heads, and one for each number of cycles.
+        """
         shown = ("/".join(filter(None, split(name))) for name in self.measured)
         heads = "".join(f" {name:>12}" for name in shown)
         lines = [f"{'cycles':>10} {'f/Hz':>13} {'+-':>8} {'zeta':>10} {'+-':>8} {'W/J':>10} {'volume/m3':>10}{heads}"]
@@ -61,15 +74,21 @@ class Wear(Numbers):
             )
         return lines
 
-    def more_columns(self):
-        """What `measure` returned."""
+    def more_columns(self) -> list[Column]:
+        """What `measure` returned.
+
+        Returns
+        -------
+        list of tables.Column
+            A column for each name.
+        """
         heads = [(*split(name), values) for name, values in self.measured.items()]
         return [Column(name, unit or "1", "measured after the cycles", values) for name, unit, values in heads]
 
 
 def wear(
-    structure: Structure, amplitude: float, cycles, mode: int = 1, sensor=None, steps: int = STEPS,
-    measure: Optional[Callable] = None,
+    structure: Structure, amplitude: float, cycles: ArrayLike, mode: int = 1, sensor: Optional[ArrayLike] = None,
+    steps: int = STEPS, measure: Optional[Callable[[Structure], dict]] = None,
 ) -> Wear:  # fmt: skip
     """The Wear of a structure in its preload, whose contacts have the options of wear.
 

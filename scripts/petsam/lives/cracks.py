@@ -15,14 +15,30 @@ threshold as a -> 0.
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 EDGE = 1.1215  # K of an edge crack under uniform stress, relative to that of a crack within the body
 _SERIES = (0.2945, -0.3912, 0.7685, -0.9942, 0.5094)  # Hartranft and Sih: F(c) = (1 - c^2) sum of these times c^2n
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(96)
 
 
-def intensity(depths, stress, lengths):
-    """K (Pa m^1/2) of cracks of these lengths (m), from the stress (Pa) on their plane at depths, linear between."""
+def intensity(depths: ArrayLike, stress: ArrayLike, lengths: ArrayLike) -> np.ndarray:
+    """The stress intensity K of cracks.
+
+    Parameters
+    ----------
+    depths : array_like
+        Depths, (z,), m, rising.
+    stress : array_like
+        Stress on the cracks' plane there, (z,), Pa, linear between.
+    lengths : array_like
+        Lengths of the cracks, m, of any shape.
+
+    Returns
+    -------
+    ndarray
+        K, of the shape of the lengths, Pa m^1/2.
+    """
     angles = 0.25 * np.pi * (_NODES + 1.0)
     c = np.sin(angles)
     weights = 0.25 * np.pi * _WEIGHTS * (1.0 + (1.0 - c**2) * np.polynomial.polynomial.polyval(c**2, _SERIES))
@@ -31,30 +47,99 @@ def intensity(depths, stress, lengths):
     return 2.0 * np.sqrt(lengths / np.pi) * (values @ weights)
 
 
-def extremes(depths, stresses, lengths):
-    """Maximum and minimum K over the steps of stresses (time, depth); neither below 0."""
+def extremes(depths: ArrayLike, stresses: ArrayLike, lengths: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """Maximum and minimum of K over the steps; neither below 0.
+
+    Parameters
+    ----------
+    depths : array_like
+        Depths, (z,), m, rising.
+    stresses : array_like
+        Stress on the cracks' plane there, (time, z), Pa.
+    lengths : array_like
+        Lengths of the cracks, m, of any shape.
+
+    Returns
+    -------
+    tuple of two ndarrays
+        Maximum and minimum, of the shape of the lengths, Pa m^1/2.
+    """
     values = np.array([intensity(depths, stress, lengths) for stress in stresses])
     return np.maximum(values.max(axis=0), 0.0), np.maximum(values.min(axis=0), 0.0)
 
 
-def short_length(dk_th, stress_limit):
-    """El Haddad's a0, m."""
+def short_length(dk_th: float, stress_limit: float) -> float:
+    """El Haddad's length a0.
+
+    Parameters
+    ----------
+    dk_th : float
+        Threshold range of K of long cracks, Pa m^1/2.
+    stress_limit : float
+        Fatigue limit as a stress range, Pa.
+
+    Returns
+    -------
+    float
+        a0, m.
+    """
     return (dk_th / (EDGE * stress_limit)) ** 2 / np.pi
 
 
-def threshold(lengths, dk_th, stress_limit):
-    """Threshold range of K of cracks of these lengths."""
+def threshold(lengths: ArrayLike, dk_th: float, stress_limit: float) -> np.ndarray:
+    """The threshold range of K of cracks.
+
+    Parameters
+    ----------
+    lengths : array_like
+        Lengths of the cracks, m, of any shape.
+    dk_th : float
+        Threshold range of K of long cracks, Pa m^1/2.
+    stress_limit : float
+        Fatigue limit as a stress range, Pa.
+
+    Returns
+    -------
+    ndarray
+        Thresholds, of the shape of the lengths, Pa m^1/2.
+    """
     lengths = np.asarray(lengths, dtype=float)
     return dk_th * np.sqrt(lengths / (lengths + short_length(dk_th, stress_limit)))
 
 
-def stress_range(lengths, ranges):
-    """Uniform stress range of the same range of K: the ordinate of Kitagawa and Takahashi's diagram."""
+def stress_range(lengths: ArrayLike, ranges: ArrayLike) -> np.ndarray:
+    """The uniform stress range of the same range of K: the ordinate of Kitagawa and Takahashi's diagram.
+
+    Parameters
+    ----------
+    lengths : array_like
+        Lengths of the cracks, m, of any shape.
+    ranges : float or array_like
+        Ranges of K, of that shape, Pa m^1/2.
+
+    Returns
+    -------
+    ndarray
+        Stress ranges, of the shape of the lengths, Pa.
+    """
     return ranges / (EDGE * np.sqrt(np.pi * np.asarray(lengths, dtype=float)))
 
 
-def arrest(lengths, ranges, thresholds):
-    """Length (m) at which a crack from the surface stops: 0 where it does not start, inf where it goes through all."""
+def arrest(lengths: ArrayLike, ranges: ArrayLike, thresholds: ArrayLike) -> float:
+    """The length at which a crack from the surface stops.
+
+    Parameters
+    ----------
+    lengths : array_like
+        Lengths of the crack, (lengths,), m, rising.
+    ranges, thresholds : array_like
+        Ranges of K, and their thresholds, at these lengths, (lengths,), Pa m^1/2.
+
+    Returns
+    -------
+    float
+        The length, m; 0 where the crack does not start, inf where it goes through all lengths.
+    """
     ratio = np.asarray(ranges) / thresholds
     if not ratio[0] > 1.0:
         return 0.0
@@ -65,7 +150,20 @@ def arrest(lengths, ranges, thresholds):
     return float(np.interp(1.0, ratio[[k, k - 1]], np.asarray(lengths)[[k, k - 1]]))
 
 
-def start(lengths, ranges, thresholds):
-    """The least of these lengths (m) at which a crack grows; inf where none does."""
+def start(lengths: ArrayLike, ranges: ArrayLike, thresholds: ArrayLike) -> float:
+    """The least length at which a crack grows.
+
+    Parameters
+    ----------
+    lengths : array_like
+        Lengths of the crack, (lengths,), m, rising.
+    ranges, thresholds : array_like
+        Ranges of K, and their thresholds, at these lengths, (lengths,), Pa m^1/2.
+
+    Returns
+    -------
+    float
+        The length, m; inf where it grows at none of them.
+    """
     above = np.flatnonzero(np.asarray(ranges) > thresholds)
     return float(np.asarray(lengths)[above[0]]) if above.size else np.inf

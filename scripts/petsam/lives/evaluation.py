@@ -1,5 +1,6 @@
 """Lives, safety factors, damage and cracks of the cycles of a spectrum: what the command prints and draws."""
 
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +9,7 @@ from ..core.errors import Error
 from ..core.tables import Column
 from . import cracks, strength
 from .materials import need
-from .stresses import terms
+from .stresses import Cycle, terms
 
 # of each criterion its title and the constants that it needs; of factors the parameter's limit
 LIVES = {
@@ -23,7 +24,15 @@ OF_STRESS = ("basquin", "crack")  # these need the stress on planes, not a param
 
 
 class Place(NamedTuple):
-    """A value and its place, m."""
+    """A value and its place.
+
+    Attributes
+    ----------
+    value : float
+        The value, in its unit.
+    x, y, z : float
+        Coordinates, m.
+    """
 
     value: float
     x: float
@@ -32,7 +41,17 @@ class Place(NamedTuple):
 
 
 class Line(NamedTuple):
-    """Below a point: its place, the depths, and columns by name: (unit, values)."""
+    """Values over the depth below a point.
+
+    Attributes
+    ----------
+    x, y : float
+        The point, m.
+    z : ndarray
+        Depths, (z,), m.
+    columns : dict
+        {name: (unit, values)}, values (z,).
+    """
 
     x: float
     y: float
@@ -40,8 +59,23 @@ class Line(NamedTuple):
     columns: dict
 
 
-def possible(cycle, constants, angle=0.0):
-    """Criteria for which the file has the data, and for which the constants are given."""
+def possible(cycle: Cycle, constants: Mapping[str, float], angle: float = 0.0) -> list[str]:
+    """The criteria for which a cycle has the data, and for which the constants are given.
+
+    Parameters
+    ----------
+    cycle : stresses.Cycle
+        The cycle, which may have constants, too.
+    constants : mapping
+        {name: number} of the material, SI units.
+    angle : float
+        Angle of the normal of planes normal to the surface to x, degrees.
+
+    Returns
+    -------
+    list of str
+        Names of CRITERIA.
+    """
     known = {**cycle.constants, **constants}
     return [
         name
@@ -50,8 +84,22 @@ def possible(cycle, constants, angle=0.0):
     ]
 
 
-def has_data(cycle, name, angle=0.0):
-    """Returns true if a cycle has the data for a criterion."""
+def has_data(cycle: Cycle, name: str, angle: float = 0.0) -> bool:
+    """Whether a cycle has the data for a criterion.
+
+    Parameters
+    ----------
+    cycle : stresses.Cycle
+        The cycle.
+    name : str
+        One of CRITERIA.
+    angle : float
+        Angle of the normal of planes normal to the surface to x, degrees.
+
+    Returns
+    -------
+    bool
+    """
     if name not in OF_STRESS:
         return name in cycle
     if name == "crack" and cycle.layered:
@@ -73,16 +121,55 @@ def _values(cycle, name, constants, angle):
     return strength.factor(cycle.maximum(name), *found)
 
 
-def least(cycle, values):
-    """Returns the least of values (z, y, x), and its place; raises Error if there are none."""
+def least(cycle: Cycle, values: np.ndarray) -> Place:
+    """The least of values, and its place.
+
+    Parameters
+    ----------
+    cycle : stresses.Cycle
+        The cycle, for its points.
+    values : ndarray
+        Values at its points, (z, y, x).
+
+    Returns
+    -------
+    Place
+
+    Raises
+    ------
+    Error
+        If no point has a value.
+    """
     if not np.isfinite(values).any() and not np.isinf(values).any():
         raise Error(f"{cycle.path}: has no value at any point")
     k, j, i = np.unravel_index(np.nanargmin(values), values.shape)
     return Place(*(float(value) for value in (values[k, j, i], cycle.x[i], cycle.y[j], cycle.z[k])))
 
 
-def lives(cycles, name, constants, angle=0.0):
-    """Lives, or safety factors, of every cycle at all points."""
+def lives(cycles: Sequence[Cycle], name: str, constants: Mapping[str, float], angle: float = 0.0) -> list[np.ndarray]:
+    """Lives, or safety factors, of every cycle at all points.
+
+    Parameters
+    ----------
+    cycles : list of stresses.Cycle
+        The cycles, on the same points.
+    name : str
+        One of LIVES or FACTORS.
+    constants : mapping
+        {name: number} of the material, SI units.
+    angle : float
+        Angle of the normal of planes normal to the surface to x, degrees, for the stress of "basquin".
+
+    Returns
+    -------
+    list of ndarray
+        Lives (cycles) or safety factors of each cycle, (z, y, x).
+
+    Raises
+    ------
+    Error
+        If data or a constant are missing, or the cycles have other points.
+    """
     first = cycles[0]
     for one in cycles[1:]:
         for mine, its in ((first.x, one.x), (first.y, one.y), (first.z, one.z)):
@@ -93,9 +180,33 @@ def lives(cycles, name, constants, angle=0.0):
     return [_values(one, name, constants, angle) for one in cycles]
 
 
-def crack(cycle, constants, angle, row, column):
-    """Columns of a crack of the lengths z below a point; the least length at which it grows, that of its arrest from
-    there, and whether it grows from the surface on."""
+def crack(
+    cycle: Cycle, constants: Mapping[str, float], angle: float, row: int, column: int
+) -> tuple[dict, float, float, bool]:
+    """A short crack of the lengths z below a point.
+
+    Parameters
+    ----------
+    cycle : stresses.Cycle
+        The cycle.
+    constants : mapping
+        {name: number} of the material: dk_th (Pa m^1/2) and stress_limit (Pa).
+    angle : float
+        Angle of the normal of the crack's plane to x, degrees.
+    row, column : int
+        Indices of the point along y and x.
+
+    Returns
+    -------
+    tuple
+        {name: (unit, values)} of k_max, k_range and k_threshold at each length, (z,); the least length (m) at which the
+        crack grows, that of its arrest from there, and whether it grows from the surface on.
+
+    Raises
+    ------
+    Error
+        If a constant or data are missing, the body has layers, the stresses are means, or there are less than 3 depths.
+    """
     limits = need(constants, CRACK["crack"][1], f"{cycle.path}: crack")
     if cycle.layered:
         raise Error(f"{cycle.path}: crack: the body has layers, and K is that of one material; omit it from --criteria")
@@ -116,15 +227,49 @@ def crack(cycle, constants, angle, row, column):
     return columns, start, stop, cracks.arrest(*curves) > 0.0
 
 
-def line(cycle, names, row, column, computed):
-    """The Line below a point: quantities of the cycle by name, and what has been computed at all points."""
+def line(
+    cycle: Cycle, names: Iterable[str], row: int, column: int, computed: Mapping[str, tuple[str, np.ndarray]]
+) -> Line:
+    """The Line below a point.
+
+    Parameters
+    ----------
+    cycle : stresses.Cycle
+        The cycle.
+    names : list of str
+        Quantities of the cycle, of which the line has the largest values over the steps.
+    row, column : int
+        Indices of the point along y and x.
+    computed : mapping
+        {name: (unit, values)} of what has been computed at all points, (z, y, x).
+
+    Returns
+    -------
+    Line
+
+    Raises
+    ------
+    Error
+        If the cycle has no such quantity.
+    """
     columns = {name: (cycle.unit(name), cycle.line(name, row, column)) for name in names}
     columns.update({name: (unit, values[:, row, column]) for name, (unit, values) in computed.items()})
     return Line(float(cycle.x[column]), float(cycle.y[row]), cycle.z, columns)
 
 
-def columns(lines):
-    """The tables.Column of lines below one another: pairs of a label and a Line, all with the same columns."""
+def columns(lines: Sequence[tuple[str, Line]]) -> list[Column]:
+    """Lines below one another as a table.
+
+    Parameters
+    ----------
+    lines : list of tuple
+        Pairs of a label and a Line, all with the same columns.
+
+    Returns
+    -------
+    list of tables.Column
+        A row for each depth of each line.
+    """
     found = [Column("file", "", "label of the file", [who for who, line in lines for _ in line.z])]
     for name in "xy":
         found.append(Column(name, "m", "place", [getattr(line, name) for _, line in lines for _ in line.z]))

@@ -1,6 +1,8 @@
 """Constants of a material: name, unit, range; from a YAML file of names and values, and from the command line."""
 
-from typing import NamedTuple
+import os
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple, Union
 
 import yaml
 
@@ -12,7 +14,17 @@ SMALL = 1 << 20  # bytes of a file of constants at most
 
 
 class Constant(NamedTuple):
-    """Unit, limits (exclusive) and meaning of a constant."""
+    """A constant of a material.
+
+    Attributes
+    ----------
+    unit : str
+        Its unit; "1" of a number without one.
+    low, high : float
+        Limits, which it does not reach.
+    meaning : str
+        What it is.
+    """
 
     unit: str
     low: float
@@ -41,17 +53,24 @@ CONSTANTS = {
 }
 
 
-def checked(name: str, value) -> float:
+def checked(name: str, value: object) -> float:
     """The value of a constant in SI units.
 
     Parameters
     ----------
-    name : one of CONSTANTS
-    value : a number in SI units, or a text of one, which may have its unit: "1.76GPa"
+    name : str
+        One of CONSTANTS.
+    value : float or str
+        A number in SI units, or a text of one, which may have its unit: "1.76GPa".
+
+    Returns
+    -------
+    float
 
     Raises
     ------
-    Error : where it is no number, has another unit, or is outside the range of the constant
+    Error
+        If it is no number, has another unit, or is outside the range of the constant, or there is no such constant.
     """
     if name not in CONSTANTS:
         raise Error(f"{short(name)} is no constant{there_are(name, CONSTANTS)}")
@@ -72,8 +91,24 @@ def checked(name: str, value) -> float:
     return number
 
 
-def read(path) -> dict:
-    """Constants of a YAML file of names and values, {name: number in SI units}; raises Error as checked() does."""
+def read(path: Union[str, os.PathLike]) -> dict[str, float]:
+    """The constants of a YAML file of names and values.
+
+    Parameters
+    ----------
+    path : str or path
+        Name of the file.
+
+    Returns
+    -------
+    dict
+        {name: number in SI units}.
+
+    Raises
+    ------
+    Error
+        If the file cannot be read, is larger than 1 MiB, is no such file, or as checked() does.
+    """
     if need_regular(path).st_size > SMALL:
         raise Error(f"{path}: is larger than {SMALL} bytes; give a file of names and values")
     try:
@@ -89,8 +124,28 @@ def read(path) -> dict:
         raise Error(f"{path}: {error}") from error
 
 
-def need(constants, names, what):
-    """Values of the constants of these names; Error where one is missing, which `what` needs."""
+def need(constants: Mapping[str, float], names: Iterable[str], what: str) -> list[float]:
+    """The values of constants that a criterion needs.
+
+    Parameters
+    ----------
+    constants : mapping
+        {name: number} of those that are known, SI units.
+    names : sequence of str
+        Names of CONSTANTS.
+    what : str
+        What needs them, for the message.
+
+    Returns
+    -------
+    list of float
+        In the order of the names.
+
+    Raises
+    ------
+    Error
+        If one is missing.
+    """
     lacking = [name for name in names if name not in constants]
     if lacking:
         texts = [f"{name} ({CONSTANTS[name].unit}, {CONSTANTS[name].meaning})" for name in lacking]

@@ -1,34 +1,48 @@
 """Lives of a spectrum in one call: lives() takes files or stresses and constants, and returns Lives."""
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Optional
+from typing import Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.errors import Error, short
-from ..core.tables import Tabled
+from ..core.tables import Column, Tabled
 from ..results.stresses import FATIGUE, Stresses
 from . import evaluation, materials, strength
 from .stresses import Cycle
 
 MOST = 5  # parameters on the line, unless quantities are named
 
+File = Union[str, os.PathLike, Stresses, Cycle]
+Names = Union[str, Sequence[str], None]
+
 
 @dataclass
 class Lives(Tabled):
     """Lives, safety factors and short cracks of the cycles of a spectrum.
 
-    cycles     the Cycle of each file or contact
-    constants  {name: number} of the material, SI units
-    values     {criterion: lives (cycles) or safety factors at all points, (z, y, x), of each cycle}
-    least      {criterion: evaluation.Place of the least one, of each cycle}
-    damage     {criterion: Place of the largest damage of the spectrum}, of lives
-    cracks     of each cycle the least length (m) at which a short crack grows, that of its arrest, and whether it grows
-               from the surface on; empty without that criterion
-    lines      label of each cycle, and evaluation.Line below the place
-    place      what that place is, in words
+    Attributes
+    ----------
+    cycles : list of stresses.Cycle
+        The cycle of each file or contact.
+    constants : dict
+        {name: number} of the material, SI units.
+    values : dict
+        {criterion: lives (cycles) or safety factors at all points, (z, y, x), of each cycle}.
+    least : dict
+        {criterion: evaluation.Place of the least one, of each cycle}.
+    damage : dict
+        {criterion: evaluation.Place of the largest damage of the spectrum}, of lives.
+    cracks : list
+        Of each cycle the least length (m) at which a short crack grows, that of its arrest, and whether it grows from
+        the surface on; empty without that criterion.
+    lines : list of tuple
+        Label of each cycle, and evaluation.Line below the place.
+    place : str
+        What that place is, in words.
     """
 
     cycles: list
@@ -44,32 +58,56 @@ class Lives(Tabled):
         criteria = f"{', '.join(self.values)} of " if self.values else ""
         return f"Lives({criteria}{', '.join(cycle.label for cycle in self.cycles)}; line below the {self.place})"
 
-    def table(self) -> list:
-        """The lines below one another, as tables.Column: file, x, y, z, quantities, lives and factors."""
+    def table(self) -> list[Column]:
+        """The lines below one another: file, x, y, z, quantities, lives and factors.
+
+        Returns
+        -------
+        list of tables.Column
+            A row for each depth of each cycle.
+        """
         return evaluation.columns(self.lines)
 
 
 def lives(
-    sources, constants=None, *, counts=None, criteria=None, plane: float = 0.0, below=None, quantities=None
+    sources: Union[File, Iterable[File]],
+    constants: Union[str, os.PathLike, Mapping[str, object], None] = None,
+    *,
+    counts: Optional[ArrayLike] = None,
+    criteria: Names = None,
+    plane: float = 0.0,
+    below: Union[str, tuple[float, float], None] = None,
+    quantities: Names = None,
 ) -> Lives:
     """Lives, safety factors and short cracks of one cycle, or of a spectrum of several.
 
     Parameters
     ----------
-    sources : a file of petsam-stress, a petsam.Stresses or a petsam.lives.stresses.Cycle, or a list of them: the blocks
-        of a spectrum
-    constants : {name: value} of the material, in SI units or texts with their unit (sigma_f="1.76GPa"), or the name of
-        a YAML file of them; Young's modulus and Poisson's ratio are those of the files, if they are not given
-    counts : cycles of each source in the spectrum (1)
-    criteria : names of evaluation.CRITERIA; by default all for which there are constants and data
-    plane : angle of the plane's normal to x, degrees, of stresses on planes normal to the surface
-    below : (x, y) in m of the line along the depth, or the quantity whose maximum on the surface is above it; by
-        default the first criterion or parameter
-    quantities : names of quantities on the line, maxima of the cycle; by default the fatigue parameters
+    sources : path, petsam.Stresses or petsam.lives.stresses.Cycle, or list of them
+        File of petsam-stress, or several: the blocks of a spectrum.
+    constants : mapping or path, optional
+        {name: value} of the material, in SI units or texts with their unit (sigma_f="1.76GPa"), or the name of a YAML
+        file of them. Young's modulus and Poisson's ratio are those of the files, if they are not given.
+    counts : float or list of floats, optional
+        Cycles of each source in the spectrum; None: 1 of each.
+    criteria : str or list of str, optional
+        Names of evaluation.CRITERIA; None: all for which there are constants and data.
+    plane : float
+        Angle of the plane's normal to x, degrees, of stresses on planes normal to the surface.
+    below : pair of floats or str, optional
+        (x, y) in m of the line along the depth, or the quantity whose maximum on the surface is above it; None: the
+        first criterion or parameter.
+    quantities : str or list of str, optional
+        Names of quantities on the line, maxima of the cycle; None: the fatigue parameters.
+
+    Returns
+    -------
+    Lives
 
     Raises
     ------
-    Error : for constants that are missing or outside their range, and for files without the data
+    Error
+        For constants that are missing or outside their range, and for files without the data.
     """
     cycles = _cycles(sources)
     criteria = [criteria] if isinstance(criteria, str) else criteria

@@ -1,6 +1,8 @@
 """The stresses of a cycle and its fatigue parameters: of a file of petsam-stress, or of petsam.Contact.fatigue()."""
 
 import os
+from collections.abc import Iterator, Mapping
+from typing import Any, Optional, Union
 
 import numpy as np
 
@@ -9,20 +11,60 @@ from ..core.files import decoded
 from ..results.stresses import FATIGUE, Stresses
 
 
-def terms(angle):
-    """Returns {name: factor}; the sum of factors times stresses is the stress on planes with this angle (degrees)."""
+def terms(angle: float) -> dict[str, float]:
+    """The stresses of which the stress on planes normal to the surface is a sum.
+
+    Parameters
+    ----------
+    angle : float
+        Angle of the plane's normal to x, degrees.
+
+    Returns
+    -------
+    dict
+        {name: factor}; the sum of factors times stresses is the stress on the planes.
+    """
     cosine, sine = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
     found = {"stress_xx": cosine**2, "stress_yy": sine**2, "stress_xy": 2.0 * sine * cosine}
     return {name: term for name, term in found.items() if abs(term) > 1e-15}
 
 
 class Cycle:
-    """Stresses and parameters on the points x, y, z; constants are those of the body, young (Pa) and poisson."""
+    """Stresses and fatigue parameters of a cycle at points.
+
+    Parameters
+    ----------
+    source : petsam.Stresses or mapping
+        File of petsam-stress, or the arrays by name of petsam.Contact.fatigue().
+    label : str
+        Name of a mapping in messages and tables; a file has its own.
+    **constants
+        Of a mapping the constants of the body, young (Pa) and poisson; a file has its own.
+
+    Attributes
+    ----------
+    x, y, z : ndarray
+        Coordinates of the points, (nx,), (ny,), (nz,), m; the first depth z is 0.
+    steps : int
+        Number of steps.
+    constants : dict
+        Young's modulus (Pa) and Poisson's ratio of the body; with layers at each depth, (nz, 1, 1).
+    layered : bool
+        Whether the body has layers.
+    path, label : str
+        Names in messages, and in tables.
+
+    Raises
+    ------
+    Error
+        If the first depth is not 0.
+    """
 
     layered = False
 
-    def __init__(self, source, label="the contact", **constants):
-        """source: a petsam.Stresses, or the arrays by name of petsam.Contact.fatigue(), then with the constants."""
+    def __init__(
+        self, source: Union[Stresses, Mapping[str, Any]], label: str = "the contact", **constants: Any
+    ) -> None:
         self.source, self.file = source, source if isinstance(source, Stresses) else None
         self.path, self.label, self.constants = label, os.path.splitext(os.path.basename(label))[0], constants
         self.x, self.y, self.z = (getattr(source, n) if self.file else np.asarray(source[n]) for n in "xyz")
@@ -50,12 +92,12 @@ class Cycle:
         return found
 
     @property
-    def averaged(self):
+    def averaged(self) -> float:
         """Length over which the stresses have been averaged (petsam-stress -fatigue_length), m; 0: not at all."""
         return float(self.file.parameters.get("fatigue_length", 0.0)) if self.file else 0.0
 
     @property
-    def doubt(self):
+    def doubt(self) -> str:
         """Warning of petsam-stress that the steps are no closed cycle, or more than one; "" for none."""
         words = self.file.parameters.get("cycle_warning", "") if self.file else ""
         return one_line(decoded(words) if isinstance(words, bytes) else words, 480)
@@ -64,7 +106,7 @@ class Cycle:
         return name in self.source and name not in ("x", "y", "z", "time")
 
     @property
-    def names(self):
+    def names(self) -> list[str]:
         """Names of the quantities and parameters."""
         names = self.file.file if self.file else self.source
         return [name for name in names if name in self and name != "history" and "_normal_" not in name]
@@ -80,42 +122,137 @@ class Cycle:
                 values = np.asarray(self.source[name])
                 yield (values if name in FATIGUE else values[step])[:, rows, columns]
 
-    def unit(self, name):
-        """Unit of a quantity or a parameter."""
+    def unit(self, name: str) -> str:
+        """The unit of a quantity or a parameter.
+
+        Parameters
+        ----------
+        name : str
+            Its name.
+
+        Returns
+        -------
+        str
+            "Pa", "J/m2" or another; "1" of a number without one.
+        """
         return self.file.unit(name) if self.file else {"fatemi_socie": "1", "ruiz_1": "J/m2"}.get(name, "Pa")
 
-    def maximum(self, name):
-        """The largest value over the steps, (z, y, x)."""
+    def maximum(self, name: str) -> np.ndarray:
+        """The largest value over the steps.
+
+        Parameters
+        ----------
+        name : str
+            Name of a quantity or a parameter.
+
+        Returns
+        -------
+        ndarray
+            Largest values, (z, y, x), in its unit.
+
+        Raises
+        ------
+        Error
+            If the cycle has no such quantity.
+        """
         top = None
         for values in self._part(name):
             top = values if top is None else np.fmax(top, values)
         return top
 
-    def on_plane(self, angle=0.0, row=None, column=None):
-        """Stress on planes normal to the surface, whose normal has this angle (degrees) to x: (z, y, x) by step."""
+    def on_plane(
+        self, angle: float = 0.0, row: Optional[int] = None, column: Optional[int] = None
+    ) -> Iterator[np.ndarray]:
+        """The stress on planes normal to the surface, step by step.
+
+        Parameters
+        ----------
+        angle : float
+            Angle of the plane's normal to x, degrees.
+        row, column : int, optional
+            Indices along y and x of one point; None: all points.
+
+        Returns
+        -------
+        iterator of ndarray
+            Of each step the stress, (z, y, x), or (z, 1, 1) below a point, Pa.
+
+        Raises
+        ------
+        Error
+            If the cycle lacks a stress.
+        """
         of = terms(angle)
         window = () if row is None else (slice(row, row + 1), slice(column, column + 1))
         for parts in zip(*(self._part(name, *window) for name in of)):
             yield sum(term * part for term, part in zip(of.values(), parts))
 
-    def extremes(self, angle=0.0):
-        """Maximum and minimum of that stress over the steps, (z, y, x)."""
+    def extremes(self, angle: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        """Maximum and minimum of the stress on planes normal to the surface over the steps.
+
+        Parameters
+        ----------
+        angle : float
+            Angle of the plane's normal to x, degrees.
+
+        Returns
+        -------
+        tuple of two ndarrays
+            Maximum and minimum, (z, y, x), Pa.
+
+        Raises
+        ------
+        Error
+            If the cycle lacks a stress.
+        """
         high = low = None
         for values in self.on_plane(angle):
             high = values if high is None else np.fmax(high, values)
             low = values if low is None else np.fmin(low, values)
         return high, low
 
-    def hot_spot(self, name):
-        """Row and column of the largest value of a quantity or parameter on the surface."""
+    def hot_spot(self, name: str) -> tuple[int, int]:
+        """The place of the largest value on the surface.
+
+        Parameters
+        ----------
+        name : str
+            Name of a quantity or a parameter.
+
+        Returns
+        -------
+        tuple of two ints
+            Row and column, indices along y and x.
+
+        Raises
+        ------
+        Error
+            If the cycle has no such quantity, or it has no value on the surface.
+        """
         top = self.maximum(name)[0]
         if not np.isfinite(top).any():
             raise Error(f"{self.path}: {name} has no value on the surface; name another parameter by --hot")
         row, column = np.unravel_index(np.nanargmax(top), top.shape)
         return int(row), int(column)
 
-    def nearest(self, x, y):
-        """Row and column of the point nearest to x, y (m); Error beyond the outermost cells."""
+    def nearest(self, x: float, y: float) -> tuple[int, int]:
+        """The point nearest to a place.
+
+        Parameters
+        ----------
+        x, y : float
+            The place, m.
+
+        Returns
+        -------
+        tuple of two ints
+            Row and column, indices along y and x.
+
+        Raises
+        ------
+        Error
+            If the place is beyond the outermost cells.
+        """
         found = []
         for letter, axis, wanted in (("y", self.y, y), ("x", self.x, x)):
             half = 0.5 * (axis[1] - axis[0]) if axis.size > 1 else np.inf
@@ -127,11 +264,47 @@ class Cycle:
             found.append(int(np.argmin(np.abs(axis - wanted))))
         return tuple(found)
 
-    def line(self, name, row, column):
-        """The largest value over the steps along the depth below a point."""
+    def line(self, name: str, row: int, column: int) -> np.ndarray:
+        """The largest value over the steps along the depth below a point.
+
+        Parameters
+        ----------
+        name : str
+            Name of a quantity or a parameter.
+        row, column : int
+            Indices of the point along y and x.
+
+        Returns
+        -------
+        ndarray
+            Largest values, (z,), in its unit.
+
+        Raises
+        ------
+        Error
+            If the cycle has no such quantity.
+        """
         window = (slice(row, row + 1), slice(column, column + 1))
         return np.fmax.reduce([part[:, 0, 0] for part in self._part(name, *window)])
 
-    def stress_line(self, angle, row, column):
-        """on_plane() below a point, (time, z)."""
+    def stress_line(self, angle: float, row: int, column: int) -> np.ndarray:
+        """The stress on planes normal to the surface along the depth below a point.
+
+        Parameters
+        ----------
+        angle : float
+            Angle of the plane's normal to x, degrees.
+        row, column : int
+            Indices of the point along y and x.
+
+        Returns
+        -------
+        ndarray
+            Stress, (time, z), Pa.
+
+        Raises
+        ------
+        Error
+            If the cycle lacks a stress.
+        """
         return np.array([part[:, 0, 0] for part in self.on_plane(angle, row, column)])

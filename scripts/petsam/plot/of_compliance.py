@@ -1,6 +1,7 @@
 """A picture of a compliance: the patch on the mesh, deflections, the spectrum, convergence by degree."""
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..compliance.basis import written
 from ..compliance.result import Compliance
@@ -99,8 +100,18 @@ def _panels(body, unit, name=""):
 
 
 @drawn(STYLE, Compliance)
-def compliance(found):
-    """The figure of a Compliance: the patches of a body, or of a pair."""
+def compliance(found: Compliance) -> Figure:
+    """The patches of a body, or of a pair: on the mesh, deflections, the spectrum, convergence by degree.
+
+    Parameters
+    ----------
+    found : compliance.Compliance
+        The compliance, of petsam.compliance.of_deck() or of_mesh().
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     bodies = found.bodies
     body = bodies[0]
     unit = scale("m", float(max(body.patch.half)))

@@ -1,6 +1,7 @@
 """Curves over the depth below a place, and Kitagawa and Takahashi's diagram of a short crack."""
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..lives import cracks
 from ..lives.spectrum import Lives
@@ -67,8 +68,18 @@ def _kitagawa(panel, cracked, constants, length, unit):
 
 
 @drawn(STYLE, Lives)
-def lives(found):
-    """Figure of petsam.lives.lives(): its lines over the depth, and two panels of a crack."""
+def lives(found: Lives) -> Figure:
+    """The lines over the depth, and two panels of a short crack.
+
+    Parameters
+    ----------
+    found : lives.Lives
+        The lives, of petsam.lives.lives().
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     lines, constants = found.lines, found.constants
     first = lines[0][1]
     names = [name for name in first.columns if not name.startswith("k_")]

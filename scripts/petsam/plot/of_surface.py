@@ -1,6 +1,7 @@
 """A picture of a map: the map, and profiles through its middle along x and y."""
 
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, MaxNLocator
 from mpl_toolkits.axes_grid1 import make_axes_locatable
 
@@ -53,8 +54,18 @@ def _profiles(axes, one, lateral, height):
 
 
 @drawn(STYLE, Map)
-def surface(one):
-    """A map, and profiles through its middle along x and y; a profile alone."""
+def surface(one: Map) -> Figure:
+    """A map, and profiles through its middle along x and y; a profile alone.
+
+    Parameters
+    ----------
+    one : surface.Map
+        The map.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     lateral = scale("m", largest([one.axis(0)] if one.is_profile else [one.axis(0), one.axis(1)]))
     height = scale("m", largest([one.values]))
     ratio = one.size[1] / one.size[0]

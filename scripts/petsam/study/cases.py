@@ -18,7 +18,7 @@ import itertools
 import math
 import os
 import re
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 from ..core import declared
 from ..core.errors import Error, short
@@ -51,9 +51,31 @@ NAME = 255  # bytes of a file's name
 
 
 class Case(NamedTuple):
-    """One run: number (from 1), name, inputs (name: text; the lists' values, or the columns), options (name: text or
-    None), files (name: text), MPI ranks, options of petsam-stress likewise, expressions of results (name: text),
-    the values of all parameters and options that these may use, and units of parameters and of such results."""
+    """One run.
+
+    Attributes
+    ----------
+    number : int
+        Its number, from 1.
+    name : str
+        Its name, which is that of its folder.
+    inputs : dict
+        {name: text} of the lists' values, or of the columns.
+    options : dict
+        {name: text or None} of petsam.
+    files : dict
+        {name: text} of the files that it gets in its folder.
+    ranks : int
+        MPI ranks.
+    stress : dict
+        {name: text or None} of petsam-stress.
+    results : dict
+        {name: text}: expressions of results.
+    values : dict
+        {name: text} of all parameters and options that these may use.
+    units : dict
+        {name: unit} of parameters and of such results.
+    """
 
     number: int
     name: str
@@ -66,23 +88,45 @@ class Case(NamedTuple):
     values: dict = {}
     units: dict = {}
 
-    def words(self, options=None):
+    def words(self, options: Optional[dict[str, Optional[str]]] = None) -> list[str]:
         """The command line of petsam, or of petsam-stress, but for the results' name.
 
         An options file comes first: of an option that is in it, too, the last value counts, which is the table's.
+
+        Parameters
+        ----------
+        options : dict, optional
+            {name: text or None}; None: those of petsam.
+
+        Returns
+        -------
+        list of str
+            Words of the command line.
         """
         options = self.options if options is None else options
         options = sorted(options.items(), key=lambda item: item[0] != "options_file")
         return [word for name, value in options for word in (["-" + name] if value is None else ["-" + name, value])]
 
-    def paths(self):
-        """The files that petsam reads and this class does not write, by their options."""
+    def paths(self) -> dict[str, str]:
+        """The files that petsam reads and this class does not write.
+
+        Returns
+        -------
+        dict
+            {option: path}.
+        """
         return {
             name: value for name, value in self.options.items() if name in PATHS and value not in (None, *self.files)
         }
 
-    def identity(self):
-        """Digest of all that determines the results: options, and the contents of the files they name."""
+    def identity(self) -> str:
+        """A digest of all that determines the results: options, and the contents of the files they name.
+
+        Returns
+        -------
+        str
+            SHA-256 in hexadecimal digits.
+        """
         parts = [("files", sorted(self.files.items()))] if self.files else []
         for name, value in self.options.items():
             if name == "options_file" and value:

@@ -2,9 +2,9 @@
 
 import os
 import signal
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 import yaml
@@ -24,15 +24,26 @@ from .runs import STOPPED, Study, check_folders, record
 class Jobs:
     """The cases of a table and how they are run.
 
-    table        path of the table, CSV or YAML
-    directory    folder of the cases and of the tables of their results
-    words        petsam's options for all cases, as words of a command line
-    ranks        MPI ranks of cases without a value in the table
-    cores        cores to use; None: all available to this process
-    launcher     words of the MPI launcher; None: $MPIRUN, mpirun
-    checkpoint   steps between checkpoints, from which a case that was stopped resumes; None: none
-    skip_failed  failed cases are not run again
-    figures      cycles whose energies are columns of the tables
+    Attributes
+    ----------
+    table : str
+        Path of the table, CSV or YAML.
+    directory : str
+        Folder of the cases and of the tables of their results.
+    words : tuple of str
+        petsam's options for all cases, as words of a command line.
+    ranks : int
+        MPI ranks of cases without a value in the table.
+    cores : int, optional
+        Cores to use; None: all available to this process.
+    launcher : str, optional
+        Words of the MPI launcher; None: $MPIRUN, mpirun.
+    checkpoint : int, optional
+        Steps between checkpoints, from which a case that was stopped resumes; None: none.
+    skip_failed : bool
+        Whether failed cases are not run again.
+    figures : study.Figures
+        Cycles whose energies are columns of the tables.
     """
 
     table: str
@@ -46,11 +57,32 @@ class Jobs:
     figures: tables.Figures = tables.LAST
 
     def cases(self) -> list[Case]:
-        """All cases of the table; raises TableError where it cannot be understood."""
+        """All cases of the table.
+
+        Returns
+        -------
+        list of study.Case
+
+        Raises
+        ------
+        TableError
+            If the table cannot be understood.
+        """
         return read(self.table, common_options(self.words), self.ranks)
 
-    def prepare(self, cases):
-        """Makes the study's folder; raises Error if the results would replace another file."""
+    def prepare(self, cases: Sequence[Case]) -> None:
+        """Makes the study's folder.
+
+        Parameters
+        ----------
+        cases : list of study.Case
+            Its cases.
+
+        Raises
+        ------
+        Error
+            If the results would replace another file, or `directory` is no folder.
+        """
         if os.path.lexists(self.directory) and not os.path.isdir(self.directory):
             raise Error(f"{self.directory}: is not a folder; choose another by --directory")
         os.makedirs(self.directory, exist_ok=True)
@@ -60,14 +92,42 @@ class Jobs:
                 raise Error(f"{self.table}: would be replaced by the results; choose another folder by --directory")
         check_folders(self.directory, cases)
 
-    def due(self, cases):
-        """Returns those of some cases that have to be run, in order."""
+    def due(self, cases: Sequence[Case]) -> list[Case]:
+        """The cases that have to be run.
+
+        Parameters
+        ----------
+        cases : list of study.Case
+            Some cases of the study.
+
+        Returns
+        -------
+        list of study.Case
+            Those of them that have not finished, in order; without those that failed, if skip_failed is true.
+        """
         codes = [record(self.directory, case).get("exit_code") for case in cases]
         kept = lambda code: code == 0 or self.skip_failed and code not in (None, STOPPED)  # noqa: E731
         return [case for case, code in zip(cases, codes) if not kept(code)]
 
-    def most(self, waiting, alone=False):
-        """Cores to use; raises TableError where a case needs more, unless it is run alone."""
+    def most(self, waiting: Sequence[Case], alone: bool = False) -> int:
+        """The number of cores to use.
+
+        Parameters
+        ----------
+        waiting : list of study.Case
+            Cases that have to be run.
+        alone : bool
+            Whether a case that needs more cores is run alone.
+
+        Returns
+        -------
+        int
+
+        Raises
+        ------
+        TableError
+            If a case needs more cores, unless it is run alone.
+        """
         cores = self.cores or environment.cores()
         for case in waiting:
             if case.ranks > cores and not alone:
@@ -77,13 +137,40 @@ class Jobs:
                 )
         return max([cores, *[case.ranks for case in waiting]]) if alone else cores
 
-    def command(self):
-        """command(ranks) returns the words that start petsam; raises Missing without launcher or program."""
+    def command(self) -> Callable[[int], list[str]]:
+        """The words that start petsam.
+
+        Returns
+        -------
+        callable
+            Returns, as command(ranks), the words for this number of MPI ranks.
+
+        Raises
+        ------
+        Missing
+            If there is no launcher or program.
+        """
         launched, program = environment.launcher(self.launcher), environment.petsam()
         return lambda ranks: [*launched, "-n", str(ranks), program]
 
-    def write(self, cases):
-        """Writes the tables of the results; their names, and the error in the chosen cycles, or None."""
+    def write(self, cases: Sequence[Case]) -> tuple[list[str], Optional[str]]:
+        """Writes the tables of the results.
+
+        Parameters
+        ----------
+        cases : list of study.Case
+            The cases, a row each.
+
+        Returns
+        -------
+        tuple
+            Paths of the tables, CSV and HDF5, and the error in the chosen cycles, or None.
+
+        Raises
+        ------
+        Error
+            If a table cannot be written.
+        """
         return tables.write(self.directory, cases, os.path.basename(self.table), self.figures)
 
 
@@ -110,7 +197,13 @@ def _written(table, folder):
 
 
 def run(
-    table, directory=None, options: Optional[dict] = None, *, cores: Optional[int] = None, report=None, **how
+    table: Union[str, os.PathLike, Mapping[str, Any]],
+    directory: Union[str, os.PathLike, None] = None,
+    options: Optional[dict[str, Any]] = None,
+    *,
+    cores: Optional[int] = None,
+    report: Optional[Callable[[Case, Optional[int]], object]] = None,
+    **how: Any,
 ) -> Results:
     """Runs all cases of a table side by side, as petsam-study does, and returns their results.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,17 +23,17 @@ class Map(Tabled):
 
     Attributes
     ----------
-    values : array (ny, nx), m
-        Means over the cells, NaN where one is missing; the first row has the smallest y.
-    size, center : (x, y), m
-        Full width, and position of the middle.
+    values : ndarray
+        Means over the cells, (ny, nx), m, NaN where one is missing; the first row has the smallest y.
+    size, center : tuple
+        Full width, and position of the middle, (x, y), m.
     quantity : str
         A key of QUANTITIES: height1, height2 or separation.
     name : str
         For messages.
-    places : (rows, columns) or None
-        Their numbers in the file, from 0; None after resampling.
-    remarks, doubts : tuples of str
+    places : tuple or None
+        Numbers of its rows and columns in the file, from 0, (rows, columns); None after resampling.
+    remarks, doubts : tuple of str
         What was done to the map, and what may be wrong with its file.
     """
 
@@ -70,11 +71,28 @@ class Map(Tabled):
         return tuple(size / n for size, n in zip(self.size, self.n))
 
     def axis(self, d: int) -> np.ndarray:
-        """Centres of the cells along x (0) or y (1), m."""
+        """Centres of the cells along one direction.
+
+        Parameters
+        ----------
+        d : int
+            0 for x, 1 for y.
+
+        Returns
+        -------
+        ndarray
+            Coordinates, (nx,) or (ny,), m.
+        """
         return self.center[d] + ((np.arange(self.n[d]) + 0.5) / self.n[d] - 0.5) * self.size[d]
 
     def separation(self) -> np.ndarray:
-        """The values as a separation, m: a peak of either body reduces it."""
+        """The values as a separation: a peak of either body reduces it.
+
+        Returns
+        -------
+        ndarray
+            Separation, (ny, nx), m.
+        """
         return self.values if self.quantity == "separation" else -self.values
 
     def _done(self, one, remark):
@@ -82,13 +100,38 @@ class Map(Tabled):
         return replace(one, remarks=(*self.remarks, remark)) if remark else one
 
     def cut(self, x0: float, x1: float, y0: float = 0.0, y1: float = 0.0) -> Map:
-        """The cells whose centres lie in a window (m); of a profile in x0 ... x1."""
+        """The cells whose centres lie in a window.
+
+        Parameters
+        ----------
+        x0, x1, y0, y1 : float
+            Limits of the window, m; of a profile x0 and x1 alone.
+
+        Returns
+        -------
+        Map
+
+        Raises
+        ------
+        Error
+            If the window contains fewer than 2 cells in a direction.
+        """
         one = cut(self, (x0, x1, y0, y1))
         return self._done(one, "cut to {} x {} points".format(*one.n))
 
     def without_outliers(self, fill: str = "smooth") -> Map:
-        """Spikes of a few points, far from their neighbours, are replaced as missing points are; their number is in
-        the remarks."""
+        """The map with spikes of a few points, far from their neighbours, replaced as missing points are.
+
+        Parameters
+        ----------
+        fill : str
+            How, as of fill(): "smooth" or "nearest".
+
+        Returns
+        -------
+        Map
+            The number of the spikes is in its remarks.
+        """
         holes = np.isnan(self.values)
         found = spikes.found(self.values)
         if not np.any(found):
@@ -100,29 +143,94 @@ class Map(Tabled):
         return self._done(one, f"{count} replaced ({fill}), the farthest at {shown(float(far))}")
 
     def fill(self, how: str | None = "smooth") -> Map:
-        """Missing points replaced from their border ("smooth") or by the nearest; Error where there are some for
-        None."""
+        """The map with its missing points replaced.
+
+        Parameters
+        ----------
+        how : str or None
+            "smooth" from their border, or "nearest"; None: there must be none.
+
+        Returns
+        -------
+        Map
+
+        Raises
+        ------
+        Error
+            If all points are missing, or some for None.
+        """
         one, count = filling.filled(self, how)
         return self._done(one, count and f"{counted(count, 'missing point')} filled ({how})")
 
     def level(self, kind: str = "tilt") -> Map:
-        """The map without mean, tilt or form, or without offsets of rows: one of levels.KINDS."""
+        """The map without mean, tilt or form, or without offsets of rows or columns.
+
+        Parameters
+        ----------
+        kind : str
+            One of levels.KINDS: "none", "mean", "tilt", "second-order", "sphere", "cylinder", "rows" or "columns".
+
+        Returns
+        -------
+        Map
+
+        Raises
+        ------
+        Error
+            If the map is too small for a sphere or cylinder, or none fits.
+        """
         return self._done(*levels.levelled(self, kind))
 
-    def resample(self, n: tuple | None = None, size: tuple | None = None) -> Map:
-        """The map on n cells in x, y over a size (m) about its centre: means over the new cells."""
+    def resample(self, n: tuple[int, int] | None = None, size: tuple[float, float] | None = None) -> Map:
+        """The map on other cells about its centre: means over the new cells.
+
+        Parameters
+        ----------
+        n : tuple of ints, optional
+            Cells in x, y; None: about as wide as they are.
+        size : tuple of floats, optional
+            Full width in x, y, m; None: all of the map.
+
+        Returns
+        -------
+        Map
+
+        Raises
+        ------
+        Error
+            If the size is larger than that of the map.
+        """
         one = resampling.resampled(self, n, size)
         return self._done(one, "from {} x {} points to {} x {} cells".format(*self.n, *one.n))
 
-    def table(self) -> list:
-        """Columns x, y and the values, a row a cell."""
+    def table(self) -> list[Column]:
+        """Columns x, y and the values.
+
+        Returns
+        -------
+        list of tables.Column
+            A row for each cell.
+        """
         x, y = np.meshgrid(self.axis(0), self.axis(1))
         texts = {"x": x, "y": y, writing.dataset(self): self.values}
         about = ("of the cell's centre", "of the cell's centre", QUANTITIES[self.quantity])
         return [Column(name, "m", text, part.ravel()) for (name, part), text in zip(texts.items(), about)]
 
-    def write(self, path, command: str = "") -> None:
-        """Writes HDF5 for petsam's -gap_file and -gap_rough_file."""
+    def write(self, path: str | os.PathLike, command: str = "") -> None:
+        """Writes HDF5 for petsam's -gap_file and -gap_rough_file; replaces a file of that name when all is written.
+
+        Parameters
+        ----------
+        path : str or path
+            Name of the file.
+        command : str
+            Words that made the map, an attribute of the file.
+
+        Raises
+        ------
+        Error
+            If the file cannot be written.
+        """
         writing.write(self, path, command)
 
 
@@ -175,8 +283,23 @@ def cut(one, window):
     return replace(one, values=values, size=tuple(size), center=tuple(center), places=places)
 
 
-def combined(one, other):
-    """The separation of two surfaces on the same cells, centre on centre; of heights one of each body's."""
+def combined(one: Map, other: Map) -> Map:
+    """The separation of two surfaces on the same cells, centre on centre.
+
+    Parameters
+    ----------
+    one, other : Map
+        The maps; of heights one of each body's.
+
+    Returns
+    -------
+    Map
+
+    Raises
+    ------
+    Error
+        If both are heights of one body, or their cells differ.
+    """
     if one.quantity == other.quantity != "separation":
         body = one.quantity[-1]
         raise Error(

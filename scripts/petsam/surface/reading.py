@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -269,7 +270,14 @@ def _stated(path, given):
     return reader.read(source), reader.family
 
 
-def read(path, units: str | float | None = None, size=None, pixel=None, body: int | None = None, **more) -> Map:
+def read(
+    path: str | os.PathLike,
+    units: str | float | None = None,
+    size: str | float | tuple | None = None,
+    pixel: str | float | tuple | None = None,
+    body: int | None = None,
+    **more: Any,
+) -> Map:
     """Reads a map of heights, or a profile, from a file of any kind.
 
     All but the path is needed only where the file does not state it, and must agree with the file where it does.
