@@ -25,7 +25,7 @@ struct _n_SamGrid {
   PetscReal side[2];         /* the shorter and the longer side of a cell (m) */
   PetscReal area[2]; /* sides in x, y of the area that a traction acts on (m); infinite along y in plane strain */
   PetscReal length;  /* half the larger width (m), which makes coordinates dimensionless */
-  PetscBool coarse;  /* true: made by SamGridCoarsen(), with half the cells of another grid */
+  SamGrid   fine;    /* grid from which SamGridCoarsen() made this one, with half its cells; owned; NULL: none */
   PetscInt  references;
 };
 

@@ -89,7 +89,7 @@ typedef struct {
   PetscBool     kept;   /* true: checkpoints contain it */
   PetscBool     result; /* true: a column of /history */
   SamNumberJoin join;
-  PetscInt      order; /* order of its error in the cell size, for -grid_check; 0: the error is not estimated */
+  PetscInt      order; /* order of its error in the cell size, for -errors; 0: the error is not estimated */
 } SamStateNumber;
 
 #define SAM_STATE_NUMBERS  512

@@ -21,6 +21,7 @@ FIRST = ("open", "run", "Contact", "Element", "Results", "Snapshot", "Stresses",
 OBTAINED = {"contact": ("Step", "Cycle")}
 # modules in the order of the page; of a folder the modules that its __init__.py represents
 MODULES = (
+    "results.errors",
     "results.cycles",
     "results.sliding",
     "plot.pictures",

@@ -99,8 +99,8 @@ static PetscErrorCode RefuseDeferred(const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(PetscOptionsGetString(NULL, from->prefix, "-edges", word, sizeof(word), NULL));
   PetscCheck(strcmp(word, "deferred"), from->comm, SAM_ERR_USER,
-             "-%sedges deferred: no longer supported: use -edges reconstruct on a finer grid, whose errors -grid_check "
-             "estimates",
+             "-%sedges deferred: no longer supported: use -edges reconstruct on a finer grid; -errors companion "
+             "estimates its errors",
              SamOptionsPrefix(from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -73,10 +73,17 @@ static PetscErrorCode DeclareControl(SamContact c)
     const SamComponentName *name  = &SamComponentNames[k];
     const SamMotionName     rigid = SamMotionRigidName(c->motion, k);
     const PetscBool         load  = n < SAM_COMPONENTS;
+    const SamStateNumber    one   = {.name   = load ? name->load : rigid.name,
+                                     .unit   = load ? name->load_unit : rigid.unit,
+                                     .text   = load ? name->load_text : rigid.text,
+                                     .count  = 1,
+                                     .kept   = PETSC_TRUE,
+                                     .result = PETSC_TRUE,
+                                     .order  = 2};
+    PetscInt                id;
 
-    PetscCall(Declare(c, load ? name->load : rigid.name, load ? name->load_unit : rigid.unit,
-                      load ? name->load_text : rigid.text, SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
-                      n ? NULL : &c->solution));
+    PetscCall(SamStateDeclareNumber(c->state, &one, &id));
+    if (n == 0) c->solution = id;
   }
   for (PetscInt n = 0; n < SamConditionsCount(c->conditions); n++) {
     const SamCondition  *one    = SamConditionsGet(c->conditions, n);

@@ -84,7 +84,7 @@ def cases(plane):
         "cycles of wear and yield": (dict(strain, wear_coefficient1=1e-14, wear_cycles=20, wear_jump=5, steps=1), None),
     }
     if plane:
-        found["grid check"] = (dict(grid_check=True), shear)
+        found["errors"] = (dict(errors="companion"), shear)
     else:
         found["yield below layers"] = (dict(strain, **LAYER), shear)
         found["twist"] = ({}, {**shear, "load_mz": (0.0, 5e-3)})

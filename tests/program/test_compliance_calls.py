@@ -42,7 +42,7 @@ def test_a_deck_gives_in_a_notebook_what_the_command_writes(compliance, tmp_path
         found.to_csv("nowhere/patches.csv")
     with pytest.raises(petsam.Error, match="write it to a file by its write"):
         petsam.run(body2_compliance=found)
-    with pytest.raises(petsam.Error, match="contact: give the surface"):
+    with pytest.raises(petsam.Error, match="--mesh needs --contact: the surface"):
         petsam.compliance.of_deck("block.inp", 2.0, None, supports="BOTTOM")
 
 

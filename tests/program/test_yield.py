@@ -651,13 +651,16 @@ def test_contacts_of_few_cells_yield(solve, tmp_path):
     assert 1 <= run["contact_cells"][0] <= 12 and np.all(np.diff(run["plastic_max"]) > 0)
 
 
-def test_grid_check_halves_the_layers_too(petsam, solve):
+def test_companions_have_half_and_a_quarter_of_the_layers(petsam, solve, tmp_path):
     case = dict(BALL, grid_n=(24, 24))
-    text = petsam(dict(case, grid_check=True)).stdout
-    few = all_steps(solve(dict(case, grid_n=(12, 12), yield_layers=16)))
-    for name in "plastic_max", "plastic_work", "residual_z_max":
-        coarse = float(re.search(rf"{name}/\S+ +\S+ +(\S+)", text).group(1))
-        assert coarse == pytest.approx(few[name][0], rel=1e-5)
+    petsam(dict(case, errors="companion"), "-output", "own.h5")
+    with h5py.File(tmp_path / "own.h5") as file:
+        names = [name.decode() for name in file["errors/name"]]
+        found = {run: dict(zip(names, file[f"errors/{run}"][:])) for run in ("half", "quarter")}
+    for run, cells, layers in (("half", 12, 16), ("quarter", 6, 8)):
+        few = all_steps(solve(dict(case, grid_n=(cells, cells), yield_layers=layers)))
+        for name in "plastic_max", "plastic_work", "residual_z_max":
+            assert found[run][name] == pytest.approx(few[name][0], rel=1e-9), (run, name)
 
 
 @pytest.mark.parametrize("friction, part", [(0.0, 0.6), (0.33, 1.0)])

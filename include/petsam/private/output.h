@@ -4,6 +4,7 @@
 
 #include <petsam/contact.h>
 #include <petsam/parameters.h>
+#include <petsam/private/errors.h>
 
 /*
   SamOutput - a results file, to which one load step at a time is appended (layout: examples/manual/RESULTS.md). Every
@@ -85,6 +86,11 @@ PETSC_INTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal tim
   file, as SamOutputWriteStep() does. Collective. Errors: SAM_ERR_FILE; PETSC_ERR_ORDER for a file without that group.
 */
 PETSC_INTERN PetscErrorCode SamOutputWriteCycle(SamOutput output);
+/*
+  SamOutputWriteErrors - writes all waiting steps, then the group /errors with the rows of a table: names, units,
+  values, errors, their causes and factors. Collective. Errors: as SamOutputWriteStep().
+*/
+PETSC_INTERN PetscErrorCode SamOutputWriteErrors(SamOutput output, const SamErrorTable *table);
 /*
   SamOutputGetSaved - gets the number of load steps in the file, the number of steps with fields, and the time (s) of
   the last step with fields, -infinity if there is none; NULL for an unwanted output. Not collective.

@@ -30,11 +30,12 @@ PETSC_INTERN PetscErrorCode SamSetupReadOptions(SamSetup *setup, const SamOption
 */
 PETSC_INTERN PetscErrorCode SamSetupCreateContact(SamSetup *setup, const SamOptions *from);
 /*
-  SamSetupCreateCoarse - creates a setup of the same bodies with half the cells in each direction, rounded up, and a
-  contact with the same options. Heights from files become means over the cells. Collective. Errors: SAM_ERR_USER,
-  SAM_ERR_FILE.
+  SamSetupCreateCoarse - creates a setup of the same bodies whose cells are halved in each direction, rounded up, so
+  many times (at least once), and a contact with the same options. Fields from files become means over the cells. Collective.
+  Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
-PETSC_INTERN PetscErrorCode SamSetupCreateCoarse(const SamSetup *setup, const SamOptions *from, SamSetup *coarse);
+PETSC_INTERN PetscErrorCode SamSetupCreateCoarse(const SamSetup *setup, PetscInt halvings, const SamOptions *from,
+                                                 SamSetup *coarse);
 /*
   SamSetupAddParameters - appends the parameters that define the contact, under the names of its options, and the
   checksums of fields. Collective.

@@ -3,6 +3,7 @@
 #define PETSAM_SIMULATION_H
 
 #include <petsam/private/advice.h>
+#include <petsam/private/errors.h>
 #include <petsam/private/history.h>
 #include <petsam/private/life.h>
 #include <signal.h>
@@ -26,7 +27,7 @@ typedef enum {
   SAM_NOTIFY_ADVICE,     /* advice: `text`, and the option that mends it, `setting` (without dash; empty: none) */
   SAM_NOTIFY_EXTENT,     /* size of the contact in `step`: `extent` */
   SAM_NOTIFY_SLIP,       /* dissipated energy of all steps: `slip` */
-  SAM_NOTIFY_GRID_CHECK, /* comparison of the last step with a coarser grid: `check` */
+  SAM_NOTIFY_ERRORS,     /* estimated errors of the last numbers: `errors` */
   SAM_NOTIFY_FILE,       /* the file `text` has been written, and contains `setting` */
   SAM_NOTIFY_STOPPED     /* stopped before the end, with a checkpoint: `text` says where and why */
 } SamEventKind;
@@ -45,21 +46,6 @@ typedef struct {
   char        after[64];                      /* position of that checkpoint, in words */
 } SamSimulationStart;
 
-/*
-  SamGridCheckRow - a number of the last step (sums: of all steps) on this grid and on one of half the cells, the
-  assumed order of its error, the estimated error, and the extrapolated number.
-  SamGridCheck - all rows; `n`: the cells of the coarser grid.
-*/
-typedef struct {
-  const char *name, *unit;
-  PetscInt    order;
-  double      value, coarse, error, extrapolated;
-} SamGridCheckRow;
-typedef struct {
-  PetscInt        n[2], count;
-  SamGridCheckRow row[24];
-} SamGridCheck;
-
 /* SamSimulationEvent - an event, with the members that its kind names; all are borrowed. */
 typedef struct {
   SamEventKind              kind;
@@ -70,7 +56,7 @@ typedef struct {
   const SamSimulationStart *start;
   const SamExtent          *extent;
   const SamSlip            *slip;
-  const SamGridCheck       *check;
+  const SamErrorTable      *errors;
   const char               *text, *setting;
   PetscBool                 waits; /* the step will be written to the results together with a later one */
 } SamSimulationEvent;
@@ -147,7 +133,7 @@ PETSC_INTERN PetscErrorCode SamSimulationCommitStep(SamSimulation simulation, co
 typedef enum { SAM_TOUCHES_NEVER, SAM_TOUCHES_FIRST, SAM_TOUCHES_LATER } SamTouches;
 /* SamSimulationNeeds - the properties of a simulation, besides the grid, that determine its memory. */
 typedef struct {
-  PetscBool  friction, coupled, life, stiffness, grid_check;
+  PetscBool  friction, coupled, life, stiffness, companion;
   PetscInt   steps;
   PetscInt   laws;          /* memory of the laws per cell, bytes */
   PetscReal  contact, part; /* SamSimulationEstimateShares(): of this rank's cells, and of the grid's */

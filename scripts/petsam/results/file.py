@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import Error, library, short, there_are
 from ..core.files import decoded
-from . import parts
+from . import errors, parts
 from .datafile import Named, NotSaved, _nodes, _own, _some
 from .fields import OPEN, SLIP, STICK, Fields
 
@@ -48,6 +48,8 @@ class Results(Fields):
         {name: array (cycles,)} with a value for every computed cycle of a life, all of /wear; empty without a life.
     wear_units : dict
         {name: unit}, of the same.
+    errors : Errors
+        {name: NumberError} of the last numbers, with -errors companion; a table (errors.py). Empty without.
     parameters : dict
         {name of an option: value}, all root attributes.
 
@@ -103,6 +105,7 @@ class Results(Fields):
         attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
         self._fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
         self._later, self._places = [], [(0, k) for k in range(self.times.size)]
+        self.errors = errors.read(self.file.get("errors"))
         self.wear, self.wear_units = Named(self.path, {}), {}
         if "wear" in self.file:
             self.wear, self.wear_units = self._read_table("wear")

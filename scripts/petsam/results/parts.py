@@ -37,6 +37,7 @@ def append(results, part):
     results.matrices.update(_joined(results.matrices, rows, part.matrices, count, {}))
     computed = max((values.size for values in part.wear.values()), default=0)
     results.wear.update(_joined(results.wear, cycles, part.wear, computed, {}))
+    results.errors = part.errors
     results.units.update(part.units)
     results.wear_units.update(part.wear_units)
     results.times = np.concatenate([results.times[saved], part.times[more]])

@@ -100,11 +100,10 @@ PetscErrorCode SamMotionDeclareNumber(SamMotion motion, SamState state, const Sa
 
   PetscFunctionBegin;
   if (name) {
-    declared.name  = name->name;
-    declared.unit  = name->unit;
-    declared.text  = name->text;
-    declared.join  = SAM_JOIN_LAST;
-    declared.order = 0;
+    declared.name = name->name;
+    declared.unit = name->unit;
+    declared.text = name->text;
+    declared.join = SAM_JOIN_LAST;
   }
   PetscCall(SamStateDeclareNumber(state, &declared, id));
   PetscFunctionReturn(PETSC_SUCCESS);

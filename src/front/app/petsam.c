@@ -162,7 +162,7 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscCallMPI(MPI_Comm_size(setup->grid->comm, &ranks));
   PetscCall(SamSimulationGetFiles(simulation, &files));
   PetscCall(EstimateKept(setup, &needs, ranks, &kept));
-  *bytes = BytesPerCell(setup, &needs) * (double)setup->grid->cells * (needs.grid_check ? 1.25 : 1);
+  *bytes = BytesPerCell(setup, &needs) * (double)setup->grid->cells * (needs.companion ? 1.6 : 1);
   if (files.checkpoint) *bytes += CHECKPOINT_BYTES * (double)setup->grid->cells;
   *bytes += SAM_MEMORY_PROGRAM + kept + (files.checkpoint || files.output ? FILE_BYTES : 0);
   PetscFunctionReturn(PETSC_SUCCESS);

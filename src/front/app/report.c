@@ -379,21 +379,29 @@ static PetscErrorCode Say(SamReport r, const SamSimulationEvent *news)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode PrintGridCheck(SamReport r, const SamGridCheck *check)
+/* Prints the numbers with their errors, and the cost of these. */
+static PetscErrorCode PrintErrors(SamReport r, const SamErrorTable *t)
 {
+  const double total = MPI_Wtime() - r->start;
+
   PetscFunctionBegin;
-  if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(r->comm,
-                        "\n  grid check: numbers of the last step, and on %" PetscInt_FMT " x %" PetscInt_FMT
-                        " cells\n    %-22s %14s %14s %10s %14s %5s\n",
-                        check->n[0], check->n[1], "", "this grid", "coarser grid", "error", "extrapolated", "order"));
-  for (PetscInt k = 0; k < check->count; k++) {
-    const SamGridCheckRow *row = &check->row[k];
-    char                   name[48];
+  if (r->quiet || !t->count) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(
+    r->comm, "\n  errors of the last numbers, by runs %s (%.0f %% of the time)\n    %-22s %14s %10s %10s %10s\n",
+    t->runs, 100 * t->seconds / total, "", "", "error", "by cells", "by steps"));
+  for (PetscInt k = 0; k < t->count; k++) {
+    const SamErrorRow *row = &t->row[k];
+    char               name[SAM_ERROR_NAME + 24], part[3][16];
+    const double       error[3] = {row->error, row->of[SAM_CAUSE_CELLS], row->of[SAM_CAUSE_STEPS]};
 
     (void)snprintf(name, sizeof(name), "%s/%s", row->name, row->unit);
-    PetscCall(PetscPrintf(r->comm, "    %-22s %14.6g %14.6g %8.2g %% %14.6g %5" PetscInt_FMT "\n", name, row->value,
-                          row->coarse, 100 * row->error / fabs(row->value), row->extrapolated, row->order));
+    for (int c = 0; c < 3; c++) {
+      if (isnan(error[c]))
+        (void)snprintf(part[c], sizeof(part[c]), "unknown");
+      else
+        (void)snprintf(part[c], sizeof(part[c]), "%.2g %%", 100 * error[c]);
+    }
+    PetscCall(PetscPrintf(r->comm, "    %-22s %14.6g %10s %10s %10s\n", name, row->value, part[0], part[1], part[2]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -427,8 +435,8 @@ PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulatio
   case SAM_NOTIFY_SLIP:
     r->slip = *news->slip;
     break;
-  case SAM_NOTIFY_GRID_CHECK:
-    PetscCall(PrintGridCheck(r, news->check));
+  case SAM_NOTIFY_ERRORS:
+    PetscCall(PrintErrors(r, news->errors));
     break;
   case SAM_NOTIFY_FILE:
     PetscCall(AddFile(r, news->text, news->setting));

@@ -7,6 +7,7 @@
 #include "fileimpl.h"
 #include <petsam/private/fieldfile.h>
 #include <petsam/private/base.h>
+#include <petsam/private/grid.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -230,11 +231,21 @@ PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec h)
 PetscErrorCode SamFieldFileCreate(const SamFieldFile *source, SamGrid grid, Vec *field)
 {
   PetscErrorCode ierr;
+  SamTransfer    transfer;
+  Vec            fine = NULL;
 
   PetscFunctionBegin;
   *field = NULL;
   if (!source->file[0] || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  if (grid->fine) PetscCall(SamFieldFileCreate(source, grid->fine, &fine));
   PetscCall(SamGridCreateVec(grid, 1, field));
+  if (fine) {
+    PetscCall(SamTransferCreate(grid->fine, grid, &transfer));
+    PetscCall(SamTransferRestrict(transfer, fine, *field));
+    PetscCall(SamTransferDestroy(&transfer));
+    PetscCall(VecDestroy(&fine));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   ierr = SamFieldFileRead(source, grid, *field);
   if (ierr) PetscCall(VecDestroy(field));
   PetscCall(ierr);

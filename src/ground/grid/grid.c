@@ -179,6 +179,7 @@ PetscErrorCode SamGridDestroy(SamGrid *grid)
   SamValidHandle(*grid, SamGrid, 1);
   if (--(*grid)->references == 0) {
     PetscCall(PetscCommDestroy(&(*grid)->comm));
+    PetscCall(SamGridDestroy(&(*grid)->fine));
     (*grid)->class_id = SAM_CLASSID_NONE;
     PetscCall(PetscFree(*grid));
   }
@@ -192,7 +193,8 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
 
   PetscFunctionBegin;
   PetscCall(SamGridCreate(fine->comm, n, fine->width, fine->center, coarse));
-  (*coarse)->coarse = PETSC_TRUE;
+  PetscCall(SamGridReference(fine));
+  (*coarse)->fine = fine;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

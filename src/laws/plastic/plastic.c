@@ -137,8 +137,8 @@ static PetscInt BodiesOf(const Plastic *x)
 
 /*
   Sets the thicknesses of the layers. Values that are not given follow from the grid, since it fits the contact: the
-  depth is its smaller width, or for periodic bodies the larger one, and the first layer is half a cell thick. The check
-  of the grid halves the layers with the cells.
+  depth is its smaller width, or for periodic bodies the larger one, and the first layer is half a cell thick. A grid
+  with half the cells of another one has half the layers.
 */
 static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *from)
 {
@@ -152,8 +152,10 @@ static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *
              "-%syield_depth %.6g: at most %d times the width of the grid, %.6g m, can yield: check the unit",
              SamOptionsPrefix(from), (double)x->depth, DEEPEST, (double)width);
   if (x->depth == 0) x->depth = width;
-  if (grid->coarse) x->layers = (x->layers + 1) / 2;
-  if (grid->coarse) x->first *= 2;
+  for (SamGrid fine = grid->fine; fine; fine = fine->fine) {
+    x->layers = (x->layers + 1) / 2;
+    x->first *= 2;
+  }
   if (x->first == 0) x->first = PetscMin(grid->side[0] / 2, x->depth / (PetscReal)x->layers);
   PetscCheck(x->first <= x->depth / (PetscReal)x->layers * (1 + 1e-9), from->comm, SAM_ERR_USER,
              "-%syield_first %.6g: the first layer is the thinnest: at most -yield_depth over -yield_layers, "

@@ -61,6 +61,9 @@ PETSC_INTERN PetscErrorCode SamOutputAppendFrames(SamOutput output, PetscBool pr
 PETSC_INTERN void SamOutputAppendNumbers(SamOutput output, hid_t dataset, hid_t type, hsize_t index, hsize_t count,
                                          hsize_t n, const void *numbers);
 
+/* SamOutputAppendErrors - creates the group /errors (errortable.c). Notes its failures. Collective. */
+PETSC_INTERN PetscErrorCode SamOutputAppendErrors(SamOutput output, const SamErrorTable *table);
+
 #define SAM_IDENTITY "results-%016" PRIx64 /* identity of a file, as text */
 
 #define SAM_OUTPUT_WAIT 256 /* maximum number of steps that wait to be written, a chunk of the series */

@@ -275,6 +275,17 @@ PetscErrorCode SamOutputWriteCycle(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamOutputWriteErrors(SamOutput o, const SamErrorTable *table)
+{
+  PetscFunctionBegin;
+  PetscCall(CheckWhole(o));
+  PetscCall(Begin(o, PETSC_FALSE));
+  PetscCall(WriteWaiting(o, PETSC_FALSE, 0));
+  PetscCall(SamOutputAppendErrors(o, table));
+  PetscCall(End(o));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputGetSaved(SamOutput o, PetscInt *steps, PetscInt *saved, PetscReal *time)
 {
   PetscFunctionBegin;

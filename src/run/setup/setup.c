@@ -67,21 +67,50 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSetupCreateCoarse(const SamSetup *s, const SamOptions *from, SamSetup *coarse)
+/* Averages a field over the cells of a grid that SamGridCoarsen() has made of that of the field, once or repeatedly. */
+static PetscErrorCode Average(SamGrid from, Vec fine, SamGrid to, Vec coarse)
 {
   SamTransfer transfer;
-  Vec         gap;
+  Vec         between = NULL;
+
+  PetscFunctionBegin;
+  if (to->fine != from) {
+    PetscCall(SamGridCreateVec(to->fine, 1, &between));
+    PetscCall(Average(from, fine, to->fine, between));
+  }
+  PetscCall(SamTransferCreate(to->fine, to, &transfer));
+  PetscCall(SamTransferRestrict(transfer, between ? between : fine, coarse));
+  PetscCall(SamTransferDestroy(&transfer));
+  PetscCall(VecDestroy(&between));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Halves the cells of a grid so many times, at least once. */
+static PetscErrorCode Halve(SamGrid grid, PetscInt times, SamGrid *coarse)
+{
+  SamGrid half;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCoarsen(grid, coarse));
+  if (times < 2) PetscFunctionReturn(PETSC_SUCCESS);
+  half = *coarse;
+  PetscCall(Halve(half, times - 1, coarse));
+  PetscCall(SamGridDestroy(&half)); /* the coarser one refers to it */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSetupCreateCoarse(const SamSetup *s, PetscInt halvings, const SamOptions *from, SamSetup *coarse)
+{
+  Vec gap;
 
   PetscFunctionBegin;
   PetscCall(SamPairReference(s->pair));
   *coarse = (SamSetup){.pair = s->pair};
-  PetscCall(SamGridCoarsen(s->grid, &coarse->grid));
+  PetscCall(Halve(s->grid, halvings, &coarse->grid));
   PetscCall(CreateProblem(coarse, from));
   gap = SamProblemGetGap(coarse->problem);
   if (SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE)) {
-    PetscCall(SamTransferCreate(s->grid, coarse->grid, &transfer));
-    PetscCall(SamTransferRestrict(transfer, SamProblemGetGap(s->problem), gap));
-    PetscCall(SamTransferDestroy(&transfer));
+    PetscCall(Average(s->grid, SamProblemGetGap(s->problem), coarse->grid, gap));
   } else {
     PetscCall(SamGapFill(s->gap, coarse->grid, gap));
   }

@@ -4,6 +4,7 @@
 #include <petsam/private/table.h>
 #include <petsam/private/arguments.h>
 #include <petsam/private/help.h>
+#include <petsam/private/balance.h>
 #include <petsam/private/base.h>
 #include <petsam/private/control.h>
 #include <float.h>
@@ -17,6 +18,8 @@ struct _n_SamHistory {
   SamControl before;   /* control from which the first row's change begins */
   PetscInt   rows, increments;
   PetscInt   start;                    /* steps up to the first row */
+  PetscBool  apart;                    /* true: in these steps the tangential loads follow the others */
+  PetscBool  together;                 /* true: in these steps all loads grow in proportion */
   SamTable   table;                    /* empty without a file */
   PetscInt   time;                     /* column of the time; -1: none */
   PetscInt   parts;                    /* parts of the control: the components, and the conditions at that time */
@@ -456,6 +459,51 @@ SamControl SamHistoryGetStep(SamHistory h, PetscInt k)
   return SamHistoryGetPart(h, k, 1);
 }
 
+/* ---- other steps ---- */
+
+static PetscErrorCode CopyTable(const SamTable *from, SamTable *to)
+{
+  PetscFunctionBegin;
+  *to = *from;
+  if (!from->rows) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(from->rows * from->columns, &to->value));
+  PetscCall(PetscArraycpy(to->value, from->value, from->rows * from->columns));
+  PetscCall(PetscMalloc1(from->rows, &to->line));
+  PetscCall(PetscArraycpy(to->line, from->line, from->rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHistoryDivide(SamHistory h, PetscInt increments, SamHistory *other)
+{
+  SamHistory       o;
+  const SamControl first = SamHistoryGetStep(h, 0);
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&o));
+  *o = *h;
+  PetscCall(CopyTable(&h->table, &o->table));
+  PetscCall(PetscMalloc1(h->parts, &o->column));
+  PetscCall(PetscArraycpy(o->column, h->column, h->parts));
+  PetscCall(SamConditionsReference(h->conditions));
+  o->increments = increments;
+  o->together   = first.together;
+  o->apart      = increments > 1 && !IsAtRest(h) && !first.together && first.value[SAM_COMPONENT_N] > 0 &&
+             h->before.value[SAM_COMPONENT_N] == 0;
+  o->start = h->table.rows && IsAtRest(h) ? 1 : o->apart ? 2 * increments : increments;
+  *other   = o;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscInt SamHistoryFindStep(SamHistory h, SamHistory other, PetscInt k)
+{
+  const PetscInt r = RowOf(h, k), n = r ? h->increments : h->start, m = r ? other->increments : other->start,
+                 done = r ? (k - h->start) % h->increments + 1 : k + 1,
+                 at   = r ? other->start + (r - 1) * other->increments : 0;
+
+  if (done == n) return at + m - 1;
+  return done * m % n || (!r && other->apart) ? -1 : at + done * m / n - 1;
+}
+
 /* Changes of two rows are in proportion if they differ by less, relative to the larger change. */
 #define IN_PROPORTION 1e-9
 
@@ -475,21 +523,31 @@ static PetscBool ContinuesAfter(SamHistory h, PetscInt r)
   return PETSC_TRUE;
 }
 
+/* Returns the part of the change of part p of the control, if the tangential loads follow the others. */
+static double WayApart(PetscInt p, double way)
+{
+  for (PetscInt c = 0; c < 3; c++)
+    if (p == SamComponentsOf[SAM_BALANCE_TANGENTIAL][c]) return PetscMax(0, 2 * way - 1);
+  return PetscMin(1, 2 * way);
+}
+
 SamControl SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part)
 {
-  const PetscInt r = RowOf(h, k), steps = r ? h->increments : h->start;
-  const double   i = (double)(r ? (k - h->start) % h->increments : k) + (double)part, way = i / (double)steps;
-  SamControl     control = h->constant;
+  const PetscInt  r = RowOf(h, k), steps = r ? h->increments : h->start;
+  const double    i = (double)(r ? (k - h->start) % h->increments : k) + (double)part, way = i / (double)steps;
+  const PetscBool apart   = r == 0 && h->apart;
+  SamControl      control = h->constant;
 
 /* linear between the rows; on a row its own value, without rounding */
-#define BETWEEN(before, after) (i == (double)steps ? (after) : (before) + way * ((after) - (before)))
-  control.time = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
+#define BETWEEN(way, before, after) ((way) == 1 ? (after) : (before) + (way) * ((after) - (before)))
+  control.time = BETWEEN(way, TimeOfRow(h, r - 1), TimeOfRow(h, r));
   for (PetscInt p = 0; p < h->parts; p++)
     SamControlSetPart(&control, h->conditions, p,
                       p >= SAM_COMPONENTS && SamConditionsGet(h->conditions, p - SAM_COMPONENTS)->change
                         ? ValueOfRow(h, p, r) / (double)steps
-                        : BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r)));
+                        : BETWEEN(apart ? WayApart(p, way) : way, ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r)));
 #undef BETWEEN
-  control.together = (r ? (k - h->start) % h->increments : k) + 1 < steps || ContinuesAfter(h, r);
+  control.together =
+    (r == 0 && h->together) || (r ? (k - h->start) % h->increments : k) + 1 < steps || ContinuesAfter(h, r);
   return control;
 }

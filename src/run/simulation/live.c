@@ -16,18 +16,6 @@
 
 /* ---- callbacks of the life ---- */
 
-/* Gets step `step` of the cycle; the steps before it, up to the history's first row, lead to its start. */
-static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, SamControl *control)
-{
-  SamSimulation       s     = (SamSimulation)context;
-  const SamCondition *scale = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
-
-  PetscFunctionBegin;
-  *control = SamHistoryGetStep(s->history, SamLifeOptionsGetStart(&s->plan, s->history) + step);
-  SamControlSetCondition(control, scale, SamControlGet(control, scale) * SamLifeOptionsFriction(&s->plan, cycles));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Computes the time of a step in the life: all cycles take as long as the first one. */
 static PetscErrorCode TimeOf(SamSimulation s, PetscReal cycles, PetscReal *time)
 {
@@ -316,36 +304,9 @@ PetscErrorCode SamSimulationLive(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationLiveCoarse(SamSimulation s, SamContact contact, PetscReal cycles, SamLife *life,
-                                       SamStep *step)
-{
-  const PetscInt start = SamLifeOptionsGetStart(&s->plan, s->history);
-  SamLifeCycle   cycle = {.control = Control, .context = s};
-  SamLifeReport  r;
-
-  PetscFunctionBegin;
-  cycle.steps = s->needs.steps - start;
-  PetscCall(SamLifeCreate(contact, &cycle, &s->plan.life, life));
-  for (PetscInt k = 0; k < start; k++) {
-    const SamControl control = SamHistoryGetStep(s->history, k);
-
-    PetscCall(SamContactTry(contact, &control, step));
-    if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
-    PetscCall(SamContactCommit(contact));
-  }
-  PetscCall(SamLifeCompute(*life, &r));
-  while (r.step.status == SAM_STATUS_CONVERGED && r.cycles < cycles) {
-    PetscCall(SamLifeJump(*life, PetscMin(cycles, SamLifeOptionsNextStop(&s->plan, r.cycles)), &r));
-    if (r.step.status == SAM_STATUS_CONVERGED) PetscCall(SamLifeCompute(*life, &r));
-  }
-  PetscCall(SamLifeRecord(*life, &r));
-  *step = r.step;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationCreateLife(SamSimulation s)
 {
-  SamLifeCycle       cycle = {.control = Control, .solved = WriteStep, .context = s};
+  SamLifeCycle       cycle = {.control = SamSimulationCycleControl, .solved = WriteStep, .context = s};
   SamOutputSettings *set   = &s->output_settings;
 
   PetscFunctionBegin;

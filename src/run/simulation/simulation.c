@@ -25,6 +25,7 @@ PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputDestroy(&s->output));
+  PetscCall(SamErrorsDestroy(&s->errors));
   PetscCall(PetscFree(s->written));
   PetscCall(SamCheckpointDestroy(&s->checkpoints.files));
   PetscCall(SamLifeDestroy(&s->life));
@@ -89,6 +90,7 @@ static PetscErrorCode Offer(SamSimulation s)
   }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
   PetscCall(SamSimulationDeclarePieces(s));
+  PetscCall(SamErrorsCreate(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -285,6 +287,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP_BEGINS, .step = k}));
   PetscCall(SamSimulationTry(s, k, &step));
   if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &step));
+  PetscCall(SamErrorsRecord(s, k, &step));
   *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
   due    = (PetscBool)(SamSimulationSaves(s, k + 1, last + 1) || *ended);
   PetscCall(SamSimulationWriteStep(s, &step, due));
@@ -318,6 +321,7 @@ static PetscErrorCode RunAll(SamSimulation s)
 {
   PetscErrorCode code;
   const SamSlip *slip = NULL;
+  SamControl     last;
 
   PetscFunctionBegin;
   if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
@@ -330,9 +334,11 @@ static PetscErrorCode RunAll(SamSimulation s)
     PetscCall(SolveSteps(s));
   if (s->point.worst == SAM_STATUS_CONVERGED) PetscCall(SamAdviceEnd(&s->advice, &slip));
   if (slip) PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_SLIP, .slip = slip}));
+  if (s->point.worst == SAM_STATUS_CONVERGED && !s->stopped) {
+    last = SamHistoryGetStep(s->history, s->needs.steps - 1);
+    PetscCall(SamErrorsEnd(s, &last, slip));
+  }
   PetscCall(Finish(s));
-  if (s->needs.grid_check && s->point.worst == SAM_STATUS_CONVERGED && !s->stopped)
-    PetscCall(SamSimulationCheckGrid(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

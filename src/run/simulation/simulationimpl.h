@@ -38,6 +38,8 @@ typedef struct {
   PetscInt      seen;               /* number of steps when a checkpoint was last considered */
 } SamCheckpoints;
 
+typedef struct _n_SamErrors *SamErrors;
+
 struct _n_SamSimulation {
   MPI_Comm               comm;
   SamSimulationMonitor   monitor; /* NULL: none */
@@ -74,10 +76,10 @@ struct _n_SamSimulation {
   char                   filename[PETSC_MAX_PATH_LEN];
   char                  *written; /* name of the part of the results that is being written; NULL: none */
   SamAdvice              advice;
-  SamAdvice              single, tried;           /* advice on steps given one by one: committed; with the tried one */
-  PetscInt               earlier;                 /* 1: the state before these steps already has a step */
-  PetscBool              advised;                 /* advice on the tried step has been computed */
-  double                 sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps, for the check of the grid */
+  SamAdvice              single, tried; /* advice on steps given one by one: committed; with the tried one */
+  PetscInt               earlier;       /* 1: the state before these steps already has a step */
+  PetscBool              advised;       /* advice on the tried step has been computed */
+  SamErrors              errors;        /* NULL: they are not computed */
 };
 
 /*
@@ -100,12 +102,12 @@ PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char
 PETSC_INTERN PetscErrorCode SamSimulationCreateLife(SamSimulation simulation);
 /*
   SamSimulationLive - runs the cycles of a life, and writes their results and checkpoints. Collective.
-  SamSimulationLiveCoarse - runs so many cycles of the same life on another contact, without results and checkpoints;
-  returns the last step, or the first one that is not converged. Collective.
+  SamSimulationCycleControl - gets the control of a step of the cycle: a function of SamLifeCycle whose context is the
+  simulation (step.c). Not collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationLive(SamSimulation simulation);
-PETSC_INTERN PetscErrorCode SamSimulationLiveCoarse(SamSimulation simulation, SamContact contact, PetscReal cycles,
-                                                    SamLife *life, SamStep *step);
+PETSC_INTERN PetscErrorCode SamSimulationCycleControl(void *simulation, PetscInt step, PetscReal cycles,
+                                                      SamControl *control);
 /*
   SamSimulationPlaceLast - if a life has ended in cycles before the first written one, makes its last step a step of the
   file. Collective.
@@ -156,11 +158,18 @@ PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, co
 PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, PetscInt k, PetscBool of_laws,
                                                  const SamStep *step);
 /*
-  The check of the grid (gridcheck.c). ReadGridCheck reads -grid_check; CheckGrid, after the last step, solves all steps
-  on half the cells and reports the estimated errors. Collective. Errors: SAM_ERR_USER.
+  The errors of all numbers (errors.c). Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+    ReadOptions  reads -errors
+    Create       creates the companion runs, and declares the numbers NAME_error, if they are requested
+    Record       after the try of step k of the history: lets the companions follow, and sets the errors of its numbers
+    End          after the last step, with these loads: runs the companions of a life, stores and reports the errors of
+                 the last numbers, and warns of large ones; `slip`: what SamAdviceEnd() has found
 */
-PETSC_INTERN PetscErrorCode SamSimulationReadGridCheck(SamSimulation simulation, const SamOptions *from);
-PETSC_INTERN PetscErrorCode SamSimulationCheckGrid(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamErrorsReadOptions(SamSimulation simulation, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamErrorsCreate(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamErrorsRecord(SamSimulation simulation, PetscInt k, const SamStep *step);
+PETSC_INTERN PetscErrorCode SamErrorsEnd(SamSimulation simulation, const SamControl *last, const SamSlip *slip);
+PETSC_INTERN PetscErrorCode SamErrorsDestroy(SamErrors *errors);
 /* SamSimulationCollectParameters - collects the parameters for results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCollectParameters(SamSimulation simulation);
 

@@ -170,7 +170,7 @@ PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *fr
   PetscCall(ReadPlan(s, PETSC_FALSE, from));
   PetscCall(SetProgram(s, s->history, s->plan.cycles, from));
   PetscCall(ReadFiles(s, from));
-  PetscCall(SamSimulationReadGridCheck(s, from));
+  PetscCall(SamErrorsReadOptions(s, from));
   if (!SamPrintHelp()) PetscCall(SamSimulationEstimateShares(s, &s->needs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,6 +3,18 @@
 #include <petsam/private/state.h>
 #include <petsam/private/contact.h>
 
+/* Gets step `step` of the cycle; the steps before it, up to the history's first row, lead to its start. */
+PetscErrorCode SamSimulationCycleControl(void *context, PetscInt step, PetscReal cycles, SamControl *control)
+{
+  SamSimulation       s     = (SamSimulation)context;
+  const SamCondition *scale = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
+
+  PetscFunctionBegin;
+  *control = SamHistoryGetStep(s->history, SamLifeOptionsGetStart(&s->plan, s->history) + step);
+  SamControlSetCondition(control, scale, SamControlGet(control, scale) * SamLifeOptionsFriction(&s->plan, cycles));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSimulationAdviseEdge(SamSimulation s, const SamControl *control, SamStep *step)
 {
   const size_t used  = strlen(step->message);
@@ -98,8 +110,7 @@ static PetscErrorCode CommitAdvice(SamSimulation s, const SamStep *step)
 
 PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step, char warning[], size_t size)
 {
-  PetscInt        law = 0;
-  SamState        state;
+  PetscInt        law   = 0;
   const PetscBool tried = SamContactHasStep(s->setup.contact, SAM_TRIED);
 
   PetscFunctionBegin;
@@ -110,10 +121,6 @@ PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step, cha
              "the tried step did not converge, and cannot be committed: %s", step->message);
   if (warning) PetscCall(SamContactAdvise(s->setup.contact, &law, warning, size));
   PetscCall(CommitAdvice(s, step));
-  if (s->needs.grid_check) {
-    PetscCall(SamContactGetState(s->setup.contact, &state)); /* makes all parts declare their numbers again */
-    SamStateJoinNumbers(state, s->sums, PETSC_FALSE);
-  }
   PetscCall(SamContactCommit(s->setup.contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -7,6 +7,10 @@ by finer steps; a single step in which contact is made goes on the path that it 
 printed number, of the last step or of all steps, differs by more than 5 % and no warning names it or its cause; right:
 all are within 2 %. For each wrong problem the worst number is found again on finer cells alone, and by finer steps
 alone.
+
+The run also has -errors companion. Untold: a number is wrong, and its error is less than half of the true one; alarmed:
+a right problem with a warning of errors. The summary says for how many numbers the error covers the true one, for how
+many within a factor of 2, and the median of their ratio where the true one is above 0.5 %.
 """
 
 import re
@@ -71,6 +75,8 @@ NAMED = (
     ("wears in stripes", ("depth_max1", "depth_max2", "pressure_max", "shear_max", "contact_area")),
     ("since the last load reversal", ("slip_max",)),
 )
+ERRORS = r"error by the (cells|steps):|errors by the (cells|steps) are unknown"  # warnings of -errors companion
+LEAST = 5e-3  # smallest true error whose estimate is measured
 MODEL = "half-space theory|linear elasticity|strains are taken as small|periodic images|less than 0.001 of it"
 
 
@@ -130,6 +136,16 @@ def run(program, case, folder, timeout):
     return done.returncode, [line for line in found if not re.search(MODEL, line)], (lines or [""])[-1]
 
 
+def estimates(path):
+    """Of the results of a run with -errors companion: {name: relative error}, and {name: values in its companions};
+    unknown ones are NaN."""
+    with h5py.File(path) as file:
+        table = file["errors"]
+        names = [name.decode().replace("residual_z_max", "residual_z") for name in table["name"]]
+        runs = np.stack([table[name][:] for name in ("value", "half", "quarter", "other")], axis=1)
+        return dict(zip(names, table["error"][:].tolist())), dict(zip(names, runs.tolist()))
+
+
 def read(path):
     """Printed numbers of a run, and the least values that count, by name."""
     with h5py.File(path) as file:
@@ -178,7 +194,8 @@ class Trial:
 
     def __init__(self, kind, seed, folder, finer, timeout):
         self.kind, self.folder, self.timeout = kind, folder, timeout
-        self.errors, self.warnings, self.failure, self.cause, self.parts = {}, [], "", {}, {}
+        self.errors, self.warnings, self.failure, self.cause, self.estimates = {}, [], "", {}, {}
+        self.runs, self.alarms = {}, []
         self.problem = random_problem(kind, seed, folder)
         self.finer = min(finer, self.problem.most)
         self.solve(finer)
@@ -194,10 +211,13 @@ class Trial:
         return (None, warnings) if self.failure else (read(self.folder / "out.h5"), warnings)
 
     def solve(self, finer):
-        found, self.warnings = self.numbers(1, 1)
+        found, lines = self.numbers(1, 1, errors="companion")
+        self.warnings = [line for line in lines if not re.search(ERRORS, line)]
+        self.alarms = [line for line in lines if re.search(ERRORS, line)]
         self.line = " ".join(words(self.case)) if self.failure else ""
         if self.failure:
             return
+        self.estimates, self.runs = estimates(self.folder / "out.h5")
         steps = dict(zone=2).get(self.kind, self.finer if self.kind == "yield" else finer)
         steps = 1 if self.problem.name == "rolling" else steps
         fine = dict(slide=dict(wear_rtol=0.02), zone=dict(wear_rtol=5e-3)).get(self.kind, {})
@@ -222,6 +242,16 @@ class Trial:
         return {name: error for name, error in self.errors.items() if error > WRONG}
 
     @property
+    def untold(self):
+        """Wrong numbers whose error is less than half of the true one, or unknown."""
+        return {name: e for name, e in self.wrong.items() if not self.estimates.get(name, 0.0) >= 0.5 * e}
+
+    @property
+    def alarmed(self):
+        """Warnings of errors in a problem whose numbers are right."""
+        return self.alarms if self.errors and max(self.errors.values()) < RIGHT else []
+
+    @property
     def silent(self):
         numbers = named(self.warnings)
         return {} if numbers is None else {name: error for name, error in self.wrong.items() if name not in numbers}
@@ -242,15 +272,34 @@ class Trial:
             text += f" SILENT: {', '.join(self.silent)}; by " + ", ".join(
                 f"{part} {100 * error:.2g} %" for part, error in self.cause.items()
             )
-        return "\n    ".join([text + (" LOUD" if self.loud else ""), *self.warnings])
+        parts = [
+            f"{name} {100 * self.errors[name]:.2g} % (told {100 * self.estimates.get(name, np.nan):.2g} %)"
+            for name in self.untold
+        ]
+        text += f" UNTOLD: {', '.join(parts)}" if parts else ""
+        text += (" LOUD" if self.loud else "") + (" ALARMED" if self.alarmed else "")
+        return "\n    ".join([text, *self.warnings, *self.alarms])
 
 
 def trial(seed, folder, given):
     """The errors of the printed numbers, and what is told of them."""
     found = Trial(given.kind, seed, folder, given.finer, given.timeout)
-    names = ("errors", "warnings", "failure", "cause", "wrong", "silent", "loud")
+    names = (
+        "errors",
+        "warnings",
+        "failure",
+        "cause",
+        "wrong",
+        "silent",
+        "loud",
+        "estimates",
+        "runs",
+        "untold",
+        "alarmed",
+    )
     numbers = dict(name=found.problem.name, **{name: getattr(found, name) for name in names})
-    return Outcome(found.tell(), None, numbers, bool(found.silent or found.loud or found.failure))
+    telling = any((found.silent, found.loud, found.failure, found.untold, found.alarmed))
+    return Outcome(found.tell(), None, numbers, telling)
 
 
 def summary(found):
@@ -260,5 +309,30 @@ def summary(found):
     loud = [seed for seed, one in solved.items() if one["loud"]]
     return [
         f"{len(solved)} of {len(found)} solved: {len(silent)} wrong without a warning {silent}, "
-        f"{len(warned)} wrong with one, {len(loud)} right with one {loud}"
+        f"{len(warned)} wrong with one, {len(loud)} right with one {loud}",
+        *summary_of_errors(solved),
+    ]
+
+
+def summary_of_errors(solved):
+    """Two lines: what the errors of -errors companion tell."""
+    pairs = [
+        (true, one["estimates"].get(name, np.nan)) for one in solved.values() for name, true in one["errors"].items()
+    ]
+    pairs = np.array([pair for pair in pairs if pair[0] > LEAST]).reshape(-1, 2)
+    ratio = pairs[:, 1] / pairs[:, 0]
+    known = ratio[np.isfinite(ratio)]
+    numbers = sum(len(one["errors"]) for one in solved.values())
+    wrong = sum(len(one["wrong"]) for one in solved.values())
+    untold = {seed: list(one["untold"]) for seed, one in solved.items() if one["untold"]}
+    alarmed = [seed for seed, one in solved.items() if one["alarmed"]]
+    silent = {seed for seed, one in solved.items() if set(one["untold"]) & set(one["silent"])}
+    right = sum(max(one["errors"].values()) < RIGHT for one in solved.values())
+    share = [100 * np.mean(known >= least) if known.size else np.nan for least in (1.0, 0.5)]
+    return [
+        f"errors: {numbers} numbers, {wrong} wrong, {sum(map(len, untold.values()))} of these untold {untold}, "
+        f"{len(silent)} also without a warning {sorted(silent)}; "
+        f"{len(alarmed)} of {right} right problems alarmed {alarmed}",
+        f"errors: of {len(ratio)} numbers with errors above 0.5 % {len(ratio) - len(known)} unknown, {share[0]:.0f} % "
+        f"covered, {share[1]:.0f} % within a factor of 2, median {np.median(known) if known.size else np.nan:.2g}",
     ]

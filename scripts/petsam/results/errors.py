@@ -1,0 +1,99 @@
+"""The errors of the numbers of results: the group /errors that petsam -errors companion writes."""
+
+from typing import Any, NamedTuple
+
+from ..core.files import decoded
+from ..core.tables import Column, Tabled
+
+NUMBERS = {
+    "value": "the number; of what each step adds to, the sum over all steps",
+    "error": "estimated error relative to the number",
+    "by_cells": "the part of it by the cells",
+    "by_steps": "the part of it by the steps",
+    "factor": "factor of narrower cells, or more steps, for an error of 4 %",
+    "half": "the number on half the cells",
+    "quarter": "the number on a quarter of the cells",
+    "other": "the number on half the cells, with other steps",
+}
+OF_NUMBER = ("value", "half", "quarter", "other")  # in the unit of the row
+
+
+class NumberError(NamedTuple):
+    """A number with its estimated error.
+
+    Attributes
+    ----------
+    value : float
+        The number of the last step, or the sum over all steps.
+    unit : str
+        Its unit.
+    error : float
+        Error relative to the number; NaN: unknown.
+    by_cells, by_steps : float
+        The parts of it.
+    cause : str
+        The larger part: "cells" or "steps".
+    factor : float
+        How many times narrower cells, or more steps, make that part 4 %.
+    half, quarter, other : float
+        The number on half and on a quarter of the cells in x and y, and on half of them with other steps; NaN: none.
+    """
+
+    value: float
+    unit: str
+    error: float
+    by_cells: float
+    by_steps: float
+    cause: str
+    factor: float
+    half: float
+    quarter: float
+    other: float
+
+    def __str__(self) -> str:
+        return f"{self.value:.6g} {self.unit} +-{100 * self.error:.2g} %"
+
+
+class Errors(dict, Tabled):
+    """{name: NumberError}, in the order of the file; a table, too."""
+
+    def table(self) -> list:
+        """The columns: name, unit, cause and the numbers of NumberError.
+
+        Returns
+        -------
+        list of Column
+            Each with its name, unit, meaning and values (core/tables.py).
+        """
+        rows = list(self.values())
+        return [
+            Column("name", "", "name of the number", list(self)),
+            Column("unit", "", "unit of value, half, quarter and other", [row.unit for row in rows]),
+            *(
+                Column(name, "" if name in OF_NUMBER else "1", text, [getattr(row, name) for row in rows])
+                for name, text in NUMBERS.items()
+            ),
+            Column("cause", "", "the larger part of the error", [row.cause for row in rows]),
+        ]
+
+
+def read(group: Any) -> Errors:
+    """The errors of a file that is open.
+
+    Parameters
+    ----------
+    group : h5py.Group or None
+        Its group /errors.
+
+    Returns
+    -------
+    Errors
+        None of None.
+    """
+    if group is None:
+        return Errors()
+    texts = {name: [decoded(value) for value in group[name][:]] for name in ("name", "unit", "cause")}
+    numbers = {name: group[name][:].tolist() for name in NUMBERS}
+    columns = {**texts, **numbers}
+    names = columns.pop("name")
+    return Errors((name, NumberError(**{key: of[k] for key, of in columns.items()})) for k, name in enumerate(names))

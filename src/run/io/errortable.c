@@ -1,0 +1,73 @@
+/* The group /errors of a results file: the numbers of the last step, or of the last cycle, with their errors. */
+#include "ioimpl.h"
+#include <string.h>
+
+const char *const SamCauseNames[SAM_CAUSES] = {"cells", "steps"};
+
+/* Writes a column of numbers; rank 0 has them. */
+static void WriteNumbers(SamOutput o, hid_t group, const SamLabel *label, PetscInt count, const double values[])
+{
+  const SamShape shape = {1, {(hsize_t)count}, {(hsize_t)count}, {0}, NULL};
+  const SamBlock block = {1, {0}, {o->f->rank ? 0 : (hsize_t)count}};
+  const hid_t    data  = SamFileCreateDataset(o->f, group, label, H5T_IEEE_F64LE, &shape, 0);
+
+  SamFileWriteBlock(o->f, data, H5T_NATIVE_DOUBLE, &block, values);
+  (void)SamFileNote(o->f, H5Dclose(data));
+}
+
+/* Writes a column of texts of fixed length. */
+static void WriteTexts(SamOutput o, hid_t group, const SamLabel *label, PetscInt count, char texts[][SAM_ERROR_NAME])
+{
+  const SamShape shape = {1, {(hsize_t)count}, {(hsize_t)count}, {0}, NULL};
+  const SamBlock block = {1, {0}, {o->f->rank ? 0 : (hsize_t)count}};
+  const hid_t    type  = SamFileNote(o->f, H5Tcopy(H5T_C_S1));
+  hid_t          data;
+
+  (void)SamFileNote(o->f, H5Tset_size(type, SAM_ERROR_NAME));
+  data = SamFileCreateDataset(o->f, group, label, type, &shape, 0);
+  SamFileWriteBlock(o->f, data, type, &block, texts);
+  (void)SamFileNote(o->f, H5Dclose(data));
+  (void)H5Tclose(type);
+}
+
+PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
+{
+  static const SamLabel texts[]   = {{"name", NULL, "name of the number"},
+                                     {"unit", NULL, "unit of the number"},
+                                     {"cause", NULL, "cause of the larger part of the error"}},
+                        numbers[] = {{"value", NULL, "the number; of what each step adds to, the sum over all steps"},
+                                     {"error", "1", "estimated error relative to the number"},
+                                     {"by_cells", "1", "the part of it by the cells"},
+                                     {"by_steps", "1", "the part of it by the steps"},
+                                     {"factor", "1", "factor of narrower cells, or more steps, for an error of 4 %"},
+                                     {"half", NULL, "the number on half the cells in each direction"},
+                                     {"quarter", NULL, "the number on a quarter of the cells in each direction"},
+                                     {"other", NULL, "the number on half the cells, with other steps"}};
+  enum { TEXTS = sizeof(texts) / sizeof(texts[0]), NUMBERS = sizeof(numbers) / sizeof(numbers[0]) };
+  char   column[TEXTS][SAM_ERROR_ROWS][SAM_ERROR_NAME];
+  double values[NUMBERS][SAM_ERROR_ROWS];
+  hid_t  group;
+
+  PetscFunctionBegin;
+  memset(column, 0, sizeof(column));
+  for (PetscInt k = 0; k < t->count; k++) {
+    const SamErrorRow *row     = &t->row[k];
+    const char *const  words[] = {row->name, row->unit, SamCauseNames[row->cause]};
+    const double       all[]   = {row->value,
+                                  row->error,
+                                  row->of[SAM_CAUSE_CELLS],
+                                  row->of[SAM_CAUSE_STEPS],
+                                  row->factor,
+                                  row->run[SAM_RUN_HALF],
+                                  row->run[SAM_RUN_QUARTER],
+                                  row->run[SAM_RUN_OTHER]};
+
+    for (int c = 0; c < TEXTS; c++) (void)snprintf(column[c][k], SAM_ERROR_NAME, "%s", words[c]);
+    for (int c = 0; c < NUMBERS; c++) values[c][k] = all[c];
+  }
+  group = SamFileNote(o->f, H5Gcreate2(o->f->id, "errors", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  for (int c = 0; c < TEXTS; c++) WriteTexts(o, group, &texts[c], t->count, column[c]);
+  for (int c = 0; c < NUMBERS; c++) WriteNumbers(o, group, &numbers[c], t->count, values[c]);
+  (void)SamFileNote(o->f, H5Gclose(group));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,552 @@
+/*
+  The errors of the numbers of a run, by companion runs: -errors companion.
+
+  Up to three companions (companion.h) follow the simulation step by step: on half the cells, on a quarter of them, and
+  on half the cells with other steps, if the solution depends on the steps. Half the cells in each direction take less
+  than a quarter of the time, half the steps an eighth. estimates.c turns the differences into errors; the sum of those
+  by cells and by steps is stored with each step as NAME_error. At the end the same is done for the last numbers, and
+  for sums over all steps.
+
+  Between two moments that a companion with other steps shares with the run, the error by the steps is that of the
+  earlier one, relative to the number. Numbers that are next to nothing for the contact, as the slip of a contact that
+  sticks, have an error relative to a least value (Least()).
+*/
+#include "companion.h"
+#include <petsam/private/control.h>
+#include <petsam/private/errors.h>
+#include <petsam/private/gap.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/state.h>
+#include <math.h>
+
+#define LEAST   4    /* fewest cells per row whose half still makes a grid */
+#define LARGE   0.05 /* error from which a warning is given */
+#define AIM     0.04 /* error that the proposed cells or steps have */
+#define SEVERAL 4    /* most numbers that a warning names */
+
+/* A number of the state with its errors */
+typedef struct {
+  const SamStateNumber *of;
+  PetscInt              id, error;      /* places in the state of the number and of its error; -1: that is not stored */
+  double                mark[SAM_RUNS]; /* sums of the runs at the last common moment */
+  double                base[SAM_RUNS]; /* the same before the first step of this run */
+  double                apart; /* sum on half the cells minus that with other steps, of the steps of this run */
+  double                steps; /* error by the steps at the last common moment, relative; NaN: unknown */
+} Number;
+
+/* Largest values of all steps, which tell what is next to nothing */
+typedef struct {
+  double load, approach, area, pressure;
+} Largest;
+
+struct _n_SamErrors {
+  SamCompanion  companion[SAM_RUNS];
+  PetscInt      count;
+  Number        number[SAM_ERROR_ROWS];
+  double        sums[SAM_STATE_NUMBERS]; /* numbers of the steps of this run, joined */
+  Largest       largest;                 /* on half the cells */
+  PetscBool     began;                   /* the first step has been recorded */
+  SamErrorTable table;
+};
+
+PetscErrorCode SamErrorsReadOptions(SamSimulation s, const SamOptions *from)
+{
+  static const SamOptionRow
+    row           = {"errors", "errors of all numbers: by closed forms, or also by runs on fewer cells and other steps",
+                     SAM_OPTION_BOOL, .words = "closed,companion"},
+    former        = {"grid_check", "the same as -errors companion", SAM_OPTION_BOOL, .excludes = "errors"};
+  PetscBool check = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->needs.companion, NULL));
+  PetscCall(SamOptionsRead(from, NULL, 1, &former, &check, NULL));
+  if (check) s->needs.companion = PETSC_TRUE;
+  PetscCheck(!s->needs.companion || s->setup.grid->fewest >= LEAST, from->comm, SAM_ERR_USER,
+             "-errors companion needs at least %d cells in x and in y (-grid_n)", LEAST);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- creation ---- */
+
+/* True if the solution depends on the steps, not on the last loads alone. */
+static PetscBool DependsOnSteps(SamSimulation s)
+{
+  if (!SamMotionOf(s->setup.elasticity)->continues) return PETSC_FALSE;
+  return s->needs.friction || SamProblemMoves(s->setup.problem) || SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC);
+}
+
+/* Declares the error of a number, unless the state has a number of that name. */
+static PetscErrorCode DeclareError(SamState state, Number *n)
+{
+  char           name[SAM_ERROR_NAME], text[96];
+  SamStateNumber error = {.name = name, .text = text, .kind = SAM_NUMBER_REAL, .count = 1, .result = PETSC_TRUE};
+
+  PetscFunctionBegin;
+  (void)snprintf(name, sizeof(name), "%s_error", n->of->name);
+  (void)snprintf(text, sizeof(text), "estimated error of %s by cells and steps", n->of->name);
+  error.unit = n->of->unit;
+  n->error   = -1;
+  if (SamStateFindNumber(state, name) < 0) PetscCall(SamStateDeclareNumber(state, &error, &n->error));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DeclareNumbers(SamErrors e, SamState state)
+{
+  const PetscInt all = SamStateCountNumbers(state);
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < all && e->count < SAM_ERROR_ROWS; k++) {
+    Number *n = &e->number[e->count];
+
+    n->of = SamStateNumberOf(state, k, &n->id);
+    if (n->of->order && n->of->result) e->count++;
+  }
+  /* The list of the state may move when it grows. */
+  for (PetscInt k = 0; k < e->count; k++) PetscCall(DeclareError(state, &e->number[k]));
+  for (PetscInt k = 0, m = 0; k < all && m < e->count; k++) {
+    PetscInt              id;
+    const SamStateNumber *of = SamStateNumberOf(state, k, &id);
+
+    if (id == e->number[m].id) e->number[m++].of = of;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void Describe(SamErrors e, PetscInt increments)
+{
+  char *const  text = e->table.runs;
+  const size_t size = sizeof(e->table.runs);
+
+  for (int k = 0; k < SAM_RUNS; k++) {
+    const SamSimulation run  = e->companion[k].run;
+    const size_t        used = strlen(text);
+
+    if (!run) continue;
+    (void)snprintf(text + used, size - used, "%s%ld", used ? ", on " : "on ", (long)run->setup.grid->nx);
+    if (!SamGridIsRow(run->setup.grid))
+      (void)snprintf(text + strlen(text), size - strlen(text), " x %ld", (long)run->setup.grid->ny);
+    (void)snprintf(text + strlen(text), size - strlen(text), " cells");
+    if (k == SAM_RUN_OTHER)
+      (void)snprintf(text + strlen(text), size - strlen(text), " with %ld step%s per row", (long)increments,
+                     increments == 1 ? "" : "s");
+  }
+}
+
+PetscErrorCode SamErrorsCreate(SamSimulation s)
+{
+  const PetscInt increments = SamHistoryGetIncrements(s->history), other = s->step_rtol > 0 ? increments
+                                                                           : increments > 1 ? (increments + 1) / 2
+                                                                                            : 2;
+  SamErrors      e;
+  SamState       state;
+
+  PetscFunctionBegin;
+  if (!s->needs.companion) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamErrorsDestroy(&s->errors));
+  PetscCall(PetscNew(&e));
+  s->errors = e;
+  PetscCall(SamCompanionCreate(s, 1, increments, &e->companion[SAM_RUN_HALF]));
+  if ((s->setup.grid->fewest + 3) / 4 >= LEAST)
+    PetscCall(SamCompanionCreate(s, 2, increments, &e->companion[SAM_RUN_QUARTER]));
+  if (DependsOnSteps(s)) {
+    PetscCall(SamCompanionCreate(s, 1, other, &e->companion[SAM_RUN_OTHER]));
+    e->companion[SAM_RUN_OTHER].run->step_rtol *= 2;
+  }
+  Describe(e, other);
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  PetscCall(DeclareNumbers(e, state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsDestroy(SamErrors *errors)
+{
+  PetscFunctionBegin;
+  if (!*errors) PetscFunctionReturn(PETSC_SUCCESS);
+  for (int k = 0; k < SAM_RUNS; k++) PetscCall(SamCompanionDestroy(&(*errors)->companion[k]));
+  PetscCall(PetscFree(*errors));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- values ---- */
+
+/* Gets a number of the last step of the simulation's state, NaN if there is none. */
+static double Get(SamState state, const char name[])
+{
+  const PetscInt id = SamStateFindNumber(state, name);
+
+  return id < 0 ? NAN : *SamStateReadNumbers(state, id);
+}
+
+/* Raises a largest value to that of a step. */
+static void Raise(double *largest, double value)
+{
+  if (fabs(value) > *largest) *largest = fabs(value);
+}
+
+static void RaiseAll(Largest *l, SamState state)
+{
+  Raise(&l->load, Get(state, "load_n"));
+  Raise(&l->approach, Get(state, "disp_z"));
+  Raise(&l->area, Get(state, "contact_area"));
+  Raise(&l->pressure, Get(state, "pressure_max"));
+}
+
+/* True if this is the name of a displacement or rotation of the bodies. */
+static PetscBool IsRigid(const char name[])
+{
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    if (!strcmp(SamComponentNames[c].rigid, name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Returns the value below which a number is next to nothing for this contact. */
+static double Least(const Largest *l, const SamStateNumber *number)
+{
+  const double      length = sqrt(l->area);
+  const char *const unit   = number->unit;
+
+  if (IsRigid(number->name)) return 1e-3 * l->approach / (strcmp(unit, "rad") ? 1 : PetscMax(length, 1e-300));
+  if (!strcmp(unit, "J")) return 1e-6 * l->load * l->approach;
+  if (!strcmp(unit, "m2")) return 1e-3 * l->area;
+  if (!strcmp(unit, "Pa")) return 1e-4 * l->pressure;
+  if (!strcmp(unit, "m")) return 1e-5 * l->approach;
+  if (!strcmp(unit, "N")) return 1e-3 * l->load;
+  if (!strcmp(unit, "N m")) return 1e-3 * l->load * length;
+  if (!strcmp(unit, "1/m")) return length > 0 ? 1e-6 / length : 0;
+  return !strcmp(unit, "1") ? 1e-6 : 0;
+}
+
+/* True if the step prescribes this number. */
+static PetscBool IsPrescribed(const SamControl *control, const char name[])
+{
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    if (!strcmp(SamComponentNameOf(c, SamControlWay(control, c)), name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Returns a number of a companion: of its last step, or its sum over all steps; NaN: it has none. */
+static double ValueOf(SamErrors e, int k, const Number *n, PetscBool sum)
+{
+  const SamCompanion *c = &e->companion[k];
+  SamState            state;
+  PetscInt            id;
+
+  if (!c->run || c->fault[0] || SamContactGetState(c->run->setup.contact, &state)) return NAN;
+  id = SamStateFindNumber(state, n->of->name);
+  return id < 0 ? NAN : sum ? c->sums[id] : *SamStateReadNumbers(state, id);
+}
+
+static void GetRuns(SamErrors e, const Number *n, PetscBool sum, double run[SAM_RUNS])
+{
+  for (int k = 0; k < SAM_RUNS; k++) run[k] = ValueOf(e, k, n, sum);
+}
+
+/* Updates the error of a number by the steps at a moment that OTHER shares with the run. */
+static void CompareSteps(SamErrors e, Number *n)
+{
+  const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
+  double          run[SAM_RUNS];
+
+  GetRuns(e, n, sum, run);
+  for (int k = 0; k < SAM_RUNS && sum; k++) {
+    const double now = run[k];
+
+    run[k] -= n->mark[k];
+    n->mark[k] = now;
+  }
+  n->apart += run[SAM_RUN_HALF] - run[SAM_RUN_OTHER];
+  n->steps = SamErrorBySteps(run) / PetscMax(fabs(run[SAM_RUN_HALF]), Least(&e->largest, n->of));
+}
+
+/* ---- steps ---- */
+
+/* Lets the companions solve their steps up to the end of step k. */
+static PetscErrorCode Follow(SamSimulation s, PetscInt k)
+{
+  SamErrors e               = s->errors;
+  PetscBool there[SAM_RUNS] = {PETSC_FALSE};
+  SamState  state;
+
+  PetscFunctionBegin;
+  for (int c = 0; c < SAM_RUNS; c++)
+    if (e->companion[c].run) PetscCall(SamCompanionFollow(&e->companion[c], s, k, &there[c]));
+  PetscCall(SamContactGetState(e->companion[SAM_RUN_HALF].run->setup.contact, &state));
+  RaiseAll(&e->largest, state);
+  for (PetscInt n = 0; n < e->count && there[SAM_RUN_OTHER]; n++) CompareSteps(e, &e->number[n]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Lets the companions solve the steps before the first one of this run, after a restart. */
+static PetscErrorCode CatchUp(SamSimulation s, PetscInt k)
+{
+  SamErrors e = s->errors;
+
+  PetscFunctionBegin;
+  for (PetscInt n = 0; n < e->count; n++) e->number[n].steps = e->companion[SAM_RUN_OTHER].run ? NAN : 0;
+  for (PetscInt j = 0; j < k; j++) PetscCall(Follow(s, j));
+  for (PetscInt n = 0; n < e->count; n++) {
+    GetRuns(e, &e->number[n], PETSC_TRUE, e->number[n].base);
+    e->number[n].apart = 0;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsRecord(SamSimulation s, PetscInt k, const SamStep *step)
+{
+  const SamErrors e     = s->errors;
+  const double    began = MPI_Wtime();
+  SamState        state;
+
+  PetscFunctionBegin;
+  if (!e || !SamStepIsSolved(step)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!e->began) PetscCall(CatchUp(s, k));
+  e->began = PETSC_TRUE;
+  PetscCall(Follow(s, k));
+  PetscCall(SamContactGetState(s->setup.contact, &state)); /* makes all parts declare their numbers again */
+  SamStateJoinNumbers(state, e->sums, PETSC_FALSE);
+  for (PetscInt i = 0; i < e->count; i++) {
+    Number      *n   = &e->number[i];
+    const double own = *SamStateReadNumbers(state, n->id), least = Least(&e->largest, n->of);
+    double       run[SAM_RUNS];
+
+    if (n->error < 0) continue;
+    GetRuns(e, n, PETSC_FALSE, run);
+    *SamStateNumbers(state, n->error, SAM_TRIED) =
+      IsPrescribed(&step->control, n->of->name) ? 0 : SamErrorByCells(own, run) + n->steps * PetscMax(fabs(own), least);
+  }
+  e->table.seconds += MPI_Wtime() - began;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the end ---- */
+
+/* Returns the factor of narrower cells, or more steps, that makes the error of a row by this cause as small as
+   wanted. */
+static double FactorOf(const SamErrorRow *row, SamCause cause)
+{
+  const double ratio = row->of[cause] / AIM;
+
+  if (!(ratio > 1)) return 1;
+  return cause == SAM_CAUSE_CELLS && row->order == 2 ? sqrt(ratio) : ratio;
+}
+
+/* Returns the largest absolute value of a number in this run and its companions. */
+static double Magnitude(double value, const double run[SAM_RUNS])
+{
+  double most = fabs(value);
+
+  for (int k = 0; k < SAM_RUNS; k++) Raise(&most, run[k]);
+  return most;
+}
+
+/* Adds a row; `least`: value below which the number is next to nothing; `closed`: its errors in closed form. */
+static void Add(SamErrors e, const SamStateNumber *number, const char unit[], double value, double least,
+                const double run[SAM_RUNS], const double closed[SAM_CAUSES])
+{
+  const double cells   = PetscMax(SamErrorByCells(value, run), closed[SAM_CAUSE_CELLS]),
+               steps   = e->companion[SAM_RUN_OTHER].run ? PetscMax(SamErrorBySteps(run), closed[SAM_CAUSE_STEPS]) : 0;
+  SamErrorTable *t     = &e->table;
+  const double   scale = PetscMax(fabs(value), least);
+  SamErrorRow   *row   = &t->row[t->count];
+
+  for (PetscInt k = 0; k < t->count; k++)
+    if (!strcmp(t->row[k].name, number->name)) return; /* the number of a cycle precedes that of its last step */
+  if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least)) return;
+  *row = (SamErrorRow){.unit = unit, .value = value, .of = {cells / scale, steps / scale}};
+  (void)snprintf(row->name, sizeof(row->name), "%s", number->name);
+  row->error = row->of[SAM_CAUSE_CELLS] + row->of[SAM_CAUSE_STEPS];
+  row->cause = row->of[SAM_CAUSE_STEPS] > row->of[SAM_CAUSE_CELLS] ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS;
+  row->order = number->order;
+  for (int k = 0; k < SAM_RUNS; k++) row->run[k] = run[k];
+  row->factor = FactorOf(row, row->cause);
+  t->count++;
+}
+
+static const double none[SAM_CAUSES] = {0, 0};
+
+/* Gets the errors of the dissipated energy in closed form; `slip`: NULL: there are none by the cells. */
+static void GetClosed(SamSimulation s, const SamSlip *slip, double closed[SAM_CAUSES])
+{
+  SamState state;
+
+  closed[SAM_CAUSE_CELLS] = slip ? fabs(slip->error) + fabs(slip->ring.error) : 0;
+  closed[SAM_CAUSE_STEPS] = 0;
+  if (s->life || SamContactGetState(s->setup.contact, &state)) return;
+  closed[SAM_CAUSE_STEPS] = fabs(s->errors->sums[SamStateFindNumber(state, "energy_error")]);
+}
+
+/* Adds the numbers of the last step, and the sums over all steps. */
+static PetscErrorCode AddNumbers(SamSimulation s, const SamControl *control, const double closed[SAM_CAUSES])
+{
+  SamErrors e = s->errors;
+  SamState  state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  RaiseAll(&e->largest, state);
+  for (PetscInt i = 0; i < e->count; i++) {
+    const Number   *n   = &e->number[i];
+    const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
+    const double    own = sum ? e->sums[n->id] : *SamStateReadNumbers(state, n->id), least = Least(&e->largest, n->of);
+    double          run[SAM_RUNS];
+
+    if ((sum && s->life) || IsPrescribed(control, n->of->name)) continue;
+    GetRuns(e, n, sum, run);
+    for (int c = 0; c < SAM_RUNS && sum; c++) run[c] -= n->base[c];
+    if (sum && e->companion[SAM_RUN_OTHER].run) run[SAM_RUN_OTHER] = run[SAM_RUN_HALF] - n->apart;
+    Add(e, n->of, SamUnitOn(s->setup.grid, n->of->unit), own, least, run,
+        strcmp(n->of->name, "dissipated_energy") ? none : closed);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Returns a number of the last computed cycle of a companion's life, NaN without one. */
+static double CycleOf(const SamCompanion *c, const char name[])
+{
+  if (!c->run || !c->life || c->fault[0]) return NAN;
+  return Get(SamLifeGetSeries(c->life), name);
+}
+
+/* Runs the companions' lives, and adds the numbers of the last cycle. */
+static PetscErrorCode AddCycle(SamSimulation s, const double closed[SAM_CAUSES])
+{
+  const SamErrors e      = s->errors;
+  const SamState  series = SamLifeGetSeries(s->life);
+  const double    began  = MPI_Wtime();
+
+  PetscFunctionBegin;
+  for (int c = 0; c < SAM_RUNS; c++)
+    if (e->companion[c].run) PetscCall(SamCompanionLive(&e->companion[c], SamLifeGetState(s->life).cycles));
+  for (PetscInt k = 0; k < SamStateCountNumbers(series); k++) {
+    PetscInt              id;
+    const SamStateNumber *n = SamStateNumberOf(series, k, &id);
+    double                run[SAM_RUNS];
+
+    if (!n->order) continue;
+    for (int c = 0; c < SAM_RUNS; c++) run[c] = CycleOf(&e->companion[c], n->name);
+    Add(e, n, SamUnitOn(s->setup.grid, n->unit), *SamStateReadNumbers(series, id), 0, run,
+        strcmp(n->name, "dissipated_energy") ? none : closed);
+  }
+  e->table.seconds += MPI_Wtime() - began;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- warnings ---- */
+
+/* Returns the smallest number from n on whose only prime factors are 2, 3 and 5. */
+static PetscInt Smooth(PetscInt n)
+{
+  for (;; n++) {
+    PetscInt rest = n;
+
+    for (PetscInt p = 2; p <= 5; p += p == 2 ? 1 : 2)
+      while (rest % p == 0) rest /= p;
+    if (rest == 1) return n;
+  }
+}
+
+static void ProposeCells(SamSimulation s, double factor, char text[], size_t size)
+{
+  const SamGrid  g  = s->setup.grid;
+  const PetscInt nx = Smooth((PetscInt)ceil((double)g->nx * factor)),
+                 ny = Smooth((PetscInt)ceil((double)g->ny * factor));
+
+  if (PetscMax(nx, ny) > SAM_LARGEST_ROW)
+    (void)snprintf(text, size, "no grid of up to %d cells in a row resolves them", SAM_LARGEST_ROW);
+  else if (SamGapIsFromFile(s->setup.gap, PETSC_FALSE) || SamGapIsFromFile(s->setup.gap, PETSC_TRUE))
+    (void)snprintf(text, size, "use a file with heights at %.2g times smaller distances", factor);
+  else if (SamGridIsRow(g) || nx == ny)
+    (void)snprintf(text, size, "use -grid_n %ld", (long)nx);
+  else
+    (void)snprintf(text, size, "use -grid_n %ld,%ld", (long)nx, (long)ny);
+}
+
+static void ProposeSteps(SamSimulation s, double factor, char text[], size_t size)
+{
+  if (s->step_rtol > 0)
+    (void)snprintf(text, size, "use -step_rtol %.2g", (double)s->step_rtol / factor);
+  else
+    (void)snprintf(text, size, "use -steps %.0f", ceil(factor * (double)SamHistoryGetIncrements(s->history)));
+}
+
+/*
+  True if a warning is due. The error by the cells must also be large by the difference to half the cells, since on a
+  quarter of them contacts are often not resolved at all.
+*/
+static PetscBool IsLarge(const SamErrorRow *row, SamCause cause)
+{
+  const double own = row->value, near = fabs(own - row->run[SAM_RUN_HALF]);
+
+  if (!(row->of[cause] > LARGE)) return PETSC_FALSE;
+  return cause != SAM_CAUSE_CELLS || near > LARGE * fabs(own);
+}
+
+/* Warns of a cause: names the numbers with the largest errors by it, and proposes what mends all of them. */
+static PetscErrorCode WarnOf(SamSimulation s, SamCause cause)
+{
+  const SamErrorTable *t      = &s->errors->table;
+  double               factor = 1, below = INFINITY;
+  size_t               head;
+  char                 text[512], cure[128];
+
+  PetscFunctionBegin;
+  (void)snprintf(text, sizeof(text), "error by the %s:", SamCauseNames[cause]);
+  head = strlen(text);
+  for (PetscInt named = 0; named < SEVERAL; named++) {
+    const SamErrorRow *worst = NULL;
+
+    for (PetscInt k = 0; k < t->count; k++)
+      if (IsLarge(&t->row[k], cause) && t->row[k].of[cause] < below &&
+          (!worst || t->row[k].of[cause] > worst->of[cause]))
+        worst = &t->row[k];
+    if (!worst) break;
+    below = worst->of[cause];
+    (void)snprintf(text + strlen(text), sizeof(text) - strlen(text), "%s %s %.2g %%", named ? "," : "", worst->name,
+                   100 * worst->of[cause]);
+  }
+  if (!text[head]) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < t->count; k++) factor = PetscMax(factor, FactorOf(&t->row[k], cause));
+  if (cause == SAM_CAUSE_CELLS)
+    ProposeCells(s, factor, cure, sizeof(cure));
+  else
+    ProposeSteps(s, factor, cure, sizeof(cure));
+  (void)snprintf(text + strlen(text), sizeof(text) - strlen(text), ": %s", cure);
+  PetscCall(SamSimulationWarn(s, text, ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Tells which companions ended early, and why. */
+static PetscErrorCode WarnOfFaults(SamSimulation s)
+{
+  static const char *const what[SAM_RUNS] = {"half the cells", "a quarter of the cells",
+                                             "half the cells with other steps"};
+  char                     text[SAM_MESSAGE + 64];
+
+  PetscFunctionBegin;
+  for (int c = 0; c < SAM_RUNS; c++) {
+    const SamCompanion *one = &s->errors->companion[c];
+
+    if (!one->run || !one->fault[0]) continue;
+    (void)snprintf(text, sizeof(text), "errors by the %s are unknown: on %s %s",
+                   SamCauseNames[c == SAM_RUN_OTHER ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS], what[c], one->fault);
+    PetscCall(SamSimulationWarn(s, text, ""));
+    if (c == SAM_RUN_HALF) break; /* nothing is known without it */
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last, const SamSlip *slip)
+{
+  double closed[SAM_CAUSES];
+
+  PetscFunctionBegin;
+  if (!s->errors) PetscFunctionReturn(PETSC_SUCCESS);
+  GetClosed(s, slip, closed);
+  if (s->life) PetscCall(AddCycle(s, closed));
+  PetscCall(AddNumbers(s, last, closed));
+  if (s->output) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
+  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_ERRORS, .errors = &s->errors->table}));
+  PetscCall(WarnOfFaults(s));
+  for (int cause = 0; cause < SAM_CAUSES; cause++) PetscCall(WarnOf(s, (SamCause)cause));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

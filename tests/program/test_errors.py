@@ -1,0 +1,249 @@
+"""-errors companion: numbers of companion runs, the errors that follow from them, their restart, and their warnings."""
+
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+import capabilities
+import petsam as package
+from support import SPHERE, history
+
+LOOP = ("time,load_n,load_tx", (1, 1000, 60), (2, 1000, -60), (3, 1000, 20))
+NAMES = {
+    "contact_area", "stick_area", "pressure_max", "shear_max", "slip_max", "stored_energy", "dissipated_energy",
+    "disp_z", "disp_x",
+}  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def there(tmp_path, monkeypatch):
+    """Tests run in their folder."""
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def loop(tmp_path):
+    """A sphere under N and a T that turns, 65 cells, 4 steps per row."""
+    case = {**SPHERE, "load_n": None, "steps": 4, "friction": 0.1, "grid_n": 65}
+    return {**case, **history(tmp_path / "loop.csv", *LOOP)}
+
+
+def table(path):
+    """{name: {column: value}} of /errors."""
+    with h5py.File(path) as f:
+        names = [name.decode() for name in f["errors/name"][:]]
+        columns = {column: data[:] for column, data in f["errors"].items() if column != "name"}
+        return {name: {column: data[k] for column, data in columns.items()} for k, name in enumerate(names)}
+
+
+def test_python_reads_errors_as_a_table(petsam, tmp_path, loop):
+    petsam(loop, "-errors", "companion", "-output", "own.h5")
+    petsam(loop, "-output", "none.h5")
+    found = package.open("own.h5").errors
+    expected = table("own.h5")
+    assert list(found) == list(expected) and not package.open("none.h5").errors
+    for name, row in found.items():
+        assert row.unit == expected[name]["unit"].decode() and row.cause == expected[name]["cause"].decode()
+        for column in ("value", "error", "by_cells", "by_steps", "factor", "half", "quarter", "other"):
+            np.testing.assert_equal(getattr(row, column), expected[name][column])
+    assert re.fullmatch(r"\S+ J \+-\S+ %", str(found["dissipated_energy"]))
+    found.to_csv("errors.csv")
+    lines = (tmp_path / "errors.csv").read_text().splitlines()
+    assert lines[0].startswith("name,unit,value,error [1],by_cells [1],") and len(lines) == 1 + len(found)
+    part = package.open("own.h5").between(1, 3)
+    assert part.errors == found
+
+
+def last(path, series="history"):
+    """Numbers of the last step of a run, and frictional work of all steps; or those of its last cycle."""
+    with h5py.File(path) as f:
+        values = {name: data[-1] for name, data in f[series].items()}
+        return values if series == "wear" else dict(values, dissipated_energy=f["history/dissipated_energy"][:].sum())
+
+
+def test_companions_are_runs_on_other_cells_and_with_other_steps(petsam, tmp_path, loop):
+    """An odd number of cells: the coarser ones are 2 - 1/33 times as wide."""
+    petsam(loop, "-errors", "companion", "-output", "own.h5")
+    found, own = table("own.h5"), last("own.h5")
+    others = dict(half=dict(grid_n=33), quarter=dict(grid_n=17), other=dict(grid_n=33, steps=2))
+    for name, change in others.items():
+        petsam(loop, change, "-output", f"{name}.h5")
+    runs = {name: last(f"{name}.h5") for name in others}
+    assert set(found) == NAMES
+    for name, row in found.items():
+        assert np.isclose(row["value"], own[name], rtol=1e-12), name
+        for run, numbers in runs.items():
+            assert np.isclose(row[run], numbers[name], rtol=1e-9), (name, run)
+        near, far = abs(row["value"] - row["half"]), abs(row["half"] - row["quarter"])
+        cells, steps = max(near, far / 2) / abs(row["value"]), abs(row["half"] - row["other"]) / abs(row["value"])
+        if name != "dissipated_energy":
+            assert np.allclose([row["by_cells"], row["by_steps"]], [cells, steps]), name
+        assert row["by_cells"] >= cells * (1 - 1e-12) and row["by_steps"] >= steps * (1 - 1e-12)
+        assert np.isclose(row["error"], row["by_cells"] + row["by_steps"])
+        assert row["cause"] == (b"steps" if row["by_steps"] > row["by_cells"] else b"cells")
+
+
+def test_errors_are_those_of_a_finer_run(petsam, tmp_path, loop):
+    """Each error is at least half the true one, and none is more than 30 times it and 6 %."""
+    petsam(loop, "-errors", "companion", "-output", "own.h5")
+    petsam(loop, dict(grid_n=260, steps=16), "-output", "fine.h5")
+    true = last("fine.h5")
+    for name, row in table("own.h5").items():
+        error = abs(row["value"] - true[name]) / abs(true[name])
+        assert row["error"] >= 0.5 * error, (name, row["error"], error)
+        assert row["error"] < max(30 * error, 0.06), (name, row["error"], error)
+
+
+def test_each_step_has_its_errors(petsam, tmp_path, loop):
+    petsam(loop, "-errors", "companion", "-output", "own.h5")
+    petsam(loop, dict(grid_n=33), "-output", "half.h5")
+    petsam(loop, dict(grid_n=17), "-output", "quarter.h5")
+    with h5py.File("own.h5") as own, h5py.File("half.h5") as half, h5py.File("quarter.h5") as quarter:
+        b, h, q = (file["history"] for file in (own, half, quarter))
+        assert b["shear_max_error"].attrs["units"] == b["shear_max"].attrs["units"]
+        assert np.all(b["load_n_error"][:] == 0)  # it is prescribed
+        for name in ("shear_max", "contact_area", "dissipated_energy", "disp_z"):
+            error = b[f"{name}_error"][:]
+            cells = np.maximum(abs(b[name][:] - h[name][:]), abs(h[name][:] - q[name][:]) / 2)
+            assert np.isnan(error[0]) and np.all(np.isfinite(error[1:])), name  # half as many steps: from the second on
+            assert np.all(error[1:] >= cells[1:] * (1 - 1e-9)), name
+
+
+def test_errors_are_the_same_on_any_ranks_and_after_a_restart(petsam, tmp_path, loop):
+    """The restart is between two moments that the companion with other steps shares with the run."""
+    on = dict(errors="companion")
+    petsam(loop, on, "-output", "own.h5")
+    for ranks in (2, 3):
+        petsam(loop, on, "-output", f"{ranks}.h5", ranks=ranks)
+        np.testing.assert_equal(table(f"{ranks}.h5"), table("own.h5"))
+    head = {**loop, **history(tmp_path / "loop.csv", *LOOP[:3])}
+    petsam(head, "-checkpoint", "state.h5", "-checkpoint_every", "5", "-output", "head.h5")
+    history(tmp_path / "loop.csv", *LOOP)
+    petsam(loop, on, "-restart", "state.h5", "-output", "rest.h5")
+    with h5py.File("own.h5") as own, h5py.File("rest.h5") as rest:
+        count = rest["history/time"].size
+        assert 0 < count < own["history/time"].size
+        for name in own["history"]:
+            if name.endswith("_error"):
+                assert np.array_equal(own["history"][name][-count:], rest["history"][name][:], equal_nan=True), name
+
+
+@pytest.mark.parametrize("plane", [False, True])
+def test_every_capability_has_companions(petsam, tmp_path, plane):
+    """Also friction fields of a file, steady rolling, sliding surfaces, divided steps: all have errors."""
+    for name, (options, columns) in capabilities.cases(plane).items():
+        case = capabilities.write(plane, options, columns, tmp_path)
+        case = dict(case, output_fields="pressure", grid_n=24 if plane else (16, 8))
+        if not plane:
+            case["grid_size"] = (2.4e-3, 1.2e-3)
+        done = petsam(case, dict(errors="companion"), "-output", "one.h5", "-overwrite")
+        found = table("one.h5")
+        assert "errors of the last numbers, by runs on" in done.stdout, name
+        assert np.isfinite(found["contact_area"]["by_cells"]) or "are unknown" in done.stderr, name
+
+
+def test_a_life_is_lived_again(petsam, tmp_path):
+    """Numbers of the last cycle, then those of its last step that the cycle does not have."""
+    (tmp_path / "cycle.csv").write_text("time,load_tx\n0,0\n1,60\n2,-60\n3,0\n")
+    case = dict(SPHERE, friction=0.1, grid_n=40, history="cycle.csv", steps=4, wear_coefficient1=1e-14, wear_cycles=1e5,
+                wear_output=2e4, wear_jump=1e5)  # fmt: skip
+    petsam(case, "-errors", "companion", "-output", "own.h5")
+    found = table("own.h5")
+    changes = dict(half=dict(grid_n=20), quarter=dict(grid_n=10), other=dict(grid_n=20, steps=2))
+    for run, change in changes.items():
+        petsam(case, change, "-output", f"{run}.h5")
+    assert {"volume1", "depth_max1", "dissipated_energy", "pressure_max", "stick_area", "disp_z"} <= set(found)
+    assert "volume2" not in found
+    for name, row in found.items():
+        for run in changes:
+            cycle = last(f"{run}.h5", "wear")
+            expected = cycle[name] if name in cycle else last(f"{run}.h5")[name]
+            assert np.isclose(row[run], expected, rtol=1e-9), (name, run)
+
+
+def means(field):
+    """Means over 2 x 2 cells."""
+    return field.reshape(field.shape[0] // 2, 2, -1, 2).mean((1, 3))
+
+
+@pytest.mark.parametrize("given", ["gap", "friction", "surface"])
+def test_fields_of_files_are_averaged(petsam, tmp_path, given):
+    rng = np.random.default_rng(5)
+    heights = 1e-7 * rng.normal(size=(64, 64)).cumsum(0).cumsum(1) / 8
+    friction = 0.1 + 0.2 * rng.random((64, 64))
+    fine = friction if given == "friction" else heights
+    for name, field in (("fine", fine), ("half", means(fine)), ("quarter", means(means(fine)))):
+        with h5py.File(tmp_path / f"{name}.h5", "w") as f:
+            f["friction" if given == "friction" else "height"] = field
+    case = {**SPHERE, "grid_n": 64, "load_n": 300.0}
+    if given == "gap":
+        case.update(gap_type="file", gap_radius1=None, gap_radius2=None, elasticity="periodic")
+    elif given == "friction":
+        case.update(friction=None, load_tx=20.0)
+    else:
+        case.update(slide=True, disp_x=1e-7)
+    option = dict(gap="-gap_file", friction="-friction_file", surface="-body1_surface_file")[given]
+    petsam(case, option, "fine.h5", "-errors", "companion", "-output", "own.h5")
+    for name, cells in (("half", 32), ("quarter", 16)):
+        petsam(case, option, f"{name}.h5", "-grid_n", str(cells), "-output", f"{name}-run.h5")
+        expected = last(f"{name}-run.h5")
+        for number, row in table("own.h5").items():
+            assert np.isclose(row[name], expected[number], rtol=1e-6), (number, name)
+
+
+def test_proposals_make_the_warnings_disappear(petsam, tmp_path):
+    """A coarse grid and long steps: one line for each cause; with what they propose there is none."""
+    rows = ((1, 1000, 90), (2, 1000, -90), (3, 1000, 90))
+    case = {**SPHERE, "load_n": None, "steps": 1, "friction": 0.1, "grid_n": 20}
+    case.update(history(tmp_path / "loop.csv", LOOP[0], *rows))
+    for _ in range(3):
+        done = petsam(case, "-errors", "companion")
+        lines = re.findall(r"error by the (\w+):.*: use -(\w+) (\d+)", done.stderr)
+        assert len({cause for cause, _, _ in lines}) == len(lines)
+        if not lines:
+            break
+        case.update({option: int(number) for _, option, number in lines})
+    assert not lines and case["grid_n"] > 20 and case["grid_n"] < 400, case
+
+
+def test_a_companion_that_fails_leaves_errors_unknown(petsam, tmp_path):
+    """On half the cells the contact reaches the edge of the grid."""
+    case = dict(SPHERE, load_tx=50.0, grid_n=16, grid_size=1.9e-3)
+    petsam(case)
+    done = petsam(case, "-errors", "companion", "-output", "own.h5")
+    row = table("own.h5")["contact_area"]
+    assert "errors by the cells are unknown: on half the cells" in done.stderr and "edge of the grid" in done.stderr
+    assert np.isnan(row["error"]) and np.isfinite(row["value"])
+
+
+def test_grid_check_is_another_name(petsam, tmp_path, loop):
+    one = petsam(loop, "-grid_check").stdout
+    assert "errors of the last numbers, by runs on 33 x 33 cells, on 17 x 17 cells" in one
+    done = petsam(loop, "-grid_check", "-errors", "closed", check=2)
+    assert "-grid_check does not work with -errors" in done.complaint[0]
+    assert (
+        "-errors companion needs at least 4 cells"
+        in petsam(loop, "-grid_n", "3", "-errors", "companion", check=2).complaint[0]
+    )
+
+
+def test_the_path_to_the_first_row_is_the_same_with_other_steps(petsam, tmp_path):
+    """Loads that grow in proportion do so in one step, too; a step with N first has more steps with N first."""
+    case = {**SPHERE, "load_n": None, "grid_n": 32, "friction": 0.1, "errors": "companion"}
+    half = dict(grid_n=16, errors=None)
+    petsam({**case, **history(tmp_path / "a.csv", LOOP[0], (1, 1000, 60))}, "-steps", "2", "-output", "two.h5")
+    rows = ((1, 1000, 60), (2, 2000, 120))  # the second row goes on in proportion, so the first does not have N first
+    petsam({**case, **half, **history(tmp_path / "b.csv", LOOP[0], *rows)}, "-output", "one.h5")
+    petsam({**case, **history(tmp_path / "c.csv", LOOP[0], (1, 1000, 60))}, "-output", "apart.h5")
+    rows = ((0.5, 1000, 0), (1, 1000, 60))
+    petsam({**case, **half, **history(tmp_path / "d.csv", LOOP[0], *rows)}, "-steps", "2", "-output", "four.h5")
+    with h5py.File("one.h5") as one, h5py.File("four.h5") as four:
+        for name in ("shear_max", "disp_x", "stick_area"):
+            assert np.isclose(table("two.h5")[name]["other"], one["history"][name][0], rtol=1e-9), name
+        for name in ("shear_max", "slip_max", "dissipated_energy"):
+            expected = four["history"][name][:]
+            expected = expected.sum() if name == "dissipated_energy" else expected[-1]
+            assert np.isclose(table("apart.h5")[name]["other"], expected, rtol=1e-9), name
+    assert not np.isclose(table("apart.h5")["stick_area"]["half"], table("two.h5")["stick_area"]["half"], rtol=1e-3)
