@@ -87,8 +87,8 @@ PETSC_INTERN SamControl SamHistoryGetStep(SamHistory history, PetscInt k);
 PETSC_INTERN SamControl SamHistoryGetPart(SamHistory history, PetscInt k, PetscReal part);
 /*
   SamHistoryDivide - creates a history of the same rows with other increments per row, whose path to the first row is
-  the same: if that is one step from no load, which applies N before the tangential loads, more increments do so, too, in
-  twice as many steps; if the loads grow in proportion, they also do so in one step. Not collective.
+  the same: if that is one step from no load, which applies N before the tangential loads, more increments do so, too,
+  in twice as many steps; if the loads grow in proportion, they also do so in one step. Not collective.
   SamHistoryFindStep - returns the step of `other`, made of this history by SamHistoryDivide(), at whose end all values
   are those at the end of step k of the history; -1: there is none. Not collective.
 */

@@ -31,8 +31,8 @@ PETSC_INTERN PetscErrorCode SamSetupReadOptions(SamSetup *setup, const SamOption
 PETSC_INTERN PetscErrorCode SamSetupCreateContact(SamSetup *setup, const SamOptions *from);
 /*
   SamSetupCreateCoarse - creates a setup of the same bodies whose cells are halved in each direction, rounded up, so
-  many times (at least once), and a contact with the same options. Fields from files become means over the cells. Collective.
-  Errors: SAM_ERR_USER, SAM_ERR_FILE.
+  many times (at least once), and a contact with the same options. Fields from files become means over the cells.
+  Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamSetupCreateCoarse(const SamSetup *setup, PetscInt halvings, const SamOptions *from,
                                                  SamSetup *coarse);
