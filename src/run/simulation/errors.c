@@ -51,11 +51,11 @@ struct _n_SamErrors {
 
 PetscErrorCode SamErrorsReadOptions(SamSimulation s, const SamOptions *from)
 {
-  static const SamOptionRow
-    row           = {"errors", "errors of all numbers: by closed forms, or also by runs on fewer cells and other steps",
-                     SAM_OPTION_BOOL, .words = "closed,companion"},
-    former        = {"grid_check", "the same as -errors companion", SAM_OPTION_BOOL, .excludes = "errors"};
-  PetscBool check = PETSC_FALSE;
+  static const SamOptionRow row    = {"errors", "errors of all numbers: closed forms, or also runs on fewer cells",
+                                      SAM_OPTION_BOOL, .words = "closed,companion"},
+                            former = {"grid_check", "the same as -errors companion", SAM_OPTION_BOOL,
+                                      .excludes = "errors"};
+  PetscBool check                  = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->needs.companion, NULL));
