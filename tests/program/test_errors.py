@@ -247,3 +247,27 @@ def test_the_path_to_the_first_row_is_the_same_with_other_steps(petsam, tmp_path
             expected = expected.sum() if name == "dissipated_energy" else expected[-1]
             assert np.isclose(table("apart.h5")[name]["other"], expected, rtol=1e-9), name
     assert not np.isclose(table("apart.h5")["stick_area"]["half"], table("two.h5")["stick_area"]["half"], rtol=1e-3)
+
+
+def test_what_is_narrower_than_a_cell_is_told_in_closed_form(petsam, tmp_path):
+    """A slip zone that none of the grids has: only closed forms know that its numbers are wrong."""
+    case = {**SPHERE, "load_n": None, "steps": 2, "friction": 0.5, "grid_n": 32}
+    case.update(history(tmp_path / "loop.csv", LOOP[0], (1, 1000, 0), (2, 1000, 2)))
+    done = petsam(case, "-errors", "companion", "-output", "own.h5")
+    found = table("own.h5")
+    assert "slip zones are" in done.stderr or "no cell slips" in done.stderr
+    assert found["dissipated_energy"]["value"] == found["dissipated_energy"]["half"] == 0
+    assert found["dissipated_energy"]["by_cells"] == 1 and found["slip_max"]["error"] >= 1
+    assert found["shear_max"]["by_cells"] > 0.3
+
+
+def test_an_energy_in_closed_form_has_the_error_of_its_value(petsam, tmp_path):
+    """On half the cells it is wrong by much more."""
+    case = {**SPHERE, "load_n": None, "steps": 1, "friction": 0.1, "grid_n": 64}
+    case.update(history(tmp_path / "loop.csv", LOOP[0], (1, 1000, 0), (2, 1000, 20)))
+    petsam(case, "-errors", "companion", "-output", "own.h5")
+    row = table("own.h5")["dissipated_energy"]
+    with h5py.File("own.h5") as file:
+        closed = file["history/dissipated_energy_closed"][:].sum()
+    assert np.isclose(row["by_cells"], abs(closed - row["value"]) / closed, rtol=1e-6)
+    assert row["by_cells"] < 0.3 * abs(row["value"] - row["half"]) / row["value"]

@@ -5,6 +5,7 @@
 #ifndef PETSAM_ADVICE_H
 #define PETSAM_ADVICE_H
 
+#include <petsam/private/errors.h>
 #include <petsam/private/setup.h>
 
 /*
@@ -141,6 +142,7 @@ typedef struct {
   SamSlip           slip;              /* energy of the steps so far, or of the last computed cycle */
   SamYielding       yielding;          /* plastic work of the steps so far */
   PetscReal         half[2], across;   /* half widths (m) and cells across; by the closed-form solution if `closed` */
+  SamDoubts         doubts;            /* errors in closed form of the numbers that the messages name */
   PetscBool         closed;            /* true: a closed-form solution describes this contact */
   PetscErrorCode    error;             /* first error that `receive` returned */
 } SamAdvice;

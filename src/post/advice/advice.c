@@ -204,6 +204,7 @@ static void Cells(SamAdvice *a)
   const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
   char            zones[SAM_ADVICE_TEXT] = "", size[160], spots[320] = "", peak[160] = "", better[SAM_ADVICE_GRIDS];
 
+  if (steep) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, fabs((double)extent->change), "pressure_max");
   if ((!few && !steep) || (a->finer && (sharp || factor <= (double)a->finer))) return;
   a->finer = PetscMax(1, (PetscInt)factor);
   SamAdviceGrids(a, factor, better);

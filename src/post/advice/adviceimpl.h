@@ -62,8 +62,8 @@ PETSC_INTERN PetscErrorCode SamAdviceCompare(const SamSetup *setup, const PetscR
   AddSlip, AddRolling - add a step to the estimates of the dissipated energy (slipzones.c), and of loads and creepages
   in steady rolling (steadyerrors.c). MeasureStick - finds the present cells across the stick zone. Collective. Slip,
   Rolling - advise, after the last step, on numbers that the cells do not resolve. Stick - advises on a stick zone fewer
-  cells across than `least`. Peaks - advises on a slip zone too narrow for its maximum values; `width`: in cells;
-  `wanted`: how many times finer the advised grid is. Not collective.
+  cells across than `least`. Peaks - advises on a slip zone too narrow for its maximum values, which `what` and `names`
+  name; `width`: in cells; `wanted`: how many times finer the advised grid is. Not collective.
 */
 /*
   SamAdviceMeasureStuck - estimates the slip zone of a contact in which all cells stick (stuck.c): `share` is the ratio
@@ -92,7 +92,8 @@ PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, const SamStep *s
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
 /* True if a cycle of a life dissipates next to nothing of what the first one did (slipzones.c). */
 PETSC_INTERN PetscBool SamAdviceIsSpent(const SamAdvice *advice);
-PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[]);
+PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[],
+                                 const char names[]);
 PETSC_INTERN void SamAdviceStick(SamAdvice *advice, PetscReal least);
 PETSC_INTERN void SamAdviceSlip(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, const SamStep *step);

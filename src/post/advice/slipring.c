@@ -146,6 +146,7 @@ static void Cells(SamAdvice *a)
   const double   error = ring->error / ring->energy;
   char           better[SAM_ADVICE_GRIDS], wrong[48] = "is not resolved";
 
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "dissipated_energy");
   if (error <= ALLOWED) return;
   /* The width that long steps find is not that of the ring. */
   if (MovesOf(ring) > PASSES)
@@ -165,6 +166,7 @@ static void Steps(SamAdvice *a)
   const double   moves = MovesOf(ring);
 
   if (moves <= PASSES) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ALLOWED * moves / PASSES, "dissipated_energy");
   SamAdviceSay(
     a, "steps",
     "elastically dissimilar bodies slip at the edge of the growing contact, in a ring that the edge passes by "
@@ -176,6 +178,7 @@ static void Stick(SamAdvice *a)
 {
   const SamRing *ring = &a->slip.ring;
 
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ring->worst, "stick_area");
   if (ring->worst <= ALLOWED) return;
   SamAdviceSay(a, "steps",
                "the normal load of elastically dissimilar bodies grows in %" PetscInt_FMT

@@ -280,6 +280,7 @@ static void Long(SamAdvice *a)
   char         part[48];
 
   if (!(slip->coupling > 0 && slip->work > 0 && slip->energy > NOTHING * slip->work && error > UNKNOWN)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, error, "dissipated_energy shear_max");
   if (error < ROUGH && slip->share > SLIGHT)
     (void)snprintf(part, sizeof(part), "about %.0f %%", 100 * error);
   else
@@ -300,6 +301,7 @@ static void Few(SamAdvice *a)
   char           steps[32];
 
   if (slip->coupling > 0 || !(slip->energy > NOTHING * slip->work && slip->before_touch > MAKING * all)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, slip->before_touch / all, "shear_max stick_area dissipated_energy");
   (void)snprintf(steps, sizeof(steps), slip->growing > 1 ? "%" PetscInt_FMT " steps" : "one step", slip->growing);
   SamAdviceSay(a, "steps",
                "elastically dissimilar bodies slip while the normal load grows: %.0f %% of that slip is before cells "
@@ -321,6 +323,8 @@ static void Merging(SamAdvice *a)
 
   if (!(slip->together && slip->unsure && slip->tilt > TILTED && SamAdviceIsFromFile(a->setup) && error > ALLOWED))
     return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, 1, "dissipated_energy");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, PetscMin(error, ROUGH), "shear_max slip_max stick_area");
   SamAdviceSay(a, "steps",
                "N and T grow together on a surface from a file, in %" PetscInt_FMT
                " step%s, and the bodies tilt: spots "
@@ -442,11 +446,12 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamAdvicePeaks(SamAdvice *a, double width, double wanted, const char zone[], const char what[])
+void SamAdvicePeaks(SamAdvice *a, double width, double wanted, const char zone[], const char what[], const char names[])
 {
   char better[SAM_ADVICE_GRIDS];
 
   if (!(width > 0 && width < PEAKED)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIP / width, names);
   SamAdviceGrids(a, wanted, better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
                "the %s is %.2g times as wide as a cell: the maximum %s may be wrong by %.0f %%%s", zone, width, what,
@@ -486,6 +491,8 @@ void SamAdviceStick(SamAdvice *a, PetscReal least)
   char         better[SAM_ADVICE_GRIDS], size[32]    = "less than a cell";
 
   if (!(across < least) || !(a->extent.across > 2 * STUCK)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, part < SPECK ? 1 : ALLOWED * least / PetscMax(across, ALLOWED),
+               "stick_area");
   if (part < SPECK) {
     SamAdviceSay(
       a, "",
@@ -508,6 +515,7 @@ PetscBool SamAdviceIsSpent(const SamAdvice *a)
 /* Advises on a life whose scar has grown until hardly any slip is left: what is left changes from cell to cell. */
 static void Spent(SamAdvice *a)
 {
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "dissipated_energy shear_max");
   SamAdviceSay(a, "",
                "the dissipated energy of the last cycle, %.2g %s, is less than %g of that of the first one: hardly any "
                "slip is left at the edge of the scar, and its energy and the maximum shear there are unknown on any "
@@ -529,6 +537,11 @@ static void Energy(SamAdvice *a)
   slip->error = known ? fabs(slip->closed - slip->energy) : slip->error + slip->missing;
   most        = known ? slip->closed : slip->energy + slip->missing;
   error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer && !slip->unsure ? 1 : 0;
+  if (known && !slip->unsure && most > NOTHING * slip->work)
+    SamDoubtsSet(&a->doubts, SAM_CAUSE_CELLS, error, "dissipated_energy");
+  else
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "dissipated_energy");
+  if (error >= 1) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "slip_max");
   if (error <= ALLOWED) return;
   width = slip->missing > 0 && slip->missing >= slip->worst ? slip->narrow[0] : PetscMax(slip->narrow[0], NARROW);
   times = SamAdviceZoneError(width, slip->narrow[1]) / GOOD;
@@ -546,9 +559,12 @@ static void Energy(SamAdvice *a)
 /* Advises on the maximum shear of the last step, at the end of a zone that is much narrower than the widest. */
 static void LastPeak(SamAdvice *a, double width, double high)
 {
-  char better[SAM_ADVICE_GRIDS];
+  PetscReal shear = 0;
+  char      better[SAM_ADVICE_GRIDS];
 
   if (!(high > 0) || !a->extent.finer) return;
+  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "shear_max", &shear);
+  if (shear > 0) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, fabs(high / (double)shear - 1), "shear_max");
   SamAdviceGrids(a, 2 * PEAKED / width, better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
                "the slip zone of the last step is about %.1g times as wide as a cell: the maximum shear there is about "
@@ -570,6 +586,7 @@ static void LastSlip(SamAdvice *a)
   char better[SAM_ADVICE_GRIDS];
 
   if (!(slip->turned > 0 && slip->slipped > 0 && slip->width > 0 && slip->widest >= PEAKED && error > LARGE)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, edge * error, "slip_max");
   /* on that grid the error is half of the largest that is allowed */
   SamAdviceGrids(a, PetscMax(sqrt(PetscMax(2 * part / LARGE - 0.25, 0) / square), LEAST), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
@@ -592,6 +609,8 @@ static PetscBool Missed(SamAdvice *a)
   if (isnan(slip->closed) || !(slip->closed > NOTHING * slip->work) || slip->energy > MISSED * slip->closed)
     return PETSC_FALSE;
   if (slip->turned > 0 || !(width > 0 && width < PEAKED)) return PETSC_FALSE;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 - sqrt(width), "shear_max");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "slip_max");
   SamAdviceGrids(a, 2 * PEAKED / width, better);
   SamAdviceSay(
     a, better[0] ? "" : "grid_n",
@@ -614,7 +633,7 @@ void SamAdviceSlip(SamAdvice *a)
   (SamAdviceIsSpent(a) ? Spent : Energy)(a);
   if (!Missed(a))
     SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
-                   "slip and shear");
+                   "slip and shear", "slip_max shear_max");
   if (!SamAdviceIsSpent(a) && (zone > 0 || !((double)a->slip.widest < PEAKED))) LastPeak(a, width, a->slip.high);
   LastSlip(a);
   SamAdviceStick(a, SamAdviceCountsCells(a) ? SAM_ADVICE_CELLS : STUCK);

@@ -79,6 +79,7 @@ static void Loads(SamAdvice *a)
   const SamRollingError *r = &a->rolling;
   char                   better[SAM_ADVICE_GRIDS], where[48] = "";
 
+  if (r->error > 0) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, r->error, r->name);
   if (r->error <= ALLOWED) return;
   if (a->steps > 1) (void)snprintf(where, sizeof(where), "step %" PetscInt_FMT ": ", r->step + 1);
   SamAdviceGrids(a, PetscMax(r->error / GOOD, LEAST), better);
@@ -95,6 +96,7 @@ static void Wear(SamAdvice *a)
   char         better[SAM_ADVICE_GRIDS];
 
   if (!SamProblemGetLaw(a->setup->problem, SAM_LAW_ARCHARD) || !(width > 0) || error <= MOST) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "volume1 volume2");
   SamAdviceGrids(a, pow(error / ADVISED, 1 / FALLS), better);
   SamAdviceSay(
     a, better[0] ? "" : "grid_n",
@@ -108,6 +110,7 @@ void SamAdviceRolling(SamAdvice *a)
   Loads(a);
   Wear(a);
   if (a->slip.across < INFINITY && a->rolling.width < CLEAR) /* not all cells stick */
-    SamAdvicePeaks(a, (double)a->rolling.width, WIDE / (double)a->rolling.width, "slip zone", "slip velocity");
+    SamAdvicePeaks(a, (double)a->rolling.width, WIDE / (double)a->rolling.width, "slip zone", "slip velocity",
+                   "slip_velocity_max");
   SamAdviceStick(a, STUCK);
 }

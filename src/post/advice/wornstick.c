@@ -232,6 +232,11 @@ static void Tell(SamAdvice *a, const Errors *e)
   const double    factor = PetscMax(PetscMax(worst * SLOW / ALLOWED, e->depth > ALLOWED ? crest : 0), peaked ? 2 : 0);
   char            list[200] = "", peaks[160], better[SAM_ADVICE_GRIDS];
 
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->energy, "dissipated_energy");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->volume, "volume1 volume2");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->depth, "depth_max1 depth_max2");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->pressure, "pressure_max");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->shear, "shear_max");
   Append("energy of the last cycle", e->energy, list, sizeof(list));
   Append("worn volumes", e->volume, list, sizeof(list));
   Append("maximum depths", e->depth, list, sizeof(list));

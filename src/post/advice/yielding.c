@@ -58,6 +58,7 @@ static void Coarse(SamAdvice *a)
   char         better[SAM_ADVICE_GRIDS];
 
   if (a->extent.whole || !a->extent.zones || error <= 100 * SHORT) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error / 100, "plastic_max plastic_work residual_z_max");
   /* The number of cells includes those in which the contact ends, so it is up to one too large. */
   SamAdviceGrids(a, SAM_ADVICE_MARGIN * sqrt(COARSE / SHORT) / PetscMax(across - 1, 1), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
@@ -76,6 +77,7 @@ static void Narrow(SamAdvice *a, double part)
   char         better[SAM_ADVICE_GRIDS];
 
   if (a->error || !(part > NEAR) || !(width > 0 && width < UNSEEN)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "plastic_max");
   SamAdviceGrids(a, 2 * UNSEEN / width, better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
                "plastic strain below slip zones that are %.2g times as wide as a cell is not resolved: plastic_max may "
@@ -112,6 +114,9 @@ static void Shallow(SamAdvice *a, SamLaw law, double most)
     Narrow(a, (double)surface / most);
     return;
   }
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "plastic_max");
+  if (a->slip.energy > 0 && error > DEEP)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIPS * error, "plastic_work dissipated_energy stick_area slip_max");
   if (a->slip.energy > 0 && error > DEEP)
     (void)snprintf(
       slip, sizeof(slip),
@@ -139,6 +144,7 @@ static void Begun(SamAdvice *a)
   if (a->error || !(layers > 0)) return;
   error = PetscMin(BEGUN / (double)(layers * layers), MOST_BEGUN);
   if (error <= SHORT) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "plastic_max plastic_work residual_z_max");
   SamAdviceSay(
     a, "yield_layers",
     "plastic strain has just begun, in %.0f layers: plastic_max, plastic_work and residual_z may be too small "
@@ -164,6 +170,7 @@ static void Unloaded(SamAdvice *a)
   if (!SamAdviceCountsCells(a) || a->extent.across < SAM_ADVICE_CELLS) return;
   a->error = SamContactGetNumber(a->setup->contact, "contact_cells", &cells);
   if (a->error || !(cells > 0 && cells < SAM_ADVICE_CELLS)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 / (double)cells, "contact_area");
   SamAdviceSay(a, "grid_n",
                "the contact of the last step is %.0f cells across, fewer than %d, and its edges are not reconstructed: "
                "contact_area may be wrong by %.0f %%",
@@ -180,6 +187,9 @@ static void Sudden(SamAdvice *a, double strain)
   const double part  = a->yielding.work > 0 ? these * a->yielding.step / a->yielding.work : 0;
   const double error = full * scale * part;
 
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, error, "pressure_max plastic_work");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, STORED * error, "residual_energy");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, error / 2, "contact_area plastic_max residual_z_max");
   if (!(STORED * error > SHORT)) return; /* NaN: none of these steps has a contact */
   SamAdviceSay(
     a, "steps",
@@ -200,6 +210,7 @@ static void Carried(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "pressure_max", &pressure);
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "shear_max", &shear);
   if (a->error || !rubs || a->slip.work > 0 || a->slip.widest > 0 || !(shear > CARRIED * pressure)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "slip_max shear_max dissipated_energy stick_area");
   SamAdviceGrids(a, FINER, better);
   SamAdviceSay(
     a, better[0] ? "" : "grid_n",
@@ -215,6 +226,7 @@ static void Peak(SamAdvice *a, SamLaw law)
   char         better[SAM_ADVICE_GRIDS];
 
   if (!(a->yielding.shear > least)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "plastic_max plastic_work residual_z_max residual_energy");
   SamAdviceGrids(a, BETWEEN, better);
   SamAdviceSay(
     a, better[0] ? "" : "grid_n",
@@ -236,6 +248,9 @@ void SamAdviceYielding(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(contact, "layer_thickness", &thick);
   if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
   if (a->error) return;
+  if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SHORT * (double)thick / SAM_PLASTIC_THICK,
+                 "plastic_max plastic_work residual_z_max residual_energy");
   if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
     SamAdviceSay(a, "yield_layers",
                  "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "

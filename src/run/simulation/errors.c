@@ -339,20 +339,28 @@ static double Magnitude(double value, const double run[SAM_RUNS])
   return most;
 }
 
-/* Adds a row; `least`: value below which the number is next to nothing; `closed`: its errors in closed form. */
-static void Add(SamErrors e, const SamStateNumber *number, const char unit[], double value, double least,
-                const double run[SAM_RUNS], const double closed[SAM_CAUSES])
+/* Adds a row; `least`: value below which the number is next to nothing, unless a closed form says that it is wrong. */
+static void Add(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
+                const double run[SAM_RUNS])
 {
-  const double cells   = PetscMax(SamErrorByCells(value, run), closed[SAM_CAUSE_CELLS]),
-               steps   = e->companion[SAM_RUN_OTHER].run ? PetscMax(SamErrorBySteps(run), closed[SAM_CAUSE_STEPS]) : 0;
-  SamErrorTable *t     = &e->table;
-  const double   scale = PetscMax(fabs(value), least);
-  SamErrorRow   *row   = &t->row[t->count];
+  const SamErrors  e     = s->errors;
+  const SamDoubts *d     = &s->advice.doubts;
+  const double     scale = PetscMax(fabs(value), least);
+  PetscBool        known[SAM_CAUSES];
+  const double     closed[SAM_CAUSES] = {SamDoubtsOf(d, number->name, SAM_CAUSE_CELLS, &known[SAM_CAUSE_CELLS]),
+                                         SamDoubtsOf(d, number->name, SAM_CAUSE_STEPS, &known[SAM_CAUSE_STEPS])};
+  SamErrorTable   *t                  = &e->table;
+  SamErrorRow     *row                = &t->row[t->count];
 
   for (PetscInt k = 0; k < t->count; k++)
     if (!strcmp(t->row[k].name, number->name)) return; /* the number of a cycle precedes that of its last step */
-  if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least)) return;
-  *row = (SamErrorRow){.unit = unit, .value = value, .of = {cells / scale, steps / scale}};
+  if (t->count == SAM_ERROR_ROWS ||
+      !(Magnitude(value, run) > least || (least > 0 && closed[SAM_CAUSE_CELLS] + closed[SAM_CAUSE_STEPS] > 0)))
+    return;
+  *row                     = (SamErrorRow){.unit = unit, .value = value, .scale = scale};
+  row->of[SAM_CAUSE_CELLS] = SamErrorByCells(value, run) / scale;
+  row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run) / scale : 0;
+  for (int c = 0; c < SAM_CAUSES; c++) row->of[c] = known[c] ? closed[c] : PetscMax(row->of[c], closed[c]);
   (void)snprintf(row->name, sizeof(row->name), "%s", number->name);
   row->error = row->of[SAM_CAUSE_CELLS] + row->of[SAM_CAUSE_STEPS];
   row->cause = row->of[SAM_CAUSE_STEPS] > row->of[SAM_CAUSE_CELLS] ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS;
@@ -362,21 +370,8 @@ static void Add(SamErrors e, const SamStateNumber *number, const char unit[], do
   t->count++;
 }
 
-static const double none[SAM_CAUSES] = {0, 0};
-
-/* Gets the errors of the dissipated energy in closed form; `slip`: NULL: there are none by the cells. */
-static void GetClosed(SamSimulation s, const SamSlip *slip, double closed[SAM_CAUSES])
-{
-  SamState state;
-
-  closed[SAM_CAUSE_CELLS] = slip ? fabs(slip->error) + fabs(slip->ring.error) : 0;
-  closed[SAM_CAUSE_STEPS] = 0;
-  if (s->life || SamContactGetState(s->setup.contact, &state)) return;
-  closed[SAM_CAUSE_STEPS] = fabs(s->errors->sums[SamStateFindNumber(state, "energy_error")]);
-}
-
 /* Adds the numbers of the last step, and the sums over all steps. */
-static PetscErrorCode AddNumbers(SamSimulation s, const SamControl *control, const double closed[SAM_CAUSES])
+static PetscErrorCode AddNumbers(SamSimulation s, const SamControl *control)
 {
   SamErrors e = s->errors;
   SamState  state;
@@ -394,8 +389,7 @@ static PetscErrorCode AddNumbers(SamSimulation s, const SamControl *control, con
     GetRuns(e, n, sum, run);
     for (int c = 0; c < SAM_RUNS && sum; c++) run[c] -= n->base[c];
     if (sum && e->companion[SAM_RUN_OTHER].run) run[SAM_RUN_OTHER] = run[SAM_RUN_HALF] - n->apart;
-    Add(e, n->of, SamUnitOn(s->setup.grid, n->of->unit), own, least, run,
-        strcmp(n->of->name, "dissipated_energy") ? none : closed);
+    Add(s, n->of, SamUnitOn(s->setup.grid, n->of->unit), own, least, run);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -408,7 +402,7 @@ static double CycleOf(const SamCompanion *c, const char name[])
 }
 
 /* Runs the companions' lives, and adds the numbers of the last cycle. */
-static PetscErrorCode AddCycle(SamSimulation s, const double closed[SAM_CAUSES])
+static PetscErrorCode AddCycle(SamSimulation s)
 {
   const SamErrors e      = s->errors;
   const SamState  series = SamLifeGetSeries(s->life);
@@ -424,8 +418,7 @@ static PetscErrorCode AddCycle(SamSimulation s, const double closed[SAM_CAUSES])
 
     if (!n->order) continue;
     for (int c = 0; c < SAM_RUNS; c++) run[c] = CycleOf(&e->companion[c], n->name);
-    Add(e, n, SamUnitOn(s->setup.grid, n->unit), *SamStateReadNumbers(series, id), 0, run,
-        strcmp(n->name, "dissipated_energy") ? none : closed);
+    Add(s, n, SamUnitOn(s->setup.grid, n->unit), *SamStateReadNumbers(series, id), 0, run);
   }
   e->table.seconds += MPI_Wtime() - began;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -475,10 +468,8 @@ static void ProposeSteps(SamSimulation s, double factor, char text[], size_t siz
 */
 static PetscBool IsLarge(const SamErrorRow *row, SamCause cause)
 {
-  const double own = row->value, near = fabs(own - row->run[SAM_RUN_HALF]);
-
   if (!(row->of[cause] > LARGE)) return PETSC_FALSE;
-  return cause != SAM_CAUSE_CELLS || near > LARGE * fabs(own);
+  return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > LARGE * row->scale;
 }
 
 /* Warns of a cause: names the numbers with the largest errors by it, and proposes what mends all of them. */
@@ -535,15 +526,12 @@ static PetscErrorCode WarnOfFaults(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last, const SamSlip *slip)
+PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last)
 {
-  double closed[SAM_CAUSES];
-
   PetscFunctionBegin;
   if (!s->errors) PetscFunctionReturn(PETSC_SUCCESS);
-  GetClosed(s, slip, closed);
-  if (s->life) PetscCall(AddCycle(s, closed));
-  PetscCall(AddNumbers(s, last, closed));
+  if (s->life) PetscCall(AddCycle(s));
+  PetscCall(AddNumbers(s, last));
   if (s->output) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_ERRORS, .errors = &s->errors->table}));
   PetscCall(WarnOfFaults(s));

@@ -336,7 +336,7 @@ static PetscErrorCode RunAll(SamSimulation s)
   if (slip) PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_SLIP, .slip = slip}));
   if (s->point.worst == SAM_STATUS_CONVERGED && !s->stopped) {
     last = SamHistoryGetStep(s->history, s->needs.steps - 1);
-    PetscCall(SamErrorsEnd(s, &last, slip));
+    PetscCall(SamErrorsEnd(s, &last));
   }
   PetscCall(Finish(s));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -163,12 +163,12 @@ PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, Petsc
     Create       creates the companion runs, and declares the numbers NAME_error, if they are requested
     Record       after the try of step k of the history: lets the companions follow, and sets the errors of its numbers
     End          after the last step, with these loads: runs the companions of a life, stores and reports the errors of
-                 the last numbers, and warns of large ones; `slip`: what SamAdviceEnd() has found
+                 the last numbers, and warns of large ones; after SamAdviceEnd()
 */
 PETSC_INTERN PetscErrorCode SamErrorsReadOptions(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamErrorsCreate(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamErrorsRecord(SamSimulation simulation, PetscInt k, const SamStep *step);
-PETSC_INTERN PetscErrorCode SamErrorsEnd(SamSimulation simulation, const SamControl *last, const SamSlip *slip);
+PETSC_INTERN PetscErrorCode SamErrorsEnd(SamSimulation simulation, const SamControl *last);
 PETSC_INTERN PetscErrorCode SamErrorsDestroy(SamErrors *errors);
 /* SamSimulationCollectParameters - collects the parameters for results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCollectParameters(SamSimulation simulation);

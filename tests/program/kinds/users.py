@@ -243,8 +243,8 @@ class Trial:
 
     @property
     def untold(self):
-        """Wrong numbers whose error is less than half of the true one, or unknown."""
-        return {name: e for name, e in self.wrong.items() if not self.estimates.get(name, 0.0) >= 0.5 * e}
+        """Wrong numbers whose error is less than half of the true one, or unknown; 100 % tells of any error."""
+        return {name: e for name, e in self.wrong.items() if not self.estimates.get(name, 0.0) >= 0.5 * min(e, 1.0)}
 
     @property
     def alarmed(self):
