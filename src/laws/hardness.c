@@ -77,11 +77,11 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .separates   = PETSC_TRUE};
   static const SamStateNumber numbers[NUMBERS] = {
     {"plastic_cells", "1", "cells at the pressure limit", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
-    {"plastic_area", "m2", "area at the pressure limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"plastic_area", "m2", "area at the pressure limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 1},
     {"plastic_depth_max", "m", "maximum depth by which the surfaces have yielded", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-     PETSC_TRUE, SAM_JOIN_LAST, 0},
+     PETSC_TRUE, SAM_JOIN_LAST, 1},
     {"hardness_work", "J", "work of the pressure on the plastic depth in the load step", SAM_NUMBER_REAL, 1,
-     PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 0}};
+     PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 2}};
   PetscInt id;
 
   PetscFunctionBegin;

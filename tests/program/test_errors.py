@@ -109,6 +109,28 @@ def test_each_step_has_its_errors(petsam, tmp_path, loop):
             cells = np.maximum(abs(b[name][:] - h[name][:]), abs(h[name][:] - q[name][:]) / 2)
             assert np.isnan(error[0]) and np.all(np.isfinite(error[1:])), name  # half as many steps: from the second on
             assert np.all(error[1:] >= cells[1:] * (1 - 1e-9)), name
+    petsam(loop, dict(grid_n=33, steps=2), "-output", "other.h5")
+    with h5py.File("own.h5") as own, h5py.File("half.h5") as half, h5py.File("other.h5") as other:
+        b, h, o = (file["history/dissipated_energy"][:] for file in (own, half, other))
+        pairs = h.reshape(-1, 2).sum(1)  # in the time of a step of the companion with other steps
+        part = abs(pairs - o) / pairs
+        with h5py.File("quarter.h5") as quarter:
+            q = quarter["history/dissipated_energy"][:]
+        cells = np.maximum(abs(b - h), abs(h - q) / 2)
+        expected = (cells + np.repeat(part, 2) * b)[1::2]
+        assert np.allclose(own["history/dissipated_energy_error"][1::2], expected, rtol=1e-6)
+
+
+def test_a_run_without_contact_has_no_errors(petsam, tmp_path):
+    petsam(dict(SPHERE, load_n=0), "-errors", "companion", "-output", "own.h5")
+    assert not package.open("own.h5").errors
+
+
+def test_a_single_step_of_both_loads_has_no_error_by_the_steps(petsam, tmp_path):
+    """N first, then T: with more steps of both the path is the same, and all follows."""
+    done = petsam(dict(SPHERE, load_tx=60.0, grid_n=128), "-errors", "companion", "-output", "own.h5")
+    assert "error by the" not in done.stderr
+    assert all(row["by_steps"] < 1e-3 for row in table("own.h5").values())
 
 
 def test_errors_are_the_same_on_any_ranks_and_after_a_restart(petsam, tmp_path, loop):

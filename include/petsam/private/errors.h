@@ -62,10 +62,12 @@ typedef struct {
 
 /*
   SamErrorByCells - returns the error of a number by the cells: `own` is its value, `run` those of the companion runs.
-  SamErrorBySteps - returns the error of a number by the steps. Both are NaN if unknown. Neither is collective
-  (estimates.c).
+  SamErrorBySteps - returns the error of a number by the steps. Both are NaN if unknown.
+  SamErrorWrite - writes a relative error in per cent, or "unknown"; returns the text. None is collective (estimates.c).
 */
-PETSC_INTERN double SamErrorByCells(double own, const double run[SAM_RUNS]);
-PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS]);
+#define SAM_ERROR_TEXT 16
+PETSC_EXTERN const char *SamErrorWrite(double error, char text[], size_t size);
+PETSC_INTERN double      SamErrorByCells(double own, const double run[SAM_RUNS]);
+PETSC_INTERN double      SamErrorBySteps(const double run[SAM_RUNS]);
 
 #endif

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..contact import AdviceWarning, Contact
+from ..core import words
 from ..core.errors import Unusable
 from ..core.tables import Column, Tabled
 from . import elements
@@ -310,7 +311,7 @@ def _of_interface(separation, spacing, pressures, loop, bodies, begins):
     separation = array("separation", separation)
     pressures = np.atleast_1d(array("pressures", pressures))
     if separation.ndim != 2 or not np.isfinite(separation).all():
-        raise Unusable("separation: expected a field (ny, nx) of finite numbers")
+        raise Unusable("separation: expected a field (ny, nx) of finite numbers: fill missing points, .fill() of a map")
     if pressures.ndim != 1 or not pressures.size or not (np.diff(pressures, prepend=0.0) > 0).all():
         raise Unusable("pressures: expected positive pressures that rise")
     steps = integer("steps", steps)
@@ -467,7 +468,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     report : callable, optional
         Called with the number of the windows that are done, and of all.
     **bodies
-        Options of the bodies, body1_young (Pa), body1_poisson, body2_young, ..., and of the solution.
+        Options of the bodies, body1_young (Pa, or "210GPa"), body1_poisson, body2_young, ..., and of the solution.
 
     Returns
     -------
@@ -493,6 +494,10 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
             raise Unusable("spacing: give the distance of the points of an array, m")
     if spacing is not None and own is not spacing:
         raise Unusable("spacing: the surface has its own: leave it out")
+    moduli = {f"body{k}_young" for k in (1, 2)}
+    for name, value in bodies.items():
+        if name in moduli and isinstance(value, str):
+            bodies[name] = words.number(value, "Young's modulus, such as 210GPa", "Pa", lambda young: young > 0.0)
     given = dict(friction=friction, shear=shear, **({} if steps is None else {"steps": steps}), **bodies)
     if periodic:
         return of_interface(surface, own, pressures, **given)

@@ -672,7 +672,7 @@ def study(
 def regimes(
     one: Study,
     *,
-    against: Sequence[str],
+    against: Union[str, Sequence[str]],
     scalar: Names = None,
     where: Values = (),
     border: Values = (),
@@ -684,8 +684,8 @@ def regimes(
     ----------
     one : Study
         A table of petsam-study.
-    against : sequence of str
-        The two inputs, of x and of y.
+    against : str or sequence of str
+        The two inputs, of x and of y: ("load_tx", "friction"), or "load_tx,friction".
     scalar : str or list of str, optional
         The result; None: the regimes.
     where : list of tuple
@@ -708,4 +708,5 @@ def regimes(
     Error
         If the file is no table of petsam-study, or has no such column.
     """
-    return planes.planes(one, list(against), listed(scalar) or None, where, border, axes_of(log))
+    against = against.split(",") if isinstance(against, str) else list(against)
+    return planes.planes(one, against, listed(scalar) or None, where, border, axes_of(log))

@@ -6,7 +6,7 @@ from ..core.files import decoded
 from ..core.tables import Column, Tabled
 
 NUMBERS = {
-    "value": "the number; of what each step adds to, the sum over all steps",
+    "value": "the number; of what each step adds to, the sum over the steps of this run",
     "error": "estimated error relative to the number",
     "by_cells": "the part of it by the cells",
     "by_steps": "the part of it by the steps",
@@ -24,7 +24,7 @@ class NumberError(NamedTuple):
     Attributes
     ----------
     value : float
-        The number of the last step, or the sum over all steps.
+        The number of the last step, or the sum over the steps of the run; after a restart, of those since.
     unit : str
         Its unit.
     error : float

@@ -104,6 +104,7 @@ PetscErrorCode SamMotionDeclareNumber(SamMotion motion, SamState state, const Sa
     declared.unit = name->unit;
     declared.text = name->text;
     declared.join = SAM_JOIN_LAST;
+    if (number->join == SAM_JOIN_SUM && strcmp(name->name, motion->work)) declared.order = 0; /* another number is it */
   }
   PetscCall(SamStateDeclareNumber(state, &declared, id));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -124,10 +124,11 @@ static void Follow(SamProblem p, Path *path, const SamSolution *s)
   const double    bound = path->friction * (double)s->load[SAM_COMPONENT_N], slight = ALIKE * bound;
   const double    length  = (double)SamProblemGetGrid(p)->length;
   const double    load[2] = {(double)s->load[c[0]], (double)s->load[c[1]]}, size = hypot(load[0], load[1]);
-  const PetscBool first = path->line[0] == 0 && path->line[1] == 0;
-  double          along, across, turned = 0, way = 0, t;
+  const PetscBool first  = path->line[0] == 0 && path->line[1] == 0,
+                  begins = first && path->bound == 0 ? PETSC_TRUE : PETSC_FALSE;
+  double along, across, turned = 0, way = 0, t;
 
-  /* N that changes while T leaves zero is not constant, but for the step that begins the contact. */
+  /* N that changes while T leaves zero is not constant, but for the step that begins the contact with N, then T. */
   if (first && (path->bound == 0 || size <= slight)) path->bound = bound;
   for (int k = 0; k < 2 && first; k++) {
     path->moment[k] = (double)s->load[m[k]];
@@ -144,8 +145,8 @@ static void Follow(SamProblem p, Path *path, const SamSolution *s)
   }
   path->last = along;
   t          = fabs(along - path->start) / ((path->reversed > 0 ? 2 : 1) * bound);
-  if (fabs(bound - path->bound) > slight || fabs(across) > slight || !(t < 1) ||
-      PetscMax(fabs((double)s->load[SAM_COMPONENT_MZ]), turned) > slight * length ||
+  if ((begins && size > slight && s->control.together) || fabs(bound - path->bound) > slight || fabs(across) > slight ||
+      !(t < 1) || PetscMax(fabs((double)s->load[SAM_COMPONENT_MZ]), turned) > slight * length ||
       (path->reversed > 0 && fabs(along - path->start) > fabs(path->limit - path->start) + slight))
     path->stage = LOST;
   else

@@ -6,7 +6,7 @@
 static const SamStateNumber declared[] = {{"contact_spots", "1", "contact spots, connected by the sides of cells",
                                            SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
                                           {"gap_mean", "m", "mean gap of all cells", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-                                           PETSC_TRUE, SAM_JOIN_LAST, 0}};
+                                           PETSC_TRUE, SAM_JOIN_LAST, 2}};
 
 PetscErrorCode SamSolutionDeclareSpots(SamState state)
 {

@@ -35,7 +35,7 @@ PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first)
                            PETSC_FALSE,
                            PETSC_TRUE,
                            SAM_JOIN_LAST,
-                           0};
+                           2};
   PetscInt       id;
 
   PetscFunctionBegin;
@@ -46,9 +46,10 @@ PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first)
 
     (void)snprintf(name, sizeof(name), "%s_extrapolated", load ? of->load : of->creep);
     (void)snprintf(text, sizeof(text), "%s, extrapolated to fine grids", load ? of->load_text : of->creep_text);
-    number.name = name;
-    number.unit = load ? of->load_unit : of->creep_unit;
-    number.text = text;
+    number.name  = name;
+    number.order = 0;
+    number.unit  = load ? of->load_unit : of->creep_unit;
+    number.text  = text;
     PetscCall(SamStateDeclareNumber(state, &number, &id));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -190,12 +190,15 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
 /* Prints the dissipated energy beside its closed form. */
 static PetscErrorCode PrintSlip(SamReport r)
 {
-  const char *const unit = r->energy_unit;
+  const char *const unit      = r->energy_unit;
+  char              zones[48] = "";
 
   PetscFunctionBegin;
   if (!r->slip.steps || isnan(r->slip.closed)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, %.4g %s in closed form; slip zones %.2g cells wide\n",
-                        "slip", PetscMax(r->slip.energy, 0), unit, r->slip.closed, unit, (double)r->slip.narrow[0]));
+  if (r->slip.narrow[0] < INFINITY)
+    (void)snprintf(zones, sizeof(zones), "; slip zones %.2g cells wide", (double)r->slip.narrow[0]);
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, %.4g %s in closed form%s\n", "slip",
+                        PetscMax(r->slip.energy, 0), unit, r->slip.closed, unit, zones));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -391,16 +391,13 @@ static PetscErrorCode PrintErrors(SamReport r, const SamErrorTable *t)
     t->runs, 100 * t->seconds / total, "", "", "error", "by cells", "by steps"));
   for (PetscInt k = 0; k < t->count; k++) {
     const SamErrorRow *row = &t->row[k];
-    char               name[SAM_ERROR_NAME + 24], part[3][16];
-    const double       error[3] = {row->error, row->of[SAM_CAUSE_CELLS], row->of[SAM_CAUSE_STEPS]};
+    char               name[SAM_ERROR_NAME + 24], part[3][SAM_ERROR_TEXT];
 
     (void)snprintf(name, sizeof(name), "%s/%s", row->name, row->unit);
-    for (int c = 0; c < 3; c++) {
-      if (isnan(error[c]))
-        (void)snprintf(part[c], sizeof(part[c]), "unknown");
-      else
-        (void)snprintf(part[c], sizeof(part[c]), "%.2g %%", 100 * error[c]);
-    }
+    (void)SamErrorWrite(row->error, part[0], sizeof(part[0]));
+    for (int c = 0; c < SAM_CAUSES; c++) (void)SamErrorWrite(row->of[c], part[1 + c], sizeof(part[1 + c]));
+    if (row->of[SAM_CAUSE_STEPS] == 0 && isnan(row->run[SAM_RUN_OTHER]))
+      (void)snprintf(part[2], sizeof(part[2]), "none");
     PetscCall(PetscPrintf(r->comm, "    %-22s %14.6g %10s %10s %10s\n", name, row->value, part[0], part[1], part[2]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

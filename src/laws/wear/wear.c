@@ -115,8 +115,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     path    = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2},
     stripes = {.name = SAM_WEAR_STRIPES, .components = 1, .generations = 2, .kept = PETSC_TRUE, .optional = PETSC_TRUE};
   static const SamStateNumber number[] = {
-    {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
-    {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 2},
+    {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 2},
     {"wear_excess", "1", "wear of the step relative to the stability limit", SAM_NUMBER_REAL, 1, PETSC_FALSE,
      PETSC_FALSE, SAM_JOIN_GREATEST, 0},
     {WEARS, "1", "whether the step added to the wear load", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE, SAM_JOIN_LAST,

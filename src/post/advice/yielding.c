@@ -51,6 +51,8 @@
 #define FINER   10
 #define BETWEEN 4
 
+#define STRAIN "plastic_max plastic_work residual_z_max" /* numbers of plastic strain */
+
 /* Advises on plastic strain below a contact of few cells. */
 static void Coarse(SamAdvice *a)
 {
@@ -58,7 +60,7 @@ static void Coarse(SamAdvice *a)
   char         better[SAM_ADVICE_GRIDS];
 
   if (a->extent.whole || !a->extent.zones || error <= 100 * SHORT) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error / 100, "plastic_max plastic_work residual_z_max");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error / 100, STRAIN);
   /* The number of cells includes those in which the contact ends, so it is up to one too large. */
   SamAdviceGrids(a, SAM_ADVICE_MARGIN * sqrt(COARSE / SHORT) / PetscMax(across - 1, 1), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
@@ -144,7 +146,7 @@ static void Begun(SamAdvice *a)
   if (a->error || !(layers > 0)) return;
   error = PetscMin(BEGUN / (double)(layers * layers), MOST_BEGUN);
   if (error <= SHORT) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "plastic_max plastic_work residual_z_max");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, STRAIN);
   SamAdviceSay(
     a, "yield_layers",
     "plastic strain has just begun, in %.0f layers: plastic_max, plastic_work and residual_z may be too small "
@@ -226,7 +228,7 @@ static void Peak(SamAdvice *a, SamLaw law)
   char         better[SAM_ADVICE_GRIDS];
 
   if (!(a->yielding.shear > least)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "plastic_max plastic_work residual_z_max residual_energy");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, STRAIN " residual_energy");
   SamAdviceGrids(a, BETWEEN, better);
   SamAdviceSay(
     a, better[0] ? "" : "grid_n",
@@ -249,8 +251,7 @@ void SamAdviceYielding(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
   if (a->error) return;
   if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SHORT * (double)thick / SAM_PLASTIC_THICK,
-                 "plastic_max plastic_work residual_z_max residual_energy");
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SHORT * (double)thick / SAM_PLASTIC_THICK, STRAIN " residual_energy");
   if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
     SamAdviceSay(a, "yield_layers",
                  "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "

@@ -191,22 +191,30 @@ static void RaiseAll(Largest *l, SamState state)
   Raise(&l->pressure, Get(state, "pressure_max"));
 }
 
-/* True if this is the name of a displacement or rotation of the bodies. */
-static PetscBool IsRigid(const char name[])
+/* Returns the component whose displacement, rotation or creepage has this name; -1: none. */
+static PetscInt RigidOf(const char name[])
 {
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-    if (!strcmp(SamComponentNames[c].rigid, name)) return PETSC_TRUE;
-  return PETSC_FALSE;
+    for (SamWay way = SAM_BY_RIGID; way < SAM_WAYS; way++)
+      if (SamComponentNameOf(c, way) && !strcmp(SamComponentNameOf(c, way), name)) return c;
+  return -1;
 }
 
-/* Returns the value below which a number is next to nothing for this contact. */
-static double Least(const Largest *l, const SamStateNumber *number)
+/*
+  Returns the value below which a number is next to nothing for this contact. A displacement or rotation whose load is
+  0 in all steps is compared with the approach, since it may be 0 by symmetry.
+*/
+static double Least(SamSimulation s, const SamStateNumber *number)
 {
-  const double      length = sqrt(l->area);
-  const char *const unit   = number->unit;
+  const Largest *const l      = &s->errors->largest;
+  const double         length = sqrt(l->area);
+  const char *const    unit   = number->unit;
+  const PetscInt       rigid  = RigidOf(number->name);
 
-  if (IsRigid(number->name)) return 1e-3 * l->approach / (strcmp(unit, "rad") ? 1 : PetscMax(length, 1e-300));
+  if (rigid >= 0 && (!strcmp(unit, "m") || !strcmp(unit, "rad")))
+    return (s->start.loads[rigid] ? 1e-3 : 1) * l->approach / (strcmp(unit, "rad") ? 1 : PetscMax(length, 1e-300));
   if (!strcmp(unit, "J")) return 1e-6 * l->load * l->approach;
+  if (!strcmp(unit, "J/m")) return 1e-6 * l->load; /* per rolled distance */
   if (!strcmp(unit, "m2")) return 1e-3 * l->area;
   if (!strcmp(unit, "Pa")) return 1e-4 * l->pressure;
   if (!strcmp(unit, "m")) return 1e-5 * l->approach;
@@ -242,8 +250,9 @@ static void GetRuns(SamErrors e, const Number *n, PetscBool sum, double run[SAM_
 }
 
 /* Updates the error of a number by the steps at a moment that OTHER shares with the run. */
-static void CompareSteps(SamErrors e, Number *n)
+static void CompareSteps(SamSimulation s, Number *n)
 {
+  SamErrors       e   = s->errors;
   const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
   double          run[SAM_RUNS];
 
@@ -255,7 +264,7 @@ static void CompareSteps(SamErrors e, Number *n)
     n->mark[k] = now;
   }
   n->apart += run[SAM_RUN_HALF] - run[SAM_RUN_OTHER];
-  n->steps = SamErrorBySteps(run) / PetscMax(fabs(run[SAM_RUN_HALF]), Least(&e->largest, n->of));
+  n->steps = SamErrorBySteps(run) / PetscMax(fabs(run[SAM_RUN_HALF]), Least(s, n->of));
 }
 
 /* ---- steps ---- */
@@ -272,7 +281,7 @@ static PetscErrorCode Follow(SamSimulation s, PetscInt k)
     if (e->companion[c].run) PetscCall(SamCompanionFollow(&e->companion[c], s, k, &there[c]));
   PetscCall(SamContactGetState(e->companion[SAM_RUN_HALF].run->setup.contact, &state));
   RaiseAll(&e->largest, state);
-  for (PetscInt n = 0; n < e->count && there[SAM_RUN_OTHER]; n++) CompareSteps(e, &e->number[n]);
+  for (PetscInt n = 0; n < e->count && there[SAM_RUN_OTHER]; n++) CompareSteps(s, &e->number[n]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -306,7 +315,7 @@ PetscErrorCode SamErrorsRecord(SamSimulation s, PetscInt k, const SamStep *step)
   SamStateJoinNumbers(state, e->sums, PETSC_FALSE);
   for (PetscInt i = 0; i < e->count; i++) {
     Number      *n   = &e->number[i];
-    const double own = *SamStateReadNumbers(state, n->id), least = Least(&e->largest, n->of);
+    const double own = *SamStateReadNumbers(state, n->id), least = Least(s, n->of);
     double       run[SAM_RUNS];
 
     if (n->error < 0) continue;
@@ -382,7 +391,7 @@ static PetscErrorCode AddNumbers(SamSimulation s, const SamControl *control)
   for (PetscInt i = 0; i < e->count; i++) {
     const Number   *n   = &e->number[i];
     const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
-    const double    own = sum ? e->sums[n->id] : *SamStateReadNumbers(state, n->id), least = Least(&e->largest, n->of);
+    const double    own = sum ? e->sums[n->id] : *SamStateReadNumbers(state, n->id), least = Least(s, n->of);
     double          run[SAM_RUNS];
 
     if ((sum && s->life) || IsPrescribed(control, n->of->name)) continue;
@@ -478,7 +487,7 @@ static PetscErrorCode WarnOf(SamSimulation s, SamCause cause)
   const SamErrorTable *t      = &s->errors->table;
   double               factor = 1, below = INFINITY;
   size_t               head;
-  char                 text[512], cure[128];
+  char                 text[512], cure[128], one[SAM_ERROR_TEXT];
 
   PetscFunctionBegin;
   (void)snprintf(text, sizeof(text), "error by the %s:", SamCauseNames[cause]);
@@ -492,11 +501,12 @@ static PetscErrorCode WarnOf(SamSimulation s, SamCause cause)
         worst = &t->row[k];
     if (!worst) break;
     below = worst->of[cause];
-    (void)snprintf(text + strlen(text), sizeof(text) - strlen(text), "%s %s %.2g %%", named ? "," : "", worst->name,
-                   100 * worst->of[cause]);
+    (void)snprintf(text + strlen(text), sizeof(text) - strlen(text), "%s %s %s", named ? "," : "", worst->name,
+                   SamErrorWrite(worst->of[cause], one, sizeof(one)));
   }
   if (!text[head]) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < t->count; k++) factor = PetscMax(factor, FactorOf(&t->row[k], cause));
+  for (PetscInt k = 0; k < t->count; k++)
+    if (IsLarge(&t->row[k], cause)) factor = PetscMax(factor, FactorOf(&t->row[k], cause));
   if (cause == SAM_CAUSE_CELLS)
     ProposeCells(s, factor, cure, sizeof(cure));
   else
@@ -518,8 +528,9 @@ static PetscErrorCode WarnOfFaults(SamSimulation s)
     const SamCompanion *one = &s->errors->companion[c];
 
     if (!one->run || !one->fault[0]) continue;
-    (void)snprintf(text, sizeof(text), "errors by the %s are unknown: on %s %s",
-                   SamCauseNames[c == SAM_RUN_OTHER ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS], what[c], one->fault);
+    (void)snprintf(text, sizeof(text), "errors by the %s are %s: on %s %s",
+                   SamCauseNames[c == SAM_RUN_OTHER ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS],
+                   c == SAM_RUN_QUARTER ? "less certain" : "unknown", what[c], one->fault);
     PetscCall(SamSimulationWarn(s, text, ""));
     if (c == SAM_RUN_HALF) break; /* nothing is known without it */
   }
@@ -532,7 +543,7 @@ PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last)
   if (!s->errors) PetscFunctionReturn(PETSC_SUCCESS);
   if (s->life) PetscCall(AddCycle(s));
   PetscCall(AddNumbers(s, last));
-  if (s->output) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
+  if (s->output && s->errors->table.count) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_ERRORS, .errors = &s->errors->table}));
   PetscCall(WarnOfFaults(s));
   for (int cause = 0; cause < SAM_CAUSES; cause++) PetscCall(WarnOf(s, (SamCause)cause));
