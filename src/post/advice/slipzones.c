@@ -50,44 +50,43 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define WORK_AND_SHEAR "dissipated_energy shear_max" /* numbers that are wrong together */
-#define WRONG          0.3                           /* error of a branch relative to 1/(w^2 sqrt(m)) */
-#define ALLOWED        0.05                          /* error of the energy, relative to it */
-#define GOOD           0.02                          /* the same on an advised grid */
-#define ROUGH          0.25                          /* the same above which the energy is unknown */
-#define NARROW         0.25                          /* cells: the width below which the width of a zone is unknown */
-#define ACCEPTED       0.9                           /* share of reconstructed edges above which the edges are known */
-#define ALIKE          1e-6  /* smaller couplings of bodies, or relative changes of a load, count as none */
-#define REVERSED       1.02  /* increase of the part of cells that stick, relative to the step before, at a reversal */
-#define ROUNDING       1e-16 /* energy, relative to the normal work, that is rounding of the shear */
-#define UNPUSHED       1e-9  /* the same that is of no interest where only dissimilar bodies are pressed */
-#define NOTHING        1e-6  /* energy, relative to the tangential work, that counts as none */
-#define LITTLE         1e-4  /* the same of dissimilar bodies while N grows: less is that of single cells */
-#define SLIVER         1e-3  /* the same if N and T grow in proportion; cut cells cause such energies */
-#define UNSURE         0.5 /* error of a step's energy by its length, relative to it, above which cells are not questioned */
-#define ROUND          4    /* ratio of the length of a round edge without reconstruction to the part that counts */
-#define PEAKED         1.25 /* cells: width of a zone in which the largest slip and shear have errors above 5 % */
-#define SLIP           0.06 /* error of both, or of the slip velocity in rolling, relative to 1/w */
-#define RETURNS        0.1 /* error of the largest slip after a reversal, relative to its change since, times w^2 + 1/4 */
-#define MISSED         0.1  /* part of the energy in closed form below which the cells miss the zone */
-#define LARGE          0.07 /* that error, relative to the slip, above which a warning is given */
-#define LINE           0.36 /* m in plane strain */
-#define SPECK          0.01 /* width of a stick zone, relative to the contact's, below which no grid is advised for it */
-#define SPENT          1e-3 /* energy of a cycle relative to that of the first one, below which it is unknown (wornstick.c) */
-#define STUCK          7    /* cells across a stick zone whose area has an error below 5 % */
-#define STRAY          0.1  /* part of the sticking cells, in the narrowest zones, that is ignored */
-#define HIGHER         0.9  /* shear of a narrow zone, relative to the largest found, above which it may be larger */
-#define UNKNOWN        0.02 /* error of the energy if N is applied in one step */
-#define MAKING         0.33 /* part of the work of slip that is too much before cells touch */
-#define LESS           0.25 /* the same, relative to the energy, with enough steps; it falls like 1/steps^(1/FALLS) */
-#define FALLS          0.75
-#define MERGING        1.2   /* error of the shear times the number of steps in which N and T of rough surfaces grow */
-#define TILTED         0.003 /* displacement by tilting over the approach, from which on it counts */
-#define ONCE           0.75  /* part of the largest normal load that counts as all of it */
-#define SLIGHT         0.2   /* part of mu N above which T counts in it */
-#define WAVES          2.5   /* largest wave number of those used for beta, relative to that of the contact */
-#define SPIN           0.59  /* M_z of sliding, relative to mu N a */
-#define LEAST          1.25  /* least ratio of the cells of an advised grid to those of this grid */
+#define WRONG    0.3   /* error of a branch relative to 1/(w^2 sqrt(m)) */
+#define ALLOWED  0.05  /* error of the energy, relative to it */
+#define GOOD     0.02  /* the same on an advised grid */
+#define ROUGH    0.25  /* the same above which the energy is unknown */
+#define NARROW   0.25  /* cells: the width below which the width of a zone is unknown */
+#define ACCEPTED 0.9   /* share of reconstructed edges above which the edges are known */
+#define ALIKE    1e-6  /* smaller couplings of bodies, or relative changes of a load, count as none */
+#define REVERSED 1.02  /* increase of the part of cells that stick, relative to the step before, at a reversal */
+#define ROUNDING 1e-16 /* energy, relative to the normal work, that is rounding of the shear */
+#define UNPUSHED 1e-9  /* the same that is of no interest where only dissimilar bodies are pressed */
+#define NOTHING  1e-6  /* energy, relative to the tangential work, that counts as none */
+#define LITTLE   1e-4  /* the same of dissimilar bodies while N grows: less is that of single cells */
+#define SLIVER   1e-3  /* the same if N and T grow in proportion; cut cells cause such energies */
+#define UNSURE   0.5  /* error of a step's energy by its length, relative to it, above which cells are not questioned */
+#define ROUND    4    /* ratio of the length of a round edge without reconstruction to the part that counts */
+#define PEAKED   1.25 /* cells: width of a zone in which the largest slip and shear have errors above 5 % */
+#define SLIP     0.06 /* error of both, or of the slip velocity in rolling, relative to 1/w */
+#define RETURNS  0.1  /* error of the largest slip after a reversal, relative to its change since, times w^2 + 1/4 */
+#define MISSED   0.1  /* part of the energy in closed form below which the cells miss the zone */
+#define LARGE    0.07 /* that error, relative to the slip, above which a warning is given */
+#define LINE     0.36 /* m in plane strain */
+#define SPECK    0.01 /* width of a stick zone, relative to the contact's, below which no grid is advised for it */
+#define SPENT    1e-3 /* energy of a cycle relative to that of the first one, below which it is unknown (wornstick.c) */
+#define STUCK    7    /* cells across a stick zone whose area has an error below 5 % */
+#define STRAY    0.1  /* part of the sticking cells, in the narrowest zones, that is ignored */
+#define HIGHER   0.9  /* shear of a narrow zone, relative to the largest found, above which it may be larger */
+#define UNKNOWN  0.02 /* error of the energy if N is applied in one step */
+#define MAKING   0.33 /* part of the work of slip that is too much before cells touch */
+#define LESS     0.25 /* the same, relative to the energy, with enough steps; it falls like 1/steps^(1/FALLS) */
+#define FALLS    0.75
+#define MERGING  1.2   /* error of the shear times the number of steps in which N and T of rough surfaces grow */
+#define TILTED   0.003 /* displacement by tilting over the approach, from which on it counts */
+#define ONCE     0.75  /* part of the largest normal load that counts as all of it */
+#define SLIGHT   0.2   /* part of mu N above which T counts in it */
+#define WAVES    2.5   /* largest wave number of those used for beta, relative to that of the contact */
+#define SPIN     0.59  /* M_z of sliding, relative to mu N a */
+#define LEAST    1.25  /* least ratio of the cells of an advised grid to those of this grid */
 
 /* ---- the width of the zone ---- */
 
@@ -270,6 +269,8 @@ static double ExcessOf(double coupling, double t)
 {
   return coupling * coupling * (1.9 / (t * t) - 1.1);
 }
+
+#define WORK_AND_SHEAR "dissipated_energy shear_max" /* numbers that are wrong together */
 
 /* Advises on dissimilar bodies whose N is applied in one step; called before the last branch ends. */
 static void Long(SamAdvice *a)
