@@ -138,6 +138,8 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
                         start->results ? "in " : "not kept (no -output)", start->results ? start->results : "",
                         start->replaced ? ", replacing those there" : ""));
   if (start->results) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "file size", start->size));
+  if (start->companions)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  by runs %s, a third of the time\n", "errors", start->companions));
   if (start->seconds > 0)
     PetscCall(PetscPrintf(r->comm, "  %-10s  roughly %.2g s a step, %.2g s in all%s; nothing is solved (-dry_run)\n",
                           "time", start->seconds, start->seconds * (double)start->steps,

@@ -158,6 +158,11 @@ PetscErrorCode SamErrorsCreate(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+const char *SamErrorsDescribe(SamErrors e)
+{
+  return e ? e->table.runs : NULL;
+}
+
 PetscErrorCode SamErrorsDestroy(SamErrors *errors)
 {
   PetscFunctionBegin;

@@ -182,9 +182,10 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   SamSimulationStart *const start = &s->start;
 
   PetscFunctionBegin;
-  s->last_time  = PETSC_NINFINITY;
-  start->steps  = s->needs.steps;
-  start->cyclic = s->plan.cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
+  s->last_time      = PETSC_NINFINITY;
+  start->steps      = s->needs.steps;
+  start->cyclic     = s->plan.cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
+  start->companions = SamErrorsDescribe(s->errors);
   for (PetscInt k = 0; k < s->needs.steps; k++) {
     SamControl control;
 

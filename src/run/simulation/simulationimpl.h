@@ -161,6 +161,7 @@ PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, Petsc
   The errors of all numbers (errors.c). Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
     ReadOptions  reads -errors
     Create       creates the companion runs, and declares the numbers NAME_error, if they are requested
+    Describe     returns the companion runs in words, NULL without; borrowed
     Record       after the try of step k of the history: lets the companions follow, and sets the errors of its numbers
     End          after the last step, with these loads: runs the companions of a life, stores and reports the errors of
                  the last numbers, and warns of large ones; after SamAdviceEnd()
@@ -170,6 +171,7 @@ PETSC_INTERN PetscErrorCode SamErrorsCreate(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamErrorsRecord(SamSimulation simulation, PetscInt k, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamErrorsEnd(SamSimulation simulation, const SamControl *last);
 PETSC_INTERN PetscErrorCode SamErrorsDestroy(SamErrors *errors);
+PETSC_INTERN const char    *SamErrorsDescribe(SamErrors errors);
 /* SamSimulationCollectParameters - collects the parameters for results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCollectParameters(SamSimulation simulation);
 
