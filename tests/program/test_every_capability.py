@@ -36,7 +36,7 @@ def test_ranks_without_cells_change_nothing(petsam, tmp_path, plane, name):
     assert_same_bits(tmp_path / "1.h5", tmp_path / f"{ranks}.h5")
 
 
-@few("plane, name", [case for case in CASES if case[1] != "grid check"], 12)  # a check has no part of its run alone
+@few("plane, name", CASES, 12)
 def test_restart_changes_no_number(petsam, tmp_path, plane, name):
     """From the checkpoint before the last step, to the last bit: numbers of steps, fields, accumulated fields."""
     case = capabilities.write(plane, *capabilities.cases(plane)[name], tmp_path)
