@@ -31,6 +31,8 @@ PETSC_INTERN PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], con
 PETSC_INTERN PetscErrorCode SamTableCreate(MPI_Comm comm, const char what[], const char header[], PetscInt rows,
                                            const double values[], const char *const names[], SamTable *table);
 PETSC_INTERN PetscErrorCode SamTableDestroy(SamTable *table);
+/* SamTableCopy - creates a copy of a table. Not collective. */
+PETSC_INTERN PetscErrorCode SamTableCopy(const SamTable *table, SamTable *copy);
 /* SamTableFind - returns the column of that name, or -1. Not collective. */
 PETSC_INTERN PetscInt SamTableFind(const SamTable *table, const char name[]);
 

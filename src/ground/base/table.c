@@ -312,6 +312,18 @@ PetscErrorCode SamTableCreate(MPI_Comm comm, const char what[], const char heade
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamTableCopy(const SamTable *table, SamTable *copy)
+{
+  PetscFunctionBegin;
+  *copy = *table;
+  if (!table->rows) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(table->rows * table->columns, &copy->value));
+  PetscCall(PetscArraycpy(copy->value, table->value, table->rows * table->columns));
+  PetscCall(PetscMalloc1(table->rows, &copy->line));
+  PetscCall(PetscArraycpy(copy->line, table->line, table->rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamTableDestroy(SamTable *t)
 {
   PetscFunctionBegin;

@@ -117,13 +117,13 @@ static void Shallow(SamAdvice *a, SamLaw law, double most)
     return;
   }
   SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "plastic_max");
-  if (a->slip.energy > 0 && error > DEEP)
+  if (a->slip.energy > 0 && error > DEEP) {
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIPS * error, "plastic_work dissipated_energy stick_area slip_max");
-  if (a->slip.energy > 0 && error > DEEP)
     (void)snprintf(
       slip, sizeof(slip),
       ", and plastic_work, the dissipated energy, the stick area and the maximum slip may be wrong by %.0f %%",
       100 * SLIPS * error);
+  }
   line = error > DEEP ? Concentrates(a, law, most) : PETSC_FALSE;
   SamAdviceSay(a, line ? "" : "grid_n",
                "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "

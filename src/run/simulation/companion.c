@@ -23,6 +23,7 @@ PetscErrorCode SamCompanionCreate(SamSimulation s, PetscInt halvings, PetscInt i
   run->step_rtol       = s->step_rtol;
   run->running         = PETSC_TRUE;
   PetscCall(SamSimulationDeclarePieces(run));
+  PetscCall(SamContactGetState(run->setup.contact, &c->state));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -47,7 +48,6 @@ static void End(SamCompanion *c, const SamStep *step)
 static PetscErrorCode Solve(SamCompanion *c)
 {
   const SamContact contact = c->run->setup.contact;
-  SamState         state;
   SamStep          step;
 
   PetscFunctionBegin;
@@ -57,8 +57,8 @@ static PetscErrorCode Solve(SamCompanion *c)
     PetscCall(SamContactReject(contact));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamContactGetState(contact, &state));
-  SamStateJoinNumbers(state, c->sums, PETSC_FALSE);
+  PetscCall(SamContactGetState(contact, &c->state)); /* makes all parts declare their numbers again */
+  SamStateJoinNumbers(c->state, c->sums, PETSC_FALSE);
   PetscCall(SamSimulationCommitStep(c->run, &step, NULL, 0));
   c->steps++;
   PetscFunctionReturn(PETSC_SUCCESS);

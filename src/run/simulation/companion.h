@@ -7,6 +7,7 @@
 /* SamCompanion - a run without results and checkpoints, which follows a simulation. The owner reads all members. */
 typedef struct {
   SamSimulation run;                     /* NULL: there is no such companion */
+  SamState      state;                   /* of its contact; borrowed */
   double        sums[SAM_STATE_NUMBERS]; /* numbers of its steps, joined */
   PetscInt      steps;                   /* number of steps that it has solved */
   SamLife       life;                    /* its life, once that has been run; NULL: none */

@@ -28,6 +28,7 @@
 typedef struct {
   const SamStateNumber *of;
   PetscInt              id, error;      /* places in the state of the number and of its error; -1: that is not stored */
+  PetscInt              at[SAM_RUNS];   /* its places in the companions' states; -1: none */
   double                mark[SAM_RUNS]; /* sums of the runs at the last common moment */
   double                base[SAM_RUNS]; /* the same before the first step of this run */
   double                apart; /* sum on half the cells minus that with other steps, of the steps of this run */
@@ -109,6 +110,9 @@ static PetscErrorCode DeclareNumbers(SamErrors e, SamState state)
 
     if (id == e->number[m].id) e->number[m++].of = of;
   }
+  for (PetscInt k = 0; k < e->count; k++)
+    for (int c = 0; c < SAM_RUNS; c++)
+      e->number[k].at[c] = e->companion[c].run ? SamStateFindNumber(e->companion[c].state, e->number[k].of->name) : -1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -240,13 +244,11 @@ static PetscBool IsPrescribed(const SamControl *control, const char name[])
 /* Returns a number of a companion: of its last step, or its sum over all steps; NaN: it has none. */
 static double ValueOf(SamErrors e, int k, const Number *n, PetscBool sum)
 {
-  const SamCompanion *c = &e->companion[k];
-  SamState            state;
-  PetscInt            id;
+  const SamCompanion *c  = &e->companion[k];
+  const PetscInt      id = n->at[k];
 
-  if (!c->run || c->fault[0] || SamContactGetState(c->run->setup.contact, &state)) return NAN;
-  id = SamStateFindNumber(state, n->of->name);
-  return id < 0 ? NAN : sum ? c->sums[id] : *SamStateReadNumbers(state, id);
+  if (id < 0 || c->fault[0]) return NAN;
+  return sum ? c->sums[id] : *SamStateReadNumbers(c->state, id);
 }
 
 static void GetRuns(SamErrors e, const Number *n, PetscBool sum, double run[SAM_RUNS])
@@ -279,13 +281,11 @@ static PetscErrorCode Follow(SamSimulation s, PetscInt k)
 {
   SamErrors e               = s->errors;
   PetscBool there[SAM_RUNS] = {PETSC_FALSE};
-  SamState  state;
 
   PetscFunctionBegin;
   for (int c = 0; c < SAM_RUNS; c++)
     if (e->companion[c].run) PetscCall(SamCompanionFollow(&e->companion[c], s, k, &there[c]));
-  PetscCall(SamContactGetState(e->companion[SAM_RUN_HALF].run->setup.contact, &state));
-  RaiseAll(&e->largest, state);
+  RaiseAll(&e->largest, e->companion[SAM_RUN_HALF].state);
   for (PetscInt n = 0; n < e->count && there[SAM_RUN_OTHER]; n++) CompareSteps(s, &e->number[n]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

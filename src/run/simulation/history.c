@@ -366,12 +366,18 @@ static PetscErrorCode Create(SamConditions conditions, SamHistory *history)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns the number of steps up to the first row: if that is the start itself, one. */
+static PetscInt StartOf(SamHistory h, PetscInt increments)
+{
+  return h->table.rows && IsAtRest(h) ? 1 : increments;
+}
+
 /* Sets the number of load steps per row, and checks the table. */
 static PetscErrorCode SetIncrements(SamHistory h, PetscInt increments, MPI_Comm comm, const char file[])
 {
   PetscFunctionBegin;
   h->increments = increments;
-  h->start      = h->table.rows && IsAtRest(h) ? 1 : increments;
+  h->start      = StartOf(h, increments);
   PetscCall(CheckRows(h, comm, file));
   PetscCall(CheckChanges(h, comm, file));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -461,18 +467,6 @@ SamControl SamHistoryGetStep(SamHistory h, PetscInt k)
 
 /* ---- other steps ---- */
 
-static PetscErrorCode CopyTable(const SamTable *from, SamTable *to)
-{
-  PetscFunctionBegin;
-  *to = *from;
-  if (!from->rows) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(from->rows * from->columns, &to->value));
-  PetscCall(PetscArraycpy(to->value, from->value, from->rows * from->columns));
-  PetscCall(PetscMalloc1(from->rows, &to->line));
-  PetscCall(PetscArraycpy(to->line, from->line, from->rows));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamHistoryDivide(SamHistory h, PetscInt increments, SamHistory *other)
 {
   SamHistory       o;
@@ -481,7 +475,7 @@ PetscErrorCode SamHistoryDivide(SamHistory h, PetscInt increments, SamHistory *o
   PetscFunctionBegin;
   PetscCall(PetscNew(&o));
   *o = *h;
-  PetscCall(CopyTable(&h->table, &o->table));
+  PetscCall(SamTableCopy(&h->table, &o->table));
   PetscCall(PetscMalloc1(h->parts, &o->column));
   PetscCall(PetscArraycpy(o->column, h->column, h->parts));
   PetscCall(SamConditionsReference(h->conditions));
@@ -489,7 +483,7 @@ PetscErrorCode SamHistoryDivide(SamHistory h, PetscInt increments, SamHistory *o
   o->together   = first.together;
   o->apart      = increments > 1 && !IsAtRest(h) && !first.together && first.value[SAM_COMPONENT_N] > 0 &&
              h->before.value[SAM_COMPONENT_N] == 0;
-  o->start = h->table.rows && IsAtRest(h) ? 1 : o->apart ? 2 * increments : increments;
+  o->start = StartOf(h, o->apart ? 2 * increments : increments);
   *other   = o;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
