@@ -68,12 +68,14 @@ PETSC_INTERN PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Ve
 /*
   SamGapCheckPlane - rejects a shape that varies along y, which plane strain would ignore. Collective. Errors:
   SAM_ERR_USER with the option that makes it vary.
-  SamGapIsFromFile - returns true if the gap, or with `rough` its roughness, comes from a file. Not collective.
+  SamGapIsFromFile - returns true if the gap, or with `rough` its roughness, comes from a file. SamGapHasFile -
+  returns true if any of its heights do. Neither is collective.
   SamGapIsQuadratic - returns true if the gap is a quadratic function of x and y, without heights from files. Not
   collective.
 */
 PETSC_INTERN PetscErrorCode SamGapCheckPlane(SamGap gap);
 PETSC_INTERN PetscBool      SamGapIsFromFile(SamGap gap, PetscBool rough);
+PETSC_INTERN PetscBool      SamGapHasFile(SamGap gap);
 PETSC_INTERN PetscBool      SamGapIsQuadratic(SamGap gap);
 
 #endif

@@ -316,7 +316,7 @@ static void Size(SamAdvice *a)
     SamAdviceSay(a, "",
                  "the maximum pressure, %.3g Pa, is %.2g of E*, linear elasticity holds up to about %g: check the %s",
                  (double)most, (double)most / modulus, SAM_ADVICE_HARDEST,
-                 SamAdviceIsFromFile(a->setup) ? "unit of the dataset, and N, m, Pa" : "units, N, m, Pa");
+                 SamGapHasFile(a->setup->gap) ? "unit of the dataset, and N, m, Pa" : "units, N, m, Pa");
 }
 
 /* All advice, in this order: before the first step, on the largest load, on a contact, and on a worn contact */
@@ -579,7 +579,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   PetscCall(SamAdviceEstimate(s, most->force, most->normal, half, &known));
   if (isinf(half[0]) || isinf(half[1])) {
     AdvisePeriods(s, half, text, size);
-  } else if (SamAdviceIsFromFile(s)) {
+  } else if (SamGapHasFile(s->gap)) {
     (void)snprintf(
       text, size,
       "; a surface from a file cannot be enlarged: give a file of a larger area, less load, or -elasticity "

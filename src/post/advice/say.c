@@ -46,11 +46,6 @@ void SamAdviceWriteGrid(const SamSetup *s, const double width[2], char text[], s
     (void)snprintf(text, size, "%s", one);
 }
 
-PetscBool SamAdviceIsFromFile(const SamSetup *s)
-{
-  return SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
-}
-
 void SamAdviceGridsFor(const SamSetup *s, const PetscReal half[2], double factor, const PetscBool refine[2],
                        char cells[SAM_ADVICE_TEXT], char width[SAM_ADVICE_TEXT])
 {
@@ -107,7 +102,7 @@ void SamAdviceGrids(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRID
   text[0] = '\0';
   if (!(factor > 0) || !(a->half[0] > 0)) return;
   SamAdviceGridsFor(s, a->half, factor, refine, cells, width);
-  if (SamAdviceIsFromFile(s))
+  if (SamGapHasFile(s->gap))
     (void)snprintf(
       text, SAM_ADVICE_GRIDS,
       ": use a file with heights at smaller distances%s%s, unless petsam-surface reports outliers or offsets of rows",

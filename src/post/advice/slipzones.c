@@ -158,7 +158,7 @@ static void Measure(const SamSetup *s, const Numbers *n, double edge, SamSlip *s
     slip->width = n->faces > 0 ? n->width / cell : INFINITY;
   else
     slip->width = edge > 0 ? PetscMax(area / edge, 0) : INFINITY;
-  slip->length = n->accepted >= ACCEPTED || SamAdviceIsFromFile(s) ? edge : IsRound(s->gap) ? edge / ROUND : 1;
+  slip->length = n->accepted >= ACCEPTED || SamGapHasFile(s->gap) ? edge : IsRound(s->gap) ? edge / ROUND : 1;
   slip->length = row ? LINE : PetscMax(slip->length, 1);
 }
 
@@ -323,7 +323,7 @@ static void Merging(SamAdvice *a)
   const SamSlip *slip  = &a->slip;
   const double   error = MERGING / (double)slip->steps;
 
-  if (!(slip->together && slip->unsure && slip->tilt > TILTED && SamAdviceIsFromFile(a->setup) && error > ALLOWED))
+  if (!(slip->together && slip->unsure && slip->tilt > TILTED && SamGapHasFile(a->setup->gap) && error > ALLOWED))
     return;
   SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, 1, "dissipated_energy");
   SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, PetscMin(error, ROUGH), "shear_max slip_max stick_area");

@@ -109,7 +109,7 @@ PetscErrorCode SamSetupCreateCoarse(const SamSetup *s, PetscInt halvings, const 
   PetscCall(Halve(s->grid, halvings, &coarse->grid));
   PetscCall(CreateProblem(coarse, from));
   gap = SamProblemGetGap(coarse->problem);
-  if (SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE)) {
+  if (SamGapHasFile(s->gap)) {
     PetscCall(Average(s->grid, SamProblemGetGap(s->problem), coarse->grid, gap));
   } else {
     PetscCall(SamGapFill(s->gap, coarse->grid, gap));

@@ -460,7 +460,7 @@ static void ProposeCells(SamSimulation s, double factor, char text[], size_t siz
 
   if (PetscMax(nx, ny) > SAM_LARGEST_ROW)
     (void)snprintf(text, size, "no grid of up to %d cells in a row resolves them", SAM_LARGEST_ROW);
-  else if (SamGapIsFromFile(s->setup.gap, PETSC_FALSE) || SamGapIsFromFile(s->setup.gap, PETSC_TRUE))
+  else if (SamGapHasFile(s->setup.gap))
     (void)snprintf(text, size, "use a file with heights at %.2g times smaller distances", factor);
   else if (SamGridIsRow(g) || nx == ny)
     (void)snprintf(text, size, "use -grid_n %ld", (long)nx);

@@ -466,6 +466,11 @@ PetscBool SamGapIsFromFile(SamGap gap, PetscBool rough)
   return source->file[0] && (rough || gap->ops.setfromoptions) ? PETSC_TRUE : PETSC_FALSE;
 }
 
+PetscBool SamGapHasFile(SamGap gap)
+{
+  return SamGapIsFromFile(gap, PETSC_FALSE) || SamGapIsFromFile(gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
+}
+
 PetscBool SamGapIsQuadratic(SamGap gap)
 {
   static const char *const names[] = {SAM_GAP_SPHERE, SAM_GAP_ELLIPSOID, SAM_GAP_CURVED};
@@ -474,5 +479,5 @@ PetscBool SamGapIsQuadratic(SamGap gap)
 
   (void)SamGapGetParameters(gap, &type, NULL, NULL, NULL);
   for (size_t k = 0; k < sizeof(names) / sizeof(names[0]) && type; k++) is = is || !strcmp(type, names[k]);
-  return is && !SamGapIsFromFile(gap, PETSC_FALSE) && !SamGapIsFromFile(gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
+  return is && !SamGapHasFile(gap) ? PETSC_TRUE : PETSC_FALSE;
 }

@@ -149,7 +149,7 @@ static PetscErrorCode CreateHeights(SamGap gap, SamGrid grid, Vec h, Vec *height
 
   PetscFunctionBegin;
   *heights = NULL;
-  if (!SamGapIsFromFile(gap, PETSC_FALSE) && !SamGapIsFromFile(gap, PETSC_TRUE)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamGapHasFile(gap)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecDuplicate(h, heights));
   PetscCall(VecCopy(h, *heights));
   PetscCall(VecGetArray(*heights, &array));
