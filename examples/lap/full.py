@@ -21,7 +21,6 @@ import numpy as np
 from mesh import WASHER, Strips, strip_lines
 
 from petsam import Contact, joint
-from petsam.joint.pair import without_rigid
 from petsam.joint.structure import DISPLACEMENTS
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
@@ -119,11 +118,10 @@ def petsam(base, size, degree, cells):
     words += ["--case", "press=1", "--case", "move=2", "-o", f"{base}-pair.h5"]
     subprocess.run([ROOT / "scripts/petsam-compliance", *words], check=True, stdout=subprocess.DEVNULL)
     with h5py.File(f"{base}-pair.h5") as f:
-        without_rigid(f, f"{base}-patch.h5")
         coupling = f["rigid/compliance"][()]
     contact = Contact(
         body1_young=YOUNG * 1e6, body1_poisson=0.3, body2_young=YOUNG * 1e6, body2_poisson=0.3, gap_type="flat",
-        body2_compliance=f"{base}-patch.h5", grid_n=cells, grid_size=(44e-3, 38e-3), friction=FRICTION,
+        body2_compliance=f"{base}-pair.h5:1:local", grid_n=cells, grid_size=(44e-3, 38e-3), friction=FRICTION,
     )  # fmt: skip
     patch = joint.Patch(contact, DISPLACEMENTS, by_load=DISPLACEMENTS)
     structure = joint.Structure([patch], coupling=coupling)

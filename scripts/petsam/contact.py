@@ -586,15 +586,19 @@ class Contact:
         return step
 
     def _advise(self):
-        """Warns of numbers that the grid does not resolve, once per kind: warnings of a kind differ only in numbers."""
+        """Warns of each number that is not resolved once per cause, and of all else once per kind: warnings of a kind
+        differ only in numbers."""
         count = ctypes.c_int()
         with _lock:
             self._call("advise", ctypes.byref(count))
             lines = [self._c.petsam_warning(self._contact, k).decode(errors="replace") for k in range(count.value)]
         for line in lines:
-            kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", line)
-            if kind not in self._advised:
-                self._advised.add(kind)
+            kinds = {re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", line)}
+            if line.startswith("error by the "):
+                cause, named = re.split(r"(?<=\w): | \(", line)[:2]
+                kinds = {f"{cause}: {number.split()[0]}" for number in named.split(", ")}
+            if not kinds <= self._advised:
+                self._advised |= kinds
                 warnings.warn(line, AdviceWarning, stacklevel=3)
 
     def _step(self, time, load, rigid, status, message):

@@ -222,6 +222,15 @@ class Run(NamedTuple):
         return [line for line in self.stderr.splitlines() if line.startswith("petsam: ")]
 
 
+def doubts(done, cause="cells"):
+    """The line that tells of errors by a cause, empty without one, and these by the names of numbers; 1: unknown."""
+    lines = [line for line in done.complaint if f"error by the {cause}: " in line]
+    assert len(lines) < 2, lines
+    line = lines[0].split(f"error by the {cause}: ")[1] if lines else ""
+    found = re.findall(r"(\w+) (unknown|[-+\d.e]+)", re.split(r" \(|: ", line)[0])
+    return line, {name: 1 if error == "unknown" else float(error) / 100 for name, error in found}
+
+
 def read_run(path):
     """All values of a run, in all its parts, by name: x, y, time, fields (steps, ny, nx), history/..., wear/...."""
     with petsam.open(path) as run:

@@ -2,6 +2,7 @@
 #include "samtest.h"
 #include <petsam/private/errors.h>
 #include <math.h>
+#include <string.h>
 
 /* A number of first order has the error of its own cells, and one that differs by luck that of the coarser cells. */
 static void test_error_by_cells_is_the_larger_difference(void **state)
@@ -30,19 +31,19 @@ static void test_largest_doubt_is_kept_for_each_number_and_cause(void **state)
   PetscBool known;
 
   (void)state;
-  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.1, "shear_max slip_max");
-  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.3, "shear_max");
-  SamDoubtsAdd(&d, SAM_CAUSE_STEPS, 7, "slip_max");
-  SamDoubtsAdd(&d, SAM_CAUSE_STEPS, NAN, "slip_max");
-  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.2, "shear_max");
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.1, 2, "shear_max slip_max", "it is narrow");
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.3, 2, "shear_max", "it is narrow");
+  SamDoubtsAdd(&d, SAM_CAUSE_STEPS, 7, 2, "slip_max", "it is narrow");
+  SamDoubtsAdd(&d, SAM_CAUSE_STEPS, NAN, 2, "slip_max", "it is narrow");
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.2, 2, "shear_max", "it is narrow");
   sam_assert_close(SamDoubtsOf(&d, "shear_max", SAM_CAUSE_CELLS, &known), 0.3, 0);
   sam_assert_close(SamDoubtsOf(&d, "slip_max", SAM_CAUSE_CELLS, &known), 0.1, 0);
   sam_assert_close(SamDoubtsOf(&d, "slip_max", SAM_CAUSE_STEPS, &known), 1, 0);
   sam_assert_close(SamDoubtsOf(&d, "shear_max", SAM_CAUSE_STEPS, &known), 0, 0);
   sam_assert_close(SamDoubtsOf(&d, "shear", SAM_CAUSE_CELLS, &known), 0, 0);
   sam_assert(d.count == 3 && !known);
-  SamDoubtsSet(&d, SAM_CAUSE_CELLS, 0.01, "shear_max");
-  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.6, "shear_max");
+  SamDoubtsSet(&d, SAM_CAUSE_CELLS, 0.01, 2, "shear_max", "it is narrow");
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.6, 2, "shear_max", "it is narrow");
   sam_assert_close(SamDoubtsOf(&d, "shear_max", SAM_CAUSE_CELLS, &known), 0.01, 0);
   sam_assert(d.count == 3 && known);
 }
@@ -56,11 +57,51 @@ static void test_more_doubts_than_there_is_room_for_are_dropped(void **state)
   (void)state;
   for (int k = 0; k < SAM_DOUBTS + 5; k++) {
     (void)snprintf(name, sizeof(name), "number%d", k);
-    SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.5, name);
+    SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.5, 2, name, "it is narrow");
   }
   sam_assert(d.count == SAM_DOUBTS);
-  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.7, "number3");
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.7, 2, "number3", "it is narrow");
   sam_assert_close(SamDoubtsOf(&d, "number3", SAM_CAUSE_CELLS, &known), 0.7, 0);
+}
+
+/* The largest comes first, each reason once, and what mends all of them counts; what nothing mends has no factor. */
+static void test_doubts_of_a_cause_are_told_in_one_line(void **state)
+{
+  SamDoubts d = {.count = 0};
+  double    factor;
+  char      text[256];
+
+  (void)state;
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.06, 1.5, "slip_max", "zones of %.1f cells", 0.8);
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.04, 9, "shear_max", "not large");
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 2, 1.3, "energy volume", "zones of %.1f cells", 0.8);
+  SamDoubtsAdd(&d, SAM_CAUSE_STEPS, 0.7, 8, "energy", "long steps");
+  SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.2, 3, "slip_max", "%s", "");
+  SamDoubtsWrite(&d, SAM_CAUSE_CELLS, &factor, text, sizeof(text));
+  sam_assert(!strcmp(text, "energy unknown, volume unknown, slip_max 20 % (zones of 0.8 cells)"));
+  sam_assert_close(factor, 3, 0);
+  SamDoubtsWrite(&d, SAM_CAUSE_LAYERS, &factor, text, sizeof(text));
+  sam_assert(!text[0] && factor == 0);
+  SamDoubtsAdd(&d, SAM_CAUSE_STEPS, 0.1, 0, "energy", "no steps do");
+  SamDoubtsWrite(&d, SAM_CAUSE_STEPS, &factor, text, sizeof(text));
+  sam_assert(!strcmp(text, "energy 70 % (long steps)") && factor == 0);
+}
+
+static void test_a_line_names_some_numbers_and_counts_the_others(void **state)
+{
+  SamDoubts d = {.count = 0};
+  double    factor;
+  char      name[16], text[256];
+
+  (void)state;
+  for (int k = 0; k < 10; k++) {
+    (void)snprintf(name, sizeof(name), "n%d", k);
+    SamDoubtsAdd(&d, SAM_CAUSE_CELLS, 0.09 * (k + 1), 2, name, "reason %d", k / 2);
+  }
+  SamDoubtsWrite(&d, SAM_CAUSE_CELLS, &factor, text, sizeof(text));
+  sam_assert(!strcmp(text,
+                     "n9 90 %, n8 81 %, n7 72 %, n6 63 %, n5 54 %, n4 45 %, n3 36 %, n2 27 % and 2 more (reason 4; "
+                     "reason 3; reason 2)"));
 }
 
 int main(int argc, char **argv)
@@ -70,6 +111,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_error_by_steps_is_the_difference_of_runs_on_the_same_cells),
     cmocka_unit_test(test_largest_doubt_is_kept_for_each_number_and_cause),
     cmocka_unit_test(test_more_doubts_than_there_is_room_for_are_dropped),
+    cmocka_unit_test(test_doubts_of_a_cause_are_told_in_one_line),
+    cmocka_unit_test(test_a_line_names_some_numbers_and_counts_the_others),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

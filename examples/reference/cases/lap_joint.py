@@ -14,7 +14,6 @@ import petsam
 from petsam import joint
 from petsam.compliance.mesh import grid_mesh
 from petsam.compliance.stiffness import numbers
-from petsam.joint.pair import without_rigid
 from petsam.joint.structure import DISPLACEMENTS
 
 N, YOUNG, POISSON, FRICTION = 10e3, 210e9, 0.3, 0.2
@@ -112,17 +111,23 @@ def compliance(directory, level):
 
 def solve(level, grid_n=64, steps=STEPS, seen=None):
     """The required numbers with the compliance of a mesh; `seen` is called with the contact after each step."""
-    with tempfile.TemporaryDirectory() as folder, h5py.File(compliance(Path(folder), level)) as data:
-        own = str(Path(folder) / "patch.h5")
-        without_rigid(data, own)
+    with tempfile.TemporaryDirectory() as folder:
+        pair = compliance(Path(folder), level)
+        with h5py.File(pair) as data:
+            coupling = data["rigid/compliance"][()]
         bodies = {f"body{k}_{name}": v for k in (1, 2) for name, v in (("young", YOUNG), ("poisson", POISSON))}
         contact = petsam.Contact(
-            grid_n=grid_n, grid_size=1e-3 * PATCH, gap_type="flat", friction=FRICTION, body2_compliance=own, **bodies
+            grid_n=grid_n,
+            grid_size=1e-3 * PATCH,
+            gap_type="flat",
+            friction=FRICTION,
+            body2_compliance=f"{pair}:1:local",
+            **bodies,
         )
         # the strips' rigid motions against each other, by the tractions; the only modal force is the displacement of
         # the end of body 1, along which the mode has unit stiffness
         patch = joint.Patch(contact, list(DISPLACEMENTS), by_load=list(DISPLACEMENTS), name="contact")
-        structure = joint.Structure([patch], [1.0], np.eye(6)[:, 1:2], data["rigid/compliance"][()])
+        structure = joint.Structure([patch], [1.0], np.eye(6)[:, 1:2], coupling)
         structure.loads[0] = -0.1 * N
         force, lost = [], []
         for number, (distance, tension) in enumerate(history(steps)):

@@ -66,6 +66,7 @@ typedef struct {
   PetscBool unsure;        /* true: some steps are too long for their energy to be known; it counts as 0 */
   double    energy, error; /* energy by the sum over cells, and its estimated error, J */
   double    closed;        /* energy by the closed form, J; NaN: there is none */
+  double    lag;           /* sum of the steps' errors of the energy by their length, J */
   double    work;          /* largest tangential work T disp of a step, J */
   double    branch, worst; /* energy of the current branch, and the largest error of any branch, J */
   PetscReal narrow[2];     /* width of the slip zone and length of the edge in the branch with that error */
@@ -126,13 +127,15 @@ typedef struct {
   void             *context;
   PetscInt          steps; /* number of steps of the run */
   SamLoadRange      most;
-  PetscInt          largest;   /* step of the largest normal load or approach, from 0 */
-  PetscBool         doubtful;  /* true: no surface has such heights; the contact is not examined */
-  PetscBool         examined;  /* true: the size of the contact has been examined */
-  PetscBool         large;     /* true: the user was warned before that the contact will be too large */
-  PetscBool         stepped;   /* true: heights from a file have a step in contact, and the user was warned of it */
-  char              after[48]; /* "after 1e6 cycles: " in a repeated examination; empty in the first */
-  PetscInt          finer;     /* factor of narrower cells that has been advised; 0: none */
+  PetscInt          largest;    /* step of the largest normal load or approach, from 0 */
+  PetscBool         doubtful;   /* true: no surface has such heights; the contact is not examined */
+  PetscBool         examined;   /* true: the size of the contact has been examined */
+  PetscBool         large;      /* true: the user was warned before that the contact will be too large */
+  PetscBool         stroke;     /* true: the user was warned of moves without -slide */
+  PetscBool         stepped;    /* true: heights from a file have a step in contact, and the user was warned of it */
+  PetscBool         worn;       /* true: the examination is repeated on the worn surfaces */
+  PetscInt          increments; /* steps per row of the history, by -steps; 0: steps are given one by one */
+  PetscReal         step_rtol;  /* that by which steps are divided; 0: they are not */
   PetscBool         advised[SAM_LAWS]; /* true for laws that have warned of a step */
   const SamStep    *step;              /* step under examination */
   SamExtent         extent;            /* size of its contact */
@@ -142,7 +145,7 @@ typedef struct {
   SamSlip           slip;              /* energy of the steps so far, or of the last computed cycle */
   SamYielding       yielding;          /* plastic work of the steps so far */
   PetscReal         half[2], across;   /* half widths (m) and cells across; by the closed-form solution if `closed` */
-  SamDoubts         doubts;            /* errors in closed form of the numbers that the messages name */
+  SamDoubts         doubts;            /* errors of the numbers, which SamAdviceTell() tells */
   PetscBool         closed;            /* true: a closed-form solution describes this contact */
   PetscErrorCode    error;             /* first error that `receive` returned */
 } SamAdvice;
@@ -156,17 +159,17 @@ typedef struct {
   a contact of fewer than 20 cells across (14 if a closed-form solution describes
   it), a peak pressure that cells half as wide change by more than 5 % (10 % after wear), a contact that is wider than a
   tenth of a radius of curvature, and a pressure above 0.2 E*. `found`: the size of the contact, NULL if it was not
-  examined in this step. With `of_laws` it also passes on the warning of each law, once. Collective.
-  SamAdviceRenew - makes the next SamAdviceStep() at the largest load examine the worn contact again. `after`: the time
-  of that, for the message. Not collective.
+  examined in this step. Errors of numbers count for SamAdviceTell(). With `of_laws` it also passes on the warning of
+  each law, once. Collective.
+  SamAdviceRenew - makes the next SamAdviceStep() at the largest load examine the worn contact again. Not collective.
   SamAdviceBeginCycle - forgets the slip of earlier steps before a computed cycle of a wear simulation, so that only
   this cycle's energy counts. Not collective.
-  SamAdviceEnd - warns, after the last step, of a dissipated energy that is wrong by more than 5 % because the slip
-  zones are only few cells wide, or by more than 2 % because N grows in one step on dissimilar bodies; in steady rolling
-  of a load or a creepage that finer cells change by more than 2 %; of a maximum slip, shear or slip velocity and an
-  area of stick if the zones are few cells wide; and of volumes, depths, the energy of a cycle, pressure and shear
-  that are wrong by more than 5 % because the wear ends at a stick zone. `found`: the energy, NULL if there is none.
-  Collective.
+  SamAdviceEnd - estimates, after the last step, the errors of the dissipated energy by slip zones of few cells and by
+  N that grows in few steps on dissimilar bodies, in steady rolling of loads and creepages, of maximum slip, shear and
+  slip velocity and the area of stick, of plastic strain, and of volumes, depths and peaks where wear ends at a stick
+  zone. `found`: the energy, NULL if there is none; may be NULL. Collective.
+  SamAdviceTell - warns, in a line per cause, of all numbers with large errors, and proposes what mends them. Not
+  collective.
   SamAdviceEdge - appends to the message of a step whose contact reached the grid's edge a grid that is large enough for
   these loads. Not collective.
 */
@@ -177,7 +180,8 @@ PETSC_INTERN PetscErrorCode SamAdviceStep(SamAdvice *advice, PetscInt k, PetscBo
                                           const SamExtent **found);
 PETSC_INTERN void           SamAdviceBeginCycle(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceEnd(SamAdvice *advice, const SamSlip **found);
-PETSC_INTERN void           SamAdviceRenew(SamAdvice *advice, const char after[]);
+PETSC_INTERN PetscErrorCode SamAdviceTell(SamAdvice *advice);
+PETSC_INTERN void           SamAdviceRenew(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceEdge(const SamAdvice *advice, SamStep *step);
 /*
   SamAdviceMeasurePeak - computes `change` and `finer` of the extent: solves the contact around the peak again on finer

@@ -4,32 +4,48 @@
 
 #include <petsam/private/baseimpl.h>
 
-/* SamCause - what causes an error: the width of the cells (and of layers, which follow it), or the length of the load
-   steps. */
-typedef enum { SAM_CAUSE_CELLS, SAM_CAUSE_STEPS, SAM_CAUSES } SamCause;
-PETSC_INTERN const char *const SamCauseNames[SAM_CAUSES];
+/* SamCause - what causes an error: the width of the cells, the length of the load steps, or the thickness of the layers
+   of a body that yields. */
+typedef enum { SAM_CAUSE_CELLS, SAM_CAUSE_STEPS, SAM_CAUSE_LAYERS, SAM_CAUSES } SamCause;
+PETSC_EXTERN const char *const SamCauseNames[SAM_CAUSES];
+
+/* SamDoubt - an error of a number by a cause. */
+#define SAM_DOUBT_LARGE 0.05 /* errors above this are told */
+#define SAM_DOUBT_WHY   160  /* characters of a reason */
+typedef struct {
+  char      name[32];
+  SamCause  cause;
+  double    error;              /* relative to the number; 1: nothing is known of it */
+  PetscBool known;              /* that of a value in closed form: no other estimate counts */
+  double    factor;             /* how many times narrower cells, more steps or more layers make it small; 0: none do */
+  char      why[SAM_DOUBT_WHY]; /* what is not resolved; may be empty */
+} SamDoubt;
 
 /*
-  SamDoubts - errors in closed form, relative to their numbers: of what is narrower than a cell on all grids, and of
-  steps. The largest is kept for each number and cause.
-  SamDoubtsAdd - adds an error of all numbers named in `names`, separated by blanks. At most 1 counts.
+  SamDoubts - the errors of numbers by their causes. The largest is kept for each number and cause.
+  SamDoubtsAdd - adds an error of all numbers named in `names`, separated by blanks; at most 1 counts. The reason has a
+  format of printf(). An error of 0 or NaN is ignored.
   SamDoubtsSet - the same for numbers whose value is known in closed form, so that no other estimate of it counts.
-  SamDoubtsOf - returns the error of a number by a cause; 0: there is none. `known`: it has been set. None is collective
+  SamDoubtsOf - returns the error of a number by a cause; 0: there is none. `known`: it has been set.
+  SamDoubtsWrite - writes the numbers whose error by a cause is large, the largest first, and the reasons, as
+  "dissipated_energy 12 %, slip_max unknown (slip zones are 0.8 cells wide)"; empty: none is. `factor`: what makes all
+  of them small, as in SamDoubt.
+  SamErrorWrite - writes a relative error in per cent, or "unknown" from 1 on; returns the text. None is collective
   (doubts.c).
 */
-#define SAM_DOUBTS 48
+#define SAM_ERROR_TEXT 16
+PETSC_EXTERN const char *SamErrorWrite(double error, char text[], size_t size);
+#define SAM_DOUBTS 64
 typedef struct {
   PetscInt count;
-  struct {
-    char      name[32];
-    SamCause  cause;
-    double    error;
-    PetscBool known; /* the error of a value in closed form */
-  } of[SAM_DOUBTS];
+  SamDoubt of[SAM_DOUBTS];
 } SamDoubts;
-PETSC_INTERN void   SamDoubtsAdd(SamDoubts *doubts, SamCause cause, double error, const char names[]);
-PETSC_INTERN void   SamDoubtsSet(SamDoubts *doubts, SamCause cause, double error, const char names[]);
+PETSC_INTERN void   SamDoubtsAdd(SamDoubts *doubts, SamCause cause, double error, double factor, const char names[],
+                                 const char why[], ...) PETSC_ATTRIBUTE_FORMAT(6, 7);
+PETSC_INTERN void   SamDoubtsSet(SamDoubts *doubts, SamCause cause, double error, double factor, const char names[],
+                                 const char why[], ...) PETSC_ATTRIBUTE_FORMAT(6, 7);
 PETSC_INTERN double SamDoubtsOf(const SamDoubts *doubts, const char name[], SamCause cause, PetscBool *known);
+PETSC_INTERN void   SamDoubtsWrite(const SamDoubts *doubts, SamCause cause, double *factor, char text[], size_t size);
 
 /* SamRunKind - the companion runs: on half and on a quarter of the cells in each direction, and on half with other
    steps. */
@@ -37,7 +53,8 @@ typedef enum { SAM_RUN_HALF, SAM_RUN_QUARTER, SAM_RUN_OTHER, SAM_RUNS } SamRunKi
 
 /*
   SamErrorRow - a number of the last step, or a sum over all steps, with its error. Errors are relative; NaN: unknown.
-  `factor`: how many times narrower cells, or more steps, make the error by the larger cause 4 %; 1: it is smaller.
+  `factor`: how many times narrower cells, more steps or more layers make the error by the larger cause 4 %; 1: it is
+  smaller.
 */
 #define SAM_ERROR_NAME 56
 typedef struct {
@@ -62,12 +79,10 @@ typedef struct {
 
 /*
   SamErrorByCells - returns the error of a number by the cells: `own` is its value, `run` those of the companion runs.
-  SamErrorBySteps - returns the error of a number by the steps. Both are NaN if unknown.
-  SamErrorWrite - writes a relative error in per cent, or "unknown"; returns the text. None is collective (estimates.c).
+  SamErrorBySteps - returns the error of a number by the steps. Both are NaN if unknown. None is collective
+  (estimates.c).
 */
-#define SAM_ERROR_TEXT 16
-PETSC_EXTERN const char *SamErrorWrite(double error, char text[], size_t size);
-PETSC_INTERN double      SamErrorByCells(double own, const double run[SAM_RUNS]);
-PETSC_INTERN double      SamErrorBySteps(const double run[SAM_RUNS]);
+PETSC_INTERN double SamErrorByCells(double own, const double run[SAM_RUNS]);
+PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS]);
 
 #endif

@@ -11,9 +11,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#define LARGE 0.02 /* error of the dissipated energy by the steps, relative to it, above which a warning is given */
-#define NONE  1e-4 /* energy relative to T disp that counts as none: N and T that grow in proportion need not slip */
-#define FOUND 0.5  /* share of reconstructed edges above which nothing is printed */
+#define FOUND 0.5 /* share of reconstructed edges above which nothing is printed */
 
 /* A row of the table: the sum of the times of one or more events. */
 typedef struct {
@@ -168,25 +166,6 @@ static PetscErrorCode PrintEnergy(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode WarnOfEnergy(SamReport r)
-{
-  const SamOptions from  = {r->comm, NULL};
-  PetscBool        given = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  if (!HasEnergy(r) || r->energy[1] <= LARGE * r->energy[0] || PetscMax(r->energy[0], r->energy[1]) <= NONE * r->work)
-    PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-step_rtol", &given));
-  if (r->rank) PetscFunctionReturn(PETSC_SUCCESS);
-  fflush(stdout);
-  SamPrintMessage("petsam",
-                  "warning: dissipated_energy: the load steps are long: an error of about %.2g %%: use %smore rows, or "
-                  "a larger -steps",
-                  100 * (double)(r->energy[1] / r->energy[0]),
-                  given || SamOptionsIsExcluded(&from, "step_rtol") ? "" : "-step_rtol, ");
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Prints the dissipated energy beside its closed form. */
 static PetscErrorCode PrintSlip(SamReport r)
 {
@@ -255,7 +234,6 @@ PetscErrorCode SamReportClosing(SamReport r)
   static const char *const names[] = {"normal", "tangential", "equilibrium"};
 
   PetscFunctionBegin;
-  PetscCall(WarnOfEnergy(r));
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->logging) PetscCall(PrintTimes(r));
   for (PetscInt k = 0; k < 3 && r->worst[0].step; k++) { /* only steps with a solution */

@@ -197,7 +197,7 @@ static void KeepWorst(SamReport r, const SamStep *step)
 
 static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep *step)
 {
-  PetscReal energy, error, work = 0;
+  PetscReal energy, error;
   PetscBool touches;
   SamState  state;
 
@@ -210,9 +210,6 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep 
   if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(contact, "dissipated_energy", &energy));
   r->energy[0] += energy;
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) /* tangential components can be creepages */
-    if (SamComponentNames[c].creep) work += fabs(step->load[c] * step->rigid[c]);
-  r->work = PetscMax(r->work, work);
   /* A first step of similar bodies that applies N, then the rest, causes no error. */
   if (r->number || touches || step->control.together) r->energy[1] += error;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -384,24 +381,30 @@ static PetscErrorCode Say(SamReport r, const SamSimulationEvent *news)
 /* Prints the numbers with their errors, and the cost of these. */
 static PetscErrorCode PrintErrors(SamReport r, const SamErrorTable *t)
 {
-  const double total = MPI_Wtime() - r->start;
+  const double total  = MPI_Wtime() - r->start;
+  int          causes = SAM_CAUSE_LAYERS;
 
   PetscFunctionBegin;
   if (r->quiet || !t->count) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(
-    r->comm, "\n  errors of the last numbers, by runs %s (%.0f %% of the time)\n    %-22s %14s %10s %10s %10s\n",
-    t->runs, 100 * t->seconds / total, "", "", "error", "by cells", "by steps"));
+  for (PetscInt k = 0; k < t->count; k++)
+    if (t->row[k].of[SAM_CAUSE_LAYERS] > 0) causes = SAM_CAUSES;
+  PetscCall(PetscPrintf(r->comm,
+                        "\n  errors of the last numbers, by runs %s (%.0f %% of the time)\n    %-22s %14s %10s",
+                        t->runs, 100 * t->seconds / total, "", "", "error"));
+  for (int c = 0; c < causes; c++) PetscCall(PetscPrintf(r->comm, "  by %-6s", SamCauseNames[c]));
   for (PetscInt k = 0; k < t->count; k++) {
     const SamErrorRow *row = &t->row[k];
-    char               name[SAM_ERROR_NAME + 24], part[3][SAM_ERROR_TEXT];
+    char               name[SAM_ERROR_NAME + 24], part[1 + SAM_CAUSES][SAM_ERROR_TEXT];
 
     (void)snprintf(name, sizeof(name), "%s/%s", row->name, row->unit);
     (void)SamErrorWrite(row->error, part[0], sizeof(part[0]));
     for (int c = 0; c < SAM_CAUSES; c++) (void)SamErrorWrite(row->of[c], part[1 + c], sizeof(part[1 + c]));
     if (row->of[SAM_CAUSE_STEPS] == 0 && isnan(row->run[SAM_RUN_OTHER]))
       (void)snprintf(part[2], sizeof(part[2]), "none");
-    PetscCall(PetscPrintf(r->comm, "    %-22s %14.6g %10s %10s %10s\n", name, row->value, part[0], part[1], part[2]));
+    PetscCall(PetscPrintf(r->comm, "\n    %-22s %14.6g", name, row->value));
+    for (int c = 0; c < 1 + causes; c++) PetscCall(PetscPrintf(r->comm, " %10s", part[c]));
   }
+  PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -61,7 +61,6 @@ struct _n_SamReport {
   SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
   SamReportWorst edges;     /* smallest reconstructed share of the edges; step 0: reconstruction is disabled */
   PetscReal      energy[2]; /* energy dissipated so far, and the estimate of its error, J */
-  PetscReal      work;      /* largest T disp of a step, J */
   SamProgress    progress;
   SamContact     contact;     /* contact whose monitors are set; borrowed */
   SamExtent      extent;      /* of the contact in step `extent_step`, */

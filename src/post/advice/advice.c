@@ -25,12 +25,14 @@
 /* A contact narrower than this part of its radius suggests that the radius is in another unit. */
 #define FLATTEST 1e-3
 /* Allowed relative change of the peak pressure on cells half as wide, without wear */
-#define PEAK   0.05
-#define NARROW 0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
-#define BORDER 4    /* margin in cells of a sufficient grid */
-#define SAME   2    /* cells by which two widths, one counted and one computed, may differ */
-#define ABSURD 4096 /* number of cells per row that wrong units may ask for */
-#define BLIND  0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
+#define PEAK 0.05
+/* Part of such a change that is told after wear, whose surfaces are smoother on finer cells (SAM_ADVICE_WORN_PEAK) */
+#define WORN_PART 0.5
+#define NARROW    0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
+#define BORDER    4    /* margin in cells of a sufficient grid */
+#define SAME      2    /* cells by which two widths, one counted and one computed, may differ */
+#define ABSURD    4096 /* number of cells per row that wrong units may ask for */
+#define BLIND     0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
 
 /* ---- the extent ---- */
 
@@ -137,48 +139,6 @@ static void Touch(SamAdvice *a)
                force ? SamUnitOn(a->setup->grid, "N") : "m", force ? "0" : "0, or the smallest separation");
 }
 
-/* Writes a length with so many digits, at most 9. */
-static void WriteLength(double length, int digits, char text[SAM_ADVICE_TEXT])
-{
-  (void)snprintf(text, SAM_ADVICE_TEXT, "%.*g", PetscMin(digits, 9), length);
-}
-
-/* Returns the number of digits with which two lengths look different, if they differ. */
-static int DigitsOf(double a, double b)
-{
-  char one[SAM_ADVICE_TEXT], other[SAM_ADVICE_TEXT];
-  int  digits = 2;
-
-  do {
-    WriteLength(a, ++digits, one);
-    WriteLength(b, digits, other);
-  } while (digits < 9 && !strcmp(one, other));
-  return digits;
-}
-
-/* Writes the widths of a contact, and of its grid. */
-static void WriteSize(const SamAdvice *a, char text[], size_t size)
-{
-  const SamGrid g         = a->setup->grid;
-  const double  length[4] = {2 * (double)a->half[0], 2 * (double)a->half[1], (double)g->width[0], (double)g->width[1]};
-  PetscBool     whole     = PETSC_TRUE;
-  int           digits    = 3;
-  char          one[4][SAM_ADVICE_TEXT];
-
-  for (int k = 0; k < g->axes; k++) {
-    if (fabs(length[k] - length[k + 2]) <= 1e-9 * length[k + 2]) continue;
-    whole  = PETSC_FALSE;
-    digits = PetscMax(digits, DigitsOf(length[k], length[k + 2]));
-  }
-  for (int k = 0; k < 4; k++) WriteLength(length[k], digits, one[k]);
-  if (whole)
-    (void)snprintf(text, size, "on all of the grid");
-  else if (SamGridIsRow(g))
-    (void)PetscSNPrintf(text, size, "%s m on a grid of %s m", one[0], one[2]);
-  else
-    (void)PetscSNPrintf(text, size, "%s m by %s m on a grid of %s m by %s m", one[0], one[1], one[2], one[3]);
-}
-
 /* Returns the fewest cells across that resolve the contact. */
 static int Fewest(const SamAdvice *a)
 {
@@ -194,33 +154,27 @@ static void Cells(SamAdvice *a)
   const SamExtent *extent = &a->extent;
   PetscBool        ends[2];
   /* In periodic bodies all cells may be in contact; the contact then has no width. */
-  const PetscBool whole                  = !SamAdviceIsStrip(a, ends) && extent->whole;
-  const int       fewest                 = Fewest(a);
-  const PetscBool few                    = !whole && extent->across < fewest;
-  const PetscBool steep                  = fabs(extent->change) > (a->after[0] ? SAM_ADVICE_WORN_PEAK : PEAK),
-                  sharp                  = steep && !extent->finer;
-  const double    more                   = few ? (fewest + SAME) / (double)a->across : 0;
-  const double    factor                 = PetscMax(more, steep ? (double)extent->finer : 0);
+  const PetscBool whole  = !SamAdviceIsStrip(a, ends) && extent->whole;
+  const int       fewest = Fewest(a);
+  const PetscBool few    = !whole && extent->across < fewest;
+  const PetscBool sharp  = fabs(extent->change) > (a->worn ? SAM_ADVICE_WORN_PEAK : PEAK) && !extent->finer;
+  const double    change = fabs((double)extent->change), more = (fewest + SAME) / (double)a->across;
   const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
-  char            zones[SAM_ADVICE_TEXT] = "", size[160], spots[320] = "", peak[160] = "", better[SAM_ADVICE_GRIDS];
+  char            zones[SAM_ADVICE_TEXT] = "";
 
-  if (steep) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, fabs((double)extent->change), "pressure_max");
-  if ((!few && !steep) || (a->finer && (sharp || factor <= (double)a->finer))) return;
-  a->finer = PetscMax(1, (PetscInt)factor);
-  SamAdviceGrids(a, factor, better);
   if (extent->zones > 1)
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
-  WriteSize(a, size, sizeof(size));
   if (few)
-    (void)snprintf(spots, sizeof(spots), "the contact is %s%.3g cell%s across (%s), fewer than %d", zones,
-                   (double)extent->across, extent->across == 1 ? "" : "s", size, fewest);
-  if (steep)
-    (void)snprintf(peak, sizeof(peak), "the peak pressure is not resolved, about %.0f %% %s at half the cell size%s",
-                   100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
-                   sharp ? ", and further on finer ones, as at a sharp edge" : "");
-  /* A grid that only has enough cells is described as such. */
-  SamAdviceSay(a, "", "%s%s%s%s%s%s%s", a->after, spots, sharp ? better : "", few && steep ? "; " : "", peak,
-               sharp ? "" : better, absurd ? "; or check the units, N, m, Pa" : "");
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SAM_DOUBT_LARGE * fewest / (double)extent->across, more, "contact_area",
+                 SAM_ADVICE_ACROSS "%s", zones, (double)extent->across, extent->across == 1 ? "" : "s",
+                 absurd ? ": check the units, N, m, Pa" : "");
+  if (sharp)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 0, "pressure_max",
+                 "pressure_max grows without end on finer cells, as at a sharp edge");
+  else
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, a->worn ? WORN_PART * change : change, (double)extent->finer,
+                 "pressure_max", "pressure_max is about %.0f %% %s on cells half as wide", 100 * change,
+                 extent->change > 0 ? "higher" : "lower");
 }
 
 /* Advises on heights in another unit, or tilted. If no surface has such heights, the grid is not questioned. */
@@ -381,11 +335,11 @@ void SamAdviceBeginCycle(SamAdvice *a)
   a->cycles = PETSC_TRUE;
 }
 
-void SamAdviceRenew(SamAdvice *a, const char after[])
+void SamAdviceRenew(SamAdvice *a)
 {
   if (!a->examined) return;
   a->examined = PETSC_FALSE;
-  (void)snprintf(a->after, sizeof(a->after), "%s", after);
+  a->worn     = PETSC_TRUE;
 }
 
 PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const SamStep *step, const SamExtent **found)
@@ -397,12 +351,13 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     a->examined = PETSC_TRUE;
     a->step     = step;
     PetscCall(Measure(a->setup, &a->extent));
-    if (!a->after[0]) *found = &a->extent;
-    if (!a->after[0]) PetscCall(LookAt(a, LARGEST));
+    if (!a->worn) *found = &a->extent;
+    if (!a->worn) PetscCall(LookAt(a, LARGEST));
     /* At the grid's edge the grid determines the size of the contact. */
     if (a->extent.zones && step->check.edge <= 0 && !a->doubtful) {
       PetscCall(GetWidths(a));
-      PetscCall(LookAt(a, a->after[0] ? WORN : CONTACT));
+      a->doubts.count = 0; /* those of the surfaces before wear */
+      PetscCall(LookAt(a, a->worn ? WORN : CONTACT));
     }
   }
   if (of_laws) PetscCall(LookAtLaws(a, k));
@@ -423,7 +378,7 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
   PetscCall(SamAdviceWornStick(a));
   SamAdviceRolling(a);
   SamAdviceYielding(a);
-  *found = PetscMax(a->slip.energy, a->slip.ring.energy) > 0 ? &a->slip : NULL;
+  if (found) *found = PetscMax(a->slip.energy, a->slip.ring.energy) > 0 ? &a->slip : NULL;
   PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

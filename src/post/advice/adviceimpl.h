@@ -5,8 +5,10 @@
 #include <petsam/private/advice.h>
 #include <petsam/private/baseimpl.h>
 
-#define SAM_ADVICE_GRIDS  192 /* characters of the text with the advised grids */
-#define SAM_ADVICE_CELLS  20  /* a contact with fewer cells across is not resolved, but for closed-form solutions */
+#define SAM_ADVICE_GRIDS 192 /* characters of the text with the advised grids */
+#define SAM_ADVICE_CELLS 20  /* a contact with fewer cells across is not resolved, but for closed-form solutions */
+/* A reason: in which spots, how many cells, plural */
+#define SAM_ADVICE_ACROSS "the contact is %s%.3g cell%s across"
 #define SAM_ADVICE_MARGIN 1.1 /* ratio of the width of a sufficient grid to that of the contact */
 #define SAM_ADVICE_TEXT   64  /* characters of numbers in messages */
 /* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
@@ -23,8 +25,6 @@
 #define SAM_ADVICE_WORN_PEAK 0.1
 /*
   SamAdviceSay - passes on advice, with a format of printf(); `setting`: see SamAdviceFunction.
-  SamAdviceGrids - writes the end of a message, such as ": -grid_n 64", that proposes a grid with this many times more
-  cells across the contact; empty if there is none.
   SamAdviceGridsFor - writes grids that resolve a contact of these half widths along the axes to refine: one as large as
   now with `factor` times more cells, and a smaller one with as many cells; empty: none.
   SamAdviceWritePair - writes two numbers as an option takes them: one for both if they are the same.
@@ -36,7 +36,6 @@
 */
 PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(3, 4);
-PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, char text[SAM_ADVICE_GRIDS]);
 PETSC_INTERN void      SamAdviceGridsFor(const SamSetup *setup, const PetscReal half[2], double factor,
                                          const PetscBool refine[2], char cells[SAM_ADVICE_TEXT],
                                          char width[SAM_ADVICE_TEXT]);
@@ -59,9 +58,9 @@ PETSC_INTERN PetscErrorCode SamAdviceCompare(const SamSetup *setup, const PetscR
 /*
   AddSlip, AddRolling - add a step to the estimates of the dissipated energy (slipzones.c), and of loads and creepages
   in steady rolling (steadyerrors.c). MeasureStick - finds the present cells across the stick zone. Collective. Slip,
-  Rolling - advise, after the last step, on numbers that the cells do not resolve. Stick - advises on a stick zone fewer
-  cells across than `least`. Peaks - advises on a slip zone too narrow for its maximum values, which `what` and `names`
-  name; `width`: in cells; `wanted`: how many times finer the advised grid is. Not collective.
+  Rolling - estimate, after the last step, errors of numbers that the cells do not resolve. Stick - those of a stick
+  zone fewer cells across than `least`. Peaks - those of maximum values in a slip zone of this width in cells;
+  `wanted`: how many times finer cells resolve it. Not collective.
 */
 /*
   SamAdviceMeasureStuck - estimates the slip zone of a contact in which all cells stick (stuck.c): `share` is the ratio
@@ -89,11 +88,10 @@ PETSC_INTERN void           SamAdviceRing(SamAdvice *advice, double least);
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
 /* True if a cycle of a life dissipates next to nothing of what the first one did (slipzones.c). */
-PETSC_INTERN PetscBool SamAdviceIsSpent(const SamAdvice *advice);
-PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[],
-                                 const char names[]);
-PETSC_INTERN void SamAdviceStick(SamAdvice *advice, PetscReal least);
-PETSC_INTERN void SamAdviceSlip(SamAdvice *advice);
+PETSC_INTERN PetscBool      SamAdviceIsSpent(const SamAdvice *advice);
+PETSC_INTERN void           SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char names[]);
+PETSC_INTERN void           SamAdviceStick(SamAdvice *advice, PetscReal least);
+PETSC_INTERN void           SamAdviceSlip(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);
 /*

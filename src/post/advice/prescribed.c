@@ -134,11 +134,12 @@ void SamAdviceStroke(SamAdvice *a)
 {
   const double ratio = (double)(a->most.slide / PetscMax(a->extent.half[0], a->extent.half[1]));
 
-  if (HasPlace(a) && ratio > STROKE && !SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE))
-    SamAdviceSay(a, "",
-                 "%sthe surfaces move by %.3g m, %.2g times the half width of the contact, and body 2 wears, but "
-                 "without -slide they are not moved past each other: the depth is wrong by about %.2g %%: give -slide",
-                 a->after, (double)a->most.slide, ratio, 100 * PetscMin(9 * ratio * ratio, 0.66 * ratio));
+  if (a->stroke || !HasPlace(a) || !(ratio > STROKE) || SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE)) return;
+  a->stroke = PETSC_TRUE;
+  SamAdviceSay(a, "",
+               "the surfaces move by %.3g m, %.2g times the half width of the contact, and body 2 wears, but "
+               "without -slide they are not moved past each other: the depth is wrong by about %.2g %%: give -slide",
+               (double)a->most.slide, ratio, 100 * PetscMin(9 * ratio * ratio, 0.66 * ratio));
 }
 
 /* Compares the largest prescribed stress with the moduli of both bodies; `why` is empty if the unit may be right. */

@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdarg.h>
 
-#define ROOM 1.5 /* ratio of the width of a good grid to that of the contact */
+#define ROOM  1.5  /* ratio of the width of a good grid to that of the contact */
+#define LEAST 1.25 /* least ratio of the cells, or steps, that are advised to those of this run */
 
 double SamAdviceRoundUp(double x)
 {
@@ -46,6 +47,19 @@ void SamAdviceWriteGrid(const SamSetup *s, const double width[2], char text[], s
     (void)snprintf(text, size, "%s", one);
 }
 
+/* Returns the smallest number from n on whose only prime factors are 2, 3 and 5, which transforms take well. */
+static double RoundUpRow(double n)
+{
+  for (; n <= SAM_LARGEST_ROW; n++) {
+    PetscInt rest = (PetscInt)n;
+
+    for (PetscInt p = 2; p <= 5; p += p == 2 ? 1 : 2)
+      while (rest % p == 0) rest /= p;
+    if (rest == 1) break;
+  }
+  return n;
+}
+
 void SamAdviceGridsFor(const SamSetup *s, const PetscReal half[2], double factor, const PetscBool refine[2],
                        char cells[SAM_ADVICE_TEXT], char width[SAM_ADVICE_TEXT])
 {
@@ -55,7 +69,7 @@ void SamAdviceGridsFor(const SamSetup *s, const PetscReal half[2], double factor
 
   cells[0] = width[0] = '\0';
   for (int k = 0; k < 2; k++) {
-    more[k] = refine[k] ? ceil(n[k] * factor) : n[k];
+    more[k] = refine[k] ? RoundUpRow(ceil(n[k] * factor)) : n[k];
     size[k] = PetscMin((double)s->grid->width[k], SamAdviceRoundUp(2 * ROOM * (double)half[k]));
     if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
   }
@@ -74,7 +88,7 @@ void SamAdviceGridsFor(const SamSetup *s, const PetscReal half[2], double factor
 
 void SamAdviceSay(SamAdvice *a, const char setting[], const char format[], ...)
 {
-  char    text[512];
+  char    text[1024];
   va_list values;
 
   va_start(values, format);
@@ -92,24 +106,58 @@ PetscBool SamAdviceIsStrip(const SamAdvice *a, PetscBool ends[2])
   return a->extent.zones == 1 && ends[0] != ends[1] ? PETSC_TRUE : PETSC_FALSE;
 }
 
-void SamAdviceGrids(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRIDS])
+/* Writes the end of a message, such as ": use -grid_n 64", that proposes a grid with this many times more cells across
+   the contact. */
+static void WriteGrids(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRIDS])
 {
   const SamSetup *s = a->setup;
   PetscBool       ends[2];
   const PetscBool strip = SamAdviceIsStrip(a, ends), refine[2] = {!strip || ends[0], !strip || ends[1]};
-  char            cells[SAM_ADVICE_TEXT] = "", width[SAM_ADVICE_TEXT] = "";
+  const PetscReal whole[2] = {s->grid->width[0] / 2, s->grid->width[1] / 2};
+  char            cells[SAM_ADVICE_TEXT], width[SAM_ADVICE_TEXT];
 
-  text[0] = '\0';
-  if (!(factor > 0) || !(a->half[0] > 0)) return;
-  SamAdviceGridsFor(s, a->half, factor, refine, cells, width);
-  if (SamGapHasFile(s->gap))
+  SamAdviceGridsFor(s, a->half[0] > 0 ? a->half : whole, factor, refine, cells, width);
+  if (!cells[0] && !width[0])
+    (void)snprintf(text, SAM_ADVICE_GRIDS, ": no grid of up to %d cells in a row resolves them", SAM_LARGEST_ROW);
+  else if (SamGapHasFile(s->gap))
     (void)snprintf(
       text, SAM_ADVICE_GRIDS,
       ": use a file with heights at smaller distances%s%s, unless petsam-surface reports outliers or offsets of rows",
       cells[0] ? ", and " : "", cells);
   else
-    (void)snprintf(text, SAM_ADVICE_GRIDS, "%s%s%s%s%s", cells[0] || width[0] ? ": use " : "", width,
-                   width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
+    (void)snprintf(text, SAM_ADVICE_GRIDS, ": use %s%s%s%s", width, width[0] ? " (in m)" : "",
+                   width[0] && cells[0] ? " or " : "", cells);
+}
+
+static void WriteSteps(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRIDS])
+{
+  if (a->step_rtol > 0)
+    (void)snprintf(text, SAM_ADVICE_GRIDS, ": use -step_rtol %.2g", (double)a->step_rtol / factor);
+  else if (a->increments)
+    (void)snprintf(text, SAM_ADVICE_GRIDS, ": use -steps %.0f", ceil(factor * (double)a->increments));
+  else
+    (void)snprintf(text, SAM_ADVICE_GRIDS, ": use %.2g times as many steps", SamAdviceRoundUp(factor));
+}
+
+PetscErrorCode SamAdviceTell(SamAdvice *a)
+{
+  char   numbers[640], cure[SAM_ADVICE_GRIDS];
+  double factor;
+
+  PetscFunctionBegin;
+  for (SamCause cause = 0; cause < SAM_CAUSES; cause++) {
+    SamDoubtsWrite(&a->doubts, cause, &factor, numbers, sizeof(numbers));
+    if (!numbers[0]) continue;
+    cure[0] = '\0';
+    factor  = factor > 0 ? PetscMax(factor, LEAST) : 0;
+    if (factor > 0 && cause == SAM_CAUSE_CELLS) WriteGrids(a, factor, cure);
+    if (factor > 0 && cause == SAM_CAUSE_STEPS) WriteSteps(a, factor, cure);
+    if (factor > 0 && cause == SAM_CAUSE_LAYERS)
+      (void)snprintf(cure, sizeof(cure), ": use %.2g times as many -yield_layers", SamAdviceRoundUp(factor));
+    SamAdviceSay(a, "", "error by the %s: %s%s", SamCauseNames[cause], numbers, cure);
+  }
+  PetscCall(a->error);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 double SamAdviceStiffness(SamPair pair)

@@ -39,7 +39,6 @@
 #define ALLOWED 0.05      /* error of the energy, and of the area of stick, above which a warning is given */
 #define UNKNOWN 0.25      /* the same above which the energy is unknown */
 #define SIDE    0.25      /* least part of the edge that slips; fewer cells are stray */
-#define LEAST   1.25      /* least ratio of the cells of an advised grid to those of this grid */
 #define PASSES  (1.0 / 3) /* motion of the edge in a step, relative to the ring's width, up to which it is short */
 #define STICKS  0.11      /* error of the area of stick in one step, relative to the area of contact */
 
@@ -144,20 +143,11 @@ static void Cells(SamAdvice *a)
 {
   const SamRing *ring  = &a->slip.ring;
   const double   error = ring->error / ring->energy;
-  char           better[SAM_ADVICE_GRIDS], wrong[48] = "is not resolved";
 
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "dissipated_energy");
-  if (error <= ALLOWED) return;
-  /* The width that long steps find is not that of the ring. */
-  if (MovesOf(ring) > PASSES)
-    (void)snprintf(better, sizeof(better), ": first let the load grow in more steps, after which its width is known");
-  else
-    SamAdviceGrids(a, PetscMax(WIDE / WidthOf(ring), LEAST), better);
-  if (error < UNKNOWN) (void)snprintf(wrong, sizeof(wrong), "may be wrong by %.0f %%", 100 * error);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "elastically dissimilar bodies slip at the edge of the growing contact, in a ring %.2g times as wide as "
-               "a cell: the dissipated energy, %.3g %s, %s%s",
-               WidthOf(ring), ring->energy, SamUnitOn(a->setup->grid, "J"), wrong, better);
+  /* The width that long steps find is not that of the ring: more steps tell it first. */
+  SamDoubtsAdd(&a->doubts, MovesOf(ring) > PASSES ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS, error < UNKNOWN ? error : 1,
+               MovesOf(ring) > PASSES ? MovesOf(ring) / PASSES : WIDE / WidthOf(ring), "dissipated_energy",
+               "dissimilar bodies slip at the edge of the growing contact, in a ring of %.2g cells", WidthOf(ring));
 }
 
 static void Steps(SamAdvice *a)
@@ -166,25 +156,16 @@ static void Steps(SamAdvice *a)
   const double   moves = MovesOf(ring);
 
   if (moves <= PASSES) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ALLOWED * moves / PASSES, "dissipated_energy");
-  SamAdviceSay(
-    a, "steps",
-    "elastically dissimilar bodies slip at the edge of the growing contact, in a ring that the edge passes by "
-    "%.2g of its width in a step: the dissipated energy lacks a part: let the load grow in about %.0f steps",
-    moves, ceil((double)ring->steps * moves / PASSES));
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ALLOWED * moves / PASSES, moves / PASSES, "dissipated_energy",
+               "dissimilar bodies slip in a ring at the edge, which passes by %.2g of its width in a step", moves);
 }
 
 static void Stick(SamAdvice *a)
 {
   const SamRing *ring = &a->slip.ring;
 
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ring->worst, "stick_area");
-  if (ring->worst <= ALLOWED) return;
-  SamAdviceSay(a, "steps",
-               "the normal load of elastically dissimilar bodies grows in %" PetscInt_FMT
-               " step%s: the area of stick may be wrong by %.0f %%: let it grow in about %.0f steps",
-               ring->steps, ring->steps > 1 ? "s" : "", 100 * ring->worst,
-               ceil((double)ring->steps * ring->worst / (ALLOWED / 2)));
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ring->worst, ring->worst / (ALLOWED / 2), "stick_area",
+               "N of dissimilar bodies grows in %" PetscInt_FMT " step%s", ring->steps, ring->steps > 1 ? "s" : "");
 }
 
 void SamAdviceRing(SamAdvice *a, double least)

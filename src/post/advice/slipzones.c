@@ -72,11 +72,12 @@
 #define LARGE    0.07 /* that error, relative to the slip, above which a warning is given */
 #define LINE     0.36 /* m in plane strain */
 #define SPECK    0.01 /* width of a stick zone, relative to the contact's, below which no grid is advised for it */
-#define SPENT    1e-3 /* energy of a cycle relative to that of the first one, below which it is unknown (wornstick.c) */
+#define SPENT    1e-3 /* energy of a cycle relative to that of the first one, below which it is unknown */
 #define STUCK    7    /* cells across a stick zone whose area has an error below 5 % */
 #define STRAY    0.1  /* part of the sticking cells, in the narrowest zones, that is ignored */
 #define HIGHER   0.9  /* shear of a narrow zone, relative to the largest found, above which it may be larger */
-#define UNKNOWN  0.02 /* error of the energy if N is applied in one step */
+#define SHEAR    2.5  /* largest error of the shear, relative to that of the energy, if N is applied in one step, */
+#define SEVERAL  8    /* and number of steps in which it is small */
 #define MAKING   0.33 /* part of the work of slip that is too much before cells touch */
 #define LESS     0.25 /* the same, relative to the energy, with enough steps; it falls like 1/steps^(1/FALLS) */
 #define FALLS    0.75
@@ -86,7 +87,8 @@
 #define SLIGHT   0.2   /* part of mu N above which T counts in it */
 #define WAVES    2.5   /* largest wave number of those used for beta, relative to that of the contact */
 #define SPIN     0.59  /* M_z of sliding, relative to mu N a */
-#define LEAST    1.25  /* least ratio of the cells of an advised grid to those of this grid */
+
+#define SLIP_ZONES "slip zones are %.2g cells wide"
 
 /* ---- the width of the zone ---- */
 
@@ -270,7 +272,7 @@ static double ExcessOf(double coupling, double t)
   return coupling * coupling * (1.9 / (t * t) - 1.1);
 }
 
-#define WORK_AND_SHEAR "dissipated_energy shear_max" /* numbers that are wrong together */
+#define SLIPS_AS_N_GROWS "dissimilar bodies slip while N grows, in one step: give N steps of its own (-history)"
 
 /* Advises on dissimilar bodies whose N is applied in one step; called before the last branch ends. */
 static void Long(SamAdvice *a)
@@ -279,20 +281,13 @@ static void Long(SamAdvice *a)
   const double excess = ExcessOf(slip->coupling, PetscMin(PetscMax(slip->share, SLIGHT), 1));
   const double wrong  = (slip->first > 0 ? 2 * slip->first : slip->energy) * excess / (1 + excess);
   const double error  = wrong < slip->energy ? wrong / (slip->energy - wrong) : INFINITY;
-  char         part[48];
-
-  if (!(slip->coupling > 0 && slip->work > 0 && slip->energy > NOTHING * slip->work && error > UNKNOWN)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, error, WORK_AND_SHEAR);
-  if (error < ROUGH && slip->share > SLIGHT)
-    (void)snprintf(part, sizeof(part), "about %.0f %%", 100 * error);
-  else
-    (void)snprintf(part, sizeof(part), "more than %.0f %%", 100 * PetscMin(error, ROUGH));
-  SamAdviceSay(
-    a, "",
-    "elastically dissimilar bodies slip while the normal load grows, here in one step: the dissipated energy "
-    "is %s too large, the shear%s may be as wrong: %s several -steps",
-    part, SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? " and the plastic strain that it causes" : "",
-    slip->share > ALIKE ? "give the normal load a row of its own (-history), and" : "use");
+  if (!(slip->coupling > 0 && slip->work > 0 && slip->energy > NOTHING * slip->work)) return;
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, error < ROUGH && slip->share > SLIGHT ? error : 1, SEVERAL,
+               "dissipated_energy", "%s", SLIPS_AS_N_GROWS);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, SHEAR * error, SEVERAL,
+               SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? "shear_max plastic_max residual_z_max"
+                                                                    : "shear_max",
+               "%s", SLIPS_AS_N_GROWS);
 }
 
 /* Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. */
@@ -300,16 +295,11 @@ static void Few(SamAdvice *a)
 {
   const SamSlip *slip = &a->slip;
   const double   all  = slip->before_touch + slip->energy;
-  char           steps[32];
 
   if (slip->coupling > 0 || !(slip->energy > NOTHING * slip->work && slip->before_touch > MAKING * all)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, slip->before_touch / all, "shear_max stick_area dissipated_energy");
-  (void)snprintf(steps, sizeof(steps), slip->growing > 1 ? "%" PetscInt_FMT " steps" : "one step", slip->growing);
-  SamAdviceSay(a, "steps",
-               "elastically dissimilar bodies slip while the normal load grows: %.0f %% of that slip is before cells "
-               "touch, in %s, and the shear and the stick area may be wrong: let the load grow in about %.0f steps",
-               100 * slip->before_touch / all, steps,
-               ceil((double)slip->growing * pow(slip->before_touch / (LESS * slip->energy), FALLS)));
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, slip->before_touch / all,
+               pow(slip->before_touch / (LESS * slip->energy), FALLS), "shear_max stick_area dissipated_energy",
+               "%.0f %% of the slip while N grows is before cells touch", 100 * slip->before_touch / all);
 }
 
 /*
@@ -320,19 +310,26 @@ static void Few(SamAdvice *a)
 */
 static void Merging(SamAdvice *a)
 {
-  const SamSlip *slip  = &a->slip;
-  const double   error = MERGING / (double)slip->steps;
+  static const char why[] = "N and T grow while the bodies tilt, and spots slip before they merge";
+  const SamSlip    *slip  = &a->slip;
+  const double      error = MERGING / (double)slip->steps;
 
   if (!(slip->together && slip->unsure && slip->tilt > TILTED && SamGapHasFile(a->setup->gap) && error > ALLOWED))
     return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, 1, "dissipated_energy");
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, PetscMin(error, ROUGH), "shear_max slip_max stick_area");
-  SamAdviceSay(a, "steps",
-               "N and T grow together on a surface from a file, in %" PetscInt_FMT
-               " step%s, and the bodies tilt: spots "
-               "slip before they merge, which so few steps do not show: the dissipated energy is unknown, and the "
-               "maximum shear, slip and the stick area may be wrong by %.0f %%: use about %.0f steps",
-               slip->steps, slip->steps > 1 ? "s" : "", 100 * PetscMin(error, ROUGH), ceil(MERGING / GOOD));
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, 1, error / GOOD, "dissipated_energy", "%s", why);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, PetscMin(error, ROUGH), error / GOOD, "shear_max slip_max stick_area", "%s",
+               why);
+}
+
+/* Advises more steps if the sum of the errors of the steps' energies is large; it falls with the square of their
+   length. Of steps given one by one the sum has not ended. */
+static void LongSteps(SamAdvice *a)
+{
+  const SamSlip *slip = &a->slip;
+
+  if (a->increments && a->steps > 1 && PetscMax(slip->energy, slip->lag) > LITTLE * slip->work)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, slip->energy > 0 ? slip->lag / slip->energy : 1,
+                 sqrt(PetscMin(slip->lag / slip->energy, 1) / GOOD), "dissipated_energy", "the load steps are long");
 }
 
 /* ---- the steps ---- */
@@ -430,6 +427,9 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   slip->slipped = (double)n.slip;
   slip->energy += (double)n.energy;
   slip->before_touch += PetscMax(n.before_touch, 0);
+  /* A first step of similar bodies that applies N, then the rest, causes no error. */
+  if (slip->steps > 1 || a->cycles || n.touching > 0 || step->control.together)
+    slip->lag += PetscMax((double)n.unsure, 0);
   slip->growing += n.before_touch > 0 ? 1 : 0;
   slip->sticks = sticks;
   if (n.energy > 0 && slip->width < INFINITY) slip->widest = PetscMax(slip->widest, slip->width);
@@ -448,16 +448,10 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamAdvicePeaks(SamAdvice *a, double width, double wanted, const char zone[], const char what[], const char names[])
+void SamAdvicePeaks(SamAdvice *a, double width, double wanted, const char names[])
 {
-  char better[SAM_ADVICE_GRIDS];
-
-  if (!(width > 0 && width < PEAKED)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIP / width, names);
-  SamAdviceGrids(a, wanted, better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the %s is %.2g times as wide as a cell: the maximum %s may be wrong by %.0f %%%s", zone, width, what,
-               100 * PetscMin(SLIP / width, 1), better);
+  if (width > 0 && width < PEAKED)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIP / width, wanted, names, SLIP_ZONES, width);
 }
 
 PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
@@ -490,23 +484,16 @@ PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
 void SamAdviceStick(SamAdvice *a, PetscReal least)
 {
   const double across = (double)a->slip.across, part = PetscMax(across, 1) / (double)a->extent.across;
-  char         better[SAM_ADVICE_GRIDS], size[32]    = "less than a cell";
 
   if (!(across < least) || !(a->extent.across > 2 * STUCK)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, part < SPECK ? 1 : ALLOWED * least / PetscMax(across, ALLOWED),
-               "stick_area");
-  if (part < SPECK) {
-    SamAdviceSay(
-      a, "",
-      "the stick zone of the last step is %.1g of the contact's width: its area, about %.1g of the contact's, "
-      "is not resolved, and no usual grid does it",
-      part, SamGridIsRow(a->setup->grid) ? part : part * part);
-    return;
-  }
-  if (across >= 0.95) (void)snprintf(size, sizeof(size), across < 1.05 ? "%.2g cell" : "%.2g cells", across);
-  SamAdviceGrids(a, least / PetscMax(across, 1), better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the stick zone is %s across in the last step: its area may be wrong by more than 5 %%%s", size, better);
+  if (part < SPECK)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 0, "stick_area",
+                 "the stick zone is %.1g of the contact's width, for which no usual grid does", part);
+  else
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, ALLOWED * least / PetscMax(across, ALLOWED), least / PetscMax(across, 1),
+                 "stick_area",
+                 across < 0.95 ? "the stick zone is less than a cell across" : "the stick zone is %.2g cells across",
+                 across);
 }
 
 PetscBool SamAdviceIsSpent(const SamAdvice *a)
@@ -517,21 +504,19 @@ PetscBool SamAdviceIsSpent(const SamAdvice *a)
 /* Advises on a life whose scar has grown until hardly any slip is left: what is left changes from cell to cell. */
 static void Spent(SamAdvice *a)
 {
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, WORK_AND_SHEAR);
-  SamAdviceSay(a, "",
-               "the dissipated energy of the last cycle, %.2g %s, is less than %g of that of the first one: hardly any "
-               "slip is left at the edge of the scar, and its energy and the maximum shear there are unknown on any "
-               "grid",
-               PetscMax((double)a->slip.energy, 0), SamUnitOn(a->setup->grid, "J"), SPENT);
+  SamDoubtsAdd(
+    &a->doubts, SAM_CAUSE_CELLS, 1, 0, "dissipated_energy shear_max",
+    "hardly any slip is left at the edge of the scar, less than %g of the first cycle's energy, for which no "
+    "grid does",
+    SPENT);
 }
 
 static void Energy(SamAdvice *a)
 {
-  SamSlip          *slip  = &a->slip;
-  const PetscBool   known = !isnan(slip->closed);
-  const char *const unit  = SamUnitOn(a->setup->grid, "J");
-  double            most, error, width, times;
-  char              better[SAM_ADVICE_GRIDS], wrong[96] = "is not resolved", zones[64] = "no cell slips";
+  SamSlip        *slip  = &a->slip;
+  const PetscBool known = !isnan(slip->closed);
+  double          most, error, width, factor;
+  char            zones[SAM_DOUBT_WHY] = "no cell slips";
 
   EndBranch(slip);
   EndStuck(slip);
@@ -539,41 +524,33 @@ static void Energy(SamAdvice *a)
   slip->error = known ? fabs(slip->closed - slip->energy) : slip->error + slip->missing;
   most        = known ? slip->closed : slip->energy + slip->missing;
   error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer && !slip->unsure ? 1 : 0;
-  if (known && !slip->unsure && most > NOTHING * slip->work)
-    SamDoubtsSet(&a->doubts, SAM_CAUSE_CELLS, error, "dissipated_energy");
-  else
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "dissipated_energy");
-  if (error >= 1) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "slip_max");
-  if (error <= ALLOWED) return;
   width = slip->missing > 0 && slip->missing >= slip->worst ? slip->narrow[0] : PetscMax(slip->narrow[0], NARROW);
-  times = SamAdviceZoneError(width, slip->narrow[1]) / GOOD;
-  SamAdviceGrids(a, PetscMax(pow(times, slip->narrow[1] > 1 ? 0.4 : 0.5), LEAST), better);
-  if (known)
-    (void)snprintf(wrong, sizeof(wrong), "is %.3g %s in closed form", slip->closed, unit);
-  else if (error < ROUGH)
-    (void)snprintf(wrong, sizeof(wrong), "may be wrong by %.0f %%", 100 * error);
+  factor = pow(SamAdviceZoneError(width, slip->narrow[1]) / GOOD, slip->narrow[1] > 1 ? 0.4 : 0.5);
   if (isinf(slip->narrow[0])) /* no edge of contact lies on the grid */
     (void)snprintf(zones, sizeof(zones), "the contact has no edge");
   else if (slip->narrow[0] > 0)
-    (void)snprintf(zones, sizeof(zones), "slip zones are %.2g times as wide as a cell", (double)slip->narrow[0]);
-  SamAdviceSay(a, better[0] ? "" : "grid_n", "%s: the dissipated energy, %.3g %s, %s%s", zones,
-               PetscMax(slip->energy, 0), unit, wrong, better); /* rounding may be below 0 */
+    (void)snprintf(zones, sizeof(zones), SLIP_ZONES, (double)slip->narrow[0]);
+  if (known)
+    (void)snprintf(zones + strlen(zones), sizeof(zones) - strlen(zones),
+                   "; dissipated_energy is %.3g %s in closed form", slip->closed, SamUnitOn(a->setup->grid, "J"));
+  if (known && !slip->unsure && most > NOTHING * slip->work)
+    SamDoubtsSet(&a->doubts, SAM_CAUSE_CELLS, error, factor, "dissipated_energy", "%s", zones);
+  else
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, known || error < ROUGH ? error : 1, factor, "dissipated_energy", "%s",
+                 zones);
+  if (error >= 1) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, factor, "slip_max", "%s", zones);
 }
 
 /* Advises on the maximum shear of the last step, at the end of a zone that is much narrower than the widest. */
 static void LastPeak(SamAdvice *a, double width, double high)
 {
   PetscReal shear = 0;
-  char      better[SAM_ADVICE_GRIDS];
 
   if (!(high > 0) || !a->extent.finer) return;
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "shear_max", &shear);
-  if (shear > 0) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, fabs(high / (double)shear - 1), "shear_max");
-  SamAdviceGrids(a, 2 * PEAKED / width, better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the slip zone of the last step is about %.1g times as wide as a cell: the maximum shear there is about "
-               "%.2g Pa%s",
-               width, high, better);
+  if (shear > 0)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, fabs(high / (double)shear - 1), 2 * PEAKED / width, "shear_max",
+                 "the slip zone of the last step is %.1g cells wide; shear_max is about %.2g Pa", width, high);
 }
 
 /*
@@ -587,16 +564,11 @@ static void LastSlip(SamAdvice *a)
   const double   square = (double)(slip->width * slip->width), change = fabs(slip->turned - slip->slipped);
   const double   part = RETURNS * change / slip->slipped, error = part / (square + 0.25),
                edge = SamGridIsRow(a->setup->grid) ? 2 : 1;
-  char better[SAM_ADVICE_GRIDS];
 
-  if (!(slip->turned > 0 && slip->slipped > 0 && slip->width > 0 && slip->widest >= PEAKED && error > LARGE)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, edge * error, "slip_max");
   /* on that grid the error is half of the largest that is allowed */
-  SamAdviceGrids(a, PetscMax(sqrt(PetscMax(2 * part / LARGE - 0.25, 0) / square), LEAST), better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the slip zone since the last load reversal is %.2g times as wide as a cell: the maximum slip may be "
-               "wrong by %.0f %%%s",
-               (double)slip->width, 100 * PetscMin(edge * error, 1), better);
+  if (slip->turned > 0 && slip->slipped > 0 && slip->width > 0 && slip->widest >= PEAKED && error > LARGE)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, edge * error, sqrt(PetscMax(2 * part / LARGE - 0.25, 0) / square),
+                 "slip_max", "the slip zone since the last load reversal is %.2g cells wide", (double)slip->width);
 }
 
 /*
@@ -608,19 +580,12 @@ static PetscBool Missed(SamAdvice *a)
 {
   const SamSlip *slip  = &a->slip;
   const double   width = (double)slip->narrow[0];
-  char           better[SAM_ADVICE_GRIDS];
 
   if (isnan(slip->closed) || !(slip->closed > NOTHING * slip->work) || slip->energy > MISSED * slip->closed)
     return PETSC_FALSE;
   if (slip->turned > 0 || !(width > 0 && width < PEAKED)) return PETSC_FALSE;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 - sqrt(width), "shear_max");
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "slip_max");
-  SamAdviceGrids(a, 2 * PEAKED / width, better);
-  SamAdviceSay(
-    a, better[0] ? "" : "grid_n",
-    "the slip zone is %.2g times as wide as a cell, and no cell slips: the maximum shear may be too small by "
-    "%.0f %%%s",
-    width, 100 * (1 - sqrt(width)), better);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 - sqrt(width), 2 * PEAKED / width, "shear_max", SLIP_ZONES, width);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 2 * PEAKED / width, "slip_max", SLIP_ZONES, width);
   return PETSC_TRUE;
 }
 
@@ -633,11 +598,12 @@ void SamAdviceSlip(SamAdvice *a)
   Long(a);
   Few(a);
   Merging(a);
+  LongSteps(a);
   SamAdviceRing(a, LITTLE * a->slip.work);
   (SamAdviceIsSpent(a) ? Spent : Energy)(a);
   if (!Missed(a))
-    SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
-                   "slip and shear", "slip_max shear_max");
+    SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW),
+                   "slip_max shear_max");
   if (!SamAdviceIsSpent(a) && (zone > 0 || !((double)a->slip.widest < PEAKED))) LastPeak(a, width, a->slip.high);
   LastSlip(a);
   SamAdviceStick(a, SamAdviceCountsCells(a) ? SAM_ADVICE_CELLS : STUCK);

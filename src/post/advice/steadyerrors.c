@@ -18,16 +18,13 @@
 #include <petsam/private/motionimpl.h>
 #include <math.h>
 
-#define ALLOWED 0.02 /* error, relative to the number */
-#define GOOD    0.015
-#define SMALL   0.05 /* part of a moment over the radius of contact that counts as a force, and so on */
-#define LEAST   1.25
+#define GOOD    0.015 /* error on an advised grid, relative to the number */
+#define SMALL   0.05  /* part of a moment over the radius of contact that counts as a force, and so on */
 #define CLEAR   0.65  /* cells: w of a slip zone whose maximum velocity is accurate */
 #define WIDE    0.8   /* w on a grid that is advised for the velocity */
 #define WORN    0.065 /* error of the worn volume at w = 1, relative to it, */
 #define FALLS   1.3   /* and the power of w by which it falls */
-#define MOST    0.05  /* largest error of the worn volume without a warning, */
-#define ADVISED 0.04  /* and that on an advised grid */
+#define ADVISED 0.04  /* error of it on an advised grid */
 #define STUCK   18    /* cells across a stick zone whose area has an error below 5 % */
 
 /*
@@ -76,16 +73,13 @@ PetscErrorCode SamAdviceAddRolling(SamAdvice *a, PetscInt k, const SamStep *step
 
 static void Loads(SamAdvice *a)
 {
-  const SamRollingError *r = &a->rolling;
-  char                   better[SAM_ADVICE_GRIDS], where[48] = "";
+  const SamRollingError *r         = &a->rolling;
+  char                   where[48] = "";
 
-  if (r->error > 0) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, r->error, r->name);
-  if (r->error <= ALLOWED) return;
-  if (a->steps > 1) (void)snprintf(where, sizeof(where), "step %" PetscInt_FMT ": ", r->step + 1);
-  SamAdviceGrids(a, PetscMax(r->error / GOOD, LEAST), better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "%s%s = %.4g may be wrong by %.1f %%: %s_extrapolated = %.4g has the error of a finer grid%s", where,
-               r->name, r->value, 100 * r->error, r->name, r->fine, better);
+  if (!(r->error > 0)) return;
+  if (a->steps > 1) (void)snprintf(where, sizeof(where), "in step %" PetscInt_FMT " ", r->step + 1);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, r->error, r->error / GOOD, r->name, "%s%s = %.4g, %s_extrapolated = %.4g",
+               where, r->name, r->value, r->name, r->fine);
 }
 
 /* Advises on the volume that passages wear by Archard's law; the volume by the energy follows from loads and
@@ -93,15 +87,10 @@ static void Loads(SamAdvice *a)
 static void Wear(SamAdvice *a)
 {
   const double width = (double)a->rolling.width, error = WORN * pow(width, -FALLS);
-  char         better[SAM_ADVICE_GRIDS];
 
-  if (!SamProblemGetLaw(a->setup->problem, SAM_LAW_ARCHARD) || !(width > 0) || error <= MOST) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "volume1 volume2");
-  SamAdviceGrids(a, pow(error / ADVISED, 1 / FALLS), better);
-  SamAdviceSay(
-    a, better[0] ? "" : "grid_n",
-    "the slip zone is %.2g times as wide as a cell: the worn volume of passages may be too large by %.0f %%%s", width,
-    100 * PetscMin(error, 1), better);
+  if (SamProblemGetLaw(a->setup->problem, SAM_LAW_ARCHARD) && width > 0)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, pow(error / ADVISED, 1 / FALLS), "volume1 volume2",
+                 "the slip zone is %.2g cells wide", width);
 }
 
 void SamAdviceRolling(SamAdvice *a)
@@ -110,7 +99,6 @@ void SamAdviceRolling(SamAdvice *a)
   Loads(a);
   Wear(a);
   if (a->slip.across < INFINITY && a->rolling.width < CLEAR) /* not all cells stick */
-    SamAdvicePeaks(a, (double)a->rolling.width, WIDE / (double)a->rolling.width, "slip zone", "slip velocity",
-                   "slip_velocity_max");
+    SamAdvicePeaks(a, (double)a->rolling.width, WIDE / (double)a->rolling.width, "slip_velocity_max");
   SamAdviceStick(a, STUCK);
 }

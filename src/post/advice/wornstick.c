@@ -61,7 +61,7 @@
 #define SHARP   1.5  /* power of the part of a step that is sharp */
 #define CREST   1.4  /* error of the maximum depth between two cells, relative to 1/(w^2 + 4) */
 #define CANCELS 9    /* largest number of cells along an edge whose errors count as independent */
-#define ALLOWED 0.05 /* error of a number that is not told */
+#define PEAKED  2    /* how many times narrower cells are advised for largest values */
 #define SLOW    1.5  /* ratio of the cells of a sufficient grid to those that an error in proportion to h would need */
 
 /* Sums over the faces of the edge: depth and pressure of first cells, pressures; and over all cells that are worn */
@@ -200,52 +200,21 @@ static Errors Estimate(const SamAdvice *a, const Edge *edge, const double most[2
   return e;
 }
 
-/* Appends a number that may be wrong to a list. */
-static void Append(const char name[], double error, char list[], size_t size)
-{
-  const size_t used = strlen(list);
-
-  if (error > ALLOWED)
-    (void)snprintf(list + used, size - used, "%s%.0f %% in the %s", used ? ", " : " errors are about ",
-                   100 * PetscMin(error, 1), name);
-}
-
-static void WritePeaks(const Errors *e, char text[], size_t size)
-{
-  const double pressure = 100 * e->pressure, shear = 100 * e->shear;
-
-  text[0] = '\0';
-  if (e->pressure > ALLOWED && e->shear > ALLOWED)
-    (void)snprintf(
-      text, size, " the maximum pressure is about %.0f %% higher on finer cells, the maximum shear there about %.0f %%",
-      pressure, shear);
-  else if (e->pressure > ALLOWED)
-    (void)snprintf(text, size, " the maximum pressure is about %.0f %% higher on finer cells", pressure);
-  else if (e->shear > ALLOWED)
-    (void)snprintf(text, size, " the maximum shear there is about %.0f %% higher on finer cells", shear);
-}
-
 static void Tell(SamAdvice *a, const Errors *e)
 {
-  const double    worst = PetscMax(e->energy, e->volume), crest = 1.05 * sqrt(CREST / ALLOWED - 4) / e->width;
-  const PetscBool peaked = e->pressure > ALLOWED || e->shear > ALLOWED ? PETSC_TRUE : PETSC_FALSE;
-  const double    factor = PetscMax(PetscMax(worst * SLOW / ALLOWED, e->depth > ALLOWED ? crest : 0), peaked ? 2 : 0);
-  char            list[200] = "", peaks[160], better[SAM_ADVICE_GRIDS];
+  const double crest = 1.05 * sqrt(CREST / SAM_DOUBT_LARGE - 4) / e->width;
+  const struct {
+    double      error, factor;
+    const char *names;
+  } of[] = {{e->energy, SLOW * e->energy / SAM_DOUBT_LARGE, "dissipated_energy"},
+            {e->volume, SLOW * e->volume / SAM_DOUBT_LARGE, "volume1 volume2"},
+            {e->depth, crest, "depth_max1 depth_max2"},
+            {e->pressure, PEAKED, "pressure_max"},
+            {e->shear, PEAKED, "shear_max"}};
 
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->energy, "dissipated_energy");
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->volume, "volume1 volume2");
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->depth, "depth_max1 depth_max2");
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->pressure, "pressure_max");
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, e->shear, "shear_max");
-  Append("energy of the last cycle", e->energy, list, sizeof(list));
-  Append("worn volumes", e->volume, list, sizeof(list));
-  Append("maximum depths", e->depth, list, sizeof(list));
-  WritePeaks(e, peaks, sizeof(peaks));
-  if (!list[0] && !peaked) return;
-  SamAdviceGrids(a, PetscMax(factor, (double)a->finer), better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "%sthe scar is %.2g cells wide and ends at the edge of a stick zone:%s%s%s%s", a->after, e->width, list,
-               list[0] && peaked ? ";" : "", peaks, better);
+  for (size_t k = 0; k < sizeof(of) / sizeof(of[0]); k++)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, of[k].error, of[k].factor, of[k].names,
+                 "the scar is %.2g cells wide and ends at the edge of a stick zone", e->width);
 }
 
 PetscErrorCode SamAdviceWornStick(SamAdvice *a)

@@ -35,6 +35,8 @@
 /* The same from which on the slip and its energy are wrong, too, and by which part of it (random rows: 0.15 to 0.45) */
 #define DEEP  0.2
 #define SLIPS 0.33
+/* How many times more cells, or steps, than an error in proportion to their size needs */
+#define FALLS 1.25
 /* Part of the maximum plastic strain at the surface, below slip zones up to UNSEEN cells wide, from which on another
    grid may have it elsewhere */
 #define NEAR   0.8
@@ -56,17 +58,13 @@
 /* Advises on plastic strain below a contact of few cells. */
 static void Coarse(SamAdvice *a)
 {
-  const double across = (double)a->extent.across, error = 100 * PetscMin(COARSE / (across * across), 1);
-  char         better[SAM_ADVICE_GRIDS];
+  const double across = (double)a->extent.across;
 
-  if (a->extent.whole || !a->extent.zones || error <= 100 * SHORT) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error / 100, STRAIN);
   /* The number of cells includes those in which the contact ends, so it is up to one too large. */
-  SamAdviceGrids(a, SAM_ADVICE_MARGIN * sqrt(COARSE / SHORT) / PetscMax(across - 1, 1), better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the contact is %.3g cells across: plastic_max, plastic_work and residual_z may be too small by up to "
-               "%.0f %%%s",
-               across, error, better);
+  if (!a->extent.whole && a->extent.zones)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, COARSE / (across * across),
+                 SAM_ADVICE_MARGIN * sqrt(COARSE / SHORT) / PetscMax(across - 1, 1), STRAIN, SAM_ADVICE_ACROSS, "",
+                 across, across == 1 ? "" : "s");
 }
 
 /*
@@ -76,15 +74,10 @@ static void Coarse(SamAdvice *a)
 static void Narrow(SamAdvice *a, double part)
 {
   const double width = a->slip.energy > 0 ? (double)a->slip.narrow[0] : 0;
-  char         better[SAM_ADVICE_GRIDS];
 
-  if (a->error || !(part > NEAR) || !(width > 0 && width < UNSEEN)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "plastic_max");
-  SamAdviceGrids(a, 2 * UNSEEN / width, better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "plastic strain below slip zones that are %.2g times as wide as a cell is not resolved: plastic_max may "
-               "be too small%s",
-               width, better);
+  if (!a->error && part > NEAR && width > 0 && width < UNSEEN)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 2 * UNSEEN / width, "plastic_max",
+                 "plastic strain is largest below slip zones of %.2g cells", width);
 }
 
 /*
@@ -105,10 +98,10 @@ static PetscBool Concentrates(const SamAdvice *a, SamLaw law, double most)
 */
 static void Shallow(SamAdvice *a, SamLaw law, double most)
 {
-  PetscReal surface = 0;
-  double    error;
-  PetscBool line      = PETSC_FALSE;
-  char      slip[128] = "";
+  static const char why[]   = "plastic strain is largest at the surface, and falls within the first layers";
+  PetscReal         surface = 0;
+  double            error;
+  PetscBool         line;
 
   a->error = SamContactGetNumber(a->setup->contact, "plastic_surface", &surface);
   error    = 1 - most / (double)surface;
@@ -116,20 +109,12 @@ static void Shallow(SamAdvice *a, SamLaw law, double most)
     Narrow(a, (double)surface / most);
     return;
   }
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, "plastic_max");
-  if (a->slip.energy > 0 && error > DEEP) {
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIPS * error, "plastic_work dissipated_energy stick_area slip_max");
-    (void)snprintf(
-      slip, sizeof(slip),
-      ", and plastic_work, the dissipated energy, the stick area and the maximum slip may be wrong by %.0f %%",
-      100 * SLIPS * error);
-  }
   line = error > DEEP ? Concentrates(a, law, most) : PETSC_FALSE;
-  SamAdviceSay(a, line ? "" : "grid_n",
-               "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
-               "small by %.0f %%%s%s",
-               100 * error, slip,
-               line ? "; no grid bounds plastic_max, since the body hardly hardens: give its hardening" : "");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, line ? 0 : FALLS * error / SHORT, "plastic_max", "%s%s", why,
+               line ? ", and no grid bounds plastic_max since the body hardly hardens: give its hardening" : "");
+  if (a->slip.energy > 0 && error > DEEP)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIPS * error, line ? 0 : FALLS * SLIPS * error / SHORT,
+                 "plastic_work dissipated_energy stick_area slip_max", "%s", why);
 }
 
 /*
@@ -145,13 +130,8 @@ static void Begun(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "yielded_layers", &layers);
   if (a->error || !(layers > 0)) return;
   error = PetscMin(BEGUN / (double)(layers * layers), MOST_BEGUN);
-  if (error <= SHORT) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, STRAIN);
-  SamAdviceSay(
-    a, "yield_layers",
-    "plastic strain has just begun, in %.0f layers: plastic_max, plastic_work and residual_z may be too small "
-    "by %.0f %%: use %.2g times as many cells and -yield_layers",
-    (double)layers, 100 * error, SamAdviceRoundUp(sqrt(error / SHORT)));
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_LAYERS, error, sqrt(error / SHORT), STRAIN,
+               "plastic strain has just begun, in %.0f layers", (double)layers);
 }
 
 PetscBool SamAdviceCountsCells(SamAdvice *a)
@@ -172,11 +152,8 @@ static void Unloaded(SamAdvice *a)
   if (!SamAdviceCountsCells(a) || a->extent.across < SAM_ADVICE_CELLS) return;
   a->error = SamContactGetNumber(a->setup->contact, "contact_cells", &cells);
   if (a->error || !(cells > 0 && cells < SAM_ADVICE_CELLS)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 / (double)cells, "contact_area");
-  SamAdviceSay(a, "grid_n",
-               "the contact of the last step is %.0f cells across, fewer than %d, and its edges are not reconstructed: "
-               "contact_area may be wrong by %.0f %%",
-               (double)cells, SAM_ADVICE_CELLS, 100 / (double)cells);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 / (double)cells, SAM_ADVICE_CELLS / (double)cells, "contact_area",
+               "the contact of the last step is %.0f whole cells across", (double)cells);
 }
 
 /* Advises on plastic strain of which much arises in one step. */
@@ -189,16 +166,16 @@ static void Sudden(SamAdvice *a, double strain)
   const double part  = a->yielding.work > 0 ? these * a->yielding.step / a->yielding.work : 0;
   const double error = full * scale * part;
 
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, error, "pressure_max plastic_work");
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, STORED * error, "residual_energy");
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, error / 2, "contact_area plastic_max residual_z_max");
-  if (!(STORED * error > SHORT)) return; /* NaN: none of these steps has a contact */
-  SamAdviceSay(
-    a, "steps",
-    "%.0f %% of the plastic work is done in one step: pressure_max and plastic_work may be too large by "
-    "about %.2g %%, residual_energy by %.0f %%, and contact_area too small, plastic_max and residual_z wrong, "
-    "by half as much",
-    100 * part, 100 * error, STORED * 100 * error);
+  const struct {
+    double      error;
+    const char *names;
+  } of[] = {{error, "pressure_max plastic_work"},
+            {STORED * error, "residual_energy"},
+            {error / 2, "contact_area plastic_max residual_z_max"}};
+
+  for (size_t k = 0; k < sizeof(of) / sizeof(of[0]); k++) /* NaN: none of these steps has a contact */
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, of[k].error, FALLS * of[k].error / SHORT, of[k].names,
+                 "%.0f %% of the plastic work is done in one step", 100 * part);
 }
 
 /* Advises on the shear by plastic strain alone, without a tangential load, if its slip zone is narrower than a cell. */
@@ -206,35 +183,24 @@ static void Carried(SamAdvice *a)
 {
   PetscReal pressure = 0, shear = 0;
   PetscBool rubs = PETSC_FALSE;
-  char      better[SAM_ADVICE_GRIDS];
 
   if (!a->error) a->error = SamProblemHasFriction(a->setup->problem, &rubs);
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "pressure_max", &pressure);
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "shear_max", &shear);
   if (a->error || !rubs || a->slip.work > 0 || a->slip.widest > 0 || !(shear > CARRIED * pressure)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, "slip_max shear_max dissipated_energy stick_area");
-  SamAdviceGrids(a, FINER, better);
-  SamAdviceSay(
-    a, better[0] ? "" : "grid_n",
-    "plastic strain moves the surfaces along each other, and slips only within a cell of the contact's edge: "
-    "the maximum slip and shear are not resolved%s",
-    better);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, FINER, "slip_max shear_max dissipated_energy stick_area",
+               "plastic strain moves the surfaces along each other, and slips only within a cell of the edge");
 }
 
 /* Advises on bodies that would yield at the surface, at a peak of the shear between cells, but not on these cells. */
 static void Peak(SamAdvice *a, SamLaw law)
 {
   const double least = (double)SamPlasticGetYieldStress(law) / sqrt(3);
-  char         better[SAM_ADVICE_GRIDS];
 
-  if (!(a->yielding.shear > least)) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, STRAIN " residual_energy");
-  SamAdviceGrids(a, BETWEEN, better);
-  SamAdviceSay(
-    a, better[0] ? "" : "grid_n",
-    "the maximum shear, %.3g Pa at the edge of stick, is above the yield stress over sqrt(3), %.3g Pa, but no cell "
-    "yields: plastic_max, plastic_work and residual_z are not resolved%s",
-    a->yielding.shear, least, better);
+  if (a->yielding.shear > least)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, BETWEEN, STRAIN " residual_energy",
+                 "shear at the edge of stick, %.3g Pa, is above the yield stress over sqrt(3), but no cell yields",
+                 a->yielding.shear);
 }
 
 /* Advises on plastic strain that is large, spans few layers, or reaches the end of the layers. */
@@ -251,12 +217,9 @@ void SamAdviceYielding(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
   if (a->error) return;
   if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SHORT * (double)thick / SAM_PLASTIC_THICK, STRAIN " residual_energy");
-  if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
-    SamAdviceSay(a, "yield_layers",
-                 "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "
-                 "plastic strain is too small: use %.2g times as many -yield_layers",
-                 (double)thick, SAM_PLASTIC_THICK, SamAdviceRoundUp((double)thick / SAM_PLASTIC_THICK));
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_LAYERS, SHORT * (double)thick / SAM_PLASTIC_THICK,
+                 (double)thick / SAM_PLASTIC_THICK, STRAIN " residual_energy",
+                 "where the contact yields first, layers are %.2g of its half width thick", (double)thick);
   else if (outside > BEYOND)
     SamAdviceSay(a, "yield_depth",
                  "the stress exceeds the yield stress by %.0f %% below the last layer, so the results are too elastic: "

@@ -2,8 +2,6 @@
 #include "ioimpl.h"
 #include <string.h>
 
-const char *const SamCauseNames[SAM_CAUSES] = {"cells", "steps"};
-
 /* Writes a column of numbers; rank 0 has them. */
 static void WriteNumbers(SamOutput o, hid_t group, const SamLabel *label, PetscInt count, const double values[])
 {
@@ -40,6 +38,7 @@ PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
                                      {"error", "1", "estimated error relative to the number"},
                                      {"by_cells", "1", "the part of it by the cells"},
                                      {"by_steps", "1", "the part of it by the steps"},
+                                     {"by_layers", "1", "the part of it by the layers of bodies that yield"},
                                      {"factor", "1", "factor of narrower cells, or more steps, for an error of 4 %"},
                                      {"half", NULL, "the number on half the cells in each direction"},
                                      {"quarter", NULL, "the number on a quarter of the cells in each direction"},
@@ -58,6 +57,7 @@ PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
                                   row->error,
                                   row->of[SAM_CAUSE_CELLS],
                                   row->of[SAM_CAUSE_STEPS],
+                                  row->of[SAM_CAUSE_LAYERS],
                                   row->factor,
                                   row->run[SAM_RUN_HALF],
                                   row->run[SAM_RUN_QUARTER],

@@ -19,10 +19,8 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define LEAST   4    /* fewest cells per row whose half still makes a grid */
-#define LARGE   0.05 /* error from which a warning is given */
-#define AIM     0.04 /* error that the proposed cells or steps have */
-#define SEVERAL 4    /* most numbers that a warning names */
+#define LEAST 4    /* fewest cells per row whose half still makes a grid */
+#define AIM   0.04 /* error that the proposed cells or steps have */
 
 /* A number of the state with its errors */
 typedef struct {
@@ -361,23 +359,26 @@ static void Add(SamSimulation s, const SamStateNumber *number, const char unit[]
   const SamDoubts *d     = &s->advice.doubts;
   const double     scale = PetscMax(fabs(value), least);
   PetscBool        known[SAM_CAUSES];
-  const double     closed[SAM_CAUSES] = {SamDoubtsOf(d, number->name, SAM_CAUSE_CELLS, &known[SAM_CAUSE_CELLS]),
-                                         SamDoubtsOf(d, number->name, SAM_CAUSE_STEPS, &known[SAM_CAUSE_STEPS])};
-  SamErrorTable   *t                  = &e->table;
-  SamErrorRow     *row                = &t->row[t->count];
+  double           closed[SAM_CAUSES], most = 0;
+  SamErrorTable   *t   = &e->table;
+  SamErrorRow     *row = &t->row[t->count];
 
+  for (SamCause c = 0; c < SAM_CAUSES; c++) {
+    closed[c] = SamDoubtsOf(d, number->name, c, &known[c]);
+    most      = PetscMax(most, closed[c]);
+  }
   for (PetscInt k = 0; k < t->count; k++)
     if (!strcmp(t->row[k].name, number->name)) return; /* the number of a cycle precedes that of its last step */
-  if (t->count == SAM_ERROR_ROWS ||
-      !(Magnitude(value, run) > least || (least > 0 && closed[SAM_CAUSE_CELLS] + closed[SAM_CAUSE_STEPS] > 0)))
-    return;
+  if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least || (least > 0 && most > 0))) return;
   *row                     = (SamErrorRow){.unit = unit, .value = value, .scale = scale};
   row->of[SAM_CAUSE_CELLS] = SamErrorByCells(value, run) / scale;
   row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run) / scale : 0;
   for (int c = 0; c < SAM_CAUSES; c++) row->of[c] = known[c] ? closed[c] : PetscMax(row->of[c], closed[c]);
   (void)snprintf(row->name, sizeof(row->name), "%s", number->name);
-  row->error = row->of[SAM_CAUSE_CELLS] + row->of[SAM_CAUSE_STEPS];
-  row->cause = row->of[SAM_CAUSE_STEPS] > row->of[SAM_CAUSE_CELLS] ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS;
+  for (SamCause c = 0; c < SAM_CAUSES; c++) {
+    row->error += row->of[c];
+    if (row->of[c] > row->of[row->cause]) row->cause = c;
+  }
   row->order = number->order;
   for (int k = 0; k < SAM_RUNS; k++) row->run[k] = run[k];
   row->factor = FactorOf(row, row->cause);
@@ -440,85 +441,26 @@ static PetscErrorCode AddCycle(SamSimulation s)
 
 /* ---- warnings ---- */
 
-/* Returns the smallest number from n on whose only prime factors are 2, 3 and 5. */
-static PetscInt Smooth(PetscInt n)
-{
-  for (;; n++) {
-    PetscInt rest = n;
-
-    for (PetscInt p = 2; p <= 5; p += p == 2 ? 1 : 2)
-      while (rest % p == 0) rest /= p;
-    if (rest == 1) return n;
-  }
-}
-
-static void ProposeCells(SamSimulation s, double factor, char text[], size_t size)
-{
-  const SamGrid  g  = s->setup.grid;
-  const PetscInt nx = Smooth((PetscInt)ceil((double)g->nx * factor)),
-                 ny = Smooth((PetscInt)ceil((double)g->ny * factor));
-
-  if (PetscMax(nx, ny) > SAM_LARGEST_ROW)
-    (void)snprintf(text, size, "no grid of up to %d cells in a row resolves them", SAM_LARGEST_ROW);
-  else if (SamGapHasFile(s->setup.gap))
-    (void)snprintf(text, size, "use a file with heights at %.2g times smaller distances", factor);
-  else if (SamGridIsRow(g) || nx == ny)
-    (void)snprintf(text, size, "use -grid_n %ld", (long)nx);
-  else
-    (void)snprintf(text, size, "use -grid_n %ld,%ld", (long)nx, (long)ny);
-}
-
-static void ProposeSteps(SamSimulation s, double factor, char text[], size_t size)
-{
-  if (s->step_rtol > 0)
-    (void)snprintf(text, size, "use -step_rtol %.2g", (double)s->step_rtol / factor);
-  else
-    (void)snprintf(text, size, "use -steps %.0f", ceil(factor * (double)SamHistoryGetIncrements(s->history)));
-}
-
 /*
   True if a warning is due. The error by the cells must also be large by the difference to half the cells, since on a
   quarter of them contacts are often not resolved at all.
 */
 static PetscBool IsLarge(const SamErrorRow *row, SamCause cause)
 {
-  if (!(row->of[cause] > LARGE)) return PETSC_FALSE;
-  return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > LARGE * row->scale;
+  if (!(row->of[cause] > SAM_DOUBT_LARGE)) return PETSC_FALSE;
+  return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > SAM_DOUBT_LARGE * row->scale;
 }
 
-/* Warns of a cause: names the numbers with the largest errors by it, and proposes what mends all of them. */
-static PetscErrorCode WarnOf(SamSimulation s, SamCause cause)
+/* Adds the large errors to those in closed form, which are told together. */
+static void AddDoubts(SamSimulation s)
 {
-  const SamErrorTable *t      = &s->errors->table;
-  double               factor = 1, below = INFINITY;
-  size_t               head;
-  char                 text[512], cure[128], one[SAM_ERROR_TEXT];
+  const SamErrorTable *t = &s->errors->table;
 
-  PetscFunctionBegin;
-  (void)snprintf(text, sizeof(text), "error by the %s:", SamCauseNames[cause]);
-  head = strlen(text);
-  for (PetscInt named = 0; named < SEVERAL; named++) {
-    const SamErrorRow *worst = NULL;
-
-    for (PetscInt k = 0; k < t->count; k++)
-      if (IsLarge(&t->row[k], cause) && t->row[k].of[cause] < below &&
-          (!worst || t->row[k].of[cause] > worst->of[cause]))
-        worst = &t->row[k];
-    if (!worst) break;
-    below = worst->of[cause];
-    (void)snprintf(text + strlen(text), sizeof(text) - strlen(text), "%s %s %s", named ? "," : "", worst->name,
-                   SamErrorWrite(worst->of[cause], one, sizeof(one)));
-  }
-  if (!text[head]) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < t->count; k++)
-    if (IsLarge(&t->row[k], cause)) factor = PetscMax(factor, FactorOf(&t->row[k], cause));
-  if (cause == SAM_CAUSE_CELLS)
-    ProposeCells(s, factor, cure, sizeof(cure));
-  else
-    ProposeSteps(s, factor, cure, sizeof(cure));
-  (void)snprintf(text + strlen(text), sizeof(text) - strlen(text), ": %s", cure);
-  PetscCall(SamSimulationWarn(s, text, ""));
-  PetscFunctionReturn(PETSC_SUCCESS);
+    for (SamCause cause = 0; cause < SAM_CAUSES; cause++)
+      if (IsLarge(&t->row[k], cause))
+        SamDoubtsAdd(&s->advice.doubts, cause, t->row[k].of[cause], FactorOf(&t->row[k], cause), t->row[k].name, "%s",
+                     "");
 }
 
 /* Tells which companions ended early, and why. */
@@ -551,6 +493,6 @@ PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last)
   if (s->output && s->errors->table.count) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_ERRORS, .errors = &s->errors->table}));
   PetscCall(WarnOfFaults(s));
-  for (int cause = 0; cause < SAM_CAUSES; cause++) PetscCall(WarnOf(s, (SamCause)cause));
+  AddDoubts(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -20,15 +20,6 @@ double SamErrorByCells(double own, const double run[SAM_RUNS])
   return far > 2 * near ? far / 2 : near;
 }
 
-const char *SamErrorWrite(double error, char text[], size_t size)
-{
-  if (isnan(error))
-    (void)snprintf(text, size, "unknown");
-  else
-    (void)snprintf(text, size, error < 0.1 ? "%.2g %%" : "%.0f %%", 100 * error);
-  return text;
-}
-
 double SamErrorBySteps(const double run[SAM_RUNS])
 {
   return fabs(run[SAM_RUN_HALF] - run[SAM_RUN_OTHER]);

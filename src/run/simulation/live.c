@@ -48,7 +48,6 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   const PetscBool     failed = told.status == SAM_STATUS_NOT_CONVERGED;
   PetscBool           due;
   const PetscInt      start = SamLifeOptionsGetStart(&s->plan, s->history);
-  char                after[48];
 
   PetscFunctionBegin;
   due =
@@ -62,10 +61,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
     s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));
   PetscCall(SamSimulationWriteStep(s, &told, due || failed));
   if (!step) SamAdviceBeginCycle(&s->advice);
-  if (!step && SamLifeOptionsIsOutput(&s->plan, cycles)) {
-    (void)snprintf(after, sizeof(after), "after %.10g cycles: ", (double)cycles);
-    SamAdviceRenew(&s->advice, after);
-  }
+  if (!step && SamLifeOptionsIsOutput(&s->plan, cycles)) SamAdviceRenew(&s->advice);
   PetscCall(SamSimulationExamine(s, start + step, PETSC_FALSE, &told));
   s->told = SamStepIsSolved(&told) ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);

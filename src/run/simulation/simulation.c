@@ -53,7 +53,9 @@ static PetscErrorCode AdviseLoads(SamSimulation s)
   const PetscInt first = s->life ? 0 : PetscMin(s->point.steps, s->needs.steps - 1);
 
   PetscFunctionBegin;
-  s->advice.steps = s->needs.steps;
+  s->advice.steps      = s->needs.steps;
+  s->advice.increments = SamHistoryGetIncrements(s->history);
+  s->advice.step_rtol  = s->step_rtol;
   for (PetscInt k = first; k < s->needs.steps; k++) {
     SamControl control;
 
@@ -297,7 +299,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   /* After writing, so that a reported step is in the file. */
   PetscCall(
     SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP, .step = k, .result = &step, .waits = waits}));
-  if (k == last && SamProblemMoves(s->setup.problem)) SamAdviceRenew(&s->advice, "in the last step: ");
+  if (k == last && SamProblemMoves(s->setup.problem)) SamAdviceRenew(&s->advice);
   PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
   if (!*ended) PetscCall(SamSimulationCommitStep(s, &step, NULL, 0));
   if (*ended || !s->point.worst) s->point.worst = step.status;
@@ -339,6 +341,7 @@ static PetscErrorCode RunAll(SamSimulation s)
     last = SamHistoryGetStep(s->history, s->needs.steps - 1);
     PetscCall(SamErrorsEnd(s, &last));
   }
+  PetscCall(SamAdviceTell(&s->advice));
   PetscCall(Finish(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

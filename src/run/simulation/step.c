@@ -73,8 +73,7 @@ static PetscErrorCode Follow(SamSimulation s, const SamStep *step, PetscBool exa
 
 PetscErrorCode SamSimulationAdviseStep(SamSimulation s, const SamStep *step, SamAdviceFunction receive, void *context)
 {
-  const SamSlip *slip;
-  SamAdvice      now = s->single;
+  SamAdvice now = s->single;
 
   PetscFunctionBegin;
   now.setup   = &s->setup;
@@ -84,7 +83,8 @@ PetscErrorCode SamSimulationAdviseStep(SamSimulation s, const SamStep *step, Sam
   PetscCall(Follow(s, step, PETSC_TRUE, &now));
   s->tried   = now;
   s->advised = PETSC_TRUE;
-  PetscCall(SamAdviceEnd(&now, &slip));
+  PetscCall(SamAdviceEnd(&now, NULL));
+  PetscCall(SamAdviceTell(&now));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
