@@ -129,5 +129,9 @@ def test_width_of_a_ring_that_long_steps_pass_is_advised_no_grid(petsam):
     more = dict(gap_radius1=0.02283885631132319, grid_n=22, grid_size=0.0007250575713378503, friction=0.8)
     done = petsam(case, more, dict(load_n=65.26546766897161, load_tx=0.0, steps=3))
     line, told = doubts(done, "steps")
-    assert "before cells touch" in line and told["dissipated_energy"] == 1 and int(re.search(r"-steps (\d+)$", line)[1]) > 3
+    assert (
+        "before cells touch" in line
+        and told["dissipated_energy"] == 1
+        and int(re.search(r"-steps (\d+)$", line)[1]) > 3
+    )
     assert "in a ring" not in doubts(done)[0]
