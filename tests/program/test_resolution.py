@@ -13,7 +13,7 @@ E_STAR = 110e9
 BODIES = dict(body1_young=2 * E_STAR, body1_poisson=0.0, body2_young=2 * E_STAR, body2_poisson=0.0)
 LIMIT = 0.05  # change of the peak that is to be warned of
 SAID = re.compile(
-    r"pressure_max (is about \d+ % (higher|lower) on cells half as wide|grows without end on finer cells)"
+    r"pressure_max (is about \d+ % (higher|lower) on cells half as wide|grows without limit on finer cells)"
 )
 
 
@@ -116,7 +116,7 @@ def test_sharp_edge_is_resolved_by_no_grid(petsam):
     case = dict(case, grid_n=49, grid_size=2e-3)
     done = [petsam(case, ranks=ranks).complaint for ranks in (1, 2, 3)]
     assert len(done[0]) == 1 and done[1] == done[0] == done[2]
-    assert done[0][0].endswith("pressure_max grows without end on finer cells, as at a sharp edge)")
+    assert done[0][0].endswith("pressure_max grows without limit on finer cells, as at a sharp edge)")
     assert not petsam(case, dict(pressure_limit=1.5e6)).complaint
 
 

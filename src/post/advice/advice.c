@@ -170,7 +170,7 @@ static void Cells(SamAdvice *a)
                  absurd ? ": check the units, N, m, Pa" : "");
   if (sharp)
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 0, "pressure_max",
-                 "pressure_max grows without end on finer cells, as at a sharp edge");
+                 "pressure_max grows without limit on finer cells, as at a sharp edge");
   else
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, a->worn ? WORN_PART * change : change, (double)extent->finer,
                  "pressure_max", "pressure_max is about %.0f %% %s on cells half as wide", 100 * change,
