@@ -145,6 +145,8 @@ typedef struct {
   SamSlip           slip;              /* energy of the steps so far, or of the last computed cycle */
   SamYielding       yielding;          /* plastic work of the steps so far */
   PetscReal         half[2], across;   /* half widths (m) and cells across; by the closed-form solution if `closed` */
+  SamDoubts         guesses;           /* errors that companion runs know better, */
+  PetscBool         knows[SAM_CAUSES]; /* and true for causes for which there are such runs */
   SamDoubts         doubts;            /* errors of the numbers, which SamAdviceTell() tells */
   PetscBool         closed;            /* true: a closed-form solution describes this contact */
   PetscErrorCode    error;             /* first error that `receive` returned */

@@ -26,6 +26,7 @@ typedef struct {
   SamDoubtsAdd - adds an error of all numbers named in `names`, separated by blanks; at most 1 counts. The reason has a
   format of printf(). An error of 0 or NaN is ignored.
   SamDoubtsSet - the same for numbers whose value is known in closed form, so that no other estimate of it counts.
+  SamDoubtsJoin - adds all errors by a cause of another table.
   SamDoubtsOf - returns the error of a number by a cause; 0: there is none. `known`: it has been set.
   SamDoubtsWrite - writes the numbers whose error by a cause is large, the largest first, and the reasons, as
   "dissipated_energy 12 %, slip_max unknown (slip zones are 0.8 cells wide)"; empty: none is. `factor`: what makes all
@@ -44,6 +45,7 @@ PETSC_INTERN void   SamDoubtsAdd(SamDoubts *doubts, SamCause cause, double error
                                  const char why[], ...) PETSC_ATTRIBUTE_FORMAT(6, 7);
 PETSC_INTERN void   SamDoubtsSet(SamDoubts *doubts, SamCause cause, double error, double factor, const char names[],
                                  const char why[], ...) PETSC_ATTRIBUTE_FORMAT(6, 7);
+PETSC_INTERN void   SamDoubtsJoin(SamDoubts *doubts, const SamDoubts *more, SamCause cause);
 PETSC_INTERN double SamDoubtsOf(const SamDoubts *doubts, const char name[], SamCause cause, PetscBool *known);
 PETSC_INTERN void   SamDoubtsWrite(const SamDoubts *doubts, SamCause cause, double *factor, char text[], size_t size);
 

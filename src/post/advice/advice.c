@@ -165,7 +165,7 @@ static void Cells(SamAdvice *a)
   if (extent->zones > 1)
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   if (few)
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SAM_DOUBT_LARGE * fewest / (double)extent->across, more, "contact_area",
+    SamDoubtsAdd(&a->guesses, SAM_CAUSE_CELLS, SAM_DOUBT_LARGE * fewest / (double)extent->across, more, "contact_area",
                  SAM_ADVICE_ACROSS "%s", zones, (double)extent->across, extent->across == 1 ? "" : "s",
                  absurd ? ": check the units, N, m, Pa" : "");
   if (sharp)
@@ -356,7 +356,7 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     /* At the grid's edge the grid determines the size of the contact. */
     if (a->extent.zones && step->check.edge <= 0 && !a->doubtful) {
       PetscCall(GetWidths(a));
-      a->doubts.count = 0; /* those of the surfaces before wear */
+      a->doubts.count = a->guesses.count = 0; /* those of the surfaces before wear */
       PetscCall(LookAt(a, a->worn ? WORN : CONTACT));
     }
   }

@@ -83,6 +83,12 @@ void SamDoubtsSet(SamDoubts *d, SamCause cause, double error, double factor, con
   Note(d, &more, names);
 }
 
+void SamDoubtsJoin(SamDoubts *d, const SamDoubts *more, SamCause cause)
+{
+  for (PetscInt k = 0; k < more->count; k++)
+    if (more->of[k].cause == cause) Note(d, &more->of[k], more->of[k].name);
+}
+
 double SamDoubtsOf(const SamDoubts *d, const char name[], SamCause cause, PetscBool *known)
 {
   const PetscInt k = Find(d, name, strlen(name), cause);

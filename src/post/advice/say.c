@@ -146,6 +146,7 @@ PetscErrorCode SamAdviceTell(SamAdvice *a)
 
   PetscFunctionBegin;
   for (SamCause cause = 0; cause < SAM_CAUSES; cause++) {
+    if (!a->knows[cause]) SamDoubtsJoin(&a->doubts, &a->guesses, cause);
     SamDoubtsWrite(&a->doubts, cause, &factor, numbers, sizeof(numbers));
     if (!numbers[0]) continue;
     cure[0] = '\0';

@@ -316,9 +316,9 @@ static void Merging(SamAdvice *a)
 
   if (!(slip->together && slip->unsure && slip->tilt > TILTED && SamGapHasFile(a->setup->gap) && error > ALLOWED))
     return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, 1, error / GOOD, "dissipated_energy", "%s", why);
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, PetscMin(error, ROUGH), error / GOOD, "shear_max slip_max stick_area", "%s",
-               why);
+  SamDoubtsAdd(&a->guesses, SAM_CAUSE_STEPS, 1, error / GOOD, "dissipated_energy", "%s", why);
+  SamDoubtsAdd(&a->guesses, SAM_CAUSE_STEPS, PetscMin(error, ROUGH), error / GOOD, "shear_max slip_max stick_area",
+               "%s", why);
 }
 
 /* Advises more steps if the sum of the errors of the steps' energies is large; it falls with the square of their
@@ -328,7 +328,7 @@ static void LongSteps(SamAdvice *a)
   const SamSlip *slip = &a->slip;
 
   if (a->increments && a->steps > 1 && PetscMax(slip->energy, slip->lag) > LITTLE * slip->work)
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, slip->energy > 0 ? slip->lag / slip->energy : 1,
+    SamDoubtsAdd(&a->guesses, SAM_CAUSE_STEPS, slip->energy > 0 ? slip->lag / slip->energy : 1,
                  sqrt(PetscMin(slip->lag / slip->energy, 1) / GOOD), "dissipated_energy", "the load steps are long");
 }
 

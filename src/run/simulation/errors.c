@@ -20,6 +20,7 @@
 #include <math.h>
 
 #define LEAST 4    /* fewest cells per row whose half still makes a grid */
+#define LARGE 0.12 /* error above which a warning is given: the median is two to three times the true one */
 #define AIM   0.04 /* error that the proposed cells or steps have */
 
 /* A number of the state with its errors */
@@ -50,16 +51,19 @@ struct _n_SamErrors {
 
 PetscErrorCode SamErrorsReadOptions(SamSimulation s, const SamOptions *from)
 {
-  static const SamOptionRow row    = {"errors", "errors of all numbers: closed forms, or also runs on fewer cells",
-                                      SAM_OPTION_BOOL, .words = "closed,companion"},
+  enum { NONE, CLOSED, COMPANION };
+  static const SamOptionRow row    = {"errors", "errors of numbers: none, closed forms, or also runs on fewer cells",
+                                      SAM_OPTION_ENUM, .words = "none,closed,companion"},
                             former = {"grid_check", "the same as -errors companion", SAM_OPTION_BOOL,
                                       .excludes = "errors"};
   PetscBool check                  = PETSC_FALSE;
+  int       kind                   = CLOSED;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->needs.companion, NULL));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, &kind, NULL));
   PetscCall(SamOptionsRead(from, NULL, 1, &former, &check, NULL));
-  if (check) s->needs.companion = PETSC_TRUE;
+  s->needs.companion = check || kind == COMPANION ? PETSC_TRUE : PETSC_FALSE;
+  s->untold          = kind == NONE ? PETSC_TRUE : PETSC_FALSE;
   PetscCheck(!s->needs.companion || s->setup.grid->fewest >= LEAST, from->comm, SAM_ERR_USER,
              "-errors companion needs at least %d cells in x and in y (-grid_n)", LEAST);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -447,8 +451,17 @@ static PetscErrorCode AddCycle(SamSimulation s)
 */
 static PetscBool IsLarge(const SamErrorRow *row, SamCause cause)
 {
-  if (!(row->of[cause] > SAM_DOUBT_LARGE)) return PETSC_FALSE;
+  if (!(row->of[cause] > LARGE)) return PETSC_FALSE;
   return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > SAM_DOUBT_LARGE * row->scale;
+}
+
+/* True if companion runs to the end tell the errors by a cause. */
+static PetscBool Knows(SamErrors e, SamCause cause)
+{
+  const SamCompanion *half = &e->companion[SAM_RUN_HALF], *other = &e->companion[SAM_RUN_OTHER];
+
+  if (half->fault[0] || cause == SAM_CAUSE_LAYERS) return PETSC_FALSE;
+  return cause == SAM_CAUSE_CELLS || (other->run && !other->fault[0]) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Adds the large errors to those in closed form, which are told together. */
@@ -493,6 +506,7 @@ PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last)
   if (s->output && s->errors->table.count) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_ERRORS, .errors = &s->errors->table}));
   PetscCall(WarnOfFaults(s));
+  for (SamCause cause = 0; cause < SAM_CAUSES; cause++) s->advice.knows[cause] = Knows(s->errors, cause);
   AddDoubts(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -341,7 +341,7 @@ static PetscErrorCode RunAll(SamSimulation s)
     last = SamHistoryGetStep(s->history, s->needs.steps - 1);
     PetscCall(SamErrorsEnd(s, &last));
   }
-  PetscCall(SamAdviceTell(&s->advice));
+  if (!s->untold) PetscCall(SamAdviceTell(&s->advice));
   PetscCall(Finish(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -75,6 +75,7 @@ struct _n_SamSimulation {
   PetscBool              writing;   /* a collective write is under way */
   char                   filename[PETSC_MAX_PATH_LEN];
   char                  *written; /* name of the part of the results that is being written; NULL: none */
+  PetscBool              untold;  /* -errors none: large errors are not told */
   SamAdvice              advice;
   SamAdvice              single, tried; /* advice on steps given one by one: committed; with the tried one */
   PetscInt               earlier;       /* 1: the state before these steps already has a step */
