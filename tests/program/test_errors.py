@@ -1,5 +1,6 @@
 """-errors companion: numbers of companion runs, the errors that follow from them, their restart, and their warnings."""
 
+import contextlib
 import re
 
 import h5py
@@ -46,7 +47,7 @@ def test_python_reads_errors_as_a_table(petsam, tmp_path, loop):
     assert list(found) == list(expected) and not package.open("none.h5").errors
     for name, row in found.items():
         assert row.unit == expected[name]["unit"].decode() and row.cause == expected[name]["cause"].decode()
-        for column in ("value", "error", "by_cells", "by_steps", "factor", "half", "quarter", "other"):
+        for column in ("value", "error", "by_cells", "by_steps", "by_layers", "factor", "half", "quarter", "other"):
             np.testing.assert_equal(getattr(row, column), expected[name][column])
     assert re.fullmatch(r"\S+ J \+-\S+ %", str(found["dissipated_energy"]))
     found.to_csv("errors.csv")
@@ -67,7 +68,7 @@ def test_companions_are_runs_on_other_cells_and_with_other_steps(petsam, tmp_pat
     """An odd number of cells: the coarser ones are 2 - 1/33 times as wide."""
     petsam(loop, "-errors", "companion", "-output", "own.h5")
     found, own = table("own.h5"), last("own.h5")
-    others = dict(half=dict(grid_n=33), quarter=dict(grid_n=17), other=dict(grid_n=33, steps=2))
+    others = dict(half=dict(grid_n=33), quarter=dict(grid_n=17), other=dict(grid_n=17, steps=2))
     for name, change in others.items():
         petsam(loop, change, "-output", f"{name}.h5")
     runs = {name: last(f"{name}.h5") for name in others}
@@ -77,12 +78,18 @@ def test_companions_are_runs_on_other_cells_and_with_other_steps(petsam, tmp_pat
         for run, numbers in runs.items():
             assert np.isclose(row[run], numbers[name], rtol=1e-9), (name, run)
         near, far = abs(row["value"] - row["half"]), abs(row["half"] - row["quarter"])
-        cells, steps = max(near, far / 2) / abs(row["value"]), abs(row["half"] - row["other"]) / abs(row["value"])
+        cells, steps = max(near, far / 2) / abs(row["value"]), abs(row["quarter"] - row["other"]) / abs(row["value"])
         if name != "dissipated_energy":
             assert np.allclose([row["by_cells"], row["by_steps"]], [cells, steps]), name
         assert row["by_cells"] >= cells * (1 - 1e-12) and row["by_steps"] >= steps * (1 - 1e-12)
         assert np.isclose(row["error"], row["by_cells"] + row["by_steps"])
         assert row["cause"] == (b"steps" if row["by_steps"] > row["by_cells"] else b"cells")
+
+
+@pytest.mark.parametrize("cells, other", [(61, 16), (60, 30)])
+def test_other_steps_are_taken_on_a_quarter_of_the_cells_unless_these_are_few(petsam, tmp_path, loop, cells, other):
+    said = petsam(loop, "-errors", "companion", dict(grid_n=cells)).stdout
+    assert f"on {other} x {other} cells with 2 steps per row" in said
 
 
 def test_errors_are_those_of_a_finer_run(petsam, tmp_path, loop):
@@ -109,13 +116,13 @@ def test_each_step_has_its_errors(petsam, tmp_path, loop):
             cells = np.maximum(abs(b[name][:] - h[name][:]), abs(h[name][:] - q[name][:]) / 2)
             assert np.isnan(error[0]) and np.all(np.isfinite(error[1:])), name  # half as many steps: from the second on
             assert np.all(error[1:] >= cells[1:] * (1 - 1e-9)), name
-    petsam(loop, dict(grid_n=33, steps=2), "-output", "other.h5")
-    with h5py.File("own.h5") as own, h5py.File("half.h5") as half, h5py.File("other.h5") as other:
-        b, h, o = (file["history/dissipated_energy"][:] for file in (own, half, other))
-        pairs = h.reshape(-1, 2).sum(1)  # in the time of a step of the companion with other steps
+    petsam(loop, dict(grid_n=17, steps=2), "-output", "other.h5")
+    with contextlib.ExitStack() as stack:
+        files = [stack.enter_context(h5py.File(f"{name}.h5")) for name in ("own", "half", "quarter", "other")]
+        own = files[0]
+        b, h, q, o = (file["history/dissipated_energy"][:] for file in files)
+        pairs = q.reshape(-1, 2).sum(1)  # in the time of a step of the companion with other steps
         part = abs(pairs - o) / pairs
-        with h5py.File("quarter.h5") as quarter:
-            q = quarter["history/dissipated_energy"][:]
         cells = np.maximum(abs(b - h), abs(h - q) / 2)
         expected = (cells + np.repeat(part, 2) * b)[1::2]
         found = own["history/dissipated_energy_error"][1::2]

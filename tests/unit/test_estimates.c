@@ -22,7 +22,8 @@ static void test_error_by_steps_is_the_difference_of_runs_on_the_same_cells(void
   const double runs[] = {2, 7, 2.5};
 
   (void)state;
-  sam_assert_close(SamErrorBySteps(runs), 0.5, 1e-15);
+  sam_assert_close(SamErrorBySteps(runs, SAM_RUN_HALF), 0.5, 1e-15);
+  sam_assert_close(SamErrorBySteps(runs, SAM_RUN_QUARTER), 4.5, 1e-15);
 }
 
 static void test_largest_doubt_is_kept_for_each_number_and_cause(void **state)

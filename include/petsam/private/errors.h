@@ -49,8 +49,8 @@ PETSC_INTERN void   SamDoubtsJoin(SamDoubts *doubts, const SamDoubts *more, SamC
 PETSC_INTERN double SamDoubtsOf(const SamDoubts *doubts, const char name[], SamCause cause, PetscBool *known);
 PETSC_INTERN void   SamDoubtsWrite(const SamDoubts *doubts, SamCause cause, double *factor, char text[], size_t size);
 
-/* SamRunKind - the companion runs: on half and on a quarter of the cells in each direction, and on half with other
-   steps. */
+/* SamRunKind - the companion runs: on half and on a quarter of the cells in each direction, and with other steps on one
+   of these. */
 typedef enum { SAM_RUN_HALF, SAM_RUN_QUARTER, SAM_RUN_OTHER, SAM_RUNS } SamRunKind;
 
 /*
@@ -81,10 +81,11 @@ typedef struct {
 
 /*
   SamErrorByCells - returns the error of a number by the cells: `own` is its value, `run` those of the companion runs.
-  SamErrorBySteps - returns the error of a number by the steps. Both are NaN if unknown. None is collective
+  SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER. Both
+  are NaN if unknown. None is collective
   (estimates.c).
 */
 PETSC_INTERN double SamErrorByCells(double own, const double run[SAM_RUNS]);
-PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS]);
+PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same);
 
 #endif

@@ -10,10 +10,11 @@ NUMBERS = {
     "error": "estimated error relative to the number",
     "by_cells": "the part of it by the cells",
     "by_steps": "the part of it by the steps",
-    "factor": "factor of narrower cells, or more steps, for an error of 4 %",
+    "by_layers": "the part of it by the layers of bodies that yield",
+    "factor": "factor of narrower cells, more steps or more layers for an error of 4 %",
     "half": "the number on half the cells",
     "quarter": "the number on a quarter of the cells",
-    "other": "the number on half the cells, with other steps",
+    "other": "the number with other steps, on half or a quarter of the cells",
 }
 OF_NUMBER = ("value", "half", "quarter", "other")  # in the unit of the row
 
@@ -29,14 +30,14 @@ class NumberError(NamedTuple):
         Its unit.
     error : float
         Error relative to the number; NaN: unknown.
-    by_cells, by_steps : float
+    by_cells, by_steps, by_layers : float
         The parts of it.
     cause : str
-        The larger part: "cells" or "steps".
+        The largest part: "cells", "steps" or "layers".
     factor : float
         How many times narrower cells, or more steps, make that part 4 %.
     half, quarter, other : float
-        The number on half and on a quarter of the cells in x and y, and on half of them with other steps; NaN: none.
+        The number on half and on a quarter of the cells in x and y, and with other steps on one of these; NaN: none.
     """
 
     value: float
@@ -44,6 +45,7 @@ class NumberError(NamedTuple):
     error: float
     by_cells: float
     by_steps: float
+    by_layers: float
     cause: str
     factor: float
     half: float

@@ -69,6 +69,7 @@
 #define SLIP     0.06 /* error of both, or of the slip velocity in rolling, relative to 1/w */
 #define RETURNS  0.1  /* error of the largest slip after a reversal, relative to its change since, times w^2 + 1/4 */
 #define MISSED   0.1  /* part of the energy in closed form below which the cells miss the zone */
+#define SEEN     2    /* cells: width of a zone from which on half the cells have it, too */
 #define LARGE    0.07 /* that error, relative to the slip, above which a warning is given */
 #define LINE     0.36 /* m in plane strain */
 #define SPECK    0.01 /* width of a stick zone, relative to the contact's, below which no grid is advised for it */
@@ -536,8 +537,8 @@ static void Energy(SamAdvice *a)
   if (known && !slip->unsure && most > NOTHING * slip->work)
     SamDoubtsSet(&a->doubts, SAM_CAUSE_CELLS, error, factor, "dissipated_energy", "%s", zones);
   else
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, known || error < ROUGH ? error : 1, factor, "dissipated_energy", "%s",
-                 zones);
+    SamDoubtsAdd(width < SEEN ? &a->doubts : &a->guesses, SAM_CAUSE_CELLS, known || error < ROUGH ? error : 1, factor,
+                 "dissipated_energy", "%s", zones);
   if (error >= 1) SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, factor, "slip_max", "%s", zones);
 }
 

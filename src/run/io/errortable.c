@@ -33,16 +33,17 @@ PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
   static const SamLabel texts[]   = {{"name", NULL, "name of the number"},
                                      {"unit", NULL, "unit of the number"},
                                      {"cause", NULL, "cause of the larger part of the error"}},
-                        numbers[] = {{"value", NULL,
-                                      "the number; of what each step adds to, the sum over the steps of this run"},
-                                     {"error", "1", "estimated error relative to the number"},
-                                     {"by_cells", "1", "the part of it by the cells"},
-                                     {"by_steps", "1", "the part of it by the steps"},
-                                     {"by_layers", "1", "the part of it by the layers of bodies that yield"},
-                                     {"factor", "1", "factor of narrower cells, or more steps, for an error of 4 %"},
-                                     {"half", NULL, "the number on half the cells in each direction"},
-                                     {"quarter", NULL, "the number on a quarter of the cells in each direction"},
-                                     {"other", NULL, "the number on half the cells, with other steps"}};
+                        numbers[] = {
+                          {"value", NULL, "the number; of what each step adds to, the sum over the steps of this run"},
+                          {"error", "1", "estimated error relative to the number"},
+                          {"by_cells", "1", "the part of it by the cells"},
+                          {"by_steps", "1", "the part of it by the steps"},
+                          {"by_layers", "1", "the part of it by the layers of bodies that yield"},
+                          {"factor", "1", "factor of narrower cells, or more steps, for an error of 4 %"},
+                          {"half", NULL, "the number on half the cells in each direction"},
+                          {"quarter", NULL, "the number on a quarter of the cells in each direction"},
+                          {"other", NULL,
+                           "the number with other steps, on half or a quarter of the cells in each direction"}};
   enum { TEXTS = sizeof(texts) / sizeof(texts[0]), NUMBERS = sizeof(numbers) / sizeof(numbers[0]) };
   char   column[TEXTS][SAM_ERROR_ROWS][SAM_ERROR_NAME];
   double values[NUMBERS][SAM_ERROR_ROWS];

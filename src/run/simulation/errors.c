@@ -1,10 +1,10 @@
 /*
   The errors of the numbers of a run, by companion runs: -errors companion.
 
-  Up to three companions (companion.h) follow the simulation step by step: on half the cells, on a quarter of them, and
-  on half the cells with other steps, if the solution depends on the steps. Half the cells in each direction take less
-  than a quarter of the time, half the steps an eighth. estimates.c turns the differences into errors; the sum of those
-  by cells and by steps is stored with each step as NAME_error. At the end the same is done for the last numbers, and
+  Up to three companions (companion.h) follow the simulation step by step: on half the cells, on a quarter of them, and,
+  if the solution depends on the steps, with other steps: on a quarter of the cells, or, of small grids, on half of
+  them. Half the cells in each direction take less than a quarter of the time. estimates.c turns the differences
+  into errors; the sum of those by cells and by steps is stored with each step as NAME_error. At the end the same is done for the last numbers, and
   for sums over all steps.
 
   Between two moments that a companion with other steps shares with the run, the error by the steps is that of the
@@ -19,7 +19,10 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define LEAST 4    /* fewest cells per row whose half still makes a grid */
+#define LEAST 4 /* fewest cells per row whose half still makes a grid */
+#define ENOUGH \
+  16 /* cells per row on which errors by the steps are found, on a quarter of the cells if they are as many */
+#define APART 0.1  /* and, for errors by the cells, difference to half the cells */
 #define LARGE 0.12 /* error above which a warning is given: the median is two to three times the true one */
 #define AIM   0.04 /* error that the proposed cells or steps have */
 
@@ -30,7 +33,7 @@ typedef struct {
   PetscInt              at[SAM_RUNS];   /* its places in the companions' states; -1: none */
   double                mark[SAM_RUNS]; /* sums of the runs at the last common moment */
   double                base[SAM_RUNS]; /* the same before the first step of this run */
-  double                apart; /* sum on half the cells minus that with other steps, of the steps of this run */
+  double                apart; /* sum with the same steps minus that with other steps, of the steps of this run */
   double                steps; /* error by the steps at the last common moment, relative; NaN: unknown */
 } Number;
 
@@ -41,6 +44,7 @@ typedef struct {
 
 struct _n_SamErrors {
   SamCompanion  companion[SAM_RUNS];
+  SamRunKind    same; /* the companion on the same cells as that with other steps */
   PetscInt      count;
   Number        number[SAM_ERROR_ROWS];
   double        sums[SAM_STATE_NUMBERS]; /* numbers of the steps of this run, joined */
@@ -52,7 +56,7 @@ struct _n_SamErrors {
 PetscErrorCode SamErrorsReadOptions(SamSimulation s, const SamOptions *from)
 {
   enum { NONE, CLOSED, COMPANION };
-  static const SamOptionRow row    = {"errors", "errors of numbers: none, closed forms, or also runs on fewer cells",
+  static const SamOptionRow row    = {"errors", "errors of numbers: none, in closed form, or by companion runs, too",
                                       SAM_OPTION_ENUM, .words = "none,closed,companion"},
                             former = {"grid_check", "the same as -errors companion", SAM_OPTION_BOOL,
                                       .excludes = "errors"};
@@ -155,7 +159,8 @@ PetscErrorCode SamErrorsCreate(SamSimulation s)
   if ((s->setup.grid->fewest + 3) / 4 >= LEAST)
     PetscCall(SamCompanionCreate(s, 2, increments, &e->companion[SAM_RUN_QUARTER]));
   if (DependsOnSteps(s)) {
-    PetscCall(SamCompanionCreate(s, 1, other, &e->companion[SAM_RUN_OTHER]));
+    e->same = (s->setup.grid->fewest + 3) / 4 >= ENOUGH ? SAM_RUN_QUARTER : SAM_RUN_HALF;
+    PetscCall(SamCompanionCreate(s, e->same == SAM_RUN_HALF ? 1 : 2, other, &e->companion[SAM_RUN_OTHER]));
     e->companion[SAM_RUN_OTHER].run->step_rtol *= 2;
   }
   Describe(e, other);
@@ -272,8 +277,8 @@ static void CompareSteps(SamSimulation s, Number *n)
     run[k] -= n->mark[k];
     n->mark[k] = now;
   }
-  n->apart += run[SAM_RUN_HALF] - run[SAM_RUN_OTHER];
-  n->steps = SamErrorBySteps(run) / PetscMax(fabs(run[SAM_RUN_HALF]), Least(s, n->of));
+  n->apart += run[e->same] - run[SAM_RUN_OTHER];
+  n->steps = SamErrorBySteps(run, e->same) / PetscMax(fabs(run[e->same]), Least(s, n->of));
 }
 
 /* ---- steps ---- */
@@ -376,7 +381,7 @@ static void Add(SamSimulation s, const SamStateNumber *number, const char unit[]
   if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least || (least > 0 && most > 0))) return;
   *row                     = (SamErrorRow){.unit = unit, .value = value, .scale = scale};
   row->of[SAM_CAUSE_CELLS] = SamErrorByCells(value, run) / scale;
-  row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run) / scale : 0;
+  row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run, e->same) / scale : 0;
   for (int c = 0; c < SAM_CAUSES; c++) row->of[c] = known[c] ? closed[c] : PetscMax(row->of[c], closed[c]);
   (void)snprintf(row->name, sizeof(row->name), "%s", number->name);
   for (SamCause c = 0; c < SAM_CAUSES; c++) {
@@ -407,7 +412,7 @@ static PetscErrorCode AddNumbers(SamSimulation s, const SamControl *control)
     if ((sum && s->life) || IsPrescribed(control, n->of->name)) continue;
     GetRuns(e, n, sum, run);
     for (int c = 0; c < SAM_RUNS && sum; c++) run[c] -= n->base[c];
-    if (sum && e->companion[SAM_RUN_OTHER].run) run[SAM_RUN_OTHER] = run[SAM_RUN_HALF] - n->apart;
+    if (sum && e->companion[SAM_RUN_OTHER].run) run[SAM_RUN_OTHER] = run[e->same] - n->apart;
     Add(s, n->of, SamUnitOn(s->setup.grid, n->of->unit), own, least, run);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -452,7 +457,7 @@ static PetscErrorCode AddCycle(SamSimulation s)
 static PetscBool IsLarge(const SamErrorRow *row, SamCause cause)
 {
   if (!(row->of[cause] > LARGE)) return PETSC_FALSE;
-  return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > SAM_DOUBT_LARGE * row->scale;
+  return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > APART * row->scale;
 }
 
 /* True if companion runs to the end tell the errors by a cause. */
@@ -479,18 +484,16 @@ static void AddDoubts(SamSimulation s)
 /* Tells which companions ended early, and why. */
 static PetscErrorCode WarnOfFaults(SamSimulation s)
 {
-  static const char *const what[SAM_RUNS] = {"half the cells", "a quarter of the cells",
-                                             "half the cells with other steps"};
+  static const char *const what[SAM_RUNS] = {"half the cells", "", "fewer cells with other steps"};
   char                     text[SAM_MESSAGE + 64];
 
   PetscFunctionBegin;
   for (int c = 0; c < SAM_RUNS; c++) {
     const SamCompanion *one = &s->errors->companion[c];
 
-    if (!one->run || !one->fault[0]) continue;
-    (void)snprintf(text, sizeof(text), "errors by the %s are %s: on %s %s",
-                   SamCauseNames[c == SAM_RUN_OTHER ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS],
-                   c == SAM_RUN_QUARTER ? "less certain" : "unknown", what[c], one->fault);
+    if (!one->run || !one->fault[0] || c == SAM_RUN_QUARTER) continue; /* of that half the cells tell enough */
+    (void)snprintf(text, sizeof(text), "errors by the %s are unknown: on %s %s",
+                   SamCauseNames[c == SAM_RUN_OTHER ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS], what[c], one->fault);
     PetscCall(SamSimulationWarn(s, text, ""));
     if (c == SAM_RUN_HALF) break; /* nothing is known without it */
   }

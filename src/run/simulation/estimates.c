@@ -8,7 +8,8 @@
   alone covers 74 %, and with a third of it for numbers of second order 83 %. Richardson's extrapolation is worse than
   the difference alone, since these numbers have no order on such grids.
 
-  Steps: the difference between two runs on half the cells, one of which has half as many steps, or twice as many.
+  Steps: the difference between two runs on the same coarse cells, one of which has half as many steps, or twice as
+  many.
 */
 #include <petsam/private/errors.h>
 #include <math.h>
@@ -20,7 +21,7 @@ double SamErrorByCells(double own, const double run[SAM_RUNS])
   return far > 2 * near ? far / 2 : near;
 }
 
-double SamErrorBySteps(const double run[SAM_RUNS])
+double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same)
 {
-  return fabs(run[SAM_RUN_HALF] - run[SAM_RUN_OTHER]);
+  return fabs(run[same] - run[SAM_RUN_OTHER]);
 }
