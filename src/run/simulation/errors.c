@@ -1,11 +1,11 @@
 /*
   The errors of the numbers of a run, by companion runs: -errors companion.
 
-  Up to three companions (companion.h) follow the simulation step by step: on half the cells, on a quarter of them, and,
-  if the solution depends on the steps, with other steps: on a quarter of the cells, or, of small grids, on half of
-  them. Half the cells in each direction take less than a quarter of the time. estimates.c turns the differences
-  into errors; the sum of those by cells and by steps is stored with each step as NAME_error. At the end the same is done for the last numbers, and
-  for sums over all steps.
+  Up to three companions (companion.h) follow the simulation step by step: on half the cells, on a quarter of them,
+  and, if the solution depends on the steps, with other steps: on a quarter of the cells, or, of small grids, on half
+  of them. Half the cells in each direction take less than a quarter of the time. estimates.c turns the differences
+  into errors; the sum of those by cells and by steps is stored with each step as NAME_error. At the end the same is
+  done for the last numbers, and for sums over all steps.
 
   Between two moments that a companion with other steps shares with the run, the error by the steps is that of the
   earlier one, relative to the number. Numbers that are next to nothing for the contact, as the slip of a contact that
