@@ -81,17 +81,17 @@ typedef struct {
   double    slipped;       /* maximum slip after the last step, m */
   double    turned;        /* maximum slip at the last reversal, m; 0: there was none */
   PetscReal across;        /* width of the stick zone after the last step */
-  PetscBool pushed;        /* true: the last step prescribes no tangential displacement */
-  PetscBool together;      /* true: N and T have grown in proportion from zero */
-  double    part[2];       /* T over N in that case */
-  double    tilt;          /* largest displacement of the contact's edge by tilting, relative to the approach */
-  PetscBool joined;        /* true: the normal load has begun to grow */
-  double    coupling;      /* coupling over friction if N of dissimilar bodies grows in one step; else 0 */
-  double    before_touch;  /* extra work of slip if the cells of dissimilar bodies had touched before each step, J */
-  PetscInt  growing;       /* number of steps in which cells come into contact */
-  double    share;         /* largest T over mu N before the first reversal */
-  double    first;         /* energy of the first branch once it has ended, J; 0: not yet */
-  SamRing   ring;          /* the slip of dissimilar bodies while N grows */
+  PetscBool pushed;       /* true: the last step prescribes no tangential displacement; in rolling: not all creepages */
+  PetscBool together;     /* true: N and T have grown in proportion from zero */
+  double    part[2];      /* T over N in that case */
+  double    tilt;         /* largest displacement of the contact's edge by tilting, relative to the approach */
+  PetscBool joined;       /* true: the normal load has begun to grow */
+  double    coupling;     /* coupling over friction if N of dissimilar bodies grows in one step; else 0 */
+  double    before_touch; /* extra work of slip if the cells of dissimilar bodies had touched before each step, J */
+  PetscInt  growing;      /* number of steps in which cells come into contact */
+  double    share;        /* largest T over mu N before the first reversal */
+  double    first;        /* energy of the first branch once it has ended, J; 0: not yet */
+  SamRing   ring;         /* the slip of dissimilar bodies while N grows */
 } SamSlip;
 
 /* SamRollingError - the largest error of a computed load or creepage in steady rolling (steadyerrors.c). */

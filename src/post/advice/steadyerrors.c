@@ -67,6 +67,11 @@ PetscErrorCode SamAdviceAddRolling(SamAdvice *a, PetscInt k, const SamStep *step
   PetscCall(SamContactGetNumber(a->setup->contact, "stick_area", &stick));
   for (int load = 0; load < 2 && area > 0 && a->setup->grid->axes == 2; load++)
     PetscCall(Compare(a, k, step, load ? PETSC_TRUE : PETSC_FALSE, sqrt((double)area / PETSC_PI)));
+  /* creepages that are found: not all cells slip */
+  a->slip.pushed   = step->control.force[SAM_COMPONENT_TX] || step->control.force[SAM_COMPONENT_TY] ||
+                       step->control.force[SAM_COMPONENT_MZ]
+                       ? PETSC_TRUE
+                       : PETSC_FALSE;
   a->rolling.width = area > 0 ? (area - stick) / (2 * sqrt(PETSC_PI * area * cell)) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
