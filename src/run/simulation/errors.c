@@ -159,7 +159,10 @@ PetscErrorCode SamErrorsCreate(SamSimulation s)
   if ((s->setup.grid->fewest + 3) / 4 >= LEAST)
     PetscCall(SamCompanionCreate(s, 2, increments, &e->companion[SAM_RUN_QUARTER]));
   if (DependsOnSteps(s)) {
-    e->same = (s->setup.grid->fewest + 3) / 4 >= ENOUGH ? SAM_RUN_QUARTER : SAM_RUN_HALF;
+    /* Of bodies that yield, numbers as the residual energy are often unknown on a quarter of the cells. */
+    e->same = (s->setup.grid->fewest + 3) / 4 >= ENOUGH && !SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC)
+                ? SAM_RUN_QUARTER
+                : SAM_RUN_HALF;
     PetscCall(SamCompanionCreate(s, e->same == SAM_RUN_HALF ? 1 : 2, other, &e->companion[SAM_RUN_OTHER]));
     e->companion[SAM_RUN_OTHER].run->step_rtol *= 2;
   }
