@@ -222,13 +222,18 @@ class Run(NamedTuple):
         return [line for line in self.stderr.splitlines() if line.startswith("petsam: ")]
 
 
+def numbers_of(line):
+    """{number: relative error} of what follows "error by the CAUSE: " in a warning; 1: unknown."""
+    found = re.findall(r"(\w+) (unknown|[-+\d.e]+)", re.split(r" \(|: ", line)[0])
+    return {name: 1 if error == "unknown" else float(error) / 100 for name, error in found}
+
+
 def doubts(done, cause="cells"):
     """The line that tells of errors by a cause, empty without one, and these by the names of numbers; 1: unknown."""
     lines = [line for line in done.complaint if f"error by the {cause}: " in line]
     assert len(lines) < 2, lines
     line = lines[0].split(f"error by the {cause}: ")[1] if lines else ""
-    found = re.findall(r"(\w+) (unknown|[-+\d.e]+)", re.split(r" \(|: ", line)[0])
-    return line, {name: 1 if error == "unknown" else float(error) / 100 for name, error in found}
+    return line, numbers_of(line)
 
 
 def read_run(path):

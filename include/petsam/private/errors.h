@@ -82,8 +82,7 @@ typedef struct {
 /*
   SamErrorByCells - returns the error of a number by the cells: `own` is its value, `run` those of the companion runs.
   SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER. Both
-  are NaN if unknown. None is collective
-  (estimates.c).
+  are NaN if unknown. None is collective (estimates.c).
 */
 PETSC_INTERN double SamErrorByCells(double own, const double run[SAM_RUNS]);
 PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same);

@@ -24,15 +24,11 @@
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius suggests that the radius is in another unit. */
 #define FLATTEST 1e-3
-/* Allowed relative change of the peak pressure on cells half as wide, without wear */
-#define PEAK 0.05
-/* Part of such a change that is told after wear, whose surfaces are smoother on finer cells (SAM_ADVICE_WORN_PEAK) */
-#define WORN_PART 0.5
-#define NARROW    0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
-#define BORDER    4    /* margin in cells of a sufficient grid */
-#define SAME      2    /* cells by which two widths, one counted and one computed, may differ */
-#define ABSURD    4096 /* number of cells per row that wrong units may ask for */
-#define BLIND     0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
+#define NARROW   0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
+#define BORDER   4    /* margin in cells of a sufficient grid */
+#define SAME     2    /* cells by which two widths, one counted and one computed, may differ */
+#define ABSURD   4096 /* number of cells per row that wrong units may ask for */
+#define BLIND    0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
 
 /* ---- the extent ---- */
 
@@ -157,7 +153,7 @@ static void Cells(SamAdvice *a)
   const PetscBool whole  = !SamAdviceIsStrip(a, ends) && extent->whole;
   const int       fewest = Fewest(a);
   const PetscBool few    = !whole && extent->across < fewest;
-  const PetscBool sharp  = fabs(extent->change) > (a->worn ? SAM_ADVICE_WORN_PEAK : PEAK) && !extent->finer;
+  const PetscBool sharp  = fabs(extent->change) > (a->worn ? SAM_ADVICE_WORN_PEAK : SAM_DOUBT_LARGE) && !extent->finer;
   const double    change = fabs((double)extent->change), more = (fewest + SAME) / (double)a->across;
   const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
   char            zones[SAM_ADVICE_TEXT] = "";
@@ -172,9 +168,9 @@ static void Cells(SamAdvice *a)
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 0, "pressure_max",
                  "pressure_max grows without limit on finer cells, as at a sharp edge");
   else
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, a->worn ? WORN_PART * change : change, (double)extent->finer,
-                 "pressure_max", "pressure_max is about %.0f %% %s on cells half as wide", 100 * change,
-                 extent->change > 0 ? "higher" : "lower");
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, change * (a->worn ? SAM_DOUBT_LARGE / SAM_ADVICE_WORN_PEAK : 1),
+                 (double)extent->finer, "pressure_max", "pressure_max is about %.0f %% %s on cells half as wide",
+                 100 * change, extent->change > 0 ? "higher" : "lower");
 }
 
 /* Advises on heights in another unit, or tilted. If no surface has such heights, the grid is not questioned. */

@@ -61,26 +61,30 @@ static void Note(SamDoubts *d, const SamDoubt *more, const char names[])
   }
 }
 
+/* Notes an error with its reason; at most 1 counts. */
+static void NoteWith(SamDoubts *d, SamDoubt more, const char names[], const char why[], va_list values)
+{
+  more.error = PetscMin(more.error, 1);
+  (void)vsnprintf(more.why, sizeof(more.why), why, values);
+  Note(d, &more, names);
+}
+
 void SamDoubtsAdd(SamDoubts *d, SamCause cause, double error, double factor, const char names[], const char why[], ...)
 {
-  SamDoubt more = {.cause = cause, .error = PetscMin(error, 1), .factor = factor};
-  va_list  values;
+  va_list values;
 
   va_start(values, why);
-  (void)vsnprintf(more.why, sizeof(more.why), why, values);
+  if (error > 0) NoteWith(d, (SamDoubt){.cause = cause, .error = error, .factor = factor}, names, why, values);
   va_end(values);
-  if (error > 0) Note(d, &more, names);
 }
 
 void SamDoubtsSet(SamDoubts *d, SamCause cause, double error, double factor, const char names[], const char why[], ...)
 {
-  SamDoubt more = {.cause = cause, .error = PetscMin(error, 1), .factor = factor, .known = PETSC_TRUE};
-  va_list  values;
+  va_list values;
 
   va_start(values, why);
-  (void)vsnprintf(more.why, sizeof(more.why), why, values);
+  NoteWith(d, (SamDoubt){.cause = cause, .error = error, .factor = factor, .known = PETSC_TRUE}, names, why, values);
   va_end(values);
-  Note(d, &more, names);
 }
 
 void SamDoubtsJoin(SamDoubts *d, const SamDoubts *more, SamCause cause)

@@ -36,7 +36,6 @@
 #define FALLS   -1.4
 #define NARROW  0.25      /* cells: the width below which a ring's width is unknown */
 #define WIDE    6.0       /* cells across the ring on an advised grid */
-#define ALLOWED 0.05      /* error of the energy, and of the area of stick, above which a warning is given */
 #define UNKNOWN 0.25      /* the same above which the energy is unknown */
 #define SIDE    0.25      /* least part of the edge that slips; fewer cells are stray */
 #define PASSES  (1.0 / 3) /* motion of the edge in a step, relative to the ring's width, up to which it is short */
@@ -156,7 +155,7 @@ static void Steps(SamAdvice *a)
   const double   moves = MovesOf(ring);
 
   if (moves <= PASSES) return;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ALLOWED * moves / PASSES, moves / PASSES, "dissipated_energy",
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, SAM_DOUBT_LARGE * moves / PASSES, moves / PASSES, "dissipated_energy",
                "dissimilar bodies slip in a ring at the edge, which passes by %.2g of its width in a step", moves);
 }
 
@@ -164,7 +163,7 @@ static void Stick(SamAdvice *a)
 {
   const SamRing *ring = &a->slip.ring;
 
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ring->worst, ring->worst / (ALLOWED / 2), "stick_area",
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, ring->worst, ring->worst / (SAM_DOUBT_LARGE / 2), "stick_area",
                "N of dissimilar bodies grows in %" PetscInt_FMT " step%s", ring->steps, ring->steps > 1 ? "s" : "");
 }
 

@@ -51,7 +51,6 @@
 #include <math.h>
 
 #define WRONG    0.3   /* error of a branch relative to 1/(w^2 sqrt(m)) */
-#define ALLOWED  0.05  /* error of the energy, relative to it */
 #define GOOD     0.02  /* the same on an advised grid */
 #define ROUGH    0.25  /* the same above which the energy is unknown */
 #define NARROW   0.25  /* cells: the width below which the width of a zone is unknown */
@@ -315,7 +314,8 @@ static void Merging(SamAdvice *a)
   const SamSlip    *slip  = &a->slip;
   const double      error = MERGING / (double)slip->steps;
 
-  if (!(slip->together && slip->unsure && slip->tilt > TILTED && SamGapHasFile(a->setup->gap) && error > ALLOWED))
+  if (!(slip->together && slip->unsure && slip->tilt > TILTED && SamGapHasFile(a->setup->gap) &&
+        error > SAM_DOUBT_LARGE))
     return;
   SamDoubtsAdd(&a->guesses, SAM_CAUSE_STEPS, 1, error / GOOD, "dissipated_energy", "%s", why);
   SamDoubtsAdd(&a->guesses, SAM_CAUSE_STEPS, PetscMin(error, ROUGH), error / GOOD, "shear_max slip_max stick_area",
@@ -491,8 +491,8 @@ void SamAdviceStick(SamAdvice *a, PetscReal least)
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 0, "stick_area",
                  "the stick zone is %.1g of the contact's width, for which no usual grid does", part);
   else
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, ALLOWED * least / PetscMax(across, ALLOWED), least / PetscMax(across, 1),
-                 "stick_area",
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SAM_DOUBT_LARGE * least / PetscMax(across, SAM_DOUBT_LARGE),
+                 least / PetscMax(across, 1), "stick_area",
                  across < 0.95 ? "the stick zone is less than a cell across" : "the stick zone is %.2g cells across",
                  across);
 }

@@ -23,13 +23,12 @@
 /*
   Plastic strain, its work and the dent are too small by up to COARSE/m^2, with m the cells across the contact. This was
   measured on spheres under three loads, with the default layers, against 80 cells: the largest errors were 15 % at 6
-  cells, 11 % at 8, 5 % at 10, 2 % at 14 and 1.6 % at 16. Errors above SHORT cause a warning.
+  cells, 11 % at 8, 5 % at 10, 2 % at 14 and 1.6 % at 16. Errors above SAM_DOUBT_LARGE cause a warning.
 */
 #define COARSE 7.0
 /* Error of plastic strain in one layer, and the largest that is named; see Begun() */
 #define BEGUN      1.4
 #define MOST_BEGUN 0.3
-#define SHORT      0.05
 /* Part by which the plastic strain extrapolated to the surface may exceed that of all layers */
 #define SHALLOW 0.05
 /* The same from which on the slip and its energy are wrong, too, and by which part of it (random rows: 0.15 to 0.45) */
@@ -63,8 +62,8 @@ static void Coarse(SamAdvice *a)
   /* The number of cells includes those in which the contact ends, so it is up to one too large. */
   if (!a->extent.whole && a->extent.zones)
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, COARSE / (across * across),
-                 SAM_ADVICE_MARGIN * sqrt(COARSE / SHORT) / PetscMax(across - 1, 1), STRAIN, SAM_ADVICE_ACROSS, "",
-                 across, across == 1 ? "" : "s");
+                 SAM_ADVICE_MARGIN * sqrt(COARSE / SAM_DOUBT_LARGE) / PetscMax(across - 1, 1), STRAIN,
+                 SAM_ADVICE_ACROSS, "", across, across == 1 ? "" : "s");
 }
 
 /*
@@ -110,10 +109,10 @@ static void Shallow(SamAdvice *a, SamLaw law, double most)
     return;
   }
   line = error > DEEP ? Concentrates(a, law, most) : PETSC_FALSE;
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, line ? 0 : FALLS * error / SHORT, "plastic_max", "%s%s", why,
-               line ? ", and no grid bounds plastic_max since the body hardly hardens: give its hardening" : "");
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, line ? 0 : FALLS * error / SAM_DOUBT_LARGE, "plastic_max", "%s%s",
+               why, line ? ", and no grid bounds plastic_max since the body hardly hardens: give its hardening" : "");
   if (a->slip.energy > 0 && error > DEEP)
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIPS * error, line ? 0 : FALLS * SLIPS * error / SHORT,
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, SLIPS * error, line ? 0 : FALLS * SLIPS * error / SAM_DOUBT_LARGE,
                  "plastic_work dissipated_energy stick_area slip_max", "%s", why);
 }
 
@@ -130,7 +129,7 @@ static void Begun(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "yielded_layers", &layers);
   if (a->error || !(layers > 0)) return;
   error = PetscMin(BEGUN / (double)(layers * layers), MOST_BEGUN);
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_LAYERS, error, sqrt(error / SHORT), STRAIN,
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_LAYERS, error, sqrt(error / SAM_DOUBT_LARGE), STRAIN,
                "plastic strain has just begun, in %.0f layers", (double)layers);
 }
 
@@ -174,7 +173,7 @@ static void Sudden(SamAdvice *a, double strain)
             {error / 2, "contact_area plastic_max residual_z_max"}};
 
   for (size_t k = 0; k < sizeof(of) / sizeof(of[0]); k++) /* NaN: none of these steps has a contact */
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, of[k].error, FALLS * of[k].error / SHORT, of[k].names,
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, of[k].error, FALLS * of[k].error / SAM_DOUBT_LARGE, of[k].names,
                  "%.0f %% of the plastic work is done in one step", 100 * part);
 }
 
@@ -217,7 +216,7 @@ void SamAdviceYielding(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
   if (a->error) return;
   if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_LAYERS, SHORT * (double)thick / SAM_PLASTIC_THICK,
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_LAYERS, SAM_DOUBT_LARGE * (double)thick / SAM_PLASTIC_THICK,
                  (double)thick / SAM_PLASTIC_THICK, STRAIN " residual_energy",
                  "where the contact yields first, layers are %.2g of its half width thick", (double)thick);
   else if (outside > BEYOND)

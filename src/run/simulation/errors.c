@@ -19,12 +19,11 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define LEAST 4 /* fewest cells per row whose half still makes a grid */
-#define ENOUGH \
-  16 /* cells per row on which errors by the steps are found, on a quarter of the cells if they are as many */
-#define APART 0.1  /* and, for errors by the cells, difference to half the cells */
-#define LARGE 0.12 /* error above which a warning is given: the median is two to three times the true one */
-#define AIM   0.04 /* error that the proposed cells or steps have */
+#define LEAST  4    /* fewest cells per row whose half still makes a grid */
+#define ENOUGH 16   /* fewest cells per row of a quarter on which errors by the steps are found */
+#define LARGE  0.12 /* error above which a warning is given: the median is two to three times the true one; */
+#define APART  0.1  /* for errors by the cells the difference to half the cells must be above this, too */
+#define AIM    0.04 /* error that the proposed cells or steps have */
 
 /* A number of the state with its errors */
 typedef struct {
@@ -147,6 +146,7 @@ PetscErrorCode SamErrorsCreate(SamSimulation s)
   const PetscInt increments = SamHistoryGetIncrements(s->history), other = s->step_rtol > 0 ? increments
                                                                            : increments > 1 ? (increments + 1) / 2
                                                                                             : 2;
+  const PetscInt quarter = (s->setup.grid->fewest + 3) / 4;
   SamErrors      e;
   SamState       state;
 
@@ -156,13 +156,9 @@ PetscErrorCode SamErrorsCreate(SamSimulation s)
   PetscCall(PetscNew(&e));
   s->errors = e;
   PetscCall(SamCompanionCreate(s, 1, increments, &e->companion[SAM_RUN_HALF]));
-  if ((s->setup.grid->fewest + 3) / 4 >= LEAST)
-    PetscCall(SamCompanionCreate(s, 2, increments, &e->companion[SAM_RUN_QUARTER]));
+  if (quarter >= LEAST) PetscCall(SamCompanionCreate(s, 2, increments, &e->companion[SAM_RUN_QUARTER]));
   if (DependsOnSteps(s)) {
-    /* Of bodies that yield, numbers as the residual energy are often unknown on a quarter of the cells. */
-    e->same = (s->setup.grid->fewest + 3) / 4 >= ENOUGH && !SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC)
-                ? SAM_RUN_QUARTER
-                : SAM_RUN_HALF;
+    e->same = quarter >= ENOUGH ? SAM_RUN_QUARTER : SAM_RUN_HALF;
     PetscCall(SamCompanionCreate(s, e->same == SAM_RUN_HALF ? 1 : 2, other, &e->companion[SAM_RUN_OTHER]));
     e->companion[SAM_RUN_OTHER].run->step_rtol *= 2;
   }

@@ -84,7 +84,7 @@ PetscErrorCode SamSimulationAdviseStep(SamSimulation s, const SamStep *step, Sam
   s->tried   = now;
   s->advised = PETSC_TRUE;
   PetscCall(SamAdviceEnd(&now, NULL));
-  if (!s->untold) PetscCall(SamAdviceTell(&now));
+  PetscCall(SamAdviceTell(&now));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

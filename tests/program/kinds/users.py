@@ -23,7 +23,7 @@ import conftest
 from kinds import Outcome
 from kinds.contacts import random_problem
 from kinds.pads import RIGHT, WRONG, compare
-from support import history, words
+from support import history, numbers_of, words
 
 OPTIONS = dict(trials=100, finer=4, timeout=100.0)
 FINE_LAYERS = 64
@@ -155,11 +155,11 @@ def named(warnings):
     for line in warnings:
         names = [names for pattern, names in NAMED if re.search(pattern, line)]
         if re.search(ERRORS, line):
-            listed = re.split(r" \(|: ", re.sub(ERRORS, "", line))[0]
-            if re.search(r" and \d+ more", listed):
+            if re.search(r" and \d+ more", line):
                 return None
-            names = [name.split()[0].replace("residual_z_max", "residual_z") for name in listed.split(", ")]
-            numbers.update(names)
+            numbers.update(
+                name.replace("residual_z_max", "residual_z") for name in numbers_of(re.sub(ERRORS, "", line))
+            )
         elif not names:
             return None
         else:
