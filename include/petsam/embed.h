@@ -117,6 +117,9 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   A step takes the new normal load first, and then the tangential ones. With roll and roll_y the contact rolls by these
   distances towards +x and +y (m): the grid moves over the bodies, and a creepage times the distance is the motion of
   body 1. With -rolling steady each try is a steady state of rolling.
+
+  With the option -errors companion the step is solved on other cells and in two halves, too, and each of its numbers
+  NAME has an estimated error, the number NAME_error in the same unit: NaN if unknown, as of a state from petsam_load().
 */
 int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                double rigid[6]);

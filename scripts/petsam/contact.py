@@ -177,6 +177,11 @@ class Step:
         displacements, too.
     names : list of str
         Names of loads and displacements, (12,).
+
+    Attributes
+    ----------
+    errors : dict
+        {name: estimated error}, each in the unit of its number, of a contact with errors=True; NaN: unknown.
     """
 
     if TYPE_CHECKING:  # numbers are attributes by their names
@@ -197,6 +202,8 @@ class Step:
         self.numbers, self._names = dict(zip(names, map(float, [*load, *rigid]))), names
         self.numbers.update(numbers)
         self.__dict__.update(self.numbers)
+        pairs = ((name.removesuffix("_error"), value) for name, value in numbers.items() if name.endswith("_error"))
+        self.errors = {name: value for name, value in pairs if name in self.numbers}
 
     def __repr__(self):
         sizes = [
@@ -428,7 +435,8 @@ class Contact:
         Spreads the contact over its ranks, which then call all functions together; None: this process alone.
     **options
         Options of the program petsam (examples/manual/OPTIONS.md) without the dash: grid_n=256, grid_size=(2e-3, 1e-3),
-        friction=0.1, gap_type="sphere", wear_coefficient1=1e-14, ... Loads are given to try_step().
+        friction=0.1, gap_type="sphere", wear_coefficient1=1e-14, ... Loads are given to try_step(). With errors=True
+        (the option's word "companion") each step has step.errors.
 
     Attributes
     ----------

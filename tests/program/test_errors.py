@@ -129,11 +129,6 @@ def test_each_step_has_its_errors(petsam, tmp_path, loop):
         assert np.allclose(found[2:], expected[2:], rtol=1e-6, atol=0)  # the first row's energy is next to nothing
 
 
-def test_a_contact_in_process_refuses_the_option():
-    with pytest.raises(package.ContactError, match="-errors: a contact in process has no companion runs"):
-        package.Contact(**{**SPHERE, "load_n": None, "output_fields": None}, errors="companion")
-
-
 def test_a_run_without_contact_has_no_errors(petsam, tmp_path):
     petsam(dict(SPHERE, load_n=0), "-errors", "companion", "-output", "own.h5")
     assert not package.open("own.h5").errors

@@ -36,6 +36,8 @@ PETSC_INTERN PetscErrorCode SamSetupCreateContact(SamSetup *setup, const SamOpti
 */
 PETSC_INTERN PetscErrorCode SamSetupCreateCoarse(const SamSetup *setup, PetscInt halvings, const SamOptions *from,
                                                  SamSetup *coarse);
+/* SamSetupAverage - gets the means of a field of a setup over the cells of a coarse one made of it. Collective. */
+PETSC_INTERN PetscErrorCode SamSetupAverage(const SamSetup *setup, Vec field, const SamSetup *coarse, Vec means);
 /*
   SamSetupAddParameters - appends the parameters that define the contact, under the names of its options, and the
   checksums of fields. Collective.

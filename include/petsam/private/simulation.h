@@ -104,31 +104,46 @@ PETSC_EXTERN PetscErrorCode SamSimulationRun(SamSimulation simulation);
     SetProgram             takes over a history, which runs once (`cycles` 0), or is one cycle of a wear simulation;
                            SamSimulationRun() then continues from the committed state; may be called again
     SetGap                 replaces the separation of the bodies that the options gave
+    SetFriction            replaces the coefficient of friction by one for each cell
+    Reset                  the bodies have never touched
+    TakeOver               takes over the committed state of another simulation on the same grid, with that of its
+                           companion runs
+    ForgetErrors           the state of the contact is a new one, of which companion runs know nothing, for this reason
   SamSimulationStop - ends the run after this step; to be called by a monitor. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationSetProgram(SamSimulation simulation, SamHistory *history, PetscReal cycles);
 PETSC_INTERN PetscErrorCode SamSimulationSetGap(SamSimulation simulation, Vec gap);
+PETSC_INTERN PetscErrorCode SamSimulationSetFriction(SamSimulation simulation, Vec friction);
+PETSC_INTERN PetscErrorCode SamSimulationReset(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationTakeOver(SamSimulation simulation, SamSimulation from);
+PETSC_INTERN PetscErrorCode SamSimulationForgetErrors(SamSimulation simulation, const char why[]);
 PETSC_INTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
 
 /*
   SamSimulationTryStep - tries a step. Conditions with other than their usual values become numbers of each step; if the
   contact reaches the edge of the grid, the message proposes a larger grid. After an error there is no tried step.
   Errors: those of SamContactTry().
-  SamSimulationCommitStep - commits the tried step; SamContactReject() discards it. `warning`: the warning of a law
-  about the step; NULL: not wanted. Collective. Errors: PETSC_ERR_ORDER without a tried solution,
-  PETSC_ERR_NOT_CONVERGED.
-  SamSimulationAdviseStep - gives `receive` the advice on the tried step, as after a history of the committed steps and
-  this one. Collective.
+  SamSimulationCommitStep - commits the tried step; SamContactReject() discards it. Errors: PETSC_ERR_ORDER without a
+  tried solution, PETSC_ERR_NOT_CONVERGED. SamSimulationNeedTried - raises these errors only. Collective.
+
+  The same for steps that are given one by one, with advice and errors of the numbers (single.c):
+  SamSimulationTrySingle - tries a step, also by companion runs.
+  SamSimulationCommitSingle - commits it; `warning`: the warning of a law about the step.
+  SamSimulationAdviseSingle - gives `receive` the advice on the tried step, as after a history of the committed steps
+  and this one. Collective.
   SamSimulationForgetAdvice - forgets the earlier steps in the advice, since the next ones continue from another state.
   Not collective.
 */
-PETSC_INTERN PetscErrorCode SamSimulationAdviseStep(SamSimulation simulation, const SamStep *step,
-                                                    SamAdviceFunction receive, void *context);
-PETSC_INTERN void           SamSimulationForgetAdvice(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationTryStep(SamSimulation simulation, const SamControl *control, SamStep *step);
-PETSC_INTERN PetscErrorCode SamSimulationCommitStep(SamSimulation simulation, const SamStep *step, char warning[],
-                                                    size_t size);
+PETSC_INTERN PetscErrorCode SamSimulationCommitStep(SamSimulation simulation, const SamStep *step);
+PETSC_INTERN PetscErrorCode SamSimulationNeedTried(SamSimulation simulation, const SamStep *step);
+PETSC_INTERN PetscErrorCode SamSimulationTrySingle(SamSimulation simulation, const SamControl *control, SamStep *step);
+PETSC_INTERN PetscErrorCode SamSimulationCommitSingle(SamSimulation simulation, const SamStep *step, char warning[],
+                                                      size_t size);
+PETSC_INTERN PetscErrorCode SamSimulationAdviseSingle(SamSimulation simulation, const SamStep *step,
+                                                      SamAdviceFunction receive, void *context);
+PETSC_INTERN void           SamSimulationForgetAdvice(SamSimulation simulation);
 
 /* Steps in which cells of dissimilar bodies make contact, which takes memory: none, the first only, or a later one. */
 typedef enum { SAM_TOUCHES_NEVER, SAM_TOUCHES_FIRST, SAM_TOUCHES_LATER } SamTouches;

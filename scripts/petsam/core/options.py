@@ -6,6 +6,8 @@ import numpy as np
 
 from .errors import Error, short
 
+SWITCHES = {"errors": ("closed", "companion")}  # words that False and True stand for
+
 
 class OptionError(Error, TypeError, ValueError):
     """An option whose name or value cannot be written on a command line."""
@@ -58,7 +60,7 @@ def _word(name, value):
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
+        return SWITCHES.get(name, ("false", "true"))[bool(value)]
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (str, os.PathLike)):

@@ -230,7 +230,7 @@ static PetscErrorCode Advise(petsam_contact *c, int *count)
   PetscFunctionBegin;
   PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "petsam_advise: call it after the monitor returns");
   if (!c->advised && tried && SamStepIsSolved(&c->last))
-    PetscCall(SamSimulationAdviseStep(c->simulation, &c->last, Warn, c));
+    PetscCall(SamSimulationAdviseSingle(c->simulation, &c->last, Warn, c));
   c->advised = PETSC_TRUE;
   *count     = c->warnings;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -373,7 +373,7 @@ static PetscErrorCode SetField(petsam_contact *c, const char name[], const doubl
   PetscCall(SamGridIsFinite(c->setup->grid, c->work, &finite));
   PetscCheck(finite, c->comm, SAM_ERR_USER, "%s: not all values are finite numbers", name);
   PetscCall(SamEmbedForget(c));
-  PetscCall(gap ? SetGap(c, c->work) : SamProblemSetFrictionField(c->setup->problem, c->work));
+  PetscCall(gap ? SetGap(c, c->work) : SamSimulationSetFriction(c->simulation, c->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -411,7 +411,7 @@ static PetscErrorCode Try(petsam_contact *c, double time, int count, const char 
   }
   PetscCheck(given[SAM_COMPONENT_N], c->comm, SAM_ERR_USER, "load_n or disp_z is missing");
   PetscCall(SamEmbedForget(c));
-  PetscCall(SamSimulationTryStep(c->simulation, &control, &c->last));
+  PetscCall(SamSimulationTrySingle(c->simulation, &control, &c->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -492,7 +492,7 @@ static PetscErrorCode Commit(petsam_contact *c)
 {
   PetscFunctionBegin;
   PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "the step is committed after the monitor returns");
-  PetscCall(SamSimulationCommitStep(c->simulation, &c->last, c->message, sizeof(c->message)));
+  PetscCall(SamSimulationCommitSingle(c->simulation, &c->last, c->message, sizeof(c->message)));
   PetscCall(SamEmbedRecord(c, &c->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,6 +1,5 @@
 /* Load histories in another program: petsam_history(), petsam_live(); copies of contacts, and their reset. */
 #include "embedimpl.h"
-#include <petsam/private/stepcache.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/contact.h>
 
@@ -162,19 +161,12 @@ static PetscErrorCode CheckCopy(petsam_contact *c, petsam_contact *from)
 
 static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
 {
-  SamState  state;
-  PetscBool current;
-
   PetscFunctionBegin;
   PetscCheck(SamEmbedExists(from), c->comm, SAM_ERR_USER,
              "petsam_copy: the contact to copy has been destroyed, or is none");
   PetscCall(SamEmbedForget(c));
   PetscCall(CheckCopy(c, from));
-  PetscCall(SamContactGetState(from->setup->contact, &state));
-  PetscCall(SamContactIsGapCurrent(from->setup->contact, &current));
-  PetscCall(SamContactSetState(c->setup->contact, state, current));
-  PetscCall(SamStepCacheCopy(SamContactGetCache(from->setup->contact), SamContactGetCache(c->setup->contact)));
-  SamSimulationForgetAdvice(c->simulation);
+  PetscCall(SamSimulationTakeOver(c->simulation, from->simulation));
   PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -188,8 +180,7 @@ static PetscErrorCode Reset(petsam_contact *c)
 {
   PetscFunctionBegin;
   PetscCall(SamEmbedForget(c));
-  PetscCall(SamContactReset(c->setup->contact));
-  SamSimulationForgetAdvice(c->simulation);
+  PetscCall(SamSimulationReset(c->simulation));
   PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

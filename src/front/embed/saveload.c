@@ -63,7 +63,7 @@ static PetscErrorCode Load(petsam_contact *c, const char file[])
   PetscCall(SamEmbedForget(c));
   PetscCall(CollectParameters(c, &parameters));
   PetscCall(SamCheckpointRead(file, c->setup->contact, PETSC_FALSE, &parameters, 0, NULL));
-  SamSimulationForgetAdvice(c->simulation);
+  PetscCall(SamSimulationForgetErrors(c->simulation, "the state is that of a file"));
   PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

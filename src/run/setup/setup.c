@@ -85,6 +85,13 @@ static PetscErrorCode Average(SamGrid from, Vec fine, SamGrid to, Vec coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamSetupAverage(const SamSetup *s, Vec fine, const SamSetup *coarse, Vec means)
+{
+  PetscFunctionBegin;
+  PetscCall(Average(s->grid, fine, coarse->grid, means));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Halves the cells of a grid so many times, at least once. */
 static PetscErrorCode Halve(SamGrid grid, PetscInt times, SamGrid *coarse)
 {

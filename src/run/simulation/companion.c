@@ -4,7 +4,7 @@
 #include <petsam/private/problem.h>
 #include <petsam/private/state.h>
 
-PetscErrorCode SamCompanionCreate(SamSimulation s, PetscInt halvings, PetscInt increments, SamCompanion *c)
+PetscErrorCode SamCompanionCreate(SamSimulation s, PetscInt halvings, SamCompanion *c)
 {
   const SamOptions from = {s->comm, NULL};
   SamSimulation    run;
@@ -14,16 +14,31 @@ PetscErrorCode SamCompanionCreate(SamSimulation s, PetscInt halvings, PetscInt i
   *c        = (SamCompanion){.run = run};
   run->comm = s->comm;
   PetscCall(SamSetupCreateCoarse(&s->setup, halvings, &from, &run->setup));
-  run->conditions = SamProblemGetConditions(run->setup.problem);
+  run->conditions      = SamProblemGetConditions(run->setup.problem);
+  run->needs           = s->needs;
+  run->needs.companion = PETSC_FALSE;
+  run->running         = PETSC_TRUE;
+  PetscCall(SamContactGetState(run->setup.contact, &c->state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCompanionPrepare(SamCompanion *c, SamSimulation s, PetscInt increments)
+{
+  const SamSimulation run = c->run;
+
+  PetscFunctionBegin;
+  PetscCall(SamCompanionReject(c));
+  PetscCall(SamLifeDestroy(&c->life));
+  PetscCall(SamHistoryDestroy(&run->history));
   PetscCall(SamHistoryDivide(s->history, increments, &run->history));
   run->plan            = s->plan; /* its arrays stay those of the simulation */
   run->needs           = s->needs;
   run->needs.steps     = SamHistoryGetCount(run->history);
   run->needs.companion = PETSC_FALSE;
   run->step_rtol       = s->step_rtol;
-  run->running         = PETSC_TRUE;
+  c->steps             = 0;
+  PetscCall(PetscArrayzero(c->sums, SAM_STATE_NUMBERS));
   PetscCall(SamSimulationDeclarePieces(run));
-  PetscCall(SamContactGetState(run->setup.contact, &c->state));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -32,6 +47,7 @@ PetscErrorCode SamCompanionDestroy(SamCompanion *c)
   PetscFunctionBegin;
   if (!c->run) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLifeDestroy(&c->life));
+  PetscCall(SamStateDestroy(&c->kept));
   PetscCall(SamHistoryDestroy(&c->run->history));
   PetscCall(SamSetupDestroy(&c->run->setup));
   PetscCall(PetscFree(c->run));
@@ -59,7 +75,7 @@ static PetscErrorCode Solve(SamCompanion *c)
   }
   PetscCall(SamContactGetState(contact, &c->state)); /* makes all parts declare their numbers again */
   SamStateJoinNumbers(c->state, c->sums, PETSC_FALSE);
-  PetscCall(SamSimulationCommitStep(c->run, &step, NULL, 0));
+  PetscCall(SamSimulationCommitStep(c->run, &step));
   c->steps++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -80,7 +96,8 @@ PetscErrorCode SamCompanionFollow(SamCompanion *c, SamSimulation s, PetscInt k, 
     PetscCall(PetscPopErrorHandler());
     if (code) (void)snprintf(c->fault, sizeof(c->fault), "%s", message); /* as loads that its cells cannot follow */
   }
-  *there = c->fault[0] ? PETSC_FALSE : PETSC_TRUE;
+  if (c->fault[0]) c->lost = PETSC_TRUE;
+  *there = c->lost ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -126,5 +143,118 @@ PetscErrorCode SamCompanionLive(SamCompanion *c, PetscReal cycles)
     (void)snprintf(c->fault, sizeof(c->fault), "%s", message);
   else if (step.status != SAM_STATUS_CONVERGED)
     End(c, &step);
+  if (c->fault[0]) c->lost = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- steps given one by one ---- */
+
+PetscErrorCode SamCompanionLose(SamCompanion *c, const char why[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamCompanionReject(c));
+  (void)snprintf(c->fault, sizeof(c->fault), "%s", why);
+  c->lost = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCompanionReject(SamCompanion *c)
+{
+  PetscFunctionBegin;
+  PetscCall(SamContactReject(c->run->setup.contact));
+  if (c->moved) PetscCall(SamContactSetState(c->run->setup.contact, c->kept, c->current));
+  c->moved = PETSC_FALSE;
+  if (!c->lost) c->fault[0] = '\0';
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Keeps the committed state before a step that is divided. */
+static PetscErrorCode Keep(SamCompanion *c)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStateDestroy(&c->kept)); /* numbers may have been declared since */
+  PetscCall(SamStateCreateLike(c->state, &c->kept));
+  PetscCall(SamStateCopy(c->state, c->kept));
+  PetscCall(SamContactIsGapCurrent(c->run->setup.contact, &c->current));
+  c->moved = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Replaces the history by one row that leads from the committed step to this one. */
+static PetscErrorCode Lead(SamCompanion *c, PetscInt parts, const SamControl *control)
+{
+  const SamSimulation run                                          = c->run;
+  char                names[(SAM_COMPONENTS + 1) * SAM_ERROR_NAME] = "time";
+  double              values[SAM_COMPONENTS + 1]                   = {(double)control->time};
+  SamControl          before;
+  const SamSolution  *committed;
+  SamHistory          whole;
+  PetscInt            count = 1;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    const char *name = SamComponentNameOf(k, SamControlWay(control, k));
+
+    (void)snprintf(names + strlen(names), sizeof(names) - strlen(names), ",%s", name);
+    values[count++] = (double)control->value[k];
+  }
+  PetscCall(SamContactGetSolution(run->setup.contact, &committed));
+  before      = committed->control;
+  before.time = control->time - 1;
+  PetscCall(SamHistoryDestroy(&run->history));
+  PetscCall(SamHistoryCreate(run->comm, run->conditions, control,
+                             SamContactHasStep(run->setup.contact, SAM_COMMITTED) ? &before : NULL, names, 1, values, 1,
+                             &whole));
+  PetscCall(SamHistoryDivide(whole, parts, &run->history));
+  PetscCall(SamHistoryDestroy(&whole));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Tries the step in so many parts, all but the last of which are committed. */
+static PetscErrorCode TryParts(SamCompanion *c, PetscInt parts, const SamControl *control)
+{
+  PetscInt count;
+
+  PetscFunctionBegin;
+  PetscCall(Lead(c, parts, control));
+  count = SamHistoryGetCount(c->run->history);
+  if (count > 1) PetscCall(Keep(c));
+  for (PetscInt k = 0; k < count && !c->fault[0]; k++) {
+    const SamControl now = SamHistoryGetStep(c->run->history, k);
+    SamStep          step;
+
+    PetscCall(SamSimulationTryStep(c->run, &now, &step));
+    if (step.status != SAM_STATUS_CONVERGED) End(c, &step);
+    PetscCall(SamContactGetState(c->run->setup.contact, &c->state));
+    SamStateJoinNumbers(c->state, c->sums, PETSC_FALSE);
+    if (k < count - 1 && !c->fault[0]) PetscCall(SamSimulationCommitStep(c->run, &step));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCompanionTry(SamCompanion *c, PetscInt parts, const SamControl *control)
+{
+  char           message[SAM_MESSAGE] = "";
+  PetscErrorCode code;
+
+  PetscFunctionBegin;
+  PetscCall(SamCompanionReject(c));
+  PetscCall(PetscArrayzero(c->sums, SAM_STATE_NUMBERS));
+  if (c->lost) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
+  code = TryParts(c, parts, control);
+  PetscCall(PetscPopErrorHandler());
+  if (code) (void)snprintf(c->fault, sizeof(c->fault), "%s", message);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCompanionCommit(SamCompanion *c)
+{
+  PetscFunctionBegin;
+  c->moved = PETSC_FALSE;
+  if (c->fault[0])
+    c->lost = PETSC_TRUE;
+  else
+    PetscCall(SamContactCommit(c->run->setup.contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

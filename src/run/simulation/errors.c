@@ -9,48 +9,15 @@
 
   Between two moments that a companion with other steps shares with the run, the error by the steps is that of the
   earlier one, relative to the number. Numbers that are next to nothing for the contact, as the slip of a contact that
-  sticks, have an error relative to a least value (Least()).
+  sticks, have an error relative to a least value (SamErrorsLeast()).
 */
-#include "companion.h"
-#include <petsam/private/control.h>
-#include <petsam/private/errors.h>
+#include "errorsimpl.h"
 #include <petsam/private/gap.h>
 #include <petsam/private/problem.h>
-#include <petsam/private/state.h>
 #include <math.h>
 
-#define LEAST  4    /* fewest cells per row whose half still makes a grid */
-#define ENOUGH 16   /* fewest cells per row of a quarter on which errors by the steps are found */
-#define LARGE  0.12 /* error above which a warning is given: the median is two to three times the true one; */
-#define APART  0.1  /* for errors by the cells the difference to half the cells must be above this, too */
-#define AIM    0.04 /* error that the proposed cells or steps have */
-
-/* A number of the state with its errors */
-typedef struct {
-  const SamStateNumber *of;
-  PetscInt              id, error;      /* places in the state of the number and of its error; -1: that is not stored */
-  PetscInt              at[SAM_RUNS];   /* its places in the companions' states; -1: none */
-  double                mark[SAM_RUNS]; /* sums of the runs at the last common moment */
-  double                base[SAM_RUNS]; /* the same before the first step of this run */
-  double                apart; /* sum with the same steps minus that with other steps, of the steps of this run */
-  double                steps; /* error by the steps at the last common moment, relative; NaN: unknown */
-} Number;
-
-/* Largest values of all steps, which tell what is next to nothing */
-typedef struct {
-  double load, approach, area, pressure;
-} Largest;
-
-struct _n_SamErrors {
-  SamCompanion  companion[SAM_RUNS];
-  SamRunKind    same; /* the companion on the same cells as that with other steps */
-  PetscInt      count;
-  Number        number[SAM_ERROR_ROWS];
-  double        sums[SAM_STATE_NUMBERS]; /* numbers of the steps of this run, joined */
-  Largest       largest;                 /* on half the cells */
-  PetscBool     began;                   /* the first step has been recorded */
-  SamErrorTable table;
-};
+#define LEAST  4  /* fewest cells per row whose half still makes a grid */
+#define ENOUGH 16 /* fewest cells per row of a quarter on which errors by the steps are found */
 
 PetscErrorCode SamErrorsReadOptions(SamSimulation s, const SamOptions *from)
 {
@@ -82,7 +49,7 @@ static PetscBool DependsOnSteps(SamSimulation s)
 }
 
 /* Declares the error of a number, unless the state has a number of that name. */
-static PetscErrorCode DeclareError(SamState state, Number *n)
+static PetscErrorCode DeclareError(SamState state, SamErrorNumber *n)
 {
   char           name[SAM_ERROR_NAME], text[96];
   SamStateNumber error = {.name = name, .text = text, .kind = SAM_NUMBER_REAL, .count = 1, .result = PETSC_TRUE};
@@ -96,25 +63,34 @@ static PetscErrorCode DeclareError(SamState state, Number *n)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode DeclareNumbers(SamErrors e, SamState state)
+PetscErrorCode SamErrorsFind(SamErrors e, SamState state)
 {
   const PetscInt all = SamStateCountNumbers(state);
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < all && e->count < SAM_ERROR_ROWS; k++) {
-    Number *n = &e->number[e->count];
-
-    n->of = SamStateNumberOf(state, k, &n->id);
-    if (n->of->order && n->of->result) e->count++;
-  }
-  /* The list of the state may move when it grows. */
-  for (PetscInt k = 0; k < e->count; k++) PetscCall(DeclareError(state, &e->number[k]));
   for (PetscInt k = 0, m = 0; k < all && m < e->count; k++) {
     PetscInt              id;
     const SamStateNumber *of = SamStateNumberOf(state, k, &id);
 
     if (id == e->number[m].id) e->number[m++].of = of;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DeclareNumbers(SamErrors e, SamState state)
+{
+  const PetscInt all = SamStateCountNumbers(state);
+
+  PetscFunctionBegin;
+  e->count = 0;
+  for (PetscInt k = 0; k < all && e->count < SAM_ERROR_ROWS; k++) {
+    SamErrorNumber *n = &e->number[e->count];
+
+    n->of = SamStateNumberOf(state, k, &n->id);
+    if (n->of->order && n->of->result) e->count++;
+  }
+  for (PetscInt k = 0; k < e->count; k++) PetscCall(DeclareError(state, &e->number[k]));
+  PetscCall(SamErrorsFind(e, state));
   for (PetscInt k = 0; k < e->count; k++)
     for (int c = 0; c < SAM_RUNS; c++)
       e->number[k].at[c] = e->companion[c].run ? SamStateFindNumber(e->companion[c].state, e->number[k].of->name) : -1;
@@ -143,28 +119,47 @@ static void Describe(SamErrors e, PetscInt increments)
 
 PetscErrorCode SamErrorsCreate(SamSimulation s)
 {
-  const PetscInt increments = SamHistoryGetIncrements(s->history), other = s->step_rtol > 0 ? increments
-                                                                           : increments > 1 ? (increments + 1) / 2
-                                                                                            : 2;
   const PetscInt quarter = (s->setup.grid->fewest + 3) / 4;
   SamErrors      e;
   SamState       state;
 
   PetscFunctionBegin;
-  if (!s->needs.companion) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamErrorsDestroy(&s->errors));
+  if (!s->needs.companion || s->errors) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscNew(&e));
   s->errors = e;
-  PetscCall(SamCompanionCreate(s, 1, increments, &e->companion[SAM_RUN_HALF]));
-  if (quarter >= LEAST) PetscCall(SamCompanionCreate(s, 2, increments, &e->companion[SAM_RUN_QUARTER]));
+  PetscCall(SamCompanionCreate(s, 1, &e->companion[SAM_RUN_HALF]));
+  if (quarter >= LEAST) PetscCall(SamCompanionCreate(s, 2, &e->companion[SAM_RUN_QUARTER]));
   if (DependsOnSteps(s)) {
     e->same = quarter >= ENOUGH ? SAM_RUN_QUARTER : SAM_RUN_HALF;
-    PetscCall(SamCompanionCreate(s, e->same == SAM_RUN_HALF ? 1 : 2, other, &e->companion[SAM_RUN_OTHER]));
-    e->companion[SAM_RUN_OTHER].run->step_rtol *= 2;
+    PetscCall(SamCompanionCreate(s, e->same == SAM_RUN_HALF ? 1 : 2, &e->companion[SAM_RUN_OTHER]));
   }
-  Describe(e, other);
   PetscCall(SamContactGetState(s->setup.contact, &state));
   PetscCall(DeclareNumbers(e, state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsPrepare(SamSimulation s)
+{
+  const SamErrors e          = s->errors;
+  const PetscInt  increments = SamHistoryGetIncrements(s->history);
+  const PetscInt  other      = s->step_rtol > 0 ? increments : increments > 1 ? (increments + 1) / 2 : 2;
+
+  PetscFunctionBegin;
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  for (int c = 0; c < SAM_RUNS; c++)
+    if (e->companion[c].run)
+      PetscCall(SamCompanionPrepare(&e->companion[c], s, c == SAM_RUN_OTHER ? other : increments));
+  if (e->companion[SAM_RUN_OTHER].run) e->companion[SAM_RUN_OTHER].run->step_rtol *= 2;
+  for (PetscInt k = 0; k < e->count; k++) {
+    SamErrorNumber *n = &e->number[k];
+
+    n->apart = n->steps = 0;
+    for (int c = 0; c < SAM_RUNS; c++) n->mark[c] = n->base[c] = 0;
+  }
+  PetscCall(PetscArrayzero(e->sums, SAM_STATE_NUMBERS));
+  e->began = PETSC_FALSE;
+  e->table = (SamErrorTable){.count = 0};
+  Describe(e, other);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -182,94 +177,14 @@ PetscErrorCode SamErrorsDestroy(SamErrors *errors)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- values ---- */
-
-/* Gets a number of the last step of the simulation's state, NaN if there is none. */
-static double Get(SamState state, const char name[])
-{
-  const PetscInt id = SamStateFindNumber(state, name);
-
-  return id < 0 ? NAN : *SamStateReadNumbers(state, id);
-}
-
-/* Raises a largest value to that of a step. */
-static void Raise(double *largest, double value)
-{
-  if (fabs(value) > *largest) *largest = fabs(value);
-}
-
-static void RaiseAll(Largest *l, SamState state)
-{
-  Raise(&l->load, Get(state, "load_n"));
-  Raise(&l->approach, Get(state, "disp_z"));
-  Raise(&l->area, Get(state, "contact_area"));
-  Raise(&l->pressure, Get(state, "pressure_max"));
-}
-
-/* Returns the component whose displacement, rotation or creepage has this name; -1: none. */
-static PetscInt RigidOf(const char name[])
-{
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-    for (SamWay way = SAM_BY_RIGID; way < SAM_WAYS; way++)
-      if (SamComponentNameOf(c, way) && !strcmp(SamComponentNameOf(c, way), name)) return c;
-  return -1;
-}
-
-/*
-  Returns the value below which a number is next to nothing for this contact. A displacement or rotation whose load is
-  0 in all steps is compared with the approach, since it may be 0 by symmetry.
-*/
-static double Least(SamSimulation s, const SamStateNumber *number)
-{
-  const Largest *const l      = &s->errors->largest;
-  const double         length = sqrt(l->area);
-  const char *const    unit   = number->unit;
-  const PetscInt       rigid  = RigidOf(number->name);
-
-  if (rigid >= 0 && (!strcmp(unit, "m") || !strcmp(unit, "rad")))
-    return (s->start.loads[rigid] ? 1e-3 : 1) * l->approach / (strcmp(unit, "rad") ? 1 : PetscMax(length, 1e-300));
-  if (!strcmp(unit, "J")) return 1e-6 * l->load * l->approach;
-  if (!strcmp(unit, "J/m")) return 1e-6 * l->load; /* per rolled distance */
-  if (!strcmp(unit, "m2")) return 1e-3 * l->area;
-  if (!strcmp(unit, "Pa")) return 1e-4 * l->pressure;
-  if (!strcmp(unit, "m")) return 1e-5 * l->approach;
-  if (!strcmp(unit, "N")) return 1e-3 * l->load;
-  if (!strcmp(unit, "N m")) return 1e-3 * l->load * length;
-  if (!strcmp(unit, "1/m")) return length > 0 ? 1e-6 / length : 0;
-  return !strcmp(unit, "1") ? 1e-6 : 0;
-}
-
-/* True if the step prescribes this number. */
-static PetscBool IsPrescribed(const SamControl *control, const char name[])
-{
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-    if (!strcmp(SamComponentNameOf(c, SamControlWay(control, c)), name)) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
-/* Returns a number of a companion: of its last step, or its sum over all steps; NaN: it has none. */
-static double ValueOf(SamErrors e, int k, const Number *n, PetscBool sum)
-{
-  const SamCompanion *c  = &e->companion[k];
-  const PetscInt      id = n->at[k];
-
-  if (id < 0 || c->fault[0]) return NAN;
-  return sum ? c->sums[id] : *SamStateReadNumbers(c->state, id);
-}
-
-static void GetRuns(SamErrors e, const Number *n, PetscBool sum, double run[SAM_RUNS])
-{
-  for (int k = 0; k < SAM_RUNS; k++) run[k] = ValueOf(e, k, n, sum);
-}
-
 /* Updates the error of a number by the steps at a moment that OTHER shares with the run. */
-static void CompareSteps(SamSimulation s, Number *n)
+static void CompareSteps(SamSimulation s, SamErrorNumber *n)
 {
   SamErrors       e   = s->errors;
   const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
   double          run[SAM_RUNS];
 
-  GetRuns(e, n, sum, run);
+  SamErrorsGetRuns(e, n, sum, run);
   for (int k = 0; k < SAM_RUNS && sum; k++) {
     const double now = run[k];
 
@@ -277,7 +192,7 @@ static void CompareSteps(SamSimulation s, Number *n)
     n->mark[k] = now;
   }
   n->apart += run[e->same] - run[SAM_RUN_OTHER];
-  n->steps = SamErrorBySteps(run, e->same) / PetscMax(fabs(run[e->same]), Least(s, n->of));
+  n->steps = SamErrorsRelativeBySteps(s, n, run);
 }
 
 /* ---- steps ---- */
@@ -291,7 +206,7 @@ static PetscErrorCode Follow(SamSimulation s, PetscInt k)
   PetscFunctionBegin;
   for (int c = 0; c < SAM_RUNS; c++)
     if (e->companion[c].run) PetscCall(SamCompanionFollow(&e->companion[c], s, k, &there[c]));
-  RaiseAll(&e->largest, e->companion[SAM_RUN_HALF].state);
+  SamErrorsRaise(&e->largest, e->companion[SAM_RUN_HALF].state);
   for (PetscInt n = 0; n < e->count && there[SAM_RUN_OTHER]; n++) CompareSteps(s, &e->number[n]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -305,8 +220,30 @@ static PetscErrorCode CatchUp(SamSimulation s, PetscInt k)
   for (PetscInt n = 0; n < e->count; n++) e->number[n].steps = e->companion[SAM_RUN_OTHER].run ? NAN : 0;
   for (PetscInt j = 0; j < k; j++) PetscCall(Follow(s, j));
   for (PetscInt n = 0; n < e->count; n++) {
-    GetRuns(e, &e->number[n], PETSC_TRUE, e->number[n].base);
+    SamErrorsGetRuns(e, &e->number[n], PETSC_TRUE, e->number[n].base);
     e->number[n].apart = 0;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsSet(SamSimulation s, const SamControl *control)
+{
+  const SamErrors e = s->errors;
+  SamState        state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state)); /* makes all parts declare their numbers again */
+  PetscCall(SamErrorsFind(e, state));
+  SamStateJoinNumbers(state, e->sums, PETSC_FALSE);
+  for (PetscInt i = 0; i < e->count; i++) {
+    SamErrorNumber *n   = &e->number[i];
+    const double    own = *SamStateReadNumbers(state, n->id), least = SamErrorsLeast(s, n->of);
+    double          run[SAM_RUNS];
+
+    if (n->error < 0) continue;
+    SamErrorsGetRuns(e, n, PETSC_FALSE, run);
+    *SamStateNumbers(state, n->error, SAM_TRIED) =
+      SamErrorsPrescribes(control, n->of->name) ? 0 : SamErrorByCells(own, run) + n->steps * PetscMax(fabs(own), least);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -315,113 +252,24 @@ PetscErrorCode SamErrorsRecord(SamSimulation s, PetscInt k, const SamStep *step)
 {
   const SamErrors e     = s->errors;
   const double    began = MPI_Wtime();
-  SamState        state;
 
   PetscFunctionBegin;
   if (!e || !SamStepIsSolved(step)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!e->began) PetscCall(CatchUp(s, k));
   e->began = PETSC_TRUE;
   PetscCall(Follow(s, k));
-  PetscCall(SamContactGetState(s->setup.contact, &state)); /* makes all parts declare their numbers again */
-  SamStateJoinNumbers(state, e->sums, PETSC_FALSE);
-  for (PetscInt i = 0; i < e->count; i++) {
-    Number      *n   = &e->number[i];
-    const double own = *SamStateReadNumbers(state, n->id), least = Least(s, n->of);
-    double       run[SAM_RUNS];
-
-    if (n->error < 0) continue;
-    GetRuns(e, n, PETSC_FALSE, run);
-    *SamStateNumbers(state, n->error, SAM_TRIED) =
-      IsPrescribed(&step->control, n->of->name) ? 0 : SamErrorByCells(own, run) + n->steps * PetscMax(fabs(own), least);
-  }
+  PetscCall(SamErrorsSet(s, &step->control));
   e->table.seconds += MPI_Wtime() - began;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the end ---- */
 
-/* Returns the factor of narrower cells, or more steps, that makes the error of a row by this cause as small as
-   wanted. */
-static double FactorOf(const SamErrorRow *row, SamCause cause)
-{
-  const double ratio = row->of[cause] / AIM;
-
-  if (!(ratio > 1)) return 1;
-  return cause == SAM_CAUSE_CELLS && row->order == 2 ? sqrt(ratio) : ratio;
-}
-
-/* Returns the largest absolute value of a number in this run and its companions. */
-static double Magnitude(double value, const double run[SAM_RUNS])
-{
-  double most = fabs(value);
-
-  for (int k = 0; k < SAM_RUNS; k++) Raise(&most, run[k]);
-  return most;
-}
-
-/* Adds a row; `least`: value below which the number is next to nothing, unless a closed form says that it is wrong. */
-static void Add(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
-                const double run[SAM_RUNS])
-{
-  const SamErrors  e     = s->errors;
-  const SamDoubts *d     = &s->advice.doubts;
-  const double     scale = PetscMax(fabs(value), least);
-  PetscBool        known[SAM_CAUSES];
-  double           closed[SAM_CAUSES], most = 0;
-  SamErrorTable   *t   = &e->table;
-  SamErrorRow     *row = &t->row[t->count];
-
-  for (SamCause c = 0; c < SAM_CAUSES; c++) {
-    closed[c] = SamDoubtsOf(d, number->name, c, &known[c]);
-    most      = PetscMax(most, closed[c]);
-  }
-  for (PetscInt k = 0; k < t->count; k++)
-    if (!strcmp(t->row[k].name, number->name)) return; /* the number of a cycle precedes that of its last step */
-  if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least || (least > 0 && most > 0))) return;
-  *row                     = (SamErrorRow){.unit = unit, .value = value, .scale = scale};
-  row->of[SAM_CAUSE_CELLS] = SamErrorByCells(value, run) / scale;
-  row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run, e->same) / scale : 0;
-  for (int c = 0; c < SAM_CAUSES; c++) row->of[c] = known[c] ? closed[c] : PetscMax(row->of[c], closed[c]);
-  (void)snprintf(row->name, sizeof(row->name), "%s", number->name);
-  for (SamCause c = 0; c < SAM_CAUSES; c++) {
-    row->error += row->of[c];
-    if (row->of[c] > row->of[row->cause]) row->cause = c;
-  }
-  row->order = number->order;
-  for (int k = 0; k < SAM_RUNS; k++) row->run[k] = run[k];
-  row->factor = FactorOf(row, row->cause);
-  t->count++;
-}
-
-/* Adds the numbers of the last step, and the sums over all steps. */
-static PetscErrorCode AddNumbers(SamSimulation s, const SamControl *control)
-{
-  SamErrors e = s->errors;
-  SamState  state;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetState(s->setup.contact, &state));
-  RaiseAll(&e->largest, state);
-  for (PetscInt i = 0; i < e->count; i++) {
-    const Number   *n   = &e->number[i];
-    const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
-    const double    own = sum ? e->sums[n->id] : *SamStateReadNumbers(state, n->id), least = Least(s, n->of);
-    double          run[SAM_RUNS];
-
-    if ((sum && s->life) || IsPrescribed(control, n->of->name)) continue;
-    GetRuns(e, n, sum, run);
-    for (int c = 0; c < SAM_RUNS && sum; c++) run[c] -= n->base[c];
-    if (sum && e->companion[SAM_RUN_OTHER].run) run[SAM_RUN_OTHER] = run[e->same] - n->apart;
-    Add(s, n->of, SamUnitOn(s->setup.grid, n->of->unit), own, least, run);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Returns a number of the last computed cycle of a companion's life, NaN without one. */
 static double CycleOf(const SamCompanion *c, const char name[])
 {
   if (!c->run || !c->life || c->fault[0]) return NAN;
-  return Get(SamLifeGetSeries(c->life), name);
+  return SamErrorsGet(SamLifeGetSeries(c->life), name);
 }
 
 /* Runs the companions' lives, and adds the numbers of the last cycle. */
@@ -441,61 +289,9 @@ static PetscErrorCode AddCycle(SamSimulation s)
 
     if (!n->order) continue;
     for (int c = 0; c < SAM_RUNS; c++) run[c] = CycleOf(&e->companion[c], n->name);
-    Add(s, n, SamUnitOn(s->setup.grid, n->unit), *SamStateReadNumbers(series, id), 0, run);
+    SamErrorsAddRow(s, n, SamUnitOn(s->setup.grid, n->unit), *SamStateReadNumbers(series, id), 0, run);
   }
   e->table.seconds += MPI_Wtime() - began;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- warnings ---- */
-
-/*
-  True if a warning is due. The error by the cells must also be large by the difference to half the cells, since on a
-  quarter of them contacts are often not resolved at all.
-*/
-static PetscBool IsLarge(const SamErrorRow *row, SamCause cause)
-{
-  if (!(row->of[cause] > LARGE)) return PETSC_FALSE;
-  return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > APART * row->scale;
-}
-
-/* True if companion runs to the end tell the errors by a cause. */
-static PetscBool Knows(SamErrors e, SamCause cause)
-{
-  const SamCompanion *half = &e->companion[SAM_RUN_HALF], *other = &e->companion[SAM_RUN_OTHER];
-
-  if (half->fault[0] || cause == SAM_CAUSE_LAYERS) return PETSC_FALSE;
-  return cause == SAM_CAUSE_CELLS || (other->run && !other->fault[0]) ? PETSC_TRUE : PETSC_FALSE;
-}
-
-/* Adds the large errors to those in closed form, which are told together. */
-static void AddDoubts(SamSimulation s)
-{
-  const SamErrorTable *t = &s->errors->table;
-
-  for (PetscInt k = 0; k < t->count; k++)
-    for (SamCause cause = 0; cause < SAM_CAUSES; cause++)
-      if (IsLarge(&t->row[k], cause))
-        SamDoubtsAdd(&s->advice.doubts, cause, t->row[k].of[cause], FactorOf(&t->row[k], cause), t->row[k].name, "%s",
-                     "");
-}
-
-/* Tells which companions ended early, and why. */
-static PetscErrorCode WarnOfFaults(SamSimulation s)
-{
-  static const char *const what[SAM_RUNS] = {"half the cells", "", "fewer cells with other steps"};
-  char                     text[SAM_MESSAGE + 64];
-
-  PetscFunctionBegin;
-  for (int c = 0; c < SAM_RUNS; c++) {
-    const SamCompanion *one = &s->errors->companion[c];
-
-    if (!one->run || !one->fault[0] || c == SAM_RUN_QUARTER) continue; /* of that half the cells tell enough */
-    (void)snprintf(text, sizeof(text), "errors by the %s are unknown: on %s %s",
-                   SamCauseNames[c == SAM_RUN_OTHER ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS], what[c], one->fault);
-    PetscCall(SamSimulationWarn(s, text, ""));
-    if (c == SAM_RUN_HALF) break; /* nothing is known without it */
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -503,12 +299,11 @@ PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last)
 {
   PetscFunctionBegin;
   if (!s->errors) PetscFunctionReturn(PETSC_SUCCESS);
+  s->errors->closed = &s->advice.doubts;
   if (s->life) PetscCall(AddCycle(s));
-  PetscCall(AddNumbers(s, last));
+  PetscCall(SamErrorsAddNumbers(s, last));
   if (s->output && s->errors->table.count) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_ERRORS, .errors = &s->errors->table}));
-  PetscCall(WarnOfFaults(s));
-  for (SamCause cause = 0; cause < SAM_CAUSES; cause++) s->advice.knows[cause] = Knows(s->errors, cause);
-  AddDoubts(s);
+  PetscCall(SamErrorsAddDoubts(s->errors, &s->advice));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -93,7 +93,7 @@ static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
       PetscCall(TellMessage(s, "before the first cycle", &step));
       s->point.worst = step.status;
     } else {
-      PetscCall(SamSimulationCommitStep(s, &step, NULL, 0));
+      PetscCall(SamSimulationCommitStep(s, &step));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

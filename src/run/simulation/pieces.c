@@ -129,7 +129,7 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
     }
     if (done + piece == 1 || step->status != SAM_STATUS_CONVERGED) break;
     SamStateJoinNumbers(state, before, PETSC_FALSE);
-    PetscCall(SamSimulationCommitStep(s, step, NULL, 0));
+    PetscCall(SamSimulationCommitStep(s, step));
     s->last_time = control.time; /* its fields are the last ones if the next piece has no solution */
     done += piece;
     if (longer && piece < MOST && fmod(done, 2 * piece) == 0) piece *= 2;

@@ -5,6 +5,8 @@
 #include <petsam/private/file.h>
 #include <petsam/private/runfiles.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/state.h>
+#include <petsam/private/stepcache.h>
 #include <petsam/private/stiffness.h>
 
 /* ---- creation ---- */
@@ -93,6 +95,7 @@ static PetscErrorCode Offer(SamSimulation s)
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
   PetscCall(SamSimulationDeclarePieces(s));
   PetscCall(SamErrorsCreate(s));
+  PetscCall(SamErrorsPrepare(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -142,7 +145,8 @@ PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCall(SamSetupCreateContact(&s->setup, from));
-  if (s->history && !SamPrintHelp()) PetscCall(Prepare(s, from));
+  if (SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(s->history ? Prepare(s, from) : SamErrorsCreate(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -301,7 +305,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
     SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP, .step = k, .result = &step, .waits = waits}));
   if (k == last && SamProblemMoves(s->setup.problem)) SamAdviceRenew(&s->advice);
   PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
-  if (!*ended) PetscCall(SamSimulationCommitStep(s, &step, NULL, 0));
+  if (!*ended) PetscCall(SamSimulationCommitStep(s, &step));
   if (*ended || !s->point.worst) s->point.worst = step.status;
   s->point.steps++;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -340,6 +344,8 @@ static PetscErrorCode RunAll(SamSimulation s)
   if (s->point.worst == SAM_STATUS_CONVERGED && !s->stopped) {
     last = SamHistoryGetStep(s->history, s->needs.steps - 1);
     PetscCall(SamErrorsEnd(s, &last));
+  } else {
+    PetscCall(SamErrorsLose(s, "an earlier history ended before its last step"));
   }
   if (!s->untold) PetscCall(SamAdviceTell(&s->advice));
   PetscCall(Finish(s));
@@ -433,6 +439,47 @@ PetscErrorCode SamSimulationSetGap(SamSimulation s, Vec gap)
   PetscFunctionBegin;
   s->has_gap = PETSC_TRUE;
   PetscCall(SamProblemSetGap(s->setup.problem, gap));
+  PetscCall(SamErrorsSetField(s, SamProblemSetGap, gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationSetFriction(SamSimulation s, Vec friction)
+{
+  PetscFunctionBegin;
+  PetscCall(SamProblemSetFrictionField(s->setup.problem, friction));
+  PetscCall(SamErrorsSetField(s, SamProblemSetFrictionField, friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationReset(SamSimulation s)
+{
+  PetscFunctionBegin;
+  PetscCall(SamContactReset(s->setup.contact));
+  PetscCall(SamErrorsReset(s));
+  SamSimulationForgetAdvice(s);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationTakeOver(SamSimulation s, SamSimulation from)
+{
+  SamState  state;
+  PetscBool current;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(from->setup.contact, &state));
+  PetscCall(SamContactIsGapCurrent(from->setup.contact, &current));
+  PetscCall(SamContactSetState(s->setup.contact, state, current));
+  PetscCall(SamStepCacheCopy(SamContactGetCache(from->setup.contact), SamContactGetCache(s->setup.contact)));
+  PetscCall(SamErrorsCopy(s, from));
+  SamSimulationForgetAdvice(s);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationForgetErrors(SamSimulation s, const char why[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamErrorsLose(s, why));
+  SamSimulationForgetAdvice(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -177,20 +177,12 @@ PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *fr
 
 PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation s, const SamOptions *from)
 {
-  static const char *const runs[] = {"errors", "grid_check"};
-  PetscBool                given;
-
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(runs) / sizeof(runs[0]); k++) {
-    PetscCall(SamOptionsHas(from, runs[k], &given));
-    PetscCheck(!given, from->comm, SAM_ERR_USER,
-               "-%s%s: a contact in process has no companion runs: use the program petsam, or petsam.run() in Python",
-               SamOptionsPrefix(from), runs[k]);
-  }
   PetscCall(ReadContact(s, from));
   PetscCall(SamSimulationReadPieces(s, from));
   PetscCall(ReadPlan(s, PETSC_TRUE, from));
   PetscCall(ReadFiles(s, from));
+  PetscCall(SamErrorsReadOptions(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

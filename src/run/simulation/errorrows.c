@@ -1,0 +1,236 @@
+/*
+  The rows of the table of errors: what a number is in the companion runs, what it is compared with, how much of its
+  error is due to cells, steps or layers, and which errors are told.
+*/
+#include "errorsimpl.h"
+#include <petsam/private/control.h>
+#include <petsam/private/grid.h>
+#include <math.h>
+
+#define LARGE 0.12 /* error above which a warning is given: the median is two to three times the true one; */
+#define APART 0.1  /* for errors by the cells the difference to half the cells must be above this, too */
+#define AIM   0.04 /* error that the proposed cells or steps have */
+
+/* ---- values ---- */
+
+/* Gets a number of the last step of the simulation's state, NaN if there is none. */
+double SamErrorsGet(SamState state, const char name[])
+{
+  const PetscInt id = SamStateFindNumber(state, name);
+
+  return id < 0 ? NAN : *SamStateReadNumbers(state, id);
+}
+
+/* Raises a largest value to that of a step. */
+static void Raise(double *largest, double value)
+{
+  if (fabs(value) > *largest) *largest = fabs(value);
+}
+
+void SamErrorsRaise(SamErrorLargest *l, SamState state)
+{
+  Raise(&l->load, SamErrorsGet(state, "load_n"));
+  Raise(&l->approach, SamErrorsGet(state, "disp_z"));
+  Raise(&l->area, SamErrorsGet(state, "contact_area"));
+  Raise(&l->pressure, SamErrorsGet(state, "pressure_max"));
+}
+
+/* Returns the component whose displacement, rotation or creepage has this name; -1: none. */
+static PetscInt RigidOf(const char name[])
+{
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    for (SamWay way = SAM_BY_RIGID; way < SAM_WAYS; way++)
+      if (SamComponentNameOf(c, way) && !strcmp(SamComponentNameOf(c, way), name)) return c;
+  return -1;
+}
+
+/*
+  Returns the value below which a number is next to nothing for this contact. A displacement or rotation whose load is
+  0 in all steps is compared with the approach, since it may be 0 by symmetry.
+*/
+double SamErrorsLeast(SamSimulation s, const SamStateNumber *number)
+{
+  const SamErrorLargest *const l      = &s->errors->largest;
+  const double                 length = sqrt(l->area);
+  const char *const            unit   = number->unit;
+  const PetscInt               rigid  = RigidOf(number->name);
+
+  if (rigid >= 0 && (!strcmp(unit, "m") || !strcmp(unit, "rad")))
+    return (s->start.loads[rigid] ? 1e-3 : 1) * l->approach / (strcmp(unit, "rad") ? 1 : PetscMax(length, 1e-300));
+  if (!strcmp(unit, "J")) return 1e-6 * l->load * l->approach;
+  if (!strcmp(unit, "J/m")) return 1e-6 * l->load; /* per rolled distance */
+  if (!strcmp(unit, "m2")) return 1e-3 * l->area;
+  if (!strcmp(unit, "Pa")) return 1e-4 * l->pressure;
+  if (!strcmp(unit, "m")) return 1e-5 * l->approach;
+  if (!strcmp(unit, "N")) return 1e-3 * l->load;
+  if (!strcmp(unit, "N m")) return 1e-3 * l->load * length;
+  if (!strcmp(unit, "1/m")) return length > 0 ? 1e-6 / length : 0;
+  return !strcmp(unit, "1") ? 1e-6 : 0;
+}
+
+double SamErrorsRelativeBySteps(SamSimulation s, const SamErrorNumber *n, const double run[SAM_RUNS])
+{
+  const double error = SamErrorBySteps(run, s->errors->same);
+
+  return error == 0 ? 0 : error / PetscMax(fabs(run[s->errors->same]), SamErrorsLeast(s, n->of));
+}
+
+PetscBool SamErrorsPrescribes(const SamControl *control, const char name[])
+{
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    if (!strcmp(SamComponentNameOf(c, SamControlWay(control, c)), name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Returns a number of a companion: of its last step, or its sum over all steps; NaN: it has none. */
+static double ValueOf(SamErrors e, int k, const SamErrorNumber *n, PetscBool sum)
+{
+  const SamCompanion *c  = &e->companion[k];
+  const PetscInt      id = n->at[k];
+
+  if (id < 0 || c->fault[0]) return NAN;
+  return sum ? c->sums[id] : *SamStateReadNumbers(c->state, id);
+}
+
+void SamErrorsGetRuns(SamErrors e, const SamErrorNumber *n, PetscBool sum, double run[SAM_RUNS])
+{
+  for (int k = 0; k < SAM_RUNS; k++) run[k] = ValueOf(e, k, n, sum);
+}
+
+/* ---- the end ---- */
+
+/* Returns the factor of narrower cells, or more steps, that makes the error of a row by this cause as small as
+   wanted. */
+static double FactorOf(const SamErrorRow *row, SamCause cause)
+{
+  const double ratio = row->of[cause] / AIM;
+
+  if (!(ratio > 1)) return 1;
+  return cause == SAM_CAUSE_CELLS && row->order == 2 ? sqrt(ratio) : ratio;
+}
+
+/* Returns the largest absolute value of a number in this run and its companions. */
+static double Magnitude(double value, const double run[SAM_RUNS])
+{
+  double most = fabs(value);
+
+  for (int k = 0; k < SAM_RUNS; k++) Raise(&most, run[k]);
+  return most;
+}
+
+void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
+                     const double run[SAM_RUNS])
+{
+  const SamErrors  e     = s->errors;
+  const SamDoubts *d     = e->closed;
+  const double     scale = PetscMax(fabs(value), least);
+  PetscBool        known[SAM_CAUSES];
+  double           closed[SAM_CAUSES], most = 0;
+  SamErrorTable   *t   = &e->table;
+  SamErrorRow     *row = &t->row[t->count];
+
+  for (SamCause c = 0; c < SAM_CAUSES; c++) {
+    closed[c] = SamDoubtsOf(d, number->name, c, &known[c]);
+    most      = PetscMax(most, closed[c]);
+  }
+  for (PetscInt k = 0; k < t->count; k++)
+    if (!strcmp(t->row[k].name, number->name)) return; /* the number of a cycle precedes that of its last step */
+  if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least || (least > 0 && most > 0))) return;
+  *row                     = (SamErrorRow){.unit = unit, .value = value, .scale = scale};
+  row->of[SAM_CAUSE_CELLS] = SamErrorByCells(value, run) / scale;
+  row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run, e->same) / scale : 0;
+  for (int c = 0; c < SAM_CAUSES; c++) row->of[c] = known[c] ? closed[c] : PetscMax(row->of[c], closed[c]);
+  (void)snprintf(row->name, sizeof(row->name), "%s", number->name);
+  for (SamCause c = 0; c < SAM_CAUSES; c++) {
+    row->error += row->of[c];
+    if (row->of[c] > row->of[row->cause]) row->cause = c;
+  }
+  row->order = number->order;
+  for (int k = 0; k < SAM_RUNS; k++) row->run[k] = run[k];
+  row->factor = FactorOf(row, row->cause);
+  t->count++;
+}
+
+PetscErrorCode SamErrorsAddNumbers(SamSimulation s, const SamControl *control)
+{
+  SamErrors e = s->errors;
+  SamState  state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  SamErrorsRaise(&e->largest, state);
+  for (PetscInt i = 0; i < e->count; i++) {
+    const SamErrorNumber *n   = &e->number[i];
+    const PetscBool       sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
+    const double own = sum ? e->sums[n->id] : *SamStateReadNumbers(state, n->id), least = SamErrorsLeast(s, n->of);
+    double       run[SAM_RUNS];
+
+    if ((sum && s->life) || SamErrorsPrescribes(control, n->of->name)) continue;
+    SamErrorsGetRuns(e, n, sum, run);
+    for (int c = 0; c < SAM_RUNS && sum; c++) run[c] -= n->base[c];
+    if (sum && e->companion[SAM_RUN_OTHER].run) run[SAM_RUN_OTHER] = run[e->same] - n->apart;
+    SamErrorsAddRow(s, n->of, SamUnitOn(s->setup.grid, n->of->unit), own, least, run);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- warnings ---- */
+
+/*
+  True if a warning is due. The error by the cells must also be large by the difference to half the cells, since on a
+  quarter of them contacts are often not resolved at all.
+*/
+static PetscBool IsLarge(const SamErrorRow *row, SamCause cause)
+{
+  if (!(row->of[cause] > LARGE)) return PETSC_FALSE;
+  return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > APART * row->scale;
+}
+
+/* True if companion runs to the end tell the errors by a cause. */
+static PetscBool Knows(SamErrors e, SamCause cause)
+{
+  const SamCompanion *half = &e->companion[SAM_RUN_HALF], *other = &e->companion[SAM_RUN_OTHER];
+
+  if (half->fault[0] || cause == SAM_CAUSE_LAYERS) return PETSC_FALSE;
+  return cause == SAM_CAUSE_CELLS || (other->run && !other->fault[0]) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Tells which companions ended early, and why. */
+static PetscErrorCode WarnOfFaults(SamErrors e, const SamAdvice *advice)
+{
+  static const char *const what[SAM_RUNS] = {"half the cells", "", "fewer cells with other steps"};
+  char                     text[SAM_MESSAGE + 64];
+
+  PetscFunctionBegin;
+  if (e->unknown[0]) {
+    (void)snprintf(text, sizeof(text), "errors are unknown: %s", e->unknown);
+    PetscCall((*advice->receive)(advice->context, text, ""));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (int c = 0; c < SAM_RUNS; c++) {
+    const SamCompanion *one = &e->companion[c];
+
+    if (!one->run || !one->fault[0] || c == SAM_RUN_QUARTER) continue; /* of that half the cells tell enough */
+    (void)snprintf(text, sizeof(text), "errors by the %s are unknown: on %s %s",
+                   SamCauseNames[c == SAM_RUN_OTHER ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS], what[c], one->fault);
+    PetscCall((*advice->receive)(advice->context, text, ""));
+    if (c == SAM_RUN_HALF) break; /* nothing is known without it */
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsAddDoubts(SamErrors e, SamAdvice *advice)
+{
+  const SamErrorTable *t = &e->table;
+
+  PetscFunctionBegin;
+  PetscCall(WarnOfFaults(e, advice));
+  for (SamCause cause = 0; cause < SAM_CAUSES; cause++) {
+    advice->knows[cause] = Knows(e, cause);
+    for (PetscInt k = 0; k < t->count; k++)
+      if (IsLarge(&t->row[k], cause))
+        SamDoubtsAdd(&advice->doubts, cause, t->row[k].of[cause], FactorOf(&t->row[k], cause), t->row[k].name, "%s",
+                     "");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,151 @@
+/*
+  The errors of the numbers of steps that are given one by one, by companion runs: -errors companion in process.
+
+  Each try is tried by the companions, too; that with other steps takes it in two halves. They are committed or rejected
+  with it. Their committed states are those of the same steps, so that all numbers of a step can be compared; what is
+  not known of a state that comes from elsewhere, as from a file, stays unknown until the contact is reset.
+*/
+#include "errorsimpl.h"
+#include <petsam/private/control.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/setup.h>
+
+/* Compares the companions of a step on the same cells: the error by the steps of each number, relative to it. */
+static void CompareSteps(SamSimulation s)
+{
+  const SamErrors e = s->errors;
+
+  for (PetscInt k = 0; k < e->count && e->companion[SAM_RUN_OTHER].run; k++) {
+    SamErrorNumber *n   = &e->number[k];
+    const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
+    double          run[SAM_RUNS];
+
+    SamErrorsGetRuns(e, n, sum, run);
+    n->apart = run[e->same] - run[SAM_RUN_OTHER];
+    n->steps = SamErrorsRelativeBySteps(s, n, run);
+  }
+}
+
+PetscErrorCode SamErrorsTry(SamSimulation s, const SamStep *step)
+{
+  const SamErrors e     = s->errors;
+  const double    began = MPI_Wtime();
+  SamState        state;
+
+  PetscFunctionBegin;
+  if (!e || !SamStepIsSolved(step)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    if (!step->control.force[c] || step->control.value[c] != 0) s->start.loads[c] = PETSC_TRUE;
+  for (int c = 0; c < SAM_RUNS; c++)
+    if (e->companion[c].run) PetscCall(SamCompanionTry(&e->companion[c], c == SAM_RUN_OTHER ? 2 : 1, &step->control));
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  PetscCall(SamErrorsFind(e, state));
+  SamErrorsRaise(&e->largest, state);
+  CompareSteps(s);
+  PetscCall(PetscArrayzero(e->sums, SAM_STATE_NUMBERS));
+  PetscCall(SamErrorsSet(s, &step->control));
+  e->table.seconds += MPI_Wtime() - began;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsCommit(SamSimulation s)
+{
+  const SamErrors e = s->errors;
+
+  PetscFunctionBegin;
+  for (int c = 0; c < SAM_RUNS && e; c++)
+    if (e->companion[c].run) PetscCall(SamCompanionCommit(&e->companion[c]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsAdvise(SamSimulation s, const SamStep *step, SamAdvice *advice)
+{
+  const SamErrors e = s->errors;
+
+  PetscFunctionBegin;
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  e->table.count = 0;
+  e->closed      = &advice->doubts;
+  PetscCall(SamErrorsAddNumbers(s, &step->control));
+  PetscCall(SamErrorsAddDoubts(e, advice));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsLose(SamSimulation s, const char why[])
+{
+  const SamErrors e = s->errors;
+
+  PetscFunctionBegin;
+  if (e) (void)snprintf(e->unknown, sizeof(e->unknown), "%s", why);
+  for (int c = 0; c < SAM_RUNS && e; c++)
+    if (e->companion[c].run) PetscCall(SamCompanionLose(&e->companion[c], why));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsReset(SamSimulation s)
+{
+  const SamErrors e = s->errors;
+
+  PetscFunctionBegin;
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  e->largest    = (SamErrorLargest){.load = 0};
+  e->unknown[0] = '\0';
+  for (int c = 0; c < SAM_RUNS; c++) {
+    SamCompanion *one = &e->companion[c];
+
+    if (!one->run) continue;
+    one->lost = PETSC_FALSE;
+    PetscCall(SamCompanionReject(one));
+    PetscCall(SamContactReset(one->run->setup.contact));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsCopy(SamSimulation s, SamSimulation from)
+{
+  const SamErrors e = s->errors, other = from->errors;
+
+  PetscFunctionBegin;
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!other) {
+    PetscCall(SamErrorsLose(s, "the state is that of a contact without -errors companion"));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  e->largest = other->largest;
+  PetscCall(PetscStrncpy(e->unknown, other->unknown, sizeof(e->unknown)));
+  for (int c = 0; c < SAM_RUNS; c++) {
+    SamCompanion *one = &e->companion[c], *its = &other->companion[c];
+    SamState      state;
+    PetscBool     current;
+
+    if (!one->run || !its->run) continue;
+    PetscCall(SamCompanionReject(one));
+    PetscCall(SamCompanionReject(its));
+    one->lost = its->lost;
+    PetscCall(PetscStrncpy(one->fault, its->fault, sizeof(one->fault)));
+    PetscCall(SamContactGetState(its->run->setup.contact, &state));
+    PetscCall(SamContactIsGapCurrent(its->run->setup.contact, &current));
+    PetscCall(SamContactSetState(one->run->setup.contact, state, current));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsSetField(SamSimulation s, PetscErrorCode (*set)(SamProblem, Vec), Vec field)
+{
+  const SamErrors e = s->errors;
+
+  PetscFunctionBegin;
+  for (int c = 0; c < SAM_RUNS && e; c++) {
+    SamCompanion *one = &e->companion[c];
+    Vec           means;
+
+    if (!one->run) continue;
+    PetscCall(SamCompanionReject(one));
+    PetscCall(SamGridCreateVec(one->run->setup.grid, 1, &means));
+    PetscCall(SamSetupAverage(&s->setup, field, &one->run->setup, means));
+    PetscCall((*set)(one->run->setup.problem, means));
+    PetscCall(VecDestroy(&means));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
