@@ -301,3 +301,19 @@ def test_an_energy_in_closed_form_has_the_error_of_its_value(petsam, tmp_path):
         closed = file["history/dissipated_energy_closed"][:].sum()
     assert np.isclose(row["by_cells"], abs(closed - row["value"]) / closed, rtol=1e-6)
     assert row["by_cells"] < 0.3 * abs(row["value"] - row["half"]) / row["value"]
+
+
+SHARE = re.compile(r"add(?:s)? about (\d+) % of the time")
+
+
+def test_time_that_companions_add_is_told_before(petsam, loop):
+    """By cells and steps; without them at the end, unless errors are not wanted, or the run has failed."""
+    for case, expected in ((loop, 1 / 4 + 1 / 16 + 1 / 32), (dict(loop, steps=1), 1 / 4 + 1 / 16 + 1 / 8)):
+        head = petsam(case, "-errors", "companion", "-dry_run").stdout
+        tail = petsam(case).stdout
+        for printed in (head, tail):
+            assert [int(found) for found in SHARE.findall(printed)] == [round(100 * expected)]
+        assert "errors      by runs on" in head and "errors      of all numbers by -errors companion" in tail
+    assert not SHARE.search(petsam(loop, "-errors", "none").stdout)
+    assert not SHARE.search(petsam(dict(loop, grid_size=1e-3), check=12).stdout)
+    assert not SHARE.search(petsam(dict(loop, grid_n="3,30", allow_edge_contact=True)).stdout)

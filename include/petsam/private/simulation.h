@@ -41,6 +41,7 @@ typedef struct {
   PetscBool   replaced;              /* true: it replaces an older file of that name */
   char        size[128];             /* size of the results, in words */
   const char *companions;            /* the companion runs, in words; NULL: none */
+  double      share;                 /* time that they add, or would, relative to that of the run; 0: there are none */
   double      seconds;               /* rough time of a step, s; 0: not known */
   char        when[PETSC_MAX_PATH_LEN + 256]; /* times at which checkpoints are written, in words; empty: never */
   const char *restart;                        /* checkpoint from which the run continues; NULL: none */

@@ -152,17 +152,19 @@ static PetscBool HasEnergy(SamReport r)
   return r->steps > 1 && r->energy[0] > 0 && r->energy[1] >= 0;
 }
 
+#define NEGLIGIBLE 1e-6 /* error relative to the energy that is not told exactly */
 static PetscErrorCode PrintEnergy(SamReport r)
 {
   const double cells    = r->slip.steps && !r->living ? r->slip.ring.error / (double)r->energy[0] : 0;
+  const double steps    = (double)(r->energy[1] / r->energy[0]);
   char         more[48] = "";
 
   PetscFunctionBegin;
   if (cells > 0) (void)snprintf(more, sizeof(more), ", by the cells about %.2g %%", 100 * cells);
   if (HasEnergy(r))
-    PetscCall(
-      PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, error by the length of the load steps about %.2g %%%s\n",
-                  "energy", (double)r->energy[0], r->energy_unit, 100 * (double)(r->energy[1] / r->energy[0]), more));
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, error by the length of the load steps %s %.2g %%%s\n",
+                          "energy", (double)r->energy[0], r->energy_unit, steps < NEGLIGIBLE ? "below" : "about",
+                          100 * PetscMax(steps, NEGLIGIBLE), more));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -246,6 +248,10 @@ PetscErrorCode SamReportClosing(SamReport r)
   PetscCall(PrintEdges(r));
   PetscCall(PrintEnergy(r));
   PetscCall(PrintSlip(r));
+  if (r->offer > 0)
+    PetscCall(PetscPrintf(r->comm,
+                          "  %-10s  of all numbers by -errors companion, which adds about %.0f %% of the time\n",
+                          "errors", 100 * r->offer));
   PetscCall(PrintFiles(r));
   PetscCall(PrintResources(r));
   PetscFunctionReturn(PETSC_SUCCESS);

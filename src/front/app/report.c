@@ -118,6 +118,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   PetscFunctionBegin;
   r->steps = start->steps;
   SamReportChooseColumns(r, start->loads);
+  if (!start->companions) r->offer = start->share;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
   PetscCall(CountNodes(r->comm, &nodes));
@@ -139,7 +140,8 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
                         start->replaced ? ", replacing those there" : ""));
   if (start->results) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "file size", start->size));
   if (start->companions)
-    PetscCall(PetscPrintf(r->comm, "  %-10s  by runs %s, a third of the time\n", "errors", start->companions));
+    PetscCall(PetscPrintf(r->comm, "  %-10s  by runs %s, which add about %.0f %% of the time\n", "errors",
+                          start->companions, 100 * start->share));
   if (start->seconds > 0)
     PetscCall(PetscPrintf(r->comm, "  %-10s  roughly %.2g s a step, %.2g s in all%s; nothing is solved (-dry_run)\n",
                           "time", start->seconds, start->seconds * (double)start->steps,
@@ -265,6 +267,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
   }
   /* No energy is reported for a run that failed, or that ended at the edge of the grid. */
   if (step->status != SAM_STATUS_CONVERGED) r->energy[1] = -INFINITY;
+  if (step->status != SAM_STATUS_CONVERGED) r->offer = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

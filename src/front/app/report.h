@@ -60,6 +60,7 @@ struct _n_SamReport {
   PetscBool      living;                    /* the run is a life */
   SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
   SamReportWorst edges;     /* smallest reconstructed share of the edges; step 0: reconstruction is disabled */
+  double         offer;     /* time that companion runs would add, relative to that of this run; 0: nothing is said */
   PetscReal      energy[2]; /* energy dissipated so far, and the estimate of its error, J */
   SamProgress    progress;
   SamContact     contact;     /* contact whose monitors are set; borrowed */

@@ -163,6 +163,19 @@ PetscErrorCode SamErrorsPrepare(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+double SamErrorsShare(SamSimulation s)
+{
+  const double   half    = SamGridIsRow(s->setup.grid) ? 0.5 : 0.25;
+  const PetscInt quarter = (s->setup.grid->fewest + 3) / 4, increments = SamHistoryGetIncrements(s->history);
+  const double   steps = s->step_rtol > 0 ? 1 : increments > 1 ? 0.5 : 2;
+  double         share = half;
+
+  if (s->untold || s->setup.grid->fewest < LEAST) return 0;
+  if (quarter >= LEAST) share += half * half;
+  if (DependsOnSteps(s)) share += steps * (quarter >= ENOUGH ? half * half : half);
+  return share;
+}
+
 const char *SamErrorsDescribe(SamErrors e)
 {
   return e ? e->table.runs : NULL;

@@ -192,6 +192,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   start->steps      = s->needs.steps;
   start->cyclic     = s->plan.cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
   start->companions = SamErrorsDescribe(s->errors);
+  start->share      = SamErrorsShare(s);
   for (PetscInt k = 0; k < s->needs.steps; k++) {
     SamControl control;
 
@@ -216,6 +217,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
     PetscCall(SamSimulationForecast(s, start->size, sizeof(start->size)));
   }
   if (!writes) PetscCall(GuessTime(s, &start->seconds));
+  if (s->errors) start->seconds *= 1 + start->share;
   SamSimulationDescribeCheckpoints(s, start->when, sizeof(start->when));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_BEGIN, .start = start}));
   PetscCall(SamAdviceBegin(&s->advice));

@@ -163,6 +163,8 @@ PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, Petsc
     ReadOptions  reads -errors
     Create       creates the companion runs, and declares the numbers NAME_error, if they are requested
     Prepare      lets them take over the history, or the life
+    Share        returns the time that companion runs take, relative to that of the run: by cells and steps; 0: there
+                 can be none, or errors are not wanted
     Describe     returns the companion runs in words, NULL without; borrowed
     Record       after the try of step k of the history: lets the companions follow, and sets the errors of its numbers
     End          after the last step, with these loads: runs the companions of a life, stores and reports the errors of
@@ -174,6 +176,7 @@ PETSC_INTERN PetscErrorCode SamErrorsPrepare(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamErrorsRecord(SamSimulation simulation, PetscInt k, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamErrorsEnd(SamSimulation simulation, const SamControl *last);
 PETSC_INTERN PetscErrorCode SamErrorsDestroy(SamErrors *errors);
+PETSC_INTERN double         SamErrorsShare(SamSimulation simulation);
 PETSC_INTERN const char    *SamErrorsDescribe(SamErrors errors);
 /*
   The same for steps that are given one by one (errorssingle.c); without companion runs they do nothing. Collective.

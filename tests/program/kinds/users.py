@@ -102,7 +102,7 @@ def run(program, case, folder, timeout):
         return None, [], f"more than {timeout:g} s", np.nan
     lines = done.stderr.splitlines()
     found = [line.partition("warning: ")[2] for line in lines if "warning: " in line]
-    printed = re.search(r"dissipated, error by the length of the load steps about (\S+) %", done.stdout)
+    printed = re.search(r"dissipated, error by the length of the load steps (?:about|below) (\S+) %", done.stdout)
     warnings = [line for line in found if not re.search(MODEL, line)]
     return done.returncode, warnings, (lines or [""])[-1], float(printed[1]) / 100 if printed else np.nan
 
