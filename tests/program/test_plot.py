@@ -9,13 +9,14 @@ import h5py
 import numpy as np
 import pytest
 
+import petsam as package
 from petsam import cycles, sliding
 from petsam.commands import plot as command
 from petsam.core.errors import Error
 from petsam.plot import crossings, fields, loops, series
 from petsam.plot.units import scale
 from petsam.results import Results
-from support import ROOT, ball, finished, slide_limit
+from support import ROOT, SPHERE, ball, finished, history, slide_limit
 
 PROGRAM = ROOT / "scripts" / "petsam-plot"
 CASE = ball(n=48)
@@ -497,3 +498,24 @@ def test_a_step_that_is_in_some_datasets_only_does_not_count(strokes, tmp_path):
 def test_prefix_suits_the_largest_value(unit, value, factor, text):
     got = scale(unit, value)
     assert np.isclose(got[0], factor, rtol=1e-12) and got[1] == text
+
+
+def test_errors_are_bars(petsam, tmp_path):
+    """Of each number those of its steps, of the energy their sum; none without them."""
+    loads = history(tmp_path / "h.csv", "time,load_n,load_tx", (1, 1000, 0), (2, 1000, 50), (3, 1000, -20))
+    case = {**SPHERE, "load_n": None, "friction": 0.1, "grid_n": 32, "output": "e.h5"}
+    petsam(case, loads, "-errors", "companion")
+    with package.open(tmp_path / "e.h5") as file:
+        figure = series.history([file], ["slip_max", "dissipated_energy"])
+        found = []
+        for axes in figure.axes[:2]:
+            (bars,) = axes.collections
+            found.append([np.ptp(one[:, 1]) / 2 for one in bars.get_segments()])
+            assert np.allclose([one[:, 1].mean() for one in bars.get_segments()], axes.lines[-1].get_ydata())
+        errors = file.history["slip_max_error"], np.cumsum(file.history["dissipated_energy_error"])
+        for heights, expected in zip(found, errors):
+            scale = heights[-1] / expected[-1]
+            assert np.allclose(heights, scale * expected) and np.isclose(np.log10(scale) % 3, 0, atol=1e-9)
+    petsam(case, loads, "-overwrite")
+    with package.open(tmp_path / "e.h5") as file:
+        assert not series.history([file], ["slip_max"]).axes[0].collections

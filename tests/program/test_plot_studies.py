@@ -96,6 +96,20 @@ def test_a_result_is_drawn_over_a_parameter_with_a_curve_for_each_of_the_others(
     assert marks["mu = 0.1, shape = ball"] == marks["mu = 0.4, shape = ball"] != marks["mu = 0.1, shape = punch"]
 
 
+def test_errors_are_bars_and_no_panels(tmp_path):
+    found = [row(k, ratio, 0.1, "ball") for k, ratio in enumerate(RATIOS, 1)]
+    for k, (_, _, values) in enumerate(found, 1):
+        values["stick_area_error"] = (1e-8 * k, "m2")
+    write_hdf5(str(tmp_path / "results.h5"), found, "mine.yaml")
+    study = Study(tmp_path / "results.h5")
+    figure = tables.study([study])
+    assert not any("error" in axes.get_ylabel() for axes in figure.axes)
+    axes = tables.study([study], ["stick_area"], "ratio").axes[0]
+    heights = [np.ptp(bar[:, 1]) for bars in axes.collections for bar in bars.get_segments()]
+    assert sorted(heights) == pytest.approx([2e-8 * k * 1e6 for k in (1, 2, 3)])  # mm2
+    assert not tables.study([study], ["dissipated_energy_sum"], "ratio").axes[0].collections
+
+
 def test_by_names_what_the_colours_stand_for(study):
     drawn = curves(tables.study([study], ["stick_area"], "ratio", "shape").axes[0])
     colours = {name: color for name, (_, _, color, _) in drawn.items()}

@@ -493,6 +493,17 @@ def test_tables_hold_inputs_and_scalars_of_the_last_step(run, tmp_path):
             assert int(row["steps"]) == history["time"].size
 
 
+def test_errors_are_columns(run, tmp_path):
+    """Of the last step's numbers, and of the energy of all steps."""
+    table(tmp_path, f"load_tx\n{float(0.3 * LIMIT)!r}\n{float(0.5 * LIMIT)!r}\n")
+    run("cases.csv", "--", *words(CASE), "-steps", "2", "-errors", "companion")
+    for row in table_of(tmp_path / "cases" / "results.csv"):
+        with petsam.open(tmp_path / "cases" / row["case"] / "results.h5") as file:
+            assert float(row["slip_max_error"]) == file.history["slip_max_error"][-1] > 0
+            error = file.errors["dissipated_energy"]
+            assert float(row["dissipated_energy_sum_error"]) == pytest.approx(error.error * error.value, rel=1e-12)
+
+
 def test_a_study_runs_from_python_side_by_side(tmp_path, fake, monkeypatch):
     """As the command runs it; again nothing runs but what has failed."""
     for name, value in fake.items():

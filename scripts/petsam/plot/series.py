@@ -5,7 +5,7 @@ import numpy as np
 from ..core.errors import Error, Unusable, short, there_are
 from ..results.cycles import ENERGY, PAIRS
 from . import noise, symbols
-from .style import MARKED, colors, logarithmic, named, need_few, outlined, plt, scattered
+from .style import BARS, MARKED, colors, logarithmic, named, need_few, outlined, plt, scattered
 from .units import label, largest, on_axis, plain
 
 VOLUMES = ("wear_volume1", "wear_volume2")
@@ -48,6 +48,15 @@ def series(results, name):
         return time[rows], status[rows].astype(float)
     values = results.series(name).astype(float)
     return results.series(TIME), np.cumsum(values) if name == ENERGY else values
+
+
+def errors(results, name):
+    """Estimated errors of the values of series(), None without; of the dissipated energy the sum of those of the steps,
+    which is more than the error of the sum."""
+    if f"{name}_error" not in results.history or name == "status":
+        return None
+    values = results.series(f"{name}_error").astype(float)
+    return np.cumsum(values) if name == ENERGY else values
 
 
 def against(results, name, other):
@@ -123,6 +132,9 @@ def _panel(panel, results, name, other, across):
     lines = [against(one, name, other) for one in results]
     factor, unit = on_axis(unit_of(results[0], name), largest(values for _, values in lines))
     for one, (x, y), tint in zip(results, lines, colors(len(results))):
+        error = errors(one, name)
+        if error is not None and other != "status":
+            panel.errorbar(across * x, factor * y, factor * np.nan_to_num(error), ecolor=tint, **BARS)
         x, y = outlined(across * x, factor * y)
         panel.plot(x, y, color=tint, label=plain(one.label), **scattered(x))
     panel.set(ylabel=label(symbols.scalar(name), unit))

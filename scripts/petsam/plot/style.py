@@ -114,6 +114,9 @@ def scattered(x, **style):
     return {"marker": ".", "linestyle": "none", "markersize": size, "markeredgewidth": 0.0, **style}
 
 
+BARS = dict(fmt="none", elinewidth=1.2, alpha=0.5)  # errorbar() draws nothing but the bars
+
+
 def outlined(x, y):
     """The points of a curve over x, or when they are many and x rises, the first, the last and the extremes of each of
     BINS parts: it looks the same."""

@@ -5,7 +5,7 @@ import numpy as np
 from ..core import words
 from ..core.errors import Error, Unusable, counted, short
 from . import symbols
-from .style import MARKED, colors, logarithmic, need_few, plt
+from .style import BARS, MARKED, colors, logarithmic, need_few, plt
 from .units import label, largest, number, on_axis, plain, scale
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
@@ -72,6 +72,8 @@ def _results(study, other):
         sizes[unit] = max(sizes.get(unit, 0.0), largest([study.results[name].astype(float)]))
     names = []
     for name, unit in study.units.items():
+        if name.endswith("_error") and name.removesuffix("_error") in study.results:
+            continue  # the bars of that column
         values = study.results[name].astype(float)
         column = name + "_end" if name in study.inputs else name
         if column == other or unit in ("1", "s") or not _varies(values) or _is_input(study, name, values):
@@ -220,8 +222,12 @@ def _draw(panel, curves, name, other, across, logs):
     data = [(study.column(other)[0][cases].astype(float), numbers(study, name, "--scalar")[0][cases])
             for study, _, _, _, cases in curves]  # fmt: skip
     factor, unit = on_axis(numbers(curves[0][0], name, "--scalar")[1], largest(y for _, y in data))
-    for (_, text, color, mark, _), (x, y) in zip(curves, data):
+    for (study, text, color, mark, cases), (x, y) in zip(curves, data):
         order = np.argsort(x, kind="stable")
+        error = f"{name.removesuffix('_end')}_error"
+        if error in study.results and name not in study.inputs:
+            bars = factor * np.nan_to_num(study.results[error][cases].astype(float))
+            panel.errorbar(across * x, factor * y, bars, ecolor=color, **BARS)
         many = {"marker": "", "linewidth": 0.8} if x.size > MARKED else {"marker": mark, "linewidth": 1.0}
         look = {"markersize": 4.5, "markerfacecolor": "white", "color": color, "label": text, **many}
         panel.plot(across * x[order], factor * y[order], **look)
