@@ -658,7 +658,7 @@ def test_companions_have_half_and_a_quarter_of_the_layers(petsam, solve, tmp_pat
         found = {run: dict(zip(names, file[f"errors/{run}"][:])) for run in ("half", "quarter")}
     for run, cells, layers in (("half", 12, 16), ("quarter", 6, 8)):
         few = all_steps(solve(dict(case, grid_n=(cells, cells), yield_layers=layers)))
-        for name in "plastic_max", "plastic_work", "residual_z_max":
+        for name in "plastic_max", "plastic_work", "residual_z_max", "residual_energy":
             assert found[run][name] == pytest.approx(few[name][0], rel=1e-9), (run, name)
 
 

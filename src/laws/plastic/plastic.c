@@ -531,7 +531,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
      SAM_JOIN_LAST, 0},
     {"plastic_work", "J", "work of plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 2},
     {"residual_energy", "J", "elastic energy of the residual stress", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
-     SAM_JOIN_LAST, 0},
+     SAM_JOIN_LAST, 2},
     {"yield_error", "1", "maximum error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_GREATEST, 0},
     {"plastic_newton", "1", "steps of Newton's method for the plastic strain", SAM_NUMBER_INT, 1, PETSC_FALSE,
