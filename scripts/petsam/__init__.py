@@ -12,6 +12,7 @@ cycles          results.cycles, and
 sliding         results.sliding: regime, energy ratio, sliding ratio of a cycle; slip amplitudes
 Element         a contact as a force element of a time integration or of a static solver (joint/element.py)
 joint           contact stiffness and damping of rough interfaces per area; joints in a structure
+calibration     friction, rig stiffness, wear from measured loops: petsam-fit
 closed          closed-form solutions of contact mechanics
 lives           lives, safety factors, short cracks: petsam-fatigue
 plot            pictures by name, of files and of what the parts above have found: petsam-plot
@@ -98,7 +99,7 @@ _HOMES = {
     "run": ".running",
 }
 
-_PARTS = ("closed", "compliance", "joint", "lives", "plot", "results", "study", "surface")
+_PARTS = ("calibration", "closed", "compliance", "joint", "lives", "plot", "results", "study", "surface")
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 
 

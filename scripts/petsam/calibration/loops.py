@@ -1,0 +1,451 @@
+"""The model of a measured loop, and its fit: friction and the rig's compliance.
+
+Displacement D of the drive or of a sensor, force Q, constant normal load N. The contact stands in series with the rig,
+of compliance c: D = mu f(Q/mu) + c Q, with f the displacement of one push at a coefficient of friction of 1 (push.py);
+beyond D_g = mu f(N) + c mu N it slides at mu N. With this backbone Q = F(D) a closed loop follows by Masing's rule:
+
+    falling  Q = Q0 + Qa - 2 F((Dmax - D)/2)    rising  Q = Q0 - Qa + 2 F((D - Dmin)/2)    Qa = F((Dmax - Dmin)/2)
+
+also in gross slip. A guide beside the contact adds k_p (D - Dmid), the lean; a loss of the rig a thin ellipse of force,
+a part of Qa high. Dmax and Dmin are found, not read off, since the largest of noisy points is too large. Residuals are
+those of Q at the measured D, weighted by the noise of Q and, times the slope, of D.
+
+Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr. Appl. Mech. (1926) 332.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..core.errors import Error, library
+from .push import Push
+
+SHARED = ("friction", "compliance", "lean", "loss", "scale")  # parameters that all loops of a fit have in common
+OWN = ("offset", "top", "bottom")  # those of each: force, largest and smallest displacement
+STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from one it may end where all sticks or slides
+PASSES = 3  # of a fit, each with the weights of the one before
+LEAST, MOST = 1e-4, 30.0  # coefficients of friction
+FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
+CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold
+MISFIT = 1.2  # and root mean square of the residuals, in units of the noise, below which it does not matter
+DOUBTFUL = 0.1  # relative deviation of the friction above which its range is that of its profile
+UNBOUNDED = 5.0  # friction beyond this multiple of the best one is not excluded by the loops: no upper bound
+WEAK = 0.5  # width of the range, relative to the friction, from which on it is weakly known
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A closed loop of one cycle, in the order of time.
+
+    Parameters
+    ----------
+    displacement, force : ndarray
+        (n,), m and N; the force moves with the displacement.
+    rising : ndarray
+        (n,), True where the displacement rises.
+    normal : float
+        Normal load, N.
+    """
+
+    displacement: np.ndarray
+    force: np.ndarray
+    rising: np.ndarray
+    normal: float
+
+    @property
+    def energy(self) -> float:
+        """Area of the polygon, J; not biased by white noise."""
+        d, q = self.displacement, self.force
+        return float(abs(0.5 * np.sum(d * np.roll(q, -1) - np.roll(d, -1) * q)))
+
+    def noise(self) -> tuple[float, float]:
+        """Noise of displacement and force, m and N, from second differences."""
+        return noise_of(self.displacement), noise_of(self.force)
+
+
+def noise_of(values: np.ndarray) -> float:
+    """Standard deviation of the white noise of a smooth series, from its second differences; at least FLOOR of its
+    range."""
+    second = np.abs(values[:-2] - 2.0 * values[1:-1] + values[2:])
+    return float(max(np.median(second) / (0.6745 * np.sqrt(6.0)), FLOOR * np.ptp(values)))
+
+
+class Backbone:
+    """The monotonic curve Q = F(D) of contact and rig, odd in D.
+
+    Parameters
+    ----------
+    push : Push
+    friction, compliance : float
+        1 and m/N.
+    scale : float
+        Factor of the contact's compliance.
+    """
+
+    def __init__(self, push: Push, friction: float, compliance: float, scale: float = 1.0) -> None:
+        self.force = friction * push.force
+        self.displacement = friction * scale * push.displacement + compliance * self.force
+        self.slope = np.gradient(self.force, self.displacement)
+
+    def __call__(self, displacement):
+        """Force (N) at a displacement (m) from the unloaded state."""
+        return np.sign(displacement) * np.interp(np.abs(displacement), self.displacement, self.force)
+
+    def slope_at(self, displacement):
+        """dQ/dD there, N/m; 0 where it slides."""
+        return np.interp(np.abs(displacement), self.displacement, self.slope, right=0.0)
+
+
+def force_of(
+    backbone: Backbone, displacement, rising, own=(0.0, 1.0, -1.0), lean=0.0, loss=0.0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Force and its slope over the displacement of a closed loop, N and N/m; `own` are its offset of the force, largest
+    and smallest displacement."""
+    offset, top, bottom = own
+    half, middle = 0.5 * (top - bottom), 0.5 * (top + bottom)
+    most = backbone(half)
+    way = np.where(rising, displacement - bottom, top - displacement) / 2.0
+    sign = np.where(rising, 1.0, -1.0)
+    # over the range of the given points: by top and bottom it would hold these, by its ends' infinite slopes
+    ends = displacement.max(), displacement.min()
+    phase = (displacement - 0.5 * sum(ends)) / max(0.5 * (ends[0] - ends[1]), 1e-300)
+    ellipse = np.sqrt(np.clip(1.0 - phase**2, 0.0, None))
+    force = offset - sign * most + 2.0 * sign * backbone(way) + lean * (displacement - middle)
+    return force + sign * loss * most * ellipse, backbone.slope_at(way) + lean
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What loops tell of friction and rig.
+
+    Attributes
+    ----------
+    friction, friction_sd : float
+        Coefficient of friction and its standard deviation; NaN where the loops do not hold it.
+    friction_at_least : float
+        Lower bound, 95 %, of a friction that is not identifiable; else NaN.
+    friction_range : tuple of float
+        95 %; infinite where there is no upper bound.
+    state : str
+        Of the friction: "known", "weak", "not identifiable", or "rejected": the model does not hold.
+    compliance, compliance_sd : float
+        Of the rig, m/N.
+    sliding : float
+        Largest shear amplitude of the loops over mu N.
+    gross : bool
+        The loops with that amplitude slide.
+    misfit : float
+        Root mean square of the residuals of the force, N.
+    noise : tuple of float
+        Of displacement and force, m and N.
+    neighbours : float
+        Correlation of neighbouring residuals.
+    more : dict
+        {name: (value, standard deviation)} of the other parameters that were free: lean (N/m), loss, scale.
+    loops, values : list of Loop, ndarray
+        What was fitted, and its parameters.
+    """
+
+    friction: float
+    friction_sd: float
+    friction_at_least: float
+    friction_range: tuple
+    state: str
+    compliance: float
+    compliance_sd: float
+    sliding: float
+    gross: bool
+    misfit: float
+    noise: tuple
+    neighbours: float
+    more: dict = field(default_factory=dict)
+    loops: Sequence = ()
+    curves: Sequence = ()
+
+    @property
+    def identifiable(self) -> bool:
+        """Whether the loops hold the friction."""
+        return self.state in ("known", "weak")
+
+    @property
+    def stiffness(self) -> float:
+        """Of the rig, N/m; infinite without compliance."""
+        return 1.0 / self.compliance if self.compliance > 0.0 else np.inf
+
+    @property
+    def stiffness_sd(self) -> float:
+        """Standard deviation of the rig's stiffness, N/m."""
+        return self.compliance_sd * self.stiffness**2 if self.compliance > 0.0 else np.nan
+
+
+class _Problem:
+    """The least squares of several loops: parameters, scales and residuals."""
+
+    def __init__(self, loops, pushes, free, fixed):
+        self.loops, self.pushes = loops, pushes
+        self.free = [name for name in SHARED if name in free]
+        self.fixed = dict(friction=np.nan, compliance=0.0, lean=0.0, loss=0.0, scale=1.0) | dict(fixed)
+        self.noise = [loop.noise() for loop in loops]
+        self.amplitudes = [(0.5 * np.ptp(one.displacement), 0.5 * np.ptp(one.force)) for one in loops]
+
+    def scales(self):
+        """What changes of the parameters are measured in."""
+        d, q = map(max, zip(*self.amplitudes))
+        shared = dict(friction=0.1, compliance=0.1 * d / q, lean=0.1 * q / d, loss=0.01, scale=0.1)
+        own = [value for d, q in self.amplitudes for value in (0.05 * q, 0.05 * d, 0.05 * d)]
+        return np.array([*(shared[name] for name in self.free), *own])
+
+    def bounds(self):
+        lowest = dict(friction=LEAST, compliance=0.0, lean=-np.inf, loss=0.0, scale=0.05)
+        highest = dict(friction=MOST, loss=0.5)
+        count = 3 * len(self.loops)
+        return (
+            np.array([*(lowest[name] for name in self.free), *[-np.inf] * count]),
+            np.array([*(highest.get(name, np.inf) for name in self.free), *[np.inf] * count]),
+        )
+
+    def start(self, sliding):
+        """Parameters from which a fit begins: this part of sliding in the loop that is nearest to it."""
+        most = max(q / push.normal for (_, q), push in zip(self.amplitudes, self.pushes))
+        friction = float(np.clip(most / sliding, 2 * LEAST, 0.5 * MOST))
+        friction = self.fixed["friction"] if "friction" not in self.free else friction
+        loop, push, (d, q) = max(
+            zip(self.loops, self.pushes, self.amplitudes), key=lambda one: one[2][1] / one[1].normal
+        )
+        own = friction * np.interp(min(q / friction, push.normal), push.force, push.displacement)
+        steep = self._steep(loop) - push.displacement[1] / push.force[1]
+        compliance = max(steep if sliding > 0.99 else (d - own) / q, 1e-3 * d / q)
+        values = dict(friction=friction, compliance=compliance, lean=0.0, loss=0.002, scale=1.0)
+        found = [values[name] for name in self.free]
+        for one in self.loops:
+            found += [
+                0.5 * (one.force.max() + one.force.min()), one.displacement.max(), one.displacement.min(),
+            ]  # fmt: skip
+        return np.array(found)
+
+    def least(self):
+        """The least friction that bears the loops' force."""
+        return max(q / push.normal for (_, q), push in zip(self.amplitudes, self.pushes))
+
+    @staticmethod
+    def _steep(loop):
+        """Compliance of the steep part after a reversal, m/N: from a quarter of the change of the force."""
+        top, bottom = loop.force.max(), loop.force.min()
+        falling = ~loop.rising & (loop.force > top - 0.35 * (top - bottom)) & (loop.force < top - 0.05 * (top - bottom))
+        if falling.sum() < 3:
+            return 0.5 * np.ptp(loop.displacement) / np.ptp(loop.force)
+        return float(np.polyfit(loop.force[falling], loop.displacement[falling], 1)[0])
+
+    def shared(self, values):
+        """{name: value} of the shared parameters."""
+        return {**self.fixed, **dict(zip(self.free, values))}
+
+    def curve(self, values, k, displacement=None, rising=None):
+        """Force and slope of loop k."""
+        of, own = self.shared(values), values[len(self.free) + 3 * k :][:3]
+        backbone = Backbone(self.pushes[k], of["friction"], of["compliance"], of["scale"])
+        loop = self.loops[k]
+        d = loop.displacement if displacement is None else displacement
+        up = loop.rising if rising is None else rising
+        return force_of(backbone, d, up, own, of["lean"], of["loss"])
+
+    def weights(self, values):
+        """One over the noise of each point's force, with that of its displacement. They stay as they are while a fit
+        runs: else it would gain by steeper slopes."""
+        slopes = [self.curve(values, k)[1] for k in range(len(self.loops))]
+        return [1.0 / np.sqrt(sd_q**2 + (slope * sd_d) ** 2) for slope, (sd_d, sd_q) in zip(slopes, self.noise)]
+
+    def residuals(self, values, weights):
+        """Residuals of all loops in units of the noise."""
+        parts = [w * (loop.force - self.curve(values, k)[0]) for k, (loop, w) in enumerate(zip(self.loops, weights))]
+        return np.concatenate(parts)
+
+    def solve(self, starts=None):
+        """The best parameters, their residuals' sum of squares, and the Jacobian there."""
+        scales = self.scales()
+        low, high = (bound / scales for bound in self.bounds())
+        optimize, best = library("scipy.optimize"), None
+
+        def scaled(values, weights):
+            return self.residuals(scales * values, weights)
+
+        for start in starts if starts is not None else [self.start(part) for part in STARTS]:
+            for _ in range(PASSES):
+                first = np.clip(start / scales, low + 1e-9, high)
+                given = dict(bounds=(low, high), args=(self.weights(scales * first),))
+                found = optimize.least_squares(scaled, first, **given)
+                start = scales * found.x
+            if best is None or found.cost < best.cost:
+                best = found
+        best.x, best.jac = scales * best.x, best.jac / scales
+        return best
+
+
+def _neighbours(problem, residuals):
+    """Correlation of neighbouring residuals within the loops."""
+    sizes = np.cumsum([len(loop.force) for loop in problem.loops])[:-1]
+    parts = [part - part.mean() for part in np.split(residuals, sizes)]
+    return float(sum(np.sum(p[1:] * p[:-1]) for p in parts) / max(sum(np.sum(p * p) for p in parts), 1e-300))
+
+
+def _profile(problem, best, variance):
+    """The range of the friction, 95 %: where the sum of squares, all else free, grows by 4 times the variance."""
+    limit = 2.0 * best.cost + 4.0 * variance
+    friction = best.x[0]
+    free = [name for name in problem.free if name != "friction"]
+
+    def cost(value, start):
+        one = _Problem(problem.loops, problem.pushes, free, {**problem.fixed, "friction": value})
+        found = one.solve([start, one.start(min(0.999, problem.least() / value))])
+        return 2.0 * found.cost, found.x
+
+    ends = []
+    for factor in (0.8, 1.25):
+        inside, start, value = friction, best.x[1:], friction
+        while True:
+            value = value * factor
+            if not friction / (4 * UNBOUNDED) < value < UNBOUNDED * friction * 1.01:
+                ends.append(0.0 if factor < 1.0 else np.inf)
+                break
+            now, start = cost(value, start)
+            if now > limit:
+                for _ in range(12):  # halves the interval between a friction within the range and one outside of it
+                    middle = np.sqrt(inside * value)
+                    now, start = cost(middle, start)
+                    inside, value = (inside, middle) if now > limit else (middle, value)
+                ends.append(float(np.sqrt(inside * value)))
+                break
+            inside = value
+    return tuple(ends)
+
+
+def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), profile: bool = True, **fixed) -> Fit:
+    """Fits friction and the rig's compliance to one or several closed loops.
+
+    Parameters
+    ----------
+    loops : sequence of Loop
+        With common friction and rig.
+    push : Push or sequence of Push
+        That of each loop, or of all.
+    free : sequence of str
+        Parameters that are found besides friction and compliance: "lean", "loss", "scale".
+    profile : bool
+        False: no range by the profile, which takes most of the time; a friction with a deviation above DOUBTFUL is then
+        called not identifiable.
+    **fixed
+        Values that are given: compliance (m/N), lean (N/m), loss.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    Error
+        If the loops have fewer points than the fit needs.
+    """
+    pushes = [push] * len(loops) if isinstance(push, Push) else list(push)
+    names = [name for name in ("friction", "compliance", *free) if name not in fixed]
+    problem = _Problem(list(loops), pushes, names, fixed)
+    count = sum(len(loop.force) for loop in loops)
+    best = problem.solve()
+    if count < 3 * len(best.x):
+        raise Error(f"{count} points: a fit of {len(best.x)} parameters needs {3 * len(best.x)}")
+    square = 2.0 * best.cost / (count - len(best.x))
+    variance = max(square, 0.25)  # of loops without noise the errors are those of the model
+    scales = problem.scales()
+    jacobian = best.jac * scales
+    covariance = variance * np.linalg.pinv(jacobian.T @ jacobian) * np.outer(scales, scales)
+    deviation = np.sqrt(np.clip(np.diag(covariance), 0.0, None))
+    of, sd = problem.shared(best.x), dict(zip(problem.free, deviation))
+    neighbours = _neighbours(problem, best.fun)
+    friction, friction_sd = of["friction"], float(sd["friction"])
+    ends, state, at_least = (friction - 2 * friction_sd, friction + 2 * friction_sd), "known", np.nan
+    if neighbours > CORRELATED and square > MISFIT**2:
+        state = "rejected"
+    elif not friction_sd <= DOUBTFUL * friction:
+        ends = _profile(problem, best, variance) if profile else (problem.least(), np.inf)
+        if np.isinf(ends[1]):
+            state, at_least = "not identifiable", max(ends[0], problem.least() * 0.999)
+        else:
+            state = "weak" if ends[1] - ends[0] > WEAK * friction else "known"
+            friction_sd = max(friction_sd, 0.25 * (ends[1] - ends[0]))
+    verdict = dict(friction_sd=friction_sd, friction_at_least=at_least, friction_range=ends, state=state)
+    return _result(problem, best.x, sd, dict(verdict, neighbours=neighbours))
+
+
+def _result(problem, values, sd, verdict):
+    of, state = problem.shared(values), verdict["state"]
+    friction, held = of["friction"], state in ("known", "weak")
+    amplitudes, gross, curves, squares = [], [], [], 0.0
+    for k, (loop, push) in enumerate(zip(problem.loops, problem.pushes)):
+        backbone = Backbone(push, friction, of["compliance"], of["scale"])
+        _, top, bottom = values[len(problem.free) + 3 * k :][:3]
+        amplitudes.append(float(backbone(0.5 * (top - bottom))) / (friction * push.normal))
+        gross.append(0.5 * (top - bottom) > backbone.displacement[-1])
+        force, _ = problem.curve(values, k)
+        squares += float(np.sum((loop.force - force) ** 2))
+        curves.append(_curve(problem, values, k))
+    largest = int(np.argmax(amplitudes))
+    noise = tuple(float(np.median(one)) for one in zip(*problem.noise))
+    verdict["friction_sd"] = verdict["friction_sd"] if held else np.nan
+    return Fit(
+        friction=friction if held else np.nan,
+        **verdict,
+        compliance=of["compliance"] if state != "rejected" else np.nan,
+        compliance_sd=float(sd.get("compliance", 0.0)) if state != "rejected" else np.nan,
+        sliding=amplitudes[largest],
+        gross=bool(gross[largest]),
+        misfit=float(np.sqrt(squares / sum(len(loop.force) for loop in problem.loops))),
+        noise=noise,
+        more={name: (of[name], float(sd[name])) for name in problem.free if name not in ("friction", "compliance")},
+        loops=tuple(problem.loops),
+        curves=tuple(curves),
+    )
+
+
+def _curve(problem, values, k, points=200):
+    """Displacement and force of the closed loop of the fit, for pictures."""
+    _, top, bottom = values[len(problem.free) + 3 * k :][:3]
+    way = np.linspace(0.0, np.pi, points)
+    d = 0.5 * (top + bottom) + 0.5 * (top - bottom) * np.cos(np.concatenate([way, way + np.pi]))
+    rising = np.repeat([False, True], points)
+    return d, problem.curve(values, k, d, rising)[0]
+
+
+def jacobian_of(loops: Sequence[Loop], push: Push, free: Sequence[str], values: dict, noise: Sequence) -> np.ndarray:
+    """Derivatives of the residuals, in units of the noise, by friction, compliance and what else is free, and by force,
+    largest and smallest displacement of each loop, at given values: what a test would tell.
+
+    Parameters
+    ----------
+    loops : sequence of Loop
+        Without noise.
+    push : Push
+    free : sequence of str
+        Parameters besides friction and compliance.
+    values : dict
+        {name: value} of all shared parameters.
+    noise : list of tuple of float
+        Of displacement and force of each loop, m and N.
+
+    Returns
+    -------
+    ndarray
+        (points of all loops, parameters); of the others scaled, of the friction not.
+    """
+    problem = _Problem(list(loops), [push] * len(loops), ("friction", "compliance", *free), {})
+    problem.noise = list(noise)
+    own = [value for loop in loops for value in (0.0, loop.displacement.max(), loop.displacement.min())]
+    at = np.array([*(values[name] for name in problem.free), *own])
+    scales = problem.scales()
+    scales[0] = 1.0
+    weights, columns = problem.weights(at), []
+    for k, scale in enumerate(scales):
+        step = np.zeros_like(at)
+        step[k] = 1e-4 * (scale if k else values["friction"])
+        change = problem.residuals(at + step, weights) - problem.residuals(at - step, weights)
+        columns.append(change / (2.0 * step[k] / scale))
+    return np.array(columns).T

@@ -1,0 +1,328 @@
+"""Cycles of a record: cut at the least displacements, without drift, fitted one by one, and together."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Optional
+
+import numpy as np
+
+from ..core.errors import Error, counted, library
+from ..core.tables import Column, Tabled
+from .loops import Fit, Loop, fit
+from .push import Push
+from .reading import Record
+
+SMOOTH = 40  # parts of a period over which the displacement is smoothed, to find its turns
+APART = 0.6  # of a period: least distance of two minima
+SCATTER = 5.0  # scatter of the friction over what is expected, from which on it changes
+TOGETHER = 3  # cycles of each file that are fitted together
+TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
+FEWEST = 12  # points of a cycle
+
+
+@dataclass(frozen=True)
+class Cycles:
+    """The closed cycles of a record.
+
+    Parameters
+    ----------
+    path : str
+    loops : list of Loop
+    numbers : ndarray
+        Their numbers, those of the file if it has them.
+    drift : float
+        Of the displacement, m per cycle, which is removed.
+    notes : list of str
+    """
+
+    path: str
+    loops: list
+    numbers: np.ndarray
+    drift: float
+    notes: list = field(default_factory=list)
+
+
+def _period(values):
+    """Points of a period, by the largest term of the Fourier transform, refined by neighbours."""
+    centred = values - values.mean()
+    power = np.abs(np.fft.rfft(centred * np.hanning(len(values)))) ** 2
+    k = int(np.argmax(power[1:])) + 1
+    return len(values) / k
+
+
+def _smoothed(values, width):
+    """Moving average over so many points."""
+    width = max(1, int(width)) | 1
+    padded = np.pad(values, width // 2, mode="edge")
+    return np.convolve(padded, np.ones(width) / width, mode="valid")
+
+
+def _minima(smooth, period):
+    """Indices of the least values, one a period; the ends of the record count if they are as low."""
+    signal = library("scipy.signal")
+    span = np.ptp(smooth)
+    found, _ = signal.find_peaks(-smooth, distance=max(1, int(APART * period)), prominence=0.5 * span)
+    low = smooth[found].max() if len(found) else smooth.min()
+    ends = [k for k in (0, len(smooth) - 1) if smooth[k] <= low + 0.05 * span]
+    kept = sorted({*found.tolist(), *ends})
+    return [k for n, k in enumerate(kept) if n == 0 or k - kept[n - 1] > APART * period or k == kept[-1]]
+
+
+def cycles(record: Record, normal: float, which: slice = slice(None)) -> Cycles:
+    """Cuts a record into closed cycles, in which the force moves with the displacement.
+
+    Parameters
+    ----------
+    record : Record
+    normal : float
+        Normal load, N.
+    which : slice
+        Of the cycles.
+
+    Returns
+    -------
+    Cycles
+
+    Raises
+    ------
+    Error
+        If there is no whole cycle.
+    """
+    notes, d, q = [], record.displacement.copy(), record.force.copy()
+    known = np.isfinite(d + q)
+    places = np.arange(len(d))
+    filled = np.interp(places, places[known], d[known])
+    period = _period(filled)
+    smooth = _smoothed(filled, period / SMOOTH)
+    if np.polyfit(d[known], q[known], 1)[0] < 0.0:
+        q = -q
+        notes.append("the force falls where the displacement rises: its sign is turned")
+    cuts = _minima(smooth, period)
+    if len(cuts) < 2:
+        if len(d) > 1.3 * period or abs(smooth[0] - smooth[-1]) > 0.1 * np.ptp(smooth):
+            raise Error(f"{record.path}: no whole cycle between two least displacements")
+        shift = int(np.argmin(smooth))  # a single cycle that begins elsewhere
+        d, q, known, smooth = (np.roll(one, -shift) for one in (d, q, known, smooth))
+        cuts = [0, len(d)]
+    parts = [slice(a, b) for a, b in zip(cuts[:-1], cuts[1:])]
+    line, drift = _drift(filled, parts)
+    d = d - line
+    loops, numbers, turned = [], [], 0
+    for k, part in enumerate(parts):
+        if not np.all(known[part]) or part.stop - part.start < FEWEST:
+            continue
+        loop, is_turned = _closed(d[part], q[part], int(np.argmax(smooth[part])), normal)
+        turned += is_turned
+        loops.append(loop)
+        numbers.append(k + 1 if record.cycle is None else float(np.nanmedian(record.cycle[part])))
+    if len(loops) < len(parts):
+        notes.append(f"{counted(len(parts) - len(loops), 'cycle')} with lost or too few points left out")
+    if turned > len(loops) // 2:
+        notes.append("the loops are recorded clockwise, as if work were gained: their course is turned")
+    if not loops[which]:
+        raise Error(f"{record.path}: no whole cycle is left of {len(parts)}")
+    return Cycles(record.path, loops[which], np.array(numbers)[which], drift, notes)
+
+
+def _drift(filled, parts):
+    """The drift of the displacement at each point, m, through the means of the cycles, and per cycle."""
+    if len(parts) < 2:
+        return 0.0, 0.0
+    places = np.arange(len(filled))
+    means = np.array([np.mean(filled[part]) for part in parts])
+    middles = np.array([0.5 * (part.start + part.stop - 1) for part in parts])
+    line = np.interp(places, middles, means)
+    for end, (a, b) in ((places < middles[0], (0, 1)), (places > middles[-1], (-2, -1))):
+        line[end] = means[a] + (places[end] - middles[a]) * (means[b] - means[a]) / (middles[b] - middles[a])
+    return line, float(np.polyfit(np.arange(len(parts)), means, 1)[0])
+
+
+def _closed(d, q, top, normal):
+    """A loop from the points of a cycle whose largest displacement is at `top`, and whether its course was turned."""
+    rising, turned = np.arange(len(d)) < top, False
+    turns = np.array([0, top, len(d)])
+    away = np.abs(np.arange(len(d))[:, None] - turns).min(axis=1) >= max(1, round(TURN * len(d)))
+    d, q, rising = d[away], q[away], rising[away]
+    if np.sum(d * np.roll(q, -1) - np.roll(d, -1) * q) > 0.0:  # clockwise: work would be gained
+        d, q, rising, turned = d[::-1], q[::-1], ~rising[::-1], True
+    return Loop(d, q, rising, normal), turned
+
+
+@dataclass(frozen=True)
+class Result(Tabled):
+    """What the loops of one or several files tell.
+
+    Attributes
+    ----------
+    friction, friction_sd, friction_at_least : float
+        Of all cycles together; NaN where they do not hold it.
+    identifiable : bool
+    state : str
+        "known", "weak", "not identifiable", "rejected", or "changes".
+    regime : str
+        "gross slip" or "partial slip".
+    sliding : float
+        Largest shear amplitude over mu N.
+    rig_stiffness, rig_stiffness_sd : float
+        N/m.
+    contact_stiffness : float
+        Of the contact without slip, N/m.
+    fit : Fit
+        Of loops of all files together.
+    files : list of Cycles
+    each : list of Fit
+        Of each cycle; empty of one cycle.
+    numbers, energy : ndarray
+        Of each cycle, its number and its dissipated energy, J, without the rig's loss.
+    notes : list of str
+    """
+
+    friction: float
+    friction_sd: float
+    friction_at_least: float
+    identifiable: bool
+    state: str
+    regime: str
+    sliding: float
+    rig_stiffness: float
+    rig_stiffness_sd: float
+    contact_stiffness: float
+    fit: Fit
+    files: Sequence = ()
+    each: Sequence = ()
+    numbers: Optional[np.ndarray] = None
+    energy: Optional[np.ndarray] = None
+    notes: Sequence = ()
+
+    def table(self) -> list:
+        """The columns: cycle, friction, its deviation, the rig's compliance, its deviation, energy.
+
+        Returns
+        -------
+        list of Column
+        """
+        each = self.each or [self.fit] * len(self.numbers)
+        return [
+            Column("cycle", "1", "number of the cycle", self.numbers.tolist()),
+            Column("friction", "1", "coefficient of friction; NaN: not identifiable", [f.friction for f in each]),
+            Column("friction_sd", "1", "its standard deviation", [f.friction_sd for f in each]),
+            Column("compliance", "m/N", "of the rig", [f.compliance for f in each]),
+            Column("compliance_sd", "m/N", "its standard deviation", [f.compliance_sd for f in each]),
+            Column("energy", "J", "dissipated energy, of the contact alone", self.energy.tolist()),
+        ]
+
+
+def _mean(each):
+    """Mean of the cycles' friction, its deviation (the larger one of theirs and of the scatter), and scatter over what
+    is expected."""
+    values, deviations = (np.array([getattr(one, name) for one in each]) for name in ("friction", "friction_sd"))
+    weights = 1.0 / deviations**2
+    mean = float(np.sum(weights * values) / np.sum(weights))
+    expected = 1.0 / np.sqrt(np.sum(weights))
+    scatter = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
+    return mean, max(expected, scatter / np.sqrt(len(values))), scatter / float(np.median(deviations))
+
+
+def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str] = (), **fixed) -> Result:
+    """Friction and rig stiffness of the cycles of one or several files.
+
+    Parameters
+    ----------
+    files : sequence of Cycles
+    pushes : sequence of Push
+        That of each file.
+    free : sequence of str
+        Parameters that are found, too: "lean", "loss".
+    **fixed
+        Values that are given: compliance (m/N), lean, loss.
+
+    Returns
+    -------
+    Result
+    """
+    chosen = [(loop, push) for one, push in zip(files, pushes) for loop in _spread(one.loops)]
+    each, notes = [], [note for one in files for note in one.notes]
+    if sum(len(one.loops) for one in files) > len(chosen) or len(chosen) > 1:
+        each = [
+            fit([loop], push, free, profile=False, **fixed) for one, push in zip(files, pushes) for loop in one.loops
+        ]
+    together = fit([loop for loop, _ in chosen], [push for _, push in chosen], free, **fixed)
+    numbers = np.concatenate([one.numbers for one in files]).astype(float)
+    loss = together.more.get("loss", (fixed.get("loss", 0.0),))[0]
+    energy = np.array([_contact_energy(loop, loss) for one in files for loop in one.loops])
+    state, found = together.state, (together.friction, together.friction_sd)
+    known = [one for one in each if one.identifiable]
+    if len(known) == len(each) > 1 and len(files) == 1:
+        mean, deviation, scatter = _mean(each)
+        if scatter > SCATTER:
+            state, found = "changes", (mean, deviation)
+            together = replace(together, state=state)
+        elif state != "rejected":
+            state, found = "known" if deviation <= 0.2 * mean else together.state, (mean, deviation)
+    identifiable = state in ("known", "weak", "changes")
+    rig = _rig(each, together, state)
+    return Result(
+        friction=found[0] if identifiable else np.nan, friction_sd=found[1] if identifiable else np.nan,
+        friction_at_least=together.friction_at_least, identifiable=identifiable, state=state,
+        regime="gross slip" if together.gross and identifiable else "partial slip", sliding=together.sliding,
+        rig_stiffness=rig[0], rig_stiffness_sd=rig[1], contact_stiffness=pushes[0].stiffness, fit=together, files=files,
+        each=each, numbers=numbers, energy=energy, notes=notes,
+    )  # fmt: skip
+
+
+def _rig(each, together, state):
+    """Stiffness of the rig and its deviation: of a friction that changes by the mean of the cycles' compliances."""
+    if state != "changes":
+        return together.stiffness, together.stiffness_sd
+    values, deviations = (np.array([getattr(f, name) for f in each]) for name in ("compliance", "compliance_sd"))
+    weights = 1.0 / np.maximum(deviations, 1e-30) ** 2
+    mean = float(np.sum(weights * values) / np.sum(weights))
+    deviation = max(1.0 / np.sqrt(np.sum(weights)), float(np.std(values, ddof=1)) / np.sqrt(len(values)))
+    return (1.0 / mean, deviation / mean**2) if mean > 0.0 else (np.inf, np.nan)
+
+
+def _spread(loops):
+    """The loops that are fitted together: up to TOGETHER, from the first to the last."""
+    return [loops[k] for k in sorted({round(k) for k in np.linspace(0, len(loops) - 1, min(TOGETHER, len(loops)))})]
+
+
+def _contact_energy(loop, loss):
+    """Energy of a loop without that of the rig's loss, J."""
+    half_d, half_q = 0.5 * np.ptp(loop.displacement), 0.5 * np.ptp(loop.force)
+    return loop.energy - np.pi * loss * half_q * half_d
+
+
+@dataclass(frozen=True)
+class Peaks:
+    """What peaks of cycles alone tell: least friction, and the energy ratio.
+
+    Attributes
+    ----------
+    friction_at_least : float
+        Largest force over the normal load.
+    energy_ratio : ndarray
+        Energy over 4 D* Q*, 1: above 0.2 gross slip, roughly; NaN without energies.
+    gross : ndarray of bool
+    """
+
+    friction_at_least: float
+    energy_ratio: np.ndarray
+    gross: np.ndarray
+
+
+def of_peaks(record: Record, normal: float) -> Peaks:
+    """Evaluates a record of peaks.
+
+    Parameters
+    ----------
+    record : Record
+    normal : float
+        Normal load, N.
+
+    Returns
+    -------
+    Peaks
+    """
+    energy = record.energy if record.energy is not None else np.full(record.force.shape, np.nan)
+    ratio = energy / (4.0 * record.displacement * record.force)
+    return Peaks(float(np.nanmax(record.force) / normal), ratio, ratio > 0.2)

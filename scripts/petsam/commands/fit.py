@@ -1,0 +1,258 @@
+"""Friction and rig stiffness from a laboratory's loops, coefficients of wear from the worn volume.
+
+    petsam-fit loops.csv --normal 100N --shape sphere.opts -o test
+    petsam-fit small.csv large.csv --normal 100N,100N --shape sphere.opts --lean -o test
+    petsam-fit loops.csv --normal 100N --shape sphere.opts --life 18000 --volume 1.2e6um3,10% --body 2 -o test
+    petsam-fit --plan --normal 100N --shape sphere.opts --friction 0.6 --rig 20N/um --noise 20nm,1N
+
+A file has columns of displacement and force, named with their units: `Displacement (um);Friction force (N)`, x [mm],
+F [N]; decimals with point or comma, lost points as empty cells. Cycles are cut at the least displacement, drift and
+offset are removed. shape.opts has petsam's options of bodies and gap: one push of petsam serves all coefficients of
+friction (a ball's is in closed form). Where the loops do not hold the friction, a lower bound is printed, and where the
+model does not hold, no number at all.
+
+-o NAME writes NAME.json, NAME-cycles.csv (friction, rig, energy of each cycle), NAME-friction.csv (for -wear_friction),
+where friction changes, NAME.opts, with which petsam computes the contact's loop, its history NAME-loop.csv, a picture.
+"""
+
+import argparse
+import json
+import sys
+
+import numpy as np
+
+from ..calibration import planning, push, reading, results, series
+from ..core import words
+from ..core.errors import Error, Unusable, short
+from ..core.files import need_replaceable, same
+from .line import Parser, add_choice, guarded, joined, quietly, word
+
+WRITTEN = (".json", "-cycles.csv", "-friction.csv", ".opts", "-loop.csv", ".png")
+STIFFNESSES = {"N/m": 1.0, "N/mm": 1e3, "N/um": 1e6, "kN/mm": 1e6, "N/nm": 1e9}
+
+
+def stiffness(text):
+    """N/m, of a number with its unit."""
+    number, *unit = text.replace("/", " / ").split(" / ") if "/" in text else [text]
+    form = f"a stiffness above 0 with its unit, such as 20N/um; units are {', '.join(STIFFNESSES)}"
+    for name, size in sorted(STIFFNESSES.items(), key=lambda item: -len(item[0])):
+        if unit and text.strip().endswith(name):
+            return words.number(text.strip().removesuffix(name), form, allowed=words.positive) * size
+    if unit:
+        raise words.WordError(text, form)
+    return words.number(number, form, allowed=words.positive)
+
+
+def part(text):
+    """A part of 1, also in per cent."""
+    form = "a part from 0 to below 1: 0.5% or 0.005"
+    percent = text.strip().endswith("%")
+    value = words.number(text.strip().removesuffix("%"), form)
+    value = value / 100.0 if percent else value
+    if not 0.0 <= value < 1.0:
+        raise words.WordError(text, form)
+    return value
+
+
+def volume(text):
+    """Volume (m3) and its relative deviation of V or V,BAND."""
+    form = "a volume above 0 and its deviation: 1.2e6um3,10%"
+    first, comma, band = text.partition(",")
+    return words.number(first, form, "m3", words.positive), part(band) if comma else 0.0
+
+
+def noise(text):
+    """Noise of displacement (m) and force (N)."""
+    form = "two numbers above 0, of displacement and force: 20nm,1N"
+    if text.count(",") != 1:
+        raise words.WordError(text, form)
+    d, q = text.split(",")
+    return words.number(d, form, "m", words.positive), words.number(q, form, "N", words.positive)
+
+
+def chosen(text):
+    """A slice of cycles FIRST:LAST, from 1; either may be left out."""
+    form = "cycles FIRST:LAST, from 1: 2: or 3:10"
+    first, colon, last = text.partition(":")
+    if not colon:
+        raise words.WordError(text, form)
+    start = words.integer(first, form, lambda k: k >= 1) if first else 1
+    stop = words.integer(last, form, lambda k: k >= start) if last else None
+    return slice(start - 1, stop)
+
+
+def arguments(given):
+    """Reads the command line."""
+    parser = Parser(
+        prog="petsam-fit", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )  # fmt: skip
+    parser.add_argument("files", nargs="*", metavar="LOOPS.csv", help="measured loops; several are one test")
+    need = parser.add_argument_group("the test")
+    newton = word(words.numbers, "normal loads above 0: 100N, or one for each file", "N", words.positive)
+    need.add_argument("--normal", type=newton, required=True, metavar="N", help="normal load, or one for each file")
+    need.add_argument("--shape", metavar="NAME.opts", required=True, help="petsam's options of bodies, gap and grid")
+    length = word(words.number, "a length above 0, such as 10mm", "m", words.positive)
+    need.add_argument("--width", type=length, metavar="L", help="length of a contact in plane strain")
+    need.add_argument("--displacement", metavar="NAME", help="column of the displacement, where several may be meant")
+    need.add_argument("--force", metavar="NAME", help="column of the force")
+    need.add_argument(
+        "--cycles", type=word(chosen), default=slice(None), metavar="FIRST:LAST", help="of each file (all)"
+    )
+    rig = parser.add_argument_group("the rig")
+    rig.add_argument("--rig", type=word(stiffness), metavar="K", help="stiffness of the rig, if it is known: 20N/um")
+    rig.add_argument(
+        "--lean", action="store_true", help="a spring beside the contact, whose force grows while it slides"
+    )
+    rig.add_argument(
+        "--loss", type=word(part), metavar="PART", help="force of the rig's own loop over the amplitude: 0.5%%"
+    )
+    wear = parser.add_argument_group("wear")
+    wear.add_argument(
+        "--volume", type=word(volume), metavar="V,BAND", help="worn volume and its deviation: 1.2e6um3,10%%"
+    )
+    wear.add_argument("--body", choices=("1", "2"), default="2", help="that has lost it (2)")
+    least = word(words.number, "a number of cycles above 0", allowed=words.positive)
+    wear.add_argument("--life", type=least, metavar="N", help="cycles of the whole test (those of the files)")
+    plan = parser.add_argument_group("planning")
+    plan.add_argument("--plan", action="store_true", help="how well which strokes would give the friction")
+    plan.add_argument(
+        "--friction", type=word(words.number, "a friction above 0", allowed=words.positive), help="assumed"
+    )
+    plan.add_argument(
+        "--noise", type=word(noise), metavar="D,F", help="of displacement and force: 20nm,1N (0.5 %% of both)"
+    )
+    plan.add_argument("--wanted", type=word(part), default=0.02, metavar="PART", help="deviation of the friction (2%%)")
+    out = parser.add_argument_group("output")
+    out.add_argument("-o", "--output", metavar="NAME", help="NAME.json and so on")
+    add_choice(out)
+    options = parser.parse_args(joined(given))
+    return _checked(parser, options)
+
+
+def _check_plan(parser, options):
+    """Ends the command for options that do not fit to --plan."""
+    if options.plan:
+        if options.files:
+            parser.error(f"--plan: nothing is measured yet: leave out {short(options.files[0])}")
+        for name in ("friction", "rig"):
+            if getattr(options, name) is None:
+                parser.error(f"--plan: needs --{name}, an assumed one")
+    elif not options.files:
+        parser.error("LOOPS.csv is missing, or --plan")
+    for name in ("friction", "noise"):
+        if getattr(options, name) is not None and not options.plan:
+            parser.error(f"--{name}: is for --plan")
+
+
+def _checked(parser, options):
+    """The options, or the end of the command for those that do not fit."""
+    _check_plan(parser, options)
+    count = 1 if options.plan else len(options.files)
+    if len(options.normal) not in (1, count):
+        parser.error(f"--normal: {count} files need one number, or as many")
+    options.normal = options.normal * count if len(options.normal) == 1 else options.normal
+    if options.life and not options.volume:
+        parser.error("--life: is for --volume")
+    return options
+
+
+def _outputs(options):
+    """Refuses outputs that are inputs, or cannot be written."""
+    if not options.output:
+        return
+    for end in WRITTEN:
+        name = options.output + end
+        if any(same(name, path) for path in [*options.files, options.shape]):
+            raise Unusable(f"-o {short(options.output)}: {name} would replace a file that is read: choose another name")
+        need_replaceable(name)
+
+
+def _plan(options):
+    one = push.of_shape(options.shape, options.normal[0], options.width)
+    found = planning.plan(one, options.friction, options.rig, options.noise, wanted=options.wanted)
+    print(f"push: {one.text}; contact without slip {one.stiffness / 1e6:.4g} N/um")
+    print(f"deviation of the friction, in per cent of {options.friction:g}, by ten loops of 200 points:")
+    print(f"  {'loops':62} {'stroke/um':>9} {'force/N':>8} {'friction':>9} {'+ loss':>8} {'+ lean':>8} {'+ shape':>8}")
+    for name, stroke, force, row in zip(found.loops, found.stroke, found.force, found.deviation):
+        cells = " ".join(f"{100 * value:8.2g}" for value in row)
+        print(f"  {name:62} {1e6 * stroke:9.4g} {force:8.4g}  {cells}")
+    print(found.advice())
+    if options.output:
+        found.to_csv(options.output + ".csv")
+        print(f"wrote {options.output}.csv")
+
+
+def _measure(options):
+    records = [reading.read(path, options.displacement, options.force) for path in options.files]
+    if not reading.same_units(records):
+        raise Error(f"{options.files[0]}: some files have loops and others peaks only: evaluate them apart")
+    if records[0].peaks:
+        return _peaks(options, records)
+    pushes = [push.of_shape(options.shape, normal, options.width) for normal in options.normal]
+    files = [series.cycles(one, normal, options.cycles) for one, normal in zip(records, options.normal)]
+    for record, one in zip(records, files):
+        for note in (*record.notes, *one.notes):
+            print(f"{record.path}: {note}")
+    fixed = {"compliance": 1.0 / options.rig} if options.rig else {}
+    if options.loss is not None:
+        fixed["loss"] = options.loss
+    found = series.analyse(files, pushes, ("lean",) if options.lean else (), **fixed)
+    for line in results.lines(found, pushes[0]):
+        print(line)
+    worn = None
+    if options.volume:
+        worn = results.wear(found, *options.volume, options.life)
+        print(results.worn_line(worn, options.body))
+    if options.output:
+        _write(options, found, pushes[0], worn)
+    return 0
+
+
+def _peaks(options, records):
+    for record, normal in zip(records, options.normal):
+        found = series.of_peaks(record, normal)
+        print(f"{record.path}: {len(record.force)} cycles, peaks only: friction at least {found.friction_at_least:.4g}")
+        if np.isfinite(found.energy_ratio).any():
+            print(
+                f"energy ratio {np.nanmin(found.energy_ratio):.3g} to {np.nanmax(found.energy_ratio):.3g}: "
+                f"{int(np.sum(found.gross))} cycles of gross slip (above 0.2)"
+            )
+        else:
+            print("no energies: whether the contact slides is not known from peaks")
+    if options.output:
+        raise Unusable("-o: peaks hold no loop to be fitted: give the points of the loops")
+    return 0
+
+
+def _write(options, found, one, worn):
+    name, wrote = options.output, []
+    with open(name + ".json", "w", encoding="utf-8") as file:
+        json.dump(results.as_json(found, worn, options.body), file, indent=1)
+        file.write("\n")
+    wrote.append(name + ".json")
+    found.to_csv(name + "-cycles.csv")
+    wrote.append(name + "-cycles.csv")
+    if found.state == "changes":
+        results.write_friction(found, name + "-friction.csv")
+        wrote.append(name + "-friction.csv")
+    if found.identifiable:
+        results.write_options(found, one, options.shape, options.width, name, worn, options.body)
+        wrote += [name + ".opts", name + "-loop.csv"]
+    if not options.no_picture:
+        from .. import plot
+        from ..plot import saving
+
+        saving.write(plot.fit(found), name + ".png", options.dpi)
+        wrote.append(name + ".png")
+    print("wrote " + ", ".join(wrote))
+
+
+def carry_out(options):
+    """Read, fit, print and draw; exit code."""
+    _outputs(options)
+    return _plan(options) if options.plan else _measure(options)
+
+
+def main():
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data."""
+    return guarded("petsam-fit", lambda: quietly(carry_out, arguments(sys.argv[1:])))

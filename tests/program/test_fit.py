@@ -1,0 +1,383 @@
+"""petsam-fit: twins of loops made from known numbers, what they do not hold, files of laboratories, plans, wear."""
+
+import json
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+import petsam as package
+from petsam import calibration
+from petsam.calibration import loops as model
+from petsam.commands import fit as command
+from petsam.core.errors import Error
+
+STEEL = {"body1_young": 210e9, "body1_poisson": 0.3, "body2_young": 210e9, "body2_poisson": 0.3}
+N, R, MU = 1000.0, 0.1, 0.6
+PUSH = calibration.ball(N, R, STEEL)
+SHAPE = "-gap_type sphere\n-gap_radius1 0.1\n-gap_radius2 inf\n-grid_n 96\n-grid_size 2.6mm # wide enough\n" + "".join(
+    f"-{name} {value!r}\n" for name, value in STEEL.items()
+)
+
+
+@pytest.fixture(autouse=True)
+def there(tmp_path, monkeypatch):
+    """Tests run in their folder, which has a ball's options."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ball.opts").write_text(SHAPE)
+
+
+def twin(chance, part=None, stroke=None, rig=2e7, noise=0.005, mu=MU, points=200, **more):
+    """A loop of a part of sliding, or of a multiple of the sliding stroke; noise relative to both amplitudes."""
+    backbone = model.Backbone(PUSH, mu, 1.0 / rig)
+    half = (
+        stroke * backbone.displacement[-1]
+        if stroke
+        else np.interp(part * mu * N, backbone.force, backbone.displacement)
+    )
+    phase = 2.0 * np.pi * np.arange(points) / points
+    d, rising = -half * np.cos(phase), phase < np.pi
+    q, _ = model.force_of(backbone, d, rising, (0.0, half, -half), **more)
+    most = q.max()
+    return model.Loop(
+        d + noise * half * chance.standard_normal(points), q + noise * most * chance.standard_normal(points), rising, N
+    )
+
+
+def write(path, loops, head="x [um],F [N]", form="{:.5f},{:.4f}", drift=0.0, offset=0.0):
+    """Loops one after the other in a file."""
+    lines, k = [head], 0
+    for loop in loops:
+        for d, q in zip(loop.displacement, loop.force):
+            lines.append(form.format(1e6 * d + drift * k / len(loop.force), q + offset))
+            k += 1
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def fit(monkeypatch, capsys):
+    """fit(*words, check=0): what petsam-fit prints on both streams."""
+
+    def run(*words, check=0):
+        monkeypatch.setattr(sys, "argv", ["petsam-fit", *map(str, words)])
+        try:
+            code = command.main()
+        except SystemExit as end:
+            code = end.code
+        found = capsys.readouterr()
+        assert code == check, found
+        return found.out + found.err
+
+    return run
+
+
+# ---------------------------------------------------------------- the model
+
+
+def test_a_ball_s_push_and_loop_have_their_closed_forms():
+    """Deresiewicz's energy of a closed loop; the tangential stiffness without slip."""
+    t, (nu, e) = 0.7, (0.3, 210e9)
+    shear = 2 * (2 - nu) * 2 * (1 + nu) / e
+    a = (0.75 * N * R * 2 * (1 - nu**2) / e) ** (1 / 3)
+    assert PUSH.stiffness == pytest.approx(8 * a / shear, rel=1e-3)
+    loop = twin(np.random.default_rng(0), t, rig=1e30, noise=0.0, points=4000)
+    exact = 9 * MU**2 * N**2 * shear / (10 * a) * (1 - (1 - t) ** (5 / 3) - 5 * t / 6 * (1 + (1 - t) ** (2 / 3)))
+    assert loop.energy == pytest.approx(exact, rel=1e-3)
+
+
+def test_the_push_of_petsam_is_that_of_the_closed_form(tmp_path):
+    """Another option makes it no plain ball: it is computed. Closed form: Poisson's ratio makes 0.1 %."""
+    (tmp_path / "other.opts").write_text(SHAPE + "-normal_rtol 1e-10\n")
+    computed, closed = calibration.of_shape("other.opts", N), calibration.of_shape("ball.opts", N)
+    assert "petsam" in computed.text and "closed form" in closed.text
+    assert np.array_equal(closed.displacement, PUSH.displacement)
+    at = np.interp(closed.force, computed.force, computed.displacement)
+    assert at[60:] == pytest.approx(closed.displacement[60:], rel=5e-3)
+    assert at[-1] == pytest.approx(closed.displacement[-1], rel=2e-3)
+    found = model.fit([twin(np.random.default_rng(2), 0.8, rig=2e8, noise=1e-4)], computed)
+    assert found.friction == pytest.approx(MU, rel=0.02) and found.compliance == pytest.approx(5e-9, rel=0.02)
+
+
+@pytest.mark.parametrize("part, stroke, rig", [(0.3, None, 2e8), (0.7, None, 2e7), (None, 1.5, 2e7), (None, 3.0, 2e8)])
+def test_bands_hold_the_truth(part, stroke, rig):
+    """Of 24 twins at least 20 within two standard deviations, which are the scatter of the numbers."""
+    chance = np.random.default_rng(17)
+    found = [model.fit([twin(chance, part, stroke, rig)], PUSH) for _ in range(24)]
+    assert all(one.state == "known" for one in found)
+    for name, truth in (("friction", MU), ("compliance", 1.0 / rig)):
+        values, bands = (np.array([getattr(one, end) for one in found]) for end in (name, f"{name}_sd"))
+        assert np.sum(np.abs(values - truth) < 2 * bands) >= 20, name
+        assert 0.6 < np.std(values) / np.median(bands) < 1.6, name
+    assert all(one.gross == bool(stroke) and abs(one.neighbours) < 0.3 for one in found)
+
+
+def test_small_loops_on_a_soft_rig_hold_no_friction():
+    """A lower bound that is below the truth, or a range that has it; never a number alone."""
+    chance = np.random.default_rng(5)
+    found = [model.fit([twin(chance, 0.25, None, 2e7)], PUSH) for _ in range(6)]
+    assert sum(one.state == "not identifiable" for one in found) >= 3
+    for one in found:
+        assert one.state in ("not identifiable", "weak")
+        if one.state == "weak":
+            assert one.friction_range[0] < MU < one.friction_range[1]
+        else:
+            assert np.isnan(one.friction) and 0.2 * MU < one.friction_at_least < MU
+        assert one.compliance == pytest.approx(5e-8, rel=0.02)
+
+
+def test_a_wrong_rig_is_rejected_by_correlated_residuals():
+    chance = np.random.default_rng(6)
+    loop = twin(chance, 0.8, rig=2e8)
+    assert model.fit([loop], PUSH, compliance=5e-9).state == "known"
+    wrong = model.fit([loop], PUSH, compliance=5.6e-9)
+    assert wrong.state == "rejected" and wrong.neighbours > 0.5
+    assert np.isnan(wrong.friction) and np.isnan(wrong.compliance)
+
+
+def test_lean_and_loss_are_found_or_given():
+    chance = np.random.default_rng(8)
+    lean, loss = 4e5, 0.01
+    loop = twin(chance, None, 2.0, 2e7, noise=0.002, lean=lean, loss=loss)
+    both = model.fit([loop], PUSH, ("lean", "loss"))
+    for name, truth in (("lean", lean), ("loss", loss)):
+        value, band = both.more[name]
+        assert abs(value - truth) < 3 * band < truth, name
+    assert both.friction == pytest.approx(MU, rel=5e-3) and both.compliance == pytest.approx(5e-8, rel=0.01)
+    given = model.fit([loop], PUSH, ("lean",), loss=loss)
+    assert given.friction == pytest.approx(MU, rel=2e-3)
+    assert model.fit([loop], PUSH).state == "rejected"  # without them
+
+
+def test_three_amplitudes_hold_more_than_one():
+    chance = np.random.default_rng(9)
+    three = [twin(chance, part, None, 2e8) for part in (0.3, 0.6, 0.9)]
+    one, all_of = model.fit(three[1:2], PUSH), model.fit(three, PUSH)
+    assert all_of.friction_sd < 0.4 * one.friction_sd and all_of.friction == pytest.approx(MU, rel=0.02)
+
+
+def test_a_plan_has_the_bands_of_twins():
+    """Of one loop of 200 points; published tables of this model: 10, 2.2 and 0.057 %."""
+    for rig, expected in ((2e7, (0.10, 0.025, 5.7e-4)), (2e8, (0.022, 0.0059, 5.6e-4))):
+        found = calibration.plan(PUSH, MU, rig, cycles=1)
+        rows = dict(zip(found.loops, found.deviation))
+        for name, sd in zip(("0.6 of sliding", "0.9 of sliding", "1.5 times the sliding stroke"), expected):
+            assert rows[name][0] == pytest.approx(sd, rel=0.06), name
+            assert np.all(np.diff(rows[name][:2]) > 0) and rows[name][2] > rows[name][0]
+        three = rows["0.3 of sliding and 0.6 of sliding and 0.9 of sliding"]
+        assert three[0] < rows["0.9 of sliding"][0] and three[1] < 0.6 * rows["0.9 of sliding"][1]
+    assert found.advice().startswith("the friction to 2 % takes ")
+    none = calibration.plan(PUSH, MU, 1e6, noise=(1e-4, 300.0), cycles=1)
+    assert none.advice().startswith("none of these loops")
+
+
+# ---------------------------------------------------------------- files
+
+
+def series_of(chance, frictions, **more):
+    return [twin(chance, None, 2.0, 2e7, mu=mu, **more) for mu in frictions]
+
+
+def test_friction_that_changes_is_a_table(fit, tmp_path):
+    """Twelve cycles with drift, offset and a digital step; the energy is that of the polygons."""
+    truth = np.linspace(0.4, 0.7, 12)
+    loops = series_of(np.random.default_rng(11), truth)
+    write(tmp_path / "lab.csv", loops, "Displacement (um);Friction force (N)", "{:.2f};{:.3f}", drift=1.8, offset=12.0)
+    said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test", "--no-picture")
+    assert "friction changes with the cycles, 0.40" in said and "gross slip" in said and "rig stiffness 20" in said
+    found = json.loads((tmp_path / "test.json").read_text())
+    assert found["state"] == "changes" and found["identifiable"] and len(found["cycles"]) == 12
+    assert [one["friction"] for one in found["cycles"]] == pytest.approx(truth, rel=0.01)
+    assert abs(found["rig_stiffness"] - 2e7) < 4 * found["rig_stiffness_sd"] < 2e6
+    rows = np.genfromtxt("test-friction.csv", delimiter=",", names=True)
+    assert rows["cycle"].tolist() == [0, *range(1, 13)] and rows["friction"][1:] == pytest.approx(truth, rel=0.01)
+    assert "drift +1." in said
+
+
+@pytest.mark.parametrize(
+    "head, form, comma",
+    [
+        ("x [um],F [N]", "{:.5f},{:.4f}", False),
+        ("# rig 7\nTest of Tuesday\nDisplacement (\u00b5m);Friction force (N)", "{:.5f};{:.4f}", True),
+        ("Stroke / um\tTangential force / N", "{:.5f}\t{:.4f}", True),
+        ("\ufeffposition (um),force (N)", "{:.5f},{:.4f}", False),
+        ("Zeit;Weg (um);Kraft (N)", "12:00:01;{:.5f};{:.4f}", True),
+    ],
+)
+def test_files_of_laboratories(tmp_path, head, form, comma):
+    loops = [twin(np.random.default_rng(3), None, 1.5)] * 3
+    path = write(tmp_path / "lab.csv", loops, head, form)
+    if comma:
+        start, body = path.read_text().rsplit(")" if ")" in head else "N\n", 1)
+        path.write_text(start + (")" if ")" in head else "N\n") + body.replace(".", ","))
+    record = calibration.read(path)
+    assert record.displacement == pytest.approx(np.tile(loops[0].displacement, 3), abs=1e-11)
+    assert record.force == pytest.approx(np.tile(loops[0].force, 3), abs=1e-4)
+    found = calibration.analyse([calibration.cycles(record, N)], [PUSH])
+    assert found.friction == pytest.approx(MU, rel=3e-3)
+
+
+def test_other_units_signs_and_courses(tmp_path):
+    """A force of the other sign and a loop recorded backwards are turned, and told; lost points cost their cycle."""
+    loops = [twin(np.random.default_rng(k), None, 1.5) for k in range(4)]
+    write(tmp_path / "plain.csv", loops)
+    plain = calibration.read("plain.csv")
+    lines = (tmp_path / "plain.csv").read_text().splitlines()
+    body = [line.split(",") for line in lines[1:]]
+    turned = [f"{float(d) / 1e3},{-float(q) / 1e3}" for d, q in body[::-1]]
+    (tmp_path / "turned.csv").write_text("\n".join(["x [mm],F [kN]", *turned]))
+    body[250][1] = ""
+    (tmp_path / "lost.csv").write_text("\n".join([lines[0], *map(",".join, body)]))
+    cycles = {name: calibration.cycles(calibration.read(f"{name}.csv"), N) for name in ("plain", "turned", "lost")}
+    found = {name: calibration.analyse([one], [PUSH]) for name, one in cycles.items()}
+    assert not cycles["plain"].notes and len(cycles["plain"].loops) == 4 and plain.time is None
+    assert "its sign is turned" in cycles["turned"].notes[0] and "clockwise" in cycles["turned"].notes[1]
+    assert "1 cycle with lost" in cycles["lost"].notes[0] and len(cycles["lost"].loops) == 3
+    for one in found.values():
+        assert one.friction == pytest.approx(MU, rel=3e-3) and one.rig_stiffness == pytest.approx(2e7, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("x,F [N]\n" + "1,2\n" * 30, "column x: has no unit of displacement"),
+        ("x [um],F\n" + "1,2\n" * 30, "column F: has no unit of force"),
+        ("x [um],F [N/mm]\n" + "1,2\n" * 30, "is a force per length, N/mm"),
+        ("x [um],F [N]\n" + "1,2\n" * 9, "too few"),
+        ("x [um],F [N]\n" + "1,2\n" * 30 + "1,oops\n", "line 32: column F: oops is no number"),
+        ("x [um],F [N]\n" + "1,2\n" * 30 + "1,2,3\n", "line 32: has 3 fields, the head has 2"),
+        ("x [um],y [um],F [N]\n" + "1,2,3\n" * 30, None),
+        (
+            "a [um],b [um],F [N]\n" + "1,2,3\n" * 30,
+            "columns a, b may be the displacement: choose one by --displacement",
+        ),
+        ("1,2\n" * 30, "no line of names"),
+        ("", "expected a head"),
+    ],
+)
+def test_files_that_cannot_be_read_are_named(tmp_path, text, said):
+    (tmp_path / "lab.csv").write_text(text)
+    if said is None:
+        assert calibration.read("lab.csv").displacement[0] == 1e-6
+        return
+    with pytest.raises(Error, match="lab.csv") as error:
+        calibration.read("lab.csv")
+    assert said in str(error.value)
+
+
+def test_half_a_loop_is_none(fit, tmp_path):
+    loop = twin(np.random.default_rng(3), 0.8)
+    half = model.Loop(loop.displacement[:100], loop.force[:100], loop.rising[:100], N)
+    write(tmp_path / "half.csv", [half])
+    assert "no whole cycle" in fit("half.csv", "--normal", "1kN", "--shape", "ball.opts", check=3)
+
+
+def test_peaks_give_a_bound_and_the_regime(fit, tmp_path):
+    rows = "".join(f"{k},{20 + k},{500},{0.9 * 4 * (20 + k) * 1e-6 * 500 * 1e3:.4f}\n" for k in range(5))
+    (tmp_path / "peaks.csv").write_text("cycle,displacement amplitude [um],force amplitude [N],energy [mJ]\n" + rows)
+    said = fit("peaks.csv", "--normal", "1kN", "--shape", "ball.opts")
+    assert "friction at least 0.5" in said and "5 cycles of gross slip" in said
+    assert "-o: peaks hold no loop" in fit("peaks.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "p", check=2)
+
+
+# ---------------------------------------------------------------- what is written
+
+
+def test_petsam_reproduces_the_loop(fit, petsam, tmp_path):
+    """With NAME.opts: the contact's part of the stroke takes the measured force, and the energy of the loop."""
+    loops = [twin(np.random.default_rng(k), 0.9, None, 2e8, noise=5e-4) for k in range(3)]
+    write(tmp_path / "lab.csv", loops)
+    said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test")
+    assert (tmp_path / "test.png").stat().st_size > 10000 and "friction 0." in said
+    petsam("-options_file", "test.opts", "-output", "loop.h5")
+    with h5py.File("loop.h5") as file:
+        force, energy = file["history/load_tx"][:], file["history/dissipated_energy"][:]
+    assert force[-1] == pytest.approx(0.9 * MU * N, rel=0.02) and force[-17] == pytest.approx(-force[-1], rel=1e-3)
+    closed = twin(np.random.default_rng(0), 0.9, None, 2e8, noise=0.0).energy
+    assert energy[-32:].sum() == pytest.approx(closed, rel=0.03)
+
+
+def test_what_is_not_known_is_not_written(fit, tmp_path):
+    write(tmp_path / "lab.csv", [twin(np.random.default_rng(5), 0.2, None, 2e7)])
+    said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test", "--no-picture")
+    found = json.loads((tmp_path / "test.json").read_text())
+    assert "friction: not identifiable from these loops; at least 0." in said
+    assert found["friction"] is None and not found["identifiable"] and 0.1 < found["friction_at_least"] < MU
+    assert not (tmp_path / "test.opts").exists()
+    write(tmp_path / "lab.csv", [twin(np.random.default_rng(5), 0.9, None, 2e8)])
+    said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "150N/um", "-o", "no", "--no-picture")
+    found = json.loads((tmp_path / "no.json").read_text())
+    assert "no numbers" in said and "next:" in said and found["rig_stiffness"] is None and not found["identifiable"]
+
+
+def test_wear_is_volume_over_energy(fit, tmp_path):
+    """alpha V/E; Archard's coefficient is alpha mu; the bands of volume and friction."""
+    loops = [twin(np.random.default_rng(k), None, 2.0, 2e7) for k in range(3)]
+    write(tmp_path / "lab.csv", loops)
+    words = ("--normal", "1kN", "--shape", "ball.opts", "--volume", "2e6um3,10%", "--life", "1000", "--body", "1")
+    said = fit("lab.csv", *words, "-o", "test", "--no-picture")
+    energy = np.mean([loop.energy for loop in loops]) * 1000
+    found = json.loads((tmp_path / "test.json").read_text())
+    assert found["volume_over_energy1"] == pytest.approx(2e-12 / energy, rel=0.02)
+    assert found["wear_coefficient1"] == pytest.approx(MU * 2e-12 / energy, rel=0.02)
+    assert found["wear_coefficient1_sd"] == pytest.approx(0.1 * found["wear_coefficient1"], rel=0.05)
+    assert "body 1: volume over energy" in said and "-wear_coefficient1 " in (tmp_path / "test.opts").read_text()
+    lost = [twin(np.random.default_rng(k), None, 2.0, 2e7, loss=0.02) for k in range(3)]
+    write(tmp_path / "lab.csv", lost)
+    fit("lab.csv", *words, "--loss", "2%", "-o", "test", "--no-picture")
+    again = json.loads((tmp_path / "test.json").read_text())
+    assert again["volume_over_energy1"] == pytest.approx(found["volume_over_energy1"], rel=5e-3)
+    assert np.mean([loop.energy for loop in lost]) > 1.01 * energy / 1000
+
+
+def test_plans_are_printed_and_written(fit, tmp_path):
+    words = ("--plan", "--normal", "1kN", "--shape", "ball.opts", "--friction", "0.6", "--rig", "20N/um")
+    said = fit(*words, "-o", "plan")
+    assert "the friction to 2 % takes" in said and (tmp_path / "plan.csv").read_text().startswith(
+        "loops,displacement [m]"
+    )
+
+
+@pytest.mark.parametrize(
+    "words, code, said",
+    [
+        ((), 2, "--normal"),
+        (("--normal", "1kN", "--shape", "ball.opts"), 2, "LOOPS.csv is missing, or --plan"),
+        (("lab.csv", "--normal", "-1", "--shape", "ball.opts"), 2, "--normal"),
+        (("lab.csv", "--normal", "1kN", "--shape", "none.opts"), 3, "none.opts"),
+        (("none.csv", "--normal", "1kN", "--shape", "ball.opts"), 3, "none.csv"),
+        (("lab.csv", "--normal", "1kN,2kN", "--shape", "ball.opts"), 2, "1 files need one number"),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20"), 0, ""),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20N/furlong"), 2, "units are N/m, N/mm"),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--width", "1mm"), 2, "not in plane strain"),
+        (("lab.csv", "--normal", "1kN", "--shape", "plane.opts"), 2, "give the length of the contact, --width"),
+        (("lab.csv", "--plan", "--normal", "1kN", "--shape", "ball.opts"), 2, "nothing is measured yet"),
+        (("--plan", "--normal", "1kN", "--shape", "ball.opts"), 2, "--plan: needs --friction"),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--friction", "0.5"), 2, "--friction: is for --plan"),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--cycles", "9:"), 3, "no whole cycle is left"),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--displacement", "y"), 3, "no such column"),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "nofolder/x"), 3, "does not exist"),
+        (
+            ("lab-loop.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "lab"),
+            2,
+            "would replace a file that is read",
+        ),
+        (("lab.csv", "--normal", "1kN", "--shape", "lab.csv"), 3, "has no option of petsam"),
+    ],
+)
+def test_options_that_do_not_fit_are_named(fit, tmp_path, words, code, said):
+    write(tmp_path / "lab.csv", [twin(np.random.default_rng(5), 0.9, None, 2e8)] * 2)
+    write(tmp_path / "lab-loop.csv", [twin(np.random.default_rng(5), 0.9, None, 2e8)] * 2)
+    (tmp_path / "plane.opts").write_text(SHAPE.replace("-grid_n 96", "-elasticity plane\n-grid_n 96"))
+    assert said in fit(*words, check=code)
+
+
+def test_a_result_is_a_table_and_a_picture(tmp_path):
+    write(tmp_path / "lab.csv", [twin(np.random.default_rng(k), None, 2.0, 2e7) for k in range(3)])
+    found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+    names = [column.name for column in found.table()]
+    assert names == ["cycle", "friction", "friction_sd", "compliance", "compliance_sd", "energy"]
+    assert found.state == "known" and found.identifiable and abs(found.friction - MU) < 3 * found.friction_sd
+    figure = package.plot.fit(found)
+    assert len(figure.axes) == 2 and len(figure.axes[0].lines) == 4
