@@ -1,6 +1,6 @@
 """The model of a measured loop, and its fit: friction and the rig's compliance.
 
-Displacement D of the drive or of a sensor, force Q, constant normal load N. The contact stands in series with the rig,
+Displacement D of the drive or of a sensor, force Q, constant normal load N. Contact and rig are in series, the rig
 of compliance c: D = mu f(Q/mu) + c Q, with f the displacement of one push at a coefficient of friction of 1 (push.py);
 beyond D_g = mu f(N) + c mu N it slides at mu N. With this backbone Q = F(D) a closed loop follows by Masing's rule:
 
@@ -15,6 +15,7 @@ Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Optional
 
 import numpy as np
 
@@ -46,12 +47,15 @@ class Loop:
         (n,), True where the displacement rises.
     normal : float
         Normal load, N.
+    given : tuple of float, optional
+        Noise of displacement and force, m and N, of several loops that are one; None: by second differences.
     """
 
     displacement: np.ndarray
     force: np.ndarray
     rising: np.ndarray
     normal: float
+    given: Optional[tuple] = None
 
     @property
     def energy(self) -> float:
@@ -61,7 +65,7 @@ class Loop:
 
     def noise(self) -> tuple[float, float]:
         """Noise of displacement and force, m and N, from second differences."""
-        return noise_of(self.displacement), noise_of(self.force)
+        return self.given or (noise_of(self.displacement), noise_of(self.force))
 
 
 def noise_of(values: np.ndarray) -> float:

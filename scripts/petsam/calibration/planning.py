@@ -57,7 +57,7 @@ class Plan(Tabled):
         return [
             Column("loops", "", "shear amplitude over mu N, or stroke over that of sliding", list(self.loops)),
             Column("displacement", "m", "largest amplitude", self.stroke.tolist()),
-            Column("force", "N", "largest shear amplitude", self.force.tolist()),
+            Column("force", "N", "maximum shear amplitude", self.force.tolist()),
             *(
                 Column(name, "1", f"deviation of the friction relative to it, {text}", self.deviation[:, k].tolist())
                 for k, (name, text) in enumerate(zip(names, texts))

@@ -15,7 +15,9 @@ from .reading import Record
 SMOOTH = 40  # parts of a period over which the displacement is smoothed, to find its turns
 APART = 0.6  # of a period: least distance of two minima
 SCATTER = 5.0  # scatter of the friction over what is expected, from which on it changes
-TOGETHER = 3  # cycles of each file that are fitted together
+TOGETHER = 3  # cycles of each file that are fitted together, where their amplitudes differ
+ALIKE = 2.0  # of the noise: the standard deviation of the ranges of cycles that are alike; noise makes it about 1
+MOST = 6000  # points of cycles that are fitted as one loop
 TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
 FEWEST = 12  # points of a cycle
 
@@ -125,16 +127,24 @@ def cycles(record: Record, normal: float, which: slice = slice(None)) -> Cycles:
 
 
 def _drift(filled, parts):
-    """The drift of the displacement at each point, m, through the means of the cycles, and per cycle."""
+    """The drift of the displacement at each point, m, through the means of the cycles, and per cycle. A mean is that of
+    a whole period about the middle of a cycle, which does not depend on where exactly the cycle is cut."""
     if len(parts) < 2:
         return 0.0, 0.0
     places = np.arange(len(filled))
-    means = np.array([np.mean(filled[part]) for part in parts])
+    period = round((parts[-1].stop - parts[0].start) / len(parts))
+    means = np.array([_mean_about(filled, 0.5 * (part.start + part.stop), period) for part in parts])
     middles = np.array([0.5 * (part.start + part.stop - 1) for part in parts])
     line = np.interp(places, middles, means)
     for end, (a, b) in ((places < middles[0], (0, 1)), (places > middles[-1], (-2, -1))):
         line[end] = means[a] + (places[end] - middles[a]) * (means[b] - means[a]) / (middles[b] - middles[a])
     return line, float(np.polyfit(np.arange(len(parts)), means, 1)[0])
+
+
+def _mean_about(values, middle, period):
+    """Mean of so many values about a place."""
+    first = int(np.clip(round(middle - 0.5 * period), 0, max(0, len(values) - period)))
+    return float(np.mean(values[first : first + period]))
 
 
 def _closed(d, q, top, normal):
@@ -240,13 +250,14 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     -------
     Result
     """
-    chosen = [(loop, push) for one, push in zip(files, pushes) for loop in _spread(one.loops)]
+    together = _fit_all(files, pushes, _together, free, fixed)
+    if together.state == "rejected":  # cycles on each other differ by more than their noise
+        together = _fit_all(files, pushes, _spread, free, fixed)
     each, notes = [], [note for one in files for note in one.notes]
-    if sum(len(one.loops) for one in files) > len(chosen) or len(chosen) > 1:
+    if sum(len(one.loops) for one in files) > 1:
         each = [
             fit([loop], push, free, profile=False, **fixed) for one, push in zip(files, pushes) for loop in one.loops
         ]
-    together = fit([loop for loop, _ in chosen], [push for _, push in chosen], free, **fixed)
     numbers = np.concatenate([one.numbers for one in files]).astype(float)
     loss = together.more.get("loss", (fixed.get("loss", 0.0),))[0]
     energy = np.array([_contact_energy(loop, loss) for one in files for loop in one.loops])
@@ -270,6 +281,12 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     )  # fmt: skip
 
 
+def _fit_all(files, pushes, choose, free, fixed):
+    """The fit of chosen loops of all files together."""
+    chosen = [(loop, push) for one, push in zip(files, pushes) for loop in choose(one.loops)]
+    return fit([loop for loop, _ in chosen], [push for _, push in chosen], free, **fixed)
+
+
 def _rig(each, together, state):
     """Stiffness of the rig and its deviation: of a friction that changes by the mean of the cycles' compliances."""
     if state != "changes":
@@ -281,8 +298,21 @@ def _rig(each, together, state):
     return (1.0 / mean, deviation / mean**2) if mean > 0.0 else (np.inf, np.nan)
 
 
+def _together(loops):
+    """What is fitted together: all cycles on each other, as one loop, if their amplitudes are alike, else some."""
+    spans = np.array([[np.ptp(one.displacement), np.ptp(one.force)] for one in loops])
+    noise = np.median([one.noise() for one in loops], axis=0)
+    if len(loops) > 1 and np.all(np.std(spans, axis=0) < ALIKE * noise):
+        kept = loops[: max(2, MOST // len(loops[0].force))]
+        d, q, rising = (
+            np.concatenate([getattr(one, name) for one in kept]) for name in ("displacement", "force", "rising")
+        )
+        return [Loop(d, q, rising, loops[0].normal, tuple(noise))]
+    return _spread(loops)
+
+
 def _spread(loops):
-    """The loops that are fitted together: up to TOGETHER, from the first to the last."""
+    """Up to TOGETHER loops, from the first to the last."""
     return [loops[k] for k in sorted({round(k) for k in np.linspace(0, len(loops) - 1, min(TOGETHER, len(loops)))})]
 
 
