@@ -110,9 +110,7 @@ def _stiffness_options(one):
         type=_spans("pressures", "1MPa:50MPa:12", "Pa"),
         help="nominal pressures: FIRST:LAST:COUNT or P,P,...",
     )
-    group.add_argument(
-        "--friction", type=word(words.number), help="coefficient of friction; not with --normal-only"
-    )
+    group.add_argument("--friction", type=word(words.number), help="coefficient of friction; not with --normal-only")
     for body in "12":
         group.add_argument(
             f"--body{body}", type=word(material), metavar="MATERIAL",
@@ -236,7 +234,9 @@ def _stiffness(args):
     if args.normal_only:
         for name, value in loops.items():
             if value is not None:
-                raise Unusable(f"--{name}: is for loops of the shear, which --normal-only leaves out: remove one of both")
+                raise Unusable(
+                    f"--{name}: is for loops of the shear, which --normal-only leaves out: remove one of both"
+                )
     elif args.friction is None:
         raise Unusable("petsam-joint stiffness needs --friction, or --normal-only")
     endings = (".csv", ".png") if args.normal_only else (".csv", ".json", ".inp", ".png")
@@ -419,8 +419,15 @@ ACTIONS = {
     "stiffness": (
         ("pressure", "body1", "body2"),
         dict(
-            friction=None, hardness=None, shear=None, periodic=False, area=None, steps=None, full=None,
-            normal_only=None, cores=None,
+            friction=None,
+            hardness=None,
+            shear=None,
+            periodic=False,
+            area=None,
+            steps=None,
+            full=None,
+            normal_only=None,
+            cores=None,
         ),
         _stiffness,
     ),

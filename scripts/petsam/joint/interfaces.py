@@ -31,7 +31,7 @@ NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
 SMALL = 100_000  # points of all windows below which starting processes takes longer than the solution
 APART = 0.05  # relative difference from which k_t along x and y are printed both
 # for the estimate of time: later solutions over the first one, a step of the shear over a solution without one
-LATER, PUSHED = 1.2, 2.0
+LATER, PUSHED = 1.2, 1.5
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
     "closure": ("m", "approach of the mean planes since the first touch"),
@@ -439,7 +439,9 @@ def of_windows(  # noqa: PLR0913  (as those of interface())
     return _of_windows(fields, names, spacing, pressures, loop, way, bodies)
 
 
-def _ways(friction, shear, steps, full, normal_only, cores, bodies, report, estimate):
+def _ways(  # noqa: PLR0913  (as those of interface())
+    friction, shear, steps, full, normal_only, cores, bodies, report, estimate
+):  # fmt: skip
     """The loop, or None, and the way; Error for values that are wrong or do not go together."""
     if cores is not None:
         cores = integer("cores", cores)
@@ -522,8 +524,7 @@ def _computed(parts, way):
         # the check of the largest pressure takes longest and begins first, but for the window that tells the time
         places = windows.checked(len(parts[0].pressures))
         checks = [
-            (windows.by_loops, parts[0]._replace(pressures=parts[0].pressures[k : k + 1], first=False), 2)
-            for k in places
+            (windows.check, parts[0]._replace(pressures=parts[0].pressures[k : k + 1], first=False)) for k in places
         ]
         order = [0, *range(len(parts) + len(places) - 1, len(parts) - 1, -1), *range(1, len(parts))]
     else:
@@ -556,8 +557,8 @@ def _units(parts, way, checks, solved, stiff):
     if way.reason:
         one += len(pressures) * (2 * windows.HALVES + 2) * loop.steps * PUSHED * LATER * solved
     elif loop:
-        one += len(windows.loads(pressures, loop.shear, loop.parts()[-1])) * LATER * solved
-    check = (len(checks) * 6 * loop.steps * PUSHED * LATER * solved) if checks else 0.0
+        one += len(windows.loads(pressures, loop.shear, loop.parts()[-1])) * (LATER * solved + stiff / windows.EVERY)
+    check = (len(checks) * 5 * loop.steps * PUSHED * LATER * solved) if checks else 0.0
     return len(parts) * one + check
 
 

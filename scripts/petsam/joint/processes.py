@@ -22,7 +22,7 @@ def _begin(words):
 
 def _work(job):
     function, *given = job
-    return function(*given[:1], lambda *told: _words.put(told), *given[1:])
+    return function(*given, lambda *told: _words.put(told))
 
 
 def run(
@@ -33,7 +33,7 @@ def run(
     Parameters
     ----------
     jobs : sequence of tuple
-        Each a function of a module and its arguments; beside the first argument it is given what it tells with.
+        Each a function of a module and its arguments; the last one, which is added, is what it tells with.
     cores : int
         Processes; 1: this one.
     told : callable
@@ -54,7 +54,7 @@ def run(
     if cores == 1 or len(jobs) == 1:
         found = []
         for k, (function, *given) in enumerate(jobs):
-            found.append(function(*given[:1], told, *given[1:]))
+            found.append(function(*given, told))
             done(k)
         return found
     context = multiprocessing.get_context("spawn")  # MPI does not bear a fork

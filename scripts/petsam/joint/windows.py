@@ -1,15 +1,15 @@
 """Numbers of one window of a rough interface: by the formula of Ciavarella and Jaeger, by computed loops, or without
 friction.
 
-The formula: where bodies are elastically similar, the coefficient of friction is one and the pressure P stays, the shear
-under a growing T is mu times the difference of two pressures, that under P and that under P - T/mu
-(M. Ciavarella, J. Mech. Phys. Solids 46 (1998) 2349; J. Jaeger, Arch. Appl. Mech. 68 (1998) 247). So the displacement is
+The formula: where bodies are elastically similar, the coefficient of friction is one and the pressure P stays, the
+shear under a growing T is mu times the difference of two pressures, that under P and that under P - T/mu
+(M. Ciavarella, J. Mech. Phys. Solids 46 (1998) 2349; J. Jaeger, Arch. Appl. Mech. 68 (1998) 247). The displacement:
 
     delta_t(T) = mu int (k_n/k_t) d(delta_n), from P - T/mu to P,
 
-with the stiffnesses k_n and k_t while all contacts stick and the approach delta_n. Where their ratio is constant, this is
-mu (k_n/k_t) [delta_n(P) - delta_n(P - T/mu)]; in a window with few spots it varies by some per cent, and neglecting that
-doubles the error. The loop follows by Masing's rule, W = 8 int_0^d T d(delta) - 4 T d.
+with the stiffnesses k_n and k_t while all contacts stick and the approach delta_n. Where their ratio is constant, this
+is mu (k_n/k_t) [delta_n(P) - delta_n(P - T/mu)]; in a window with few spots it varies by some per cent, and neglecting
+that doubles the error. The loop follows by Masing's rule, W = 8 int_0^d T d(delta) - 4 T d.
 """
 
 import contextlib
@@ -29,7 +29,7 @@ from . import elements
 HALVES = 4  # half cycles of a loop; the last two count
 LARGEST = 0.95  # shear over its limit at the end of the first loading to which elements are fitted
 FINE, COARSE = 4, 2  # loads of the normal curve per octave: where loops need them, and below
-EVERY = 3  # of them, for the ratio of the stiffnesses
+EVERY = 4  # of them, for the ratio of the stiffnesses
 FURTHER = 1e-3  # relative rise of the pressure by which the stiffness of further loading is a difference
 NOISE = 1e-6  # slip over displacement that is rounding
 CURVE = 128  # parts of the first loading over which the loop's energy is integrated
@@ -173,22 +173,36 @@ def by_formula(window: Window, told: Callable[[float, float], object]) -> Found:
                 k = contact.stiffness(reversal=True)
             ratio[lowest] = k[0, 0] / k[1, 1]
     curve, factor = (
-        kind(*np.transpose(sorted(values.items()))) for kind, values in ((CubicSpline, approach), (PchipInterpolator, ratio))
+        kind(*np.transpose(sorted(values.items())))
+        for kind, values in ((CubicSpline, approach), (PchipInterpolator, ratio))
     )
     loading = [_sheared(row, curve, factor, loop, parts) for row in rows]
     return Found(_named(rows), np.array(loading), found)
 
 
-def by_loops(window: Window, told: Callable[[float, float], object], halves: int = HALVES) -> Found:
-    """All numbers, by load steps of the shear: a first loading, and a loop of so many half cycles."""
+def by_loops(window: Window, told: Callable[[float, float], object]) -> Found:
+    """All numbers, by load steps of the shear: a first loading, and a loop."""
     rows, loading = [], []
     with _noted() as (found, begins), window.contact() as contact:
         for pressure in _telling(window):
             row, k_t = _pressed(contact, window, pressure, told, begins)
-            pushed, first = _cycled(contact, pressure[0], window, halves)
+            pushed, first = _cycled(contact, pressure[0], window)
             rows.append({**row, "k_t_x": k_t[0], "k_t_y": k_t[1], **pushed})
             loading.append(first)
     return Found(_named(rows), np.array(loading), found)
+
+
+def check(window: Window, _: Callable[[float, float], object]) -> Found:
+    """The loop alone, computed at the first pressure: one cycle, as that of similar bodies is closed."""
+    pressure, loop = window.pressures[0], window.loop
+    with _noted() as (found, begins), window.contact() as contact:
+        begins(f"{pressure:.6g} Pa{window.name}")
+        normal = pressure * window.area
+        contact.try_step(time=0.0, load_n=normal)
+        contact.commit()
+        _push(contact, normal, loop.friction * loop.parts()[: loop.steps])
+        numbers = _loop(contact, normal, window, halves=2)
+    return Found({name: np.array([value]) for name, value in numbers.items()}, np.empty((1, 0)), found)
 
 
 def loads(pressures: tuple, shear: float, largest: float) -> list[float]:
@@ -294,19 +308,16 @@ def _sheared(row, curve, factor, loop, parts):
     return (parts + np.interp(parts, *first_loading(parts[-1]))) * unit
 
 
-def _cycled(contact, pressure, window, halves):
+def _cycled(contact, pressure, window):
     """The numbers of a computed loop at the committed pressure, and the displacements of the first loading, m."""
-    friction, shear, steps = window.loop
+    friction, _, steps = window.loop
     parts, normal = friction * window.loop.parts(), pressure * window.area
     with contact.copy() as trial:
         pressed = trial.number("disp_x")  # N alone moves dissimilar bodies
         _, start = _push(trial, normal, parts[:steps])
         with trial.copy() as further:
             _, rest = _push(further, normal, parts[steps:])
-        energy, swing = _loop(trial, normal, friction * shear, steps, halves)
-    found = dict(
-        loop_amplitude=swing, loop_energy=energy / window.area, loop_stiffness=friction * shear * pressure / swing
-    )
+        found = _loop(trial, normal, window)
     return found, np.array(start + rest) - pressed
 
 
@@ -321,15 +332,15 @@ def _push(contact, normal, parts):
     return energy, places
 
 
-def _loop(contact, normal, part, steps, halves):
-    """Dissipated energy (J) and amplitude of the displacement (m) of the last cycle of the load along x.
-
-    The contact has been pushed to the first end of the loop.
-    """
-    ends, energies = [], []
+def _loop(contact, normal, window, halves=HALVES):
+    """Numbers of the last cycle of the load along x, of a contact that has been pushed to the first end of the loop."""
+    part, steps, ends, energies = window.loop.friction * window.loop.shear, window.loop.steps, [], []
     for k in range(halves):
         end = part if k % 2 else -part
         energy, places = _push(contact, normal, np.linspace(-end, end, 2 * steps + 1)[1:])
         energies.append(energy)
         ends.append(places[-1])
-    return sum(energies[-2:]), abs(ends[-1] - ends[-2]) / 2
+    swing, area = abs(ends[-1] - ends[-2]) / 2, window.area
+    return dict(
+        loop_amplitude=swing, loop_energy=sum(energies[-2:]) / area, loop_stiffness=part * normal / area / swing
+    )
