@@ -38,7 +38,9 @@ def test_the_formula_gives_the_numbers_of_computed_loops(shear):
         assert found.numbers[name] == pytest.approx(full.numbers[name], rel=1e-6), name
     assert found.loop_energy == pytest.approx(full.loop_energy, rel=0.03)
     assert found.loop_amplitude == pytest.approx(full.loop_amplitude, rel=0.01)
-    assert found.loading == pytest.approx(full.loading, rel=0.01)
+    part = found.parts <= 0.8
+    assert found.loading[:, part] == pytest.approx(full.loading[:, part], rel=0.01)
+    assert found.loading == pytest.approx(full.loading, rel=0.03)  # near gross slip few cells stick
     assert not np.array_equal(found.loop_energy, full.loop_energy)
 
 
@@ -88,9 +90,7 @@ def test_k_t_of_a_surface_with_a_direction_is_printed_along_both():
     found = joint.of_interface(field, 1e-5, [1e6], steps=2, **PAIR)
     assert found.k_t_x / found.k_t_y == pytest.approx(1 / (1 - PAIR["body1_poisson"]), rel=0.05)
     heads, row = (line.split() for line in found.lines()[:2])
-    assert heads[3:6] == ["k_t_x/(N/mm3)", "k_t_y/(N/mm3)", "k_t/k_n"] or heads[4:6] == [
-        "k_t_x/(N/mm3)", "k_t_y/(N/mm3)",
-    ]  # fmt: skip
+    assert heads[4:6] == ["k_t_x/(N/mm3)", "k_t_y/(N/mm3)"]  # after the two words +- %
     assert [float(value) for value in row[3:5]] == pytest.approx([found.k_t_x[0] / 1e9, found.k_t_y[0] / 1e9], rel=1e-3)
     assert "k_t_x/(N/mm3)" not in both()[0].lines()[0]
 
@@ -117,7 +117,7 @@ def test_the_number_of_processes_changes_no_bit():
 
 def test_an_error_of_a_process_is_that_of_the_command():
     with pytest.raises(petsam.Error, match="all of the surface touches"):
-        joint.of_windows(waves(16, 9), 1e-5, [1e6, 5e9], cores=2, **PAIR)
+        joint.of_windows(waves(24, 9), 1e-5, [1e6, 5e9], cores=2, **PAIR)
 
 
 @pytest.mark.parametrize("change, says", [
@@ -197,17 +197,18 @@ def test_normal_numbers_alone_are_those_of_the_whole(command, tmp_path):
     (("--friction", 0.3, "--cores", 0), "--cores: 0: expected a whole number"),
 ], ids=str)  # fmt: skip
 def test_options_that_do_not_go_together_are_named(command, tmp_path, words, says):
-    write(tmp_path / "a.h5", "separation", waves(16, 5))
+    write(tmp_path / "a.h5", "separation", waves(24, 5))
     assert says in command("a.h5", "--pressure", "10MPa", *STEEL, *words, check=2)
 
 
 @pytest.mark.parametrize("given, says", [
-    (dict(), "friction: give a coefficient, or normal_only"), (dict(friction=0.3, normal_only=True), "friction: is for"),
+    (dict(), "friction: give a coefficient, or normal_only"),
+    (dict(friction=0.3, normal_only=True), "friction: is for loops"),
     (dict(full=True, normal_only=True), "full: is for loops"), (dict(friction=0.3, cores=0), "cores 0: expected"),
 ], ids=str)  # fmt: skip
 def test_arguments_that_do_not_go_together_are_named(given, says):
     with pytest.raises(petsam.Error, match=says):
-        joint.of_interface(waves(16, 5), 1e-5, [1e7], **given, **bodies(70e9, 0.25))
+        joint.of_interface(waves(24, 5), 1e-5, [1e7], **given, **bodies(70e9, 0.25))
 
 
 def test_the_time_of_a_command_is_told(command, tmp_path, capsys, monkeypatch):
