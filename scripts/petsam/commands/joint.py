@@ -9,8 +9,10 @@
 stiffness: scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the
 normal and the tangential stiffness per area of the interface alone, the real contact area, and the energy of a loop of
 the shear; with the standard deviation of five windows of the surface, and the exponent chi and the weight beta of an
-Iwan element. -o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and pyHarm, NAME.inp, the
-interaction for a deck of Abaqus, and NAME.png.
+Iwan element. The loops follow from the approach over the pressure by a formula, and one window is computed to check it;
+--full computes the loops of all windows, which dissimilar bodies and a hardness always need. --normal-only leaves the
+shear out. -o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and pyHarm, NAME.inp, the
+interaction for a deck of Abaqus, and NAME.png; with --normal-only NAME.csv and NAME.png.
 
 backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written; each of its patches
 is a contact with the options of --contact, whose origin is the patch's centre. Tightens the bolts and prints frequency
@@ -50,6 +52,7 @@ from ..joint.structure import ENDS
 from ..joint.sweep import BackboneWarning
 from ..joint.wear import rising, wear
 from ..plot.saving import DPI, write
+from ..study.progress import clock
 from .line import Parser, add_resolution, guarded, joined, word
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
@@ -107,7 +110,7 @@ def _stiffness_options(one):
         type=_spans("pressures", "1MPa:50MPa:12", "Pa"),
         help="nominal pressures: FIRST:LAST:COUNT or P,P,...",
     )
-    group.add_argument("--friction", type=word(words.number), help="coefficient of friction")
+    group.add_argument("--friction", type=word(words.number), help="coefficient of friction; not with --normal-only")
     for body in "12":
         group.add_argument(
             f"--body{body}", type=word(material), metavar="MATERIAL",
@@ -120,6 +123,14 @@ def _stiffness_options(one):
     )
     group.add_argument("--shear", type=word(words.number), help="shear of the loop over friction times pressure (0.5)")
     group.add_argument("--periodic", action="store_true", default=None, help="the surface repeats itself: no windows")
+    group.add_argument(
+        "--full", action="store_true", default=None, help="compute the loops of all windows instead of one"
+    )
+    group.add_argument(
+        "--normal-only", action="store_true", default=None,
+        help="normal stiffness, real contact area and separation alone, without friction",
+    )  # fmt: skip
+    group.add_argument("--cores", type=_from(1), help="processes for the windows (all available cores)")
     group.add_argument(
         "--area",
         type=word(words.number, "an area above 0, such as 2mm2", "m2", words.positive),
@@ -219,20 +230,33 @@ def _run():
 
 
 def _stiffness(args):
-    for ending in (".csv", ".json", ".inp", ".png") if args.output else ():
+    loops = dict(friction=args.friction, shear=args.shear, steps=args.steps, full=args.full, area=args.area)
+    if args.normal_only:
+        for name, value in loops.items():
+            if value is not None:
+                raise Unusable(
+                    f"--{name}: is for loops of the shear, which --normal-only leaves out: remove one of both"
+                )
+    elif args.friction is None:
+        raise Unusable("petsam-joint stiffness needs --friction, or --normal-only")
+    endings = (".csv", ".png") if args.normal_only else (".csv", ".json", ".inp", ".png")
+    for ending in endings if args.output else ():
         need_replaceable(args.output + ending)
-    options = dict(friction=args.friction, shear=args.shear, steps=args.steps, periodic=args.periodic)
+    options = {name: value for name, value in loops.items() if value is not None and name != "area"}
+    options.update(periodic=args.periodic, normal_only=bool(args.normal_only), cores=args.cores)
     for body, (young, poisson) in (("body1", args.body1), ("body2", args.body2)):
         options.update({f"{body}_young": young, f"{body}_poisson": poisson})
     if args.hardness:
         options["pressure_limit"] = args.hardness
     with _recorded(AdviceWarning) as found:
-        result = interface(args.file, args.pressure, report=_teller("window"), **options)
+        left = lambda seconds: _tell(f"about {clock(seconds)} left")  # noqa: E731
+        result = interface(args.file, args.pressure, report=_teller("window"), estimate=left, **options)
     _print(result, found)
     if args.output:
         result.to_csv(args.output + ".csv")
-        result.to_json(args.output + ".json", args.area)
-        result.to_abaqus(args.output + ".inp")
+        if not args.normal_only:
+            result.to_json(args.output + ".json", args.area or 1.0)
+            result.to_abaqus(args.output + ".inp")
         write(plot.interface(result), args.output + ".png", args.dpi)
     return 0
 
@@ -393,8 +417,18 @@ def _degree_line(args, compute, pair, result):
 # for each action: options it needs, others with their defaults, the function
 ACTIONS = {
     "stiffness": (
-        ("pressure", "friction", "body1", "body2"),
-        dict(hardness=None, shear=0.5, periodic=False, area=1.0, steps=8),
+        ("pressure", "body1", "body2"),
+        dict(
+            friction=None,
+            hardness=None,
+            shear=None,
+            periodic=False,
+            area=None,
+            steps=None,
+            full=None,
+            normal_only=None,
+            cores=None,
+        ),
         _stiffness,
     ),
     "backbone": (

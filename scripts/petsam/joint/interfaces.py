@@ -6,9 +6,9 @@ whose surfaces are flat, and nothing of the bodies is counted twice. A window of
 of the bodies below it, which depends on the window's size.
 """
 
-import contextlib
 import json
 import os
+import time
 import warnings
 from collections.abc import Callable
 from typing import Any, NamedTuple, Optional, Union
@@ -16,22 +16,28 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..contact import AdviceWarning, Contact
+from ..contact import AdviceWarning
 from ..core import words
+from ..core.environment import cores as all_cores
 from ..core.errors import Unusable
 from ..core.tables import Column, Tabled
-from . import elements
+from . import elements, processes, windows
 from .arguments import array, integer, positive, real
 from .numbers import columns_of
 from .surfaces import need_fitting, read_separation
+from .windows import Loop, Window
 
-HALVES = 4  # half cycles of the loop; the last two count
 NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
-LARGEST = 0.95  # shear over its limit at the end of the first loading to which elements are fitted
+SMALL = 100_000  # points of all windows below which starting processes takes longer than the solution
+APART = 0.05  # relative difference from which k_t along x and y are printed both
+# for the estimate of time: later solutions over the first one, a step of the shear over a solution without one
+LATER, PUSHED = 1.2, 1.5
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
     "closure": ("m", "approach of the mean planes since the first touch"),
-    "k_n": ("Pa/m", "normal stiffness per area, d(pressure)/d(closure)"),
+    "separation": ("m", "mean distance of the surfaces"),
+    "k_n": ("Pa/m", "normal stiffness per area, d(pressure)/d(closure), elastic, of unloading"),
+    "k_n_loading": ("Pa/m", "the same of further loading, while summits yield"),
     "k_n_secant": ("Pa/m", "pressure over closure"),
     "k_t_x": ("Pa/m", "tangential stiffness per area along x, of sticking contacts"),
     "k_t_y": ("Pa/m", "the same along y"),
@@ -45,15 +51,32 @@ COLUMNS = {
     "iwan_shear_error": ("1", "the same of their shear"),
 }
 FITTED = [name for name in COLUMNS if name.startswith("iwan")]
-COMPUTED = [name for name in COLUMNS if name not in FITTED]
+ERRORS = {  # of the formula: the column of COLUMNS, and its text
+    "loop_energy": "relative error of loop_energy by the formula",
+    "loop_stiffness": "relative error of loop_stiffness by the formula",
+}
 
 
-class _Loop(NamedTuple):
-    """A loop of the shear: coefficient of friction, amplitude over friction times pressure, steps of a quarter."""
+class Outcome(NamedTuple):
+    """Numbers of an interface before its elements are fitted.
 
-    friction: float
-    shear: float
-    steps: int
+    Parameters
+    ----------
+    numbers, spread : dict
+        {name: (pressures,)}: means, and standard deviations of windows.
+    loading : ndarray
+        Displacements of the first loading, (pressures, parts), m.
+    errors : dict
+        {name: (pressures,)}: relative errors of the formula, of the names of ERRORS; empty for computed loops.
+    note : str
+        How the loops were found, in words.
+    """
+
+    numbers: dict
+    spread: dict
+    loading: np.ndarray
+    errors: dict
+    note: str
 
 
 class Interface(Tabled):
@@ -61,16 +84,25 @@ class Interface(Tabled):
 
     Parameters
     ----------
-    numbers : dict
-        {name: (pressures,)} of the computed numbers, in the units of COLUMNS; those of the Iwan element are added.
-    spread : dict
-        {name: (pressures,)}: standard deviation of the same among the windows; empty for one window.
-    friction : float
-        Coefficient of friction.
-    shear : float
-        Amplitude of the mean shear in the loop over friction times pressure.
+    outcome : Outcome
+        The numbers in the units of COLUMNS, their spread, errors, and the first loading; those of the Iwan element are
+        added. Without a loop these are the normal ones alone.
+    loop : Loop or None
+        Coefficient of friction, shear over its limit, and steps of the loop.
     bodies : dict
         Options of the bodies, as given.
+
+    Attributes
+    ----------
+    spread : dict
+        {name: (pressures,)}: standard deviation among the windows; empty for one window.
+    errors : dict
+        {name: (pressures,)}: relative errors of loop_energy and loop_stiffness, where they are found by the formula:
+        differences from the computed loop of one window; empty where all loops are computed.
+    note : str
+        How the loops were found, in words.
+    friction, shear : float or None
+        Coefficient of friction; amplitude of the mean shear in the loop over friction times pressure.
     parts : ndarray
         Shears of the first loading over friction times pressure, rising, (parts,).
     loading : ndarray
@@ -78,22 +110,16 @@ class Interface(Tabled):
         weighted by their k_t_x.
     """
 
-    def __init__(
-        self,
-        numbers: dict[str, np.ndarray],
-        spread: dict[str, np.ndarray],
-        friction: float,
-        shear: float,
-        bodies: dict[str, Any],
-        parts: np.ndarray,
-        loading: np.ndarray,
-    ) -> None:
-        self.spread, self.friction, self.shear, self.bodies = spread, friction, shear, bodies
-        self.parts, self.loading = parts, loading
-        unit = numbers["k_t_x"] / (friction * numbers["pressure"])
-        fits = [elements.fit_iwan(parts, row * one) for row, one in zip(loading, unit)]
-        self.numbers = {**numbers, **dict(zip(FITTED, np.transpose(fits)))}
-        self._compare(unit)
+    def __init__(self, outcome: Outcome, loop: Optional[Loop], bodies: dict[str, Any]) -> None:
+        numbers, self.spread, self.loading, self.errors, self.note = outcome
+        self.bodies, self.friction, self.shear = bodies, None, None
+        self.parts, self.numbers = np.empty(0), numbers
+        if loop:
+            self.friction, self.shear, self.parts = loop.friction, loop.shear, loop.parts()
+            unit = numbers["k_t_x"] / (loop.friction * numbers["pressure"])
+            fits = [elements.fit_iwan(self.parts, row * one) for row, one in zip(self.loading, unit)]
+            self.numbers = {**numbers, **dict(zip(FITTED, np.transpose(fits)))}
+            self._compare(unit)
         self.__dict__.update(self.numbers)
 
     def _compare(self, unit):
@@ -108,7 +134,7 @@ class Interface(Tabled):
         return f"Interface({len(p)} pressures from {p[0]:.4g} to {p[-1]:.4g} Pa: {', '.join(self.numbers)})"
 
     def table(self) -> list[Column]:
-        """The columns, with a row for each pressure; NAME_spread are standard deviations of windows.
+        """The columns, with a row for each pressure; NAME_spread are standard deviations of windows, NAME_error errors.
 
         The last columns are the coefficient of friction and the shear of the loop over friction times pressure.
 
@@ -116,10 +142,14 @@ class Interface(Tabled):
         -------
         list of tables.Column
         """
-        found = columns_of(COLUMNS, self.numbers)
+        found = columns_of({name: COLUMNS[name] for name in COLUMNS if name in self.numbers}, self.numbers)
         for name, values in self.spread.items():
             unit, text = COLUMNS[name]
             found.append(Column(f"{name}_spread", unit, f"standard deviation: {text}", values))
+        for name, values in self.errors.items():
+            found.append(Column(f"{name}_error", "1", ERRORS[name], values))
+        if self.friction is None:
+            return found
         for name, text in (("friction", "coefficient of friction"), ("shear", "shear of the loop over its limit")):
             found.append(Column(name, "1", text, np.full_like(self.numbers["pressure"], getattr(self, name))))
         return found
@@ -137,7 +167,13 @@ class Interface(Tabled):
         list of dict
             Of each pressure: the pressure (Pa), the elements by program and class, and the Iwan element's errors. The
             tangential stiffness is that along x, as the loop's.
+
+        Raises
+        ------
+        Error
+            Without friction.
         """
+        self._need_friction("elements")
         rows = zip(*(self.numbers[name] for name in ("pressure", "k_n", "k_t_x", *FITTED)))
         return [
             {
@@ -148,6 +184,10 @@ class Interface(Tabled):
             }
             for p, k_n, k_t, chi, beta, error, shear_error in rows
         ]
+
+    def _need_friction(self, what):
+        if self.friction is None:
+            raise Unusable(f"{what}: need k_t and loops: compute the interface without normal_only")
 
     def to_json(self, path: Union[str, os.PathLike], area: float = 1.0) -> None:
         """Writes elements() as JSON, in SI units, and what they are of; NaN as null.
@@ -164,6 +204,7 @@ class Interface(Tabled):
         OSError
             If the file cannot be written.
         """
+        self._need_friction("to_json")
         about = {"units": "SI: N, m, Pa, N/m; displacements of body 2 against body 1", "area": area}
         about.update(friction=self.friction, shear=self.shear, bodies=self.bodies)
         text = json.dumps({**about, "elements": self.elements(area)}, indent=1, default=str).replace("NaN", "null")
@@ -188,6 +229,7 @@ class Interface(Tabled):
         OSError
             If the file cannot be written.
         """
+        self._need_friction("to_abaqus")
         slips = self.friction * self.numbers["pressure"] * 2 / (self.numbers["k_t_x"] + self.numbers["k_t_y"])
         slip = np.median(slips)
         lines = [
@@ -212,40 +254,66 @@ class Interface(Tabled):
         Returns
         -------
         list of str
-            A line of heads, and one for each pressure.
+            A line of heads, one for each pressure, and one on the loops.
         """
+        columns = [("p/MPa", 8, "{:8.4g}", self.numbers["pressure"] / 1e6)]
+        further = windows.LOADING in self.numbers
+        columns.append(("unloading: k_n/(N/mm3)" if further else "k_n/(N/mm3)", 12, "{:12.4g}", self.k_n / 1e9))
+        columns.append(self._deviation("k_n"))
+        if further:
+            columns.append(("loading: k_n/(N/mm3)", 12, "{:12.4g}", self.k_n_loading / 1e9))
+        columns += self._shared_columns() if self.friction is not None else self._normal_columns()
+        rows = zip(*([form.format(value) for value in values] for _, _, form, values in columns))
+        widths = [max(width, len(head) + 1) for head, width, _, _ in columns]
+        heads = " ".join(head.rjust(width) for (head, *_), width in zip(columns, widths))
+        body = [" ".join(cell.replace("nan", "  -").rjust(width) for cell, width in zip(row, widths)) for row in rows]
+        return [heads, *body, *([self._note()] if self.note else [])]
+
+    def _deviation(self, name):
+        """The column of a standard deviation of windows, %."""
         with np.errstate(invalid="ignore"):  # no energy, if nothing slips
-            part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}
-        none = np.full_like(self.numbers["pressure"], np.nan)
-        k_t = (self.numbers["k_t_x"] + self.numbers["k_t_y"]) / 2
-        lines = [
-            "   p/MPa  k_n/(N/mm3)  +- %  k_t/(N/mm3)  k_t/k_n  area/%  loop/(mJ/m2)  +- %  Iwan: chi  beta  error/%"
-        ]
-        for k, pressure in enumerate(self.numbers["pressure"]):
-            deviations = [f"{part.get(name, none)[k]:5.0f}".replace("nan", "  -") for name in ("k_n", "loop_energy")]
-            k_n, energy, *iwan = (self.numbers[name][k] for name in ("k_n", "loop_energy", *FITTED[:3]))
-            fit = f"{iwan[0]:10.2f} {iwan[1]:5.2f} {100 * iwan[2]:8.0f}" if iwan[0] == iwan[0] else NO_FIT
-            lines.append(
-                f"{pressure / 1e6:8.4g} {k_n / 1e9:12.4g} {deviations[0]} {k_t[k] / 1e9:12.4g} {k_t[k] / k_n:8.4f} "
-                f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]} {fit}"
-            )
-        return lines
+            part = 100.0 * self.spread.get(name, np.full_like(self.numbers["pressure"], np.nan)) / self.numbers[name]
+        return "+- %", 5, "{:5.0f}", part
+
+    def _normal_columns(self):
+        return [
+            ("area/%", 7, "{:7.2f}", 100.0 * self.area), self._deviation("area"),
+            ("separation/um", 13, "{:13.4g}", 1e6 * self.separation), self._deviation("separation"),
+        ]  # fmt: skip
+
+    def _shared_columns(self):
+        k_t = (self.k_t_x + self.k_t_y) / 2
+        columns = [("k_t/(N/mm3)", 12, "{:12.4g}", k_t / 1e9)]
+        if np.max(np.abs(self.k_t_x - self.k_t_y) / k_t) > APART:
+            columns = [(f"k_t_{c}/(N/mm3)", 12, "{:12.4g}", self.numbers[f"k_t_{c}"] / 1e9) for c in "xy"]
+        fit = np.isfinite(self.iwan_chi)
+        blank = lambda values: np.where(fit, values, np.nan)  # noqa: E731
+        return [
+            *columns, ("k_t/k_n", 8, "{:8.4f}", k_t / self.k_n), ("area/%", 7, "{:7.2f}", 100.0 * self.area),
+            ("loop/(mJ/m2)", 13, "{:13.3g}", 1e3 * self.loop_energy), self._deviation("loop_energy"),
+            ("Iwan: chi", 10, "{:10.2f}", blank(self.iwan_chi)), ("beta", 5, "{:5.2f}", blank(self.iwan_beta)),
+            ("error/%", 8, "{:8.0f}", blank(100.0 * self.iwan_error)),
+        ]  # fmt: skip
+
+    def _note(self):
+        """How the loops were found, with the errors of the formula."""
+        if not self.errors:
+            return self.note
+        said = " %, ".join(
+            f"{text} {100 * np.nanmax(self.errors[name]):.1f}"
+            for name, text in (("loop_energy", "energy"), ("loop_stiffness", "secant"))
+        )
+        return f"{self.note}: {said} %"
 
 
-@contextlib.contextmanager
-def _gathered():
-    """Gives one warning for all those of the steps within; what it yields is called with the place of the next ones."""
-    places = [(0, "the start")]
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always", AdviceWarning)
-        yield lambda place: places.append((len(found), place))
+def _tell_warnings(found):
+    """Gives one warning for all those of solutions, (place, text, kind)."""
     said = []
-    for k, one in enumerate(found):
-        if issubclass(one.category, AdviceWarning):
-            place = [place for before, place in places if before <= k][-1]
-            said.append(f"{place}: {str(one.message).partition(': use ')[0]}")
+    for place, text, kind in found:
+        if issubclass(kind, AdviceWarning):
+            said.append(f"{place}: {text.partition(': use ')[0]}")
         else:
-            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+            warnings.warn(text, kind, stacklevel=4)
     if said:
         text = f"{len(said)} solutions have a warning, the first at {said[0]}; finer points of the surface resolve more"
         warnings.warn(text, AdviceWarning, stacklevel=4)
@@ -267,9 +335,20 @@ def mirrored(separation: np.ndarray) -> np.ndarray:
     return np.pad(separation, [(0, size) for size in separation.shape], mode="symmetric")
 
 
-def of_interface(
-    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: float, shear: float = 0.5,
-    steps: int = 8, **bodies: Any,
+class _Way(NamedTuple):
+    """How numbers are found: why loops are computed (or none), without friction, processes, and who is told."""
+
+    reason: str
+    normal_only: bool
+    cores: int
+    report: Optional[Callable[[int, int], object]]
+    estimate: Optional[Callable[[float], object]]
+
+
+def of_interface(  # noqa: PLR0913  (as those of interface())
+    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: Optional[float] = None,
+    shear: float = 0.5, steps: int = 8, full: bool = False, normal_only: bool = False, cores: Optional[int] = 1,
+    estimate: Optional[Callable[[float], object]] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a separation that repeats itself. Warnings of its solutions are gathered in one.
 
@@ -282,11 +361,20 @@ def of_interface(
     pressures : array_like
         Nominal pressures, (pressures,), Pa, rising.
     friction : float
-        Coefficient of friction.
+        Coefficient of friction; not with normal_only.
     shear : float
         Amplitude of the mean shear of the loop over friction times pressure, above 0 and below 1.
     steps : int
-        Load steps of a quarter of the loop.
+        Load steps of a quarter of a computed loop.
+    full : bool
+        Compute all loops; False: by a formula, checked at up to three pressures, where the bodies are elastically
+        similar half-spaces.
+    normal_only : bool
+        Normal numbers alone, without friction: pressure, closure, separation, k_n, k_n_secant, area.
+    cores : int or None
+        Processes; None: as many as cores are available. The numbers do not depend on it.
+    estimate : callable, optional
+        Called once, after the first pressure, with an estimate of the time that is left, s.
     **bodies
         Options of the two bodies, body1_young (Pa), body1_poisson, body2_young, ..., and of the solution.
 
@@ -301,97 +389,16 @@ def of_interface(
     ContactError
         Where petsam finds no solution.
     """
-    with _gathered() as begins:
-        return _of_interface(separation, spacing, pressures, _Loop(friction, shear, steps), bodies, begins)
-
-
-def _of_interface(separation, spacing, pressures, loop, bodies, begins):
-    """begins is called with each pressure, in words, before its steps."""
-    friction, shear, steps = loop
     separation = array("separation", separation)
-    pressures = np.atleast_1d(array("pressures", pressures))
-    if separation.ndim != 2 or not np.isfinite(separation).all():
-        raise Unusable("separation: expected a field (ny, nx) of finite numbers: fill missing points, .fill() of a map")
-    if pressures.ndim != 1 or not pressures.size or not (np.diff(pressures, prepend=0.0) > 0).all():
-        raise Unusable("pressures: expected positive pressures that rise")
-    steps = integer("steps", steps)
-    what = "a coefficient > 0, without which nothing resists a shear"
-    friction = real("friction", friction, what, lambda one: 0.0 < one < np.inf)
-    what = "a part of friction times pressure, above 0 and below 1"
-    shear = real("shear", shear, what, lambda part: 0.0 < part < 1.0)
-    step = positive("spacing", spacing, "lengths above 0")
-    if step.size > 2:
-        raise Unusable(f"spacing {spacing!r}: expected the distance of points along x and y, or one for both")
-    step = np.broadcast_to(step, 2)
-    need_fitting(separation, step, pressures, friction, bodies)
-    n = separation.shape[::-1]
-    size = tuple(float(n[k] * step[k]) for k in range(2))
-    parts = shear * np.arange(1, steps + 1) / steps
-    if shear < LARGEST:
-        parts = np.append(parts, np.linspace(shear, LARGEST, steps + 1)[1:])
-    rows, loading = [], []
-    with Contact(
-        elasticity="periodic", gap_type="flat", grid_n=n, grid_size=size, friction=friction, **bodies
-    ) as contact:
-        contact.gap = separation - separation.min()
-        for pressure in pressures:
-            begins(f"{pressure:.6g} Pa")
-            row, first = _at(contact, float(pressure), size[0] * size[1], friction, parts, steps)
-            rows.append(row)
-            loading.append(first)
-    numbers = dict(zip(COMPUTED, np.transpose(rows)))
-    return Interface(numbers, {}, friction, shear, bodies, parts, np.array(loading))
+    loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, None, estimate)
+    return _of_windows([separation], [""], spacing, pressures, loop, way, bodies)
 
 
-def _at(contact, pressure, area, friction, parts, steps):
-    """The computed numbers of COLUMNS at a pressure, to which the contact is loaded, and the first loading."""
-    contact.try_step(time=pressure, load_n=pressure * area)
-    if contact.number("contact_cells") == contact.n[0] * contact.n[1]:
-        raise Unusable(
-            f"pressures: {pressure:.6g} Pa: all of the surface touches, and its stiffness is infinite: give less, or "
-            "check the units of heights and moduli"
-        )
-    k, pressed = contact.stiffness(reversal=True) / area, contact.number("disp_x")  # N alone moves dissimilar bodies
-    closure, fraction = contact.number("disp_z"), contact.number("contact_fraction")
-    contact.commit()
-    with contact.copy() as trial:
-        _, start = _shear(trial, pressure * area, friction * parts[:steps])
-        with trial.copy() as further:
-            _, rest = _shear(further, pressure * area, friction * parts[steps:])
-        energy, swing = _loop(trial, pressure * area, friction * float(parts[steps - 1]), steps)
-    secant = friction * parts[steps - 1] * pressure / swing
-    row = pressure, closure, k[0, 0], pressure / closure, k[1, 1], k[2, 2], fraction, swing, energy / area, secant
-    return row, np.array(start + rest) - pressed
-
-
-def _shear(contact, normal, parts):
-    """Pushes by these parts of the normal load in turn; returns the dissipated energy (J) and the displacements (m)."""
-    energy, places = 0.0, []
-    for part in parts:
-        contact.try_step(time=0.0, load_n=normal, load_tx=normal * float(part))
-        energy += contact.number("dissipated_energy")
-        places.append(contact.number("disp_x"))
-        contact.commit()
-    return energy, places
-
-
-def _loop(contact, normal, part, steps):
-    """Dissipated energy (J) and amplitude of the displacement (m) of the second of two cycles of the load along x.
-
-    The contact has been pushed to the first end of the loop.
-    """
-    ends, energies = [], []
-    for k in range(HALVES):
-        end = part if k % 2 else -part
-        energy, places = _shear(contact, normal, np.linspace(-end, end, 2 * steps + 1)[1:])
-        energies.append(energy)
-        ends.append(places[-1])
-    return sum(energies[-2:]), abs(ends[-1] - ends[-2]) / 2
-
-
-def of_windows(
-    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: float, shear: float = 0.5,
-    steps: int = 8, report: Optional[Callable[[int, int], object]] = None, **bodies: Any,
+def of_windows(  # noqa: PLR0913  (as those of interface())
+    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: Optional[float] = None,
+    shear: float = 0.5, steps: int = 8, full: bool = False, normal_only: bool = False, cores: Optional[int] = 1,
+    report: Optional[Callable[[int, int], object]] = None, estimate: Optional[Callable[[float], object]] = None,
+    **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a measured separation: means and standard deviations of five windows of it, half as wide.
 
@@ -401,8 +408,8 @@ def of_windows(
     ----------
     separation : array_like
         Separation, (ny, nx), m, of 4 x 4 points or more.
-    spacing, pressures, friction, shear, steps
-        As of of_interface().
+    spacing, pressures, friction, shear, steps, full, normal_only, cores, estimate
+        As of of_interface(); the formula is checked in the first window.
     report : callable, optional
         Called with the number of the windows that are done, and of all.
     **bodies
@@ -426,26 +433,140 @@ def of_windows(
     ny, nx = (size // 2 for size in separation.shape)
     y, x = separation.shape[0] - ny, separation.shape[1] - nx
     places = [(0, 0), (0, x), (y, 0), (y, x), (y // 2, x // 2)]
-    found = []
-    with _gathered() as begins:
-        for k, (j, i) in enumerate(places, 1):
-            window = mirrored(separation[j : j + ny, i : i + nx])
-            place = lambda pressure, k=k: begins(f"{pressure} in window {k} with its mirror images")  # noqa: E731
-            found.append(_of_interface(window, spacing, pressures, _Loop(friction, shear, steps), bodies, place))
-            if report:
-                report(len(found), len(places))
-    numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in COMPUTED}
-    spread = {name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in COMPUTED[1:]}
-    # shears over their own stiffness: a mean of the displacements would be that of compliances, and seem to slip
-    loading = np.mean([one.loading * one.numbers["k_t_x"][:, None] for one in found], axis=0)
-    loading /= numbers["k_t_x"][:, None]
-    return Interface(numbers, spread, friction, shear, bodies, found[0].parts, loading)
+    fields = [mirrored(separation[j : j + ny, i : i + nx]) for j, i in places]
+    names = [f" in window {k} with its mirror images" for k in range(1, len(places) + 1)]
+    loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, report, estimate)
+    return _of_windows(fields, names, spacing, pressures, loop, way, bodies)
+
+
+def _ways(  # noqa: PLR0913  (as those of interface())
+    friction, shear, steps, full, normal_only, cores, bodies, report, estimate
+):  # fmt: skip
+    """The loop, or None, and the way; Error for values that are wrong or do not go together."""
+    if cores is not None:
+        cores = integer("cores", cores)
+    if normal_only:
+        for name, given in (("friction", friction is not None), ("full", full)):
+            if given:
+                raise Unusable(f"{name}: is for loops, which normal_only leaves out: give one of both")
+        return None, _Way("", True, cores, report, estimate)
+    if friction is None:
+        raise Unusable("friction: give a coefficient, or normal_only")
+    steps = integer("steps", steps)
+    what = "a coefficient > 0, without which nothing resists a shear"
+    friction = real("friction", friction, what, lambda one: 0.0 < one < np.inf)
+    what = "a part of friction times pressure, above 0 and below 1"
+    shear = real("shear", shear, what, lambda part: 0.0 < part < 1.0)
+    reason = windows.need_computing(bodies) or ("as asked for" if full else "")
+    return Loop(friction, shear, steps), _Way(reason, False, cores, report, estimate)
+
+
+def _of_windows(fields, names, spacing, pressures, loop, way, bodies):
+    """The Interface of windows, from their fields and their names in warnings."""
+    pressures = np.atleast_1d(array("pressures", pressures))
+    for field in fields:
+        if field.ndim != 2 or not np.isfinite(field).all():
+            raise Unusable(
+                "separation: expected a field (ny, nx) of finite numbers: fill missing points, .fill() of a map"
+            )
+    if pressures.ndim != 1 or not pressures.size or not (np.diff(pressures, prepend=0.0) > 0).all():
+        raise Unusable("pressures: expected positive pressures that rise")
+    step = positive("spacing", spacing, "lengths above 0")
+    if step.size > 2:
+        raise Unusable(f"spacing {spacing!r}: expected the distance of points along x and y, or one for both")
+    step = np.broadcast_to(step, 2)
+    for field in fields:
+        need_fitting(field, step, pressures, loop and loop.friction, bodies)
+    given = tuple(map(float, pressures))
+    parts = [
+        Window(field, step, given, loop, bodies, name, not k) for k, (field, name) in enumerate(zip(fields, names))
+    ]
+    found = _computed(parts, way)
+    _tell_warnings([one for each in found for one in each.warnings])
+    several, each = found[: len(parts)], found[len(parts) :]
+    numbers = {name: np.mean([one.numbers[name] for one in several], axis=0) for name in several[0].numbers}
+    spread = {}
+    if len(parts) > 1:
+        for name in numbers:
+            if name != "pressure":
+                spread[name] = np.std([one.numbers[name] for one in several], axis=0, ddof=1)
+    loading = several[0].loading
+    if loop and len(parts) > 1:
+        # shears over their own stiffness: a mean of the displacements would be that of compliances, and seem to slip
+        loading = np.mean([one.loading * one.numbers["k_t_x"][:, None] for one in several], axis=0)
+        loading /= numbers["k_t_x"][:, None]
+    errors, note = _errors(several[0], each, way, given)
+    return Interface(Outcome(numbers, spread, loading, errors, note), loop, bodies)
+
+
+def _errors(first, computed, way, pressures):
+    """Relative errors of the formula at all pressures, and how the loops were found, in words."""
+    if way.normal_only:
+        return {}, ""
+    if way.reason:
+        return {}, f"all loops are computed: {way.reason}"
+    places, errors = windows.checked(len(pressures)), {}
+    for name in ERRORS:
+        ours = first.numbers[name][places]
+        right = np.array([one.numbers[name][0] for one in computed])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            error = np.where(ours == right, 0.0, np.abs(ours / right - 1.0))
+        errors[name] = windows.spread_over(np.where(right > 0.0, error, 0.0), places, len(pressures))
+    where = ", ".join(f"{pressures[k] / 1e6:.4g}" for k in places)
+    return errors, f"loops by a formula; largest difference from those computed in one window at {where} MPa"
+
+
+def _computed(parts, way):
+    """What is found of the windows, and after them of the loops that check the formula."""
+    one = windows.normal_curve if way.normal_only else windows.by_loops if way.reason else windows.by_formula
+    jobs = [(one, part) for part in parts]
+    if one is windows.by_formula:
+        # the check of the largest pressure takes longest and begins first, but for the window that tells the time
+        places = windows.checked(len(parts[0].pressures))
+        checks = [
+            (windows.check, parts[0]._replace(pressures=parts[0].pressures[k : k + 1], first=False)) for k in places
+        ]
+        order = [0, *range(len(parts) + len(places) - 1, len(parts) - 1, -1), *range(1, len(parts))]
+    else:
+        checks, order = [], list(range(len(parts)))
+    jobs += checks
+    cores = all_cores() if way.cores is None else way.cores
+    if way.cores is None and sum(part.separation.size for part in parts) < SMALL:
+        cores = 1
+    start, ended = time.monotonic(), []
+
+    def told(solved, stiff):
+        if way.estimate:
+            total = _units(parts, way, checks, solved, stiff) / min(cores, len(jobs))
+            way.estimate(max(total - (time.monotonic() - start), 0.0))
+
+    def done(k):
+        if order[k] < len(parts):
+            ended.append(k)
+            if way.report:
+                way.report(len(ended), len(parts))
+
+    found = processes.run([jobs[k] for k in order], cores, told, done)
+    return [found[order.index(k)] for k in range(len(jobs))]
+
+
+def _units(parts, way, checks, solved, stiff):
+    """Estimate of the time of all windows in one process, s, from the times of a solution and of its stiffness."""
+    loop, pressures = parts[0].loop, parts[0].pressures
+    one = len(pressures) * (LATER * solved + stiff)
+    if way.reason:
+        one += len(pressures) * (2 * windows.HALVES + 2) * loop.steps * PUSHED * LATER * solved
+    elif loop:
+        one += len(windows.loads(pressures, loop.shear, loop.parts()[-1])) * (LATER * solved + stiff / windows.EVERY)
+    check = (len(checks) * 5 * loop.steps * PUSHED * LATER * solved) if checks else 0.0
+    return len(parts) * one + check
 
 
 def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
-    surface: Any, pressures: ArrayLike, *, friction: float, spacing: Optional[ArrayLike] = None,
-    periodic: bool = False, shear: float = 0.5, steps: Optional[int] = None,
-    report: Optional[Callable[[int, int], object]] = None, **bodies: Any,
+    surface: Any, pressures: ArrayLike, *, friction: Optional[float] = None, spacing: Optional[ArrayLike] = None,
+    periodic: bool = False, shear: float = 0.5, steps: Optional[int] = None, full: bool = False,
+    normal_only: bool = False, cores: Optional[int] = 1, report: Optional[Callable[[int, int], object]] = None,
+    estimate: Optional[Callable[[float], object]] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a surface: a scan in a file, a map of petsam.surface, or an array.
 
@@ -456,7 +577,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     pressures : array_like
         Nominal pressures, (pressures,), Pa, rising.
     friction : float
-        Coefficient of friction.
+        Coefficient of friction; not with normal_only.
     spacing : float or pair of floats, optional
         Distance of the points of an array along x and y, m; files and maps have their own.
     periodic : bool
@@ -464,9 +585,19 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     shear : float
         Shear of the loop over friction times pressure, above 0 and below 1.
     steps : int, optional
-        Load steps of a quarter of the loop (8).
+        Load steps of a quarter of a computed loop (8).
+    full : bool
+        Compute the loops of all windows; False: by a formula, which one window checks at up to three pressures. It
+        holds for elastically similar bodies; for others, and with other options, all loops are computed.
+    normal_only : bool
+        Normal numbers alone, without friction: k_n, real contact area, separation.
+    cores : int or None
+        Processes among which the windows are divided; None: as many as cores are available. The numbers do not depend
+        on it.
     report : callable, optional
         Called with the number of the windows that are done, and of all.
+    estimate : callable, optional
+        Called once, after the first pressure of the first window, with an estimate of the time that is left, s.
     **bodies
         Options of the bodies, body1_young (Pa, or "210GPa"), body1_poisson, body2_young, ..., and of the solution.
 
@@ -499,6 +630,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
         if name in moduli and isinstance(value, str):
             bodies[name] = words.number(value, "Young's modulus, such as 210GPa", "Pa", lambda young: young > 0.0)
     given = dict(friction=friction, shear=shear, **({} if steps is None else {"steps": steps}), **bodies)
+    given.update(full=full, normal_only=normal_only, cores=cores, estimate=estimate)
     if periodic:
         return of_interface(surface, own, pressures, **given)
     return of_windows(surface, own, pressures, report=report, **given)

@@ -53,7 +53,7 @@ def modulus(bodies):
 
 def need_fitting(separation, step, pressures, friction, bodies):
     """Error where pressures do not fit the bodies and the slope of the surface, or friction is none: wrong units."""
-    if not FRICTIONS[0] <= friction <= FRICTIONS[1]:
+    if friction is not None and not FRICTIONS[0] <= friction <= FRICTIONS[1]:
         low, high = FRICTIONS
         raise Unusable(
             f"friction {friction:g}: use a coefficient from {low:g} to {high:g}, such as 0.4: not in per cent"

@@ -31,11 +31,14 @@ def interface(found: Interface) -> Figure:
     pressure = found.numbers["pressure"] / 1e6
     for axes, name, label, unit, color, look in (
         (left, "k_n", "normal", 1e-12, COLORS[0], {"marker": "o"}),
+        (left, "k_n_loading", "normal, loading", 1e-12, COLORS[3], {"marker": "s"}),
         # the curves along x and y often lie on one another: the rings of x are around the crosses of y
         (left, "k_t_x", "tangential, $x$", 1e-12, COLORS[1], {"marker": "o", "ms": 8.0}),
         (left, "k_t_y", "tangential, $y$", 1e-12, COLORS[2], {"marker": "x", "linestyle": "--"}),
         (right, "area", "real contact area", 100.0, COLORS[0], {"marker": "o"}),
     ):
+        if name not in found.numbers:
+            continue
         spread = found.spread.get(name)
         look = {"ms": 5.0, "linewidth": 1.2, "markerfacecolor": "none", "capsize": 3.0, **look}
         bars = None if spread is None else unit * spread
