@@ -457,7 +457,7 @@ def _ways(  # noqa: PLR0913  (as those of interface())
     friction = real("friction", friction, what, lambda one: 0.0 < one < np.inf)
     what = "a part of friction times pressure, above 0 and below 1"
     shear = real("shear", shear, what, lambda part: 0.0 < part < 1.0)
-    reason = windows.need_computing(bodies) or ("as asked for" if full else "")
+    reason = windows.need_computing(bodies) or ("as requested" if full else "")
     return Loop(friction, shear, steps), _Way(reason, False, cores, report, estimate)
 
 
