@@ -14,6 +14,7 @@ Element         a contact as a force element of a time integration or of a stati
 joint           contact stiffness and damping of rough interfaces per area; joints in a structure
 closed          closed-form solutions of contact mechanics
 lives           lives, safety factors, short cracks: petsam-fatigue
+loads           load histories from the contact forces of a structural analysis: petsam-loads
 plot            pictures by name, of files and of what the parts above have found: petsam-plot
 study           many runs from a table: petsam-study
 compliance      real bodies from finite elements: petsam-compliance
@@ -98,7 +99,7 @@ _HOMES = {
     "run": ".running",
 }
 
-_PARTS = ("closed", "compliance", "joint", "lives", "plot", "results", "study", "surface")
+_PARTS = ("closed", "compliance", "joint", "lives", "loads", "plot", "results", "study", "surface")
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 
 
