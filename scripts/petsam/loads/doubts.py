@@ -105,7 +105,7 @@ def _motion(found, x):
     shift = x.mean(axis=1) - x[0].mean(axis=0)
     way = np.linalg.norm(shift, axis=1)
     angle = np.array([_angle(x[0], one) for one in x])
-    moves, turns = np.max(way) > OFF * size, np.max(angle) > TURN
+    moves, turns = bool(np.max(way) > OFF * size), bool(np.max(angle) > TURN)
     if not (moves or turns):
         return None
     row = int(np.argmax(way if moves else angle))
