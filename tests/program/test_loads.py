@@ -213,6 +213,12 @@ def test_petsam_runs_the_history(dovetail, tool, solve, tmp_path):
             assert np.allclose(
                 run.history[name][1::2], rows[:, k + 1], rtol=1e-6, atol=1e-6 * np.abs(rows[:, k + 1]).max()
             )
+        pressure = run.field("pressure", -1)
+        found = petsam.loads.history(
+            petsam.loads.read(tmp_path / "f.csv", deck=tmp_path / "d.inp"), FRAMES["RIGHT"], patch="RIGHT"
+        )
+        assert np.sum(pressure * run.x) / np.sum(pressure) == pytest.approx(found.center[-1, 0], rel=1e-6)
+        assert np.sum(pressure * run.y[:, None]) / np.sum(pressure) == pytest.approx(found.center[-1, 1], rel=1e-6)
 
 
 # ---------------------------------------------------------------- remarks
