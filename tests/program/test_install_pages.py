@@ -12,7 +12,7 @@ from conftest import PROGRAM, environment, make_install
 from support import ROOT
 
 PROGRAMS = ("petsam", "petsam-stress")
-TOOLS = ("petsam-compliance", "petsam-fatigue", "petsam-joint", "petsam-loads", "petsam-plot", "petsam-study", "petsam-surface")
+TOOLS = tuple(f"petsam-{name}" for name in ("compliance", "fatigue", "joint", "loads", "plot", "study", "surface"))
 COMPLETE = """
 . "$1"
 function=$2

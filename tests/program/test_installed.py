@@ -81,7 +81,16 @@ def test_petsam_of_the_environment_comes_first(tree, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "script", ["petsam-compliance", "petsam-fatigue", "petsam-joint", "petsam-loads", "petsam-plot", "petsam-study", "petsam-surface"]
+    "script",
+    [
+        "petsam-compliance",
+        "petsam-fatigue",
+        "petsam-joint",
+        "petsam-loads",
+        "petsam-plot",
+        "petsam-study",
+        "petsam-surface",
+    ],
 )
 def test_missing_libraries_are_named_with_the_remedy(tree, tmp_path, script):
     bare = tmp_path / "bare"

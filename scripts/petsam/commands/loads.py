@@ -32,6 +32,7 @@ from ..core import words
 from ..core.errors import Error, counted, short
 from ..core.files import need_replaceable, same
 from ..core.units import shown
+from ..loads.resultants import ROUNDING
 from .line import Parser, add_choice, frame, guarded, joined, quietly, word
 
 PROGRAM = "petsam-loads"
@@ -115,8 +116,9 @@ def _picture(output):
     return os.path.splitext(output)[0] + ".png"
 
 
-def _span(values, unit):
-    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+def _span(values, unit, small=0.0):
+    """Smallest and largest of values; those up to `small` are 0."""
+    low, high = (float(end) if abs(end) > small else 0.0 for end in (np.nanmin(values), np.nanmax(values)))
     return f"{low + 0.0:.6g} {unit}" if low == high else f"{low + 0.0:.6g} to {high + 0.0:.6g} {unit}"
 
 
@@ -130,12 +132,13 @@ def description(found):
         f"forces      on body {found.on[-1]}{reverse}; {nodes}, {rows}, time {_span(found.times, 's')}",
         f"frame       {found.frame_text}" + (f", z {found.z_by}" if found.z_by else ""),
     ]
-    for column in found.table()[1:7]:
+    for column, small in zip(found.table()[1:7], found.rounding):
         turned = counted(turns[column.name], "reversal")
-        lines.append(f"{names[column.name]:<11} {_span(column.values, column.unit)}, {turned}")
+        lines.append(f"{names[column.name]:<11} {_span(column.values, column.unit, small)}, {turned}")
     if np.any(np.isfinite(found.friction)):
         center = found.center[np.isfinite(found.center[:, 0])]
-        (x, y), way = center[0], np.max(np.linalg.norm(center - center[0], axis=1))
+        way, small = np.max(np.linalg.norm(center - center[0], axis=1)), ROUNDING * np.max(np.abs(found.extent))
+        x, y, way = (value if abs(value) > small else 0.0 for value in (*center[0], way))
         lines += [
             f"T/N         up to {np.nanmax(found.friction):.4g}",
             f"centre      x = {shown(x)}, y = {shown(y)} in the first row with contact, moves by up to {shown(way)}",

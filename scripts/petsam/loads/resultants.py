@@ -116,13 +116,17 @@ class History(Tabled):
         """The frame as --frame has it: ORIGIN:X:Z in the file's unit of length."""
         return automatic.written(self.frame, self.length)
 
+    @property
+    def rounding(self) -> np.ndarray:
+        """Magnitudes of the loads, (6,), up to which they are rounding."""
+        force, size = np.max(np.abs(self.loads[:, :3])), np.max(np.ptp(self.extent, axis=0))
+        return ROUNDING * force * np.array([1.0, 1.0, 1.0, size, size, size])
+
     def turns(self) -> dict:
         """Indices of the rows where each load reverses: {name: list}."""
-        force = np.max(np.abs(self.loads[:, :3]))
-        least = ROUNDING * np.array([force] * 3 + [force * max(np.max(np.ptp(self.extent, axis=0)), 0.0)] * 3)
         return {
             name: turning_points(values) if np.ptp(values) > small else []
-            for name, values, small in zip(LOADS, self.loads.T, least)
+            for name, values, small in zip(LOADS, self.loads.T, self.rounding)
         }
 
     def table(self) -> list:
