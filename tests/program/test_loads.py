@@ -221,6 +221,38 @@ def test_petsam_runs_the_history(dovetail, tool, solve, tmp_path):
         assert np.sum(pressure * run.y[:, None]) / np.sum(pressure) == pytest.approx(found.center[-1, 1], rel=1e-6)
 
 
+def test_pressure_of_the_analysis_is_drawn_beside_petsams(tool, solve, tmp_path):
+    """A table with CPRESS of a Hertzian contact: nodes along y = 0, whose pressure is petsam's within its cells."""
+    radius, modulus, load = 0.1, 210e9 / (2 * (1 - 0.3**2)), 500.0
+    a = (3 * load * radius / (4 * modulus)) ** (1 / 3)
+    peak = 3 * load / (2 * np.pi * a**2)
+    lines = ["label,x [mm],y [mm],z [mm],fx [N],fy [N],fz [N],cpress [GPa],cshear1,cshear2,time"]
+    for time in (1, 2):
+        for k, (i, j) in enumerate((i, j) for i in range(-5, 6) for j in range(-5, 6)):
+            p = float(peak * np.sqrt(max(0.0, 1 - (i * i + j * j) / 25)) * 1e-9)
+            lines.append(f"{k + 1},{i * a * 200!r},{j * a * 200!r},0,0,0,{load / 121!r},{p!r},3,4,{time}")
+    (tmp_path / "c.csv").write_text("\n".join(lines))
+    words = ("c.csv", "--frame", "0,0,0:1,0,0:0,0,1", "-o", "h.csv")
+    tool(*words)
+    ball = dict(
+        STEEL, grid_n=64, grid_size=3 * a, gap_type="sphere", gap_radius1=radius, gap_radius2="inf", friction=0.9
+    )
+    path = solve(ball, dict(history=tmp_path / "h.csv")).path
+    out, _ = tool(*words, "--compare", path)
+    assert "wrote h-beside.png" in out and (tmp_path / "h-beside.png").stat().st_size > 15000
+    found = petsam.loads.history(petsam.loads.read(tmp_path / "c.csv"), ((0, 0, 0), (1, 0, 0), (0, 0, 1)))
+    line = found.line(2.0)
+    assert np.allclose(line["x"], np.arange(-5, 6) / 5 * a) and np.allclose(line["shear"], 5e6)
+    with petsam.open(path) as run:
+        ours = np.interp(line["x"], run.x, run.field("pressure", -1)[32])
+        assert np.abs(ours - line["pressure"])[1:-1].max() < 0.02 * peak
+        assert len(petsam.plot.loads_beside(found, run).axes) == 2
+    with pytest.raises(Error, match="no row at time 7 s"):
+        found.line(7.0)
+    (tmp_path / "c.csv").write_text("\n".join(line.replace("cpress", "other") for line in lines))
+    assert "has no CPRESS" in tool(*words, "--compare", path, check=3)[1]
+
+
 # ---------------------------------------------------------------- remarks
 
 
@@ -478,6 +510,7 @@ GOOD = "label,x [mm],y [mm],z [mm],fx [N],fy [N],fz [N],time\n"
         (GOOD.replace("fy", "fx"), "two columns are fx"),
         (GOOD.replace("time", "when"), "has no column time or increment"),
         ("\0\0\0", "bytes of 0"),
+        (GOOD.replace("time", "time [h]") + "1,0,0,0,1,1,1,0\n", "line 1: time in h: use s, ms"),
         (" forces (fx,fy,fz) for set A and time  0.5\n\n   1 1.0 2.0\n", "line 3: expected a node and three numbers"),
         (" forces (fx,fy,fz) for set A and time  0.5\n\n   1 1.0 2.0 x\n", "line 3: x is no number"),
         ("    1C\n    2C" + " " * 67 + "2\n", "line 2: is binary"),

@@ -84,6 +84,12 @@ def parser():
     out = found.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.csv", help="of one patch (PATCH-history.csv)")
     out.add_argument("-d", "--directory", metavar="NAME", help="folder of PATCH-history.csv of each patch (here)")
+    out.add_argument(
+        "--compare",
+        metavar="RESULTS.h5",
+        help="of petsam with the history of one patch: also NAME-beside.png, CPRESS and CSHEAR of the table (columns "
+        "cpress, cshear1, cshear2) beside petsam's along y = 0",
+    )
     add_choice(out)
     return found
 
@@ -106,6 +112,8 @@ def arguments(given):
         reader.error("--output: names the file of one patch: give --directory alone, for PATCH-history.csv of each")
     if options.output and not options.output.lower().endswith(".csv"):
         reader.error(f"--output {short(options.output)}: use a name that ends in .csv")
+    if options.compare and (len(patches) > 1 or options.no_picture):
+        reader.error("--compare: is for the picture of one patch: give one --patch, and no --no-picture")
     frames = options.frame * len(patches) if len(options.frame) == 1 else options.frame
     outputs = [options.output or os.path.join(options.directory or "", f"{name}-history.csv") for name in names]
     options.wanted = list(zip(patches, frames, outputs))
@@ -114,6 +122,10 @@ def arguments(given):
 
 def _picture(output):
     return os.path.splitext(output)[0] + ".png"
+
+
+def _beside(output):
+    return os.path.splitext(output)[0] + "-beside.png"
 
 
 def _span(values, unit, small=0.0):
@@ -150,10 +162,12 @@ def carry_out(options):
     """Reads, sums, writes, draws and prints."""
     from .. import loads, plot
     from ..plot.saving import write
+    from ..results.stresses import open_any as open_results
 
     for _, _, output in options.wanted:
-        for name in [output] + ([] if options.no_picture else [_picture(output)]):
-            if any(same(name, path) for path in (options.file, options.deck) if path):
+        pictures = [] if options.no_picture else [_picture(output)]
+        for name in [output, *pictures] + ([_beside(output)] if options.compare else []):
+            if any(same(name, path) for path in (options.file, options.deck, options.compare) if path):
                 raise Error(f"{name}: is an input file; choose another name by --output")
             need_replaceable(name)
     forces = loads.read(options.file, deck=options.deck, length=options.length, force=options.force)
@@ -170,6 +184,10 @@ def carry_out(options):
         if not options.no_picture:
             write(plot.loads(found), _picture(output), options.dpi)
             print("wrote " + _picture(output))
+        if options.compare:
+            with open_results(options.compare) as results:
+                write(plot.loads_beside(found, results), _beside(output), options.dpi)
+            print("wrote " + _beside(output))
 
 
 def _run():

@@ -30,6 +30,7 @@ TEXTS = (
     "normal force, positive where it presses", "tangential force along x", "tangential force along y",
     "moment about x", "moment about y", "moment about the normal",
 )  # fmt: skip
+SAME = 1e-6  # of the last time: times that are equal
 ROUNDING = 1e-9  # of the largest force: smaller ones are rounding
 BODIES = {"body1": -1.0, "body2": 1.0}
 
@@ -70,6 +71,8 @@ class History(Tabled):
         Coordinates of the nodes in the frame at the first time, (m, 3), m.
     normal : ndarray
         Normal force of each node, (n, m), N.
+    pressure : dict
+        {"cpress", "cshear1", "cshear2": (n, m)}, Pa, where the file has them.
     notes : list of str
         Remarks.
     """
@@ -84,6 +87,7 @@ class History(Tabled):
     loads: np.ndarray
     x: np.ndarray
     normal: np.ndarray
+    pressure: dict = field(default_factory=dict)
     notes: list = field(default_factory=list)
 
     def __repr__(self):
@@ -128,6 +132,30 @@ class History(Tabled):
             name: turning_points(values) if np.ptp(values) > small else []
             for name, values, small in zip(LOADS, self.loads.T, self.rounding)
         }
+
+    def line(self, time) -> dict:
+        """Nodes along y = 0 with the pressure (Pa) of the analysis at a time: {"x", "pressure", "shear": (k,)}.
+
+        Shear is the magnitude, as the directions of CSHEAR1 and CSHEAR2 are those of the element faces.
+
+        Raises
+        ------
+        petsam.Error
+            If the file has no CPRESS, there is no row at this time, or no node near the line.
+        """
+        if "cpress" not in self.pressure:
+            raise Error(f"{self.source}: has no CPRESS: report it with the forces, column cpress")
+        row = int(np.argmin(np.abs(self.times - time)))
+        if abs(self.times[row] - time) > SAME * np.max(np.abs(self.times)):
+            raise Error(f"{self.source}: has no row at time {time:g} s: give results of this history")
+        x, y = self.x[:, 0], self.x[:, 1]
+        near = np.flatnonzero(np.abs(y) <= 0.5 * np.sqrt(np.prod(np.ptp(self.extent, axis=0)) / len(y)))
+        if len(near) < 2:
+            raise Error(f"{self.source}: has no nodes near y = 0 of the frame: move its origin")
+        near = near[np.argsort(x[near], kind="stable")]
+        shear = [self.pressure[one][row, near] for one in ("cshear1", "cshear2") if one in self.pressure]
+        sizes = np.linalg.norm(shear, axis=0) if shear else np.full(len(near), np.nan)
+        return {"x": x[near], "pressure": self.pressure["cpress"][row, near], "shear": sizes}
 
     def table(self) -> list:
         """The columns: time, the loads, the contact's centre, T/N and the number of nodes that pull."""
@@ -226,5 +254,6 @@ def history(forces: Forces, frame="auto", patch=None, on: str = "body2", name: s
     start = x if x.ndim == 2 else x[0]
     title = name or (patch if isinstance(patch, str) else "all" if patch is None else "box")
     result = History(title, forces.source, on, found, z_by, forces.length, forces.times, loads, start, force[..., 2])
+    result.pressure = {one: values[:, nodes] for one, values in forces.pressure.items()}
     result.notes = [*forces.notes, *doubts.of(result, force, x)]
     return result

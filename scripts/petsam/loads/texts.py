@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 from ..core import units
-from ..core.errors import Error, Unusable, short
+from ..core.errors import Error, short
 from ..surface.tables import Text, split
 from . import gathering
 
@@ -25,6 +25,7 @@ KNOWN = {other: name for name, others in NAMES.items() for other in (name, *othe
 X, FORCE, MOVED = (("x", "y", "z"), ("fx", "fy", "fz"), ("ux", "uy", "uz"))
 NORMAL, SHEAR = (tuple(f"{name}{k}" for k in (1, 2, 3)) for name in ("cnormf", "cshearf"))
 GROUPS = {"length": (*X, *MOVED), "force": (*FORCE, *NORMAL, *SHEAR)}
+STRESSES = ("cpress", "cshear1", "cshear2")
 LARGEST = 2**53  # label of a node
 
 
@@ -119,7 +120,10 @@ def read(path, given):
         rows.more["normal"] = normal
     if all(name in columns for name in MOVED):
         rows.more["displacement"] = _three(columns, MOVED)
-    rows.more.update({name: columns[name] for name in ("cpress", "cshear1", "cshear2") if name in columns})
+    own_stress = sizes["force"] / sizes["length"] ** 2
+    for name in STRESSES:
+        if name in columns:
+            rows.more[name] = columns[name] * (_stress(table, name, own_stress) / own_stress)
     own = all(name in columns for name in X)
     deck = None if own and given.deck is None else gathering.of_deck(given, path)
     if own:
@@ -144,6 +148,15 @@ def _labels(path, lines, values):
     return values.astype(np.int64)
 
 
+def _stress(table, name, own):
+    """Pascals of the unit of a column of stress: that of its head, or that of the forces and lengths."""
+    unit = table.units[name]
+    size = own if unit is None else units.size(unit, "Pa")
+    if size is None:
+        raise Error(f"{table.path}: line {table.head}: {name} in {short(unit)}: use {units.names('Pa')}")
+    return size
+
+
 def _time_scale(table, name):
     """Seconds of the unit of time."""
     unit = table.units[name]
@@ -151,5 +164,5 @@ def _time_scale(table, name):
         return 1.0
     size = units.size(unit, "s")
     if size is None:
-        raise Unusable(f"{table.path}: line {table.head}: time in {short(unit)}: use {units.names('s')}")
+        raise Error(f"{table.path}: line {table.head}: time in {short(unit)}: use {units.names('s')}")
     return size

@@ -22,7 +22,7 @@ _HOMES = {
     "of_joints": ("backbone", "band", "interface", "joint_wear", "response", "slip_zones"),
     "of_compliance": ("compliance",),
     "of_lives": ("lives",),
-    "of_loads": ("loads",),
+    "of_loads": ("loads", "loads_beside"),
     "of_surface": ("surface",),
 }  # fmt: skip
 __all__ = sorted(name for names in _HOMES.values() for name in names)

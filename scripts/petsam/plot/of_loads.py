@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..loads.resultants import History
-from .style import COLORS, STYLE, curve, drawn, note, plt
+from ..results.file import Results
+from .style import COLORS, STYLE, curve, drawn, need_kind, note, plt
 from .symbols import scalar
 from .units import label, largest, plain, scale
 
@@ -66,4 +67,36 @@ def loads(found: History) -> Figure:
     side.legend()
     _center(last, found)
     note(figure, f"{plain(found.name)}: {found.x.shape[0]} nodes, forces on body {found.on[-1]} of the analysis")
+    return figure
+
+
+@drawn(STYLE)
+def loads_beside(found: History, results: Results) -> Figure:
+    """Pressure and shear of the analysis beside those of petsam, along y = 0 at the last saved step.
+
+    Parameters
+    ----------
+    found : loads.History
+        The history, of forces in a file with CPRESS.
+    results : Results
+        Of a run with this history.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    need_kind("loads_beside", [found], "History", lambda one: isinstance(one, History))
+    need_kind("loads_beside", [results], "Results", lambda one: isinstance(one, Results))
+    nodes, row = found.line(float(results.times[-1])), int(np.argmin(np.abs(results.y)))
+    shear = np.hypot(*(results.field(f"shear_{axis}", -1)[row] for axis in "xy"))
+    ours = {"pressure": results.field("pressure", -1)[row], "shear": shear}
+    length = scale("m", largest([nodes["x"]]))
+    figure, panels = plt.subplots(1, 2, figsize=(9.6, 4.0), layout="constrained")
+    for panel, name, symbol in zip(panels, ours, ("$p$", "$|q|$")):
+        unit = scale("Pa", largest([ours[name], nodes[name]]))
+        panel.plot(length[0] * results.x, unit[0] * ours[name], color=COLORS[0], label="petsam")
+        panel.plot(length[0] * nodes["x"], unit[0] * nodes[name], "o", color=COLORS[1], markersize=4, label="analysis")
+        panel.set(xlabel=label("$x$", length[1]), ylabel=label(f"{name} {symbol}", unit[1]))
+        panel.legend()
+    note(figure, f"{plain(found.name)}: along $y$ = 0, {plain(results.when(-1))}")
     return figure
