@@ -14,13 +14,14 @@ import options
 
 TITLES = {"history": "LOAD HISTORIES", "exit codes": "EXIT STATUS"}
 SEE_ALSO = {
-    "petsam": "petsam-stress petsam-compliance petsam-fatigue petsam-fit petsam-joint petsam-plot petsam-study "
-    "petsam-surface",
+    "petsam": "petsam-stress petsam-compliance petsam-fatigue petsam-fit petsam-joint petsam-loads petsam-plot "
+    "petsam-study petsam-surface",
     "petsam-stress": "petsam petsam-fatigue petsam-plot",
     "petsam-compliance": "petsam petsam-stress",
     "petsam-fatigue": "petsam-stress petsam-plot petsam-study",
     "petsam-fit": "petsam petsam-plot",
     "petsam-joint": "petsam-surface petsam",
+    "petsam-loads": "petsam petsam-compliance",
     "petsam-plot": "petsam petsam-stress petsam-study petsam-fatigue",
     "petsam-study": "petsam petsam-stress petsam-plot",
     "petsam-surface": "petsam petsam-joint",

@@ -28,6 +28,7 @@ MODULES = (
     "plot.of_joints",
     "plot.of_compliance",
     "plot.of_lives",
+    "plot.of_loads",
     "plot.of_surface",
     "joint.interfaces",
     "joint.structure",
@@ -39,6 +40,9 @@ MODULES = (
     "compliance.calls",
     "compliance.settings",
     "compliance.result",
+    "loads.reading",
+    "loads.resultants",
+    "loads.forces",
     "surface.reading",
     "surface.maps",
     "study.jobs",
@@ -61,7 +65,7 @@ MODULES = (
     "closed.plane",
 )
 # packages that list what users call, and the constant of their __init__.py that has the names
-LISTING = {"compliance": "__all__", "joint": "__all__", "study": "__all__", "surface": "_HOMES"}
+LISTING = {"compliance": "__all__", "joint": "__all__", "loads": "_HOMES", "study": "__all__", "surface": "_HOMES"}
 PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")

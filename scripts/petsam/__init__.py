@@ -15,6 +15,7 @@ joint           contact stiffness and damping of rough interfaces per area; join
 calibration     friction, rig stiffness, wear from measured loops: petsam-fit
 closed          closed-form solutions of contact mechanics
 lives           lives, safety factors, short cracks: petsam-fatigue
+loads           load histories from the contact forces of a structural analysis: petsam-loads
 plot            pictures by name, of files and of what the parts above have found: petsam-plot
 study           many runs from a table: petsam-study
 compliance      real bodies from finite elements: petsam-compliance
@@ -99,7 +100,7 @@ _HOMES = {
     "run": ".running",
 }
 
-_PARTS = ("calibration", "closed", "compliance", "joint", "lives", "plot", "results", "study", "surface")
+_PARTS = ("calibration", "closed", "compliance", "joint", "lives", "loads", "plot", "results", "study", "surface")
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 
 

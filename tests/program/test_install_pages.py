@@ -12,14 +12,8 @@ from conftest import PROGRAM, environment, make_install
 from support import ROOT
 
 PROGRAMS = ("petsam", "petsam-stress")
-TOOLS = (
-    "petsam-compliance",
-    "petsam-fatigue",
-    "petsam-fit",
-    "petsam-joint",
-    "petsam-plot",
-    "petsam-study",
-    "petsam-surface",
+TOOLS = tuple(
+    f"petsam-{name}" for name in ("compliance", "fatigue", "fit", "joint", "loads", "plot", "study", "surface")
 )
 COMPLETE = """
 . "$1"

@@ -87,6 +87,7 @@ def test_petsam_of_the_environment_comes_first(tree, tmp_path):
         "petsam-fatigue",
         "petsam-fit",
         "petsam-joint",
+        "petsam-loads",
         "petsam-plot",
         "petsam-study",
         "petsam-surface",

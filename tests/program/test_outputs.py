@@ -28,6 +28,8 @@ COMMANDS = {
     "petsam-compliance --picture": [*BODY,
                                     "--picture", "{}/c.png"],
     "petsam-fatigue -o": ["none.h5", "-o", "{}/f.png"], "petsam-fatigue --csv": ["none.h5", "--csv", "{}/f.csv"],
+    "petsam-loads -o": ["none.csv", "--frame", "auto", "-o", "{}/h.csv"],
+    "petsam-loads -d": ["none.csv", "--frame", "auto", "-d", "{}"],
     "petsam-plot -o": ["none.h5", "-o", "{}/p.png"], "petsam-plot --csv": ["none.h5", "--csv", "{}/p.csv"],
     "petsam-study": ["t.csv", "--directory", "{}/s"],
 }  # fmt: skip

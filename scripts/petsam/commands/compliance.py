@@ -52,18 +52,9 @@ from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
 from ..core.units import shown
 from ..plot.saving import write
-from .line import Parser, add_choice, guarded, joined, quietly, word
+from .line import Parser, add_choice, frame, guarded, joined, quietly, word
 
 PROGRAM = "petsam-compliance"
-
-
-def frame(text):
-    """A frame: an origin, a direction x and a direction z."""
-    form = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
-    parts = text.split(":")
-    if not 1 <= len(parts) <= 3:
-        raise words.WordError(text, form)
-    return tuple(tuple(words.numbers(part, form, count=3)) for part in parts)
 
 
 def case(text):

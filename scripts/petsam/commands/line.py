@@ -38,6 +38,15 @@ def period(text):
     return first, *(start or [None])
 
 
+def frame(text):
+    """A frame: an origin, a direction x and a direction z."""
+    form = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
+    parts = text.split(":")
+    if not 1 <= len(parts) <= 3:
+        raise words.WordError(text, form)
+    return tuple(tuple(words.numbers(part, form, count=3)) for part in parts)
+
+
 class Parser(argparse.ArgumentParser):
     """A command line whose errors are printed in one line, without the usage before it."""
 

@@ -14,6 +14,8 @@ mesh          boundary, Gauss points, places of points
 deck          reading of CalculiX decks
 foreign       meshes of meshio
 boxes         sets by coordinates
+frames        origin and axes of a contact
+points        nodes of a deck alone, of any analysis
 stiffness     CalculiX's stiffness matrix, or assembled here
 solve         one factorization
 remainder     body minus half-space, by

@@ -11,6 +11,7 @@ from . import bolts, boxes, checks, cutoff, deck, foreign, images, modes, parts,
 from . import cases as load_cases
 from .basis import Patch
 from .cards import folded
+from .frames import Frame, frame_of
 from .halfspace import Fields, Mirrored, Several
 from .remainder import Side
 from .result import Compliance
@@ -21,14 +22,6 @@ from .units import DENSITIES, SOFT, UNITS, need_units
 DECK = ".inp"  # end of the name of a deck
 BLOCK = 1 << 20
 GAUSS_MORE = 3  # Gauss points along the patch in addition to its degree, for sampling fields
-
-
-@dataclass(frozen=True)
-class Frame:
-    """Origin (m) and x, y, z as rows, z into the body, in the model's coordinates."""
-
-    origin: np.ndarray
-    axes: np.ndarray
 
 
 @dataclass
@@ -61,21 +54,6 @@ class Body:
     def closing(self, name):
         """Mutual approach (bolts) of the washers of each bolt by a load case."""
         return np.array([(one.closing @ self.cases[name].displacement)[0, 0] for one in self.bolts])
-
-
-def frame_of(origin, x, z, outward):
-    """The Frame through an origin with directions x and z, or None, which follow from the outward area vector."""
-    total = outward / max(np.linalg.norm(outward), 1e-300)
-    z = -total if z is None else np.array(z) / max(np.linalg.norm(z), 1e-300)
-    if total @ z > 0.0:
-        raise Error("z of --frame points out of the body: reverse it")
-    if x is None:
-        x = (1.0, 0.0, 0.0) if abs(z[0]) < 0.9 else (0.0, 1.0, 0.0)
-    x = np.array(x) - (np.array(x) @ z) * z
-    if np.linalg.norm(x) < 1e-6:
-        raise Error("x and z of --frame are parallel or zero: give two different directions")
-    x /= np.linalg.norm(x)
-    return Frame(np.array(origin, dtype=float), np.stack([x, np.cross(z, x), z]))
 
 
 def checksum(path):

@@ -1,9 +1,9 @@
 """Pictures of results: by name in pictures.py, as petsam.plot.maps(results), petsam.plot.loop(results, other).
 
 fields and crossings draw fields over the surface and along x and y, series scalars over time or over one another, loops
-and wear cycles and scars, bodies stresses, tables and planes studies; of_compliance, of_lives, of_surface and of_joints
-what these parts of the package have found. colours chooses the colours of maps, symbols what known quantities are
-called, units the prefixes; style has the look of all, saving writes files.
+and wear cycles and scars, bodies stresses, tables and planes studies; of_compliance, of_lives, of_loads, of_surface and
+of_joints what these parts of the package have found. colours chooses the colours of maps, symbols what known quantities
+are called, units the prefixes; style has the look of all, saving writes files.
 """
 
 import importlib
@@ -23,6 +23,7 @@ _HOMES = {
     "of_calibration": ("fit",),
     "of_compliance": ("compliance",),
     "of_lives": ("lives",),
+    "of_loads": ("loads", "loads_beside"),
     "of_surface": ("surface",),
 }  # fmt: skip
 __all__ = sorted(name for names in _HOMES.values() for name in names)

@@ -1,0 +1,30 @@
+"""Frames: origin and axes of a contact in the coordinates of a model."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.errors import Error
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Origin (m) and x, y, z as rows, z into the body, in the model's coordinates."""
+
+    origin: np.ndarray
+    axes: np.ndarray
+
+
+def frame_of(origin, x, z, outward):
+    """The Frame through an origin with directions x and z, or None, which follow from the outward area vector."""
+    total = outward / max(np.linalg.norm(outward), 1e-300)
+    z = -total if z is None else np.array(z) / max(np.linalg.norm(z), 1e-300)
+    if total @ z > 0.0:
+        raise Error("z of --frame points out of the body: reverse it")
+    if x is None:
+        x = (1.0, 0.0, 0.0) if abs(z[0]) < 0.9 else (0.0, 1.0, 0.0)
+    x = np.array(x) - (np.array(x) @ z) * z
+    if np.linalg.norm(x) < 1e-6:
+        raise Error("x and z of --frame are parallel or zero: give two different directions")
+    x /= np.linalg.norm(x)
+    return Frame(np.array(origin, dtype=float), np.stack([x, np.cross(z, x), z]))
