@@ -54,7 +54,7 @@ def test_the_error_is_the_difference_from_the_computed_loops():
     names = [column.name for column in found.table()]
     assert "loop_energy_error" in names and "loop_stiffness_error" in names
     assert not full.errors and not [column.name for column in full.table() if "_error" in column.name][2:]
-    assert full.lines()[-1] == "all loops are computed: as asked for"
+    assert full.lines()[-1] == "all loops are computed: as requested"
 
 
 def test_pressures_between_those_checked_have_the_larger_error():
