@@ -472,9 +472,10 @@ def test_wear_unloads_the_bolt(tmp_path):
         pair_file(tmp_path / "pair.h5", 1.0), PRELOAD, **OPTIONS | dict(grid_n=16), wear_coefficient1=1e-3
     )
     sensor = pair.sensors["TIP"][:, 2]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", petsam.AdviceWarning)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
         found = joint.wear(pair.structure, 1e-2, [1e4, 4e4], sensor=sensor, measure=pair.left, steps=3)
+    assert all(str(one.message).strip() for one in said)  # a step without advice is no warning
     assert np.all(np.diff(found.measured["B"]) < 0) and found.measured["B"][0] == pair.tensions["B"]
     assert np.all(np.diff(found.frequency) < 0)
     assert np.all(found.frequency_error < 0.1 * (found.frequency[0] - found.frequency[2]))

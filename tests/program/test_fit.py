@@ -168,6 +168,7 @@ def test_a_plan_has_the_bands_of_twins():
         three = rows["0.3 of sliding and 0.6 of sliding and 0.9 of sliding"]
         assert three[0] < rows["0.9 of sliding"][0] and three[1] < 0.6 * rows["0.9 of sliding"][1]
     assert found.advice().startswith("the friction to 2 % takes ")
+    assert calibration.plan(PUSH, MU, 2e8, cycles=9).deviation == pytest.approx(found.deviation / 3.0, rel=1e-9)
     none = calibration.plan(PUSH, MU, 1e6, noise=(1e-4, 300.0), cycles=1)
     assert none.advice().startswith("none of these loops")
 

@@ -45,14 +45,12 @@ def test_steps_are_divided_until_the_energy_is_right(loads, solve):
     assert "the load steps are long" not in few.run.stderr + many.run.stderr  # by 4.4 and 0.03 %
 
 
-@pytest.mark.parametrize(
-    "given, proposed", [(dict(slide=True), False), (dict(wear_coefficient1=1e-14, wear_cycles=10), False)]
-)
-def test_no_remedy_proposes_an_option_that_those_given_exclude(given, proposed, petsam, tmp_path):
+@pytest.mark.parametrize("given", [dict(slide=True), dict(wear_coefficient1=1e-14, wear_cycles=10)])
+def test_no_remedy_proposes_an_option_that_those_given_exclude(given, petsam, tmp_path):
     moves = [(1.0, 200.0, 1e-6), (2.0, 150.0, -1e-6), (3.0, 200.0, 1e-6)]
     case = {**{name: value for name, value in CASE.items() if name != "load_n"}, **given}
     said = petsam(dict(case, **history(tmp_path / "h.csv", "time,load_n,disp_x", *moves))).stderr
-    assert "the load steps are long" in said and "use -steps" in said and ("-step_rtol" in said) == proposed
+    assert "the load steps are long" in said and "use -steps" in said and "-step_rtol" not in said
 
 
 @pytest.mark.parametrize("part", [0.3, 0.6])

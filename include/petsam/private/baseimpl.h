@@ -132,12 +132,6 @@ PETSC_INTERN void SamOptionsKnow(const SamOptions *from, const char name[], cons
   SamOptionsIsKnown - returns true if an option of this name (with the prefix, without dash) exists; `with` may be NULL.
 */
 PETSC_INTERN PetscBool SamOptionsIsKnown(const char name[], const char **with);
-/*
-  SamOptionsNoteExcluded - notes that an option (without dash and prefix) does not work with those given, so that no
-  remedy proposes it. SamOptionsIsExcluded - returns true if that was noted, as SamOptionsExclude() in base.h does, too.
-*/
-PETSC_INTERN void      SamOptionsNoteExcluded(const SamOptions *from, const char name[]);
-PETSC_EXTERN PetscBool SamOptionsIsExcluded(const SamOptions *from, const char name[]);
 /* SamOptionFile - an option whose value names files; both names have the prefix and a dash. */
 typedef struct {
   char          name[96], shown[96]; /* name in the options database, and in messages */

@@ -16,10 +16,6 @@
 static char     known[MOST][LENGTH], belongs[MOST][LENGTH]; /* belongs: what the option needs; or empty */
 static PetscInt knowns = 0;
 
-#define MOST_EXCLUDED 64
-static char     excluded[MOST_EXCLUDED][LENGTH]; /* options that do not work with those given */
-static PetscInt excludes = 0;
-
 /* Options that PETSc reads; their names are suggested, too */
 static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
 
@@ -122,22 +118,6 @@ PetscBool SamOptionsIsKnown(const char name[], const char **with)
   return k >= 0;
 }
 
-PetscBool SamOptionsIsExcluded(const SamOptions *from, const char name[])
-{
-  char option[LENGTH];
-
-  (void)snprintf(option, sizeof(option), "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
-  for (PetscInt k = 0; k < excludes; k++)
-    if (!strcasecmp(excluded[k], option)) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
-void SamOptionsNoteExcluded(const SamOptions *from, const char name[])
-{
-  if (excludes < MOST_EXCLUDED && !SamOptionsIsExcluded(from, name))
-    (void)snprintf(excluded[excludes++], LENGTH, "%.*s%s", LENGTH / 2, SamOptionsPrefix(from), name);
-}
-
 PetscErrorCode SamOptionsExclude(const SamOptions *from, const char given[], const char other[], const char reason[])
 {
   const char *prefix = SamOptionsPrefix(from);
@@ -147,7 +127,6 @@ PetscErrorCode SamOptionsExclude(const SamOptions *from, const char given[], con
   PetscCall(SamOptionsHas(from, other, &both));
   PetscCheck(!both, from->comm, SAM_ERR_USER, "-%s%s does not work with -%s%s: %s", prefix, given, prefix, other,
              reason);
-  SamOptionsNoteExcluded(from, other);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

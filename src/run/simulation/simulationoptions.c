@@ -153,7 +153,6 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
              "-step_rtol without -friction: no energy is dissipated: give -friction, or remove it");
   PetscCheck(s->step_rtol == 0 || !s->needs.life, from->comm, SAM_ERR_USER,
              "-step_rtol with -wear_cycles: all computed cycles must have the same load steps: use -steps");
-  if (s->needs.life) SamOptionsNoteExcluded(from, "step_rtol");
   PetscCall(SamLifeOptionsSetCycles(&s->plan, cycles, s->setup.problem, from));
   PetscCall(SamLifeOptionsCheckCycle(&s->plan, history, s->setup.problem, from));
   PetscCall(CheckLaws(s, from));
