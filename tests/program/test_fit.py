@@ -343,8 +343,9 @@ def test_plans_are_printed_and_written(fit, tmp_path):
 @pytest.mark.parametrize(
     "words, code, said",
     [
-        ((), 2, "--normal"),
-        (("--normal", "1kN", "--shape", "ball.opts"), 2, "LOOPS.csv is missing, or --plan"),
+        ((), 2, "--shape"),
+        (("--normal", "1kN", "--shape", "ball.opts"), 2, "LOOPS.csv is missing, or --scar, or --plan"),
+        (("lab.csv", "--shape", "ball.opts"), 2, "--normal is missing"),
         (("lab.csv", "--normal", "-1", "--shape", "ball.opts"), 2, "--normal"),
         (("lab.csv", "--normal", "1kN", "--shape", "none.opts"), 3, "none.opts"),
         (("none.csv", "--normal", "1kN", "--shape", "ball.opts"), 3, "none.csv"),
@@ -382,3 +383,82 @@ def test_a_result_is_a_table_and_a_picture(tmp_path):
     assert found.state == "known" and found.identifiable and abs(found.friction - MU) < 3 * found.friction_sd
     figure = package.plot.fit(found)
     assert len(figure.axes) == 2 and len(figure.axes[0].lines) == 4
+
+
+# ---------------------------------------------------------------- scars
+
+CYLINDER = (
+    "-elasticity plane\n-body1_young 200e9\n-body1_poisson 0.3\n-body2_young 200e9\n-body2_poisson 0.3\n"
+    "-friction 0.9\n-gap_type ellipsoid\n-gap_radius_x 6e-3\n-gap_radius_y inf\n-load_n 18500\n-rot_y 0\n"
+    "-wear_coefficient1 1.9e-14\n-wear_coefficient2 2.9e-14\n-grid_n 160,1\n-grid_size 6.4e-4\n-slide\n"
+    "-history stroke.csv\n"
+)
+
+
+@pytest.fixture(scope="module")
+def scars(tmp_path_factory):
+    """The family of scars of a cylinder's flat, 18,000 cycles of +-25 um."""
+    folder = tmp_path_factory.mktemp("scars")
+    rows = "".join(f"{k + 1},{25e-6 * np.cos(2 * np.pi * k / 16):.9g}\n" for k in range(17))
+    (folder / "stroke.csv").write_text("time,disp_x\n" + rows)
+    (folder / "cylinder.opts").write_text(CYLINDER.replace("stroke.csv", str(folder / "stroke.csv")))
+    return folder / "cylinder.opts", calibration.family(folder / "cylinder.opts", 18000)
+
+
+def profile(one, product, chance, r=0.5, noise=1e-7):
+    """A profile with a shift, an offset, a tilt, and noise whose neighbours correlate."""
+    x = np.arange(-0.30e-3, 0.3001e-3, 8e-6)
+    wave = np.zeros(x.size)
+    for k in range(x.size):
+        wave[k] = r * (wave[k - 1] if k else 0.0) + np.sqrt(1 - r * r) * chance.standard_normal()
+    return x, 5e-7 + 3e-4 * x - one.at(product, x - 4e-6) + noise * wave
+
+
+def test_the_scar_of_the_public_benchmark(scars):
+    """Area of the scar: coefficient times load and path of the slip; published coefficient 2.9e-14."""
+    _, one = scars
+    area = np.trapezoid(one.depth, one.x, axis=1)
+    assert one.depth.shape[0] == 19 and np.all(np.diff(area) > 0)
+    path = (
+        area / (one.product * 18500) * 18000 * 2.9e-14 / (2.9e-14 * 18000)
+    )  # m per cycle: 4 times 25 um, less elastic
+    assert path == pytest.approx(1e-4, rel=0.03) and np.ptp(path) < 0.02 * path.mean()
+
+
+def test_bands_of_scars_hold_the_truth(scars):
+    """Also where residuals of neighbours correlate, for which the band must be widened."""
+    _, one = scars
+    chance, inside, deviations = np.random.default_rng(4), 0, []
+    for _ in range(30):
+        truth = chance.uniform(0.3, 1.0) * 2.9e-14
+        found = calibration.fit_scar(one, *profile(one, truth * 18000, chance))
+        deviations.append((found.coefficient - truth) / found.coefficient_sd)
+        inside += abs(deviations[-1]) < 2
+        assert found.shift == pytest.approx(4e-6, abs=2e-5) and found.tilt == pytest.approx(3e-4, abs=8e-4)
+    assert inside >= 26 and 0.6 < np.std(deviations) < 1.4
+
+
+def test_a_scar_without_unworn_surface_is_refused(scars):
+    _, one = scars
+    x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(4))
+    inner = np.abs(x) < 0.22e-3
+    with pytest.raises(Error, match="no unworn surface on both sides"):
+        calibration.fit_scar(one, x[inner], height[inner])
+    level = calibration.fit_scar(one, x[inner], -one.at(2.2e-14 * 18000, x[inner]), level=False)
+    assert level.coefficient == pytest.approx(2.2e-14, rel=1e-4)
+
+
+def test_scars_by_the_command(scars, fit, tmp_path):
+    """The coefficient, and the ratio of the bodies' by the shape of a scar that was made with another one."""
+    path, one = scars
+    x, height = profile(one, 2.5e-14 * 18000, np.random.default_rng(4), noise=2e-8)
+    rows = "".join(f"{1e3 * a:.6f},{1e6 * b:.6f}\n" for a, b in zip(x, height))
+    (tmp_path / "profile.csv").write_text("x [mm],test [um]\n" + rows)
+    words = ("--scar", "profile.csv", "--shape", path, "--life", "18000")
+    said = fit(*words, "--split", "-o", "worn")
+    found = json.loads((tmp_path / "worn.json").read_text())
+    assert abs(found["wear_coefficient2"] - 2.5e-14) < 3 * found["wear_coefficient2_sd"] < 3e-15
+    assert abs(found["wear_split"] - 1.9 / 2.9) < 3 * found["wear_split_sd"] < 0.3 and "test: body 2" in said
+    assert (tmp_path / "worn-scar.png").stat().st_size > 5000
+    assert "needs --life" in fit(*words[:4], check=2)
+    assert "--split: is for --scar" in fit("--split", *words[2:4], "--normal", "1kN", "x.csv", check=2)

@@ -11,6 +11,7 @@ push        of_shape(), ball(): the displacement of one push, which serves all c
 loops       fit(): the model of a loop, its parameters, and what the loops do not hold
 series      cycles(), analyse(): cycles of a record, without drift, one by one and together
 planning    plan(): how well which strokes would give the friction
+scars       family(), fit_scar(), split(): the coefficients of wear from the profile of a scar
 results     what the command prints and writes; wear() from a volume
 """
 
@@ -19,9 +20,10 @@ from .planning import Plan, plan
 from .push import Push, ball, of_shape
 from .reading import Record, read
 from .results import Wear, wear
+from .scars import Family, Scar, Split, family, fit_scar, split
 from .series import Cycles, Result, analyse, cycles
 
 __all__ = [
-    "Cycles", "Fit", "Loop", "Plan", "Push", "Record", "Result", "Wear", "analyse", "ball", "cycles", "fit", "of_shape",
-    "plan", "read", "wear",
+    "Cycles", "Family", "Fit", "Loop", "Plan", "Push", "Record", "Result", "Scar", "Split", "Wear",
+    "analyse", "ball", "cycles", "family", "fit", "fit_scar", "of_shape", "plan", "read", "split", "wear",
 ]  # fmt: skip

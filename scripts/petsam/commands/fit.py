@@ -3,13 +3,15 @@
     petsam-fit loops.csv --normal 100N --shape sphere.opts -o test
     petsam-fit small.csv large.csv --normal 100N,100N --shape sphere.opts --lean -o test
     petsam-fit loops.csv --normal 100N --shape sphere.opts --life 18000 --volume 1.2e6um3,10% --body 2 -o test
+    petsam-fit --scar profile.csv --life 18000 --shape cylinder.opts --body 2 -o test
     petsam-fit --plan --normal 100N --shape sphere.opts --friction 0.6 --rig 20N/um --noise 20nm,1N
 
 A file has columns of displacement and force, named with their units: `Displacement (um);Friction force (N)`, x [mm],
 F [N]; decimals with point or comma, lost points as empty cells. Cycles are cut at the least displacement, drift and
 offset are removed. shape.opts has petsam's options of bodies and gap: one push of petsam serves all coefficients of
 friction (a ball's is in closed form). Where the loops do not hold the friction, a lower bound is printed, and where the
-model does not hold, no number at all.
+model does not hold, no number at all. --scar finds the coefficient of wear from the profile of a scar, heights over x
+(x [mm],height [um]): shape.opts then has all of the test, with -history, -slide and coefficients from which it begins.
 
 -o NAME writes NAME.json, NAME-cycles.csv (friction, rig, energy of each cycle), NAME-friction.csv (for -wear_friction),
 where friction changes, NAME.opts, with which petsam computes the contact's loop, its history NAME-loop.csv, a picture.
@@ -21,13 +23,14 @@ import sys
 
 import numpy as np
 
-from ..calibration import planning, push, reading, results, series
+from ..calibration import planning, push, reading, results, scars, series
 from ..core import words
 from ..core.errors import Error, Unusable, short
 from ..core.files import need_replaceable, same
+from ..plot.measured import read_profiles
 from .line import Parser, add_choice, guarded, joined, quietly, word
 
-WRITTEN = (".json", "-cycles.csv", "-friction.csv", ".opts", "-loop.csv", ".png")
+WRITTEN = (".json", "-cycles.csv", "-friction.csv", ".opts", "-loop.csv", ".png", "-scar.png")
 STIFFNESSES = {"N/m": 1.0, "N/mm": 1e3, "N/um": 1e6, "kN/mm": 1e6, "N/nm": 1e9}
 
 
@@ -89,7 +92,7 @@ def arguments(given):
     parser.add_argument("files", nargs="*", metavar="LOOPS.csv", help="measured loops; several are one test")
     need = parser.add_argument_group("the test")
     newton = word(words.numbers, "normal loads above 0: 100N, or one for each file", "N", words.positive)
-    need.add_argument("--normal", type=newton, required=True, metavar="N", help="normal load, or one for each file")
+    need.add_argument("--normal", type=newton, metavar="N", help="normal load, or one for each file")
     need.add_argument("--shape", metavar="NAME.opts", required=True, help="petsam's options of bodies, gap and grid")
     length = word(words.number, "a length above 0, such as 10mm", "m", words.positive)
     need.add_argument("--width", type=length, metavar="L", help="length of a contact in plane strain")
@@ -109,6 +112,10 @@ def arguments(given):
     wear = parser.add_argument_group("wear")
     wear.add_argument(
         "--volume", type=word(volume), metavar="V,BAND", help="worn volume and its deviation: 1.2e6um3,10%%"
+    )
+    wear.add_argument("--scar", metavar="FILE.csv", help="profile of the worn surface over x; a scar is negative")
+    wear.add_argument(
+        "--split", action="store_true", help="with --scar: the other body's coefficient by its shape, too"
     )
     wear.add_argument("--body", choices=("1", "2"), default="2", help="that has lost it (2)")
     least = word(words.number, "a number of cycles above 0", allowed=words.positive)
@@ -137,8 +144,10 @@ def _check_plan(parser, options):
         for name in ("friction", "rig"):
             if getattr(options, name) is None:
                 parser.error(f"--plan: needs --{name}, an assumed one")
-    elif not options.files:
-        parser.error("LOOPS.csv is missing, or --plan")
+    elif not options.files and not options.scar:
+        parser.error("LOOPS.csv is missing, or --scar, or --plan")
+    if (options.files or options.plan) and not options.normal:
+        parser.error("--normal is missing: the normal load")
     for name in ("friction", "noise"):
         if getattr(options, name) is not None and not options.plan:
             parser.error(f"--{name}: is for --plan")
@@ -147,12 +156,20 @@ def _check_plan(parser, options):
 def _checked(parser, options):
     """The options, or the end of the command for those that do not fit."""
     _check_plan(parser, options)
-    count = 1 if options.plan else len(options.files)
+    if not options.files and not options.plan:
+        options.normal = options.normal or [0.0]
+    if options.split and not options.scar:
+        parser.error("--split: is for --scar")
+    if options.scar and not options.life:
+        parser.error("--scar: needs --life, the cycles of the test")
+    count = len(options.files) or 1
     if len(options.normal) not in (1, count):
         parser.error(f"--normal: {count} files need one number, or as many")
     options.normal = options.normal * count if len(options.normal) == 1 else options.normal
-    if options.life and not options.volume:
-        parser.error("--life: is for --volume")
+    if options.life and not (options.volume or options.scar):
+        parser.error("--life: is for --volume and --scar")
+    if options.volume and not options.files:
+        parser.error("--volume: needs the loops, whose energy has worn it")
     return options
 
 
@@ -162,7 +179,7 @@ def _outputs(options):
         return
     for end in WRITTEN:
         name = options.output + end
-        if any(same(name, path) for path in [*options.files, options.shape]):
+        if any(same(name, path) for path in [*options.files, options.shape, *filter(None, [options.scar])]):
             raise Unusable(f"-o {short(options.output)}: {name} would replace a file that is read: choose another name")
         need_replaceable(name)
 
@@ -182,7 +199,7 @@ def _plan(options):
         print(f"wrote {options.output}.csv")
 
 
-def _measure(options):
+def _measure(options, scar):
     records = [reading.read(path, options.displacement, options.force) for path in options.files]
     if not reading.same_units(records):
         raise Error(f"{options.files[0]}: some files have loops and others peaks only: evaluate them apart")
@@ -204,7 +221,7 @@ def _measure(options):
         worn = results.wear(found, *options.volume, options.life)
         print(results.worn_line(worn, options.body))
     if options.output:
-        _write(options, found, pushes[0], worn)
+        _write(options, found, pushes[0], worn, scar)
     return 0
 
 
@@ -224,10 +241,10 @@ def _peaks(options, records):
     return 0
 
 
-def _write(options, found, one, worn):
+def _write(options, found, one, worn, scar):
     name, wrote = options.output, []
     with open(name + ".json", "w", encoding="utf-8") as file:
-        json.dump(results.as_json(found, worn, options.body), file, indent=1)
+        json.dump({**results.as_json(found, worn, options.body), **scar}, file, indent=1)
         file.write("\n")
     wrote.append(name + ".json")
     found.to_csv(name + "-cycles.csv")
@@ -247,10 +264,53 @@ def _write(options, found, one, worn):
     print("wrote " + ", ".join(wrote))
 
 
+def _scar(options):
+    """The coefficient of wear from each profile of the file; the numbers of JSON."""
+    x, profiles = read_profiles(options.scar)
+    one, found = scars.family(options.shape, options.life, options.body), {}
+    for name, height in profiles.items():
+        scar = scars.fit_scar(one, x, height)
+        print(
+            f"{options.scar}: {name}: body {options.body}: Archard's coefficient {scar.coefficient:.4g} +- "
+            f"{scar.coefficient_sd:.2g} 1/Pa; misfit {1e6 * scar.misfit:.3g} um, neighbours' correlation "
+            f"{scar.neighbours:.2f}, shift {1e6 * scar.shift:.3g} um"
+        )
+        found[name] = scar
+    first, more = next(iter(found.values())), {}
+    if options.split:
+        for name, scar in list(found.items())[:1]:
+            parted = scars.split(options.shape, options.life, scar.x, scar.height, options.body)
+            print(
+                f"{options.scar}: {name}: coefficient of the other body over it {parted.ratio:.2g} +- "
+                f"{parted.ratio_sd:.2g}, by the shape of the scar"
+            )
+            more = {"wear_split": parted.ratio, "wear_split_sd": parted.ratio_sd}
+    if options.output and not options.no_picture:
+        from .. import plot
+        from ..plot import saving
+
+        saving.write(plot.scar_fit(found), options.output + "-scar.png", options.dpi)
+        print(f"wrote {options.output}-scar.png")
+    return {
+        f"wear_coefficient{options.body}": first.coefficient,
+        f"wear_coefficient{options.body}_sd": first.coefficient_sd,
+        **more,
+    }
+
+
 def carry_out(options):
     """Read, fit, print and draw; exit code."""
     _outputs(options)
-    return _plan(options) if options.plan else _measure(options)
+    if options.plan:
+        return _plan(options)
+    worn = _scar(options) if options.scar else {}
+    if options.files:
+        return _measure(options, worn)
+    if options.output:
+        with open(options.output + ".json", "w", encoding="utf-8") as file:
+            json.dump({**worn, "units": "1/Pa"}, file, indent=1)
+        print(f"wrote {options.output}.json")
+    return 0
 
 
 def main():

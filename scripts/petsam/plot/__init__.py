@@ -20,7 +20,7 @@ _HOMES = {
         "sections", "stress_maps", "stress_profiles", "study",
     ),
     "of_joints": ("backbone", "band", "interface", "joint_wear", "response", "slip_zones"),
-    "of_calibration": ("fit",),
+    "of_calibration": ("fit", "scar_fit"),
     "of_compliance": ("compliance",),
     "of_lives": ("lives",),
     "of_loads": ("loads", "loads_beside"),

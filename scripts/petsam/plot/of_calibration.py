@@ -43,3 +43,25 @@ def fit(found: Result):
             right.plot(found.numbers, 1e6 * found.energy, "o", color=colors(1)[0], markersize=4.0)
             right.set(xlabel="cycle", ylabel="dissipated energy, uJ")
     return figure
+
+
+def scar_fit(found):
+    """Measured profiles of scars with their fits.
+
+    Parameters
+    ----------
+    found : dict
+        {name: Scar}.
+
+    Returns
+    -------
+    Figure
+    """
+    figure, panel = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    for (name, scar), tint in zip(found.items(), colors(len(found))):
+        panel.plot(1e3 * scar.x, 1e6 * scar.height, ".", color=tint, markersize=4.0, label=name)
+        text = f"{scar.coefficient:.3g} +- {scar.coefficient_sd:.2g} 1/Pa"
+        panel.plot(1e3 * scar.x, 1e6 * scar.curve, color=tint, linewidth=1.0, label=text)
+    panel.set(xlabel="x, mm", ylabel="height, um")
+    panel.legend(loc="best", fontsize=8)
+    return figure
