@@ -184,7 +184,7 @@ def test_friction_that_changes_is_a_table(fit, tmp_path):
     """Twelve cycles with drift, offset and a digital step; the energy is that of the polygons."""
     truth = np.linspace(0.4, 0.7, 12)
     loops = series_of(np.random.default_rng(11), truth)
-    write(tmp_path / "lab.csv", loops, "Displacement (um);Friction force (N)", "{:.2f};{:.3f}", drift=1.8, offset=12.0)
+    write(tmp_path / "lab.csv", loops, "Displacement (um);Friction force (N)", "{:.2f};{:.3f}", drift=4.0, offset=12.0)
     said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test", "--no-picture")
     assert "friction changes with the cycles, 0.40" in said and "gross slip" in said and "rig stiffness 20" in said
     found = json.loads((tmp_path / "test.json").read_text())
@@ -193,7 +193,7 @@ def test_friction_that_changes_is_a_table(fit, tmp_path):
     assert abs(found["rig_stiffness"] - 2e7) < 4 * found["rig_stiffness_sd"] < 2e6
     rows = np.genfromtxt("test-friction.csv", delimiter=",", names=True)
     assert rows["cycle"].tolist() == [0, *range(1, 13)] and rows["friction"][1:] == pytest.approx(truth, rel=0.01)
-    assert "drift +1." in said
+    assert "drift +" in said
 
 
 @pytest.mark.parametrize(
@@ -234,9 +234,51 @@ def test_other_units_signs_and_courses(tmp_path):
     found = {name: calibration.analyse([one], [PUSH]) for name, one in cycles.items()}
     assert not cycles["plain"].notes and len(cycles["plain"].loops) == 4 and plain.time is None
     assert "its sign is turned" in cycles["turned"].notes[0] and "clockwise" in cycles["turned"].notes[1]
+    assert cycles["turned"].turned and not cycles["plain"].turned
     assert "1 cycle with lost" in cycles["lost"].notes[0] and len(cycles["lost"].loops) == 3
     for one in found.values():
         assert one.friction == pytest.approx(MU, rel=3e-3) and one.rig_stiffness == pytest.approx(2e7, rel=5e-3)
+
+
+def test_noise_of_the_displacement_bends_no_loop(tmp_path):
+    """Just below sliding, where the loop is curved: its mean over the noise is not the loop."""
+    found = []
+    for seed in range(4):
+        chance = np.random.default_rng(seed)
+        write(tmp_path / "lab.csv", [twin(chance, 0.95, None, 2e7, noise=0.03) for _ in range(10)])
+        one = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+        found.append((one.friction - MU) / one.friction_sd)
+    assert np.abs(found).max() < 2.5 and np.abs(np.mean(found)) < 1.3
+
+
+def test_spikes_are_left_out(tmp_path):
+    chance = np.random.default_rng(5)
+    write(tmp_path / "lab.csv", [twin(chance, None, 1.5, 2e7) for _ in range(5)])
+    record = calibration.read("lab.csv")
+    record.force[[70, 333, 712]] += 2000.0
+    record.displacement[[170, 533]] -= 3e-4
+    cycles = calibration.cycles(record, N)
+    found = calibration.analyse([cycles], [PUSH])
+    assert "points far from both neighbours" in cycles.notes[0] and len(cycles.loops) == 5
+    assert abs(found.friction - MU) < 3 * found.friction_sd < 0.003
+
+
+def test_small_clockwise_loops_have_no_number(tmp_path):
+    """A force that lags by a sample turns a partial loop; recorded backwards it would look the same."""
+    loop = twin(np.random.default_rng(5), 0.6, None, 2e7)
+    late = model.Loop(loop.displacement, np.roll(loop.force, 2), loop.rising, N)
+    write(tmp_path / "lab.csv", [late] * 4)
+    cycles = calibration.cycles(calibration.read("lab.csv"), N)
+    found = calibration.analyse([cycles], [PUSH])
+    assert cycles.turned and found.state == "rejected" and np.isnan(found.friction)
+
+
+def test_a_growing_stroke_is_no_change_of_friction(tmp_path):
+    chance = np.random.default_rng(6)
+    loops = [twin(chance, None, stroke, 2e7) for stroke in (0.9, 1.0, 1.1, 1.3, 1.6)]
+    write(tmp_path / "lab.csv", loops)
+    found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+    assert found.state == "known" and abs(found.friction - MU) < 3 * found.friction_sd
 
 
 @pytest.mark.parametrize(
@@ -349,7 +391,7 @@ def test_plans_are_printed_and_written(fit, tmp_path):
         (("lab.csv", "--normal", "-1", "--shape", "ball.opts"), 2, "--normal"),
         (("lab.csv", "--normal", "1kN", "--shape", "none.opts"), 3, "none.opts"),
         (("none.csv", "--normal", "1kN", "--shape", "ball.opts"), 3, "none.csv"),
-        (("lab.csv", "--normal", "1kN,2kN", "--shape", "ball.opts"), 2, "1 files need one number"),
+        (("lab.csv", "--normal", "1kN,2kN", "--shape", "ball.opts"), 2, "1 file: give one number"),
         (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20"), 0, ""),
         (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20N/furlong"), 2, "units are N/m, N/mm"),
         (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--width", "1mm"), 2, "not in plane strain"),

@@ -119,6 +119,22 @@ def test_states_from_elsewhere(tmp_path):
             assert np.isnan(other.try_step(**second).errors["slip_max"]) and not without.try_step(**second).errors
 
 
+def test_errors_do_not_depend_on_rejected_tries():
+    """Nor on larger loads, or others, in them."""
+    case = dict(grid_n=32, friction=0.6, bulk2_stress_xx=5e7)
+    with contact_of(case) as one, contact_of(case) as other:
+        for load in (1000, 600):
+            expected = one.try_step(load_n=load, load_tx=20).errors
+            other.try_step(load_n=3 * load, load_tx=200, load_mz=0.01)
+            other.reject()
+            other.try_step(load_n=2 * load)
+            found = other.try_step(load_n=load, load_tx=20).errors
+            for name in ("dissipated_energy", "slip_max", "contact_area", "shear_max", "disp_z", "disp_x"):
+                assert found[name] == pytest.approx(expected[name], rel=1e-6, abs=0), name
+            one.commit()
+            other.commit()
+
+
 def test_given_fields_become_means_on_the_companions():
     """Heights of a paraboloid as a field: its means over cells differ from its values by a constant."""
     first, second, *_ = steps_of(1)

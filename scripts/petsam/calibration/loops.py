@@ -30,6 +30,7 @@ LEAST, MOST = 1e-4, 30.0  # coefficients of friction
 FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
 CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold
 MISFIT = 1.2  # and root mean square of the residuals, in units of the noise, below which it does not matter
+LARGE = 3.0  # root mean square of the residuals, in units of the noise, beyond which the model does not hold
 DOUBTFUL = 0.1  # relative deviation of the friction above which its range is that of its profile
 UNBOUNDED = 5.0  # friction beyond this multiple of the best one is not excluded by the loops: no upper bound
 WEAK = 0.5  # width of the range, relative to the friction, from which on it is weakly known
@@ -48,7 +49,8 @@ class Loop:
     normal : float
         Normal load, N.
     given : tuple of float, optional
-        Noise of displacement and force, m and N, of several loops that are one; None: by second differences.
+        Noise of displacement and force, m and N, and what is left of that of the displacement in its values, whose
+        smooth part counts for the bands all the same; None: by second differences, and all of it.
     """
 
     displacement: np.ndarray
@@ -65,7 +67,7 @@ class Loop:
 
     def noise(self) -> tuple[float, float]:
         """Noise of displacement and force, m and N, from second differences."""
-        return self.given or (noise_of(self.displacement), noise_of(self.force))
+        return self.given[:2] if self.given else (noise_of(self.displacement), noise_of(self.force))
 
 
 def noise_of(values: np.ndarray) -> float:
@@ -260,6 +262,17 @@ class _Problem:
         slopes = [self.curve(values, k)[1] for k in range(len(self.loops))]
         return [1.0 / np.sqrt(sd_q**2 + (slope * sd_d) ** 2) for slope, (sd_d, sd_q) in zip(slopes, self.noise)]
 
+    def expected(self, values):
+        """Mean square of the residuals that noise leaves, in units of the weights: 1, or less where the displacement is
+        smooth."""
+        total, count = 0.0, 0
+        for k, (loop, (sd_d, sd_q)) in enumerate(zip(self.loops, self.noise)):
+            slope = self.curve(values, k)[1]
+            left = loop.given[2] if loop.given else sd_d
+            total += float(np.sum((sd_q**2 + (slope * left) ** 2) / (sd_q**2 + (slope * sd_d) ** 2)))
+            count += len(slope)
+        return total / count
+
     def residuals(self, values, weights):
         """Residuals of all loops in units of the noise."""
         parts = [w * (loop.force - self.curve(values, k)[0]) for k, (loop, w) in enumerate(zip(self.loops, weights))]
@@ -358,7 +371,9 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
     if count < 3 * len(best.x):
         raise Error(f"{count} points: a fit of {len(best.x)} parameters needs {3 * len(best.x)}")
     square = 2.0 * best.cost / (count - len(best.x))
-    variance = max(square, 0.25)  # of loops without noise the errors are those of the model
+    expected = problem.expected(best.x)
+    square /= expected
+    variance = max(square, 0.25 if expected > 0.99 else 1.0)  # of loops without noise the errors are those of the model
     scales = problem.scales()
     jacobian = best.jac * scales
     covariance = variance * np.linalg.pinv(jacobian.T @ jacobian) * np.outer(scales, scales)
@@ -367,7 +382,7 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
     neighbours = _neighbours(problem, best.fun)
     friction, friction_sd = of["friction"], float(sd["friction"])
     ends, state, at_least = (friction - 2 * friction_sd, friction + 2 * friction_sd), "known", np.nan
-    if neighbours > CORRELATED and square > MISFIT**2:
+    if neighbours > CORRELATED and square > MISFIT**2 or square > LARGE**2:
         state = "rejected"
     elif not friction_sd <= DOUBTFUL * friction:
         ends = _profile(problem, best, variance) if profile else (problem.least(), np.inf)

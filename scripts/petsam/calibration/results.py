@@ -39,8 +39,10 @@ def lines(found: Result, push: Push) -> list[str]:
     ]
     if found.state == "rejected":
         out += [
-            "no numbers: the loops are not those of this contact and a rig in series: neighbouring residuals correlate "
-            f"by {fit.neighbours:.2g}, their mean is {fit.misfit:.3g} N",
+            "no numbers: the loops are clockwise: in partial slip either a record backwards or a force that lags"
+            if any(one.turned for one in found.files) and not fit.gross
+            else "no numbers: the loops are not those of this contact and a rig in series: neighbouring residuals "
+            f"correlate by {fit.neighbours:.2g}, their mean is {fit.misfit:.3g} N",
             "next: a loop in gross slip at the end of the test; --lean if the force grows while it slides; --rig left "
             "out; a --shape of the worn surface",
         ]
@@ -81,7 +83,8 @@ def _friction_line(found):
             f"friction: not identifiable from these loops; at least {found.friction_at_least:.3g} (95 %): take larger "
             "strokes, best one loop in gross slip at the end of the test"
         )
-    text = f"friction {found.friction:.4f} +- {found.friction_sd:.2g}"
+    given = "" if found.fit.gross else ", if the rig has no lean and no loss but those given"
+    text = f"friction {found.friction:.4f} +- {found.friction_sd:.2g}{given}"
     if found.state == "weak":
         text = f"friction {found.friction:.3g}, weakly known: {low:.3g} to {high:.3g} (95 %)"
     return text

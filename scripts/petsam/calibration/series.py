@@ -8,13 +8,16 @@ import numpy as np
 
 from ..core.errors import Error, counted, library
 from ..core.tables import Column, Tabled
-from .loops import Fit, Loop, fit
+from .loops import Fit, Loop, fit, noise_of
 from .push import Push
 from .reading import Record
 
 SMOOTH = 40  # parts of a period over which the displacement is smoothed, to find its turns
 APART = 0.6  # of a period: least distance of two minima
-SCATTER = 5.0  # scatter of the friction over what is expected, from which on it changes
+SCATTER = 5.0  # scatter of the friction over what is expected, from which on it changes, where the contact slides,
+SCATTER_PARTIAL = 2.0  # and where it does not, whose cycles hold less
+HARMONICS, SMOOTHER = 5, 1.15  # of the displacement of a cycle, and the most of its noise that they leave
+SPIKE = 8.0  # of the noise: points farther from the median of their neighbours are left out
 TOGETHER = 3  # cycles of each file that are fitted together, where their amplitudes differ
 ALIKE = 2.0  # of the noise: the standard deviation of the ranges of cycles that are alike; noise makes it about 1
 MOST = 6000  # points of cycles that are fitted as one loop
@@ -35,6 +38,8 @@ class Cycles:
     drift : float
         Of the displacement, m per cycle, which is removed.
     notes : list of str
+    turned : bool
+        Some loops were clockwise.
     """
 
     path: str
@@ -42,6 +47,7 @@ class Cycles:
     numbers: np.ndarray
     drift: float
     notes: list = field(default_factory=list)
+    turned: bool = False
 
 
 def _period(values):
@@ -96,16 +102,16 @@ def cycles(record: Record, normal: float, which: slice = slice(None)) -> Cycles:
     filled = np.interp(places, places[known], d[known])
     period = _period(filled)
     smooth = _smoothed(filled, period / SMOOTH)
+    if np.ptp(smooth) < 10.0 * noise_of(filled):
+        raise Error(f"{record.path}: the displacement does not move by more than its noise")
+    spikes = _spikes(filled) | _spikes(np.interp(places, places[known], q[known]))
+    if spikes.any():
+        notes.append(f"{counted(int(spikes.sum()), 'point')} far from both neighbours left out")
     if np.polyfit(d[known], q[known], 1)[0] < 0.0:
         q = -q
         notes.append("the force falls where the displacement rises: its sign is turned")
-    cuts = _minima(smooth, period)
-    if len(cuts) < 2:
-        if len(d) > 1.3 * period or abs(smooth[0] - smooth[-1]) > 0.1 * np.ptp(smooth):
-            raise Error(f"{record.path}: no whole cycle between two least displacements")
-        shift = int(np.argmin(smooth))  # a single cycle that begins elsewhere
-        d, q, known, smooth = (np.roll(one, -shift) for one in (d, q, known, smooth))
-        cuts = [0, len(d)]
+    cuts, shift = _cuts(record.path, smooth, period)
+    d, q, known, smooth, spikes = (np.roll(one, -shift) for one in (d, q, known, smooth, spikes))
     parts = [slice(a, b) for a, b in zip(cuts[:-1], cuts[1:])]
     line, drift = _drift(filled, parts)
     d = d - line
@@ -113,17 +119,30 @@ def cycles(record: Record, normal: float, which: slice = slice(None)) -> Cycles:
     for k, part in enumerate(parts):
         if not np.all(known[part]) or part.stop - part.start < FEWEST:
             continue
-        loop, is_turned = _closed(d[part], q[part], int(np.argmax(smooth[part])), normal)
+        loop, is_turned = _closed(d[part], q[part], int(np.argmax(smooth[part])), normal, ~spikes[part])
         turned += is_turned
         loops.append(loop)
         numbers.append(k + 1 if record.cycle is None else float(np.nanmedian(record.cycle[part])))
     if len(loops) < len(parts):
         notes.append(f"{counted(len(parts) - len(loops), 'cycle')} with lost or too few points left out")
-    if turned > len(loops) // 2:
-        notes.append("the loops are recorded clockwise, as if work were gained: their course is turned")
+    if turned:
+        notes.append(
+            f"{counted(turned, 'loop')} clockwise, as if work were gained: taken as recorded backwards; a force that "
+            "lags behind the displacement makes small loops so, too"
+        )
     if not loops[which]:
         raise Error(f"{record.path}: no whole cycle is left of {len(parts)}")
-    return Cycles(record.path, loops[which], np.array(numbers)[which], drift, notes)
+    return Cycles(record.path, loops[which], np.array(numbers)[which], drift, notes, bool(turned))
+
+
+def _cuts(path, smooth, period):
+    """Where cycles begin and end, and by how much the points of a single cycle that begins elsewhere are turned."""
+    cuts = _minima(smooth, period)
+    if len(cuts) > 1:
+        return cuts, 0
+    if len(smooth) > 1.3 * period or abs(smooth[0] - smooth[-1]) > 0.1 * np.ptp(smooth):
+        raise Error(f"{path}: no whole cycle between two least displacements")
+    return [0, len(smooth)], int(np.argmin(smooth))
 
 
 def _drift(filled, parts):
@@ -147,15 +166,39 @@ def _mean_about(values, middle, period):
     return float(np.mean(values[first : first + period]))
 
 
-def _closed(d, q, top, normal):
-    """A loop from the points of a cycle whose largest displacement is at `top`, and whether its course was turned."""
+def _spikes(values):
+    """Points that are far from the median of five about them, and from both neighbours."""
+    padded = np.pad(values, 2, mode="edge")
+    around = np.median([padded[k : k + len(values)] for k in range(5)], axis=0)
+    far = np.abs(values - around) > SPIKE * max(noise_of(values), 1e-300)
+    return far if far.sum() < 0.05 * len(values) else np.zeros(len(values), dtype=bool)
+
+
+def _harmonic(d, good):
+    """The displacement of a cycle by few harmonics, if they leave no more than its noise: (values, noise, what is left
+    of it in these). Else the points themselves: noise of a displacement bends the loop where it is curved."""
+    count = min(HARMONICS, len(d) // 8)
+    noise, phase = noise_of(d[good]), 2.0 * np.pi * np.arange(len(d)) / len(d)
+    waves = [np.ones(len(d)), *(f(k * phase) for k in range(1, count + 1) for f in (np.cos, np.sin))]
+    waves = np.array(waves).T
+    found = waves @ np.linalg.lstsq(waves[good], d[good], rcond=None)[0]
+    if np.std(d[good] - found[good]) > SMOOTHER * noise:
+        return d, noise, noise
+    return found, noise, noise * float(np.sqrt((2 * count + 1) / good.sum()))
+
+
+def _closed(d, q, top, normal, good):
+    """A loop from the good points of a cycle whose largest displacement is at `top`, and whether its course was
+    turned."""
+    noise_q = noise_of(q[good])
+    d, noise_d, left = _harmonic(d, good)
     rising, turned = np.arange(len(d)) < top, False
     turns = np.array([0, top, len(d)])
-    away = np.abs(np.arange(len(d))[:, None] - turns).min(axis=1) >= max(1, round(TURN * len(d)))
+    away = good & (np.abs(np.arange(len(d))[:, None] - turns).min(axis=1) >= max(1, round(TURN * len(d))))
     d, q, rising = d[away], q[away], rising[away]
     if np.sum(d * np.roll(q, -1) - np.roll(d, -1) * q) > 0.0:  # clockwise: work would be gained
         d, q, rising, turned = d[::-1], q[::-1], ~rising[::-1], True
-    return Loop(d, q, rising, normal), turned
+    return Loop(d, q, rising, normal, (noise_d, noise_q, left)), turned
 
 
 @dataclass(frozen=True)
@@ -230,7 +273,8 @@ def _mean(each):
     mean = float(np.sum(weights * values) / np.sum(weights))
     expected = 1.0 / np.sqrt(np.sum(weights))
     scatter = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
-    return mean, max(expected, scatter / np.sqrt(len(values))), scatter / float(np.median(deviations))
+    relative = float(np.sqrt(np.mean(((values - mean) / deviations) ** 2)))
+    return mean, max(expected, scatter / np.sqrt(len(values)) if relative > 1.5 else 0.0), relative
 
 
 def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str] = (), **fixed) -> Result:
@@ -253,6 +297,8 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     together = _fit_all(files, pushes, _together, free, fixed)
     if together.state == "rejected":  # cycles on each other differ by more than their noise
         together = _fit_all(files, pushes, _spread, free, fixed)
+    if any(one.turned for one in files) and not (together.gross and together.identifiable):
+        together = replace(together, state="rejected", friction=np.nan, friction_sd=np.nan, friction_at_least=np.nan)
     each, notes = [], [note for one in files for note in one.notes]
     if sum(len(one.loops) for one in files) > 1:
         each = [
@@ -265,7 +311,7 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     known = [one for one in each if one.identifiable]
     if len(known) == len(each) > 1 and len(files) == 1:
         mean, deviation, scatter = _mean(each)
-        if scatter > SCATTER:
+        if scatter > (SCATTER if together.gross else SCATTER_PARTIAL):
             state, found = "changes", (mean, deviation)
             together = replace(together, state=state)
         elif state != "rejected":
@@ -301,8 +347,8 @@ def _rig(each, together, state):
 def _together(loops):
     """What is fitted together: all cycles on each other, as one loop, if their amplitudes are alike, else some."""
     spans = np.array([[np.ptp(one.displacement), np.ptp(one.force)] for one in loops])
-    noise = np.median([one.noise() for one in loops], axis=0)
-    if len(loops) > 1 and np.all(np.std(spans, axis=0) < ALIKE * noise):
+    noise = np.median([one.given for one in loops], axis=0)
+    if len(loops) > 1 and np.all(np.std(spans, axis=0) < ALIKE * noise[:2]):
         kept = loops[: max(2, MOST // len(loops[0].force))]
         d, q, rising = (
             np.concatenate([getattr(one, name) for one in kept]) for name in ("displacement", "force", "rising")

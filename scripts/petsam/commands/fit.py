@@ -25,7 +25,7 @@ import numpy as np
 
 from ..calibration import planning, push, reading, results, scars, series
 from ..core import words
-from ..core.errors import Error, Unusable, short
+from ..core.errors import Error, Unusable, counted, short
 from ..core.files import need_replaceable, same
 from ..plot.measured import read_profiles
 from .line import Parser, add_choice, guarded, joined, quietly, word
@@ -164,7 +164,7 @@ def _checked(parser, options):
         parser.error("--scar: needs --life, the cycles of the test")
     count = len(options.files) or 1
     if len(options.normal) not in (1, count):
-        parser.error(f"--normal: {count} files need one number, or as many")
+        parser.error(f"--normal: {counted(count, 'file')}: give one number, or as many")
     options.normal = options.normal * count if len(options.normal) == 1 else options.normal
     if options.life and not (options.volume or options.scar):
         parser.error("--life: is for --volume and --scar")

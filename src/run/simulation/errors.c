@@ -318,5 +318,6 @@ PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last)
   if (s->output && s->errors->table.count) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_ERRORS, .errors = &s->errors->table}));
   PetscCall(SamErrorsAddDoubts(s->errors, &s->advice));
+  SamErrorsKeep(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -29,6 +29,8 @@ struct _n_SamErrors {
   SamErrorNumber   number[SAM_ERROR_ROWS];
   double           sums[SAM_STATE_NUMBERS]; /* numbers of the steps of this run, joined */
   SamErrorLargest  largest;                 /* on half the cells */
+  SamErrorLargest  committed;               /* those of the committed steps, of steps given one by one, */
+  PetscBool        driven[SAM_COMPONENTS];  /* and the components that these drive */
   PetscBool        began;                   /* the first step has been recorded */
   char             unknown[SAM_MESSAGE];    /* why nothing is known of steps given one by one; empty: it is */
   const SamDoubts *closed;                  /* the errors in closed form; borrowed */
@@ -60,6 +62,8 @@ PETSC_INTERN void           SamErrorsAddRow(SamSimulation simulation, const SamS
                                             double value, double least, const double run[SAM_RUNS]);
 PETSC_INTERN PetscErrorCode SamErrorsAddNumbers(SamSimulation simulation, const SamControl *control);
 PETSC_INTERN PetscErrorCode SamErrorsAddDoubts(SamErrors errors, SamAdvice *advice);
+/* SamErrorsKeep - keeps the largest values, and what is driven, with the committed steps. Not collective. */
+PETSC_INTERN void SamErrorsKeep(SamSimulation simulation);
 /*
   SamErrorsFind - finds the numbers in a state whose list has grown. SamErrorsSet - sets the stored error of each number
   of the tried step, with these loads. Collective (errors.c).

@@ -27,6 +27,14 @@ static void CompareSteps(SamSimulation s)
   }
 }
 
+void SamErrorsKeep(SamSimulation s)
+{
+  SamErrors e = s->errors;
+
+  e->committed = e->largest;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) e->driven[c] = s->start.loads[c];
+}
+
 PetscErrorCode SamErrorsTry(SamSimulation s, const SamStep *step)
 {
   const SamErrors e     = s->errors;
@@ -35,8 +43,10 @@ PetscErrorCode SamErrorsTry(SamSimulation s, const SamStep *step)
 
   PetscFunctionBegin;
   if (!e || !SamStepIsSolved(step)) PetscFunctionReturn(PETSC_SUCCESS);
+  e->largest = e->committed;
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-    if (!step->control.force[c] || step->control.value[c] != 0) s->start.loads[c] = PETSC_TRUE;
+    s->start.loads[c] =
+      e->driven[c] || !step->control.force[c] || step->control.value[c] != 0 ? PETSC_TRUE : PETSC_FALSE;
   for (int c = 0; c < SAM_RUNS; c++)
     if (e->companion[c].run) PetscCall(SamCompanionTry(&e->companion[c], c == SAM_RUN_OTHER ? 2 : 1, &step->control));
   PetscCall(SamContactGetState(s->setup.contact, &state));
@@ -54,7 +64,9 @@ PetscErrorCode SamErrorsCommit(SamSimulation s)
   const SamErrors e = s->errors;
 
   PetscFunctionBegin;
-  for (int c = 0; c < SAM_RUNS && e; c++)
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  SamErrorsKeep(s);
+  for (int c = 0; c < SAM_RUNS; c++)
     if (e->companion[c].run) PetscCall(SamCompanionCommit(&e->companion[c]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -89,7 +101,8 @@ PetscErrorCode SamErrorsReset(SamSimulation s)
 
   PetscFunctionBegin;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
-  e->largest    = (SamErrorLargest){.load = 0};
+  e->largest = e->committed = (SamErrorLargest){.load = 0};
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) e->driven[c] = PETSC_FALSE;
   e->unknown[0] = '\0';
   for (int c = 0; c < SAM_RUNS; c++) {
     SamCompanion *one = &e->companion[c];
@@ -112,7 +125,8 @@ PetscErrorCode SamErrorsCopy(SamSimulation s, SamSimulation from)
     PetscCall(SamErrorsLose(s, "the state is that of a contact without -errors companion"));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  e->largest = other->largest;
+  e->largest = e->committed = other->committed;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) e->driven[c] = other->driven[c];
   PetscCall(PetscStrncpy(e->unknown, other->unknown, sizeof(e->unknown)));
   for (int c = 0; c < SAM_RUNS; c++) {
     SamCompanion *one = &e->companion[c], *its = &other->companion[c];
