@@ -72,6 +72,7 @@ PARTS = (
         "Loads",
         (
             "examples/manual/LOADS.md",
+            "examples/manual/MEASUREMENTS.md",
             "examples/fretting-loop/README.md",
             "examples/pad/README.md",
             "examples/dovetail/README.md",

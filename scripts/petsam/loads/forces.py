@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -61,13 +62,17 @@ class Forces:
         """Coordinates at the first time, (m, 3), m."""
         return self.x if self.x.ndim == 2 else self.x[0]
 
-    def nodes(self, patch=None) -> np.ndarray:
+    def nodes(self, patch: str | Sequence | None = None) -> np.ndarray:
         """Indices of the nodes of a patch: the name of a set, or a box, two corners in the file's unit of length.
 
         Parameters
         ----------
         patch : str or tuple, optional
             The name, the box as a text `0,0,4:4,4,4` or as two points; all nodes.
+
+        Returns
+        -------
+        ndarray of int
         """
         if patch is None:
             return np.arange(len(self.labels))

@@ -11,6 +11,8 @@ centre of the contact is where N alone has Mx and My: x = My/N, y = -Mx/N.
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -127,16 +129,31 @@ class History(Tabled):
         return ROUNDING * force * np.array([1.0, 1.0, 1.0, size, size, size])
 
     def turns(self) -> dict:
-        """Indices of the rows where each load reverses: {name: list}."""
+        """Indices of the rows where each load reverses.
+
+        Returns
+        -------
+        dict
+            {name: list}.
+        """
         return {
             name: turning_points(values) if np.ptp(values) > small else []
             for name, values, small in zip(LOADS, self.loads.T, self.rounding)
         }
 
-    def line(self, time) -> dict:
-        """Nodes along y = 0 with the pressure (Pa) of the analysis at a time: {"x", "pressure", "shear": (k,)}.
+    def line(self, time: float) -> dict:
+        """Nodes along y = 0 with the pressure of the analysis at a time.
 
-        Shear is the magnitude, as the directions of CSHEAR1 and CSHEAR2 are those of the element faces.
+        Parameters
+        ----------
+        time : float
+            s.
+
+        Returns
+        -------
+        dict
+            {"x", "pressure", "shear": (k,)}, m and Pa; shear is the magnitude, as the directions of CSHEAR1 and CSHEAR2
+            are those of the element faces.
 
         Raises
         ------
@@ -158,7 +175,12 @@ class History(Tabled):
         return {"x": x[near], "pressure": self.pressure["cpress"][row, near], "shear": sizes}
 
     def table(self) -> list:
-        """The columns: time, the loads, the contact's centre, T/N and the number of nodes that pull."""
+        """The columns: time, the loads, the contact's centre, T/N and the number of nodes that pull.
+
+        Returns
+        -------
+        list of Column
+        """
         center = [[None if np.isnan(value) else float(value) for value in one] for one in self.center.T]
         friction = [None if np.isnan(value) else float(value) for value in self.friction]
         return [
@@ -173,8 +195,14 @@ class History(Tabled):
             Column("pulling", "1", "nodes that pull", np.sum(doubts.pulling(self.normal), axis=1).tolist()),
         ]
 
-    def write(self, path) -> None:
-        """Writes the history for petsam's -history: time and the six loads, heads without units."""
+    def write(self, path: str | os.PathLike) -> None:
+        """Writes the history for petsam's -history: time and the six loads, heads without units.
+
+        Parameters
+        ----------
+        path : path
+            The file, which is replaced.
+        """
         need_replaceable(path)
         with open(path, "w", encoding="utf-8") as file:
             file.write(",".join(Row._fields) + "\n")
@@ -203,7 +231,13 @@ def _need_frame(frame):
         raise Unusable(f"--frame {short(str(frame))}: expected auto, or ORIGIN[:X[:Z]], each of them three numbers")
 
 
-def history(forces: Forces, frame="auto", patch=None, on: str = "body2", name: str | None = None) -> History:
+def history(
+    forces: Forces,
+    frame: str | Sequence = "auto",
+    patch: str | Sequence | None = None,
+    on: str = "body2",
+    name: str | None = None,
+) -> History:
     """The load history of a patch, with petsam's signs.
 
     Parameters
