@@ -12,6 +12,9 @@ from typing import Optional
 
 import numpy as np
 
+from ..closed.loop import first_loading
+from ..closed.materials import Bodies, effective_radius
+from ..closed.sphere import cattaneo_displacement, hertz
 from ..core import words
 from ..core.errors import Error, Unusable, library, short
 from ..core.files import text_of
@@ -73,13 +76,11 @@ def ball(normal: float, radius: float, bodies: Mapping) -> Push:
     -------
     Push
     """
-    young, poisson = ([bodies[f"body{b}_{name}"] for b in (1, 2)] for name in ("young", "poisson"))
-    modulus = 1.0 / sum((1.0 - nu**2) / e for e, nu in zip(young, poisson))
-    compliance = sum((2.0 - nu) * 2.0 * (1.0 + nu) / e for e, nu in zip(young, poisson))
-    a = (0.75 * normal * radius / modulus) ** (1.0 / 3.0)
-    part = _dense(FINE)
-    displacement = 3.0 * normal * compliance / (16.0 * a) * (1.0 - (1.0 - part) ** (2.0 / 3.0))
-    return Push(normal, normal * part, displacement, "ball in closed form (Cattaneo and Mindlin)")
+    two = Bodies.of(bodies)
+    contact = hertz(normal, radius, two.e_star)
+    slides = cattaneo_displacement(contact.radius, 0.0, contact.pressure, two.tangential_compliance)
+    force = normal * _dense(FINE)
+    return Push(normal, force, first_loading(force, normal, slides), "ball in closed form (Cattaneo and Mindlin)")
 
 
 def options_of(path) -> dict[str, str]:
@@ -158,7 +159,7 @@ def _ball_of(path, options, normal):
         radii = [words.number(options[f"gap_radius{b}"], "a radius", "m", lambda value: value == value) for b in (1, 2)]
     except (KeyError, words.WordError) as error:
         raise Error(f"{path}: -{error.args[0]} of a sphere is missing or no number") from error
-    return ball(normal, 1.0 / sum(1.0 / radius for radius in radii), bodies)
+    return ball(normal, effective_radius(*radii), bodies)
 
 
 def _computed(path, options, normal, width):
@@ -183,12 +184,11 @@ def _computed(path, options, normal, width):
     displacement[-1] = np.polyval(np.polyfit(left[-8:-1], displacement[-8:-1], 1), 0.0)
     s = np.sqrt(1.0 - force / force[-1])
     curve = library("scipy.interpolate").PchipInterpolator(1.0 - s, displacement)
-    fine = np.linspace(0.0, 1.0, FINE)
     datum = f"the displacement of plane strain about its datum, of {short(path)}" if width else ""
     return Push(
         float(force[-1]),
-        force[-1] * (1.0 - (1.0 - fine) ** 2),
-        curve(fine),
+        force[-1] * _dense(FINE),
+        curve(np.linspace(0.0, 1.0, FINE)),
         f"{STEPS} steps of petsam of {path}",
         datum,
     )
