@@ -393,7 +393,11 @@ def test_plans_are_printed_and_written(fit, tmp_path):
         (("none.csv", "--normal", "1kN", "--shape", "ball.opts"), 3, "none.csv"),
         (("lab.csv", "--normal", "1kN,2kN", "--shape", "ball.opts"), 2, "1 file: give one number"),
         (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20"), 0, ""),
-        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20N/furlong"), 2, "units are N/m, N/mm"),
+        (
+            ("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20N/furlong"),
+            2,
+            "units are N/m, kN/m, MN/m, N/mm, N/um, kN/mm, N/nm",
+        ),
         (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--width", "1mm"), 2, "not in plane strain"),
         (("lab.csv", "--normal", "1kN", "--shape", "plane.opts"), 2, "give the length of the contact, --width"),
         (("lab.csv", "--plan", "--normal", "1kN", "--shape", "ball.opts"), 2, "nothing is measured yet"),

@@ -31,19 +31,6 @@ from ..plot.measured import read_profiles
 from .line import Parser, add_choice, guarded, joined, quietly, word
 
 WRITTEN = (".json", "-cycles.csv", "-friction.csv", ".opts", "-loop.csv", ".png", "-scar.png")
-STIFFNESSES = {"N/m": 1.0, "N/mm": 1e3, "N/um": 1e6, "kN/mm": 1e6, "N/nm": 1e9}
-
-
-def stiffness(text):
-    """N/m, of a number with its unit."""
-    number, *unit = text.replace("/", " / ").split(" / ") if "/" in text else [text]
-    form = f"a stiffness above 0 with its unit, such as 20N/um; units are {', '.join(STIFFNESSES)}"
-    for name, size in sorted(STIFFNESSES.items(), key=lambda item: -len(item[0])):
-        if unit and text.strip().endswith(name):
-            return words.number(text.strip().removesuffix(name), form, allowed=words.positive) * size
-    if unit:
-        raise words.WordError(text, form)
-    return words.number(number, form, allowed=words.positive)
 
 
 def part(text):
@@ -102,7 +89,8 @@ def arguments(given):
         "--cycles", type=word(chosen), default=slice(None), metavar="FIRST:LAST", help="of each file (all)"
     )
     rig = parser.add_argument_group("the rig")
-    rig.add_argument("--rig", type=word(stiffness), metavar="K", help="stiffness of the rig, if it is known: 20N/um")
+    stiffness = word(words.number, "a stiffness above 0 with its unit, such as 20N/um", "N/m", words.positive)
+    rig.add_argument("--rig", type=stiffness, metavar="K", help="stiffness of the rig, if it is known: 20N/um")
     rig.add_argument(
         "--lean", action="store_true", help="a spring beside the contact, whose force grows while it slides"
     )

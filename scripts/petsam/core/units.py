@@ -27,6 +27,7 @@ OTHERS = {
     "J": {"J": 1.0, "mJ": 1e-3, "uJ": 1e-6, "nJ": 1e-9},
     "J/m": {"J/m": 1.0, "mJ/m": 1e-3},
     "m3": {"m3": 1.0, "mm3": 1e-9, "um3": 1e-18},
+    "N/m": {"N/um": 1e6, "kN/mm": 1e6, "N/nm": 1e9},
     "Pa/m": {"Pa/m": 1.0, "MPa/mm": 1e9, "N/mm3": 1e9},
 }
 PLURAL = 4  # letters of a word at least that may have an s
