@@ -108,6 +108,7 @@ FOLLOWING = {
     "mm3/Nm": ("1/Pa", -9),
     "m3/J": ("m3/J", 0),
     "mm3/J": ("m3/J", -9),
+    "%": ("1", -2),
 }
 # options of petsam that name files, which are read or written
 PATHS = (
