@@ -25,6 +25,7 @@ MODULES = (
     "results.cycles",
     "results.sliding",
     "plot.pictures",
+    "plot.reports",
     "plot.of_joints",
     "plot.of_compliance",
     "plot.of_lives",
