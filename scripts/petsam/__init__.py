@@ -14,6 +14,7 @@ Element         a contact as a force element of a time integration or of a stati
 joint           contact stiffness and damping of rough interfaces per area; joints in a structure
 calibration     friction, rig stiffness, wear from measured loops: petsam-fit
 closed          closed-form solutions of contact mechanics
+materials       constants of materials by name
 lives           lives, safety factors, short cracks: petsam-fatigue
 loads           load histories from the contact forces of a structural analysis: petsam-loads
 plot            pictures by name, of files and of what the parts above have found: petsam-plot
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
         PrescribedError,
         WearWarning,
     )  # fmt: skip
+    from .core import materials
     from .joint.element import Element
     from .results import cycles
     from .results.file import Results
@@ -77,6 +79,7 @@ __all__ = [
     "WearWarning",
     "closed",
     "cycles",
+    "materials",
     "open",
     "run",
 ]
@@ -109,13 +112,15 @@ def __getattr__(name):
         return importlib.import_module("." + name, __name__)
     if name in _OF_RESULTS:
         return importlib.import_module(".results." + name, __name__)
+    if name == "materials":
+        return importlib.import_module(".core.materials", __name__)
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(importlib.import_module(_HOMES[name], __name__), name)
 
 
 def __dir__():
-    return sorted({*__all__, *_PARTS, *_OF_RESULTS, "__doc__", "__file__", "__name__", "__version__"})
+    return sorted({*__all__, *_PARTS, *_OF_RESULTS, "materials", "__doc__", "__file__", "__name__", "__version__"})
 
 
 def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any":
