@@ -207,13 +207,13 @@ MATERIALS = {
         "Cu",
         (129800000000.0, 0.343, 8933.0, 401.0, 385.0, None, None, None, None, None, None),
         "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995); thermal: Incropera and "
-        "DeWitt, 5th ed. (2002)",
+        "DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002)",
     ),
     "brass": (
         "cartridge brass, C26000, CuZn30",
         (100600000000.0, 0.35, 8530.0, 110.0, 380.0, None, None, None, None, None, None),
         "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995), 70/30; thermal: Incropera"
-        " and DeWitt, 5th ed. (2002)",
+        " and DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002)",
     ),
     "WC-Co": (
         "tungsten carbide, cemented carbide, hard metal, WC, WC-6Co",
@@ -235,6 +235,6 @@ MATERIALS = {
         "Au",
         (78000000000.0, 0.44, 19300.0, 317.0, 129.0, None, None, None, None, None, None),
         "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995); thermal: Incropera and "
-        "DeWitt, 5th ed. (2002)",
+        "DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002)",
     ),
 }

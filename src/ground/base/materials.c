@@ -10,6 +10,12 @@
 #define LENGTH 40 /* characters of a name that are compared */
 #define SPACED ", "
 
+/* Sources of several rows */
+#define BEARINGS \
+  "SKF, Rolling bearings, catalogue 17000 (2018); Poisson's ratio: Harris, Rolling Bearing Analysis, 4th ed. (2001)"
+#define KAYE    "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995)"
+#define THERMAL "; thermal: Incropera and DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002)"
+
 enum { COUNT = 16 };
 static const SamNamedMaterial table[COUNT] = {
   {"steel",
@@ -19,7 +25,7 @@ static const SamNamedMaterial table[COUNT] = {
   {"100Cr6",
    "bearing steel, 52100, AISI 52100, SUJ2, 1.3505",
    {210e9, 0.3, 7900, NAN, NAN, 12e-6, NAN, NAN, NAN, NAN, NAN},
-   "SKF, Rolling bearings, catalogue 17000 (2018); Poisson's ratio: Harris, Rolling Bearing Analysis, 4th ed. (2001)"},
+   BEARINGS},
   {"304",
    "stainless steel, stainless, AISI 304, 1.4301, X5CrNi18-10",
    {193e9, 0.29, 8000, 16.2, 500, 17.2e-6, 205e6, NAN, NAN, NAN, NAN},
@@ -57,33 +63,21 @@ static const SamNamedMaterial table[COUNT] = {
    {110e9, 0.34, 8800, 62.3, 377, 18.2e-6, NAN, NAN, NAN, NAN, NAN},
    "Copper Development Association, data sheet C52100; Poisson's ratio: Gere and Goodno, Mechanics of Materials, 8th "
    "ed. (2013)"},
-  {"copper",
-   "Cu",
-   {129.8e9, 0.343, 8933, 401, 385, NAN, NAN, NAN, NAN, NAN, NAN},
-   "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995); thermal: Incropera and DeWitt, 5th ed. "
-   "(2002)"},
+  {"copper", "Cu", {129.8e9, 0.343, 8933, 401, 385, NAN, NAN, NAN, NAN, NAN, NAN}, KAYE THERMAL},
   {"brass",
    "cartridge brass, C26000, CuZn30",
    {100.6e9, 0.35, 8530, 110, 380, NAN, NAN, NAN, NAN, NAN, NAN},
-   "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995), 70/30; thermal: Incropera and DeWitt, "
-   "5th ed. (2002)"},
+   KAYE ", 70/30" THERMAL},
   {"WC-Co",
    "tungsten carbide, cemented carbide, hard metal, WC, WC-6Co",
    {648e9, 0.22, 15000, 100, NAN, 4.3e-6, NAN, NAN, NAN, NAN, NAN},
    "ASM Handbook, vol. 2 (1990), 94WC-6Co, medium grain; Poisson's ratio: Kaye and Laby, 16th ed. (1995)"},
-  {"Si3N4",
-   "silicon nitride",
-   {310e9, 0.26, 3200, NAN, NAN, 3e-6, NAN, NAN, NAN, NAN, NAN},
-   "SKF, Rolling bearings, catalogue 17000 (2018); Poisson's ratio: Harris, Rolling Bearing Analysis, 4th ed. (2001)"},
+  {"Si3N4", "silicon nitride", {310e9, 0.26, 3200, NAN, NAN, 3e-6, NAN, NAN, NAN, NAN, NAN}, BEARINGS},
   {"alumina",
    "Al2O3, aluminium oxide, aluminum oxide",
    {416e9, 0.231, 3984, 33, 755, 4.6e-6, NAN, NAN, NAN, NAN, NAN},
    "Munro, J. Am. Ceram. Soc. 80 (1997) 1919, sintered alpha alumina"},
-  {"gold",
-   "Au",
-   {78e9, 0.44, 19300, 317, 129, NAN, NAN, NAN, NAN, NAN, NAN},
-   "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995); thermal: Incropera and DeWitt, 5th ed. "
-   "(2002)"}};
+  {"gold", "Au", {78e9, 0.44, 19300, 317, 129, NAN, NAN, NAN, NAN, NAN, NAN}, KAYE THERMAL}};
 
 static const SamMaterialConstant constants[SAM_MATERIAL_CONSTANTS] = {
   {"young", "Pa", "Young's modulus"},
