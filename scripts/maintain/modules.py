@@ -55,6 +55,7 @@ MODULES = (
     "lives.strength",
     "lives.evaluation",
     "lives.cracks",
+    "core.materials",
     "closed.materials",
     "closed.sphere",
     "closed.ellipse",

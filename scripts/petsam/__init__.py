@@ -103,24 +103,27 @@ _HOMES = {
     "run": ".running",
 }
 
-_PARTS = ("calibration", "closed", "compliance", "joint", "lives", "loads", "plot", "results", "study", "surface")
+_PARTS = (
+    "calibration", "closed", "compliance", "joint", "lives", "loads", "materials", "plot", "results", "study",
+    "surface",
+)  # fmt: skip
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 
 
 def __getattr__(name):
+    if name == "materials":
+        return importlib.import_module(".core.materials", __name__)
     if name in _PARTS or name == "core":
         return importlib.import_module("." + name, __name__)
     if name in _OF_RESULTS:
         return importlib.import_module(".results." + name, __name__)
-    if name == "materials":
-        return importlib.import_module(".core.materials", __name__)
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(importlib.import_module(_HOMES[name], __name__), name)
 
 
 def __dir__():
-    return sorted({*__all__, *_PARTS, *_OF_RESULTS, "materials", "__doc__", "__file__", "__name__", "__version__"})
+    return sorted({*__all__, *_PARTS, *_OF_RESULTS, "__doc__", "__file__", "__name__", "__version__"})
 
 
 def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any":

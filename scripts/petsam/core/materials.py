@@ -51,7 +51,13 @@ class Material(NamedTuple):
     source: str
 
     def constants(self) -> dict[str, float]:
-        """{name: number} of all constants that are known, by the names of CONSTANTS."""
+        """The constants that are known.
+
+        Returns
+        -------
+        dict
+            {name: number}, by the names of CONSTANTS, which has units and meanings.
+        """
         values = self[2 : 2 + len(CONSTANTS)]
         return {name: value for name, value in zip(CONSTANTS, values) if value is not None}
 
@@ -63,12 +69,32 @@ TABLE = {
 
 
 def plain(name: str) -> str:
-    """A name as it is compared: without case, blanks, hyphens and underscores."""
+    """A name as it is compared: without case, blanks, hyphens and underscores.
+
+    Parameters
+    ----------
+    name : str
+        A name.
+
+    Returns
+    -------
+    str
+    """
     return re.sub(r"[ _-]", "", name).lower()
 
 
 def has(name: str) -> bool:
-    """Whether there is a material of this name."""
+    """Whether there is a material of this name.
+
+    Parameters
+    ----------
+    name : str
+        Name or other name.
+
+    Returns
+    -------
+    bool
+    """
     return plain(str(name)) in _NAMES
 
 

@@ -296,8 +296,8 @@ static PetscErrorCode ReadName(const SamOptions *from, const SamNamedMaterial **
   const SamOptions all = {from->comm, NULL};
   char             option[SAM_PREFIX + 8], words[512], name[64] = "", why[640];
   PetscBool        given;
-  SamOptionRow     row = {option, "material by its name (-help materials), for the two constants that are not given",
-                          SAM_OPTION_STRING, .size = sizeof(name), .words = words};
+  SamOptionRow row = {option, "material by its name (-help materials): constants that are not given", SAM_OPTION_STRING,
+                      .size = sizeof(name), .words = words};
 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(option, SamOptionsPrefix(from), sizeof(option)));
