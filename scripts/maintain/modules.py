@@ -56,6 +56,7 @@ MODULES = (
     "lives.strength",
     "lives.evaluation",
     "lives.cracks",
+    "core.materials",
     "closed.materials",
     "closed.sphere",
     "closed.ellipse",

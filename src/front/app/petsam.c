@@ -234,7 +234,7 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
     double bytes;
 
     PetscCall(EstimateMemory(run->simulation, &bytes));
-    PetscCall(SamReportBanner(run->report, SamSimulationGetSetup(run->simulation)->grid, bytes, news->start));
+    PetscCall(SamReportBanner(run->report, SamSimulationGetSetup(run->simulation), bytes, news->start));
   } else {
     PetscCall(SamReportNews(run->report, contact, news));
   }

@@ -4,6 +4,7 @@
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/body.h>
 #include <fftw3-mpi.h>
 #include <hdf5.h>
 #include <string.h>
@@ -109,11 +110,24 @@ static PetscErrorCode PrintRestart(SamReport r, const SamSimulationStart *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const SamSimulationStart *start)
+/* Prints what bodies take from the table of materials. */
+static PetscErrorCode PrintNamed(SamReport r, SamPair pair)
 {
-  PetscMPIInt ranks;
-  double      nodes;
-  char        libraries[512], memory[32];
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    const char *named = SamBodyNamed(SamPairBody(pair, b));
+
+    if (named[0]) PetscCall(PetscPrintf(r->comm, "  body %-5d  %s\n", (int)b + 1, named));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, double bytes, const SamSimulationStart *start)
+{
+  const SamGrid grid = setup->grid;
+  PetscMPIInt   ranks;
+  double        nodes;
+  char          libraries[512], memory[32];
 
   PetscFunctionBegin;
   r->steps = start->steps;
@@ -137,6 +151,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   if (SamGridIsRow(grid))
     PetscCall(PetscPrintf(r->comm, "  %-10s  strain: loads, areas, energies and volumes per metre of length%s\n",
                           "plane", ranks > 1 ? "; one rank works, the others wait" : ""));
+  PetscCall(PrintNamed(r, setup->pair));
   SamDescribeBytes(bytes, memory, sizeof(memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %s per rank\n", "memory", memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT "%s, results %s%s%s\n", "steps", start->steps,

@@ -89,10 +89,11 @@ PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
    borrowed. Not collective. */
 PETSC_INTERN void SamReportSetAccuracy(SamReport report, const SamAccuracy *accuracy);
 /*
-  SamReportBanner - prints version, libraries, ranks, grid, memory (`bytes`: memory that this rank will need; the
-  largest is printed), the checkpoint from which the run continues, and the files that it writes. Collective.
+  SamReportBanner - prints version, libraries, ranks, grid, bodies that are named, memory (`bytes`: memory that this
+  rank will need; the largest is printed), the checkpoint from which the run continues, and the files that it writes.
+  Collective.
 */
-PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, double bytes,
+PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *setup, double bytes,
                                             const SamSimulationStart *start);
 /*
   SamReportNews - prints a line for a step or a computed cycle (the only step of a run in full), messages and warnings,
