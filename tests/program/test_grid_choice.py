@@ -69,9 +69,7 @@ def test_errors_are_below_what_is_asked(petsam, sphere_alone, asked):
 
 
 def test_more_accuracy_takes_more_cells(petsam, sphere_alone):
-    few, many = (
-        int(chosen(petsam(sphere_alone, "-accuracy", asked).stdout)[0]["grid_n"]) for asked in ("5%", "0.2%")
-    )
+    few, many = (int(chosen(petsam(sphere_alone, "-accuracy", asked).stdout)[0]["grid_n"]) for asked in ("5%", "0.2%"))
     assert many > 1.5 * few
 
 
@@ -187,7 +185,7 @@ def test_quiet_says_nothing_of_trials(petsam, sphere_alone):
 
 
 def test_a_life_is_tried_as_a_whole(petsam, tmp_path, sphere_alone):
-    rows = (("time,load_n,load_tx", (0, 1000, 0), (1, 1000, 60), (2, 1000, -60), (3, 1000, 0)))
+    rows = ("time,load_n,load_tx", (0, 1000, 0), (1, 1000, 60), (2, 1000, -60), (3, 1000, 0))
     case = {**sphere_alone, "load_n": None, "load_tx": None, **history(tmp_path / "cycle.csv", *rows)}
     run = petsam(case, "-wear_cycles", "50", "-wear_energy2", "1e-14", "-accuracy", "5%", "-output", "own.h5")
     assert chosen(run.stdout)[0]["grid_n"] and max(errors("own.h5").values()) <= 0.05
