@@ -260,7 +260,7 @@ def test_a_contact_at_the_edge_ends_the_run_with_an_error():
     assert package.run(small, history=rows, allow_edge_contact=True).time.size == 2
     contact = package.Contact(**{k: v for k, v in small.items() if not k.startswith("load")})
     with pytest.raises(package.EdgeContact, match="reached the edge") as caught:
-        contact.run(dict(load_n=[CASE["load_n"]] * 2, load_tx=rows["load_tx"]))
+        contact.run(dict(time=[0, 1], load_n=[CASE["load_n"]] * 2, load_tx=rows["load_tx"]))
     assert len(caught.value.steps) == 1 and caught.value.step.contact_cells > 0
 
 

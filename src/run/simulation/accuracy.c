@@ -65,8 +65,8 @@ typedef struct {
 /* ---- options ---- */
 
 static const SamOptionRow rows[] = {
-  {"accuracy", "largest error of the numbers, relative (), 0.01 or 1%: chooses grid and steps where they are not given",
-   SAM_OPTION_REAL, offsetof(SamAccuracy, error), .range = SAM_RANGE_PART, .unit = "1"},
+  {"accuracy", "largest error () of the numbers, as 1%: chooses grid and steps unless given", SAM_OPTION_REAL,
+   offsetof(SamAccuracy, error), .range = SAM_RANGE_PART, .unit = "1"},
   {"accuracy_of", "the numbers that it concerns, separated by commas: all with an error", SAM_OPTION_STRING,
    offsetof(SamAccuracy, numbers), .size = SAM_ACCURACY_NAMES, .needs = "accuracy or -grid"},
   {"grid", "chooses the grid by -accuracy, of 1% if that is not given", SAM_OPTION_WORD, offsetof(SamAccuracy, grid),
