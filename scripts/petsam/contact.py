@@ -805,10 +805,11 @@ class Contact:
                 raise
             if failed:
                 raise failed[0]
+            message = self._message()
             self._advise()
             if code == EDGE:
-                error = error_of(code, self._message())
-                error.steps, error.step = found, self._last_step(code, error.message)
+                error = error_of(code, message)
+                error.steps, error.step = found, self._last_step(code, message)
                 raise error
         return found
 
