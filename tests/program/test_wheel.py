@@ -83,7 +83,8 @@ def first_contact(fresh, tmp_path, launcher):
     # the same contact in process, by the library of the wheel
     code = (
         f"import petsam; print(petsam.__file__); c = petsam.Contact(grid_n={n}, grid_size={width}, {STEEL}, "
-        "friction=0.1, gap_type='sphere', gap_radius1=0.2, gap_radius2=0.2); print(c.try_step(load_n=1000, load_tx=60).pressure_max);"
+        "friction=0.1, gap_type='sphere', gap_radius1=0.2, gap_radius2=0.2); "
+        "print(c.try_step(load_n=1000, load_tx=60).pressure_max);"
         "print(*{line.split()[-1] for line in open('/proc/self/maps') if '.so' in line})"
     )
     package, pressure, libraries = shell(f'"{fresh}/bin/python" -c "{code}"', tmp_path).splitlines()
