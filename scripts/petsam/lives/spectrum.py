@@ -34,6 +34,8 @@ class Lives(Tabled):
         {criterion: lives (cycles) or safety factors at all points, (z, y, x), of each cycle}.
     least : dict
         {criterion: evaluation.Place of the least one, of each cycle}.
+    bounds : dict
+        {criterion: between which the least one of each cycle is by the error of the tractions, or None: unknown}.
     damage : dict
         {criterion: evaluation.Place of the largest damage of the spectrum}, of lives.
     cracks : list
@@ -49,6 +51,7 @@ class Lives(Tabled):
     constants: dict
     values: dict
     least: dict
+    bounds: dict
     damage: dict
     cracks: list
     lines: list
@@ -122,6 +125,7 @@ def lives(
     least = {
         name: [evaluation.least(cycle, one) for cycle, one in zip(cycles, found)] for name, found in values.items()
     }
+    bounds = {name: [evaluation.bounds(cycle, name, constants, plane) for cycle in cycles] for name in values}
     row, column, place = _place(cycles[0], below, names)
     on_line = quantities or [name for name in FATIGUE[:MOST] if name in cycles[0]] or ["mises"]
     lines, cracks = [], []
@@ -133,7 +137,8 @@ def lives(
             line.columns.update(found)
             cracks.append(lengths)
         lines.append((cycle.label, line))
-    return Lives(cycles, constants, values, least, _damage(cycles[0], values, counts), cracks, lines, place)
+    damage = _damage(cycles[0], values, counts)
+    return Lives(cycles, constants, values, least, bounds, damage, cracks, lines, place)
 
 
 def _cycles(sources):
