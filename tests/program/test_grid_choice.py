@@ -168,6 +168,17 @@ def test_flat_bodies_need_a_width(petsam, sphere_alone):
     assert "do not tell how wide the contact is: give -grid_size" in done.complaint[0]
 
 
+def test_periodic_bodies_need_their_period(petsam, sphere_alone):
+    done = petsam(sphere_alone, "-elasticity", "periodic", "-accuracy", "1%", check=2)
+    assert "-accuracy with periodic bodies: -grid_size is their period" in done.complaint[0]
+
+
+def test_steps_one_by_one_have_no_choice_of_a_grid(sphere_alone):
+    case = {name: value for name, value in sphere_alone.items() if value is not None and not name.startswith("load")}
+    with pytest.raises(package.ContactError, match="-accuracy: a grid is chosen for all loads of a run"):
+        package.Contact(**case, accuracy=0.01)
+
+
 def test_a_restart_keeps_its_grid(petsam, sphere_alone):
     done = petsam(sphere_alone, "-accuracy", "1%", "-restart", "state.h5", check=2)
     assert "-accuracy with -restart" in done.complaint[0]
