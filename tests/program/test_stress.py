@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import conftest
-from support import SPHERE, hertz, slide_limit
+from support import SPHERE, ball, hertz, slide_limit
 
 QUANTITIES = "stress,mises,principal,shear_max,strain"
 PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
@@ -155,3 +155,38 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
     with xarray.open_dataset(contact / "v.h5", engine="netcdf4") as data:
         assert data["mises"].dims == ("time", "z", "y", "x") and data["stress_xx"].attrs["units"] == "Pa"
         assert float(data["mises"].isel(time=0).sel(z=1e-4).max()) > 0
+
+
+def test_safety_of_a_layer_is_its_strength_over_the_principal_stress(launcher, tmp_path):
+    """Of the largest one; printed with the number of the file, for each layer its own."""
+    case = dict(
+        ball(n=32), body2_layer_young="400e9,100e9", body2_layer_poisson=0.25, body2_layer_thickness="2e-5,4e-5"
+    )
+    conftest.execute(launcher, tmp_path, [case, dict(output="c.h5")], 1, 0)
+    options = dict(input="c.h5", output="s.h5", section="y=0", depths="0:1e-4:21")
+    text = conftest.execute(launcher, tmp_path, [options, dict(layer_strength="2e9,1e8")], 2, 0, program=PROGRAM).stdout
+    with h5py.File(tmp_path / "s.h5") as f:
+        largest = [f[f"history/layer{k}_principal_1_max"][-1] for k in (1, 2)]
+        assert f.attrs["layer_strength"].tolist() == [2e9, 1e8]
+    found = [float(word) for word in re.findall(r"layer \d: principal stress .* safety (\S+)", text)]
+    expected = [strength / stress for strength, stress in zip((2e9, 1e8), largest) if stress > 0]
+    assert found == pytest.approx(expected, rel=6e-3)
+    done = conftest.execute(launcher, tmp_path, [options, dict(layer_strength="2e9,1e8,1e8")], 1, 2, program=PROGRAM)
+    assert "-layer_strength: 3 numbers, layers: 2" in done.stderr
+
+
+def test_one_strength_is_that_of_all_layers(launcher, tmp_path):
+    case = dict(
+        ball(n=24), body2_layer_young="400e9,300e9", body2_layer_poisson=0.25, body2_layer_thickness="1e-5,2e-5"
+    )
+    conftest.execute(launcher, tmp_path, [case, dict(output="c.h5")], 1, 0)
+    options = dict(input="c.h5", section="y=0", depths="0:1e-4:21")
+    words = {"one.h5": "5e8", "two.h5": "5e8,5e8"}
+    texts = [
+        conftest.execute(
+            launcher, tmp_path, [options, dict(output=name, layer_strength=given)], 1, 0, program=PROGRAM
+        ).stdout
+        for name, given in words.items()
+    ]
+    one, two = (re.findall(r"safety \S+|no tension", text) for text in texts)
+    assert one == two and len(one) == 2

@@ -17,7 +17,7 @@ PETSC_INTERN const char *SamOptionsPrefix(const SamOptions *from);
   SamOptionsExclude - rejects an option `other`, in the format of SamOptionsHas(), beside the given one that it does not
   work with; `reason`: why, or what to do.
 */
-PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const SamOptionRow *row, PetscReal values[],
+PETSC_EXTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const SamOptionRow *row, PetscReal values[],
                                             PetscInt *count);
 PETSC_INTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
 PETSC_INTERN PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const char name[],

@@ -55,6 +55,7 @@ OPTIONS = {
     "gap_roller_radius": "m",
     "grid_center": "m",
     "grid_size": "m",
+    "layer_strength": "Pa",
     "load_mx": "N m",
     "load_my": "N m",
     "load_mz": "N m",

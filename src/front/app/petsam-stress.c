@@ -6,6 +6,7 @@
 #include "program.h"
 #include "request.h"
 #include "help/petsam-stress.h" /* from petsam-stress.help */
+#include <petsam/private/base.h>
 #include <petsam/private/evaluation.h>
 #include <petsam/private/output.h>
 #include <petsam/private/parts.h>
@@ -38,6 +39,8 @@ typedef struct {
   PetscInt               steps, *saved;
   PetscMPIInt            rank;
   PetscBool              quiet, writing;
+  PetscInt               strengths;           /* number of given strengths, */
+  PetscReal              strength[SHOWN - 1]; /* and these, from the surface down, Pa */
   PetscLogDouble         start, told; /* times of the start of the computation, and of the last printed line, s */
 
   char               source[PETSC_MAX_PATH_LEN + 16]; /* source of the bodies, for messages */
@@ -209,6 +212,54 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- strengths of layers ---- */
+
+static PetscErrorCode ReadStrengths(const SamOptions *from, SamStressRun *run)
+{
+  static const SamOptionRow row = {
+    "layer_strength",  "tensile strength of the layers from the surface down (), or one for all",
+    SAM_OPTION_REAL,   .range = SAM_RANGE_POSITIVE,
+    .size = SHOWN - 1, .unit = "Pa"};
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsReals(from, &row, run->strength, &run->strengths));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses strengths of layers that the body does not have; one counts for all layers. */
+static PetscErrorCode CheckStrengths(SamStressRun *run)
+{
+  const SamParameter *young;
+  PetscInt            layers;
+  char                name[32];
+
+  PetscFunctionBegin;
+  if (!run->strengths) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(name, sizeof(name), "body%d_layer_young", (int)run->layout->body);
+  young  = SamParametersFind(SamResultsGetParameters(run->results), name);
+  layers = young ? young->count : 0;
+  PetscCheck(layers > 0, run->grid->comm, SAM_ERR_USER,
+             "-layer_strength: body %" PetscInt_FMT " has no layers with a thickness", run->layout->body);
+  PetscCheck(run->strengths == 1 || run->strengths == layers, run->grid->comm, SAM_ERR_USER,
+             "-layer_strength: %" PetscInt_FMT " numbers for %" PetscInt_FMT
+             " layers: give one for each, or one for all",
+             run->strengths, layers);
+  for (PetscInt k = run->strengths; k < PetscMin(layers, SHOWN - 1); k++) run->strength[k] = run->strength[0];
+  run->strengths = PetscMin(layers, SHOWN - 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes the safety of a layer against its largest principal stress; empty for other numbers, and without a strength. */
+static void WriteSafety(const SamStressRun *run, const SamLargestSeries *of, double value, char text[], size_t size)
+{
+  text[0] = '\0';
+  if (!of->material || of->material > run->strengths || !strstr(of->name, "_principal_1")) return;
+  if (value > 0)
+    (void)snprintf(text, size, ", safety %.3g", (double)run->strength[of->material - 1] / value);
+  else
+    (void)snprintf(text, size, ", no tension");
+}
+
 /* Estimates the bytes of this rank. */
 static double MemoryOf(const SamStressRun *run)
 {
@@ -241,6 +292,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamOptionsPlugins(&from));
   PetscCall(SamStressRequestRead(&from, &run->request));
   PetscCall(SamEvaluationCreateFromOptions(&from, &run->evaluation));
+  PetscCall(ReadStrengths(&from, run));
   PetscCall(SamOptionsHeading(&from, "Resources"));
   PetscCall(SamFourierSettingsFromOptions(&run->transforms, &from));
   PetscCall(SamOptionsRead(&from, NULL, 1, &quiet, &run->quiet, NULL));
@@ -250,6 +302,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamResultsOpen(PETSC_COMM_WORLD, "input", run->request.input, &run->results));
   run->grid = SamResultsGetGrid(run->results);
   PetscCall(SetUpEvaluation(run));
+  PetscCall(CheckStrengths(run));
   PetscCall(SamMemoryRefuse(run->grid->comm, MemoryOf(run), "-input", run->request.input, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -277,6 +330,8 @@ static PetscErrorCode CreateFile(SamStressRun *run)
 
   PetscFunctionBegin;
   PetscCall(SamEvaluationAddParameters(run->evaluation, &parameters));
+  if (run->strengths)
+    PetscCall(SamParametersAddReals(&parameters, "layer_strength", PETSC_FALSE, run->strengths, run->strength));
   if (error >= 0) PetscCall(SamParametersAddReals(&parameters, SAM_OUTPUT_TRACTIONS, PETSC_FALSE, 1, &error));
   PetscCall(SamStressFileCreate(run->grid, run->request.output, run->layout, &parameters, &run->file));
   PetscCall(SamStressFileSetText(run->file, "input", run->request.input));
@@ -353,7 +408,7 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
   for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &of); k++) {
     const PetscInt    most     = MostOf(&of);
     const SamLargest *at       = most < 0 ? &(SamLargest){NAN, {NAN, NAN, NAN}} : &of.step[most];
-    char              step[32] = "", unit[16] = "";
+    char              step[32] = "", unit[16] = "", safety[48];
     double            number = 0;
 
     const PetscBool edge = of.places == 2 ? PETSC_TRUE : PETSC_FALSE;
@@ -367,9 +422,10 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
       PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s: none\n", k ? "" : "maximum", of.shown));
       continue;
     }
-    PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s %.6g%s at %s(%.4g, %.4g, %.4g) m%s\n", k ? "" : "maximum",
+    WriteSafety(run, &of, at->value, safety, sizeof(safety));
+    PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s %.6g%s at %s(%.4g, %.4g, %.4g) m%s%s\n", k ? "" : "maximum",
                           of.shown, at->value, unit, run->layout->own ? "body 2's own point " : "", at->place[0],
-                          at->place[1], at->place[2], step));
+                          at->place[1], at->place[2], step, safety));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
