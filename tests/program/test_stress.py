@@ -172,7 +172,7 @@ def test_safety_of_a_layer_is_its_strength_over_the_principal_stress(launcher, t
     expected = [strength / stress for strength, stress in zip((2e9, 1e8), largest) if stress > 0]
     assert found == pytest.approx(expected, rel=6e-3)
     done = conftest.execute(launcher, tmp_path, [options, dict(layer_strength="2e9,1e8,1e8")], 1, 2, program=PROGRAM)
-    assert "-layer_strength: 3 numbers, layers: 2" in done.stderr
+    assert "-layer_strength: 3 numbers for 2 layers" in done.stderr
 
 
 def test_one_strength_is_that_of_all_layers(launcher, tmp_path):

@@ -242,8 +242,8 @@ static PetscErrorCode CheckStrengths(SamStressRun *run)
              "-layer_strength: body %" PetscInt_FMT " has no layers with a thickness", run->layout->body);
   PetscCheck(run->strengths == 1 || run->strengths == layers, run->grid->comm, SAM_ERR_USER,
              "-layer_strength: %" PetscInt_FMT " numbers for %" PetscInt_FMT
-             " layers: give one for each, or one for all",
-             run->strengths, layers);
+             " layer%s: give one for each, or one for all",
+             run->strengths, layers, layers > 1 ? "s" : "");
   for (PetscInt k = run->strengths; k < PetscMin(layers, SHOWN - 1); k++) run->strength[k] = run->strength[0];
   run->strengths = PetscMin(layers, SHOWN - 1);
   PetscFunctionReturn(PETSC_SUCCESS);
