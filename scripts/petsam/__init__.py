@@ -13,6 +13,7 @@ sliding         results.sliding: regime, energy ratio, sliding ratio of a cycle;
 Element         a contact as a force element of a time integration or of a static solver (joint/element.py)
 joint           contact stiffness and damping of rough interfaces per area; joints in a structure
 calibration     friction, rig stiffness, wear from measured loops: petsam-fit
+conduction      thermal and electrical conductance of contacts: conduction.of(contact, lam1, lam2)
 closed          closed-form solutions of contact mechanics
 materials       constants of materials by name
 lives           lives, safety factors, short cracks: petsam-fatigue
@@ -107,7 +108,7 @@ _HOMES = {
 }
 
 _PARTS = (
-    "calibration", "closed", "compliance", "joint", "lives", "loads", "materials", "plot", "results", "study",
+    "calibration", "closed", "compliance", "conduction", "joint", "lives", "loads", "materials", "plot", "results", "study",
     "surface",
 )  # fmt: skip
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
