@@ -235,3 +235,15 @@ def test_lives_are_judged_before_the_work(monkeypatch):
         lives.lives(cycle, {}, quantities="mises")
     with pytest.raises(petsam.Error, match="swt: .*sigma_f"):
         lives.lives(cycle, dict(young=2e11), criteria="swt")
+
+
+def test_options_that_contradict_each_other_are_refused(ends):
+    from petsam.commands import compliance as bodies
+    from petsam.commands import fatigue
+    from petsam.commands import joint as joints
+
+    words = ("stiffness", "scan.h5", "--pressure", "1MPa", "--friction", 0.3, "--body1", "steel", "--body2", "steel")
+    assert "--area: is for NAME.json" in ends(joints, *words, "--area", "2mm2", code=2)
+    given = ("--mesh", "a.inp", "--contact", "TOP", "--fixed", "B", "--patch", "2mm", "--no-picture")
+    assert "--no-picture draws none" in ends(bodies, *given, "--picture", "p.png", code=2)
+    assert "--no-picture draws none" in ends(fatigue, "f.h5", "-o", "p.png", "--no-picture", code=2)

@@ -295,6 +295,8 @@ def arguments(given):
         reader.error(str(error))
     base = os.path.splitext(os.path.basename(options.mesh))[0]
     options.output = options.output or base + ".h5"
+    if options.picture and options.no_picture:
+        reader.error("--picture: --no-picture draws none: remove one of both")
     options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
     if not options.picture.lower().endswith(".png"):
         reader.error(f"--picture: {short(options.picture)}: use a name that ends in .png")

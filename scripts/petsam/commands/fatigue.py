@@ -107,6 +107,8 @@ def arguments(given):
         parser.error(f"--counts: {len(options.files)} files need as many numbers above 0")
     if options.labels and len(options.labels.split(",")) != len(options.files):
         parser.error(f"--labels: {len(options.files)} files need as many names")
+    if options.output and options.no_picture:
+        parser.error("--output: --no-picture draws none: remove one of both")
     base = os.path.splitext(os.path.basename(options.files[0]))[0]
     options.output = options.output or base + "_depth.png"
     if not options.output.lower().endswith((".png", ".pdf", ".svg")):

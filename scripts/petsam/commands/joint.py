@@ -211,6 +211,8 @@ def _run():
     _need(reader, args)
     if args.dpi != DPI and not args.output:
         raise Unusable("--dpi: is for the picture, which --output writes; give both or none")
+    if args.area is not None and not args.output:
+        raise Unusable("--area: is for NAME.json, which --output writes; give both or none")
     return ACTIONS[args.action][2](args)
 
 
