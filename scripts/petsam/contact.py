@@ -133,6 +133,26 @@ class NoEquilibrium(ContactError):
     steps: Sequence = ()
 
 
+class EdgeContact(ContactError):
+    """The contact has reached the edge of the grid, which ends a run; `allow_edge_contact` lets it go on.
+
+    Parameters
+    ----------
+    code, message : int, str
+        See ContactError.
+
+    Attributes
+    ----------
+    step : Step or None
+        The step.
+    steps : list of Step or Cycle
+        Of Contact.run() and Contact.live(): those up to it.
+    """
+
+    step: Any = None
+    steps: Sequence = ()
+
+
 class EdgeContactWarning(UserWarning):
     """The contact has reached the edge of the grid: the answer depends on the grid."""
 
@@ -252,7 +272,8 @@ def error_of(code: int, message: str) -> ContactError:
     """
     if code == UNREADABLE and message.endswith(_MISSING):
         return MissingInput(code, message)
-    return {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium}.get(code, ContactError)(code, message)
+    kinds = {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium, EDGE: EdgeContact}
+    return kinds.get(code, ContactError)(code, message)
 
 
 # ---------------------------------------------------------------- the library
@@ -719,9 +740,6 @@ class Contact:
         TypeError
             If the history is neither a file nor a mapping, or each cannot be called.
 
-        Notes
-        -----
-        An EdgeContactWarning is issued where the run ends because the contact has reached the edge of the grid.
         """
         return self._run("history", (), history, each)
 
@@ -787,9 +805,12 @@ class Contact:
                 raise
             if failed:
                 raise failed[0]
-            if code == EDGE:
-                warnings.warn(self._message(), EdgeContactWarning, stacklevel=2)
+            message = self._message()
             self._advise()
+            if code == EDGE:
+                error = error_of(code, message)
+                error.steps, error.step = found, self._last_step(code, message)
+                raise error
         return found
 
     def _last_step(self, status=0, message=""):

@@ -12,7 +12,7 @@ from typing import Any, Optional
 
 import numpy as np
 
-from .contact import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, EdgeContactWarning, error_of
+from .contact import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, error_of
 from .core import arrays, environment
 from .core import options as command_line
 from .core.errors import Error, short
@@ -53,8 +53,9 @@ def run(
     Raises
     ------
     ContactError
-        With the program's code and message: NotConverged or NoEquilibrium if a step has no solution; its attribute
-        `results` then has the steps so far, and is None for other errors.
+        With the program's code and message: NotConverged or NoEquilibrium if a step has no solution, EdgeContact if
+        the contact reaches the edge of the grid, unless `allow_edge_contact` is given; its attribute `results` then
+        has the steps so far, and is None for other errors.
     Error
         If an argument cannot be given to the program, or there is no program.
 
@@ -63,8 +64,7 @@ def run(
     The results are written to the file that the option `output` names. Without it they are in a temporary file, which
     exists as long as the Results do. Files that options name are relative to the working directory.
 
-    The program's warnings are raised as AdviceWarning, a contact that reaches the edge of the grid, which ends the run
-    with that step, as EdgeContactWarning.
+    The program's warnings are issued as AdviceWarning.
     """
     given = {**(options or {}), **more}
     command_line.one_case([*given, "output", "history", "quiet"])
@@ -217,27 +217,19 @@ def _said(complaint):
     return found, "; ".join(line for line in lines if not line.startswith((kind, "see petsam -help")))
 
 
-def _warn(advice, message, results):
-    """Issues the warnings of a run; the message is that of a run that ended at the edge of the grid."""
-    for line in advice:
-        warnings.warn(line, AdviceWarning, stacklevel=4)
-    if message:
-        end = f"the run ended with step {results.before + results.time.size}"
-        warnings.warn(f"{message}; {end}", EdgeContactWarning, stacklevel=4)
-
-
 def _finish(code, complaint, results):
     """Issues the warnings of a run and raises its error, which a warning that is an error does not hide."""
     advice, message = _said(complaint)
-    at_edge = code == EDGE and results is not None
-    failed = code != 0 and not at_edge
+    if code == EDGE and results is not None:
+        message += f"; the run ended with step {results.before + results.time.size}"
     try:
-        _warn(advice, message if at_edge else "", results)
+        for line in advice:
+            warnings.warn(line, AdviceWarning, stacklevel=3)
     except Warning as warning:
-        if failed:
+        if code:
             raise _error(code, message or _end(code, complaint), results) from warning
         raise
-    if failed:
+    if code:
         raise _error(code, message or _end(code, complaint), results)
 
 

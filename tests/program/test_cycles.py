@@ -116,6 +116,7 @@ def test_cycles_without_the_name_or_the_period_are_refused(results):
     for number in (0, 4, -4, 1.5):
         with pytest.raises(petsam.Error, match=f"cycle {number:g}: there are cycles 1 to 3, by reversals"):
             cycles.find(results).numbered(number)
+    assert repr(cycles.find(results)).startswith(f"Cycles({len(cycles.find(results))} of {results.path}, by ")
     assert cycles.find(results).numbered(-1).number == 3
 
 

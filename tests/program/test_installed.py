@@ -111,12 +111,12 @@ def blocks(file, heading):
     return [re.sub(r" +", " ", line.strip()) for line in lines.splitlines()]
 
 
-def test_five_commands_lead_from_a_clone_to_a_plotted_loop(tree):
-    commands = blocks("examples/README.md", "A fretting loop in five commands")
-    assert len(commands) == 5
-    assert commands[0].startswith("git clone ") and commands[1] == "scripts/install-dependencies.sh"
-    assert commands[2].startswith("make ") and {"all", "venv"} <= set(commands[2].split())
-    for command in commands[3:]:
+def test_four_commands_lead_from_the_sources_to_a_plotted_loop(tree):
+    commands = blocks("examples/README.md", "A fretting loop in four commands")
+    assert len(commands) == 4
+    assert commands[0] == "scripts/install-dependencies.sh"
+    assert commands[1].startswith("make ") and {"all", "venv"} <= set(commands[1].split())
+    for command in commands[2:]:
         shell(command.replace(" -grid_n 256", " -grid_n 48"), tree)
     assert (tree / "build/run/loop.png").stat().st_size > 10000
 

@@ -204,6 +204,29 @@ def test_the_command_prints_and_writes_what_the_file_gives(fatigue, folder):
     assert float(rows[4]["k_range"]) == pytest.approx(max(*k, 0.0) - max(min(k), 0.0))
 
 
+def test_the_error_of_the_tractions_goes_on_into_lives_and_factors(fatigue, folder, launcher):
+    """From companion runs to the stresses' file; SWT's parameter is quadratic in the stress."""
+    case = ball(n=32)
+    limit = float(slide_limit(case)[0])
+    (folder / "e.csv").write_text(f"time,load_tx\n1,{0.8 * limit}\n2,{-0.8 * limit}\n3,{0.8 * limit}\n")
+    run = dict(case, history="e.csv", steps=2, output="e.h5", errors="companion")
+    conftest.execute(launcher, folder, [run], 2, 0)
+    given = petsam.open(folder / "e.h5").errors
+    error = max(given["pressure_max"].error, given["shear_max"].error)
+    options = dict(input="e.h5", output="es.h5", section="y=0", depths="0:4e-4:5", steps="2:6", fatigue="swt,findley")
+    conftest.execute(launcher, folder, [dict(options, fatigue_findley_k=0.3)], 2, 0, program=STRESS)
+    out = fatigue("--material", "m.yaml", "--criteria", "swt,findley", "-o", "e.png", "es.h5")
+    file = petsam.open(folder / "es.h5")
+    constants = {**WEAK, "young": file.parameters["young"]}
+    swt = [float(strength.swt(file["swt"].max() * (1 + sign * error) ** 2, **constants)) for sign in (1, -1)]
+    factor = [3e8 / file["findley"].max() / (1 + sign * error) for sign in (1, -1)]
+    for low, high in (swt, factor):
+        assert low < high
+        assert f"({low:.4g} to {high:.4g} by {100 * error:.2g} % of the tractions)" in out
+    assert "of the tractions" not in fatigue("--material", "m.yaml", "-o", "p.png", "low.h5")
+    assert petsam.lives.lives(folder / "low.h5", CONSTANTS).bounds["swt"] == [None]
+
+
 def test_lives_from_python_are_those_of_the_command(fatigue, folder, tmp_path):
     """Of names of files or of Stresses, constants as numbers, words or a file."""
     fatigue("--material", "m.yaml", "--csv", "both.csv", "--counts", "1e5,20", "--no-picture", "low.h5", "high.h5")

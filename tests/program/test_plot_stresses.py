@@ -211,6 +211,18 @@ def test_open_knows_the_file_by_its_content(folder):
         petsam.Snapshot(file)
 
 
+def test_stresses_are_had_by_name(folder):
+    """As those of a run: of all steps at once, with depth, y and x."""
+    found = petsam.open(folder / "maps.h5")
+    stress = found["stress_xx"]
+    assert stress.shape == found.shape and np.array_equal(stress[-1], found.field("stress_xx"))
+    assert np.array_equal(found["step"], found.steps)
+    with pytest.raises(petsam.Error, match="has no stress_xz_: is stress_xz meant"):
+        found["stress_xz_"]
+    with pytest.raises(petsam.Error, match="1 is no name"):
+        found[1]
+
+
 @pytest.mark.parametrize(
     "words, says",
     [

@@ -209,7 +209,7 @@ def test_parts_make_up_the_whole_time(petsam, tmp_path, more):
     case = dict(
         bodies(), gap_type="sphere", gap_radius1=0.02, gap_radius2="inf", grid_size=9e-4, grid_n=12, friction=0.5
     )
-    text = petsam(case, loads, more, dict(output="out.h5")).stdout
+    text = petsam(case, loads, more, dict(output="out.h5"), "-profile").stdout
     table = text.split("time by part")[1].split("within these")[0]
     share = {name.strip(): float(part) for name, part in re.findall(r"^    (\S.*?) +[\d.]+ s +([\d.]+) %", table, re.M)}
     assert share.pop("total") == 100 and len(share) > 7
@@ -227,7 +227,7 @@ def test_files_written_are_named(petsam, tmp_path, every, fields):
 
 def test_nested_log_of_petsc_stays_as_it_is(petsam, tmp_path):
     """Its events are others than those of the closing table, which is left out."""
-    text = petsam(STEPS, "-log_view", ":log.xml:ascii_xml").stdout
+    text = petsam(STEPS, "-profile", "-log_view", ":log.xml:ascii_xml").stdout
     assert "SamNormalSolve" in (tmp_path / "log.xml").read_text()
     assert "time by part" not in text and "worst" in text
 

@@ -243,16 +243,25 @@ def test_what_is_no_option_is_refused_before_the_run(tmp_path):
 def test_warnings_are_warnings():
     with pytest.warns(package.AdviceWarning, match="slip zone"):
         package.run(CASE, load_tx=0.02 * LIMIT)
-    with pytest.warns(package.EdgeContactWarning, match="reached the edge of the grid"):
-        found = package.run(dict(CASE, grid_size=0.4 * CASE["grid_size"]))
-    assert found["contact_cells"][-1] > 0
-    with pytest.warns(package.EdgeContactWarning, match="the run ended with step 1"):
-        package.run(dict(CASE, grid_size=0.4 * CASE["grid_size"]), history=dict(load_tx=[0, 0.1 * LIMIT]))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         package.run(CASE)
         with pytest.raises(package.AdviceWarning):
             package.run(CASE, load_tx=0.02 * LIMIT)
+
+
+def test_a_contact_at_the_edge_ends_the_run_with_an_error():
+    """Unless it is allowed; the steps so far are its results."""
+    small = dict(CASE, grid_size=0.4 * CASE["grid_size"])
+    rows = dict(load_tx=[0, 0.1 * LIMIT])
+    with pytest.raises(package.EdgeContact, match="reached the edge .* the run ended with step 1") as caught:
+        package.run(small, history=rows)
+    assert caught.value.code == 12 and caught.value.results["contact_cells"][-1] > 0
+    assert package.run(small, history=rows, allow_edge_contact=True).time.size == 2
+    contact = package.Contact(**{k: v for k, v in small.items() if not k.startswith("load")})
+    with pytest.raises(package.EdgeContact, match="reached the edge") as caught:
+        contact.run(dict(time=[0, 1], load_n=[CASE["load_n"]] * 2, load_tx=rows["load_tx"]))
+    assert len(caught.value.steps) == 1 and caught.value.step.contact_cells > 0
 
 
 def test_a_warning_that_is_an_error_does_not_hide_that_of_the_run(tmp_path):

@@ -15,8 +15,8 @@ import pytest
 from conftest import PROGRAM, environment
 from support import ROOT, Results
 
-FIRST = re.search(r"^mpirun -n 2 build/bin/petsam -grid_n (.*?[^\\])$", (ROOT / "README.md").read_text(), re.M | re.S)
-STEEL = "body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3"
+FIRST = re.search(r"^build/bin/petsam (.*?[^\\])$", (ROOT / "README.md").read_text(), re.M | re.S)
+STEEL = "body1='steel', body2='steel'"
 
 
 _spec = importlib.util.spec_from_file_location("make_wheel", ROOT / "scripts/packaging/wheel.py")
@@ -75,15 +75,16 @@ def fresh(wheel, tmp_path):
 def first_contact(fresh, tmp_path, launcher):
     """Solves the README's contact on two ranks and in process; returns {name: path} of the libraries of the latter."""
     path = f"{fresh}/bin:{os.environ['PATH']}"
-    command = f"{launcher} -n 2 petsam -grid_n " + re.sub(r"^\d+", "64", FIRST.group(1))
+    command = f"{launcher} -n 2 petsam " + FIRST.group(1)
     (tmp_path / "build/run").mkdir(parents=True)
-    assert "check" in shell(command, tmp_path, PATH=path)
+    n, width = re.search(r" chose -grid_n (\d+) -grid_size (\S+)\n", shell(command, tmp_path, PATH=path)).groups()
     result = Results(next(tmp_path.glob("build/run/*.h5")))
-    assert np.isclose(result["load_n"], 1000, rtol=1e-12) and result.pressure.shape == (64, 64)
+    assert np.isclose(result["load_n"], 1000, rtol=1e-12) and result.pressure.shape == (int(n), int(n))
     # the same contact in process, by the library of the wheel
     code = (
-        f"import petsam; print(petsam.__file__); c = petsam.Contact(grid_n=64, grid_size=2.6e-3, {STEEL}, friction=0.1,"
-        "gap_type='sphere', gap_radius1=0.2, gap_radius2=0.2); print(c.try_step(load_n=1000, load_tx=60).pressure_max);"
+        f"import petsam; print(petsam.__file__); c = petsam.Contact(grid_n={n}, grid_size={width}, {STEEL}, "
+        "friction=0.1, gap_type='sphere', gap_radius1=0.2, gap_radius2=0.2); "
+        "print(c.try_step(load_n=1000, load_tx=60).pressure_max);"
         "print(*{line.split()[-1] for line in open('/proc/self/maps') if '.so' in line})"
     )
     package, pressure, libraries = shell(f'"{fresh}/bin/python" -c "{code}"', tmp_path).splitlines()

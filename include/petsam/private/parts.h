@@ -17,12 +17,13 @@
   SamOutputCheckPart - fails if a file is missing, is being written by another run, or has another identity. Collective.
   Errors: SAM_ERR_FILE, SAM_ERR_USER.
 */
-#define SAM_OUTPUT_BRANCH   "branch_step"   /* attribute, a number: load steps before the file */
-#define SAM_OUTPUT_CYCLES   "branch_rows"   /* attribute, a number: computed cycles before the file */
-#define SAM_OUTPUT_IDENTITY "part_identity" /* attribute, a text */
-#define SAM_OUTPUT_FOLLOWS  "part_follows"  /* attribute, a text: identity of the previous part */
-#define SAM_OUTPUT_STRESSES "stresses_of"   /* attribute, a text: groups with stresses in layers, with commas */
-#define SAM_OUTPUT_LAYERS   "_layers"       /* of such a group, behind its name: counts in both bodies, 1 if initial */
+#define SAM_OUTPUT_TRACTIONS "traction_error" /* attribute, a number: error of the largest tractions, relative */
+#define SAM_OUTPUT_BRANCH    "branch_step"    /* attribute, a number: load steps before the file */
+#define SAM_OUTPUT_CYCLES    "branch_rows"    /* attribute, a number: computed cycles before the file */
+#define SAM_OUTPUT_IDENTITY  "part_identity"  /* attribute, a text */
+#define SAM_OUTPUT_FOLLOWS   "part_follows"   /* attribute, a text: identity of the previous part */
+#define SAM_OUTPUT_STRESSES  "stresses_of"    /* attribute, a text: groups with stresses in layers, with commas */
+#define SAM_OUTPUT_LAYERS    "_layers" /* of such a group, behind its name: counts in both bodies, 1 if initial */
 PETSC_INTERN PetscErrorCode SamOutputNamePart(const char filename[], PetscInt part, char **name);
 PETSC_INTERN uint64_t       SamOutputGetIdentity(SamOutput output);
 PETSC_INTERN PetscErrorCode SamOutputFollow(SamOutput output, uint64_t identity, PetscInt steps, PetscInt cycles);

@@ -34,6 +34,8 @@ PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
   SamResultsGetParameters - returns the parameters that define the run, as SamSetupAddParameters() recorded them;
   borrowed.
   SamResultsGetOptions - returns the options of the run, as far as they are known; borrowed.
+  SamResultsGetTractionError - returns the estimated error of the largest pressure and shear of the last step, relative;
+  NaN: unknown.
   SamResultsGetSteps - gets the number of load steps, including those before the first step of the file, and the number
   of steps with saved fields.
   SamResultsGetSaved - gets the load step (from 1) and the time (s) of the k-th step (from 0) with saved fields.
@@ -42,6 +44,7 @@ PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
 PETSC_EXTERN SamGrid              SamResultsGetGrid(SamResults results);
 PETSC_EXTERN const SamParameters *SamResultsGetParameters(SamResults results);
 PETSC_EXTERN const char          *SamResultsGetOptions(SamResults results);
+PETSC_EXTERN double               SamResultsGetTractionError(SamResults results);
 PETSC_EXTERN PetscErrorCode       SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
 PETSC_EXTERN PetscErrorCode       SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
 /*

@@ -188,6 +188,8 @@ PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
   and the steps where they are not given, and sets them as options, with -errors companion, for the simulation that
   follows. Without -accuracy it only reads. `arguments`: see SamHistoryCreateFromOptions(). Collective. Errors:
   SAM_ERR_USER, SAM_ERR_FILE.
+  SamAccuracyRefuse - refuses these options for a contact whose steps are given one by one. Collective. Errors:
+  SAM_ERR_USER.
   SamAccuracyConcerns - returns true if it concerns the number of this name. Not collective (accuracy.c).
 */
 #define SAM_ACCURACY_NAMES 512
@@ -203,6 +205,7 @@ typedef struct {
 } SamAccuracy;
 PETSC_EXTERN PetscErrorCode SamAccuracyChoose(const SamOptions *from, const struct _n_SamArguments *arguments,
                                               SamAccuracy *accuracy);
+PETSC_INTERN PetscErrorCode SamAccuracyRefuse(const SamOptions *from);
 PETSC_EXTERN PetscBool      SamAccuracyConcerns(const SamAccuracy *accuracy, const char name[]);
 
 #endif

@@ -129,8 +129,10 @@ def _lived(life):
 def _report(found, name, several):
     """Prints the least lives or factors of every cycle, and of a spectrum, of several blocks or counts, the damage."""
     title, is_life = evaluation.CRITERIA[name][0], name in evaluation.LIVES
-    for cycle, least in zip(found.cycles, found.least[name]):
+    for cycle, least, bounds in zip(found.cycles, found.least[name], found.bounds[name]):
         text = f"life {_lived(least.value)}" if is_life else f"safety factor {least.value:.4g}"
+        if bounds:
+            text += f" ({_shown(bounds[0])} to {_shown(bounds[1])} by {100 * cycle.error:.2g} % of the tractions)"
         mean = f", of means over {cycle.averaged:g} m" if cycle.averaged else ""
         doubt = "; see the warning" if cycle.doubt else ""
         print(f"{cycle.path}: {title}: {text} {_where(least)}{mean}{doubt}")

@@ -1,7 +1,7 @@
 """Lives, safety factors, damage and cracks of the cycles of a spectrum: what the command prints and draws."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 import numpy as np
 
@@ -20,6 +20,7 @@ LIVES = {
 FACTORS = {name: (name.replace("_", " ").title(), (name + "_limit",)) for name in ("findley", "crossland", "dang_van")}
 CRACK = {"crack": ("short crack", ("dk_th", "stress_limit"))}
 CRITERIA = {**LIVES, **FACTORS, **CRACK}
+POWERS = {"swt": 2}  # of the stress in a parameter; others are proportional to it
 OF_STRESS = ("basquin", "crack")  # these need the stress on planes, not a parameter of the file
 
 
@@ -137,14 +138,47 @@ def known(cycle: Cycle, name: str, constants: Mapping[str, float], angle: float 
     return need({**cycle.constants, **constants}, CRITERIA[name][1], f"{cycle.path}: {name}")
 
 
-def _values(cycle, name, constants, angle):
-    """Lives (cycles) or safety factors at all points, (z, y, x)."""
+def _values(cycle, name, constants, angle, scale=1.0):
+    """Lives (cycles) or safety factors at all points, (z, y, x), of stresses that are so many times as large."""
     found = known(cycle, name, constants, angle)
     if name == "basquin":
-        return strength.basquin(*cycle.extremes(angle), *found, constants.get("ultimate"))
+        return strength.basquin(*(scale * one for one in cycle.extremes(angle)), *found, constants.get("ultimate"))
     if name in LIVES:
-        return getattr(strength, name)(cycle.maximum(name), *found)
-    return strength.factor(cycle.maximum(name), *found)
+        return getattr(strength, name)(scale ** POWERS.get(name, 1) * cycle.maximum(name), *found)
+    return strength.factor(scale * cycle.maximum(name), *found)
+
+
+def bounds(
+    cycle: Cycle, name: str, constants: Mapping[str, float], angle: float = 0.0
+) -> Optional[tuple[float, float]]:
+    """Between which the least life, or safety factor, is by the error of the tractions.
+
+    Parameters
+    ----------
+    cycle : stresses.Cycle
+        The cycle.
+    name : str
+        One of LIVES or FACTORS.
+    constants : mapping
+        {name: number} of the material, SI units.
+    angle : float
+        Angle of the normal of planes normal to the surface to x, degrees, for the stress of "basquin".
+
+    Returns
+    -------
+    tuple of float or None
+        The least values by stresses that are larger, and smaller, by the error of the cycle's tractions; None where
+        that is unknown.
+
+    Notes
+    -----
+    Stresses are proportional to the tractions; the parameter of Fatemi and Socie is taken as proportional, too.
+    """
+    if not np.isfinite(cycle.error):
+        return None
+    scales = 1.0 + cycle.error, max(0.0, 1.0 - cycle.error)
+    low, high = (float(np.nanmin(_values(cycle, name, constants, angle, scale))) for scale in scales)
+    return low, high
 
 
 def least(cycle: Cycle, values: np.ndarray) -> Place:

@@ -35,6 +35,8 @@ class Lives(Tabled):
         {criterion: lives (cycles) or safety factors at all points, (z, y, x), of each cycle}.
     least : dict
         {criterion: evaluation.Place of the least one, of each cycle}.
+    bounds : dict
+        {criterion: between which the least one of each cycle is by the error of the tractions, or None: unknown}.
     damage : dict
         {criterion: evaluation.Place of the largest damage of the spectrum}, of lives.
     cracks : list
@@ -50,6 +52,7 @@ class Lives(Tabled):
     constants: dict
     values: dict
     least: dict
+    bounds: dict
     damage: dict
     cracks: list
     lines: list
@@ -132,6 +135,7 @@ def lives(  # noqa: PLR0913  (as the options of petsam-fatigue)
     least = {
         name: [evaluation.least(cycle, one) for cycle, one in zip(cycles, found)] for name, found in values.items()
     }
+    bounds = {name: [evaluation.bounds(cycle, name, constants, plane) for cycle in cycles] for name in values}
     lines, cracks = [], []
     for k, cycle in enumerate(cycles):
         computed = {f"{_word(name)}_{name}": ("1", found[k]) for name, found in values.items()}
@@ -142,7 +146,8 @@ def lives(  # noqa: PLR0913  (as the options of petsam-fatigue)
             cracks.append(lengths)
         lines.append((cycle.label, line))
         ended()
-    return Lives(cycles, constants, values, least, _damage(cycles[0], values, counts), cracks, lines, place)
+    damage = _damage(cycles[0], values, counts)
+    return Lives(cycles, constants, values, least, bounds, damage, cracks, lines, place)
 
 
 def _judge(cycles, names, quantities, constants, plane):

@@ -51,6 +51,8 @@ class Cycle:
         Young's modulus (Pa) and Poisson's ratio of the body; with layers at each depth, (nz, 1, 1).
     layered : bool
         Whether the body has layers.
+    error : float
+        Estimated error of the largest tractions of the run (-errors companion), relative; NaN: unknown.
     path, label : str
         Names in messages, and in tables.
 
@@ -71,6 +73,7 @@ class Cycle:
         if self.file:
             self.path, self.label, of = source.path, source.label, source.parameters
             self.constants = self._moduli(of)
+        self.error = float(source.parameters.get("traction_error", np.nan)) if self.file else np.nan
         if self.z[0] != 0.0:
             raise Error(f"{self.path}: its first depth is {self.z[0]:g} m; give petsam-stress depths from 0 on")
         self.steps = source.times.size if self.file else np.size(source["time"])

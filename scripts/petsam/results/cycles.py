@@ -190,6 +190,9 @@ class Cycles:
     def __iter__(self):
         return iter(self.found)
 
+    def __repr__(self):
+        return f"Cycles({len(self)} of {self.results.path}, by {self.manner})"
+
     @cached_property
     def energies(self) -> np.ndarray:
         """Dissipated energy of every cycle, (cycles,), J; J/m in plane strain."""

@@ -80,6 +80,21 @@ class Stresses(Datafile):
         with self._reading():
             return name in self.file and name not in AXES
 
+    def __getitem__(self, name):
+        """A number of all load steps, (steps,), a stress, (steps, z, y, x), or a fatigue parameter, (z, y, x)."""
+        if not isinstance(name, str):
+            raise Error(f"{self.path}: {short(repr(name))} is no name of a stress or number")
+        if name in self.history:
+            return self.history[name]
+        if self._is_timeless(name):
+            return self.field(name)
+        return np.stack([self.field(name, index) for index in range(self.times.size)])
+
+    @staticmethod
+    def _is_timeless(name):
+        """Whether a dataset is of the cycle, not of its steps."""
+        return name in FATIGUE or "_normal_" in name
+
     @property
     def fatigue(self) -> list[str]:
         """Names of the fatigue parameters that the file has."""
@@ -299,7 +314,7 @@ class Stresses(Datafile):
             if name not in self:
                 raise Error(f"{self.path}: has no {short(name)}{self._there_are(name)}")
             data = _own(self.file, name)
-            timeless = name in FATIGUE or "_normal_" in name
+            timeless = self._is_timeless(name)
             shape = self.shape[1:] if timeless else self.shape
             if data.shape != shape or data.dtype.kind != "f":
                 raise ValueError(f"/{name} has the shape {data.shape}")

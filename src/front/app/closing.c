@@ -238,7 +238,8 @@ PetscErrorCode SamReportClosing(SamReport r)
   PetscFunctionBegin;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->logging) PetscCall(PrintTimes(r));
-  for (PetscInt k = 0; k < 3 && r->worst[0].step; k++) { /* only steps with a solution */
+  for (PetscInt k = 0; k < 3 && r->worst[0].step && (r->profile || r->steps > 1);
+       k++) { /* only steps with a solution */
     PetscCall(PetscPrintf(r->comm, k ? ", %s %.2e" : "  worst       %s %.2e", names[k], (double)r->worst[k].residual));
     if (r->steps > 1 && r->worst[k].step)
       PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ")", r->worst[k].step));

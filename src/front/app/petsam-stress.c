@@ -8,6 +8,7 @@
 #include "help/petsam-stress.h" /* from petsam-stress.help */
 #include <petsam/private/evaluation.h>
 #include <petsam/private/output.h>
+#include <petsam/private/parts.h>
 #include <petsam/private/file.h>
 #include <petsam/private/runfiles.h>
 #include <petsam/private/stress.h>
@@ -270,11 +271,13 @@ static PetscErrorCode TearDown(void *context)
 
 static PetscErrorCode CreateFile(SamStressRun *run)
 {
-  SamParameters parameters = {.count = 0};
-  char         *options;
+  const PetscReal error      = (PetscReal)SamResultsGetTractionError(run->results);
+  SamParameters   parameters = {.count = 0};
+  char           *options;
 
   PetscFunctionBegin;
   PetscCall(SamEvaluationAddParameters(run->evaluation, &parameters));
+  if (error >= 0) PetscCall(SamParametersAddReals(&parameters, SAM_OUTPUT_TRACTIONS, PETSC_FALSE, 1, &error));
   PetscCall(SamStressFileCreate(run->grid, run->request.output, run->layout, &parameters, &run->file));
   PetscCall(SamStressFileSetText(run->file, "input", run->request.input));
   PetscCall(PetscOptionsGetAll(NULL, &options));

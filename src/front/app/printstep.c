@@ -75,13 +75,27 @@ static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], co
 
 /* ---- in full ---- */
 
+/* Prints the iterations of the solvers. */
+static PetscErrorCode ViewIterations(SamContact c, PetscViewer viewer)
+{
+  const double passes = Get(c, "coupling_iterations");
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+                                   "  %-10s  normal %.0f (%.0f applications), tangential %.0f (%.0f applications)",
+                                   "iterations", Get(c, "normal_iterations"), Get(c, "normal_applies"),
+                                   Get(c, "tangential_iterations"), Get(c, "tangential_applies")));
+  if (passes > 1) PetscCall(PetscViewerASCIIPrintf(viewer, ", coupling %.0f", passes));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
   const SamMotion motion = SamContactGetMotion(c);
-  const double    passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0],
-               work    = sizes->load[0] * sizes->rigid[0];
-  const double   slip  = Clean(Get(c, NameOf(c, "slip_max")), move); /* NaN without friction */
-  const SamState state = StateOf(c);
+  const double    move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * sizes->rigid[0];
+  const double    slip  = Clean(Get(c, NameOf(c, "slip_max")), move); /* NaN without friction */
+  const SamState  state = StateOf(c);
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g %s, stick %.6g %s, dissipated %.6g %s\n", "areas",
@@ -97,18 +111,13 @@ static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *
                                      "spots", Get(c, "contact_spots"), 100 * Get(c, "contact_fraction"),
                                      Get(c, "gap_mean")));
   PetscCall(SamContactPrintLaws(c, viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-                                   "  %-10s  normal %.0f (%.0f applications), tangential %.0f (%.0f applications)",
-                                   "iterations", Get(c, "normal_iterations"), Get(c, "normal_applies"),
-                                   Get(c, "tangential_iterations"), Get(c, "tangential_applies")));
-  if (passes > 1) PetscCall(PetscViewerASCIIPrintf(viewer, ", coupling %.0f", passes));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n  %-10s  normal %.2e, tangential %.2e, equilibrium %.2e, cone %.2e\n",
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  normal %.2e, tangential %.2e, equilibrium %.2e, cone %.2e\n",
                                    "check", (double)s->check.normal, (double)s->check.tangential,
                                    (double)s->check.equilibrium, (double)s->check.cone));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer viewer)
+PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscBool profile, PetscViewer viewer)
 {
   static const SamComponent order[]         = {SAM_COMPONENT_N,  SAM_COMPONENT_MX, SAM_COMPONENT_MY,
                                                SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};
@@ -143,7 +152,9 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                      Rounded(s, c, s->rigid, sizes.rigid), strcmp(rigid.unit, "1") ? rigid.unit : "",
                                      given[SamControlWay(&s->control, c)], fine));
   }
-  if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));
+  if (s->status == SAM_STATUS_NO_EQUILIBRIUM) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ViewSolution(s, contact, &sizes, viewer));
+  if (profile) PetscCall(ViewIterations(contact, viewer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

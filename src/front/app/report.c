@@ -27,7 +27,9 @@ static PetscErrorCode StartLog(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const SamOptionRow rows[] = {{"quiet", "print nothing on stdout; warnings and errors go to stderr",
+static const SamOptionRow rows[] = {{"profile", "print times by part, iterations and the largest residuals of the run",
+                                     SAM_OPTION_BOOL, .member = offsetof(struct _n_SamReport, profile)},
+                                    {"quiet", "print nothing on stdout; warnings and errors go to stderr",
                                      SAM_OPTION_BOOL, .member = offsetof(struct _n_SamReport, quiet)},
                                     {"progress", "line within long steps: auto (on a terminal), always or never",
                                      SAM_OPTION_ENUM, offsetof(struct _n_SamReport, progress.mode),
@@ -46,7 +48,7 @@ PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *rep
   PetscCallMPI(MPI_Comm_rank(from->comm, &r->rank));
   PetscCall(SamOptionsRead(from, "What the run prints", SAM_OPTION_ROWS(rows), r, NULL));
   SamProgressStart(r);
-  if (!r->quiet) PetscCall(StartLog(r));
+  if (r->profile && !r->quiet) PetscCall(StartLog(r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -305,7 +307,7 @@ static PetscErrorCode EndStep(SamReport r, SamContact contact, const SamStep *st
     PetscCall(PetscViewerASCIIGetStdout(r->comm, &viewer));
     PetscCall(
       SamReportStepLine(r, step, contact, seconds, MeanTime(r, r->done, seconds) * (double)(r->steps - r->number - 1)));
-    if (r->steps == 1) PetscCall(SamStepView(step, contact, viewer));
+    if (r->steps == 1) PetscCall(SamStepView(step, contact, r->profile, viewer));
   }
   PrintMessage(r, where, step);
   PetscFunctionReturn(PETSC_SUCCESS);

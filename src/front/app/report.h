@@ -45,7 +45,7 @@ typedef struct _n_SamReport *SamReport;
 struct _n_SamReport {
   /* what the user sets */
   MPI_Comm           comm;
-  PetscBool          quiet;
+  PetscBool          quiet, profile;
   const SamAccuracy *accuracy; /* borrowed; NULL: none is asked for */
   /* status */
   PetscMPIInt    rank;
@@ -79,9 +79,9 @@ struct _n_SamReport {
 };
 
 /*
-  SamReportCreateFromOptions - reads -quiet (nothing on stdout; warnings and errors are still printed) and -progress
+  SamReportCreateFromOptions - reads -quiet (nothing on stdout; warnings and errors are still printed), -profile (times by part, iterations, largest residuals) and -progress
   (auto, always or never: a line that is updated while a step is solved; auto: on a terminal, in steps that take longer
-  than a second). Starts PETSc's log, from which the closing table takes its times. Collective. Errors: SAM_ERR_USER.
+  than a second). With -profile it starts PETSc's log, from which the closing table takes its times. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *report);
 PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
@@ -101,15 +101,17 @@ PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *se
   such step only. Monitors that are added to the contact's solvers show the progress. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, const SamSimulationEvent *news);
-/* SamReportClosing - prints times by part, worst residuals, files written, and time and memory used. Collective. */
+/* SamReportClosing - prints times by part and largest residuals, if asked for, files written, time and memory used.
+   Collective. */
 PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
 
 /* ---- the parts ---- */
 
 /*
-  SamStepView - prints a step in a few lines: loads, displacements, areas, iterations, check. Collective on the viewer.
+  SamStepView - prints a step in a few lines: loads, displacements, areas, check, and with `profile` iterations.
+  Collective on the viewer.
 */
-PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscViewer viewer);
+PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscBool profile, PetscViewer viewer);
 /* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as many as fit. */
 PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads[SAM_COMPONENTS]);
 /* Returns a number of the last step of a state, or of its last cycle; NaN: there is no number of that name. */

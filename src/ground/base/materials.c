@@ -2,7 +2,8 @@
   Materials by name: the one table of constants, from which the programs, the manual and the Python side take them.
 
   Values are those at room temperature. What a source does not state is NAN. Names are compared without regard to the
-  case of letters, blanks, hyphens and underscores.
+  case of letters, blanks, hyphens and underscores. Other names are those that mean one material: the name of an element
+  its metal, but titanium the alloy Ti-6Al-4V. A nickel alloy is none, as there are many.
 */
 #include <petsam/private/baseimpl.h>
 #include <ctype.h>
@@ -11,12 +12,15 @@
 #define SPACED ", "
 
 /* Sources of several rows */
-#define BEARINGS \
-  "SKF, Rolling bearings, catalogue 17000 (2018); Poisson's ratio: Harris, Rolling Bearing Analysis, 4th ed. (2001)"
-#define KAYE    "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995)"
-#define THERMAL "; thermal: Incropera and DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002)"
+#define ASM      "ASM data sheet, asm.matweb.com, "
+#define BEARINGS "SNFA, silicon nitride and bearing steel, cantonicuscinetti.com (expansion to "
+#define DOWLING  "Dowling, Mechanical Behavior of Materials, 4th ed. (2013), "
+#define GERE     "Gere, Mechanics of Materials, 5th ed. (2001)"
+#define THERMAL \
+  "; density, thermal: Bergman et al., Fundamentals of Heat and Mass Transfer, 7th ed. (2011); expansion: Callister " \
+  "and Rethwisch, Materials Science and Engineering, 8th ed. (2010)"
 
-enum { COUNT = 16 };
+enum { COUNT = 17 };
 static const SamNamedMaterial table[COUNT] = {
   {"steel",
    "carbon steel, mild steel",
@@ -24,60 +28,69 @@ static const SamNamedMaterial table[COUNT] = {
    "EN 1993-1-1 (2005), 3.2.6; density, conductivity, specific heat: EN 1993-1-2 (2005), 3.4"},
   {"100Cr6",
    "bearing steel, 52100, AISI 52100, SUJ2, 1.3505",
-   {210e9, 0.3, 7900, NAN, NAN, 12e-6, NAN, NAN, NAN, NAN, NAN},
-   BEARINGS},
+   {210e9, 0.3, 7800, NAN, NAN, 11e-6, NAN, NAN, NAN, NAN, NAN},
+   BEARINGS "300 degrees C)"},
   {"304",
    "stainless steel, stainless, AISI 304, 1.4301, X5CrNi18-10",
-   {193e9, 0.29, 8000, 16.2, 500, 17.2e-6, 205e6, NAN, NAN, NAN, NAN},
-   "ASM Handbook, vol. 1 (1990), annealed; Poisson's ratio: Ledbetter et al., J. Appl. Phys. 46 (1975) 3855; yield: "
-   "least of ASTM A240"},
+   {193e9, 0.29, 8000, 16.2, 500, 17.3e-6, 215e6, NAN, NAN, NAN, NAN},
+   ASM "MQ304A, annealed (193 to 200 GPa)"},
   {"Ti-6Al-4V",
    "titanium, titanium alloy, Ti64, TA6V, 3.7165",
-   {115e9, 0.32, 4430, 6.7, 526, 8.6e-6, 828e6, 2030e6, -0.104, 0.841, -0.688},
-   "E, nu: Araujo and Nowell, Int. J. Fatigue 24 (2002) 763; thermal: Materials Properties Handbook: Titanium Alloys, "
-   "ASM (1994); yield: least of ASTM B265, annealed; fatigue: Dowling, Mechanical Behavior of Materials, 4th ed. "
-   "(2013), solution treated and aged"},
+   {113.8e9, 0.342, 4430, 6.7, 526, 8.6e-6, 880e6, 2030e6, -0.104, NAN, NAN},
+   ASM "MTP641, annealed; fatigue: " DOWLING "table 9.1, solution treated and aged"},
+  {"nickel",
+   "Ni",
+   {207e9, 0.31, 8900, 90.7, 444, 13.3e-6, NAN, NAN, NAN, NAN, NAN},
+   "pure; E: as expansion, table 6.1; nu: " GERE THERMAL},
   {"Inconel-718",
-   "nickel, nickel alloy, alloy 718, IN718, 2.4668",
-   {200e9, 0.29, 8220, 11.4, 435, 13e-6, 1034e6, NAN, NAN, NAN, NAN},
-   "Special Metals, Inconel alloy 718, SMC-045 (2007), aged; yield: least of AMS 5662"},
+   "alloy 718, IN718, 2.4668",
+   {200e9, 0.29, 8220, 11.4, 435, 13.2e-6, NAN, NAN, NAN, NAN, NAN},
+   "Special Metals, Inconel alloy 718, SMC-045 (2007), aged (expansion to 93 degrees C)"},
   {"aluminium",
    "aluminum",
-   {70e9, 0.33, 2702, 237, 903, 23e-6, NAN, NAN, NAN, NAN, NAN},
-   "E, nu, expansion: Gere and Goodno, Mechanics of Materials, 8th ed. (2013), alloys; density, conductivity, specific "
-   "heat: Incropera and DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002), pure"},
+   {70e9, 0.33, 2702, 237, 903, 23.6e-6, NAN, NAN, NAN, NAN, NAN},
+   "E, nu of alloys: " GERE "; the others of the pure metal" THERMAL},
   {"7075-T6",
    "7075, aluminium 7075-T6, aluminum 7075-T6, EN AW-7075",
-   {71e9, 0.33, 2800, 130, 960, 23.6e-6, 503e6, 1466e6, -0.143, 0.262, -0.619},
-   "ASM Handbook, vol. 2 (1990); fatigue: Dowling, Mechanical Behavior of Materials, 4th ed. (2013)"},
+   {71.7e9, 0.33, 2810, 130, 960, 23.6e-6, 503e6, 1466e6, -0.143, 0.262, -0.619},
+   ASM "MA7075T6; fatigue: " DOWLING "table 14.1"},
   {"2024-T3",
    "2024, aluminium 2024-T3, aluminum 2024-T3, EN AW-2024",
-   {72.4e9, 0.33, 2770, 120, 875, 23.2e-6, 345e6, NAN, NAN, NAN, NAN},
-   "ASM Handbook, vol. 2 (1990)"},
-  {"cast-iron",
-   "grey cast iron, gray cast iron, grey iron, gray iron, EN-GJL-250",
-   {110e9, 0.26, 7200, 48.5, 460, 11.7e-6, NAN, NAN, NAN, NAN, NAN},
-   "EN 1561 (1997), annex A, EN-GJL-250 (103 to 118 GPa; conductivity at 100, expansion to 200 degrees C)"},
+   {73.1e9, 0.33, 2780, 121, 875, 23.2e-6, 345e6, NAN, NAN, NAN, NAN},
+   ASM "MA2024T3"},
+  {"grey-cast-iron",
+   "cast iron, gray cast iron, grey iron, gray iron, EN-GJL-250",
+   {110e9, 0.26, 7200, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN},
+   "DIN EN 1561, EN-GJL-250 (103 to 118 GPa), from the tables of sn-castiron.nl"},
   {"bronze",
    "phosphor bronze, tin bronze, C52100, CuSn8",
-   {110e9, 0.34, 8800, 62.3, 377, 18.2e-6, NAN, NAN, NAN, NAN, NAN},
-   "Copper Development Association, data sheet C52100; Poisson's ratio: Gere and Goodno, Mechanics of Materials, 8th "
-   "ed. (2013)"},
-  {"copper", "Cu", {129.8e9, 0.343, 8933, 401, 385, NAN, NAN, NAN, NAN, NAN, NAN}, KAYE THERMAL},
+   {110e9, 0.34, 8800, 62, 370, 18e-6, NAN, NAN, NAN, NAN, NAN},
+   "makeitfrom.com, UNS C52100 (CW453K) Phosphor Bronze"},
+  {"copper",
+   "Cu",
+   {130e9, 0.343, 8933, 401, 385, 17e-6, NAN, NAN, NAN, NAN, NAN},
+   "pure; E, nu: " DOWLING "table 5.2" THERMAL},
   {"brass",
    "cartridge brass, C26000, CuZn30",
-   {100.6e9, 0.35, 8530, 110, 380, NAN, NAN, NAN, NAN, NAN, NAN},
-   KAYE ", 70/30" THERMAL},
+   {101e9, 0.35, 8530, 110, 380, 20e-6, NAN, NAN, NAN, NAN, NAN},
+   "70Cu-30Zn; E, nu: " DOWLING "table 5.2" THERMAL},
   {"WC-Co",
-   "tungsten carbide, cemented carbide, hard metal, WC, WC-6Co",
-   {648e9, 0.22, 15000, 100, NAN, 4.3e-6, NAN, NAN, NAN, NAN, NAN},
-   "ASM Handbook, vol. 2 (1990), 94WC-6Co, medium grain; Poisson's ratio: Kaye and Laby, 16th ed. (1995)"},
-  {"Si3N4", "silicon nitride", {310e9, 0.26, 3200, NAN, NAN, 3e-6, NAN, NAN, NAN, NAN, NAN}, BEARINGS},
+   "tungsten carbide, cemented carbide, hard metal",
+   {630e9, 0.24, 14600, 85, 280, 5.4e-6, NAN, NAN, NAN, NAN, NAN},
+   "makeitfrom.com, Tungsten Carbide (WC), a cemented grade by its density and strength"},
+  {"Si3N4",
+   "silicon nitride",
+   {315e9, 0.26, 3190, NAN, NAN, 3.2e-6, NAN, NAN, NAN, NAN, NAN},
+   BEARINGS "1000 degrees C)"},
   {"alumina",
    "Al2O3, aluminium oxide, aluminum oxide",
    {416e9, 0.231, 3984, 33, 755, 4.6e-6, NAN, NAN, NAN, NAN, NAN},
-   "Munro, J. Am. Ceram. Soc. 80 (1997) 1919, sintered alpha alumina"},
-  {"gold", "Au", {78e9, 0.44, 19300, 317, 129, NAN, NAN, NAN, NAN, NAN, NAN}, KAYE THERMAL}};
+   "Munro, J. Am. Ceram. Soc. 80 (1997) 1919, sintered alpha alumina: NIST SRD 150, "
+   "srdata.nist.gov/CeramicDataPortal/Pds/Scdaos"},
+  {"gold",
+   "Au",
+   {78e9, 0.44, 19300, 317, 129, 14.2e-6, NAN, NAN, NAN, NAN, NAN},
+   "pure; E, nu: webelements.com/gold/physics.html" THERMAL}};
 
 static const SamMaterialConstant constants[SAM_MATERIAL_CONSTANTS] = {
   {"young", "Pa", "Young's modulus"},

@@ -136,10 +136,10 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, P
   Settings           set    = {{n[0], n[1]}, {width[0], width[1]}, {center[0], center[1]}};
   const SamOptionRow rows[] = {
     {"grid_n", "cells in x[,y]: required without a surface file", SAM_OPTION_INT, MEMBER(n), .least = row ? 1 : 2,
-     .size = 2, .missing = "the number of cells in x[,y], for example 256, or -accuracy 1%, which chooses it"},
+     .size = 2, .missing = "the number of cells in x[,y], for example 256; a run with -accuracy 1% chooses it"},
     {"grid_size", "full width in x[,y] (): required without a surface file", SAM_OPTION_REAL, MEMBER(width),
      .range = SAM_RANGE_POSITIVE, .size = 2, .unit = "m",
-     .missing = "the full width of the grid in x[,y], m: about 1.5 times that of the contact; or -accuracy 1%, which "
+     .missing = "the full width of the grid in x[,y], m: about 1.5 times that of the contact; a run with -accuracy 1% "
                 "chooses it"},
     {"grid_center", "centre x,y", SAM_OPTION_REAL, MEMBER(center), .range = SAM_RANGE_ANY, .size = 2, .unit = "m"}};
   char              message[256], options[3][96];

@@ -1,5 +1,6 @@
 /* The group /errors of a results file: the numbers of the last step, or of the last cycle, with their errors. */
 #include "ioimpl.h"
+#include <math.h>
 #include <string.h>
 
 /* Writes a column of numbers; rank 0 has them. */
@@ -47,6 +48,7 @@ PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
   enum { TEXTS = sizeof(texts) / sizeof(texts[0]), NUMBERS = sizeof(numbers) / sizeof(numbers[0]) };
   char   column[TEXTS][SAM_ERROR_ROWS][SAM_ERROR_NAME];
   double values[NUMBERS][SAM_ERROR_ROWS];
+  double tractions = NAN; /* the larger error of both largest tractions */
   hid_t  group;
 
   PetscFunctionBegin;
@@ -67,6 +69,10 @@ PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
     for (int c = 0; c < TEXTS; c++) (void)snprintf(column[c][k], SAM_ERROR_NAME, "%s", words[c]);
     for (int c = 0; c < NUMBERS; c++) values[c][k] = all[c];
   }
+  for (PetscInt k = 0; k < t->count; k++)
+    if (!strcmp(t->row[k].name, "pressure_max") || !strcmp(t->row[k].name, "shear_max"))
+      tractions = isnan(tractions) ? t->row[k].error : PetscMax(tractions, t->row[k].error);
+  SamFileWriteAttribute(o->f, o->f->id, SAM_OUTPUT_TRACTIONS, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &tractions);
   group = SamFileNote(o->f, H5Gcreate2(o->f->id, "errors", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   for (int c = 0; c < TEXTS; c++) WriteTexts(o, group, &texts[c], t->count, column[c]);
   for (int c = 0; c < NUMBERS; c++) WriteNumbers(o, group, &numbers[c], t->count, values[c]);

@@ -26,6 +26,7 @@ typedef struct {
   char          options[4096]; /* empty if too long */
   SamParameters parameters;
   hsize_t       steps, saved;
+  double        tractions;                 /* error of the largest tractions, relative; NaN: unknown */
   double        first;                     /* number of load steps before those of the file */
   char          identity[32], follows[32]; /* identity of the file, and of the part before; empty: none */
   int           groups;                    /* number of groups with stresses in layers */
@@ -300,6 +301,9 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscCall(GetNumbers(f, "grid_center", 2, facts->center));
   GetParameters(f, &facts->parameters);
   GetText(f, "options", sizeof(facts->options), facts->options);
+  facts->tractions = NAN;
+  if (SamFileHasAttribute(f, SAM_OUTPUT_TRACTIONS))
+    PetscCall(GetNumbers(f, SAM_OUTPUT_TRACTIONS, 1, &facts->tractions));
   if (SamFileHasAttribute(f, SAM_OUTPUT_BRANCH)) PetscCall(GetNumbers(f, SAM_OUTPUT_BRANCH, 1, &facts->first));
   GetText(f, SAM_OUTPUT_IDENTITY, sizeof(facts->identity), facts->identity);
   GetText(f, SAM_OUTPUT_FOLLOWS, sizeof(facts->follows), facts->follows);
@@ -530,6 +534,11 @@ const SamParameters *SamResultsGetParameters(SamResults r)
 const char *SamResultsGetOptions(SamResults r)
 {
   return r->part[0]->facts.options;
+}
+
+double SamResultsGetTractionError(SamResults r)
+{
+  return r->part[r->count - 1]->facts.tractions;
 }
 
 PetscErrorCode SamResultsGetSteps(SamResults r, PetscInt *steps, PetscInt *saved)

@@ -65,8 +65,8 @@ typedef struct {
 /* ---- options ---- */
 
 static const SamOptionRow rows[] = {
-  {"accuracy", "largest error of the numbers, relative (), 0.01 or 1%: chooses grid and steps where they are not given",
-   SAM_OPTION_REAL, offsetof(SamAccuracy, error), .range = SAM_RANGE_PART, .unit = "1"},
+  {"accuracy", "largest error () of the numbers, as 1%: chooses grid and steps unless given", SAM_OPTION_REAL,
+   offsetof(SamAccuracy, error), .range = SAM_RANGE_PART, .unit = "1"},
   {"accuracy_of", "the numbers that it concerns, separated by commas: all with an error", SAM_OPTION_STRING,
    offsetof(SamAccuracy, numbers), .size = SAM_ACCURACY_NAMES, .needs = "accuracy or -grid"},
   {"grid", "chooses the grid by -accuracy, of 1% if that is not given", SAM_OPTION_WORD, offsetof(SamAccuracy, grid),
@@ -262,12 +262,15 @@ static PetscErrorCode Prepare(const SamOptions *from, const SamArguments *argume
   }
   PetscCall(SamOptionsHas(from, "elasticity periodic", &periodic[0]));
   PetscCall(SamOptionsHas(from, "elasticity plane_periodic", &periodic[1]));
+  PetscCheck(!task->size || !(periodic[0] || periodic[1]), from->comm, SAM_ERR_USER,
+             "-%saccuracy with periodic bodies: -grid_size is their period, and is not chosen: give it",
+             SamOptionsPrefix(from));
   PetscCall(SamGapCreate(from->comm, &gap));
   PetscCall(SamGapSetOptionsPrefix(gap, from->prefix));
   PetscCall(SamGapGetFileGrid(gap, n, width, center));
   PetscCall(SamGapDestroy(&gap));
   if (n[0] > 0) task->cells = PETSC_FALSE;
-  if (width[0] > 0 || periodic[0] || periodic[1]) task->size = PETSC_FALSE;
+  if (width[0] > 0) task->size = PETSC_FALSE;
   task->center = task->center && task->size ? PETSC_TRUE : PETSC_FALSE;
   task->axes   = 2;
   PetscCall(SetOptions(from, &(Task){.axes = 2, .cells = task->cells, .size = task->size}, &any));
@@ -563,6 +566,7 @@ static PetscErrorCode Choose(const SamOptions *from, const SamArguments *argumen
   PetscFunctionBegin;
   PetscCall(Prepare(from, arguments, &task, &c));
   PetscCall(PetscNew(&trial));
+  if (!task.cells && !task.size && !task.steps) last = PETSC_TRUE;
   while (!last && a->trials < TRIALS) {
     PetscCall(Try(from, arguments, &task, &c, trial));
     PetscCall(CheckNames(from, a, &trial->table));
@@ -574,6 +578,20 @@ static PetscErrorCode Choose(const SamOptions *from, const SamArguments *argumen
   PetscCall(SetOptions(from, &task, &c));
   Describe(&task, &c, a);
   a->seconds = MPI_Wtime() - began;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamAccuracyRefuse(const SamOptions *from)
+{
+  PetscBool has[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHas(from, "accuracy", &has[0]));
+  PetscCall(SamOptionsHas(from, "grid auto", &has[1]));
+  PetscCheck(!has[0] && !has[1], from->comm, SAM_ERR_USER,
+             "-%s%s: a grid is chosen for all loads of a run, and here steps are given one by one: give -grid_n and "
+             "-grid_size",
+             SamOptionsPrefix(from), has[0] ? "accuracy" : "grid auto");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -177,6 +177,7 @@ PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *fr
 PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
+  PetscCall(SamAccuracyRefuse(from));
   PetscCall(ReadContact(s, from));
   PetscCall(SamSimulationReadPieces(s, from));
   PetscCall(ReadPlan(s, PETSC_TRUE, from));
