@@ -16,12 +16,10 @@ import petsam
 from petsam import joint
 from petsam.plot.style import COLORS, STYLE, frame, logarithmic, plt, save, tint
 
-STEEL = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
-FASTEST = 700.0  # m/s, that no turning rim of metal bears
 FRICTION = 0.3
 RADIUS, CROWN = 5e-3, 1.5  # of the damper's section and of its generatrix, m
-ANGLE = np.radians(35.0)  # of the platforms to the circumference
-SPEED, ORBIT = 2 * np.pi * 50.0, 0.5  # rad/s; distance of the damper from the axis of rotation, m
+ANGLE = "35deg"  # of the platforms to the circumference
+SPEED, ORBIT = "3000rpm", 0.5  # distance of the damper from the axis of rotation, m
 BLADE, TIP_MASS, PLATFORM = 250.0, 0.15, 0.03  # Hz alone; modal mass for the tip, kg; motion of platform over tip
 MATERIAL = 5e-4  # damping of the blades' material and of the flow, part of critical
 MOTIONS = {"circumferential": (1.0, 0.0), "radial": (0.0, 1.0)}  # of the platforms
@@ -32,73 +30,23 @@ FORCES = (1.0, 2.0, 4.0)  # at each tip, N
 HALF, LOAD = (7.1e-5, 2.3e-3), 300.0
 ROOM = 1.5  # half width of the grid over half axis
 TIP = 1.0 / np.sqrt(TIP_MASS)
-HELD = dict(disp_y=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0)
 
 
-def centrifugal(mass):
-    """Force on the damper, N."""
-    if not abs(SPEED * ORBIT) <= FASTEST:
-        raise petsam.Error(
-            f"{SPEED:g} rad/s move the damper at {SPEED * ORBIT:.3g} m/s: expected at most {FASTEST:g} m/s: "
-            f"give rad/s ({SPEED:g} rpm are {SPEED * np.pi / 30.0:.4g} rad/s)"
-        )
-    return mass * ORBIT * SPEED**2
-
-
-def contact(load, n):
-    """Damper (body 1) below a platform (body 2), apart."""
-    size = [2.0 * ROOM * half * np.cbrt(load / LOAD) for half in HALF]
-    return petsam.Contact(
-        grid_n=n,
-        grid_size=size,
-        gap_type="ellipsoid",
-        gap_radius_x=RADIUS,
-        gap_radius_y=CROWN,
-        friction=FRICTION,
-        **STEEL,
-    )
-
-
-def motions(direction):
-    """Displacements (n, t) of the damper against each platform, left and right, four rows: by the modes of the two
-    blades (two columns), and by the damper's x, z and rotation about y (three columns)."""
-    blades, damper = np.zeros((4, 2)), np.zeros((4, 3))
-    for k, side in enumerate((-1.0, 1.0)):
-        axes = np.array([[side * np.sin(ANGLE), np.cos(ANGLE)], [np.cos(ANGLE), -side * np.sin(ANGLE)]])
-        damper[2 * k : 2 * k + 2, :2] = axes
-        damper[2 * k + 1, 2] = RADIUS
-        blades[2 * k : 2 * k + 2, k] = -PLATFORM * TIP * axes @ np.array(MOTIONS[direction])
-    return blades, damper
+def damper(mass):
+    """Damper of this mass."""
+    return joint.damper(
+        mass, RADIUS, ANGLE, SPEED, ORBIT, FRICTION, crown=CROWN, body1="steel", body2="steel",
+    )  # fmt: skip
 
 
 def structure(mass, direction, n):
-    """Blades, and the damper of this mass that its centrifugal force presses against their platforms.
-
-    The shear of the preload is zero, as if vibrations had settled the damper. The blades are at rest where the damper
-    has pushed them: a force of their own holds them there.
-    """
-    if not mass > 0.0:
-        raise petsam.Error(f"a mass of {mass:g} kg: expected one above 0")
-    if FRICTION * np.tan(ANGLE) >= 1.0:
-        raise petsam.Error(
-            f"with friction {FRICTION:g} the damper locks between platforms at {np.degrees(ANGLE):g} degrees"
-        )
-    blades, damper = motions(direction)
-    load, patches = 0.5 * centrifugal(mass) / np.cos(ANGLE), []
-    for name, (lift, along) in zip(("left", "right"), damper[:, 1].reshape(2, 2)):  # n and t by z of the damper
-        one = contact(load, n)
-        approach = one.try_step(load_n=load).disp_z
-        one.commit()
-        one.try_step(load_n=load, disp_x=along / lift * approach, friction_scale=0.0, **HELD)
-        one.commit()
-        patches.append(joint.Patch(one, ["disp_z", "disp_x"], HELD, ["disp_z"], name))
-    rigid = damper / np.sqrt([mass, mass, 0.5 * mass * RADIUS**2])
-    omega = 2 * np.pi * BLADE
-    found = joint.Structure(patches, [omega, omega], blades, blades @ blades.T / omega**2, rigid, MATERIAL)
-    found.z, found.loads = (np.concatenate(parts) for parts in zip(*(patch.state() for patch in patches)))
-    found.a = np.linalg.lstsq(rigid, found.z, rcond=None)[0]
-    found.step(-np.concatenate([blades.T, rigid.T]) @ found.loads)
-    return found
+    """Blades, and the damper of this mass that its centrifugal force presses against their platforms."""
+    platforms = np.zeros((4, 2))  # x and z of the left and of the right one, by the modes of the two blades
+    for k in range(2):
+        platforms[2 * k : 2 * k + 2, k] = PLATFORM * TIP * np.array(MOTIONS[direction])
+    one, omega = damper(mass), 2 * np.pi * BLADE
+    size = [2.0 * ROOM * half * np.cbrt(one.loads[0] / LOAD) for half in HALF]
+    return one.structure(platforms, [omega, omega], n, size, MATERIAL)
 
 
 def backbone(mass, direction, amplitudes, n, **more):
@@ -121,7 +69,8 @@ def resonance(found, force):
 
 def sketch(ax):
     """The damper below its platforms, and the force on it."""
-    c, s = np.cos(ANGLE), np.sin(ANGLE)
+    angle = damper(MASSES[0]).angles[0]
+    c, s = np.cos(angle), np.sin(angle)
     turn = np.linspace(0.0, 2.0 * np.pi, 100)
     ax.fill(np.cos(turn), np.sin(turn), color=COLORS[1], alpha=0.6)
     for side in (-1.0, 1.0):
@@ -142,7 +91,7 @@ def draw(found, folder):
         figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12.5, 3.8), layout="constrained")
         sketch(left)
         for k, (mass, one) in enumerate(found.items()):
-            label, color = f"{1e3 * mass:g} g, {centrifugal(mass):.0f} N", tint(k, len(found))
+            label, color = f"{1e3 * mass:g} g, {damper(mass).force:.0f} N", tint(k, len(found))
             middle.plot(1e6 * one.amplitude, 100.0 * one.damping, "o-", color=color, label=label, markersize=4.0)
         frame(middle, "Damping by friction", "amplitude of a tip, µm", "damping, % of critical")
         logarithmic(middle, "xy")
@@ -169,7 +118,7 @@ def main():
     os.makedirs(args.folder, exist_ok=True)
     circumferential = {mass: backbone(mass, "circumferential", amplitudes, args.grid_n) for mass in masses}
     for mass, one in circumferential.items():
-        print(f"\ndamper of {1e3 * mass:g} g, {centrifugal(mass):.0f} N, platforms move along the circumference")
+        print(f"\ndamper of {1e3 * mass:g} g, {damper(mass).force:.0f} N, platforms move along the circumference")
         print("\n".join(one.lines()[1:]))
     omega, _ = structure(masses[0], "radial", args.grid_n).stuck_modes()
     told = " and ".join(f"{one / (2 * np.pi):.4g}" for one in omega[:2])

@@ -38,6 +38,7 @@ MODULES = (
     "joint.band",
     "joint.balance",
     "joint.wear",
+    "joint.damper",
     "compliance.calls",
     "compliance.settings",
     "compliance.result",

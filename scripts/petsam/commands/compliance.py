@@ -50,11 +50,13 @@ from ..core import materials, words
 from ..core.errors import Error, Unusable, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
+from ..core.progress import to_stderr
 from ..core.units import shown
 from ..plot.saving import write
 from .line import Parser, add_choice, frame, guarded, joined, quietly, word
 
 PROGRAM = "petsam-compliance"
+SECONDS = 5.0  # between two lines of progress
 
 
 def case(text):
@@ -115,20 +117,6 @@ def of_name(text):
     if equal and not group:
         raise words.WordError(text, "[SET=]NAME, such as steel")
     return group, materials.find(name)
-
-
-class Progress:
-    """Prints lines about parts of the work that take long."""
-
-    def __init__(self, stream, seconds=5.0):
-        self.stream, self.seconds = stream, seconds
-        self.start = self.last = time.monotonic()
-
-    def __call__(self, text):
-        now = time.monotonic()
-        if now - self.last >= self.seconds:
-            self.last = now
-            print(f"  {now - self.start:.0f} s: {text}", file=self.stream, flush=True)
 
 
 def _body_options(parser):
@@ -307,6 +295,8 @@ def arguments(given):
         reader.error(str(error))
     base = os.path.splitext(os.path.basename(options.mesh))[0]
     options.output = options.output or base + ".h5"
+    if options.picture and options.no_picture:
+        reader.error("--picture: --no-picture draws none: remove one of both")
     options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
     if not options.picture.lower().endswith(".png"):
         reader.error(f"--picture: {short(options.picture)}: use a name that ends in .png")
@@ -389,7 +379,9 @@ def carry_out(options, given):
     if not options.no_picture:
         need_replaceable(options.picture)
     command = shlex.join([PROGRAM, *given])
-    found = model.computed(options.mesh, options.settings, command, Progress(sys.stderr))
+    start = time.monotonic()
+    say = lambda text: to_stderr(f"  {time.monotonic() - start:.0f} s: {text}")  # noqa: E731
+    found = model.computed(options.mesh, options.settings, command, say, SECONDS)
     body = found.bodies[0]
     for text in body.remarks:
         if text.startswith("warning: "):

@@ -22,6 +22,7 @@ import numpy as np
 from ..core import words
 from ..core.errors import Error, short, there_are
 from ..core.files import need_replaceable, same
+from ..core.progress import Progress
 from ..lives import evaluation, materials, spectrum, strength
 from ..lives.stresses import Cycle
 from ..plot import saving
@@ -29,6 +30,7 @@ from ..results.stresses import Stresses
 from .line import Parser, add_choice, guarded, joined, quietly, word
 from .plot_arguments import NAMES, POINT, numbers
 
+SECONDS = 5.0  # between two lines of progress, most lives take less
 ROWS = 10  # number of printed rows of the line
 CRITERIA = tuple(evaluation.CRITERIA)
 MOST = f"{strength.MOST:.0e}".replace("+", "")
@@ -105,6 +107,8 @@ def arguments(given):
         parser.error(f"--counts: {len(options.files)} files need as many numbers above 0")
     if options.labels and len(options.labels.split(",")) != len(options.files):
         parser.error(f"--labels: {len(options.files)} files need as many names")
+    if options.output and options.no_picture:
+        parser.error("--output: --no-picture draws none: remove one of both")
     base = os.path.splitext(os.path.basename(options.files[0]))[0]
     options.output = options.output or base + "_depth.png"
     if not options.output.lower().endswith((".png", ".pdf", ".svg")):
@@ -193,7 +197,7 @@ def carry_out(options):
     constants = {**(materials.named(options.material) if options.material else {}), **dict(options.constant)}
     found = spectrum.lives(
         _cycles(options), constants, counts=options.counts, criteria=options.criteria, plane=options.plane,
-        below=options.at or options.hot, quantities=options.quantity,
+        below=options.at or options.hot, quantities=options.quantity, report=Progress("part", every=SECONDS),
     )  # fmt: skip
     for name in found.values:
         _report(found, name, len(found.cycles) > 1 or options.counts != [1.0])

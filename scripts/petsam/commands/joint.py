@@ -43,16 +43,16 @@ from ..contact import AdviceWarning
 from ..core import materials, words
 from ..core.errors import Unusable, short
 from ..core.files import need_regular, need_replaceable
+from ..core.progress import Progress, to_stderr
 from ..joint.backbone import backbone
-from ..joint.balance import forced
+from ..joint.balance import forced, need_steps
 from ..joint.band import band
 from ..joint.interfaces import interface
-from ..joint.pair import Pair
+from ..joint.pair import Pair, contents
 from ..joint.structure import ENDS
 from ..joint.sweep import BackboneWarning
 from ..joint.wear import rising, wear
 from ..plot.saving import DPI, write
-from ..study.progress import clock
 from .line import Parser, add_resolution, guarded, joined, word
 
 BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest
@@ -211,6 +211,8 @@ def _run():
     _need(reader, args)
     if args.dpi != DPI and not args.output:
         raise Unusable("--dpi: is for the picture, which --output writes; give both or none")
+    if args.area is not None and not args.output:
+        raise Unusable("--area: is for NAME.json, which --output writes; give both or none")
     return ACTIONS[args.action][2](args)
 
 
@@ -234,8 +236,8 @@ def _stiffness(args):
     if args.hardness:
         options["pressure_limit"] = args.hardness
     with _recorded(AdviceWarning) as found:
-        left = lambda seconds: _tell(f"about {clock(seconds)} left")  # noqa: E731
-        result = interface(args.file, args.pressure, report=_teller("window"), estimate=left, **options)
+        windows = _progress("window")
+        result = interface(args.file, args.pressure, report=windows, estimate=windows.estimate, **options)
     _print(result, found)
     if args.output:
         result.to_csv(args.output + ".csv")
@@ -246,13 +248,12 @@ def _stiffness(args):
     return 0
 
 
-def _tell(text):
-    print(text, file=sys.stderr, flush=True)
+def _progress(what):
+    """The Progress of units that begin now."""
+    return Progress(what, _tell)
 
 
-def _teller(what):
-    """What tells the progress of work in parts."""
-    return lambda k, count: _tell(f"{what} {k} of {count}")
+_tell = to_stderr
 
 
 @contextlib.contextmanager
@@ -281,14 +282,23 @@ def _sensor(text, pair, option="--sensor"):
     return pair.sensors[name][:, "xyz".index(direction)]
 
 
-def _checked_preload(args):
-    """{bolt: N} of --preload; ends with an error where a file is missing, or could not be written."""
+def _judged(args):
+    """{bolt: N} of --preload; ends with an error, before anything is computed, where a file is missing or could not be
+    written, and where the options do not fit the pair."""
     for ending in (".csv", ".png", "-contact.png") if args.output else ():
         need_replaceable(args.output + ending)
     need_regular(args.contact)
     preload = dict(args.preload or [])
     if len(preload) < len(args.preload or []):
         raise Unusable("--preload: a bolt is given twice; give each once, in the order of tightening")
+    pair = contents(args.file, preload)
+    for option, place in (("--sensor", args.sensor), ("--force", args.force and args.force[0])):
+        if place:
+            _sensor(place, pair, option)
+    if (args.mode or 1) > pair.omega.size:
+        raise Unusable(f"mode {args.mode}: the structure has modes 1 to {pair.omega.size}")
+    if args.harmonics:
+        need_steps(args.steps, args.harmonics)
     return preload
 
 
@@ -310,15 +320,16 @@ def _write(args, result, picture):
 
 
 def _backbone(args):
-    preload = _checked_preload(args)
+    preload = _judged(args)
     given = dict(mode=args.mode, steps=args.steps, harmonics=args.harmonics)
 
-    def compute(lower, amplitudes, **more):
+    def compute(lower, amplitudes):
         pair = _pair(args, preload, lower=lower)
-        return pair, backbone(pair.structure, amplitudes, sensor=_sensor(args.sensor, pair), **given, **more)
+        given.update(sensor=_sensor(args.sensor, pair), report=_progress("amplitude"))
+        return pair, backbone(pair.structure, amplitudes, **given)
 
     with _recorded(BackboneWarning) as found:
-        pair, result = compute(0, args.amplitudes, report=_teller("amplitude"))
+        pair, result = compute(0, args.amplitudes)
     _tell_tensions(pair, preload)
     _print(result, found)
     if args.degree_check:
@@ -330,27 +341,27 @@ def _backbone(args):
 
 
 def _band(args):
-    preload = _checked_preload(args)
+    preload = _judged(args)
     given = dict(mode=args.mode, steps=args.steps, harmonics=args.harmonics)
     make = lambda preload, **changes: _pair(args, preload, **changes)  # noqa: E731
     with _recorded(BackboneWarning) as found:
         sensor = lambda pair: _sensor(args.sensor, pair)  # noqa: E731
         spread = dict(args.scatter or [])
-        result = band(make, preload, args.amplitudes, sensor, spread, lambda name: _tell(f"assembly: {name}"), **given)
+        result = band(make, preload, args.amplitudes, sensor, spread, _progress("assembly"), **given)
     _print(result, found)
     _write(args, result, plot.band)
     return 0
 
 
 def _wear(args):
-    preload = _checked_preload(args)
     if len(args.amplitudes) != 1:
         raise Unusable(f"--amplitudes: petsam-joint wear needs one amplitude, not {len(args.amplitudes)}")
+    preload = _judged(args)
     pair = _pair(args, preload)
     sensor = _sensor(args.sensor, pair)
     tension = lambda structure: {f"{name} [N]": left for name, left in pair.left(structure).items()}  # noqa: E731
     with _recorded(BackboneWarning) as found:
-        given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension)
+        given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension, report=_progress("vibration"))
         result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)
     _print(result, found)
     _write(args, result, plot.joint_wear)
@@ -368,13 +379,13 @@ def _check_frequencies(given, structure):
 
 
 def _response(args):
-    preload = _checked_preload(args)
+    preload = _judged(args)
     place, amplitude = args.force
     pair = _pair(args, preload)
     driven = _sensor(place, pair, "--force")
     sensor = _sensor(args.sensor, pair) if args.sensor else driven
     _check_frequencies(args.frequencies, pair.structure)
-    given = dict(steps=args.steps, harmonics=args.harmonics, report=_teller("frequency"))
+    given = dict(steps=args.steps, harmonics=args.harmonics, report=_progress("frequency"))
     with _recorded(BackboneWarning) as found:
         result = forced(pair.structure, amplitude * driven, args.frequencies, sensor, **given)
     _tell_tensions(pair, preload)

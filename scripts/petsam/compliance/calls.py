@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Mapping
 
 from ..core.errors import Unusable
+from ..core.progress import quiet
 from . import model
 from .result import Compliance
 from .settings import settings
@@ -13,7 +14,7 @@ from .settings import settings
 
 def of_deck(
     deck: str | os.PathLike, patch: float | tuple, contact: str, supports: object = (),
-    progress: Callable = model.quiet, **more: object,
+    progress: Callable = quiet, **more: object,
 ) -> Compliance:  # fmt: skip
     """The compliance of a body, or of a pair joined by bolts, from a deck of CalculiX or Abaqus (.inp).
 
@@ -29,7 +30,7 @@ def of_deck(
     supports : str, tuple or list of them
         Node set that is held in x, y and z, or several: names or boxes.
     progress : callable
-        Called with a text that says what is being computed.
+        Called with a text on what is being computed, and how far: print, for example.
     **more
         The other fields of settings.Settings: units="mm", frame=((0, 0, 0), (1, 0, 0)), centers=[(0, 0)], degree=6,
         symmetry=set, cases={name: step}, coarse=deck, method="auto", stiffness="own", depth=m, stress=True; of a pair
@@ -84,6 +85,6 @@ def of_mesh(
     Error
         As of of_deck().
     """
-    contact, progress = more.pop("contact", None), more.pop("progress", model.quiet)
+    contact, progress = more.pop("contact", None), more.pop("progress", quiet)
     given = settings(contact, patch, supports, materials=(young, poisson, density), **more)
     return model.computed(mesh, given, "petsam.compliance.of_mesh()", progress)

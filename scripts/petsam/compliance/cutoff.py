@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.errors import Error
+from ..core.progress import Progress, quiet
 from .remainder import Remainder, Side, scatter
 
 ORDER = 4  # Gauss points along the side of an element
@@ -126,7 +127,7 @@ def too_coarse(mesh, cutoff):
     return worst
 
 
-def solved(mesh, fields, solver, cutoff, progress=lambda text: None):
+def solved(mesh, fields, solver, cutoff, progress=None):
     """The Remainder of a body."""
     columns = fields.columns
     force = np.zeros((3 * len(mesh.nodes), columns))
@@ -138,12 +139,14 @@ def solved(mesh, fields, solver, cutoff, progress=lambda text: None):
         local, weight = block.shape.rule(ORDER)
         chosen, stride = np.flatnonzero(near), max(1, POINTS // len(weight))
         work += [(index, local, weight, chosen[i : i + stride]) for i in range(0, len(chosen), stride)]
-    for done, (index, local, weight, elements) in enumerate(work):
-        progress(f"half-space fields in {done} of {len(work)} groups of elements")
+    progress = progress or Progress("group", quiet)
+    progress.begin("half-space fields", "half-space fields in {} of {} groups of elements")
+    for done, (index, local, weight, elements) in enumerate(work, 1):
         nodal, energy = _element_forces(mesh.volume(index, local, weight, elements), fields, cutoff)
         scatter(force, mesh.blocks[index].nodes[elements], nodal)
         compliance -= energy
-    progress(f"{columns} solutions")
+        progress(done, len(work))
+    progress.begin(f"{columns} solutions")
     w = solver(force, np.zeros((len(solver.held), columns)))
     compliance += w.T @ force
     return Remainder([Side(mesh, fields)], compliance, w, solver.reaction(w, force), cutoff)

@@ -21,6 +21,7 @@ by the half-space's equilibrium and that of w_j, where <phi_i, w> is that of w o
 
 import numpy as np
 
+from ..core.progress import Progress, quiet
 from .mesh import some
 from .remainder import Remainder, half_space, scatter
 
@@ -57,14 +58,15 @@ def pieces(faces):
         yield some(faces, mask)
 
 
-def solved(sides, solver, supported, progress=lambda text: None, tie=None):
+def solved(sides, solver, supported, progress=None, tie=None):
     """Returns the Remainder of the bodies on some Sides; supported: supported nodes; tie: stiffness of the bolts."""
     columns = sides[0].fields.columns
     force, support = (np.zeros((3 * len(sides[0].mesh.nodes), columns)) for _ in range(2))
     compliance = np.zeros((columns, columns))
     groups = [(side, *group) for side in sides for group in other_faces(side.mesh, side.fields.patch, supported)]
     total = sum(len(faces.elements) for _, faces, _ in groups)
-    done = 0
+    done, progress = 0, progress or Progress("face", quiet)
+    progress.begin("half-space fields", "half-space fields on {} of {} faces")
     for side, faces, fixed in groups:
         for piece in pieces(faces):
             u, traction, nodal = _on_faces(side, piece)
@@ -75,7 +77,7 @@ def solved(sides, solver, supported, progress=lambda text: None, tie=None):
                 compliance -= u.T @ traction
                 scatter(force, piece.nodes, -nodal)
             done += len(piece.elements)
-            progress(f"half-space fields on {done} of {total} faces")
+            progress(done, total)
     if tie is not None:
         nodes = np.unique(tie.indices // 3)
         rows = (3 * nodes[:, None] + np.arange(3)).ravel()
@@ -83,7 +85,7 @@ def solved(sides, solver, supported, progress=lambda text: None, tie=None):
         pull = tie[rows][:, rows] @ u
         force[rows] -= pull
         compliance -= u.T @ pull
-    progress(f"{columns} solutions")
+    progress.begin(f"{columns} solutions")
     prescribed = -half_space(sides, supported).reshape(-1, columns)
     w = solver(force, prescribed)
     reaction = solver.reaction(w, force)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..core.errors import Error, short
+from ..core.progress import Progress, quiet
 from . import bolts, boxes, checks, cutoff, deck, foreign, images, modes, parts, several, stresses
 from . import cases as load_cases
 from .basis import Patch
@@ -250,12 +251,12 @@ def remainder(model, method, plane, progress):
     else:
         chi, more = _cutoff(model, plane, (young, sides[0].fields.poisson))
         remarks += more
-    progress("stiffness")
+    progress.begin("stiffness")
     matrix = stiffness(mesh, model.settings.stiffness, model.settings.ccx)
     tie = sum(one.matrix for one in model.bolts) if model.bolts else None
     fixed = np.zeros((len(mesh.nodes), 3), dtype=bool)
     fixed[supported] = True
-    progress("factorization")
+    progress.begin("factorization")
     whole = matrix if tie is None else matrix + tie
     if model.settings.free:
         solver = Floating(whole, mesh.nodes, modes.mass(mesh))
@@ -269,24 +270,28 @@ def remainder(model, method, plane, progress):
     return cutoff.solved(mesh, sides[0].fields, solver, chi, progress), solver, remarks
 
 
-def _cases(model, solver, found):
-    """Load cases by name, each for each patch: those of the deck, and unit initial tension of each bolt."""
-    if not (model.settings.cases or model.bolts):
+def _loads(model):
+    """The Loads of all load cases by name: those of the deck, and unit initial tension of each bolt."""
+    named = {}
+    for name, step in model.settings.cases:
+        named[name] = load_cases.loads(model.deck, model.mesh, model.frame, model.units, step)
+    for one in model.bolts:
+        named[f"bolt_{one.name}"] = load_cases.Loads(model.deck, model.mesh, model.frame, model.units)
+        named[f"bolt_{one.name}"].force = one.closing.T.toarray()
+    for name, loads in named.items():
+        loads.name = name
+    return named
+
+
+def _cases(model, named, solver, found):
+    """Load cases by name, each for each patch, of the Loads by name."""
+    if not named:
         return {}
     jumps = [
         load_cases.Jump(model.parts, patch, [degree + GAUSS_MORE for degree in patch.largest])
         for patch in model.patches
     ]
-    cases = {}
-    for name, step in model.settings.cases:
-        loads = load_cases.loads(model.deck, model.mesh, model.frame, model.units, step)
-        loads.name = name
-        cases[name] = load_cases.cases(loads, solver, found, jumps)
-    for one in model.bolts:
-        loads = load_cases.Loads(model.deck, model.mesh, model.frame, model.units)
-        loads.name, loads.force = f"bolt_{one.name}", one.closing.T.toarray()
-        cases[loads.name] = load_cases.cases(loads, solver, found, jumps)
-    return cases
+    return {name: load_cases.cases(loads, solver, found, jumps) for name, loads in named.items()}
 
 
 def _stress(model, found, cases):
@@ -302,12 +307,10 @@ def _stress(model, found, cases):
     return where, stresses.remaining(where, found), single
 
 
-def quiet(_text):
-    """Reports nothing of the progress."""
-
-
-def computed(source, settings, command="", progress=quiet):
-    """The Compliance of a deck or a mesh (Model); command: what made it, for the file."""
+def computed(source, settings, command="", say=quiet, every=0.0):
+    """The Compliance of a deck or a mesh (Model); command: what made it, for the file; say: called with the lines of
+    Progress, at most one in `every` seconds."""
+    progress = Progress("part", say, every)
     model = Model(source, settings)
     plane = model.need_places()
     if settings.modes:
@@ -315,15 +318,16 @@ def computed(source, settings, command="", progress=quiet):
     other = (
         Model(settings.coarse, settings) if settings.coarse is not None else None
     )  # to find its mistakes before the work
+    loads = _loads(model)
     method, reason = choose(model, plane)
     found, solver, remarks = remainder(model, method, plane, progress)
     if reason:
         remarks.insert(0, f"method cutoff: {reason}")
     bodies = _bodies(model, found, method, command)
     bodies[0].remarks = remarks
-    _add_cases(bodies, model, solver, found, progress)
+    _add_cases(bodies, model, loads, (solver, found), progress)
     if settings.stress and not settings.pair:
-        progress("stresses")
+        progress.begin("stresses")
         bodies[0].stress = _stress(model, found, bodies[0].cases)
     if other:
         compliance = remainder(other, method, plane, progress)[0].compliance
@@ -357,13 +361,14 @@ def _bodies(model, found, method, command):
     return bodies
 
 
-def _add_cases(bodies, model, solver, found, progress):
-    """Adds load cases and modes to the Bodies of the patches."""
+def _add_cases(bodies, model, loads, solution, progress):
+    """Adds load cases and modes to the Bodies of the patches; the solution is a solver and what it has found."""
+    solver, found = solution
     shapes = None
     if model.settings.modes:
-        progress(f"{model.settings.modes} modes")
+        progress.begin(f"{model.settings.modes} modes")
         shapes = modes.found(model, solver, model.settings.modes, model.sensors)
-    named = _cases(model, solver, found)
+    named = _cases(model, loads, solver, found)
     for k, body in enumerate(bodies):
         body.cases = {name: cases[k] for name, cases in named.items()}
         if shapes:

@@ -1,5 +1,6 @@
 """The one table of units: those that petsam takes after a number (declared.py), and the spellings of instruments."""
 
+import math
 import re
 
 from .declared import FOLLOWING
@@ -16,6 +17,9 @@ OTHERS = {
     "m2": {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6, "um2": 1e-12},
     "kg/m3": {"kg/m3": 1.0, "g/cm3": 1e3, "t/mm3": 1e12},
     "degrees": {"degrees": 1.0, "deg": 1.0},
+    "rad": {"deg": math.pi / 180.0, "degrees": math.pi / 180.0},
+    "rad/s": {"rad/s": 1.0, "rpm": math.pi / 30.0, "1/min": math.pi / 30.0},
+    "kg": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
     "Pa m^1/2": {
         "Pa m^1/2": 1.0,
         "MPa m^1/2": 1e6,
@@ -54,7 +58,7 @@ def size(name, unit="m"):
 
 def quantity(name):
     """The unit of SI of the quantity that a unit is of; "" of an empty name, None of one that is not known."""
-    known = dict.fromkeys(["m", *(si for si, _ in FOLLOWING.values()), *OTHERS])
+    known = dict.fromkeys(["m", *OTHERS, *(si for si, _ in FOLLOWING.values())])  # degrees before rad
     return next((unit for unit in known if size(name, unit)), None) if name.strip() else ""
 
 

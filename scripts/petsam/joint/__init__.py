@@ -6,6 +6,7 @@ backbone    frequency and damping of a mode over its amplitude (backbone.py)
 band        the same over the histories of assembly, and their scatter (band.py)
 wear        what wear does to them over the cycles of a vibration (wear.py)
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
+damper      under the platforms of turbine blades, pressed by its centrifugal force (damper.py)
 adapters    contacts in other programs of harmonic balance: tmdsimpy, pyHarm (adapters/)
 """
 
@@ -13,6 +14,7 @@ from . import adapters
 from .backbone import Backbone, backbone, shake
 from .balance import Response, forced
 from .band import Band, band
+from .damper import Damper, damper
 from .interfaces import Interface, interface, mirrored, of_interface, of_windows
 from .pair import Pair
 from .structure import NoSolution, Patch, Structure
@@ -20,6 +22,7 @@ from .sweep import BackboneWarning
 from .wear import Wear, wear
 
 __all__ = [
-    "Backbone", "BackboneWarning", "Band", "Interface", "NoSolution", "Pair", "Patch", "Response", "Structure", "Wear",
-    "adapters", "backbone", "band", "forced", "interface", "mirrored", "of_interface", "of_windows", "shake", "wear",
+    "Backbone", "BackboneWarning", "Band", "Damper", "Interface", "NoSolution", "Pair", "Patch", "Response",
+    "Structure", "Wear", "adapters", "backbone", "band", "damper", "forced", "interface", "mirrored", "of_interface",
+    "of_windows", "shake", "wear",
 ]  # fmt: skip

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..core import arrays
+from ..core import arrays, materials, words
 from ..core.errors import Unusable, short
 
 
@@ -39,6 +39,16 @@ def array(name, values, what="numbers"):
         return arrays.real(values)
     except (TypeError, ValueError):
         raise Unusable(f"{name}: expected {what}, not {short(repr(values))}") from None
+
+
+def moduli(bodies):
+    """Options of bodies with the moduli of named materials, and Young's moduli of texts as numbers, Pa."""
+    found = materials.resolved(bodies)
+    for name in ("body1_young", "body2_young"):
+        if isinstance(found.get(name), str):
+            form = "Young's modulus, such as 210GPa"
+            found[name] = words.number(found[name], form, "Pa", lambda young: young > 0.0)
+    return found
 
 
 def modal(name, values, count):

@@ -169,7 +169,7 @@ def backbone(
         0: quasi-static modal analysis; else the number of harmonics that are balanced: the resonance under a force
         along the mode, with the inertia of all modes and harmonics. The amplitudes are then those found.
     report : callable, optional
-        Called with the number of the amplitude and of all of them.
+        Called with the number of amplitudes that are done, and of all.
 
     Returns
     -------

@@ -37,13 +37,18 @@ MOST = 25  # cycles in which it is found
 PER_HARMONIC = 4  # least load steps of a period of the highest harmonic
 
 
+def need_steps(steps, harmonics):
+    """Error for numbers of steps of a half cycle and of harmonics that do not go together."""
+    harmonics, steps = integer("harmonics", harmonics), integer("steps", steps)
+    if 2 * steps < PER_HARMONIC * harmonics:
+        raise Unusable(f"steps {steps}: with {harmonics} harmonics use {PER_HARMONIC * harmonics // 2} or more")
+
+
 class Balance(Sweep):
     """Motions with H harmonics about the preload of a structure."""
 
     def __init__(self, structure, mode=1, steps=STEPS, harmonics=3):
-        harmonics, steps = integer("harmonics", harmonics), integer("steps", steps)
-        if 2 * steps < PER_HARMONIC * harmonics:
-            raise Unusable(f"steps {steps}: with {harmonics} harmonics use {PER_HARMONIC * harmonics // 2} or more")
+        need_steps(steps, harmonics)
         super().__init__(structure, mode, steps)
         self.order = np.arange(1, harmonics + 1)[:, None]
         self.mode, self.least = mode - 1, 2
@@ -313,7 +318,7 @@ def forced(
     harmonics : int
         Number of harmonics that are balanced.
     report : callable, optional
-        Called with the number of the frequency and of all of them.
+        Called with the number of frequencies that are done, and of all.
 
     Returns
     -------

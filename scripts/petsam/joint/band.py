@@ -5,6 +5,7 @@ backbones of several assemblies at the same modal forces. To first order, each p
 the change that it makes, by the difference of two backbones.
 """
 
+import itertools
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -141,7 +142,7 @@ class Band(Tabled):
 
 def band(
     make: Callable[..., Pair], preload: dict, amplitudes: ArrayLike, sensor: Callable[[Pair], ArrayLike],
-    scatter: Optional[dict] = None, report: Optional[Callable[[str], object]] = None, **given: Any,
+    scatter: Optional[dict] = None, report: Optional[Callable[[int, int, str], object]] = None, **given: Any,
 ) -> Band:  # fmt: skip
     """The Band of a joint.
 
@@ -159,7 +160,7 @@ def band(
     scatter : dict, optional
         {"friction": relative standard deviation, "preload": that of all bolts together}.
     report : callable, optional
-        Called with the name of each assembly.
+        Called with the number of assemblies that are done, and of all, and the name of the last one.
     **given
         The arguments mode, steps and harmonics of backbone().
 
@@ -173,10 +174,15 @@ def band(
         For wrong values, and where the structure finds no equilibrium.
     """
     reached = positive("amplitudes", amplitudes, "lengths above 0")
+    total, done = 3 + (len(preload) > 1) + 2 * len(scatter or {}), itertools.count(1)
 
     def one(name, preload=preload, shaken=False, **changes):
+        found = solve(name, preload, shaken, changes)
         if report:
-            report(name)
+            report(next(done), total, name)
+        return found
+
+    def solve(name, preload, shaken, changes):
         try:
             pair = make(preload, **changes)
             if shaken:

@@ -6,8 +6,6 @@ chi and beta, the weight of the last slider, are fitted to the energies of loops
 """
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
-from scipy.optimize import least_squares
 
 SMALLEST = 0.15  # shear over its limit from which loops are fitted: below it few cells slip
 LIMITS = ([-0.95, 0.0], [5.0, 50.0])  # of chi and beta
@@ -20,6 +18,8 @@ def masing(shear, slip):
     Masing's rule: the branches of a loop are the first loading, twice as large. It holds for elastically similar bodies
     under constant pressure and a shear along a line.
     """
+    from scipy.interpolate import PchipInterpolator  # which takes long to import
+
     return 4 * shear * slip - 8 * PchipInterpolator(shear, slip).antiderivative()(shear)
 
 
@@ -40,6 +40,8 @@ def fit_iwan(shear, displacement):
     displacement    displacements at these, over Fs/kt
     Compared are loops of these displacements, those of shears from SMALLEST on. NaN if fewer than four of them slip.
     """
+    from scipy.optimize import least_squares
+
     shear, displacement = (np.concatenate(([0.0], values)) for values in (shear, displacement))
     energy = masing(shear, np.maximum.accumulate(np.maximum(displacement - shear, 0.0)))
     use = (shear >= SMALLEST) & (energy > 0.0)

@@ -17,12 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..contact import AdviceWarning
-from ..core import materials, words
 from ..core.environment import cores as all_cores
 from ..core.errors import Unusable
 from ..core.tables import Column, Tabled
 from . import elements, processes, windows
-from .arguments import array, integer, positive, real
+from .arguments import array, integer, moduli, positive, real
 from .numbers import columns_of
 from .surfaces import need_fitting, read_separation
 from .windows import Loop, Window
@@ -626,10 +625,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
             raise Unusable("spacing: give the distance of the points of an array, m")
     if spacing is not None and own is not spacing:
         raise Unusable("spacing: the surface has its own: leave it out")
-    bodies, moduli = materials.resolved(bodies), {f"body{k}_young" for k in (1, 2)}
-    for name, value in bodies.items():
-        if name in moduli and isinstance(value, str):
-            bodies[name] = words.number(value, "Young's modulus, such as 210GPa", "Pa", lambda young: young > 0.0)
+    bodies = moduli(bodies)
     given = dict(friction=friction, shear=shear, **({} if steps is None else {"steps": steps}), **bodies)
     given.update(full=full, normal_only=normal_only, cores=cores, estimate=estimate)
     if periodic:

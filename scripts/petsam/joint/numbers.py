@@ -62,10 +62,9 @@ def reason(error):
 
 def solved(values, solve, place, report):
     """Yields (value, solve(value)) until a value has no solution: the first one raises NoSolution, a later one is
-    warned of. place(value) says in words where that is; report is called with the number of each value and of all."""
+    warned of. place(value) says in words where that is; report is called with the number of values done, and of
+    all."""
     for k, value in enumerate(values):
-        if report:
-            report(k + 1, len(values))
         try:
             found = solve(value)
         except ENDS as error:
@@ -73,4 +72,6 @@ def solved(values, solve, place, report):
                 raise NoSolution(f"at {place(value)}: {reason(error)}") from error
             warnings.warn(f"ended before {place(value)}: {reason(error)}", BackboneWarning, stacklevel=3)
             return
+        if report:
+            report(k + 1, len(values))
         yield value, found

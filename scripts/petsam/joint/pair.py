@@ -76,17 +76,7 @@ class Pair:
     ) -> None:
         press, lower = integer("press", press), integer("lower", lower, 0)
         friction_scale = real("friction_scale", friction_scale, "a factor from 0 on", lambda one: 0.0 <= one < np.inf)
-        need_regular(path)
-        self.path = path
-        try:
-            with opened(path) as file:
-                self._read(file)
-                grids = [dict(grid_size=2 * group["patch/half"][()], gap_type="flat") for group in patches_of(file)]
-                degrees = patches_of(file)[0]["basis/degree_xy"][()]
-                self.functions, self.degree = len(degrees), int(degrees.max())
-        except DAMAGED as error:
-            raise Error(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
-        self._check(preload)
+        grids = self._open(path, preload)
         # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
         # of each patch what is local: the structure has the motions as a whole
         contacts = [
@@ -101,6 +91,21 @@ class Pair:
         else:
             self._tighten(self.structure, preload, press, friction_scale)
         self.tensions = self.left()
+
+    def _open(self, path, preload):
+        """Reads the file and judges the preload; the options of each patch's grid."""
+        need_regular(path)
+        self.path = path
+        try:
+            with opened(path) as file:
+                self._read(file)
+                grids = [dict(grid_size=2 * group["patch/half"][()], gap_type="flat") for group in patches_of(file)]
+                degrees = patches_of(file)[0]["basis/degree_xy"][()]
+                self.functions, self.degree = len(degrees), int(degrees.max())
+        except DAMAGED as error:
+            raise Error(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
+        self._check(preload)
+        return grids
 
     def _structure(self, contacts, by_load, damping):
         modes = [f"body2_case_mode{k + 1}" for k in range(self.omega.size)]
@@ -200,6 +205,28 @@ class Pair:
         given = np.array([patches[0].held.get(f"body2_case_bolt_{name}", 0.0) for name in self.bolts])
         loads = [sum(patch.number(f"body2_case_bolt_{name}_load") for patch in patches) for name in self.bolts]
         return dict(zip(self.bolts, given - self.stiffness * (self.closing @ given + loads)))
+
+
+def contents(path: Union[str, os.PathLike], preload: Mapping[str, float]) -> Pair:
+    """A Pair without its structure: bolts, sensors and modes of its file, whose preload has been judged.
+
+    Parameters
+    ----------
+    path, preload
+        As of Pair.
+
+    Returns
+    -------
+    Pair
+
+    Raises
+    ------
+    Error
+        For a file that is no such pair, and a preload that is not of its bolts.
+    """
+    found = Pair.__new__(Pair)
+    found._open(path, preload)
+    return found
 
 
 def patches_of(file):

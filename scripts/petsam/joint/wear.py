@@ -6,6 +6,7 @@ the simulation the loads of the patches and the motions of the bodies stay; half
 costs. The cycles until each part's vibration has settled wear too, beside those that are counted.
 """
 
+import itertools
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -86,9 +87,10 @@ class Wear(Numbers):
         return [Column(name, unit or "1", "measured after the cycles", values) for name, unit, values in heads]
 
 
-def wear(
+def wear(  # noqa: PLR0913  (as the options of petsam-joint wear)
     structure: Structure, amplitude: float, cycles: ArrayLike, mode: int = 1, sensor: Optional[ArrayLike] = None,
     steps: int = STEPS, measure: Optional[Callable[[Structure], dict]] = None,
+    report: Optional[Callable[[int, int], object]] = None,
 ) -> Wear:  # fmt: skip
     """The Wear of a structure in its preload, whose contacts have the options of wear.
 
@@ -109,6 +111,8 @@ def wear(
     measure : callable, optional
         Returns, as measure(structure), {name: number} of a structure at rest, such as Pair.left; a name may have its
         unit: B1 [N].
+    report : callable, optional
+        Called with the number of vibrations that are computed, and of all.
 
     Returns
     -------
@@ -131,7 +135,10 @@ def wear(
     measure = measure or (lambda _: {})
     modal = float(modal_amplitudes(first, [amplitude], sensor)[0])
     alpha = first.omega**2 * modal
-    given = alpha, cycles, (mode, steps), measure
+    spans = np.diff(cycles, prepend=0.0)
+    total, done = sum(1 + sum(len(_parts(span, count)) for span in spans) for count in (PARTS, 1)), itertools.count(1)
+    ended = (lambda: report(next(done), total)) if report else (lambda: None)
+    given = alpha, cycles, (mode, steps), (measure, ended)
     rows, measured, structures = _run(structure.copy(), *given, PARTS)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # those of the run with all parts
@@ -161,17 +168,21 @@ def _parts(span, count):
     return [one for one in np.diff(np.floor(span * np.linspace(0.0, 1.0, count + 1))) if one > 0.0]
 
 
-def _run(structure, alpha, cycles, how, measure, parts):
-    """Numbers, what was measured and structures at 0 and all `cycles`, each span of which has so many parts."""
+def _run(structure, alpha, cycles, how, told, parts):
+    """Numbers, what was measured and structures at 0 and all `cycles`, each span of which has so many parts. told are
+    what measures a structure, and what is called after each vibration."""
+    measure, ended = told
     points, volumes, measured, structures = [], [0.0], [], []
 
     def vibrating():
         sweep = Sweep(structure, *how)
         try:
-            return sweep, sweep.under(alpha)
+            point = sweep.under(alpha)
         except ENDS as error:
             done = np.append(0.0, cycles)[len(points)]
             raise NoSolution(f"the vibration after {done:g} cycles or more: {reason(error)}") from error
+        ended()
+        return sweep, point
 
     for span in (*np.diff(cycles, prepend=0.0), None):
         structures.append(structure.copy())

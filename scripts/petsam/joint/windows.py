@@ -19,7 +19,6 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
-from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from ..closed.materials import shear_modulus
 from ..contact import AdviceWarning, Contact
@@ -153,6 +152,8 @@ def normal_curve(window: Window, told: Callable[[float, float], object]) -> Foun
 
 def by_formula(window: Window, told: Callable[[float, float], object]) -> Found:
     """All numbers by the formula: no step has a shear."""
+    from scipy.interpolate import CubicSpline, PchipInterpolator
+
     loop, parts = window.loop, window.loop.parts()
     rows, approach, ratio = [], {}, {}
     with _noted() as (found, begins), window.contact() as contact:

@@ -108,13 +108,39 @@ def has_data(cycle: Cycle, name: str, angle: float = 0.0) -> bool:
     return cycle.steps > 1 and all(one in cycle for one in terms(angle))
 
 
-def _values(cycle, name, constants, angle, scale=1.0):
-    """Lives (cycles) or safety factors at all points, (z, y, x), of stresses that are so many times as large."""
+def known(cycle: Cycle, name: str, constants: Mapping[str, float], angle: float = 0.0) -> list[float]:
+    """The constants of a criterion, which are given, and for which a cycle has the data.
+
+    Parameters
+    ----------
+    cycle : stresses.Cycle
+        The cycle, which may have constants, too.
+    name : str
+        One of CRITERIA.
+    constants : mapping
+        {name: number} of the material, SI units.
+    angle : float
+        Angle of the normal of planes normal to the surface to x, degrees.
+
+    Returns
+    -------
+    list of float
+        In the order of CRITERIA.
+
+    Raises
+    ------
+    Error
+        If data or a constant are missing.
+    """
     if not has_data(cycle, name, angle):
         wanted = "several steps with -quantities stress" if name in OF_STRESS else f"-fatigue {name}"
         raise Error(f"{cycle.path}: {name}: the data are missing; give petsam-stress {wanted}")
-    known = {**cycle.constants, **constants}
-    found = need(known, CRITERIA[name][1], f"{cycle.path}: {name}")
+    return need({**cycle.constants, **constants}, CRITERIA[name][1], f"{cycle.path}: {name}")
+
+
+def _values(cycle, name, constants, angle, scale=1.0):
+    """Lives (cycles) or safety factors at all points, (z, y, x), of stresses that are so many times as large."""
+    found = known(cycle, name, constants, angle)
     if name == "basquin":
         return strength.basquin(*(scale * one for one in cycle.extremes(angle)), *found, constants.get("ultimate"))
     if name in LIVES:
@@ -180,6 +206,28 @@ def least(cycle: Cycle, values: np.ndarray) -> Place:
     return Place(*(float(value) for value in (values[k, j, i], cycle.x[i], cycle.y[j], cycle.z[k])))
 
 
+def need_same_points(cycles: Sequence[Cycle]) -> None:
+    """Checks that cycles are those of the same points.
+
+    Parameters
+    ----------
+    cycles : list of stresses.Cycle
+        The cycles.
+
+    Raises
+    ------
+    Error
+        If one has other points than the first.
+    """
+    first = cycles[0]
+    for one in cycles[1:]:
+        for mine, its in ((first.x, one.x), (first.y, one.y), (first.z, one.z)):
+            if mine.shape != its.shape or not np.allclose(mine, its, rtol=1e-9, atol=1e-12):
+                raise Error(
+                    f"{one.path}: has other points than {first.path}; give all blocks the same depths and section"
+                )
+
+
 def lives(cycles: Sequence[Cycle], name: str, constants: Mapping[str, float], angle: float = 0.0) -> list[np.ndarray]:
     """Lives, or safety factors, of every cycle at all points.
 
@@ -204,13 +252,7 @@ def lives(cycles: Sequence[Cycle], name: str, constants: Mapping[str, float], an
     Error
         If data or a constant are missing, or the cycles have other points.
     """
-    first = cycles[0]
-    for one in cycles[1:]:
-        for mine, its in ((first.x, one.x), (first.y, one.y), (first.z, one.z)):
-            if mine.shape != its.shape or not np.allclose(mine, its, rtol=1e-9, atol=1e-12):
-                raise Error(
-                    f"{one.path}: has other points than {first.path}; give all blocks the same depths and section"
-                )
+    need_same_points(cycles)
     return [_values(one, name, constants, angle) for one in cycles]
 
 

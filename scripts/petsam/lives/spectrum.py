@@ -1,7 +1,8 @@
 """Lives of a spectrum in one call: lives() takes files or stresses and constants, and returns Lives."""
 
+import itertools
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Optional, Union
 
@@ -72,7 +73,7 @@ class Lives(Tabled):
         return evaluation.columns(self.lines)
 
 
-def lives(
+def lives(  # noqa: PLR0913  (as the options of petsam-fatigue)
     sources: Union[File, Iterable[File]],
     constants: Union[str, os.PathLike, Mapping[str, object], None] = None,
     *,
@@ -81,6 +82,7 @@ def lives(
     plane: float = 0.0,
     below: Union[str, tuple[float, float], None] = None,
     quantities: Names = None,
+    report: Optional[Callable[[int, int], object]] = None,
 ) -> Lives:
     """Lives, safety factors and short cracks of one cycle, or of a spectrum of several.
 
@@ -103,6 +105,8 @@ def lives(
         first criterion or parameter.
     quantities : str or list of str, optional
         Names of quantities on the line, maxima of the cycle; None: the fatigue parameters.
+    report : callable, optional
+        Called with the number of parts of the work that are done, and of all: a criterion, or a line.
 
     Returns
     -------
@@ -121,13 +125,17 @@ def lives(
     if len(counts) != len(cycles) or not all(0.0 < one < np.inf for one in counts):
         raise Error(f"counts: {len(cycles)} files need as many numbers above 0")
     names = list(criteria or evaluation.possible(cycles[0], constants, plane))
-    values = {name: evaluation.lives(cycles, name, constants, plane) for name in names if name != "crack"}
+    on_line = quantities or [name for name in FATIGUE[:MOST] if name in cycles[0]] or ["mises"]
+    _judge(cycles, names, on_line, constants, plane)
+    row, column, place = _place(cycles[0], below, names)
+    ended, values = _counter(report, len(names) - ("crack" in names) + len(cycles)), {}
+    for name in (one for one in names if one != "crack"):
+        values[name] = evaluation.lives(cycles, name, constants, plane)
+        ended()
     least = {
         name: [evaluation.least(cycle, one) for cycle, one in zip(cycles, found)] for name, found in values.items()
     }
     bounds = {name: [evaluation.bounds(cycle, name, constants, plane) for cycle in cycles] for name in values}
-    row, column, place = _place(cycles[0], below, names)
-    on_line = quantities or [name for name in FATIGUE[:MOST] if name in cycles[0]] or ["mises"]
     lines, cracks = [], []
     for k, cycle in enumerate(cycles):
         computed = {f"{_word(name)}_{name}": ("1", found[k]) for name, found in values.items()}
@@ -137,8 +145,28 @@ def lives(
             line.columns.update(found)
             cracks.append(lengths)
         lines.append((cycle.label, line))
+        ended()
     damage = _damage(cycles[0], values, counts)
     return Lives(cycles, constants, values, least, bounds, damage, cracks, lines, place)
+
+
+def _judge(cycles, names, quantities, constants, plane):
+    """Error, before anything is computed, where cycles have other points, or lack quantities, or data or constants of
+    a criterion."""
+    if set(names) - {"crack"}:
+        evaluation.need_same_points(cycles)
+    for cycle in cycles:
+        for name in quantities:
+            cycle.need(name)
+        for name in names:
+            if name != "crack":
+                evaluation.known(cycle, name, constants, plane)
+
+
+def _counter(report, total):
+    """What is called after each of so many parts of the work."""
+    done = itertools.count(1)
+    return (lambda: report(next(done), total)) if report else (lambda: None)
 
 
 def _cycles(sources):

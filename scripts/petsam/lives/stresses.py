@@ -114,10 +114,25 @@ class Cycle:
         names = self.file.file if self.file else self.source
         return [name for name in names if name in self and name != "history" and "_normal_" not in name]
 
-    def _part(self, name, rows=slice(None), columns=slice(None)):
-        """Values (steps, z, y, x) of a quantity, step by step; of a parameter one."""
+    def need(self, name: str) -> None:
+        """Checks that the cycle has a quantity.
+
+        Parameters
+        ----------
+        name : str
+            Name of a quantity or a parameter.
+
+        Raises
+        ------
+        Error
+            If it has no such quantity.
+        """
         if name not in self:
             raise Error(f"{self.path}: has no {short(name)} (petsam-stress){there_are(name, self.names, 'it has')}")
+
+    def _part(self, name, rows=slice(None), columns=slice(None)):
+        """Values (steps, z, y, x) of a quantity, step by step; of a parameter one."""
+        self.need(name)
         for step in range(1 if name in FATIGUE else self.steps):
             if self.file:
                 yield self.file.field(name, step, rows=rows, columns=columns)

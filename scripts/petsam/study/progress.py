@@ -4,7 +4,9 @@ import os
 import sys
 import time
 
+from ..core import progress
 from ..core.errors import counted
+from ..core.progress import clock
 from .runs import LOG, MEANINGS, STOPPED, record
 
 
@@ -16,23 +18,17 @@ def standing(directory, case):
     return "not run" if code == "" else "interrupted" if code is None else f"exit {code}"
 
 
-def clock(seconds):
-    """h:mm:ss, or m:ss."""
-    minutes, rest = divmod(int(round(seconds)), 60)
-    return f"{minutes}:{rest:02d}" if minutes < 60 else "{}:{:02d}:{:02d}".format(*divmod(minutes, 60), rest)
-
-
-class Progress:
+class Progress(progress.Progress):
     """A line for each case that ends, and on a terminal a line of progress."""
 
     def __init__(self, total, quiet):
-        self.total, self.quiet, self.start = total, quiet, time.monotonic()
+        super().__init__("case")
+        self.total, self.quiet = total, quiet
         self.done = self.failed = 0
         self.live, self.shown = sys.stdout.isatty() and not quiet, 0.0
 
     def _left(self):
-        elapsed = time.monotonic() - self.start
-        return clock(elapsed / self.done * (self.total - self.done)) if self.done else "?"
+        return clock(self.left(self.done, self.total)) if self.done else "?"
 
     def report(self, case, code):
         """A case has ended, or (None) is being run by another study."""
