@@ -186,7 +186,7 @@ def test_friction_that_changes_is_a_table(fit, tmp_path):
     loops = series_of(np.random.default_rng(11), truth)
     write(tmp_path / "lab.csv", loops, "Displacement (um);Friction force (N)", "{:.2f};{:.3f}", drift=4.0, offset=12.0)
     said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test", "--no-picture")
-    assert "friction changes with the cycles, 0.40" in said and "gross slip" in said and "rig stiffness 20" in said
+    assert "friction changes with the cycles, " in said and "gross slip" in said and "rig stiffness 20" in said
     found = json.loads((tmp_path / "test.json").read_text())
     assert found["state"] == "changes" and found["identifiable"] and len(found["cycles"]) == 12
     assert [one["friction"] for one in found["cycles"]] == pytest.approx(truth, rel=0.01)
@@ -246,7 +246,7 @@ def test_noise_of_the_displacement_bends_no_loop(tmp_path):
     for seed in range(4):
         chance = np.random.default_rng(seed)
         write(tmp_path / "lab.csv", [twin(chance, 0.95, None, 2e7, noise=0.03) for _ in range(10)])
-        one = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+        one = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH], loss=0.0)
         found.append((one.friction - MU) / one.friction_sd)
     assert np.abs(found).max() < 2.5 and np.abs(np.mean(found)) < 1.3
 
@@ -261,6 +261,54 @@ def test_spikes_are_left_out(tmp_path):
     found = calibration.analyse([cycles], [PUSH])
     assert "points far from both neighbours" in cycles.notes[0] and len(cycles.loops) == 5
     assert abs(found.friction - MU) < 3 * found.friction_sd < 0.003
+
+
+def test_a_loss_of_the_rig_is_in_the_band(tmp_path):
+    """Of half a percent that nobody states: assumed to be none, it would make friction 15 % too small."""
+    for seed, part, stroke in ((1, 0.6, None), (2, 0.8, None), (3, None, 1.8), (4, None, 1.3)):
+        chance = np.random.default_rng(seed)
+        write(tmp_path / "lab.csv", [twin(chance, part, stroke, 3e7, 0.003, loss=0.005) for _ in range(6)])
+        files = [calibration.cycles(calibration.read("lab.csv"), N)]
+        found, without = calibration.analyse(files, [PUSH]), calibration.analyse(files, [PUSH], loss=0.0)
+        assert found.identifiable and abs(found.friction - MU) < 2.5 * found.friction_sd, (part, stroke)
+        assert abs(without.friction - MU) > 4 * without.friction_sd, (part, stroke)
+
+
+def test_noise_alone_turns_no_loop(tmp_path):
+    """The course is that of all cycles: of noisy small loops one or the other has a clockwise area."""
+    loops = [twin(np.random.default_rng(seed), 0.6, None, 2e7, 0.05) for seed in range(10)]
+    signed = [
+        np.sum(one.displacement * np.roll(one.force, -1) - np.roll(one.displacement, -1) * one.force) for one in loops
+    ]
+    assert max(signed) > 0.0 > sum(signed)
+    write(tmp_path / "lab.csv", loops)
+    cycles = calibration.cycles(calibration.read("lab.csv"), N)
+    assert not cycles.turned and calibration.analyse([cycles], [PUSH]).state != "rejected"
+
+
+def test_a_rig_beside_a_weakly_known_friction_has_its_range(tmp_path):
+    """Its stiffness moves with the friction within the range of that, farther than the slopes at the best one tell."""
+    for seed in range(8):
+        loop = twin(np.random.default_rng(seed), 0.5, None, 2e7)
+        found = model.fit([loop], PUSH)
+        assert abs(found.compliance - 5e-8) < 2.5 * found.compliance_sd < 2e-9, seed
+
+
+def test_a_friction_that_grows_within_cycles_has_that_in_its_bands(tmp_path):
+    frictions = np.linspace(0.40, 0.72, 17)
+    loops = []
+    for one, after in zip(frictions[:-1], frictions[1:]):
+        rise, fall = (twin(np.random.default_rng(7), None, 1.8, 2e7, mu=mu) for mu in (0.7 * one + 0.3 * after, after))
+        force = np.where(rise.rising, rise.force, fall.force)
+        loops.append(model.Loop(rise.displacement, force, rise.rising, N))
+    write(tmp_path / "lab.csv", loops)
+    found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+    if found.state == "changes":
+        for k, one in enumerate(found.each):
+            assert frictions[k] - one.friction_sd < one.friction < frictions[k + 1] + one.friction_sd
+            assert one.friction_sd > 0.9 * (frictions[1] - frictions[0]) / np.sqrt(12.0)
+    else:
+        assert found.state == "rejected"
 
 
 def test_small_clockwise_loops_have_no_number(tmp_path):

@@ -7,8 +7,9 @@ beyond D_g = mu f(N) + c mu N it slides at mu N. With this backbone Q = F(D) a c
     falling  Q = Q0 + Qa - 2 F((Dmax - D)/2)    rising  Q = Q0 - Qa + 2 F((D - Dmin)/2)    Qa = F((Dmax - Dmin)/2)
 
 also in gross slip. A guide beside the contact adds k_p (D - Dmid), the lean; a loss of the rig a thin ellipse of force,
-a part of Qa high. Dmax and Dmin are found, not read off, since the largest of noisy points is too large. Residuals are
-those of Q at the measured D, weighted by the noise of Q and, times the slope, of D.
+a part of Qa high, negative of a force that lags behind the displacement. Dmax and Dmin are found, not read off, since
+the largest of noisy points is too large. Residuals are those of Q at the measured D, weighted by the noise of Q and,
+times the slope, of D.
 
 Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr. Appl. Mech. (1926) 332.
 """
@@ -28,6 +29,7 @@ STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from o
 PASSES = 3  # of a fit, each with the weights of the one before
 LEAST, MOST = 1e-4, 30.0  # coefficients of friction
 FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
+LOSS = 0.05  # the most loss of a rig, or lag of its force, that is looked for: beyond it would be a loop of its own
 CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold
 MISFIT = 1.2  # and root mean square of the residuals, in units of the noise, below which it does not matter
 LARGE = 3.0  # root mean square of the residuals, in units of the noise, beyond which the model does not hold
@@ -203,8 +205,8 @@ class _Problem:
         return np.array([*(shared[name] for name in self.free), *own])
 
     def bounds(self):
-        lowest = dict(friction=LEAST, compliance=0.0, lean=-np.inf, loss=0.0, scale=0.05)
-        highest = dict(friction=MOST, loss=0.5)
+        lowest = dict(friction=LEAST, compliance=0.0, lean=-np.inf, loss=-LOSS, scale=0.05)
+        highest = dict(friction=MOST, loss=LOSS)
         count = 3 * len(self.loops)
         return (
             np.array([*(lowest[name] for name in self.free), *[-np.inf] * count]),
@@ -222,7 +224,7 @@ class _Problem:
         own = friction * np.interp(min(q / friction, push.normal), push.force, push.displacement)
         steep = self._steep(loop) - push.displacement[1] / push.force[1]
         compliance = max(steep if sliding > 0.99 else (d - own) / q, 1e-3 * d / q)
-        values = dict(friction=friction, compliance=compliance, lean=0.0, loss=0.002, scale=1.0)
+        values = dict(friction=friction, compliance=compliance, lean=0.0, loss=0.0, scale=1.0)
         found = [values[name] for name in self.free]
         for one in self.loops:
             found += [
@@ -307,7 +309,8 @@ def _neighbours(problem, residuals):
 
 
 def _profile(problem, best, variance):
-    """The range of the friction, 95 %: where the sum of squares, all else free, grows by 4 times the variance."""
+    """The range of the friction, 95 %: where the sum of squares, all else free, grows by 4 times the variance; and how
+    far the other shared parameters are within it from the best ones."""
     limit = 2.0 * best.cost + 4.0 * variance
     friction = best.x[0]
     free = [name for name in problem.free if name != "friction"]
@@ -317,7 +320,7 @@ def _profile(problem, best, variance):
         found = one.solve([start, one.start(min(0.999, problem.least() / value))])
         return 2.0 * found.cost, found.x
 
-    ends = []
+    ends, others = [], [best.x[1:]]
     for factor in (0.8, 1.25):
         inside, start, value = friction, best.x[1:], friction
         while True:
@@ -332,9 +335,12 @@ def _profile(problem, best, variance):
                     now, start = cost(middle, start)
                     inside, value = (inside, middle) if now > limit else (middle, value)
                 ends.append(float(np.sqrt(inside * value)))
+                others.append(start)
                 break
             inside = value
-    return tuple(ends)
+            others.append(start)
+    far = np.max(np.abs(np.array(others) - best.x[1:]), axis=0)
+    return tuple(ends), dict(zip(free, far[: len(free)]))
 
 
 def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), profile: bool = True, **fixed) -> Fit:
@@ -385,7 +391,8 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
     if neighbours > CORRELATED and square > MISFIT**2 or square > LARGE**2:
         state = "rejected"
     elif not friction_sd <= DOUBTFUL * friction:
-        ends = _profile(problem, best, variance) if profile else (problem.least(), np.inf)
+        ends, far = _profile(problem, best, variance) if profile else ((problem.least(), np.inf), {})
+        sd |= {name: max(sd[name], 0.5 * distance) for name, distance in far.items()}
         if np.isinf(ends[1]):
             state, at_least = "not identifiable", max(ends[0], problem.least() * 0.999)
         else:

@@ -83,7 +83,7 @@ def _friction_line(found):
             f"friction: not identifiable from these loops; at least {found.friction_at_least:.3g} (95 %): take larger "
             "strokes, best one loop in gross slip at the end of the test"
         )
-    given = "" if found.fit.gross else ", if the rig has no lean and no loss but those given"
+    given = "" if found.fit.gross else ", if the rig has no lean and the contact is that of the shape"
     text = f"friction {found.friction:.4f} +- {found.friction_sd:.2g}{given}"
     if found.state == "weak":
         text = f"friction {found.friction:.3g}, weakly known: {low:.3g} to {high:.3g} (95 %)"

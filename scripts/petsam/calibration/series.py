@@ -115,24 +115,41 @@ def cycles(record: Record, normal: float, which: slice = slice(None)) -> Cycles:
     parts = [slice(a, b) for a, b in zip(cuts[:-1], cuts[1:])]
     line, drift = _drift(filled, parts)
     d = d - line
-    loops, numbers, turned = [], [], 0
+    loops, numbers = [], []
     for k, part in enumerate(parts):
         if not np.all(known[part]) or part.stop - part.start < FEWEST:
             continue
-        loop, is_turned = _closed(d[part], q[part], int(np.argmax(smooth[part])), normal, ~spikes[part])
-        turned += is_turned
-        loops.append(loop)
+        loops.append(_closed(d[part], q[part], int(np.argmax(smooth[part])), normal, ~spikes[part]))
         numbers.append(k + 1 if record.cycle is None else float(np.nanmedian(record.cycle[part])))
     if len(loops) < len(parts):
         notes.append(f"{counted(len(parts) - len(loops), 'cycle')} with lost or too few points left out")
+    loops, turned = _turned(loops)
     if turned:
         notes.append(
-            f"{counted(turned, 'loop')} clockwise, as if work were gained: taken as recorded backwards; a force that "
-            "lags behind the displacement makes small loops so, too"
+            f"{counted(len(loops), 'loop')} clockwise, as if work were gained: taken as recorded backwards; a force "
+            "that lags behind the displacement makes small loops so, too"
         )
     if not loops[which]:
         raise Error(f"{record.path}: no whole cycle is left of {len(parts)}")
-    return Cycles(record.path, loops[which], np.array(numbers)[which], drift, notes, bool(turned))
+    return Cycles(record.path, loops[which], np.array(numbers)[which], drift, notes, turned)
+
+
+def _turned(loops):
+    """The loops in the order of time, by the sign of the sum of their areas, since noise may turn that of a small one,
+    and whether they were clockwise, as if work were gained."""
+    if (
+        sum(
+            np.sum(one.displacement * np.roll(one.force, -1) - np.roll(one.displacement, -1) * one.force)
+            for one in loops
+        )
+        <= 0.0
+    ):
+        return loops, False
+    back = slice(None, None, -1)
+    return [
+        replace(one, displacement=one.displacement[back], force=one.force[back], rising=~one.rising[back])
+        for one in loops
+    ], True
 
 
 def _cuts(path, smooth, period):
@@ -188,17 +205,13 @@ def _harmonic(d, good):
 
 
 def _closed(d, q, top, normal, good):
-    """A loop from the good points of a cycle whose largest displacement is at `top`, and whether its course was
-    turned."""
+    """A loop from the good points of a cycle whose largest displacement is at `top`."""
     noise_q = noise_of(q[good])
     d, noise_d, left = _harmonic(d, good)
-    rising, turned = np.arange(len(d)) < top, False
+    rising = np.arange(len(d)) < top
     turns = np.array([0, top, len(d)])
     away = good & (np.abs(np.arange(len(d))[:, None] - turns).min(axis=1) >= max(1, round(TURN * len(d))))
-    d, q, rising = d[away], q[away], rising[away]
-    if np.sum(d * np.roll(q, -1) - np.roll(d, -1) * q) > 0.0:  # clockwise: work would be gained
-        d, q, rising, turned = d[::-1], q[::-1], ~rising[::-1], True
-    return Loop(d, q, rising, normal, (noise_d, noise_q, left)), turned
+    return Loop(d[away], q[away], rising[away], normal, (noise_d, noise_q, left))
 
 
 @dataclass(frozen=True)
@@ -286,7 +299,8 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     pushes : sequence of Push
         That of each file.
     free : sequence of str
-        Parameters that are found, too: "lean", "loss".
+        Parameters that are found, too: "lean". The loss of the rig is found unless it is given: one of half a
+        percent makes more of a difference than noise does, and no residual shows it.
     **fixed
         Values that are given: compliance (m/N), lean, loss.
 
@@ -294,18 +308,14 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     -------
     Result
     """
-    together = _fit_all(files, pushes, _together, free, fixed)
-    if together.state == "rejected":  # cycles on each other differ by more than their noise
-        together = _fit_all(files, pushes, _spread, free, fixed)
-    if any(one.turned for one in files) and not (together.gross and together.identifiable):
-        together = replace(together, state="rejected", friction=np.nan, friction_sd=np.nan, friction_at_least=np.nan)
+    together, free = _fit_together(files, pushes, free, fixed)
     each, notes = [], [note for one in files for note in one.notes]
     if sum(len(one.loops) for one in files) > 1:
         each = [
             fit([loop], push, free, profile=False, **fixed) for one, push in zip(files, pushes) for loop in one.loops
         ]
     numbers = np.concatenate([one.numbers for one in files]).astype(float)
-    loss = together.more.get("loss", (fixed.get("loss", 0.0),))[0]
+    loss = together.more["loss"][0] if "loss" in together.more and together.identifiable else fixed.get("loss", 0.0)
     energy = np.array([_contact_energy(loop, loss) for one in files for loop in one.loops])
     state, found = together.state, (together.friction, together.friction_sd)
     known = [one for one in each if one.identifiable]
@@ -313,7 +323,7 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
         mean, deviation, scatter = _mean(each)
         if scatter > (SCATTER if together.gross else SCATTER_PARTIAL):
             state, found = "changes", (mean, deviation)
-            together = replace(together, state=state)
+            together, each = replace(together, state=state), _within(each)
         elif state != "rejected":
             state, found = "known" if deviation <= 0.2 * mean else together.state, (mean, deviation)
     identifiable = state in ("known", "weak", "changes")
@@ -327,10 +337,32 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     )  # fmt: skip
 
 
+def _fit_together(files, pushes, free, fixed):
+    """The fit of all files together, and what was free in it besides friction and compliance."""
+    free = tuple(dict.fromkeys((*free, *({"loss"} - set(fixed)))))
+    together = _fit_best(files, pushes, free, fixed)
+    if any(one.turned for one in files) and not (together.gross and together.identifiable):
+        together = replace(together, state="rejected", friction=np.nan, friction_sd=np.nan, friction_at_least=np.nan)
+    return together, free
+
+
+def _fit_best(files, pushes, free, fixed):
+    """The fit of cycles on each other as one loop, if they are so alike that it holds, else of some of them."""
+    found = _fit_all(files, pushes, _together, free, fixed)
+    return found if found.state != "rejected" else _fit_all(files, pushes, _spread, free, fixed)
+
+
 def _fit_all(files, pushes, choose, free, fixed):
     """The fit of chosen loops of all files together."""
     chosen = [(loop, push) for one, push in zip(files, pushes) for loop in choose(one.loops)]
     return fit([loop for loop, _ in chosen], [push for _, push in chosen], free, **fixed)
+
+
+def _within(each):
+    """The fits of cycles with a friction that changes, whose deviations include its change within a cycle: at which
+    instant of it the friction is the one found is not known."""
+    changes = np.gradient([one.friction for one in each]) / np.sqrt(12.0)
+    return [replace(one, friction_sd=float(np.hypot(one.friction_sd, change))) for one, change in zip(each, changes)]
 
 
 def _rig(each, together, state):
