@@ -271,7 +271,17 @@ def test_a_loss_of_the_rig_is_in_the_band(tmp_path):
         files = [calibration.cycles(calibration.read("lab.csv"), N)]
         found, without = calibration.analyse(files, [PUSH]), calibration.analyse(files, [PUSH], loss=0.0)
         assert found.identifiable and abs(found.friction - MU) < 2.5 * found.friction_sd, (part, stroke)
-        assert abs(without.friction - MU) > 4 * without.friction_sd, (part, stroke)
+        wrong = without.state == "rejected" or abs(without.friction - MU) > 4 * without.friction_sd
+        assert wrong, (part, stroke)
+
+
+def test_a_lean_that_a_loss_hides_is_rejected(tmp_path):
+    chance = np.random.default_rng(3)
+    write(tmp_path / "lab.csv", [twin(chance, None, 1.8, 3e7, 0.003, lean=3e5) for _ in range(6)])
+    files = [calibration.cycles(calibration.read("lab.csv"), N)]
+    found, leaning = calibration.analyse(files, [PUSH]), calibration.analyse(files, [PUSH], ("lean",))
+    assert found.state == "rejected" and np.isnan(found.friction)
+    assert abs(leaning.friction - MU) < 3 * leaning.friction_sd
 
 
 def test_noise_alone_turns_no_loop(tmp_path):

@@ -22,6 +22,7 @@ TOGETHER = 3  # cycles of each file that are fitted together, where their amplit
 ALIKE = 2.0  # of the noise: the standard deviation of the ranges of cycles that are alike; noise makes it about 1
 MOST = 6000  # points of cycles that are fitted as one loop
 TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
+LEANS = 5.0  # standard deviations of a lean in gross slip beyond which loops without one are not the model's
 FEWEST = 12  # points of a cycle
 
 
@@ -341,6 +342,10 @@ def _fit_together(files, pushes, free, fixed):
     """The fit of all files together, and what was free in it besides friction and compliance."""
     free = tuple(dict.fromkeys((*free, *({"loss"} - set(fixed)))))
     together = _fit_best(files, pushes, free, fixed)
+    if together.gross and together.identifiable and "lean" not in (*free, *fixed):
+        lean, deviation = _fit_best(files, pushes, (*free, "lean"), fixed).more["lean"]
+        if abs(lean) > LEANS * deviation:  # which a loss may hide from the residuals
+            together = replace(together, state="rejected", friction=np.nan, compliance=np.nan, compliance_sd=np.nan)
     if any(one.turned for one in files) and not (together.gross and together.identifiable):
         together = replace(together, state="rejected", friction=np.nan, friction_sd=np.nan, friction_at_least=np.nan)
     return together, free
