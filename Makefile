@@ -71,10 +71,11 @@ all: $(PROGRAMS:%=$(B)/bin/%) $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so $(EXAMI
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 18
 
+# the list of headers names the object by $(B), which may be given relative or absolute for the same folder
 $(B)/obj/%.o: %.c
 	@mkdir -p $(@D)
 	$(say) CC $<
-	$(Q)$(CC) $(ALL_CFLAGS) -c $< -o $@
+	$(Q)$(CC) $(ALL_CFLAGS) -MT '$$(B)/obj/$*.o' -c $< -o $@
 
 # the text of -help
 $(PROGRAMS:%=$(B)/obj/src/front/app/%.o): $(B)/obj/src/front/app/%.o: $(B)/help/%.h

@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 """Writes from the programs' -help the tables of options in examples/manual/OPTIONS.md, INDEX.md, their index, and
-scripts/petsam/core/declared.py, units of options and the options that name files.
+scripts/petsam/core/declared.py, units of options, the options that name files, and the table of materials.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
-A table stands between <!-- petsam: GROUP --> and <!-- end -->, GROUP being a heading of -help; all else in the file is
-written by hand. Fails when a group has no table in the file, or a table no group; --check writes nothing, and fails
-when the file is not what would be written.
+A table stands between <!-- petsam: GROUP --> and <!-- end -->, GROUP being a heading of -help, that of materials
+between <!-- materials --> and <!-- end -->; all else in the file is written by hand. Fails when a group has no
+table in the file, or a table no group; --check writes nothing, and fails when the file is not what would be written.
 """
 
 import argparse
 import re
 import sys
+import textwrap
 from pathlib import Path
 
 from options import groups_of, read_help
@@ -21,6 +22,15 @@ REFERENCE = ROOT / "examples" / "manual" / "OPTIONS.md"
 INDEX = ROOT / "examples" / "manual" / "INDEX.md"
 DECLARED = ROOT / "scripts" / "petsam" / "core" / "declared.py"
 PROGRAMS = ["petsam", "petsam-stress"]
+MATERIALS = re.compile(r"<!-- materials -->\n.*?<!-- end -->", re.S)
+# columns of the manual: constant, heading, size of its unit
+COLUMNS = (
+    ("young", "E/GPa", 1e9), ("poisson", "nu", 1.0), ("density", "density/(kg/m3)", 1.0),
+    ("conductivity", "conductivity/(W/(m K))", 1.0), ("specific_heat", "specific heat/(J/(kg K))", 1.0),
+    ("expansion", "expansion/(1e-6/K)", 1e-6), ("yield", "yield/MPa", 1e6),
+)  # fmt: skip
+ONE_LINE = 109  # characters of a text that stands in one line of the module
+FATIGUE = (("sigma_f", "MPa", 1e6), ("b", "", 1.0), ("epsilon_f", "", 1.0), ("c", "", 1.0))
 TABLE = re.compile(r"<!-- (petsam[\w-]*): (.+?) -->\n.*?<!-- end -->", re.S)
 
 
@@ -56,6 +66,32 @@ def fill(text, groups):
     return text
 
 
+def constants_of(described):
+    """Yields each material of read_help() with its constants: {name: value or None}."""
+    names = [one["name"] for one in described["constants"]]
+    for material in described["materials"]:
+        yield material, dict(zip(names, material["values"]))
+
+
+def shown(value, size):
+    return "" if value is None else f"{value / size:.6g}"
+
+
+def materials(described):
+    """Returns the table of materials for the manual."""
+    heads = ["material", "other names", *(head for _, head, _ in COLUMNS), "fatigue", "source"]
+    lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
+    for material, found in constants_of(described):
+        fatigue = ", ".join(
+            f"{name} {shown(found[name], size)} {unit}".rstrip()
+            for name, unit, size in FATIGUE
+            if found[name] is not None
+        )
+        cells = [f"`{material['name']}`", material["aliases"], *(shown(found[name], size) for name, _, size in COLUMNS)]
+        lines.append("| " + " | ".join([*cells, fatigue, material["source"]]) + " |")
+    return "<!-- materials -->\n" + "\n".join(lines) + "\n<!-- end -->"
+
+
 def index(text, groups):
     """Returns the text of the index: every option with the heading above its table in the reference's text."""
     entries = []
@@ -73,8 +109,26 @@ def index(text, groups):
     ])  # fmt: skip
 
 
-def declared(units, groups):
-    """Returns the text of the module: the SI unit of every option, units that may follow a number, options of files."""
+def declared_materials(described):
+    """Returns the lines of the module for the table of materials."""
+    lines = ["# constants of materials: unit and meaning", "CONSTANTS = {"]
+    lines += [f'    "{one["name"]}": ("{one["unit"]}", "{one["text"]}"),' for one in described["constants"]]
+    lines += ["}", "# materials: other names, the constants in this order, None where the source has none, the source"]
+    lines += ["MATERIALS = {"]
+    for one in described["materials"]:
+        values = ", ".join("None" if value is None else repr(float(value)) for value in one["values"])
+        parts = [one["source"]]
+        if len(parts[0]) > ONE_LINE:
+            parts = textwrap.wrap(one["source"], 100, drop_whitespace=False)
+        lines += [f'    "{one["name"]}": (', f'        "{one["aliases"]}",', f"        ({values}),"]
+        lines += [f'        "{part}"' for part in parts[:-1]] + [f'        "{parts[-1]}",', "    ),"]
+    return [*lines, "}"]
+
+
+def declared(described, groups):
+    """Returns the text of the module: the SI unit of every option, units that may follow a number, options of files,
+    the table of materials."""
+    units = described["units"]
     of_options = {
         option.name[1:]: option.unit
         for options in groups.values()
@@ -98,7 +152,7 @@ def declared(units, groups):
     lines += [f'    "{name}": ("{unit}", {power}),' for name, (unit, power) in following.items()]
     lines += ["}", "# options of petsam that name files, which are read or written", "PATHS = ("]
     lines += [f'    "{name}",' for name in sorted(files)]
-    return "\n".join([*lines, ")", ""])
+    return "\n".join([*lines, ")", *declared_materials(described), ""])
 
 
 def main():
@@ -110,8 +164,8 @@ def main():
     for program in PROGRAMS:
         described = read_help(arguments.build / "bin" / program)
         groups.update({(program, group.name): group.options for group in groups_of(described)})
-    reference = fill(REFERENCE.read_text(), groups)
-    module = declared(described["units"], groups)
+    reference = MATERIALS.sub(lambda _: materials(described), fill(REFERENCE.read_text(), groups))
+    module = declared(described, groups)
     for file, new in (REFERENCE, reference), (INDEX, index(reference, groups)), (DECLARED, module):
         if not arguments.check:
             file.write_text(new)

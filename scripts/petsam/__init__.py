@@ -14,6 +14,7 @@ Element         a contact as a force element of a time integration or of a stati
 joint           contact stiffness and damping of rough interfaces per area; joints in a structure
 calibration     friction, rig stiffness, wear from measured loops: petsam-fit
 closed          closed-form solutions of contact mechanics
+materials       constants of materials by name
 lives           lives, safety factors, short cracks: petsam-fatigue
 loads           load histories from the contact forces of a structural analysis: petsam-loads
 plot            pictures by name, of files and of what the parts above have found: petsam-plot
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
         PrescribedError,
         WearWarning,
     )  # fmt: skip
+    from .core import materials
     from .joint.element import Element
     from .results import cycles
     from .results.file import Results
@@ -77,6 +79,7 @@ __all__ = [
     "WearWarning",
     "closed",
     "cycles",
+    "materials",
     "open",
     "run",
 ]
@@ -100,11 +103,16 @@ _HOMES = {
     "run": ".running",
 }
 
-_PARTS = ("calibration", "closed", "compliance", "joint", "lives", "loads", "plot", "results", "study", "surface")
+_PARTS = (
+    "calibration", "closed", "compliance", "joint", "lives", "loads", "materials", "plot", "results", "study",
+    "surface",
+)  # fmt: skip
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 
 
 def __getattr__(name):
+    if name == "materials":
+        return importlib.import_module(".core.materials", __name__)
     if name in _PARTS or name == "core":
         return importlib.import_module("." + name, __name__)
     if name in _OF_RESULTS:

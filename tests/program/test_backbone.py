@@ -152,6 +152,25 @@ def test_damping_converges_with_the_grid():
     assert errors[1][0].max() < 1e-5 and errors[1][1].max() < 1e-3 and errors[0][1].max() < 6e-3
 
 
+@pytest.mark.parametrize("n", [16, 24])
+def test_a_contact_slides_as_a_whole_beside_one_that_sticks(n):
+    """On a free body, with a soft joint between both: what slides has no stiffness of its own.
+    Friction and equilibrium give the loads."""
+    load, friction, rest, patches = 1000.0, 0.3, 70.0, []
+    bodies = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+    shape = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_size=2.6e-3)
+    for _ in range(2):
+        contact = petsam.Contact(grid_n=n, friction=friction, **bodies, **shape)
+        contact.try_step(load_n=load)
+        contact.commit()
+        patches.append(joint.Patch(contact, ["disp_x"], dict(load_n=load, disp_y=0.0, rot_x=0.0, rot_y=0.0, rot_z=0.0)))
+    moved = np.array([[0.9], [-0.1]])
+    one = joint.Structure(patches, coupling=1e-7 * np.array([[2.3, -1.6], [-1.6, 1.3]]), rigid=moved)
+    loads = np.array([-friction * load, rest])
+    one.step(-moved.T @ loads)
+    assert one.loads == pytest.approx(loads, rel=1e-6)
+
+
 def test_a_force_that_presses_the_bodies_stays():
     """The mass is pressed by a modal force of its own, and not by its contact."""
     contact, stiffness = sphere(LOAD)

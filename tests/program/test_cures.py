@@ -61,10 +61,11 @@ def test_no_closed_form_is_told_where_the_load_changes_while_shear_begins(petsam
     assert "closed form" in petsam(case, kept).stdout
 
 
-@pytest.mark.parametrize("hardens, advised", [(None, False), (20e9, True)])
-def test_strain_along_a_line_is_advised_no_grid(petsam, tmp_path, hardens, advised):
-    """The shear at the surface of a body that does not harden: its maximum grows with the number of cells."""
-    rows = history(tmp_path / "rows.csv", "time,load_n,load_tx", (1.0, 1e6, 0.0), (2.0, 1e6, 2e5))
+@pytest.mark.parametrize("hardens, shear, advised", [(None, 2e5, False), (4e9, 3e5, True), (20e9, 2e5, True)])
+def test_strain_along_a_line_is_advised_no_grid(petsam, tmp_path, hardens, shear, advised):
+    """The shear at the surface of a body that does not harden: its maximum grows with the number of cells. It does not
+    where the body hardens, also if the plastic strain is larger than the elastic one."""
+    rows = history(tmp_path / "rows.csv", "time,load_n,load_tx", (1.0, 1e6, 0.0), (2.0, 1e6, shear))
     case = dict(CYLINDER, **rows, grid_size=2.5e-3, grid_n=160, friction=0.5, body2_yield=4e8, steps=2)
     if hardens:
         case.update(body2_hardening="linear", body2_hardening_modulus=hardens)

@@ -124,8 +124,8 @@ def test_beginning_of_two_topics_is_refused(petsam):
         ("coupling", ["-coupling", "-coupling_rtol", "-coupling_max_it", "-coupling_monitor"]),
         (
             "body1",
-            ["-body1_young", "-body1_poisson"]
-            + [f"-body1_layer_{name}" for name in ("file", "young", "poisson", "thickness")]
+            ["-body1", "-body1_young", "-body1_poisson", "-body1_layer_file", "-body1_layers"]
+            + [f"-body1_layer_{name}" for name in ("young", "poisson", "thickness")]
             + ["-body1_initial_stress", "-body1_compliance", "-body1_surface_file", "-body1_surface_dataset"]
             + [f"-body1_{name}" for name in ("yield", "hardening", "hardening_modulus", "voce_stress", "voce_rate")]
             + [f"-body1_{name}" for name in ("swift_strain", "swift_exponent", "backstress")],

@@ -620,3 +620,54 @@ with petsam.Contact(**dict(case, grid_n=16)) as contact:
 """,
         tmp_path,
     )
+
+
+@pytest.mark.parametrize(
+    "inside, ask, answer",
+    [
+        ("_step", "contact.try_step(load_n=500.0)", "found.contact_area"),
+        ("_message", 'contact.stress(depths=1e-4, quantities="mises")', 'found["mises"].max()'),
+    ],
+    ids=["step", "stress"],
+)
+def test_a_second_thread_waits_for_the_answers_of_the_first(tmp_path, inside, ask, answer):
+    """It comes while the first one is between the call and its answers, and can only wait or disturb it."""
+    run_python(
+        BEGIN
+        + f"""
+import threading, warnings
+from petsam import contact as module
+warnings.simplefilter("ignore")
+class Told:  # the lock, which tells that a thread has to wait for it
+    def __init__(self, lock):
+        self.lock = lock
+    def __enter__(self):
+        if not self.lock.acquire(blocking=False):
+            waits.set()
+            told.set()
+            self.lock.acquire()
+    def __exit__(self, *_):
+        self.lock.release()
+told, waits = threading.Event(), threading.Event()
+module._lock = Told(module._lock)
+def disturb():
+    contact.try_step(load_n=900.0)
+    contact.stress(depths=1e-4, quantities="mises")
+    told.set()
+def halfway(*words):
+    del contact.{inside}
+    second.start()
+    assert told.wait(100)
+    return contact.{inside}(*words)
+with petsam.Contact(**dict(case, grid_n=16)) as contact:
+    contact.try_step(load_n=500.0)
+    found = {ask}
+    expected = {answer}
+    second = threading.Thread(target=disturb)
+    contact.{inside} = halfway
+    found = {ask}
+    second.join()
+    assert {answer} == expected and waits.is_set(), ({answer}, expected)
+""",
+        tmp_path,
+    )

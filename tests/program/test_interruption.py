@@ -92,11 +92,14 @@ def small_disk(folder):
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
-def test_full_disk_ends_the_run(launcher, small_disk, ranks):
-    code, steps, (warning, *complaint) = ended(start(launcher, small_disk, ranks))
+@pytest.mark.parametrize("n, least", [(None, 10), (160, 3)], ids=["small", "large"])
+def test_full_disk_ends_the_run(launcher, small_disk, ranks, n, least):
+    """Also where the fields of one step take more than is reserved for HDF5's metadata."""
+    options = dict(grid_n=n) if n else {}
+    code, steps, (warning, *complaint) = ended(start(launcher, small_disk, ranks, options))
     assert "warning: -output out/out.h5: needs about" in warning
     assert code == 3 and len(complaint) == 1 and "out/out.h5" in complaint[0] and "No space left" in complaint[0]
-    assert steps >= 10
+    assert steps >= least
     assert_intact(small_disk / "out" / "out.h5", steps)
 
 

@@ -380,7 +380,7 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
         (("scan.h5", "--pressure", "1MPa:2MPa"), "expected FIRST:LAST:COUNT"),
         (("scan.h5", "--pressure", "-1"), "-1: expected FIRST:LAST:COUNT, or pressures above 0"),
         (("scan.h5", "--pressure", "2MPa,1MPa"), "pressures that rise"),
-        (("scan.h5", "--pressure", "1MPa", "--body1", "stel"), "stel: expected steel"),
+        (("scan.h5", "--pressure", "1MPa", "--body1", "stel"), "stel is no material: is steel meant?"),
         (("scan.h5", "--pressure", "1MPa", "--shear", "1.5"), "shear 1.5"),
         (("scan.h5", "--pressure", "1MPa", "--area", "0"), "--area: 0: expected an area above 0"),
         (("scan.h5", "--pressure", "1MPa", "--steps", "0"), "--steps: 0: expected a whole number, 1 or more"),

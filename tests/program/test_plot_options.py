@@ -90,7 +90,7 @@ def test_options_of_stresses_and_studies_are_looked_at_too(kind, kinds, option, 
 
 
 def test_every_option_that_chooses_something_is_looked_at():
-    look = {"labels", "output", "format", "dpi", "spelling", "log"}  # log: by its words
+    look = {"labels", "output", "report", "format", "dpi", "spelling", "log"}  # log: by its words
     look |= {"csv", "width", "xlim", "ylim"}  # of every picture
     kinds = {name for name, value in vars(given()).items() if value is False} - {"whole_grid"}
     assert set(vars(given())) - look - kinds == {name for name in uses.NAMES if not name.startswith("log ")}

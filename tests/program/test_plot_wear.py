@@ -174,6 +174,18 @@ def test_what_cannot_be_drawn_of_wear_is_named(draw, path, words, message):
     assert code == 3 and error.startswith("petsam-plot: error: ") and message in error
 
 
+@pytest.mark.parametrize(
+    "words", [("--fretting-log", "--turns", "load_tx"), ("--maps", "--cycle", "0", "--period", "1")]
+)
+def test_the_cycles_of_a_life_are_not_chosen_anew(draw, path, plain, words):
+    """The file of a life says what its cycles are. Beside one that does not, an option is of use."""
+    kind, option = words[0], words[-2]
+    code, (error,) = draw(*words, path)
+    assert code == 2 and f"{option}: has no effect on the picture {kind[2:]}" in error
+    code, (error,) = draw(*words, path, plain)
+    assert code == 3 and str(plain) in error and "has no effect" not in error
+
+
 def test_a_scar_of_a_file_without_wear_is_refused(draw, plain):
     code, (error,) = draw("--scar", plain)
     assert code == 3 and "has no removed depth (petsam -wear_coefficient1" in error

@@ -76,7 +76,8 @@ def test_units_are_declared_once_for_scripts():
         "B": [Option("-b", "", "", None, []), Option("-line", "", "", None, [], "N m/m")],
     }
     units, module = {"N": {"N": 0, "kN": 3}, "N m/m": {"N": 0, "Nm/m": 0}}, {}
-    exec(reference.declared(units, {("petsam", group): one for group, one in options.items()}), module)
+    described = {"units": units, "constants": [], "materials": []}
+    exec(reference.declared(described, {("petsam", group): one for group, one in options.items()}), module)
     assert module["OPTIONS"] == {"a": "m", "line": "N m/m"}
     assert module["FOLLOWING"] == {"N": ("N", 0), "kN": ("N", 3), "Nm/m": ("N m/m", 0)}
 

@@ -284,6 +284,16 @@ def test_loads_along_x_and_y_are_alike(solve, tmp_path, other):
     assert np.all(along["yield_error"] < 1e-5) and along["plastic_max"][-1] > 1e-5
 
 
+def test_shear_that_follows_the_pressure_is_solved_with_its_own_displacement(solve, tmp_path):
+    """Bodies of which one yields, pressed: solves for the plastic strain begin with the last shear, scaled."""
+    case = sphere(
+        16, 8, body1_young=1, friction=0.3, **steps(tmp_path / "h.csv", load_n=[2 * LOAD, 4 * LOAD, 6 * LOAD])
+    )
+    run = all_steps(solve(case))
+    assert np.all(run["status"] == 0) and np.all(run["tangential_residual"] < 1e-6)
+    assert run["shear_max"][-1] > 5e-3 * run["pressure_max"][-1]
+
+
 FIELDS = ("pressure", "shear_x", "history/disp_z", "history/plastic_max", "history/plastic_work")
 
 

@@ -16,6 +16,9 @@
 PETSC_INTERN PetscErrorCode SamAdviceEstimateContact(const SamSetup *setup, PetscBool force, PetscReal value,
                                                      PetscReal half[2], PetscBool *known);
 
+/* SamAdviceRoundUp - rounds up to two digits. Not collective. */
+PETSC_INTERN double SamAdviceRoundUp(double x);
+
 /* SamExtent - the size of a contact. */
 typedef struct {
   PetscInt  zones;   /* number of zones of contact, connected by the sides of cells, as contact_spots; 0: no contact */

@@ -186,6 +186,31 @@ PETSC_INTERN void        SamAddUnit(const char text[], const char unit[], char w
 #define SAM_MOST_STRENGTH  1    /* largest plausible ratio for a stress that a material bears: all are far below */
 PETSC_INTERN void SamExplainStress(double stress, double young, double least, double most, char why[], size_t size);
 
+/* ---- materials by name (materials.c); none is collective ---- */
+#define SAM_MATERIAL_CONSTANTS 11 /* the first two are Young's modulus and Poisson's ratio */
+/* SamMaterialConstant - a constant of the table: its name, its unit ("1": none), what it is */
+typedef struct {
+  const char *name, *unit, *text;
+} SamMaterialConstant;
+/* SamNamedMaterial - a row of the table; other names are separated by commas and blanks */
+typedef struct {
+  const char *name, *aliases;
+  double      value[SAM_MATERIAL_CONSTANTS]; /* NAN: the source states none */
+  const char *source;
+} SamNamedMaterial;
+/*
+  SamMaterialAt, SamMaterialConstantAt - return the k-th row or constant of the table; NULL if there are no more.
+  SamMaterialFind - returns the material of a name, where case, blanks, hyphens and underscores do not count; NULL if
+  there is none.
+  SamMaterialList - writes the names of all, separated by `between`.
+  SamMaterialExplain - writes the fault of an unknown name, with the nearest one and with all.
+*/
+PETSC_EXTERN const SamNamedMaterial    *SamMaterialAt(PetscInt k);
+PETSC_EXTERN const SamMaterialConstant *SamMaterialConstantAt(PetscInt k);
+PETSC_EXTERN const SamNamedMaterial    *SamMaterialFind(const char name[]);
+PETSC_EXTERN void                       SamMaterialList(const char between[], char text[], size_t size);
+PETSC_EXTERN void                       SamMaterialExplain(const char name[], char text[], size_t size);
+
 /* ---- checksums ---- */
 
 /*

@@ -16,6 +16,7 @@ PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
   SamBodySubstrate - returns the last material; borrowed.
   SamBodySubstrateTop - returns the depth (m) at which it begins.
   SamBodyIsRigid - returns true if the whole body is rigid.
+  SamBodyNamed - returns what the options took from the table of materials, for a reader; empty: nothing. Borrowed.
   None is collective.
 */
 PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
@@ -25,6 +26,7 @@ PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
 PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
 PETSC_INTERN PetscReal          SamBodySubstrateTop(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
+PETSC_EXTERN const char        *SamBodyNamed(SamBody body);
 
 /*
   SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); at a jump, the
@@ -64,10 +66,11 @@ PETSC_INTERN PetscBool SamPairIsUniform(SamPair pair);
 PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
 
 /*
-  SamPairCreateFromOptions - creates a pair from -body1_young, -body1_poisson, -body1_layer_young, -body1_layer_poisson,
-  -body1_layer_thickness, -body1_layer_file, -body1_initial_stress, the same options of body 2, and -film_thickness and
-  -film_shear of the film. Collective. Errors: SAM_ERR_USER, where SamBodyCreate() and SamPairCreate() fail, and for an
-  option that is missing, or lists of different lengths.
+  SamPairCreateFromOptions - creates a pair from -body1, -body1_young, -body1_poisson, -body1_layers,
+  -body1_layer_young, -body1_layer_poisson, -body1_layer_thickness, -body1_layer_file, -body1_initial_stress, the same
+  options of body 2, and -film_thickness and -film_shear of the film. Collective. Errors: SAM_ERR_USER, where
+  SamBodyCreate() and SamPairCreate() fail, and for an option that is missing, a name that is no material, or lists of
+  different lengths.
   SamPairCheckInitialStress - fails if a stress before any load goes far deeper than the grid is wide (`width`, m): its
   depths have another unit. Collective. Errors: SAM_ERR_USER.
   SamPairAddParameters - appends the constants to the parameters of a run, under the names of these options. Not

@@ -13,6 +13,7 @@ struct _n_SamBody {
   SamMaterial material[SAM_MATERIALS];     /* the last thickness is infinite */
   PetscInt    rows;                        /* of the stress before any load; 0: there is none */
   PetscReal   initial[SAM_STRESS_ROWS][3]; /* depth (m), stress xx and yy (Pa), see initialstress.c */
+  char        named[512];                  /* SamBodyNamed() */
 };
 
 /*

@@ -102,4 +102,8 @@ PETSC_INTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscRe
 PETSC_INTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2],
                                                      PetscReal width[2], PetscReal center[2], SamGrid *grid);
 
+/* SamGridRoundUp - returns the smallest number of cells from n on whose only prime factors are 2, 3 and 5, which
+   transforms take well. Not collective. */
+PETSC_INTERN double SamGridRoundUp(double n);
+
 #endif

@@ -180,4 +180,29 @@ PETSC_EXTERN PetscBool      SamSimulationIsWriting(SamSimulation simulation);
 /* SamSimulationAbandon - removes temporary files before this process ends without the others. Not collective. */
 PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
 
+/*
+  SamAccuracy - what -accuracy asks for, and what was chosen.
+
+  SamAccuracyChoose - reads the options -accuracy, -accuracy_of and -grid into `accuracy`, all of whose members but
+  `tell` must be zero; chooses, by trials on coarse grids, the grid
+  and the steps where they are not given, and sets them as options, with -errors companion, for the simulation that
+  follows. Without -accuracy it only reads. `arguments`: see SamHistoryCreateFromOptions(). Collective. Errors:
+  SAM_ERR_USER, SAM_ERR_FILE.
+  SamAccuracyConcerns - returns true if it concerns the number of this name. Not collective (accuracy.c).
+*/
+#define SAM_ACCURACY_NAMES 512
+typedef struct {
+  PetscReal error;                       /* largest relative error of the numbers; 0: any */
+  char      numbers[SAM_ACCURACY_NAMES]; /* their names, separated by commas; empty: all that have an error */
+  char      grid[8];                     /* "auto" if -grid is given */
+  char      chosen[256];                 /* the chosen options; empty: none */
+  PetscInt  trials;
+  double    seconds; /* time that the trials took, s */
+  /* if not NULL, receives a line about each trial */
+  PetscErrorCode (*tell)(const char text[]);
+} SamAccuracy;
+PETSC_EXTERN PetscErrorCode SamAccuracyChoose(const SamOptions *from, const struct _n_SamArguments *arguments,
+                                              SamAccuracy *accuracy);
+PETSC_EXTERN PetscBool      SamAccuracyConcerns(const SamAccuracy *accuracy, const char name[]);
+
 #endif

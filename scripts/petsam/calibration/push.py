@@ -15,15 +15,16 @@ import numpy as np
 from ..closed.loop import first_loading
 from ..closed.materials import Bodies, effective_radius
 from ..closed.sphere import cattaneo_displacement, hertz
-from ..core import words
+from ..core import materials, words
 from ..core.errors import Error, Unusable, library, short
 from ..core.files import text_of
 
 STEPS = 48  # load steps of petsam's push
 FINE = 600  # points of the table, dense at the end, where the curve is flat
 BALL = {
-    "gap_type", "gap_radius1", "gap_radius2", "body1_young", "body1_poisson", "body2_young", "body2_poisson", "grid_n",
-    "grid_size", "grid_center", "elasticity", "friction", "load_n", "output", "output_fields", "steps",
+    "gap_type", "gap_radius1", "gap_radius2", "body1_young", "body1_poisson", "body2_young", "body2_poisson", "body1",
+    "body2", "grid_n", "grid_size", "grid_center", "elasticity", "friction", "load_n", "output", "output_fields",
+    "steps",
 }  # fmt: skip
 LOADS = ("load_", "disp_", "rot_", "creep_", "history", "steps", "friction", "wear_", "output", "checkpoint", "restart")
 
@@ -149,10 +150,13 @@ def of_shape(path, normal: float, width: Optional[float] = None) -> Push:
 
 def _ball_of(path, options, normal):
     """The push of a ball of these options."""
+    options = materials.resolved(options)
     try:
         units = dict(young="Pa", poisson="1")
         bodies = {
-            f"body{b}_{name}": words.number(options[f"body{b}_{name}"], "a number", unit, lambda value: value == value)
+            f"body{b}_{name}": words.number(
+                str(options[f"body{b}_{name}"]), "a number", unit, lambda value: value == value
+            )
             for b in (1, 2)
             for name, unit in units.items()
         }

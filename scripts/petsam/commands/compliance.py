@@ -14,8 +14,8 @@ load case is a step of the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, with
 beside it.
 
 Instead of a deck a file that the library meshio reads (of Gmsh, Abaqus, Nastran, Salome and others), with --young and
---poisson, and sets by their names, physical groups of Gmsh, too. Instead of a set or a surface a box gives its nodes or
-outer faces by coordinates: two corners in the mesh's units, 0,0,4:4,4,4, inf for no limit.
+--poisson or --material, and sets by their names, physical groups of Gmsh, too. Instead of a set or a surface a box
+gives its nodes or outer faces by coordinates: two corners in the mesh's units, 0,0,4:4,4,4, inf for no limit.
 
 With --pair the deck has both bodies, and bolts join them. The file is the compliance of both, for -body2_compliance:
 displacement of body 2 minus that of body 1. Unit initial tension of a bolt is the load case bolt_NAME, and a mode
@@ -46,7 +46,7 @@ from ..compliance.settings import (
     need_sense,
 )
 from ..compliance.units import UNITS
-from ..core import words
+from ..core import materials, words
 from ..core.errors import Error, Unusable, short
 from ..core.files import need_replaceable, same
 from ..core.hdf5 import need_own
@@ -109,6 +109,14 @@ def of_material(text, form, unit, allowed):
     return words.named(text, form, unit, allowed)
 
 
+def of_name(text):
+    """(set, material) of a material by its name; the set is empty for all elements."""
+    group, equal, name = text.rpartition("=")
+    if equal and not group:
+        raise words.WordError(text, "[SET=]NAME, such as steel")
+    return group, materials.find(name)
+
+
 class Progress:
     """Prints lines about parts of the work that take long."""
 
@@ -160,6 +168,10 @@ def _body_options(parser):
     ):
         reads = word(of_material, form, unit, allowed)
         body.add_argument(f"--{name}", type=reads, action="append", metavar="[SET=]VALUE", help=text)
+    body.add_argument(
+        "--material", type=word(of_name), action="append", metavar="[SET=]NAME",
+        help="the three of a material by its name, where they are not given: steel, Ti-6Al-4V, ... (petsam.materials)",
+    )  # fmt: skip
     body.add_argument(
         "--case", type=word(case), action="append", metavar="NAME=STEP", help="load case: a step of the deck"
     )
@@ -247,9 +259,17 @@ def _material(given, name):
     return dict(given).get("", dict(given))
 
 
+def _with_named(options, name):
+    """The values of an option for all elements or for sets, and those of the named materials where it has none."""
+    given = getattr(options, name)
+    have = dict(given or ())
+    named = [(group, getattr(one, name)) for group, one in options.material or () if group not in have]
+    return [*(given or ()), *named] or None
+
+
 def settings(options):
     """The Settings of the command line, which are checked."""
-    materials = tuple(_material(getattr(options, name), name) for name in ("young", "poisson", "density"))
+    of_body = tuple(_material(_with_named(options, name), name) for name in ("young", "poisson", "density"))
     found = Settings(
         contact=options.contact,
         patch=options.patch,
@@ -270,7 +290,7 @@ def settings(options):
         depth=options.depth,
         stress=options.stress,
         coarse=options.coarse_mesh,
-        materials=None if materials == (None, None, None) else materials,
+        materials=None if of_body == (None, None, None) else of_body,
         ccx=os.environ.get("CCX", "ccx"),
     )
     need_sense(found)

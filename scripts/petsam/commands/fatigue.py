@@ -63,7 +63,9 @@ def arguments(given):
         "files", nargs="+", metavar="FILE.h5", help="of petsam-stress; several are blocks of a spectrum"
     )
     what = parser.add_argument_group("what is computed")
-    what.add_argument("--material", metavar="NAME.yaml", help="constants of the material")
+    what.add_argument(
+        "--material", metavar="NAME.yaml", help="constants of the material: a file, or its name, as 7075-T6"
+    )
     what.add_argument(
         "--constant",
         type=word(_constant),
@@ -186,7 +188,7 @@ def _warn(cycles):
 
 def carry_out(options):
     """Compute, print and draw."""
-    constants = {**(materials.read(options.material) if options.material else {}), **dict(options.constant)}
+    constants = {**(materials.named(options.material) if options.material else {}), **dict(options.constant)}
     found = spectrum.lives(
         _cycles(options), constants, counts=options.counts, criteria=options.criteria, plane=options.plane,
         below=options.at or options.hot, quantities=options.quantity,

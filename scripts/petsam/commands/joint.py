@@ -40,7 +40,7 @@ import numpy as np
 
 from .. import plot
 from ..contact import AdviceWarning
-from ..core import words
+from ..core import materials, words
 from ..core.errors import Unusable, short
 from ..core.files import need_regular, need_replaceable
 from ..joint.backbone import backbone
@@ -55,23 +55,7 @@ from ..plot.saving import DPI, write
 from ..study.progress import clock
 from .line import Parser, add_resolution, guarded, joined, word
 
-MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest
-
-
-def material(text):
-    """Young's modulus and Poisson's ratio of a body's material: of a name, or of E,NU."""
-    if text in MATERIALS:
-        return MATERIALS[text]
-    form = f"{', '.join(MATERIALS)}, or Young's modulus (inf: rigid) and Poisson's ratio: 210GPa,0.3"
-    young, _, poisson = text.partition(",")
-    try:
-        return (
-            words.number(young, form, "Pa", lambda value: value > 0.0),
-            words.number(poisson, form, allowed=lambda value: 0.0 <= value < 0.5),
-        )
-    except words.WordError as error:
-        raise words.WordError(text, form) from error
 
 
 def scatter(text):
@@ -113,8 +97,9 @@ def _stiffness_options(one):
     group.add_argument("--friction", type=word(words.number), help="coefficient of friction; not with --normal-only")
     for body in "12":
         group.add_argument(
-            f"--body{body}", type=word(material), metavar="MATERIAL",
-            help=f"material of body {body}: {', '.join(MATERIALS)}, or Young's modulus and Poisson's ratio, 210GPa,0.3",
+            f"--body{body}", type=word(materials.elastic), metavar="MATERIAL",
+            help=f"material of body {body}: {', '.join(materials.TABLE)}, or Young's modulus and Poisson's ratio, "
+            "210GPa,0.3",
         )  # fmt: skip
     group.add_argument(
         "--hardness",

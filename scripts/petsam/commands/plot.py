@@ -13,6 +13,7 @@
     petsam-plot --against load_tx,friction --border life=1e6 study/results.h5   its regimes over two inputs
     petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles
     petsam-plot --scar --cycle -1 --measured 2:profile.csv life.h5     a measured profile beside body 2's
+    petsam-plot --report run.html sphere.h5         a page: inputs, numbers, errors, check, history, pictures
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
@@ -26,14 +27,16 @@ Each picture is a file NAME_maps.png and so on in the current directory; NAME is
 study its folder's. An older picture of this name is replaced.
 """
 
+import contextlib
 import os
 
 from ..core.errors import Error
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
-from ..plot import fields, looks, noise, pictures, saving, tables, wear
+from ..plot import kinds as kinds_of
+from ..plot import looks, pictures, reports, saving, tables
+from ..plot.kinds import STUDY
 from ..plot.style import STYLE, plt
-from ..results import cycles
 from ..results.file import NotSaved
 from ..results.stresses import Stresses, open_any
 from ..results.studies import Study
@@ -41,11 +44,9 @@ from . import plot_arguments as arguments
 from . import plot_uses as uses
 from .line import guarded, quietly
 from .plot_arguments import FORMATS
-from .plot_uses import STUDY
 
-OF_RESULTS, OF_STRESSES = tuple(uses.OF_RESULTS), tuple(uses.OF_STRESSES)
+OF_RESULTS, OF_STRESSES = tuple(kinds_of.OF_RESULTS), tuple(kinds_of.OF_STRESSES)
 KINDS = tuple(dict.fromkeys(OF_STRESSES[:3] + OF_RESULTS + OF_STRESSES))  # in the order in which they are drawn
-MANY = 3  # cycles from which their loops and energies are drawn without being asked for
 
 
 def asked(options):
@@ -79,12 +80,12 @@ def chosen(options, results):
     if kinds:
         return of_field(options, results, kinds)
     if stresses:
-        return stress_kinds(results)
+        return kinds_of.of_stresses(results)
     if options.range:
         return ["loop", "history"]
     if options.cycle and not all(one.has_life for one in results):
         return ["loop"]
-    return result_kinds(results)
+    return kinds_of.of_results(results)
 
 
 def of_field(options, results, kinds):
@@ -98,36 +99,6 @@ def study_kinds(studies, kinds):
         if kind != "history":  # which --scalar means
             raise Error(f"{studies[0].path}: --{kind}: a table of petsam-study, drawn by --scalar, --against and --by")
     return [STUDY]
-
-
-def result_kinds(results):
-    """What results of petsam are good for; of one that lacks fields, a picture whose message says so."""
-    lines = any(one.is_plane for one in results)
-    maps = ["maps", "profiles"][lines:] if all(one.steps and fields.usual(one) for one in results) else []
-    if all(one.has_life for one in results):
-        scars = any(wear.worn(one, one.of_last()) for one in results)
-        loops = not any(one.is_steady for one in results)
-        return [*maps, *(["fretting-log"] if loops else []), *(["scar"] if scars else []), "life"]
-    several = any(one.solved.size > 1 for one in results)
-    if not any(one.solved.size and noise.works(one) for one in results):  # normal loads alone: no loop, no energy
-        return [*maps, *(["history"] if several else [])] or ["maps", "profiles"][lines : lines + 1]
-    repeated = all(one.solved.size and not one.has_life and len(cycles.find(one)) >= MANY for one in results)
-    more = ["loop", *(["energy"] if repeated else []), "history", *(["fretting-log"] if repeated else [])]
-    return [*maps, *(more if several else [])] or ["maps", "profiles"][lines : lines + 1]
-
-
-def stress_kinds(files):
-    """What files of stresses are good for; of one that lacks stresses, a picture whose message says so."""
-    kinds = []
-    if any(name in file for file in files for name in ("stress_xx", "mises")):
-        if not any(file.along for file in files):
-            kinds.append("maps")
-        elif all(file.along and file.z.size > 1 for file in files):
-            kinds.append("sections")
-        kinds.append("profiles")
-    if all(one.fatigue for one in files):
-        kinds.append("fatigue")
-    return kinds or ["profiles"]
 
 
 def path(options, kind, alone):
@@ -204,27 +175,49 @@ def usable(options, results):
     return kinds
 
 
+@contextlib.contextmanager
+def drawing(options, what):
+    """Context in which something is drawn: what prevents it is an Error."""
+    try:
+        yield
+    except NotSaved as error:  # of what --step, --time, --cycle or --range has asked for
+        raise Error(f"{error.path}: --{error.wanted}: {error.reason}") from error
+    except OSError:  # of the picture; those of the results have been taken for Errors
+        raise
+    except DAMAGED as error:
+        # numbers that overflow in matplotlib, more than the memory holds
+        raise Error(f"the {what} of {options.files[0]} cannot be drawn: {error or type(error).__name__}") from error
+
+
+def write_report(options, results):
+    """The page of a file, with the pictures that are asked for."""
+    reports.need(results[0], options.report)
+    kinds = usable(options, results)
+    with plt.rc_context(STYLE), drawing(options, "report"):
+        figures = {kind: draw(options, results, kind) for kind in kinds}
+        reports.write(results[0], options.report, figures, options.dpi)
+    print("wrote " + options.report)
+
+
 def draw_all(options):
     """All pictures that are asked for."""
-    need_folder(os.path.dirname(os.path.realpath(options.output or "picture")), options.output or "pictures")
+    if options.report:
+        need_replaceable(options.report)
+    else:
+        need_folder(os.path.dirname(os.path.realpath(options.output or "picture")), options.output or "pictures")
     if options.csv:
         need_replaceable(options.csv)
     labels = options.labels.split(",") if options.labels else [None] * len(options.files)
     results = [open_any(*one) for one in zip(options.files, labels)]
+    if options.report:
+        write_report(options, results)
+        return
     kinds = usable(options, results)
     with plt.rc_context(STYLE):  # of the picture that is written, too
         for kind in kinds:
-            try:
+            with drawing(options, kind):
                 name, mode = path(options, kind, len(kinds) == 1), "w" if kind == kinds[0] else "a"
                 save(options, draw(options, results, kind), name, mode)
-            except NotSaved as error:  # of what --step, --time, --cycle or --range has asked for
-                raise Error(f"{error.path}: --{error.wanted}: {error.reason}") from error
-            except OSError:  # of the picture; those of the results have been taken for Errors
-                raise
-            except DAMAGED as error:
-                # numbers that overflow in matplotlib, more than the memory holds
-                text = f"the {kind} of {options.files[0]} cannot be drawn: {error or type(error).__name__}"
-                raise Error(text) from error
 
 
 def main():

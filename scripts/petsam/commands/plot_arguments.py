@@ -7,7 +7,7 @@ import sys
 
 from ..core import units, words
 from ..core.errors import short
-from ..plot import bodies
+from ..plot import bodies, page
 from ..results.cycles import PAIRS
 from .line import Parser, add_resolution, joined, period, word
 
@@ -201,12 +201,27 @@ def _look(parser):
     look.add_argument("--labels", metavar="TEXT,...", help="the files' names in the pictures (their file names)")
     look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png, .pdf or .svg")
     look.add_argument("--csv", metavar="NAME.csv", help="write the numbers of all that is drawn")
+    look.add_argument(
+        "--report", type=word(page.name), metavar="NAME.html",
+        help="write one page instead of pictures: inputs, numbers, errors, check, history, and the pictures",
+    )  # fmt: skip
     look.add_argument("--format", choices=[end[1:] for end in FORMATS], help="instead of an end of the name (png)")
     add_resolution(look)
 
 
+def _check_report(parser, options):
+    """End with a message where options do not go together with a page."""
+    if len(options.files) > 1:
+        parser.error(f"--report {short(options.report)}: is of one file; {len(options.files)} are given")
+    for name in ("output", "csv", "format"):
+        if getattr(options, name):
+            parser.error(f"--{name}: not allowed with --report, which writes one page")
+
+
 def _check(parser, options):
     """End with a message where options do not go together."""
+    if options.report:
+        _check_report(parser, options)
     if options.labels and len(options.labels.split(",")) != len(options.files):
         parser.error(f"--labels: expected as many as files, {len(options.files)}")
     ending = os.path.splitext(options.output or "")[1].lower()

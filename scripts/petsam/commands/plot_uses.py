@@ -4,21 +4,9 @@ import inspect
 
 from ..core.errors import Unusable
 from ..plot import pictures
+from ..plot.kinds import OF_RESULTS, OF_STRESSES, STUDY, TABLES
 from ..results.stresses import Stresses
-from ..results.studies import Study
 
-STUDY = "study"  # the only kind of a study's table
-# the pictures of files of petsam, of petsam-stress and of petsam-study, by their kinds
-OF_RESULTS = {
-    "maps": pictures.maps, "profiles": pictures.profiles, "loop": pictures.loop, "energy": pictures.energy,
-    "history": pictures.history, "fretting-log": pictures.fretting_log, "scar": pictures.scar, "life": pictures.life,
-}  # fmt: skip
-OF_STRESSES = {
-    "maps": pictures.stress_maps, "sections": pictures.sections, "profiles": pictures.stress_profiles,
-    "fatigue": pictures.fatigue,
-}  # fmt: skip
-OF_STUDIES = {STUDY: pictures.study}
-TABLES = {Stresses: OF_STRESSES, Study: OF_STUDIES}
 OF_CYCLES = ("energy", "fretting-log")
 SCALES = ("log colors", "log x", "log y")  # of which each picture knows some
 # what to take instead

@@ -71,7 +71,7 @@ def opened(source, settings):
         path = os.fspath(source)
         ending = os.path.splitext(path)[1].lower()
         if ending == DECK and settings.materials:
-            raise Error(f"{path}: a deck has its own materials: remove --young, --poisson and --density")
+            raise Error(f"{path}: a deck has its own materials: remove --young, --poisson, --density and --material")
         of_meshio = settings.materials or ending in foreign.ENDINGS
         found = foreign.read(path, settings) if of_meshio else deck.read(path)
         return path, checksum(path), boxes.added(found, settings)

@@ -5,9 +5,10 @@ files        names of files, and texts
 hdf5         HDF5 files: opened to read, replaced when they are written
 examine      examination of HDF5 files by petsam-examine, before they are opened
 options      options of the program as words of a command line
-declared     what petsam declares of its options: units, names of files
+declared     what petsam declares: units of options, names of files, materials
 units        the one table of units
 version      the version of the package
+materials    the table of materials: petsam.materials
 words        reading of a word: a number with its unit, several, a span, a name with its value
 tables       tables as CSV: columns with name, unit and meaning
 environment  search for the interpreter, its libraries and petsam

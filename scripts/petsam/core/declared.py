@@ -108,6 +108,7 @@ FOLLOWING = {
     "mm3/Nm": ("1/Pa", -9),
     "m3/J": ("m3/J", 0),
     "mm3/J": ("m3/J", -9),
+    "%": ("1", -2),
 }
 # options of petsam that name files, which are read or written
 PATHS = (
@@ -130,3 +131,111 @@ PATHS = (
     "restart",
     "wear_friction",
 )
+# constants of materials: unit and meaning
+CONSTANTS = {
+    "young": ("Pa", "Young's modulus"),
+    "poisson": ("1", "Poisson's ratio"),
+    "density": ("kg/m3", "density"),
+    "conductivity": ("W/(m K)", "thermal conductivity"),
+    "specific_heat": ("J/(kg K)", "specific heat"),
+    "expansion": ("1/K", "coefficient of thermal expansion"),
+    "yield": ("Pa", "yield stress"),
+    "sigma_f": ("Pa", "fatigue strength coefficient"),
+    "b": ("1", "fatigue strength exponent"),
+    "epsilon_f": ("1", "fatigue ductility coefficient"),
+    "c": ("1", "fatigue ductility exponent"),
+}
+# materials: other names, the constants in this order, None where the source has none, the source
+MATERIALS = {
+    "steel": (
+        "carbon steel, mild steel",
+        (210000000000.0, 0.3, 7850.0, 53.3, 440.0, 1.2e-05, None, None, None, None, None),
+        "EN 1993-1-1 (2005), 3.2.6; density, conductivity, specific heat: EN 1993-1-2 (2005), 3.4",
+    ),
+    "100Cr6": (
+        "bearing steel, 52100, AISI 52100, SUJ2, 1.3505",
+        (210000000000.0, 0.3, 7900.0, None, None, 1.2e-05, None, None, None, None, None),
+        "SKF, Rolling bearings, catalogue 17000 (2018); Poisson's ratio: Harris, Rolling Bearing Analysis, "
+        "4th ed. (2001)",
+    ),
+    "304": (
+        "stainless steel, stainless, AISI 304, 1.4301, X5CrNi18-10",
+        (193000000000.0, 0.29, 8000.0, 16.2, 500.0, 1.72e-05, 205000000.0, None, None, None, None),
+        "ASM Handbook, vol. 1 (1990), annealed; Poisson's ratio: Ledbetter et al., J. Appl. Phys. 46 (1975) "
+        "3855; yield: least of ASTM A240",
+    ),
+    "Ti-6Al-4V": (
+        "titanium, titanium alloy, Ti64, TA6V, 3.7165",
+        (115000000000.0, 0.32, 4430.0, 6.7, 526.0, 8.6e-06, 828000000.0, 2030000000.0, -0.104, 0.841, -0.688),
+        "E, nu: Araujo and Nowell, Int. J. Fatigue 24 (2002) 763; thermal: Materials Properties Handbook: "
+        "Titanium Alloys, ASM (1994); yield: least of ASTM B265, annealed; fatigue: Dowling, Mechanical "
+        "Behavior of Materials, 4th ed. (2013), solution treated and aged",
+    ),
+    "Inconel-718": (
+        "nickel, nickel alloy, alloy 718, IN718, 2.4668",
+        (200000000000.0, 0.29, 8220.0, 11.4, 435.0, 1.3e-05, 1034000000.0, None, None, None, None),
+        "Special Metals, Inconel alloy 718, SMC-045 (2007), aged; yield: least of AMS 5662",
+    ),
+    "aluminium": (
+        "aluminum",
+        (70000000000.0, 0.33, 2702.0, 237.0, 903.0, 2.3e-05, None, None, None, None, None),
+        "E, nu, expansion: Gere and Goodno, Mechanics of Materials, 8th ed. (2013), alloys; density, "
+        "conductivity, specific heat: Incropera and DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. "
+        "(2002), pure",
+    ),
+    "7075-T6": (
+        "7075, aluminium 7075-T6, aluminum 7075-T6, EN AW-7075",
+        (71000000000.0, 0.33, 2800.0, 130.0, 960.0, 2.36e-05, 503000000.0, 1466000000.0, -0.143, 0.262, -0.619),
+        "ASM Handbook, vol. 2 (1990); fatigue: Dowling, Mechanical Behavior of Materials, 4th ed. (2013)",
+    ),
+    "2024-T3": (
+        "2024, aluminium 2024-T3, aluminum 2024-T3, EN AW-2024",
+        (72400000000.0, 0.33, 2770.0, 120.0, 875.0, 2.32e-05, 345000000.0, None, None, None, None),
+        "ASM Handbook, vol. 2 (1990)",
+    ),
+    "cast-iron": (
+        "grey cast iron, gray cast iron, grey iron, gray iron, EN-GJL-250",
+        (110000000000.0, 0.26, 7200.0, 48.5, 460.0, 1.17e-05, None, None, None, None, None),
+        "EN 1561 (1997), annex A, EN-GJL-250 (103 to 118 GPa; conductivity at 100, expansion to 200 degrees C)",
+    ),
+    "bronze": (
+        "phosphor bronze, tin bronze, C52100, CuSn8",
+        (110000000000.0, 0.34, 8800.0, 62.3, 377.0, 1.82e-05, None, None, None, None, None),
+        "Copper Development Association, data sheet C52100; Poisson's ratio: Gere and Goodno, Mechanics of "
+        "Materials, 8th ed. (2013)",
+    ),
+    "copper": (
+        "Cu",
+        (129800000000.0, 0.343, 8933.0, 401.0, 385.0, None, None, None, None, None, None),
+        "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995); thermal: Incropera and "
+        "DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002)",
+    ),
+    "brass": (
+        "cartridge brass, C26000, CuZn30",
+        (100600000000.0, 0.35, 8530.0, 110.0, 380.0, None, None, None, None, None, None),
+        "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995), 70/30; thermal: Incropera"
+        " and DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002)",
+    ),
+    "WC-Co": (
+        "tungsten carbide, cemented carbide, hard metal, WC, WC-6Co",
+        (648000000000.0, 0.22, 15000.0, 100.0, None, 4.3e-06, None, None, None, None, None),
+        "ASM Handbook, vol. 2 (1990), 94WC-6Co, medium grain; Poisson's ratio: Kaye and Laby, 16th ed. (1995)",
+    ),
+    "Si3N4": (
+        "silicon nitride",
+        (310000000000.0, 0.26, 3200.0, None, None, 3e-06, None, None, None, None, None),
+        "SKF, Rolling bearings, catalogue 17000 (2018); Poisson's ratio: Harris, Rolling Bearing Analysis, "
+        "4th ed. (2001)",
+    ),
+    "alumina": (
+        "Al2O3, aluminium oxide, aluminum oxide",
+        (416000000000.0, 0.231, 3984.0, 33.0, 755.0, 4.6e-06, None, None, None, None, None),
+        "Munro, J. Am. Ceram. Soc. 80 (1997) 1919, sintered alpha alumina",
+    ),
+    "gold": (
+        "Au",
+        (78000000000.0, 0.44, 19300.0, 317.0, 129.0, None, None, None, None, None, None),
+        "Kaye and Laby, Tables of Physical and Chemical Constants, 16th ed. (1995); thermal: Incropera and "
+        "DeWitt, Fundamentals of Heat and Mass Transfer, 5th ed. (2002)",
+    ),
+}

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..contact import AdviceWarning
-from ..core import words
+from ..core import materials, words
 from ..core.environment import cores as all_cores
 from ..core.errors import Unusable
 from ..core.tables import Column, Tabled
@@ -599,7 +599,8 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     estimate : callable, optional
         Called once, after the first pressure of the first window, with an estimate of the time that is left, s.
     **bodies
-        Options of the bodies, body1_young (Pa, or "210GPa"), body1_poisson, body2_young, ..., and of the solution.
+        Options of the bodies, body1="steel" (petsam.materials), or body1_young (Pa, or "210GPa"), body1_poisson,
+        body2_young, ..., and of the solution.
 
     Returns
     -------
@@ -625,7 +626,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
             raise Unusable("spacing: give the distance of the points of an array, m")
     if spacing is not None and own is not spacing:
         raise Unusable("spacing: the surface has its own: leave it out")
-    moduli = {f"body{k}_young" for k in (1, 2)}
+    bodies, moduli = materials.resolved(bodies), {f"body{k}_young" for k in (1, 2)}
     for name, value in bodies.items():
         if name in moduli and isinstance(value, str):
             bodies[name] = words.number(value, "Young's modulus, such as 210GPa", "Pa", lambda young: young > 0.0)

@@ -6,6 +6,7 @@ from typing import NamedTuple, Union
 
 import yaml
 
+from ..core import materials as table
 from ..core import words
 from ..core.errors import Error, short, there_are
 from ..core.files import need_regular
@@ -32,6 +33,7 @@ class Constant(NamedTuple):
     meaning: str
 
 
+ELASTIC = ("young", "poisson")
 STRESS = ("Pa", 1e5, 1e12)
 CONSTANTS = {
     "young": Constant("Pa", 1e6, 1e13, "Young's modulus (the file's)"),
@@ -122,6 +124,34 @@ def read(path: Union[str, os.PathLike]) -> dict[str, float]:
         return {str(name): checked(str(name), value) for name, value in values.items()}
     except Error as error:
         raise Error(f"{path}: {error}") from error
+
+
+def named(text: str) -> dict[str, float]:
+    """The fatigue constants of a material in petsam's table, or the constants of a YAML file.
+
+    Parameters
+    ----------
+    text : str
+        Name of the file, or of the material (petsam.materials), whose elasticity stays that of the stresses' body.
+
+    Returns
+    -------
+    dict
+        {name: number in SI units}.
+
+    Raises
+    ------
+    Error
+        If the table has no such material, or no fatigue constants of it, or as read() does.
+    """
+    if os.path.exists(text) or text.endswith((".yaml", ".yml")):
+        return read(text)
+    one = table.find(text)
+    found = {name: value for name, value in one.constants().items() if name in CONSTANTS and name not in ELASTIC}
+    if not found:
+        have = ", ".join(name for name, row in table.TABLE.items() if row.sigma_f is not None)
+        raise Error(f"{one.name}: the table has no fatigue constants of it: give a file; it has those of {have}")
+    return found
 
 
 def need(constants: Mapping[str, float], names: Iterable[str], what: str) -> list[float]:

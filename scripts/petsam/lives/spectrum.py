@@ -87,7 +87,8 @@ def lives(
         File of petsam-stress, or several: the blocks of a spectrum.
     constants : mapping or path, optional
         {name: value} of the material, in SI units or texts with their unit (sigma_f="1.76GPa"), or the name of a YAML
-        file of them. Young's modulus and Poisson's ratio are those of the files, if they are not given.
+        file of them, or of a material with fatigue constants in petsam.materials. Young's modulus and Poisson's
+        ratio are those of the files, if they are not given.
     counts : float or list of floats, optional
         Cycles of each source in the spectrum; None: 1 of each.
     criteria : str or list of str, optional
@@ -156,7 +157,7 @@ def _cycle(source):
 def _constants(given):
     """{name: number} of a file's name, or of {name: value}."""
     if given is None or isinstance(given, (str, os.PathLike)):
-        return materials.read(os.fspath(given)) if given else {}
+        return materials.named(os.fspath(given)) if given else {}
     return {name: materials.checked(name, value) for name, value in given.items()}
 
 

@@ -1,9 +1,11 @@
 """Pictures of results: by name in pictures.py, as petsam.plot.maps(results), petsam.plot.loop(results, other).
 
-fields and crossings draw fields over the surface and along x and y, series scalars over time or over one another, loops
-and wear cycles and scars, bodies stresses, tables and planes studies; of_compliance, of_lives, of_loads, of_surface and
-of_joints what these parts of the package have found. colours chooses the colours of maps, symbols what known quantities
-are called, units the prefixes; style has the look of all, saving writes files.
+fields and crossings draw fields over the surface and along x and y, series scalars over time or over one another,
+loops and wear cycles and scars, bodies stresses, tables and planes studies; of_compliance, of_lives, of_loads,
+of_surface and of_joints what these parts of the package have found. kinds lists the pictures that suit a file; reports
+makes a page of a file, with the tables of sheets, the slider of frames and the elements of page. colours chooses the
+colours of maps, symbols what known quantities are called, units the prefixes; style has the look of all, saving writes
+files.
 """
 
 import importlib
@@ -19,6 +21,7 @@ _HOMES = {
         "energy", "fatigue", "fretting_log", "history", "life", "loop", "maps", "profiles", "regimes", "scar",
         "sections", "stress_maps", "stress_profiles", "study",
     ),
+    "reports": ("report", "view"),
     "of_joints": ("backbone", "band", "interface", "joint_wear", "response", "slip_zones"),
     "of_calibration": ("fit", "scar_fit"),
     "of_compliance": ("compliance",),

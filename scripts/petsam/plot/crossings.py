@@ -39,7 +39,8 @@ def crossing(results, axis, at):
 def _profile(results, index, axis, at, names, whole):
     """Fields along x (axis 0) or y (axis 1) through the cells nearest to the point at; NaN where slip does not exist,
     0 where a field of another file is not in this one."""
-    window = (slice(0, results.y.size), slice(0, results.x.size)) if whole else results.contact_window(index)
+    every = (slice(0, results.y.size), slice(0, results.x.size))
+    window = whole if isinstance(whole, tuple) else every if whole else results.contact_window(index)
     along = (results.x, results.y)[axis]
     k = crossing(results, axis, at)
     rows, columns = (slice(k, k + 1), window[1]) if axis == 0 else (window[0], slice(k, k + 1))

@@ -45,8 +45,10 @@ def usual(results):
 
 
 def _read(results, index, names, whole):
-    """Fields of one snapshot on the window of its contact, no more cells than the picture has pixels."""
-    rows, columns = (slice(0, results.y.size), slice(0, results.x.size)) if whole else results.contact_window(index)
+    """Fields of one snapshot on the window of its contact, or on that given, (rows, columns), no more cells than the
+    picture has pixels."""
+    every = (slice(0, results.y.size), slice(0, results.x.size))
+    rows, columns = whole if isinstance(whole, tuple) else every if whole else results.contact_window(index)
     stride = max(1, -(-max(rows.stop - rows.start, columns.stop - columns.start) // PIXELS))
     part = {"rows": rows, "columns": columns, "stride": stride}
     data = {name: results.quantity(name, index, **part) for name in names}

@@ -302,10 +302,15 @@ def save(figure, directory, name):
     print("wrote " + path)
 
 
+def fewer(image):
+    """An image of 256 colours, with which a PNG has a third of its size."""
+    # the method of the least maximum error: others give thin bands of a colour map the colours of another one
+    method = {"method": Image.Quantize.MAXCOVERAGE, "kmeans": 2, "dither": Image.Dither.NONE}
+    return image.convert("RGB").quantize(256, **method)
+
+
 def reduce(path):
-    """Leave a PNG 256 colours, with which it has a third of its size."""
+    """Leave a PNG 256 colours."""
     with Image.open(path) as image:
-        # the method of the least maximum error: others give thin bands of a colour map the colours of another one
-        method = {"method": Image.Quantize.MAXCOVERAGE, "kmeans": 2, "dither": Image.Dither.NONE}
-        few = image.convert("RGB").quantize(256, **method)
+        few = fewer(image)
     few.save(path, optimize=True, dpi=[DPI] * 2)

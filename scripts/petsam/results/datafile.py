@@ -13,6 +13,7 @@ import numpy as np
 from ..core.errors import Error, one_line, short, there_are
 from ..core.files import decoded, need_regular, state_of
 from ..core.hdf5 import DAMAGED, fresh
+from .shown import Shown
 
 WHOLE = 1 << 27  # maximum number of values read at once; a damaged file may claim any number
 
@@ -59,7 +60,7 @@ class History(Named):
         return super().__missing__(name)
 
 
-class Datafile:
+class Datafile(Shown):
     """What files of petsam and of petsam-stress share.
 
     Parameters
@@ -210,6 +211,28 @@ class Datafile:
     def _error(self, error):
         changed = self._state not in (None, state_of(self.path))
         return Error(f"{self.path}: {'has changed since it was opened: open it again' if changed else _reason(error)}")
+
+    def meaning(self, name: str) -> str:
+        """What a number of the history is, as the file says it.
+
+        Parameters
+        ----------
+        name : str
+            Its name in /history.
+
+        Returns
+        -------
+        str
+            The attribute long_name; "" without one.
+
+        Raises
+        ------
+        Error
+            If there is no such number.
+        """
+        with self._reading():
+            text = _own(self.file, f"history/{name}").attrs.get("long_name", "")
+        return short(decoded(text) if isinstance(text, bytes) else str(text))
 
     def nearest(self, saved: np.ndarray, wanted: float, what: str = "time") -> int:
         """The saved step that is nearest to a time, or to another number that rises from step to step.

@@ -11,6 +11,7 @@ from ..core.files import decoded
 from . import errors, parts
 from .datafile import Named, NotSaved, _nodes, _own, _some
 from .fields import OPEN, SLIP, STICK, Fields
+from .shown import Viewed
 
 __all__ = ["OPEN", "SLIP", "STICK", "NotSaved", "Results"]
 
@@ -18,7 +19,7 @@ POWER, POWER_OF = "power_density", ("shear", "slip_velocity")  # of steady rolli
 SLIPS = {"slip_range": 1.0, "slip_amplitude": 0.5}  # of a cycle: see sliding.py
 
 
-class Results(Fields):
+class Results(Fields, Viewed):
     """The results of a run, one file or its parts (parts.py), open for reading.
 
     Parameters

@@ -11,6 +11,7 @@ from ..core.errors import Error, counted, library, short, there_are
 from ..core.files import decoded, need_regular
 from ..core.hdf5 import DAMAGED, opened
 from .datafile import WHOLE, _own, _reason
+from .shown import Shown
 
 NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eE]([+-]?\d+))?([a-zA-Z].*)?")
 
@@ -35,7 +36,7 @@ def _in_si(values):
     return np.array([number for number, _ in read]), units.pop()
 
 
-class Study:
+class Study(Shown):
     """The table of a study, petsam-study's results.h5, which is read whole.
 
     Parameters

@@ -131,6 +131,11 @@ PetscBool SamBodyIsRigid(SamBody body)
   return isinf(body->material[0].young) ? PETSC_TRUE : PETSC_FALSE;
 }
 
+const char *SamBodyNamed(SamBody body)
+{
+  return body->named;
+}
+
 /* ---- advice ---- */
 
 PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,
@@ -277,8 +282,110 @@ PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *p
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- materials by name ---- */
+
+/* What the options of a body name of the table of materials; NULL: not named */
+typedef struct {
+  const SamNamedMaterial *own, *layer[LAYERS];
+  PetscInt                layers;
+} Names;
+
+/* Reads the option that the prefix of the body's others begins with, as -body1 for -body1_young. */
+static PetscErrorCode ReadName(const SamOptions *from, const SamNamedMaterial **own)
+{
+  const SamOptions all = {from->comm, NULL};
+  char             option[SAM_PREFIX + 8], words[512], name[64] = "", why[640];
+  PetscBool        given;
+  SamOptionRow row = {option, "material by its name (-help materials): constants that are not given", SAM_OPTION_STRING,
+                      .size = sizeof(name), .words = words};
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(option, SamOptionsPrefix(from), sizeof(option)));
+  option[strlen(option) - 1] = '\0'; /* without the underscore */
+  SamMaterialList(",", words, sizeof(words));
+  PetscCall(SamOptionsRead(&all, NULL, 1, &row, name, &given));
+  *own = given ? SamMaterialFind(name) : NULL;
+  if (!given || *own) PetscFunctionReturn(PETSC_SUCCESS);
+  SamMaterialExplain(name, why, sizeof(why));
+  SETERRQ(from->comm, SAM_ERR_USER, "-%s %s: %s", option, name, why);
+}
+
+/* Reads the names of the layers' materials. */
+static PetscErrorCode ReadLayerNames(const SamOptions *from, Names *names)
+{
+  char         words[512], text[2048] = "", why[640], **word;
+  int          count;
+  SamOptionRow row = {"layers", "material of each layer by its name, from the surface down", SAM_OPTION_WORDS,
+                      .size = sizeof(text), .words = words};
+
+  PetscFunctionBegin;
+  SamMaterialList(",", words, sizeof(words));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, text, NULL));
+  PetscCall(PetscStrToArray(text, ',', &count, &word));
+  PetscCheck(count <= LAYERS, from->comm, SAM_ERR_USER, "-%s%s: expected at most %d names separated by commas",
+             SamOptionsPrefix(from), row.name, LAYERS);
+  names->layers = (PetscInt)count;
+  for (int n = 0; n < count; n++) {
+    names->layer[n] = SamMaterialFind(word[n]);
+    if (!names->layer[n]) SamMaterialExplain(word[n], why, sizeof(why));
+    PetscCheck(names->layer[n], from->comm, SAM_ERR_USER, "-%s%s %s: %s", SamOptionsPrefix(from), row.name, word[n],
+               why);
+  }
+  PetscCall(PetscStrToArrayDestroy(count, word));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Appends the name of a material and the constants that are used; `prefix`: of the options that may give others. */
+static void Describe(const SamNamedMaterial *named, const SamMaterial *m, const char prefix[], const char before[],
+                     char text[], size_t size)
+{
+  const size_t used  = strlen(text);
+  const double young = named->value[0], poisson = named->value[1];
+  char         instead[2][128] = {"", ""};
+
+  if ((double)m->young != young)
+    (void)snprintf(instead[0], sizeof(instead[0]), " by -%syoung, not %.6g GPa", prefix, young / 1e9);
+  if ((double)m->poisson != poisson)
+    (void)snprintf(instead[1], sizeof(instead[1]), " by -%spoisson, not %.6g", prefix, poisson);
+  (void)snprintf(text + used, size - used, "%s%s: E %.6g GPa%s, nu %.6g%s", before, named->name, (double)m->young / 1e9,
+                 instead[0], (double)m->poisson, instead[1]);
+}
+
+static void DescribeAll(const Names *names, const char prefix[], SamBody body)
+{
+  const size_t size = sizeof(body->named);
+  char         layer[SAM_PREFIX + 16];
+
+  (void)snprintf(layer, sizeof(layer), "%slayer_", prefix);
+  if (names->own) Describe(names->own, SamBodySubstrate(body), prefix, "", body->named, size);
+  for (PetscInt n = 0; n < names->layers; n++)
+    Describe(names->layer[n], &body->material[n], layer,
+             n            ? ", "
+             : names->own ? "; layers "
+                          : "layers ",
+             body->named, size);
+}
+
+/* Takes modulus and ratio of the named layers where there is no list of them; `most` is the count of layers. */
+static PetscErrorCode TakeNames(const SamOptions *from, const Names *names, PetscReal values[LISTS][LAYERS],
+                                PetscInt count[LISTS], PetscInt *most)
+{
+  PetscFunctionBegin;
+  if (!names->layers) PetscFunctionReturn(PETSC_SUCCESS);
+  *most = PetscMax(*most, names->layers);
+  PetscCheck(names->layers == *most, from->comm, SAM_ERR_USER,
+             "-%slayers names %" PetscInt_FMT " of %" PetscInt_FMT " layers: give a name for each",
+             SamOptionsPrefix(from), names->layers, *most);
+  for (int l = YOUNG; l <= POISSON; l++) {
+    if (count[l]) continue;
+    count[l] = names->layers;
+    for (PetscInt n = 0; n < names->layers; n++) values[l][n] = (PetscReal)names->layer[n]->value[l];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Reads the layers from a file or from lists of equal length; a single Poisson's ratio is used for all. */
-static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscInt *layers)
+static PetscErrorCode ReadLayers(const SamOptions *from, Names *names, SamMaterial m[], PetscInt *layers)
 {
   const char *const prefix = SamOptionsPrefix(from);
   PetscReal         values[LISTS][LAYERS];
@@ -287,13 +394,18 @@ static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscI
 
   PetscFunctionBegin;
   PetscCall(SamBodyReadProfile(from, PROFILE, m, layers, &graded));
+  PetscCall(ReadLayerNames(from, names));
+  PetscCheck(!graded || !names->layers, from->comm, SAM_ERR_USER,
+             "-%s" PROFILE " and -%slayers exclude each other: omit one", prefix, prefix);
   for (int l = 0; l < LISTS; l++) {
     PetscCall(SamOptionsReals(from, &lists[l], values[l], &count[l]));
     PetscCheck(!graded || !count[l], from->comm, SAM_ERR_USER, "-%s" PROFILE " and -%s%s exclude each other: omit one",
                prefix, prefix, lists[l].name);
     most = PetscMax(most, count[l]);
   }
-  if (!most || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(TakeNames(from, names, values, count, &most));
+  if (!most) PetscFunctionReturn(PETSC_SUCCESS);
   for (int l = 0; l < LISTS; l++)
     PetscCall(SamOptionsRequire(from, count[l] > 0, lists[l].name, "the layers of a body need all three lists"));
   if (count[POISSON] == 1)
@@ -308,30 +420,48 @@ static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body)
+/* Reads the constants of the body itself, which are the substrate's, by their options or by its name. */
+static PetscErrorCode ReadOwn(const SamOptions *from, const SamNamedMaterial *named, SamMaterial *m)
 {
-  SamMaterial     m[SAM_MATERIALS] = {{0}}, last = {0};
-  PetscInt        layers = 0;
-  PetscBool       given;
-  char            message[256], prefix[128];
-  const PetscBool help = SamPrintHelp();
+  const char *const prefix = SamOptionsPrefix(from);
+  const PetscBool   known  = named || SamPrintHelp() ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool         given;
+  char              text[SAM_PREFIX + 128];
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "young", "Young's modulus (), inf: rigid: required", "Pa", SAM_RANGE_POSITIVE_INF,
-                           &last.young, &given));
-  PetscCall(
-    SamOptionsRequire(from, given || help, "young", "Young's modulus, Pa (210e9 for steel), or inf: a rigid body"));
-  PetscCall(SamOptionsReal(from, "poisson", "Poisson's ratio: required unless rigid", NULL, SAM_RANGE_ANY,
-                           &last.poisson, &given));
-  PetscCall(SamOptionsRequire(from, given || isinf(last.young) || help, "poisson",
+  (void)snprintf(text, sizeof(text),
+                 "Young's modulus, Pa (210e9 for steel), or inf: a rigid body; or name the material: -%.*s steel",
+                 (int)strlen(prefix) - 1, prefix);
+  PetscCall(SamOptionsReal(from, "young", "Young's modulus (), inf: rigid: required unless named", "Pa",
+                           SAM_RANGE_POSITIVE_INF, &m->young, &given));
+  PetscCall(SamOptionsRequire(from, given || known, "young", text));
+  if (named && !given) m->young = (PetscReal)named->value[0];
+  PetscCall(SamOptionsReal(from, "poisson", "Poisson's ratio: required unless rigid or named", NULL, SAM_RANGE_ANY,
+                           &m->poisson, &given));
+  PetscCall(SamOptionsRequire(from, given || isinf(m->young) || known, "poisson",
                               "Poisson's ratio (0.3 for steel; not needed for a rigid body)"));
-  PetscCall(ReadLayers(from, m, &layers));
-  if (help) last.young = 1;
+  if (named && !given) m->poisson = (PetscReal)named->value[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body)
+{
+  SamMaterial m[SAM_MATERIALS] = {{0}}, last = {0};
+  Names       names  = {.own = NULL};
+  PetscInt    layers = 0;
+  char        message[256], prefix[128];
+
+  PetscFunctionBegin;
+  PetscCall(ReadName(from, &names.own));
+  PetscCall(ReadOwn(from, names.own, &last));
+  PetscCall(ReadLayers(from, &names, m, &layers));
+  if (SamPrintHelp()) last.young = 1;
   m[layers] = last;
   PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "-%s", SamOptionsPrefix(from)));
   PetscCall(FindFault(layers + 1, m, prefix, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
   PetscCall(SamBodyCreate(layers + 1, m, body));
+  DescribeAll(&names, SamOptionsPrefix(from), *body);
   PetscCall(SamBodyReadInitialStress(from, *body));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -164,6 +164,7 @@ PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair)
     const SamOptions of = {from->comm, own[b]};
 
     PetscCall(PetscSNPrintf(own[b], sizeof(own[b]), "%s%s", prefix, prefixes[b]));
+    SamOptionsKnow(from, b ? "body2" : "body1", NULL);
     SamOptionsKnow(&of, "young", NULL); /* options of one body are not misspellings of the other's */
     SamOptionsKnow(&of, "poisson", NULL);
   }

@@ -117,7 +117,10 @@ static void Reverse(Path *path)
   for (int k = 0; k < 2; k++) path->start_moved[k] = path->moved[k];
 }
 
-/* Continues the closed form over a step with constant N and with T on a line. */
+/*
+  Continues the closed form over a step with constant N and with T on a line through the contact's centre, which lies
+  beside the origin by the moments over N: T twists a contact whose centre is beside its line.
+*/
 static void Follow(SamProblem p, Path *path, const SamSolution *s)
 {
   const PetscInt  c[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY}, m[2] = {SAM_COMPONENT_MX, SAM_COMPONENT_MY};
@@ -126,7 +129,7 @@ static void Follow(SamProblem p, Path *path, const SamSolution *s)
   const double    load[2] = {(double)s->load[c[0]], (double)s->load[c[1]]}, size = hypot(load[0], load[1]);
   const PetscBool first  = path->line[0] == 0 && path->line[1] == 0,
                   begins = first && path->bound == 0 ? PETSC_TRUE : PETSC_FALSE;
-  double along, across, turned = 0, way = 0, t;
+  double along, across, turned = 0, way = 0, twist = fabs((double)s->load[SAM_COMPONENT_MZ]), t;
 
   /* N that changes while T leaves zero is not constant, but for the step that begins the contact with N, then T. */
   if (first && (path->bound == 0 || size <= slight)) path->bound = bound;
@@ -142,11 +145,12 @@ static void Follow(SamProblem p, Path *path, const SamSolution *s)
     path->moved[k] = (double)s->rigid[c[k]];
     way += (path->moved[k] - path->start_moved[k]) * path->line[k];
     turned = PetscMax(turned, fabs((double)s->load[m[k]] - path->moment[k]));
+    if (bound > 0) twist += fabs(path->friction * (double)s->load[m[k]] / bound * load[k]);
   }
   path->last = along;
   t          = fabs(along - path->start) / ((path->reversed > 0 ? 2 : 1) * bound);
   if ((begins && size > slight && s->control.together) || fabs(bound - path->bound) > slight || fabs(across) > slight ||
-      !(t < 1) || PetscMax(fabs((double)s->load[SAM_COMPONENT_MZ]), turned) > slight * length ||
+      !(t < 1) || PetscMax(twist, turned) > slight * length ||
       (path->reversed > 0 && fabs(along - path->start) > fabs(path->limit - path->start) + slight))
     path->stage = LOST;
   else

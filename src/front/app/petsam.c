@@ -19,6 +19,7 @@ enum { EXIT_STOPPED = 75 };
 typedef struct {
   SamSimulation simulation;
   SamReport     report;
+  SamAccuracy   accuracy;
   PetscBool     dry; /* only checks and forecasts */
 } SamRun;
 
@@ -185,6 +186,17 @@ static PetscErrorCode RefuseTooLarge(SamSimulation simulation, const SamOptions 
 
 /* ---- the run ---- */
 
+/* Prints a line about a trial for -accuracy. */
+static PetscErrorCode TellTrial(const char text[])
+{
+  PetscBool quiet = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-quiet", &quiet, NULL));
+  if (!quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 {
   static const SamOptionRow dry  = {"dry_run", "check everything, print memory, disk and time, and solve nothing",
@@ -195,10 +207,13 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 
   PetscFunctionBegin;
   CatchSignals(PETSC_FALSE);
+  run->accuracy.tell = TellTrial;
+  PetscCall(SamAccuracyChoose(&from, arguments, &run->accuracy));
   PetscCall(SamSimulationCreate(from.comm, &run->simulation));
   PetscCall(SamSimulationSetSignals(run->simulation, signaled));
   PetscCall(SamSimulationSetFromOptions(run->simulation, &from, arguments));
   PetscCall(SamReportCreateFromOptions(&from, &run->report));
+  SamReportSetAccuracy(run->report, &run->accuracy);
   PetscCall(SamOptionsRead(&from, NULL, 1, &dry, &run->dry, NULL));
   PetscCall(SamSimulationGetFiles(run->simulation, &files));
   if (files.checkpoint) CatchSignals(PETSC_TRUE);
@@ -219,7 +234,7 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
     double bytes;
 
     PetscCall(EstimateMemory(run->simulation, &bytes));
-    PetscCall(SamReportBanner(run->report, SamSimulationGetSetup(run->simulation)->grid, bytes, news->start));
+    PetscCall(SamReportBanner(run->report, SamSimulationGetSetup(run->simulation), bytes, news->start));
   } else {
     PetscCall(SamReportNews(run->report, contact, news));
   }

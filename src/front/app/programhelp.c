@@ -116,6 +116,27 @@ static PetscBool HasGroup(const SamTopic *topic, const char title[])
   return PETSC_FALSE;
 }
 
+/* Prints the table of materials for -help materials: constants in SI units, other names, source. */
+static PetscErrorCode PrintMaterials(void)
+{
+  const SamNamedMaterial *m;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; (m = SamMaterialAt(k)); k++) {
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n%s (%s)\n  ", m->name, m->aliases));
+    for (PetscInt n = 0, used = 0; n < SAM_MATERIAL_CONSTANTS; n++) {
+      const SamMaterialConstant *c = SamMaterialConstantAt(n);
+      char                       text[64];
+
+      (void)snprintf(text, sizeof(text), "%s %.6g%s%s", c->name, m->value[n], strcmp(c->unit, "1") ? " " : "",
+                     strcmp(c->unit, "1") ? c->unit : "");
+      if (!isnan(m->value[n])) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s", used++ ? ", " : "", text));
+    }
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n  %s\n", m->source));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintTopic(const SamTopic *topic, const List *list)
 {
   PetscBool within = PETSC_FALSE;
@@ -126,6 +147,7 @@ static PetscErrorCode PrintTopic(const SamTopic *topic, const List *list)
     if (list->line[l].text[TITLE]) within = HasGroup(topic, list->line[l].text[TITLE]);
     if (within) PetscCall(PrintLine(&list->line[l]));
   }
+  if (!strcmp(topic->name, "materials")) PetscCall(PrintMaterials());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -136,6 +158,8 @@ static PetscErrorCode PrintTopic(const SamTopic *topic, const List *list)
 
     {"program": ..., "version": ..., "usage": ...,
      "units": {"m": {"m": 0, "mm": -3, ...}, ...}, (powers of ten)
+     "constants": [{"name": "young", "unit": "Pa", "text": ...}, ...],
+     "materials": [{"name": "steel", "aliases": ..., "source": ..., "values": [210e9, 0.3, ..., null]}, ...],
      "topics": [{"name": ..., "text": ..., "groups": [...]}, ...],
      "groups": [{"name": ..., "topic": ..., "options": [
        {"name": "-grid_n", "argument": ..., "text": ..., "unit": ... or null, "default": ... or null,
@@ -202,13 +226,42 @@ static PetscErrorCode PrintJsonUnits(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Prints the table of materials; a constant that is not known is null. */
+static PetscErrorCode PrintJsonMaterials(void)
+{
+  const SamMaterialConstant *c;
+  const SamNamedMaterial    *m;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; (c = SamMaterialConstantAt(k)); k++) {
+    PetscCall(PrintText(k ? "},\n  {\"name\": " : "\n  {\"name\": ", c->name, ""));
+    PetscCall(PrintText(", \"unit\": ", c->unit, ""));
+    PetscCall(PrintText(", \"text\": ", c->text, ""));
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "}],\n\"materials\": ["));
+  for (PetscInt k = 0; (m = SamMaterialAt(k)); k++) {
+    PetscCall(PrintText(k ? "]},\n  {\"name\": " : "\n  {\"name\": ", m->name, ""));
+    PetscCall(PrintText(", \"aliases\": ", m->aliases, ""));
+    PetscCall(PrintText(", \"source\": ", m->source, ", \"values\": ["));
+    for (PetscInt n = 0; n < SAM_MATERIAL_CONSTANTS; n++) {
+      char text[32];
+
+      (void)snprintf(text, sizeof(text), "%.15g", m->value[n]);
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s", n ? ", " : "", isnan(m->value[n]) ? "null" : text));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintJson(const SamProgram *program, const List *list)
 {
   PetscFunctionBegin;
   PetscCall(PrintText("{\"program\": ", program->name, ",\n\"version\": \"" PETSAM_VERSION "\""));
   PetscCall(PrintText(",\n\"usage\": ", program->topics->text, ",\n\"units\": {"));
   PetscCall(PrintJsonUnits());
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "}},\n\"topics\": ["));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "}},\n\"constants\": ["));
+  PetscCall(PrintJsonMaterials());
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "]}],\n\"topics\": ["));
   PetscCall(PrintJsonTopics(program->topics + 1));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "]}],\n\"groups\": ["));
   for (PetscInt l = 0; l < list->count; l++) {

@@ -4,6 +4,7 @@
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/body.h>
 #include <fftw3-mpi.h>
 #include <hdf5.h>
 #include <string.h>
@@ -109,11 +110,24 @@ static PetscErrorCode PrintRestart(SamReport r, const SamSimulationStart *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const SamSimulationStart *start)
+/* Prints what bodies take from the table of materials. */
+static PetscErrorCode PrintNamed(SamReport r, SamPair pair)
 {
-  PetscMPIInt ranks;
-  double      nodes;
-  char        libraries[512], memory[32];
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    const char *named = SamBodyNamed(SamPairBody(pair, b));
+
+    if (named[0]) PetscCall(PetscPrintf(r->comm, "  body %-5d  %s\n", (int)b + 1, named));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, double bytes, const SamSimulationStart *start)
+{
+  const SamGrid grid = setup->grid;
+  PetscMPIInt   ranks;
+  double        nodes;
+  char          libraries[512], memory[32];
 
   PetscFunctionBegin;
   r->steps = start->steps;
@@ -129,9 +143,15 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   PetscCall(PetscPrintf(r->comm, "  %-10s  %d on %d node%s\n", "ranks", ranks, (int)nodes, nodes > 1 ? "s" : ""));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid",
                         grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
+  if (r->accuracy)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %.3g %%: %ld trial%s in %.2g s chose%s\n", "accuracy",
+                          100 * (double)r->accuracy->error, (long)r->accuracy->trials,
+                          r->accuracy->trials == 1 ? "" : "s", r->accuracy->seconds,
+                          r->accuracy->chosen[0] ? r->accuracy->chosen : " nothing, as all is given"));
   if (SamGridIsRow(grid))
     PetscCall(PetscPrintf(r->comm, "  %-10s  strain: loads, areas, energies and volumes per metre of length%s\n",
                           "plane", ranks > 1 ? "; one rank works, the others wait" : ""));
+  PetscCall(PrintNamed(r, setup->pair));
   SamDescribeBytes(bytes, memory, sizeof(memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %s per rank\n", "memory", memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT "%s, results %s%s%s\n", "steps", start->steps,
@@ -411,6 +431,31 @@ static PetscErrorCode PrintErrors(SamReport r, const SamErrorTable *t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamReportSetAccuracy(SamReport r, const SamAccuracy *accuracy)
+{
+  r->accuracy = accuracy->error > 0 ? accuracy : NULL;
+}
+
+/* Compares the largest error with that asked for, and warns if it is larger. */
+static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
+{
+  const SamErrorRow *worst = NULL;
+  char               error[SAM_ERROR_TEXT], text[256];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; r->accuracy && k < t->count; k++)
+    if (SamAccuracyConcerns(r->accuracy, t->row[k].name) && (!worst || !(t->row[k].error <= worst->error)))
+      worst = &t->row[k];
+  if (!worst) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(text, sizeof(text), "the largest error is %s, of %s, by the %s",
+                 SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause]);
+  if (!(worst->error <= r->accuracy->error))
+    PetscCall(Say(r, &(SamSimulationEvent){.kind = SAM_NOTIFY_ADVICE, .text = text, .setting = ""}));
+  else if (!r->quiet)
+    PetscCall(PetscPrintf(r->comm, "    %s\n", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulationEvent *news)
 {
   PetscFunctionBegin;
@@ -442,6 +487,7 @@ PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulatio
     break;
   case SAM_NOTIFY_ERRORS:
     PetscCall(PrintErrors(r, news->errors));
+    PetscCall(CompareErrors(r, news->errors));
     break;
   case SAM_NOTIFY_FILE:
     PetscCall(AddFile(r, news->text, news->setting));

@@ -44,8 +44,9 @@ typedef struct {
 typedef struct _n_SamReport *SamReport;
 struct _n_SamReport {
   /* what the user sets */
-  MPI_Comm  comm;
-  PetscBool quiet;
+  MPI_Comm           comm;
+  PetscBool          quiet;
+  const SamAccuracy *accuracy; /* borrowed; NULL: none is asked for */
   /* status */
   PetscMPIInt    rank;
   PetscBool      logging;                   /* true if PETSc's log has the times */
@@ -84,11 +85,15 @@ struct _n_SamReport {
 */
 PETSC_INTERN PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *report);
 PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
+/* SamReportSetAccuracy - makes the banner tell what was chosen by -accuracy, and the errors be compared with it. It is
+   borrowed. Not collective. */
+PETSC_INTERN void SamReportSetAccuracy(SamReport report, const SamAccuracy *accuracy);
 /*
-  SamReportBanner - prints version, libraries, ranks, grid, memory (`bytes`: memory that this rank will need; the
-  largest is printed), the checkpoint from which the run continues, and the files that it writes. Collective.
+  SamReportBanner - prints version, libraries, ranks, grid, bodies that are named, memory (`bytes`: memory that this
+  rank will need; the largest is printed), the checkpoint from which the run continues, and the files that it writes.
+  Collective.
 */
-PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, double bytes,
+PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *setup, double bytes,
                                             const SamSimulationStart *start);
 /*
   SamReportNews - prints a line for a step or a computed cycle (the only step of a run in full), messages and warnings,

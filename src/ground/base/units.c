@@ -25,7 +25,8 @@ static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
                              {"s", {"s", "ms"}, {0, -3}},
                              {"rad", {"rad", "mrad"}, {0, -3}},
                              {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, as it would be part of the number */
-                             {"m3/J", {"m3/J", "mm3/J"}, {0, -9}}};
+                             {"m3/J", {"m3/J", "mm3/J"}, {0, -9}},
+                             {"1", {"%"}, {-2}}};
 
 /* Returns the kind of a unit; NULL if there is none, or if the option takes numbers in SI units only. */
 static const Kind *FindKind(const char unit[])

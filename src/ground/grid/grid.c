@@ -136,10 +136,11 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, P
   Settings           set    = {{n[0], n[1]}, {width[0], width[1]}, {center[0], center[1]}};
   const SamOptionRow rows[] = {
     {"grid_n", "cells in x[,y]: required without a surface file", SAM_OPTION_INT, MEMBER(n), .least = row ? 1 : 2,
-     .size = 2, .missing = "the number of cells in x[,y], for example 256"},
+     .size = 2, .missing = "the number of cells in x[,y], for example 256, or -accuracy 1%, which chooses it"},
     {"grid_size", "full width in x[,y] (): required without a surface file", SAM_OPTION_REAL, MEMBER(width),
      .range = SAM_RANGE_POSITIVE, .size = 2, .unit = "m",
-     .missing = "the full width of the grid in x[,y], m: about 1.5 times that of the contact"},
+     .missing = "the full width of the grid in x[,y], m: about 1.5 times that of the contact; or -accuracy 1%, which "
+                "chooses it"},
     {"grid_center", "centre x,y", SAM_OPTION_REAL, MEMBER(center), .range = SAM_RANGE_ANY, .size = 2, .unit = "m"}};
   char              message[256], options[3][96];
   const char *const names[3] = {options[0], options[1], options[2]};
@@ -388,4 +389,15 @@ PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum)
   PetscCall(VecRestoreArrayRead(field, &values));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, checksum, 1, MPI_UINT64_T, MPI_SUM, grid->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+double SamGridRoundUp(double n)
+{
+  for (n = PetscMax(ceil(n), 1);; n++) {
+    PetscInt rest = (PetscInt)n;
+
+    for (PetscInt p = 2; p <= 5; p += p == 2 ? 1 : 2)
+      while (rest % p == 0) rest /= p;
+    if (rest == 1) return n;
+  }
 }

@@ -29,7 +29,6 @@
   now with `factor` times more cells, and a smaller one with as many cells; empty: none.
   SamAdviceWritePair - writes two numbers as an option takes them: one for both if they are the same.
   SamAdviceWriteGrid - writes a grid of these widths, with cells as now.
-  SamAdviceRoundUp - rounds up to two digits.
   SamAdviceIsStrip - true if a single spot ends along one axis only; `ends`: the axes along which the contact ends.
   SamAdviceStiffness - returns E* of the stiffest materials of both bodies, Pa.
   None is collective (say.c).
@@ -41,7 +40,6 @@ PETSC_INTERN void      SamAdviceGridsFor(const SamSetup *setup, const PetscReal 
                                          char width[SAM_ADVICE_TEXT]);
 PETSC_INTERN void      SamAdviceWriteGrid(const SamSetup *setup, const double width[2], char text[], size_t size);
 PETSC_INTERN void      SamAdviceWritePair(const char option[], const double x[2], char text[SAM_ADVICE_TEXT]);
-PETSC_INTERN double    SamAdviceRoundUp(double x);
 PETSC_INTERN PetscBool SamAdviceIsStrip(const SamAdvice *advice, PetscBool ends[2]);
 PETSC_INTERN double    SamAdviceStiffness(SamPair pair);
 /*

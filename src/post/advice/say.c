@@ -4,6 +4,7 @@
 #include "adviceimpl.h"
 #include <petsam/private/body.h>
 #include <petsam/private/gap.h>
+#include <petsam/private/grid.h>
 #include <math.h>
 #include <stdarg.h>
 
@@ -47,19 +48,6 @@ void SamAdviceWriteGrid(const SamSetup *s, const double width[2], char text[], s
     (void)snprintf(text, size, "%s", one);
 }
 
-/* Returns the smallest number from n on whose only prime factors are 2, 3 and 5, which transforms take well. */
-static double RoundUpRow(double n)
-{
-  for (; n <= SAM_LARGEST_ROW; n++) {
-    PetscInt rest = (PetscInt)n;
-
-    for (PetscInt p = 2; p <= 5; p += p == 2 ? 1 : 2)
-      while (rest % p == 0) rest /= p;
-    if (rest == 1) break;
-  }
-  return n;
-}
-
 void SamAdviceGridsFor(const SamSetup *s, const PetscReal half[2], double factor, const PetscBool refine[2],
                        char cells[SAM_ADVICE_TEXT], char width[SAM_ADVICE_TEXT])
 {
@@ -69,7 +57,7 @@ void SamAdviceGridsFor(const SamSetup *s, const PetscReal half[2], double factor
 
   cells[0] = width[0] = '\0';
   for (int k = 0; k < 2; k++) {
-    more[k] = refine[k] ? RoundUpRow(ceil(n[k] * factor)) : n[k];
+    more[k] = refine[k] ? SamGridRoundUp(ceil(n[k] * factor)) : n[k];
     size[k] = PetscMin((double)s->grid->width[k], SamAdviceRoundUp(2 * ROOM * (double)half[k]));
     if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
   }

@@ -1,0 +1,187 @@
+"""Materials by name: the table of petsam, whose names -body1, -body2 and the commands take.
+
+import petsam
+petsam.materials.find("ti6al4v").young       # Pa
+petsam.materials.TABLE["steel"].source
+"""
+
+import re
+from typing import NamedTuple, Optional
+
+from . import declared, words
+from .errors import Error, short, there_are
+
+CONSTANTS = declared.CONSTANTS  # {name: (unit, meaning)}
+
+
+class Material(NamedTuple):
+    """A material; constants in SI units, at room temperature, None where the source states none.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    aliases : tuple of str
+        Other names.
+    young, poisson : float
+        Young's modulus (Pa) and Poisson's ratio.
+    density, conductivity, specific_heat, expansion : float or None
+        kg/m3, W/(m K), J/(kg K), 1/K.
+    yield_stress : float or None
+        Pa.
+    sigma_f, b, epsilon_f, c : float or None
+        Fatigue strength (Pa) and ductility coefficients, with their exponents.
+    source : str
+        Where the constants are from.
+    """
+
+    name: str
+    aliases: tuple
+    young: float
+    poisson: float
+    density: Optional[float]
+    conductivity: Optional[float]
+    specific_heat: Optional[float]
+    expansion: Optional[float]
+    yield_stress: Optional[float]  # yield is a word of Python
+    sigma_f: Optional[float]
+    b: Optional[float]
+    epsilon_f: Optional[float]
+    c: Optional[float]
+    source: str
+
+    def constants(self) -> dict[str, float]:
+        """The constants that are known.
+
+        Returns
+        -------
+        dict
+            {name: number}, by the names of CONSTANTS, which has units and meanings.
+        """
+        values = self[2 : 2 + len(CONSTANTS)]
+        return {name: value for name, value in zip(CONSTANTS, values) if value is not None}
+
+
+TABLE = {
+    name: Material(name, tuple(aliases.split(", ")), *values, source)
+    for name, (aliases, values, source) in declared.MATERIALS.items()
+}
+
+
+def plain(name: str) -> str:
+    """A name as it is compared: without case, blanks, hyphens and underscores.
+
+    Parameters
+    ----------
+    name : str
+        A name.
+
+    Returns
+    -------
+    str
+    """
+    return re.sub(r"[ _-]", "", name).lower()
+
+
+def has(name: str) -> bool:
+    """Whether there is a material of this name.
+
+    Parameters
+    ----------
+    name : str
+        Name or other name.
+
+    Returns
+    -------
+    bool
+    """
+    return plain(str(name)) in _NAMES
+
+
+def find(name: str) -> Material:
+    """The material of a name.
+
+    Parameters
+    ----------
+    name : str
+        Name or other name; case, blanks, hyphens and underscores do not count.
+
+    Returns
+    -------
+    Material
+
+    Raises
+    ------
+    Error
+        If there is none; the message has the nearest name, and all.
+    """
+    if not has(name):
+        raise Error(f"{short(str(name))} is no material{_nearest(name)}")
+    return TABLE[_NAMES[plain(str(name))]]
+
+
+def _nearest(name):
+    """The end of the message about an unknown name."""
+    said = there_are(plain(str(name)), _NAMES).partition(" meant?")
+    near = said[0].removeprefix(": is ").split(" or ")[0] if said[1] else ""
+    names = ", ".join(TABLE)
+    return f": is {_NAMES[near]} meant? There are {names}" if near else f"; there are {names}"
+
+
+def elastic(text: str) -> tuple[float, float]:
+    """Young's modulus (Pa) and Poisson's ratio of a material's name, or of the text E,NU, as 210GPa,0.3.
+
+    Parameters
+    ----------
+    text : str
+        One of both; a modulus inf is of a rigid body.
+
+    Returns
+    -------
+    tuple
+        (Young's modulus, Poisson's ratio).
+
+    Raises
+    ------
+    WordError
+        If it is neither.
+    """
+    if has(text):
+        return find(text)[2:4]
+    young, comma, poisson = text.partition(",")
+    form = f"{', '.join(TABLE)}, or Young's modulus (inf: rigid) and Poisson's ratio: 210GPa,0.3"
+    try:
+        if not comma and text[:1].isalpha():
+            find(text)
+        return (
+            words.number(young, form, "Pa", lambda value: value > 0.0),
+            words.number(poisson, form, allowed=lambda value: 0.0 <= value < 0.5),
+        )
+    except words.WordError as error:
+        raise words.WordError(text, form) from error
+
+
+def resolved(options: dict) -> dict:
+    """Options of petsam with body1 and body2, names of materials, as the moduli of the table.
+
+    Parameters
+    ----------
+    options : dict
+        {name: value}, as body1="steel"; body1_young and body1_poisson go before the table.
+
+    Returns
+    -------
+    dict
+        The same without body1 and body2, with body1_young and so on.
+    """
+    found = dict(options)
+    for body in ("body1", "body2"):
+        if (name := found.pop(body, None)) is None:
+            continue
+        for constant, value in zip(("young", "poisson"), find(name)[2:4]):
+            if found.get(f"{body}_{constant}") is None:
+                found[f"{body}_{constant}"] = value
+    return found
+
+
+_NAMES = {plain(one): name for name, row in TABLE.items() for one in (name, *row.aliases)}

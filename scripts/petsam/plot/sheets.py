@@ -1,0 +1,326 @@
+"""The tables of a report: inputs, numbers of the last step with their errors, check, history, cases of a study."""
+
+import math
+import shlex
+
+import numpy as np
+
+from ..core.declared import OPTIONS
+from ..core.errors import counted
+from . import noise, page
+
+ROWS = 20  # of a history or of a study
+MOST = 14  # columns of a study
+ABOUT = (
+    "CLASS", "Conventions", "NAME", "closed", "fixed_parameters", "options", "part_identity", "petsam_version",
+    "source", "title",
+)  # attributes that are no inputs  # fmt: skip
+WORK = ("_iterations", "_applies", "_preconditions", "_residual")  # ends of the names of numbers about the solution
+STATES = {
+    10: "did not converge",
+    11: "has no equilibrium (gross slip under force control, or moments that no pressure balances)",
+    12: "has contact at the edge of the grid",
+}
+# errors of the check, their options and usual tolerances
+CHECK = {
+    "normal_residual": ("-normal_rtol", 1e-8, "gap where there is pressure, penetration and tension elsewhere"),
+    "tangential_residual": ("-tangential_rtol", 1e-6, "stick, slip and its direction"),
+    "equilibrium_residual": ("", 1e-10, "loads and integrals of the tractions"),
+}
+OVER = "above: accepted as rounding"
+SLACK = 1.05  # the check allows so much of a tolerance
+LARGE = 0.05  # errors of numbers from which they are warned of
+SAME = 1e-6  # relative difference of a number and the one that its error is of
+COLUMNS = (
+    "load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz", "disp_z", "disp_x", "disp_y", "creep_x", "creep_y",
+    "contact_area", "stick_area", "pressure_max", "shear_max", "slip_max", "dissipated_energy", "wear_volume1",
+    "wear_volume2",
+)  # of the history  # fmt: skip
+ALWAYS = ("contact_area", "pressure_max")
+
+
+def given(results):
+    """The options of the run's command line and files, (name, value) each; none where the file does not say."""
+    text = str(results.parameters.get("options", ""))
+    try:
+        words = shlex.split(text)
+    except ValueError:  # quotes that do not close
+        words = text.split()
+    found = []
+    for word in words:
+        if word.startswith("-") and not word[1:2].isdigit() and word[1:2] != ".":
+            found.append((word, []))
+        elif found:
+            found[-1][1].append(word)
+    return [(name, " ".join(values)) for name, values in found]
+
+
+def _value(value):
+    if isinstance(value, bytes):
+        value = value.decode("utf-8", "replace")
+    if np.ndim(value):
+        return ", ".join(f"{one:g}" if np.issubdtype(type(one), np.number) else str(one) for one in np.ravel(value))
+    return f"{value:.10g}" if np.issubdtype(type(value), np.number) else str(value)
+
+
+def _input(name, value, options):
+    unit = OPTIONS.get(name, "")
+    number = np.ndim(value) == 0 and np.issubdtype(type(value), np.number)
+    shown = page.quantity(float(value), unit, 10) if number else page.text(_value(value) + (unit and f" {unit}"))
+    return name, shown, options.get("-" + name, "")
+
+
+def inputs(results):
+    """The command and all parameters with their units."""
+    options, parts = given(results), []
+    if options:
+        words = [results.program, *(" ".join(part).strip() for part in options)]
+        command = page.Html(" \\\n  ".join(page.text(word) for word in words))
+        parts.append(page.element("pre", page.element("code", command)))
+    named, known = dict(options), [name for name in results.parameters if name not in ABOUT]
+    rows = [_input(name, results.parameters[name], named) for name in known]
+    rows += [(name[1:], value, value) for name, value in options if name[1:] not in known]
+    what = f"All {counted(len(rows), 'parameter')}, in SI units with prefixes"
+    table = page.table(what, ("option", "value", "given as"), rows, (1, 2))
+    return page.section("Inputs", *parts, table, class_="page")
+
+
+# ---------------------------------------------------------------- numbers
+
+
+def percent(error):
+    """A relative error as a text."""
+    return "unknown" if not math.isfinite(error) else f"{100.0 * error:.2g} %"
+
+
+def estimate(one):
+    """The error of a number: in percent, in its unit, and what it comes from."""
+    if not math.isfinite(one.error):
+        return page.Html("&plusmn; unknown")
+    size = page.quantity(abs(one.value) * one.error, one.unit, 2)
+    cause = page.text(f", by the {one.cause}" if one.cause else "")
+    return page.Html(f"&plusmn; {percent(one.error)} (&plusmn; {size}){cause}")
+
+
+def _is_same(value, other):
+    return math.isclose(value, other, rel_tol=SAME, abs_tol=0.0)
+
+
+def _error(results, name, row, of):
+    """The error of a number of the history: as /errors has it, of others as a column of the history has it."""
+    value, column = float(results.history[name][row]), f"{name}_error"
+    if of and _is_same(of.value, value):
+        return estimate(of)
+    size = float(results.history[column][row]) if column in results.history else math.nan
+    return page.Html("&plusmn; " + page.quantity(size, results.units[name], 2)) if size > 0.0 else ""
+
+
+def _is_shown(results, name, value, known):
+    """Whether a number says something beyond the check, the errors of others and rounding."""
+    if name in ("status", "time") or name.endswith(WORK) or not math.isfinite(value):
+        return False
+    if name.endswith("_error") and name.removesuffix("_error") in results.history:
+        return False
+    return abs(value) >= noise.NOISE * known.get(results.units[name], 0.0)
+
+
+def numbers(results, row):
+    """The numbers of a row of the history, those with errors first, and the heads of their columns."""
+    errors = dict(getattr(results, "errors", {}))
+    known = noise.scales([results]) if results.program == "petsam" else {}
+    rows = []
+    for name, values in results.history.items():
+        value = float(values[row])
+        if _is_shown(results, name, value, known):
+            error = _error(results, name, row, errors.get(name))
+            rows.append((name, (value, results.units[name]), error, results.meaning(name)))
+    rows += [
+        (f"{name}, sum", (one.value, one.unit), estimate(one), "over the steps of the run")
+        for name, one in errors.items()
+        if not (name in results.history and _is_same(one.value, float(results.history[name][row])))
+    ]
+    if any(row[2] for row in rows):
+        rows.sort(key=lambda row: not row[2])
+        return rows, ("number", "value", "error", "meaning")
+    return [(name, value, meaning) for name, value, _, meaning in rows], ("number", "value", "meaning")
+
+
+def of_last(results, row):
+    """The section of the numbers of the last step that has a solution."""
+    rows, heads = numbers(results, row)
+    number = row + 1 + getattr(results, "before", 0)
+    step = int(results.history["step"][row]) if "step" in results.history else number
+    left = "; numbers that are zero to rounding are left out" if results.program == "petsam" else ""
+    what = f"Load step {step}, t = {results.history['time'][row]:.6g} s{left}"
+    note = "The file has no errors of its numbers: run petsam with -errors companion." if len(heads) == 3 else ""
+    note = note if results.program == "petsam" else ""
+    return page.section(
+        "Numbers of the last step",
+        page.table(what, heads, rows, (len(heads) - 1,)),
+        *([page.element("p", note)] if note else []),
+    )
+
+
+# ---------------------------------------------------------------- check and warnings
+
+
+def exit_code(results):
+    """The exit code that the states of the steps stand for; None while a run writes, or after it was killed."""
+    if not results.parameters.get("closed", 1):
+        return None
+    states = [int(state) for state in results.history["status"] if state]
+    return states[-1] if states else 0
+
+
+def _states(results):
+    """How many steps have each state that is not 0."""
+    states, counts = np.unique(results.history["status"].astype(int), return_counts=True)
+    return [(int(state), int(count)) for state, count in zip(states, counts) if state]
+
+
+def residuals(results):
+    """Of each error of the check: name, largest of all solved steps, tolerance, what it is of."""
+    options, found = {name.lower(): value for name, value in given(results)}, []
+    for name, (option, usual, what) in CHECK.items():
+        if name not in results.history:
+            continue
+        values = results.series(name)
+        values = values[np.isfinite(values)]
+        try:
+            tolerance = float(options.get(option, usual))
+        except ValueError:
+            tolerance = usual
+        if values.size:
+            found.append((name, float(np.max(values)), tolerance, what))
+    return found
+
+
+def check(results):
+    """The section of the check: verdict, residuals, exit code."""
+    code, bad = exit_code(results), [count for _, count in _states(results)]
+    rows = []
+    for name, value, tolerance, what in residuals(results):
+        state = "below" if value <= SLACK * tolerance else "above: not converged" if bad else OVER
+        rows.append((name, (value, "1"), (tolerance, "1"), state, what))
+    count = results.history["status"].size
+    if bad:
+        verdict = f"Failed: {sum(bad)} of {counted(count, 'step')} marked."
+    else:
+        verdict = f"Passed: all {counted(count, 'step')} converged, and the check agrees."
+    ended = f"Exit code {code}." if code is not None else "No exit code: the run has not ended, or was killed."
+    words = page.element("p", f"{verdict} {ended}", class_=f"verdict {'warning' if bad or code is None else 'fine'}")
+    table = page.table(
+        "Largest relative errors of all steps, recomputed from tractions and rigid-body displacements alone",
+        ("error", "largest", "tolerance", "state", "of"), rows, (4,)
+    )  # fmt: skip
+    return page.section("Check", words, table)
+
+
+def warnings(results):
+    """What the file says that a reader has to know, a line each."""
+    found = [f"{counted(count, 'step')} {STATES.get(state, 'has a state that is unknown')} (exit code {state})"
+             for state, count in _states(results)]  # fmt: skip
+    if not results.parameters.get("closed", 1):
+        found.append("the file is not closed: a run writes to it, or was killed")
+    for name, one in results.errors.items():
+        if not math.isfinite(one.error):
+            found.append(f"the error of {name} is unknown")
+        elif one.error > LARGE:
+            found.append(f"{name} has an error of {percent(one.error)} by the {one.cause}")
+    return found
+
+
+def doubts(results):
+    """The section of the warnings."""
+    found = warnings(results)
+    note = "What the run has printed on stderr is not in the file."
+    if not found:
+        return page.section("Warnings", page.element("p", f"None of what the file holds. {note}"))
+    lines = page.element("ul", *(page.element("li", one) for one in found), class_="warning")
+    return page.section("Warnings", lines, page.element("p", note))
+
+
+# ---------------------------------------------------------------- tables
+
+
+def some(count):
+    """Indices of the rows that are shown, the first and the last among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, ROWS)).round().astype(int)).tolist()
+
+
+def _rest(count, noun):
+    return f"{counted(count, noun)}" if count <= ROWS else f"{ROWS} of {counted(count, noun)}, chosen evenly"
+
+
+def history(results, columns=COLUMNS):
+    """The section of the history: at most ROWS load steps, and the columns that vary."""
+    count = results.history["time"].size
+    if results.program == "petsam":
+        known = noise.scales([results])
+        names = [name for name in columns if name in results.history]
+        names = [name for name in names if name in ALWAYS or noise.varies([results], name, known)]
+        first = [int(results.before) + 1 + row for row in range(count)]
+    else:
+        names = [name for name in results.history if name not in ("step", "time")][:12]
+        first = results.steps
+    rows = [
+        (str(first[row]), (float(results.history["time"][row]), "s"))
+        + tuple((float(results.history[name][row]), results.units[name]) for name in names)
+        for row in some(count)
+    ]
+    left = "; numbers that do not vary are left out" if results.program == "petsam" else ""
+    caption = f"{_rest(count, 'load step')}{left}"
+    return page.section("History", page.table(caption, ("step", "time", *names), rows), class_="page")
+
+
+def life(results):
+    """The section of the computed cycles of a life."""
+    count = min(values.size for values in results.wear.values())
+    names = [name for name in results.wear if name not in ("cycle", "computed")]
+    rows = [
+        (f"{results.wear['cycle'][row]:.10g}",)
+        + tuple((float(results.wear[name][row]), results.wear_units[name]) for name in names)
+        for row in some(count)
+    ]
+    return page.section("Life", page.table(_rest(count, "computed cycle"), ("cycles before", *names), rows))
+
+
+def _case(study, name, case):
+    """A cell of a study: a text, or a number with its error."""
+    values, unit = study.column(name)
+    if values.dtype.kind not in "biuf":
+        return str(values[case])
+    unit = study.unit_of_input(name) if name in study.inputs else unit
+    value, error = float(values[case]), f"{name.removesuffix('_end')}_error"
+    if name in study.inputs or error not in study.results:
+        return value, unit
+    size = float(study.results[error][case])
+    shown = [page.quantity(value, unit), " \N{PLUS-MINUS SIGN} ", page.quantity(size, unit, 2)]
+    return page.Html("".join(page.text(one) for one in shown))
+
+
+def _columns(study):
+    """The columns of a study that are shown: inputs that vary, results that do, and then others, at most MOST."""
+    errors = [f"{name}_error" for name in study.results]
+    names = [name for name in study.names if name not in errors]
+    varying = [name for name in names if len(set(study.column(name)[0][study.codes == 0].tolist())) > 1]
+    inputs = [name for name in names if name in study.inputs]
+    first = [*inputs, *(name for name in varying if not name.endswith(WORK))]
+    first.sort(key=lambda name: (name not in inputs, name not in varying))
+    return list(dict.fromkeys([*first, *names]))[:MOST], len(names)
+
+
+def cases(study):
+    """The section of the cases of a study."""
+    names, there = _columns(study)
+    rows = [
+        (study.cases[case], str(study.codes[case]), *(_case(study, name, case) for name in names))
+        for case in some(study.cases.size)
+    ]
+    failed = int(np.sum(study.codes != 0))
+    words = f"{counted(study.cases.size, 'case')}, {failed} of them failed or not run."
+    kind = "verdict warning" if failed else "verdict fine"
+    verdict = page.element("p", words if failed else "All cases finished.", class_=kind)
+    left = f"; {len(names)} of {there} columns" if len(names) < there else ""
+    caption = _rest(study.cases.size, "case") + left
+    return page.section("Cases", verdict, page.table(caption, ("case", "exit code", *names), rows))
