@@ -246,7 +246,7 @@ def test_noise_of_the_displacement_bends_no_loop(tmp_path):
     for seed in range(4):
         chance = np.random.default_rng(seed)
         write(tmp_path / "lab.csv", [twin(chance, 0.95, None, 2e7, noise=0.03) for _ in range(10)])
-        one = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH], loss=0.0)
+        one = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
         found.append((one.friction - MU) / one.friction_sd)
     assert np.abs(found).max() < 2.5 and np.abs(np.mean(found)) < 1.3
 
@@ -273,6 +273,48 @@ def test_a_loss_of_the_rig_is_in_the_band(tmp_path):
         assert found.identifiable and abs(found.friction - MU) < 2.5 * found.friction_sd, (part, stroke)
         wrong = without.state == "rejected" or abs(without.friction - MU) > 4 * without.friction_sd
         assert wrong, (part, stroke)
+
+
+@pytest.mark.parametrize("part, stroke, rig", [(0.8, None, 2e7), (0.6, None, 2e8), (None, 1.5, 2e7)])
+def test_bands_hold_the_truth_of_rigs_that_lose(tmp_path, part, stroke, rig):
+    """A loss of each rig by chance, 0.5 % in the mean, nothing stated: of 20 twins 18 within two deviations."""
+    chance, inside = np.random.default_rng(23), {"friction": 0, "rig_stiffness": 0}
+    for _ in range(20):
+        lost = 0.005 * chance.standard_normal()
+        write(tmp_path / "lab.csv", [twin(chance, part, stroke, rig, loss=lost)])
+        found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+        for name, truth in (("friction", MU), ("rig_stiffness", rig)):
+            deviation = getattr(found, f"{name}_sd")
+            low, high = found.fit.friction_range if name == "friction" and found.state == "weak" else (np.nan, np.nan)
+            held = abs(getattr(found, name) - truth) < 2 * deviation or low < truth < high
+            inside[name] += not found.identifiable or bool(held)
+        assert found.identifiable and found.fit.more["loss"][1] < 0.0051
+    assert min(inside.values()) >= 18, inside
+
+
+def test_what_is_known_beforehand_is_one_more_residual():
+    """Of nothing but it the loss is what was stated; and no number is better known than without it."""
+    loop = twin(np.random.default_rng(4), 0.6, None, 2e7, loss=0.003)
+    given, within, free = (model.fit([loop], PUSH, **one) for one in ({"loss": 0.003}, {"loss": (0.0, 0.005)}, {}))
+    free = model.fit([loop], PUSH, ("loss",))
+    (value, sd), (alone, alone_sd) = within.more["loss"], free.more["loss"]
+    assert 1 / sd**2 == pytest.approx(1 / 0.005**2 + 1 / alone_sd**2, rel=0.3)
+    assert abs(value) < abs(alone) and given.compliance_sd < within.compliance_sd < 1.1 * free.compliance_sd
+    exact = model.fit([loop], PUSH, loss=(0.003, 1e-7))
+    assert exact.friction == pytest.approx(given.friction, rel=1e-3)
+    assert exact.compliance_sd == pytest.approx(given.compliance_sd, rel=0.05)
+
+
+def test_a_loss_that_loops_contradict_is_found_by_them(fit, tmp_path):
+    chance = np.random.default_rng(3)
+    write(tmp_path / "lab.csv", [twin(chance, None, 1.8, 3e7, 0.003, loss=0.03) for _ in range(4)])
+    words = ("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test", "--no-picture")
+    for more, noted in (((), True), (("--loss", "3%,0.5%"), False), (("--loss", "3%"), False)):
+        said = fit(*words, *more)
+        found = json.loads((tmp_path / "test.json").read_text())
+        assert ("the loops do not fit to a loss of the rig of 0 +- 0.5 %" in said) is noted
+        assert abs(found["friction"] - MU) < 2.5 * found["friction_sd"] < 0.01, more
+    assert "a part from 0 to below 1" in fit(*words, "--loss", "3%,x", check=2)
 
 
 def test_a_lean_that_a_loss_hides_is_rejected(tmp_path):
@@ -379,7 +421,8 @@ def test_peaks_give_a_bound_and_the_regime(fit, tmp_path):
     (tmp_path / "peaks.csv").write_text("cycle,displacement amplitude [um],force amplitude [N],energy [mJ]\n" + rows)
     said = fit("peaks.csv", "--normal", "1kN", "--shape", "ball.opts")
     assert "friction at least 0.5" in said and "5 cycles of gross slip" in said
-    assert "-o: peaks hold no loop" in fit("peaks.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "p", check=2)
+    said = fit("peaks.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "p")
+    assert "-o: nothing is written: peaks hold no loop" in said and not list(tmp_path.glob("p[.-]*"))
 
 
 # ---------------------------------------------------------------- what is written
@@ -397,6 +440,31 @@ def test_petsam_reproduces_the_loop(fit, petsam, tmp_path):
     assert force[-1] == pytest.approx(0.9 * MU * N, rel=0.02) and force[-17] == pytest.approx(-force[-1], rel=1e-3)
     closed = twin(np.random.default_rng(0), 0.9, None, 2e8, noise=0.0).energy
     assert energy[-32:].sum() == pytest.approx(closed, rel=0.03)
+
+
+@pytest.mark.parametrize("changes", [True, False])
+def test_petsam_computes_the_life_by_the_files(fit, petsam, tmp_path, changes):
+    """NAME-life.opts as it is: all cycles, friction by NAME-friction.csv; volume k N times the slip, which the drive's
+    stroke less the elastic part gives."""
+    (tmp_path / "worn.opts").write_text(SHAPE.replace("-grid_n 96", "-grid_n 48"))
+    truth = np.linspace(0.4, 0.6, 6) if changes else np.full(6, MU)
+    backbone = model.Backbone(PUSH, 0.5, 5e-8)
+    loops = [twin(np.random.default_rng(3), None, 1.5 * 0.5 / mu, 2e7, 0.003, mu) for mu in truth]
+    write(tmp_path / "lab.csv", loops)
+    more = () if changes else ("--volume", "1e4um3,10%")
+    said = fit("lab.csv", "--normal", "1kN", "--shape", "worn.opts", "-o", "test", "--no-picture", *more)
+    assert "test-life.opts" in said
+    words = ("-wear_coefficient2", "1e-16") if changes else ()
+    petsam("-options_file", "test-life.opts", "-output", "life.h5", *words)
+    with h5py.File("life.h5") as file:
+        cycle, energy = file["wear/cycle"][:], file["wear/energy"][:]
+        stroke = np.ptp(file["history/disp_x"][:])
+    assert cycle[-1] == 6
+    mean = truth.mean()
+    sliding = 2 * 1.5 * backbone.displacement[-1] - 2 * mean * N / 2e7
+    assert stroke == pytest.approx(sliding, rel=0.05)
+    assert energy[-1] == pytest.approx(2 * truth[-1] * N * stroke, rel=0.1)
+    petsam("-options_file", "test.opts", "-output", "loop.h5")
 
 
 def test_what_is_not_known_is_not_written(fit, tmp_path):
