@@ -14,7 +14,7 @@ from petsam.commands import fit as command
 from petsam.core.errors import Error
 
 STEEL = {"body1_young": 210e9, "body1_poisson": 0.3, "body2_young": 210e9, "body2_poisson": 0.3}
-N, R, MU = 1000.0, 0.1, 0.6
+N, R, MU, MIDDLE = 1000.0, 0.1, 0.6, 0.5
 PUSH = calibration.ball(N, R, STEEL)
 SHAPE = "-gap_type sphere\n-gap_radius1 0.1\n-gap_radius2 inf\n-grid_n 96\n-grid_size 2.6mm # wide enough\n" + "".join(
     f"-{name} {value!r}\n" for name, value in STEEL.items()
@@ -278,7 +278,7 @@ def test_a_loss_of_the_rig_is_in_the_band(tmp_path):
 @pytest.mark.parametrize("part, stroke, rig", [(0.8, None, 2e7), (0.6, None, 2e8), (None, 1.5, 2e7)])
 def test_bands_hold_the_truth_of_rigs_that_lose(tmp_path, part, stroke, rig):
     """A loss of each rig by chance, 0.5 % in the mean, nothing stated: of 20 twins 18 within two deviations."""
-    chance, inside = np.random.default_rng(23), {"friction": 0, "rig_stiffness": 0}
+    numbers, chance, inside = 0, np.random.default_rng(23), {"friction": 0, "rig_stiffness": 0}
     for _ in range(20):
         lost = 0.005 * chance.standard_normal()
         write(tmp_path / "lab.csv", [twin(chance, part, stroke, rig, loss=lost)])
@@ -288,18 +288,21 @@ def test_bands_hold_the_truth_of_rigs_that_lose(tmp_path, part, stroke, rig):
             low, high = found.fit.friction_range if name == "friction" and found.state == "weak" else (np.nan, np.nan)
             held = abs(getattr(found, name) - truth) < 2 * deviation or low < truth < high
             inside[name] += not found.identifiable or bool(held)
-        assert found.identifiable and found.fit.more["loss"][1] < 0.0051
-    assert min(inside.values()) >= 18, inside
+        numbers += found.identifiable
+    assert min(inside.values()) >= 18 and numbers >= 16, inside
 
 
 def test_what_is_known_beforehand_is_one_more_residual():
     """Of nothing but it the loss is what was stated; and no number is better known than without it."""
-    loop = twin(np.random.default_rng(4), 0.6, None, 2e7, loss=0.003)
-    given, within, free = (model.fit([loop], PUSH, **one) for one in ({"loss": 0.003}, {"loss": (0.0, 0.005)}, {}))
+    loop = twin(np.random.default_rng(4), 0.9, None, 2e8, loss=0.003)
+    given, within = (model.fit([loop], PUSH, loss=one) for one in (0.003, (0.0, 0.005)))
     free = model.fit([loop], PUSH, ("loss",))
     (value, sd), (alone, alone_sd) = within.more["loss"], free.more["loss"]
-    assert 1 / sd**2 == pytest.approx(1 / 0.005**2 + 1 / alone_sd**2, rel=0.3)
-    assert abs(value) < abs(alone) and given.compliance_sd < within.compliance_sd < 1.1 * free.compliance_sd
+    assert 1 / sd**2 == pytest.approx(1 / 0.005**2 + 1 / alone_sd**2, rel=0.15)
+    assert (
+        value == pytest.approx(alone * (sd / alone_sd) ** 2, rel=0.15)
+        and given.compliance_sd < within.compliance_sd < 1.1 * free.compliance_sd
+    )
     exact = model.fit([loop], PUSH, loss=(0.003, 1e-7))
     assert exact.friction == pytest.approx(given.friction, rel=1e-3)
     assert exact.compliance_sd == pytest.approx(given.compliance_sd, rel=0.05)
@@ -313,7 +316,7 @@ def test_a_loss_that_loops_contradict_is_found_by_them(fit, tmp_path):
         said = fit(*words, *more)
         found = json.loads((tmp_path / "test.json").read_text())
         assert ("the loops do not fit to a loss of the rig of 0 +- 0.5 %" in said) is noted
-        assert abs(found["friction"] - MU) < 2.5 * found["friction_sd"] < 0.01, more
+        assert abs(found["friction"] - MU) < max(2.5 * found["friction_sd"], 2e-3 * MU), more
     assert "a part from 0 to below 1" in fit(*words, "--loss", "3%,x", check=2)
 
 
@@ -444,12 +447,11 @@ def test_petsam_reproduces_the_loop(fit, petsam, tmp_path):
 
 @pytest.mark.parametrize("changes", [True, False])
 def test_petsam_computes_the_life_by_the_files(fit, petsam, tmp_path, changes):
-    """NAME-life.opts as it is: all cycles, friction by NAME-friction.csv; volume k N times the slip, which the drive's
-    stroke less the elastic part gives."""
+    """NAME-life.opts as it is: all cycles, friction by NAME-friction.csv. Energy of a ball that slides, closed form:
+    4 mu N (amplitude - 0.8 of that at which sliding begins)."""
     (tmp_path / "worn.opts").write_text(SHAPE.replace("-grid_n 96", "-grid_n 48"))
     truth = np.linspace(0.4, 0.6, 6) if changes else np.full(6, MU)
-    backbone = model.Backbone(PUSH, 0.5, 5e-8)
-    loops = [twin(np.random.default_rng(3), None, 1.5 * 0.5 / mu, 2e7, 0.003, mu) for mu in truth]
+    loops = [twin(np.random.default_rng(3), None, 1.5 * MIDDLE / mu, 2e7, 0.003, mu) for mu in truth]
     write(tmp_path / "lab.csv", loops)
     more = () if changes else ("--volume", "1e4um3,10%")
     said = fit("lab.csv", "--normal", "1kN", "--shape", "worn.opts", "-o", "test", "--no-picture", *more)
@@ -457,13 +459,13 @@ def test_petsam_computes_the_life_by_the_files(fit, petsam, tmp_path, changes):
     words = ("-wear_coefficient2", "1e-16") if changes else ()
     petsam("-options_file", "test-life.opts", "-output", "life.h5", *words)
     with h5py.File("life.h5") as file:
-        cycle, energy = file["wear/cycle"][:], file["wear/energy"][:]
+        cycle, energy = file["wear/cycle"][:], file["wear/dissipated_energy"][:]
         stroke = np.ptp(file["history/disp_x"][:])
-    assert cycle[-1] == 6
-    mean = truth.mean()
-    sliding = 2 * 1.5 * backbone.displacement[-1] - 2 * mean * N / 2e7
-    assert stroke == pytest.approx(sliding, rel=0.05)
-    assert energy[-1] == pytest.approx(2 * truth[-1] * N * stroke, rel=0.1)
+    drive = 1.5 * model.Backbone(PUSH, MIDDLE, 5e-8).displacement[-1]
+    assert cycle[-1] == 6 and stroke == pytest.approx(2 * (drive - truth[len(truth) // 2] * N / 2e7), rel=0.03)
+    for k in (0, -1):
+        elastic = 0.8 * truth[k] * PUSH.displacement[-1]
+        assert energy[k] == pytest.approx(4 * truth[k] * N * (0.5 * stroke - elastic), rel=0.02)
     petsam("-options_file", "test.opts", "-output", "loop.h5")
 
 

@@ -249,8 +249,8 @@ def write_friction(found: Result, path) -> None:
 
 def write_options(found: Result, push: Push, shape, width, name, worn=None, body="2") -> list[str]:
     """Writes NAME.opts and NAME-loop.csv, with which petsam computes the loop of the contact alone: its displacement is
-    that of the record less the compliance times the force. The loop is a closed cycle: where the friction changes, or a
-    coefficient of wear is known, NAME-life.opts repeats it for the cycles of the record.
+    that of the record less the compliance times the force. Where the friction changes, or a coefficient of wear is
+    known, NAME-life.opts repeats the closed cycle of NAME-life.csv for the cycles of the test.
 
     Parameters
     ----------
@@ -276,16 +276,18 @@ def write_options(found: Result, push: Push, shape, width, name, worn=None, body
     kept = [f"-{option} {value}".rstrip() for option, value in options.items()]
     band = f"+- {found.friction_sd:.2g}" if found.state != "changes" else "the mean of a friction that changes"
     friction = f"-friction {found.friction:.6g} # {band}"
-    loop = [f"-history {name}-loop.csv", "-steps 16"]
-    _write_lines(f"{name}.opts", [HEAD, *kept, friction, *loop])
-    _write_loop(found, push.normal / (width or 1.0), f"{name}-loop.csv")
+    normal = push.normal / (width or 1.0)
+    _write_lines(f"{name}.opts", [HEAD, *kept, friction, f"-history {name}-loop.csv", "-steps 16"])
+    _write_loop(found, normal, (0, 1, -1, 1), f"{name}-loop.csv")
     wrote, wears = [f"{name}.opts", f"{name}-loop.csv"], any(option.startswith(WEARS) for option in options)
     if found.state == "changes" or wears:
         changes = f"-wear_friction {name}-friction.csv" if found.state == "changes" else friction
         more = [] if wears else ["# no wear is known: give -wear_coefficient1, -wear_coefficient2, or both"]
         cycles = worn.cycles if worn else found.numbers[-1]
-        _write_lines(f"{name}-life.opts", [HEAD, *kept, changes, *loop, f"-wear_cycles {cycles:.12g}", *more])
-        wrote.append(f"{name}-life.opts")
+        life = [f"-history {name}-life.csv", "-steps 16", f"-wear_cycles {cycles:.12g}"]
+        _write_lines(f"{name}-life.opts", [HEAD, *kept, changes, *life, *more])
+        _write_loop(found, normal, (0, 1, -1, 0), f"{name}-life.csv")
+        wrote += [f"{name}-life.opts", f"{name}-life.csv"]
     return wrote
 
 
@@ -294,9 +296,9 @@ def _write_lines(path, lines):
         file.write("\n".join(lines) + "\n")
 
 
-def _write_loop(found, normal, path):
-    """The closed cycle of the contact's displacement, from and to its largest one."""
+def _write_loop(found, normal, way, path):
+    """The history of the contact's displacement, over its amplitude from row to row."""
     d, q = max(found.fit.curves, key=lambda one: np.ptp(one[0]))
     half = 0.5 * np.ptp(d - q / found.rig_stiffness)
-    rows = [(1, half), (2, -half), (3, half)]
-    _write_lines(path, ["time,load_n,disp_x", *(f"{t},{normal:.9g},{x:.9g}" for t, x in rows)])
+    rows = [f"{k},{normal:.9g},{part * half:.9g}" for k, part in enumerate(way, 1)]
+    _write_lines(path, ["time,load_n,disp_x", *rows])

@@ -15,7 +15,7 @@ model does not hold, no number at all. --scar finds the coefficient of wear from
 
 -o NAME writes NAME.json, NAME-cycles.csv (friction, rig, energy of each cycle), NAME-friction.csv (for -wear_friction),
 where friction changes, NAME.opts, with which petsam computes the contact's loop, its history NAME-loop.csv,
-NAME-life.opts for the life of all cycles, where friction changes or wear is known, and a picture.
+NAME-life.opts for a wear simulation of all cycles, where friction changes or wear is known, and a picture.
 """
 
 import argparse
@@ -31,7 +31,17 @@ from ..core.files import need_replaceable, same
 from ..plot.measured import read_profiles
 from .line import Parser, add_choice, guarded, joined, quietly, word
 
-WRITTEN = (".json", "-cycles.csv", "-friction.csv", ".opts", "-life.opts", "-loop.csv", ".png", "-scar.png")
+WRITTEN = (
+    ".json",
+    "-cycles.csv",
+    "-friction.csv",
+    ".opts",
+    "-life.opts",
+    "-life.csv",
+    "-loop.csv",
+    ".png",
+    "-scar.png",
+)
 
 
 def part(text):
