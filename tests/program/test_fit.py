@@ -14,7 +14,7 @@ from petsam.commands import fit as command
 from petsam.core.errors import Error
 
 STEEL = {"body1_young": 210e9, "body1_poisson": 0.3, "body2_young": 210e9, "body2_poisson": 0.3}
-N, R, MU = 1000.0, 0.1, 0.6
+N, R, MU, MIDDLE = 1000.0, 0.1, 0.6, 0.5
 PUSH = calibration.ball(N, R, STEEL)
 SHAPE = "-gap_type sphere\n-gap_radius1 0.1\n-gap_radius2 inf\n-grid_n 96\n-grid_size 2.6mm # wide enough\n" + "".join(
     f"-{name} {value!r}\n" for name, value in STEEL.items()
@@ -186,7 +186,7 @@ def test_friction_that_changes_is_a_table(fit, tmp_path):
     loops = series_of(np.random.default_rng(11), truth)
     write(tmp_path / "lab.csv", loops, "Displacement (um);Friction force (N)", "{:.2f};{:.3f}", drift=4.0, offset=12.0)
     said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test", "--no-picture")
-    assert "friction changes with the cycles, 0.40" in said and "gross slip" in said and "rig stiffness 20" in said
+    assert "friction changes with the cycles, " in said and "gross slip" in said and "rig stiffness 20" in said
     found = json.loads((tmp_path / "test.json").read_text())
     assert found["state"] == "changes" and found["identifiable"] and len(found["cycles"]) == 12
     assert [one["friction"] for one in found["cycles"]] == pytest.approx(truth, rel=0.01)
@@ -263,6 +263,109 @@ def test_spikes_are_left_out(tmp_path):
     assert abs(found.friction - MU) < 3 * found.friction_sd < 0.003
 
 
+def test_a_loss_of_the_rig_is_in_the_band(tmp_path):
+    """Of half a percent that nobody states: assumed to be none, it would make friction 15 % too small."""
+    for seed, part, stroke in ((1, 0.6, None), (2, 0.8, None), (3, None, 1.8), (4, None, 1.3)):
+        chance = np.random.default_rng(seed)
+        write(tmp_path / "lab.csv", [twin(chance, part, stroke, 3e7, 0.003, loss=0.005) for _ in range(6)])
+        files = [calibration.cycles(calibration.read("lab.csv"), N)]
+        found, without = calibration.analyse(files, [PUSH]), calibration.analyse(files, [PUSH], loss=0.0)
+        assert found.identifiable and abs(found.friction - MU) < 2.5 * found.friction_sd, (part, stroke)
+        wrong = without.state == "rejected" or abs(without.friction - MU) > 4 * without.friction_sd
+        assert wrong, (part, stroke)
+
+
+@pytest.mark.parametrize("part, stroke, rig", [(0.8, None, 2e7), (0.6, None, 2e8), (None, 1.5, 2e7)])
+def test_bands_hold_the_truth_of_rigs_that_lose(tmp_path, part, stroke, rig):
+    """A loss of each rig by chance, 0.5 % in the mean, nothing stated: of 20 twins 18 within two deviations."""
+    numbers, chance, inside = 0, np.random.default_rng(23), {"friction": 0, "rig_stiffness": 0}
+    for _ in range(20):
+        lost = 0.005 * chance.standard_normal()
+        write(tmp_path / "lab.csv", [twin(chance, part, stroke, rig, loss=lost)])
+        found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+        for name, truth in (("friction", MU), ("rig_stiffness", rig)):
+            deviation = getattr(found, f"{name}_sd")
+            low, high = found.fit.friction_range if name == "friction" and found.state == "weak" else (np.nan, np.nan)
+            held = abs(getattr(found, name) - truth) < 2 * deviation or low < truth < high
+            inside[name] += not found.identifiable or bool(held)
+        numbers += found.identifiable
+    assert min(inside.values()) >= 18 and numbers >= 16, inside
+
+
+def test_what_is_known_beforehand_is_one_more_residual():
+    """Of nothing but it the loss is what was stated; and no number is better known than without it."""
+    loop = twin(np.random.default_rng(4), 0.9, None, 2e8, loss=0.003)
+    given, within = (model.fit([loop], PUSH, loss=one) for one in (0.003, (0.0, 0.005)))
+    free = model.fit([loop], PUSH, ("loss",))
+    (value, sd), (alone, alone_sd) = within.more["loss"], free.more["loss"]
+    assert 1 / sd**2 == pytest.approx(1 / 0.005**2 + 1 / alone_sd**2, rel=0.15)
+    assert (
+        value == pytest.approx(alone * (sd / alone_sd) ** 2, rel=0.15)
+        and given.compliance_sd < within.compliance_sd < 1.1 * free.compliance_sd
+    )
+    exact = model.fit([loop], PUSH, loss=(0.003, 1e-7))
+    assert exact.friction == pytest.approx(given.friction, rel=1e-3)
+    assert exact.compliance_sd == pytest.approx(given.compliance_sd, rel=0.05)
+
+
+def test_a_loss_that_loops_contradict_is_found_by_them(fit, tmp_path):
+    chance = np.random.default_rng(3)
+    write(tmp_path / "lab.csv", [twin(chance, None, 1.8, 3e7, 0.003, loss=0.03) for _ in range(4)])
+    words = ("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test", "--no-picture")
+    for more, noted in (((), True), (("--loss", "3%,0.5%"), False), (("--loss", "3%"), False)):
+        said = fit(*words, *more)
+        found = json.loads((tmp_path / "test.json").read_text())
+        assert ("the loops do not fit to a loss of the rig of 0 +- 0.5 %" in said) is noted
+        assert abs(found["friction"] - MU) < max(2.5 * found["friction_sd"], 2e-3 * MU), more
+    assert "a part from 0 to below 1" in fit(*words, "--loss", "3%,x", check=2)
+
+
+def test_a_lean_that_a_loss_hides_is_rejected(tmp_path):
+    chance = np.random.default_rng(3)
+    write(tmp_path / "lab.csv", [twin(chance, None, 1.8, 3e7, 0.003, lean=3e5) for _ in range(6)])
+    files = [calibration.cycles(calibration.read("lab.csv"), N)]
+    found, leaning = calibration.analyse(files, [PUSH]), calibration.analyse(files, [PUSH], ("lean",))
+    assert found.state == "rejected" and np.isnan(found.friction)
+    assert abs(leaning.friction - MU) < 3 * leaning.friction_sd
+
+
+def test_noise_alone_turns_no_loop(tmp_path):
+    """The course is that of all cycles: of noisy small loops one or the other has a clockwise area."""
+    loops = [twin(np.random.default_rng(seed), 0.6, None, 2e7, 0.05) for seed in range(10)]
+    signed = [
+        np.sum(one.displacement * np.roll(one.force, -1) - np.roll(one.displacement, -1) * one.force) for one in loops
+    ]
+    assert max(signed) > 0.0 > sum(signed)
+    write(tmp_path / "lab.csv", loops)
+    cycles = calibration.cycles(calibration.read("lab.csv"), N)
+    assert not cycles.turned and calibration.analyse([cycles], [PUSH]).state != "rejected"
+
+
+def test_a_rig_beside_a_weakly_known_friction_has_its_range(tmp_path):
+    """Its stiffness moves with the friction within the range of that, farther than the slopes at the best one tell."""
+    for seed in range(8):
+        loop = twin(np.random.default_rng(seed), 0.5, None, 2e7)
+        found = model.fit([loop], PUSH)
+        assert abs(found.compliance - 5e-8) < 2.5 * found.compliance_sd < 2e-9, seed
+
+
+def test_a_friction_that_grows_within_cycles_has_that_in_its_bands(tmp_path):
+    frictions = np.linspace(0.40, 0.72, 17)
+    loops = []
+    for one, after in zip(frictions[:-1], frictions[1:]):
+        rise, fall = (twin(np.random.default_rng(7), None, 1.8, 2e7, mu=mu) for mu in (0.7 * one + 0.3 * after, after))
+        force = np.where(rise.rising, rise.force, fall.force)
+        loops.append(model.Loop(rise.displacement, force, rise.rising, N))
+    write(tmp_path / "lab.csv", loops)
+    found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+    if found.state == "changes":
+        for k, one in enumerate(found.each):
+            assert frictions[k] - one.friction_sd < one.friction < frictions[k + 1] + one.friction_sd
+            assert one.friction_sd > 0.9 * (frictions[1] - frictions[0]) / np.sqrt(12.0)
+    else:
+        assert found.state == "rejected"
+
+
 def test_small_clockwise_loops_have_no_number(tmp_path):
     """A force that lags by a sample turns a partial loop; recorded backwards it would look the same."""
     loop = twin(np.random.default_rng(5), 0.6, None, 2e7)
@@ -321,7 +424,8 @@ def test_peaks_give_a_bound_and_the_regime(fit, tmp_path):
     (tmp_path / "peaks.csv").write_text("cycle,displacement amplitude [um],force amplitude [N],energy [mJ]\n" + rows)
     said = fit("peaks.csv", "--normal", "1kN", "--shape", "ball.opts")
     assert "friction at least 0.5" in said and "5 cycles of gross slip" in said
-    assert "-o: peaks hold no loop" in fit("peaks.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "p", check=2)
+    said = fit("peaks.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "p")
+    assert "-o: nothing is written: peaks hold no loop" in said and not list(tmp_path.glob("p[.-]*"))
 
 
 # ---------------------------------------------------------------- what is written
@@ -339,6 +443,30 @@ def test_petsam_reproduces_the_loop(fit, petsam, tmp_path):
     assert force[-1] == pytest.approx(0.9 * MU * N, rel=0.02) and force[-17] == pytest.approx(-force[-1], rel=1e-3)
     closed = twin(np.random.default_rng(0), 0.9, None, 2e8, noise=0.0).energy
     assert energy[-32:].sum() == pytest.approx(closed, rel=0.03)
+
+
+@pytest.mark.parametrize("changes", [True, False])
+def test_petsam_computes_the_life_by_the_files(fit, petsam, tmp_path, changes):
+    """NAME-life.opts as it is: all cycles, friction by NAME-friction.csv. Energy of a ball that slides, closed form:
+    4 mu N (amplitude - 0.8 of that at which sliding begins)."""
+    (tmp_path / "worn.opts").write_text(SHAPE.replace("-grid_n 96", "-grid_n 48"))
+    truth = np.linspace(0.4, 0.6, 6) if changes else np.full(6, MU)
+    loops = [twin(np.random.default_rng(3), None, 1.5 * MIDDLE / mu, 2e7, 0.003, mu) for mu in truth]
+    write(tmp_path / "lab.csv", loops)
+    more = () if changes else ("--volume", "1e4um3,10%")
+    said = fit("lab.csv", "--normal", "1kN", "--shape", "worn.opts", "-o", "test", "--no-picture", *more)
+    assert "test-life.opts" in said
+    words = ("-wear_coefficient2", "1e-16") if changes else ()
+    petsam("-options_file", "test-life.opts", "-output", "life.h5", *words)
+    with h5py.File("life.h5") as file:
+        cycle, energy = file["wear/cycle"][:], file["wear/dissipated_energy"][:]
+        stroke = np.ptp(file["history/disp_x"][:])
+    drive = 1.5 * model.Backbone(PUSH, MIDDLE, 5e-8).displacement[-1]
+    assert cycle[-1] == 6 and stroke == pytest.approx(2 * (drive - truth[len(truth) // 2] * N / 2e7), rel=0.03)
+    for k in (0, -1):
+        elastic = 0.8 * truth[k] * PUSH.displacement[-1]
+        assert energy[k] == pytest.approx(4 * truth[k] * N * (0.5 * stroke - elastic), rel=0.02)
+    petsam("-options_file", "test.opts", "-output", "loop.h5")
 
 
 def test_what_is_not_known_is_not_written(fit, tmp_path):

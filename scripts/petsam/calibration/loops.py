@@ -7,8 +7,11 @@ beyond D_g = mu f(N) + c mu N it slides at mu N. With this backbone Q = F(D) a c
     falling  Q = Q0 + Qa - 2 F((Dmax - D)/2)    rising  Q = Q0 - Qa + 2 F((D - Dmin)/2)    Qa = F((Dmax - Dmin)/2)
 
 also in gross slip. A guide beside the contact adds k_p (D - Dmid), the lean; a loss of the rig a thin ellipse of force,
-a part of Qa high. Dmax and Dmin are found, not read off, since the largest of noisy points is too large. Residuals are
-those of Q at the measured D, weighted by the noise of Q and, times the slope, of D.
+a part of Qa high, negative of a force that lags behind the displacement. Dmax and Dmin are found, not read off, since
+the largest of noisy points is too large. Residuals are those of Q at the measured D, weighted by the noise of Q and,
+times the slope, of D. What is known of a parameter beforehand, a value p0 and its standard deviation s, is one more
+residual, (p - p0)/s: least squares then find the most likely parameters given both (Bayes, normal errors), and the
+covariance is that of both, v (J'J + v I/s^2)^-1 with v the variance of the loops' residuals.
 
 Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr. Appl. Mech. (1926) 332.
 """
@@ -27,11 +30,15 @@ OWN = ("offset", "top", "bottom")  # those of each: force, largest and smallest 
 STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from one it may end where all sticks or slides
 PASSES = 3  # of a fit, each with the weights of the one before
 LEAST, MOST = 1e-4, 30.0  # coefficients of friction
+LOSING = 0.2  # the most loss that is looked for: more would be a loop of its own
+TRIALS = 30  # steps of a pass at most: the next pass goes on, and a start that leads nowhere costs little
 FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
+LOSS = (0.0, 0.005)  # of a rig, if nothing is stated, and its standard deviation: clamped joints, load cells, lags
 CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold
 MISFIT = 1.2  # and root mean square of the residuals, in units of the noise, below which it does not matter
 LARGE = 3.0  # root mean square of the residuals, in units of the noise, beyond which the model does not hold
-DOUBTFUL = 0.1  # relative deviation of the friction above which its range is that of its profile
+DOUBTFUL = 0.03  # relative deviation of the friction above which its range is that of its profile
+VAGUE = 0.1  # and above which it is called not identifiable where no profile is made
 UNBOUNDED = 5.0  # friction beyond this multiple of the best one is not excluded by the loops: no upper bound
 WEAK = 0.5  # width of the range, relative to the friction, from which on it is weakly known
 
@@ -192,6 +199,8 @@ class _Problem:
         self.loops, self.pushes = loops, pushes
         self.free = [name for name in SHARED if name in free]
         self.fixed = dict(friction=np.nan, compliance=0.0, lean=0.0, loss=0.0, scale=1.0) | dict(fixed)
+        self.known = {name: self.fixed[name] for name in self.free if isinstance(self.fixed[name], tuple)}
+        self.spread = 1.0  # of the residuals, in units of the noise, in which what is known beforehand is weighed
         self.noise = [loop.noise() for loop in loops]
         self.amplitudes = [(0.5 * np.ptp(one.displacement), 0.5 * np.ptp(one.force)) for one in loops]
 
@@ -203,11 +212,11 @@ class _Problem:
         return np.array([*(shared[name] for name in self.free), *own])
 
     def bounds(self):
-        lowest = dict(friction=LEAST, compliance=0.0, lean=-np.inf, loss=0.0, scale=0.05)
-        highest = dict(friction=MOST, loss=0.5)
+        lowest = dict(friction=LEAST, compliance=0.0, loss=-LOSING, scale=0.05)
+        highest = dict(friction=MOST, loss=LOSING)
         count = 3 * len(self.loops)
         return (
-            np.array([*(lowest[name] for name in self.free), *[-np.inf] * count]),
+            np.array([*(lowest.get(name, -np.inf) for name in self.free), *[-np.inf] * count]),
             np.array([*(highest.get(name, np.inf) for name in self.free), *[np.inf] * count]),
         )
 
@@ -222,7 +231,8 @@ class _Problem:
         own = friction * np.interp(min(q / friction, push.normal), push.force, push.displacement)
         steep = self._steep(loop) - push.displacement[1] / push.force[1]
         compliance = max(steep if sliding > 0.99 else (d - own) / q, 1e-3 * d / q)
-        values = dict(friction=friction, compliance=compliance, lean=0.0, loss=0.002, scale=1.0)
+        values = dict(friction=friction, compliance=compliance, lean=0.0, loss=0.0, scale=1.0)
+        values |= {name: value for name, (value, _) in self.known.items()}
         found = [values[name] for name in self.free]
         for one in self.loops:
             found += [
@@ -274,9 +284,11 @@ class _Problem:
         return total / count
 
     def residuals(self, values, weights):
-        """Residuals of all loops in units of the noise."""
+        """Residuals of all loops in units of the noise, and behind them those of what is known beforehand."""
         parts = [w * (loop.force - self.curve(values, k)[0]) for k, (loop, w) in enumerate(zip(self.loops, weights))]
-        return np.concatenate(parts)
+        of = self.shared(values)
+        known = [self.spread * (of[name] - value) / deviation for name, (value, deviation) in self.known.items()]
+        return np.concatenate([*parts, known])
 
     def solve(self, starts=None):
         """The best parameters, their residuals' sum of squares, and the Jacobian there."""
@@ -291,7 +303,7 @@ class _Problem:
             for _ in range(PASSES):
                 first = np.clip(start / scales, low + 1e-9, high)
                 given = dict(bounds=(low, high), args=(self.weights(scales * first),))
-                found = optimize.least_squares(scaled, first, **given)
+                found = optimize.least_squares(scaled, first, max_nfev=TRIALS, **given)
                 start = scales * found.x
             if best is None or found.cost < best.cost:
                 best = found
@@ -301,23 +313,25 @@ class _Problem:
 
 def _neighbours(problem, residuals):
     """Correlation of neighbouring residuals within the loops."""
-    sizes = np.cumsum([len(loop.force) for loop in problem.loops])[:-1]
-    parts = [part - part.mean() for part in np.split(residuals, sizes)]
+    sizes = np.cumsum([len(loop.force) for loop in problem.loops])
+    parts = [part - part.mean() for part in np.split(residuals, sizes)[:-1]]
     return float(sum(np.sum(p[1:] * p[:-1]) for p in parts) / max(sum(np.sum(p * p) for p in parts), 1e-300))
 
 
 def _profile(problem, best, variance):
-    """The range of the friction, 95 %: where the sum of squares, all else free, grows by 4 times the variance."""
+    """The range of the friction, 95 %: where the sum of squares, all else free, grows by 4 times the variance; and how
+    far the other shared parameters are within it from the best ones."""
     limit = 2.0 * best.cost + 4.0 * variance
     friction = best.x[0]
     free = [name for name in problem.free if name != "friction"]
 
     def cost(value, start):
         one = _Problem(problem.loops, problem.pushes, free, {**problem.fixed, "friction": value})
+        one.spread = problem.spread
         found = one.solve([start, one.start(min(0.999, problem.least() / value))])
         return 2.0 * found.cost, found.x
 
-    ends = []
+    ends, others = [], [best.x[1:]]
     for factor in (0.8, 1.25):
         inside, start, value = friction, best.x[1:], friction
         while True:
@@ -332,9 +346,28 @@ def _profile(problem, best, variance):
                     now, start = cost(middle, start)
                     inside, value = (inside, middle) if now > limit else (middle, value)
                 ends.append(float(np.sqrt(inside * value)))
+                others.append(start)
                 break
             inside = value
-    return tuple(ends)
+            others.append(start)
+    far = np.max(np.abs(np.array(others) - best.x[1:]), axis=0)
+    return tuple(ends), dict(zip(free, far[: len(free)]))
+
+
+def _solved(problem):
+    """The best parameters, the mean square of the loops' residuals over that of the noise, and the variance of one."""
+    count = sum(len(loop.force) for loop in problem.loops)
+    best = problem.solve()
+    if count < 3 * len(best.x):
+        raise Error(f"{count} points: a fit of {len(best.x)} parameters needs {3 * len(best.x)}")
+    for again in (bool(problem.known), False):
+        expected = problem.expected(best.x)
+        square = float(np.sum(best.fun[:count] ** 2)) / (count - len(best.x)) / expected
+        variance = max(square, 0.25 if expected > 0.99 else 1.0)  # without noise the errors are those of the model
+        if again and abs(np.sqrt(variance) - 1.0) > 0.1:  # what is known beforehand does not grow with the residuals
+            problem.spread = float(np.sqrt(variance))
+            best = problem.solve([best.x])
+    return best, square, variance
 
 
 def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), profile: bool = True, **fixed) -> Fit:
@@ -349,10 +382,11 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
     free : sequence of str
         Parameters that are found besides friction and compliance: "lean", "loss", "scale".
     profile : bool
-        False: no range by the profile, which takes most of the time; a friction with a deviation above DOUBTFUL is then
+        False: no range by the profile, which takes most of the time; a friction with a deviation above VAGUE is then
         called not identifiable.
     **fixed
-        Values that are given: compliance (m/N), lean (N/m), loss.
+        What is given: compliance (m/N), lean (N/m), loss; a value, or (value, standard deviation) of one that is found
+        within what is known of it.
 
     Returns
     -------
@@ -364,16 +398,10 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
         If the loops have fewer points than the fit needs.
     """
     pushes = [push] * len(loops) if isinstance(push, Push) else list(push)
-    names = [name for name in ("friction", "compliance", *free) if name not in fixed]
+    names = [name for name in SHARED if name in ("friction", "compliance", *free) and name not in fixed]
+    names += [name for name, value in fixed.items() if isinstance(value, tuple)]
     problem = _Problem(list(loops), pushes, names, fixed)
-    count = sum(len(loop.force) for loop in loops)
-    best = problem.solve()
-    if count < 3 * len(best.x):
-        raise Error(f"{count} points: a fit of {len(best.x)} parameters needs {3 * len(best.x)}")
-    square = 2.0 * best.cost / (count - len(best.x))
-    expected = problem.expected(best.x)
-    square /= expected
-    variance = max(square, 0.25 if expected > 0.99 else 1.0)  # of loops without noise the errors are those of the model
+    best, square, variance = _solved(problem)
     scales = problem.scales()
     jacobian = best.jac * scales
     covariance = variance * np.linalg.pinv(jacobian.T @ jacobian) * np.outer(scales, scales)
@@ -384,13 +412,15 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
     ends, state, at_least = (friction - 2 * friction_sd, friction + 2 * friction_sd), "known", np.nan
     if neighbours > CORRELATED and square > MISFIT**2 or square > LARGE**2:
         state = "rejected"
-    elif not friction_sd <= DOUBTFUL * friction:
-        ends = _profile(problem, best, variance) if profile else (problem.least(), np.inf)
+    elif not friction_sd <= (DOUBTFUL if profile else VAGUE) * friction:
+        ends, far = _profile(problem, best, variance) if profile else ((problem.least(), np.inf), {})
+        rest = np.sqrt(variance * np.diag(np.linalg.pinv(jacobian[:, 1:].T @ jacobian[:, 1:]))) * scales[1:]
+        sd |= {name: max(sd[name], np.hypot(own, 0.5 * far[name])) for name, own in zip(far, rest)}
         if np.isinf(ends[1]):
             state, at_least = "not identifiable", max(ends[0], problem.least() * 0.999)
         else:
             state = "weak" if ends[1] - ends[0] > WEAK * friction else "known"
-            friction_sd = max(friction_sd, 0.25 * (ends[1] - ends[0]))
+            friction_sd = max(friction_sd, *(0.5 * abs(end - friction) for end in ends))
     verdict = dict(friction_sd=friction_sd, friction_at_least=at_least, friction_range=ends, state=state)
     return _result(problem, best.x, sd, dict(verdict, neighbours=neighbours))
 

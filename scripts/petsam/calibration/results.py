@@ -9,7 +9,9 @@ from ..core.errors import Error, counted
 from .push import Push, options_of
 from .series import Result
 
-DROPPED = ("load_", "disp_", "history", "steps", "friction", "wear_cycles", "output", "checkpoint")  # options of a run
+HEAD = "# The contact of a measured loop, by petsam-fit: the rig is not part of it."
+DROPPED = ("load_", "disp_", "history", "steps", "friction", "wear_", "output", "checkpoint")  # options of a run
+WEARS = ("wear_coefficient", "wear_energy")  # but for these
 
 
 def _micro(value):
@@ -36,6 +38,7 @@ def lines(found: Result, push: Push) -> list[str]:
         f"{counted(count, 'cycle')} of about {points} points; noise {1e6 * fit.noise[0]:.3g} um, {fit.noise[1]:.3g} N"
         + (f"; drift {1e6 * drift:+.2g} um a cycle (removed)" if count > 1 else ""),
         f"push: {push.text}" + (f"; {push.datum}" if push.datum else ""),
+        *found.notes,
     ]
     if found.state == "rejected":
         out += [
@@ -67,7 +70,8 @@ def lines(found: Result, push: Push) -> list[str]:
         )
     for name, (value, deviation) in fit.more.items():
         unit = {"lean": " N/m", "loss": "", "scale": ""}[name]
-        out.append(f"{name} {value:.4g} +- {deviation:.2g}{unit}")
+        text = f"{100 * value:.3g} +- {100 * deviation:.2g} %" if name == "loss" else f"{value:.4g} +- {deviation:.2g}"
+        out.append(f"{name} {text}{unit}")
     energy = found.energy
     out.append(f"energy {energy[0]:.4g} J in the first cycle, {energy[-1]:.4g} J in the last")
     return out
@@ -83,7 +87,7 @@ def _friction_line(found):
             f"friction: not identifiable from these loops; at least {found.friction_at_least:.3g} (95 %): take larger "
             "strokes, best one loop in gross slip at the end of the test"
         )
-    given = "" if found.fit.gross else ", if the rig has no lean and no loss but those given"
+    given = "" if found.fit.gross else ", if the rig has no lean and the contact is that of the shape"
     text = f"friction {found.friction:.4f} +- {found.friction_sd:.2g}{given}"
     if found.state == "weak":
         text = f"friction {found.friction:.3g}, weakly known: {low:.3g} to {high:.3g} (95 %)"
@@ -107,6 +111,8 @@ class Wear:
         Archard's, 1/Pa: alpha times the friction; NaN where that is not identifiable.
     energy : float
         Of the whole test, J.
+    cycles : float
+        Of the whole test.
     """
 
     alpha: float
@@ -114,6 +120,7 @@ class Wear:
     coefficient: float
     coefficient_sd: float
     energy: float
+    cycles: float
 
 
 def wear(found: Result, volume: float, band: float = 0.0, life: Optional[float] = None) -> Wear:
@@ -153,7 +160,7 @@ def wear(found: Result, volume: float, band: float = 0.0, life: Optional[float] 
         else found.friction
     )
     deviation = found.friction_sd / found.friction if found.state != "changes" else 0.0
-    return Wear(alpha, alpha_sd, alpha * mu, alpha * mu * np.hypot(alpha_sd / alpha, deviation), total)
+    return Wear(alpha, alpha_sd, alpha * mu, alpha * mu * np.hypot(alpha_sd / alpha, deviation), total, life)
 
 
 def worn_line(worn: Wear, body: str) -> str:
@@ -240,9 +247,10 @@ def write_friction(found: Result, path) -> None:
         file.write("cycle,friction\n" + "".join(f"{n:.12g},{mu:.6g}\n" for n, mu in rows))
 
 
-def write_options(found: Result, push: Push, shape, width, name, worn=None, body="2") -> None:
+def write_options(found: Result, push: Push, shape, width, name, worn=None, body="2") -> list[str]:
     """Writes NAME.opts and NAME-loop.csv, with which petsam computes the loop of the contact alone: its displacement is
-    that of the record less the compliance times the force.
+    that of the record less the compliance times the force. Where the friction changes, or a coefficient of wear is
+    known, NAME-life.opts repeats the closed cycle of NAME-life.csv for the cycles of the test.
 
     Parameters
     ----------
@@ -256,28 +264,41 @@ def write_options(found: Result, push: Push, shape, width, name, worn=None, body
     worn : Wear, optional
     body : str
         That has worn.
+
+    Returns
+    -------
+    list of str
+        The files.
     """
-    kept = [
-        f"-{option} {value}".rstrip() for option, value in options_of(shape).items()
-        if not option.startswith(DROPPED) and option != f"wear_coefficient{body if worn else ''}"
-    ]  # fmt: skip
-    fit, normal = found.fit, push.normal / (width or 1.0)
-    d, q = max(fit.curves, key=lambda one: np.ptp(one[0]))
-    compliance = fit.compliance if fit.compliance > 0.0 else 0.0
-    own = d - compliance * (q - 0.5 * (q.max() + q.min()))
-    half = 0.5 * np.ptp(own)
-    band = f"+- {found.friction_sd:.2g}" if found.state != "changes" else "the mean of a friction that changes"
-    lines = [
-        "# The contact of a measured loop, by petsam-fit: the rig is not part of it.",
-        *kept,
-        f"-friction {found.friction:.6g} # {band}",
-        f"-history {name}-loop.csv",
-        "-steps 16",
-    ]
+    options = {k: v for k, v in options_of(shape).items() if not k.startswith(DROPPED) or k.startswith(WEARS)}
     if worn and np.isfinite(worn.coefficient):
-        lines.append(f"-wear_coefficient{body} {worn.coefficient:.6g} # +- {worn.coefficient_sd:.2g} 1/Pa")
-    with open(name + ".opts", "w", encoding="utf-8") as file:
+        options[f"wear_coefficient{body}"] = f"{worn.coefficient:.6g} # +- {worn.coefficient_sd:.2g} 1/Pa"
+    kept = [f"-{option} {value}".rstrip() for option, value in options.items()]
+    band = f"+- {found.friction_sd:.2g}" if found.state != "changes" else "the mean of a friction that changes"
+    friction = f"-friction {found.friction:.6g} # {band}"
+    normal = push.normal / (width or 1.0)
+    _write_lines(f"{name}.opts", [HEAD, *kept, friction, f"-history {name}-loop.csv", "-steps 16"])
+    _write_loop(found, normal, (0, 1, -1, 1), f"{name}-loop.csv")
+    wrote, wears = [f"{name}.opts", f"{name}-loop.csv"], any(option.startswith(WEARS) for option in options)
+    if found.state == "changes" or wears:
+        changes = f"-wear_friction {name}-friction.csv" if found.state == "changes" else friction
+        more = [] if wears else ["# no wear is known: give -wear_coefficient1, -wear_coefficient2, or both"]
+        cycles = worn.cycles if worn else found.numbers[-1]
+        life = [f"-history {name}-life.csv", "-steps 16", f"-wear_cycles {cycles:.12g}"]
+        _write_lines(f"{name}-life.opts", [HEAD, *kept, changes, *life, *more])
+        _write_loop(found, normal, (0, 1, -1, 0), f"{name}-life.csv")
+        wrote += [f"{name}-life.opts", f"{name}-life.csv"]
+    return wrote
+
+
+def _write_lines(path, lines):
+    with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
-    rows = [(1, 0.0), (2, half), (3, -half), (4, half)]
-    with open(name + "-loop.csv", "w", encoding="utf-8") as file:
-        file.write("time,load_n,disp_x\n" + "".join(f"{t},{normal:.9g},{x:.9g}\n" for t, x in rows))
+
+
+def _write_loop(found, normal, way, path):
+    """The history of the contact's displacement, over its amplitude from row to row."""
+    d, q = max(found.fit.curves, key=lambda one: np.ptp(one[0]))
+    half = 0.5 * np.ptp(d - q / found.rig_stiffness)
+    rows = [f"{k},{normal:.9g},{part * half:.9g}" for k, part in enumerate(way, 1)]
+    _write_lines(path, ["time,load_n,disp_x", *rows])

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import Error, counted, library
 from ..core.tables import Column, Tabled
-from .loops import Fit, Loop, fit, noise_of
+from .loops import LOSS, Fit, Loop, fit, noise_of
 from .push import Push
 from .reading import Record
 
@@ -22,6 +22,8 @@ TOGETHER = 3  # cycles of each file that are fitted together, where their amplit
 ALIKE = 2.0  # of the noise: the standard deviation of the ranges of cycles that are alike; noise makes it about 1
 MOST = 6000  # points of cycles that are fitted as one loop
 TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
+LEANS = 5.0  # standard deviations of a lean in gross slip beyond which loops without one are not the model's
+BEYOND = 2.0  # standard deviations of the loss known beforehand beyond which the loops alone settle it
 FEWEST = 12  # points of a cycle
 
 
@@ -115,24 +117,41 @@ def cycles(record: Record, normal: float, which: slice = slice(None)) -> Cycles:
     parts = [slice(a, b) for a, b in zip(cuts[:-1], cuts[1:])]
     line, drift = _drift(filled, parts)
     d = d - line
-    loops, numbers, turned = [], [], 0
+    loops, numbers = [], []
     for k, part in enumerate(parts):
         if not np.all(known[part]) or part.stop - part.start < FEWEST:
             continue
-        loop, is_turned = _closed(d[part], q[part], int(np.argmax(smooth[part])), normal, ~spikes[part])
-        turned += is_turned
-        loops.append(loop)
+        loops.append(_closed(d[part], q[part], int(np.argmax(smooth[part])), normal, ~spikes[part]))
         numbers.append(k + 1 if record.cycle is None else float(np.nanmedian(record.cycle[part])))
     if len(loops) < len(parts):
         notes.append(f"{counted(len(parts) - len(loops), 'cycle')} with lost or too few points left out")
+    loops, turned = _turned(loops)
     if turned:
         notes.append(
-            f"{counted(turned, 'loop')} clockwise, as if work were gained: taken as recorded backwards; a force that "
-            "lags behind the displacement makes small loops so, too"
+            f"{counted(len(loops), 'loop')} clockwise, as if work were gained: taken as recorded backwards; a force "
+            "that lags behind the displacement makes small loops so, too"
         )
     if not loops[which]:
         raise Error(f"{record.path}: no whole cycle is left of {len(parts)}")
-    return Cycles(record.path, loops[which], np.array(numbers)[which], drift, notes, bool(turned))
+    return Cycles(record.path, loops[which], np.array(numbers)[which], drift, notes, turned)
+
+
+def _turned(loops):
+    """The loops in the order of time, by the sign of the sum of their areas, since noise may turn that of a small one,
+    and whether they were clockwise, as if work were gained."""
+    if (
+        sum(
+            np.sum(one.displacement * np.roll(one.force, -1) - np.roll(one.displacement, -1) * one.force)
+            for one in loops
+        )
+        <= 0.0
+    ):
+        return loops, False
+    back = slice(None, None, -1)
+    return [
+        replace(one, displacement=one.displacement[back], force=one.force[back], rising=~one.rising[back])
+        for one in loops
+    ], True
 
 
 def _cuts(path, smooth, period):
@@ -188,17 +207,13 @@ def _harmonic(d, good):
 
 
 def _closed(d, q, top, normal, good):
-    """A loop from the good points of a cycle whose largest displacement is at `top`, and whether its course was
-    turned."""
+    """A loop from the good points of a cycle whose largest displacement is at `top`."""
     noise_q = noise_of(q[good])
     d, noise_d, left = _harmonic(d, good)
-    rising, turned = np.arange(len(d)) < top, False
+    rising = np.arange(len(d)) < top
     turns = np.array([0, top, len(d)])
     away = good & (np.abs(np.arange(len(d))[:, None] - turns).min(axis=1) >= max(1, round(TURN * len(d))))
-    d, q, rising = d[away], q[away], rising[away]
-    if np.sum(d * np.roll(q, -1) - np.roll(d, -1) * q) > 0.0:  # clockwise: work would be gained
-        d, q, rising, turned = d[::-1], q[::-1], ~rising[::-1], True
-    return Loop(d, q, rising, normal, (noise_d, noise_q, left)), turned
+    return Loop(d[away], q[away], rising[away], normal, (noise_d, noise_q, left))
 
 
 @dataclass(frozen=True)
@@ -221,13 +236,14 @@ class Result(Tabled):
     contact_stiffness : float
         Of the contact without slip, N/m.
     fit : Fit
-        Of loops of all files together.
+        Of loops of all files together; of a friction that changes that of the cycle in the middle.
     files : list of Cycles
     each : list of Fit
         Of each cycle; empty of one cycle.
     numbers, energy : ndarray
         Of each cycle, its number and its dissipated energy, J, without the rig's loss.
     notes : list of str
+        Of the fit; the files have theirs.
     """
 
     friction: float
@@ -286,37 +302,36 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     pushes : sequence of Push
         That of each file.
     free : sequence of str
-        Parameters that are found, too: "lean", "loss".
+        Parameters that are found, too: "lean".
     **fixed
-        Values that are given: compliance (m/N), lean, loss.
+        What is given: compliance (m/N), lean, loss; a value, or (value, standard deviation). Without a loss that is
+        LOSS: one of half a percent makes more of a difference than noise does, and in partial slip no residual shows
+        it. Where the loops contradict a loss with its deviation by more than two of it, they alone settle it.
 
     Returns
     -------
     Result
     """
-    together = _fit_all(files, pushes, _together, free, fixed)
-    if together.state == "rejected":  # cycles on each other differ by more than their noise
-        together = _fit_all(files, pushes, _spread, free, fixed)
-    if any(one.turned for one in files) and not (together.gross and together.identifiable):
-        together = replace(together, state="rejected", friction=np.nan, friction_sd=np.nan, friction_at_least=np.nan)
-    each, notes = [], [note for one in files for note in one.notes]
+    together, free, fixed, notes = _fit_together(files, pushes, free, {"loss": LOSS, **fixed})
+    each = []
     if sum(len(one.loops) for one in files) > 1:
         each = [
             fit([loop], push, free, profile=False, **fixed) for one, push in zip(files, pushes) for loop in one.loops
         ]
     numbers = np.concatenate([one.numbers for one in files]).astype(float)
-    loss = together.more.get("loss", (fixed.get("loss", 0.0),))[0]
-    energy = np.array([_contact_energy(loop, loss) for one in files for loop in one.loops])
     state, found = together.state, (together.friction, together.friction_sd)
     known = [one for one in each if one.identifiable]
     if len(known) == len(each) > 1 and len(files) == 1:
         mean, deviation, scatter = _mean(each)
         if scatter > (SCATTER if together.gross else SCATTER_PARTIAL):
             state, found = "changes", (mean, deviation)
-            together = replace(together, state=state)
+            each = _within(each)
+            together = replace(each[len(each) // 2], state=state)  # one loop is none of all of them
         elif state != "rejected":
-            state, found = "known" if deviation <= 0.2 * mean else together.state, (mean, deviation)
+            found = (found[0], max(found[1], deviation))
     identifiable = state in ("known", "weak", "changes")
+    loss = _loss(together, fixed)
+    energy = np.array([_contact_energy(loop, loss) for one in files for loop in one.loops])
     rig = _rig(each, together, state)
     return Result(
         friction=found[0] if identifiable else np.nan, friction_sd=found[1] if identifiable else np.nan,
@@ -327,27 +342,70 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     )  # fmt: skip
 
 
+def _fit_together(files, pushes, free, fixed):
+    """The fit of all files together; what was free in it besides friction and compliance, and given; notes."""
+    together, notes = _fit_best(files, pushes, free, fixed), []
+    if isinstance(fixed["loss"], tuple):
+        (value, deviation), found = fixed["loss"], together.more["loss"][0]
+        if abs(found - value) > BEYOND * deviation and together.identifiable:
+            free, fixed = (*free, "loss"), {name: one for name, one in fixed.items() if name != "loss"}
+            together = _fit_best(files, pushes, free, fixed)
+            notes.append(
+                f"the loops do not fit to a loss of the rig of {100 * value:g} +- {100 * deviation:g} %: it is found "
+                "from them alone"
+            )
+    if together.gross and together.identifiable and "lean" not in (*free, *fixed):
+        lean, deviation = _fit_best(files, pushes, (*free, "lean"), fixed).more["lean"]
+        if abs(lean) > LEANS * deviation:  # which a loss may hide from the residuals
+            together = replace(together, state="rejected", friction=np.nan, compliance=np.nan, compliance_sd=np.nan)
+    if any(one.turned for one in files) and not (together.gross and together.identifiable):
+        together = replace(together, state="rejected", friction=np.nan, friction_sd=np.nan, friction_at_least=np.nan)
+    return together, free, fixed, notes
+
+
+def _loss(together, fixed):
+    """The loss of the rig, to be subtracted from energies."""
+    if "loss" in together.more and together.state in ("known", "weak", "changes"):
+        return together.more["loss"][0]
+    given = fixed.get("loss", LOSS)
+    return given[0] if isinstance(given, tuple) else given
+
+
+def _fit_best(files, pushes, free, fixed):
+    """The fit of cycles on each other as one loop, if they are so alike that it holds, else of some of them."""
+    found = _fit_all(files, pushes, _together, free, fixed)
+    return found if found.state != "rejected" else _fit_all(files, pushes, _spread, free, fixed)
+
+
 def _fit_all(files, pushes, choose, free, fixed):
     """The fit of chosen loops of all files together."""
     chosen = [(loop, push) for one, push in zip(files, pushes) for loop in choose(one.loops)]
     return fit([loop for loop, _ in chosen], [push for _, push in chosen], free, **fixed)
 
 
+def _within(each):
+    """The fits of cycles with a friction that changes, whose deviations include its change within a cycle: at which
+    instant of it the friction is the one found is not known."""
+    changes = np.gradient([one.friction for one in each]) / np.sqrt(12.0)
+    return [replace(one, friction_sd=float(np.hypot(one.friction_sd, change))) for one, change in zip(each, changes)]
+
+
 def _rig(each, together, state):
-    """Stiffness of the rig and its deviation: of a friction that changes by the mean of the cycles' compliances."""
+    """Stiffness of the rig and its deviation: of a friction that changes by the mean of the cycles' compliances, whose
+    errors are alike, since each loss and each change within a cycle is: their mean is hardly better than one."""
     if state != "changes":
         return together.stiffness, together.stiffness_sd
     values, deviations = (np.array([getattr(f, name) for f in each]) for name in ("compliance", "compliance_sd"))
     weights = 1.0 / np.maximum(deviations, 1e-30) ** 2
     mean = float(np.sum(weights * values) / np.sum(weights))
-    deviation = max(1.0 / np.sqrt(np.sum(weights)), float(np.std(values, ddof=1)) / np.sqrt(len(values)))
+    deviation = float(max(np.median(deviations), np.std(values, ddof=1)))
     return (1.0 / mean, deviation / mean**2) if mean > 0.0 else (np.inf, np.nan)
 
 
 def _together(loops):
     """What is fitted together: all cycles on each other, as one loop, if their amplitudes are alike, else some."""
     spans = np.array([[np.ptp(one.displacement), np.ptp(one.force)] for one in loops])
-    noise = np.median([one.given for one in loops], axis=0)
+    noise = np.median([one.given or (*one.noise(), one.noise()[0]) for one in loops], axis=0)
     if len(loops) > 1 and np.all(np.std(spans, axis=0) < ALIKE * noise[:2]):
         kept = loops[: max(2, MOST // len(loops[0].force))]
         d, q, rising = (

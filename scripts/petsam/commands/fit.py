@@ -14,7 +14,8 @@ model does not hold, no number at all. --scar finds the coefficient of wear from
 (x [mm],height [um]): shape.opts then has all of the test, with -history, -slide and coefficients from which it begins.
 
 -o NAME writes NAME.json, NAME-cycles.csv (friction, rig, energy of each cycle), NAME-friction.csv (for -wear_friction),
-where friction changes, NAME.opts, with which petsam computes the contact's loop, its history NAME-loop.csv, a picture.
+where friction changes, NAME.opts, with which petsam computes the contact's loop, its history NAME-loop.csv,
+NAME-life.opts for a wear simulation of all cycles, where friction changes or wear is known, and a picture.
 """
 
 import argparse
@@ -30,7 +31,17 @@ from ..core.files import need_replaceable, same
 from ..plot.measured import read_profiles
 from .line import Parser, add_choice, guarded, joined, quietly, word
 
-WRITTEN = (".json", "-cycles.csv", "-friction.csv", ".opts", "-loop.csv", ".png", "-scar.png")
+WRITTEN = (
+    ".json",
+    "-cycles.csv",
+    "-friction.csv",
+    ".opts",
+    "-life.opts",
+    "-life.csv",
+    "-loop.csv",
+    ".png",
+    "-scar.png",
+)
 
 
 def part(text):
@@ -49,6 +60,13 @@ def volume(text):
     form = "a volume above 0 and its deviation: 1.2e6um3,10%"
     first, comma, band = text.partition(",")
     return words.number(first, form, "m3", words.positive), part(band) if comma else 0.0
+
+
+def loss(text):
+    """Loss of the rig, 1, that is known, or its value and standard deviation."""
+    first, comma, band = text.partition(",")
+    value, deviation = part(first), part(band) if comma else 0.0
+    return (value, deviation) if deviation > 0.0 else value
 
 
 def noise(text):
@@ -95,7 +113,10 @@ def arguments(given):
         "--lean", action="store_true", help="a spring beside the contact, whose force grows while it slides"
     )
     rig.add_argument(
-        "--loss", type=word(part), metavar="PART", help="force of the rig's own loop over the amplitude: 0.5%%"
+        "--loss",
+        type=word(loss),
+        metavar="PART,BAND",
+        help="force of the rig's own loop over the amplitude: 0.5%% or, with its deviation, 1%%,0.3%% (0,0.5%%)",
     )
     wear = parser.add_argument_group("wear")
     wear.add_argument(
@@ -225,7 +246,7 @@ def _peaks(options, records):
         else:
             print("no energies: whether the contact slides is not known from peaks")
     if options.output:
-        raise Unusable("-o: peaks hold no loop to be fitted: give the points of the loops")
+        print("-o: nothing is written: peaks hold no loop to be fitted")
     return 0
 
 
@@ -241,8 +262,7 @@ def _write(options, found, one, worn, scar):
         results.write_friction(found, name + "-friction.csv")
         wrote.append(name + "-friction.csv")
     if found.identifiable:
-        results.write_options(found, one, options.shape, options.width, name, worn, options.body)
-        wrote += [name + ".opts", name + "-loop.csv"]
+        wrote += results.write_options(found, one, options.shape, options.width, name, worn, options.body)
     if not options.no_picture:
         from .. import plot
         from ..plot import saving
