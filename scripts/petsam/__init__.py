@@ -108,8 +108,8 @@ _HOMES = {
 }
 
 _PARTS = (
-    "calibration", "closed", "compliance", "conduction", "joint", "lives", "loads", "materials", "plot", "results", "study",
-    "surface",
+    "calibration", "closed", "compliance", "conduction", "joint", "lives", "loads", "materials", "plot", "results",
+    "study", "surface",
 )  # fmt: skip
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 

@@ -63,7 +63,7 @@ def of(
     film : float or array_like, optional
         Resistance of a film on the cells in contact, K m2/W, or Ohm m2; (ny, nx) where it varies.
     gas : pair of floats, optional
-        Conductivity of what fills the gap (W/(m K)), and the length of the temperature jump (m), 0.37e-6 of air at 1 bar.
+        Conductivity of what fills the gap (W/(m K)), and the length of the temperature jump (m): of air 0.026, 0.37e-6.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""The flux through the spots of a contact between two conducting bodies, by conjugate gradients with Fourier transforms.
+"""The flux through the spots of a contact between two conductors, by conjugate gradients with Fourier transforms.
 
 Bodies of conductivities lam1, lam2 (W/(m K), or S/m) are insulated outside of the cells that conduct. With V the
 difference of their potentials far away, q the flux density through a cell, and r the resistance of a film on it,
