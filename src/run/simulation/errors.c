@@ -48,6 +48,24 @@ static PetscBool DependsOnSteps(SamSimulation s)
   return s->needs.friction || SamProblemMoves(s->setup.problem) || SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC);
 }
 
+/* A companion run: how often the cells are halved, 0: there is none; and its steps per row of the history. */
+typedef struct {
+  PetscInt halvings, increments;
+} Planned;
+
+/* Decides on the companion runs; without a history there is one step per row. */
+static void Plan(SamSimulation s, Planned run[SAM_RUNS])
+{
+  const PetscInt  quarter    = (s->setup.grid->fewest + 3) / 4;
+  const PetscInt  increments = s->history ? SamHistoryGetIncrements(s->history) : 1;
+  const PetscBool steps      = DependsOnSteps(s);
+
+  run[SAM_RUN_HALF]    = (Planned){s->setup.grid->fewest >= LEAST ? 1 : 0, increments};
+  run[SAM_RUN_QUARTER] = (Planned){quarter >= LEAST ? 2 : 0, increments};
+  run[SAM_RUN_OTHER]   = (Planned){!steps ? 0 : quarter >= ENOUGH ? 2 : 1, increments};
+  if (!(s->step_rtol > 0)) run[SAM_RUN_OTHER].increments = increments > 1 ? (increments + 1) / 2 : 2;
+}
+
 /* Declares the error of a number, unless the state has a number of that name. */
 static PetscErrorCode DeclareError(SamState state, SamErrorNumber *n)
 {
@@ -119,20 +137,18 @@ static void Describe(SamErrors e, PetscInt increments)
 
 PetscErrorCode SamErrorsCreate(SamSimulation s)
 {
-  const PetscInt quarter = (s->setup.grid->fewest + 3) / 4;
-  SamErrors      e;
-  SamState       state;
+  Planned   run[SAM_RUNS];
+  SamErrors e;
+  SamState  state;
 
   PetscFunctionBegin;
   if (!s->needs.companion || s->errors) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscNew(&e));
   s->errors = e;
-  PetscCall(SamCompanionCreate(s, 1, &e->companion[SAM_RUN_HALF]));
-  if (quarter >= LEAST) PetscCall(SamCompanionCreate(s, 2, &e->companion[SAM_RUN_QUARTER]));
-  if (DependsOnSteps(s)) {
-    e->same = quarter >= ENOUGH ? SAM_RUN_QUARTER : SAM_RUN_HALF;
-    PetscCall(SamCompanionCreate(s, e->same == SAM_RUN_HALF ? 1 : 2, &e->companion[SAM_RUN_OTHER]));
-  }
+  Plan(s, run);
+  for (int c = 0; c < SAM_RUNS; c++)
+    if (run[c].halvings) PetscCall(SamCompanionCreate(s, run[c].halvings, &e->companion[c]));
+  e->same = run[SAM_RUN_OTHER].halvings == 1 ? SAM_RUN_HALF : SAM_RUN_QUARTER;
   PetscCall(SamContactGetState(s->setup.contact, &state));
   PetscCall(DeclareNumbers(e, state));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -140,15 +156,14 @@ PetscErrorCode SamErrorsCreate(SamSimulation s)
 
 PetscErrorCode SamErrorsPrepare(SamSimulation s)
 {
-  const SamErrors e          = s->errors;
-  const PetscInt  increments = SamHistoryGetIncrements(s->history);
-  const PetscInt  other      = s->step_rtol > 0 ? increments : increments > 1 ? (increments + 1) / 2 : 2;
+  const SamErrors e = s->errors;
+  Planned         run[SAM_RUNS];
 
   PetscFunctionBegin;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  Plan(s, run);
   for (int c = 0; c < SAM_RUNS; c++)
-    if (e->companion[c].run)
-      PetscCall(SamCompanionPrepare(&e->companion[c], s, c == SAM_RUN_OTHER ? other : increments));
+    if (e->companion[c].run) PetscCall(SamCompanionPrepare(&e->companion[c], s, run[c].increments));
   if (e->companion[SAM_RUN_OTHER].run) e->companion[SAM_RUN_OTHER].run->step_rtol *= 2;
   for (PetscInt k = 0; k < e->count; k++) {
     SamErrorNumber *n = &e->number[k];
@@ -159,20 +174,23 @@ PetscErrorCode SamErrorsPrepare(SamSimulation s)
   PetscCall(PetscArrayzero(e->sums, SAM_STATE_NUMBERS));
   e->began = PETSC_FALSE;
   e->table = (SamErrorTable){.count = 0};
-  Describe(e, other);
+  Describe(e, run[SAM_RUN_OTHER].increments);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 double SamErrorsShare(SamSimulation s)
 {
-  const double   half    = SamGridIsRow(s->setup.grid) ? 0.5 : 0.25;
-  const PetscInt quarter = (s->setup.grid->fewest + 3) / 4, increments = SamHistoryGetIncrements(s->history);
-  const double   steps = s->step_rtol > 0 ? 1 : increments > 1 ? 0.5 : 2;
-  double         share = half;
+  const double half = SamGridIsRow(s->setup.grid) ? 0.5 : 0.25, own = (double)SamHistoryGetIncrements(s->history);
+  double       share = 0;
+  Planned      run[SAM_RUNS];
 
-  if (s->untold || s->setup.grid->fewest < LEAST) return 0;
-  if (quarter >= LEAST) share += half * half;
-  if (DependsOnSteps(s)) share += steps * (quarter >= ENOUGH ? half * half : half);
+  if (s->untold) return 0;
+  Plan(s, run);
+  for (int c = 0; c < SAM_RUNS; c++) {
+    const double steps = c == SAM_RUN_OTHER && own > 1 && !(s->step_rtol > 0) ? 0.5 : (double)run[c].increments / own;
+
+    if (run[c].halvings) share += steps * pow(half, (double)run[c].halvings);
+  }
   return share;
 }
 
