@@ -808,7 +808,7 @@ class Contact:
             message = self._message()
             self._advise()
             if code == EDGE:
-                error = error_of(code, message)
+                error = EdgeContact(code, message)
                 error.steps, error.step = found, self._last_step(code, message)
                 raise error
         return found

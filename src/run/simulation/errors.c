@@ -184,8 +184,8 @@ double SamErrorsShare(SamSimulation s)
   double       share = 0;
   Planned      run[SAM_RUNS];
 
-  if (s->untold) return 0;
   Plan(s, run);
+  if (s->untold || !run[SAM_RUN_HALF].halvings) return 0;
   for (int c = 0; c < SAM_RUNS; c++) {
     const double steps = c == SAM_RUN_OTHER && own > 1 && !(s->step_rtol > 0) ? 0.5 : (double)run[c].increments / own;
 
@@ -208,8 +208,7 @@ PetscErrorCode SamErrorsDestroy(SamErrors *errors)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Updates the error of a number by the steps at a moment that OTHER shares with the run. */
-static void CompareSteps(SamSimulation s, SamErrorNumber *n)
+void SamErrorsCompareSteps(SamSimulation s, SamErrorNumber *n)
 {
   SamErrors       e   = s->errors;
   const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
@@ -238,7 +237,7 @@ static PetscErrorCode Follow(SamSimulation s, PetscInt k)
   for (int c = 0; c < SAM_RUNS; c++)
     if (e->companion[c].run) PetscCall(SamCompanionFollow(&e->companion[c], s, k, &there[c]));
   SamErrorsRaise(&e->largest, e->companion[SAM_RUN_HALF].state);
-  for (PetscInt n = 0; n < e->count && there[SAM_RUN_OTHER]; n++) CompareSteps(s, &e->number[n]);
+  for (PetscInt n = 0; n < e->count && there[SAM_RUN_OTHER]; n++) SamErrorsCompareSteps(s, &e->number[n]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -11,19 +11,15 @@
 #include <petsam/private/problem.h>
 #include <petsam/private/setup.h>
 
-/* Compares the companions of a step on the same cells: the error by the steps of each number, relative to it. */
-static void CompareSteps(SamSimulation s)
+/* Compares the companions of a step, whose sums are those of its own parts. */
+static void CompareStep(SamSimulation s)
 {
   const SamErrors e = s->errors;
 
   for (PetscInt k = 0; k < e->count && e->companion[SAM_RUN_OTHER].run; k++) {
-    SamErrorNumber *n   = &e->number[k];
-    const PetscBool sum = n->of->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
-    double          run[SAM_RUNS];
-
-    SamErrorsGetRuns(e, n, sum, run);
-    n->apart = run[e->same] - run[SAM_RUN_OTHER];
-    n->steps = SamErrorsRelativeBySteps(s, n, run);
+    e->number[k].apart = 0;
+    for (int c = 0; c < SAM_RUNS; c++) e->number[k].mark[c] = 0;
+    SamErrorsCompareSteps(s, &e->number[k]);
   }
 }
 
@@ -52,7 +48,7 @@ PetscErrorCode SamErrorsTry(SamSimulation s, const SamStep *step)
   PetscCall(SamContactGetState(s->setup.contact, &state));
   PetscCall(SamErrorsFind(e, state));
   SamErrorsRaise(&e->largest, state);
-  CompareSteps(s);
+  CompareStep(s);
   PetscCall(PetscArrayzero(e->sums, SAM_STATE_NUMBERS));
   PetscCall(SamErrorsSet(s, &step->control));
   e->table.seconds += MPI_Wtime() - began;
