@@ -113,6 +113,13 @@ def _hatched(ax, x, y, inside):
         marked.set(edgecolor=HATCHED, linewidth=0.0)
 
 
+def _keys():
+    """What the legend of zones shows."""
+    hatched = {SLIP: {"hatch": HATCH, "edgecolor": HATCHED, "linewidth": 0.0}}
+    shown = [(STATES[k], hatched.get(k, {})) for k in sorted(STATES) if k != OPEN]
+    return [Key(facecolor=tint, label=word, **look) for (word, tint), look in shown]
+
+
 def _bolts_of(bolts, x, y):
     """Those bolts whose axes cross a patch, {name: (x, y, diameter)}, m."""
     return {name: one for name, one in (bolts or {}).items() if x[0] <= one[0] <= x[-1] and y[0] <= one[1] <= y[-1]}
@@ -144,7 +151,7 @@ def slip_zones(found: Backbone, *, bolts: Optional[Mapping[str, ArrayLike]] = No
     -------
     matplotlib.figure.Figure
     """
-    words, tints = zip(*(STATES[k] for k in sorted(STATES)))
+    tints = [STATES[k][1] for k in sorted(STATES)]
     size = (8.0, 3.4 * len(found.names))
     figure, rows = plt.subplots(len(found.names), 2, figsize=size, layout="constrained", squeeze=False)
     highest = 1e-6 * max(float(np.max(one)) for one in found.pressure)  # one scale of all patches
@@ -155,10 +162,7 @@ def slip_zones(found: Backbone, *, bolts: Optional[Mapping[str, ArrayLike]] = No
         given = dict(cmap=ListedColormap(tints), vmin=-0.5, vmax=len(tints) - 0.5, rasterized=True)
         right.pcolormesh(1e3 * x, 1e3 * y, found.states[k], **given)
         _hatched(right, 1e3 * x, 1e3 * y, np.asarray(found.states[k]) == SLIP)
-        looks = {STATES[SLIP][0]: {"hatch": HATCH, "edgecolor": HATCHED, "linewidth": 0.0}}
-        shown = [(word, tint) for word, tint in zip(words, tints) if word != STATES[OPEN][0]]
-        keys = [Key(facecolor=tint, label=word, **looks.get(word, {})) for word, tint in shown]
-        right.legend(handles=keys, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+        right.legend(handles=_keys(), loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
         near = _bolts_of(bolts, x, y)
         name = ", ".join([found.names[k], *(f"bolt {one}" for one in near)])
         for ax, title in ((left, "preload"), (right, "largest amplitude")):
