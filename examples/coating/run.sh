@@ -22,7 +22,7 @@ radius=3.19181e-4 # Hertz's contact radius without coating, m
 
 # The film's modulus over the substrate's, its thickness over that radius; a soft film widens the contact.
 for ratio in 0.1 0.5 2 10; do
-    for thickness in 0.1 0.3 1 3; do
+    for thickness in 0.1 0.17 0.3 0.45 0.6 0.8 1 1.7 3; do
         solve_quietly "e${ratio}_h$thickness" -options_file "$here/coating.opts" -grid_n "$grid_n" \
             -body2_layer_young "$(evaluate "$ratio * 210e9")" -body2_layer_poisson 0.3 \
             -body2_layer_thickness "$(evaluate "$thickness * $radius")" \

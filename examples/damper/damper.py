@@ -14,7 +14,7 @@ import numpy as np
 
 import petsam
 from petsam import joint
-from petsam.plot.style import COLORS, STYLE, frame, logarithmic, plt, save, tint
+from petsam.plot.style import CLOSED, COLORS, STYLE, frame, joined, logarithmic, plt, save, tint
 
 FRICTION = 0.3
 RADIUS, CROWN = 5e-3, 1.5  # of the damper's section and of its generatrix, m
@@ -23,13 +23,16 @@ SPEED, ORBIT = "3000rpm", 0.5  # distance of the damper from the axis of rotatio
 BLADE, TIP_MASS, PLATFORM = 250.0, 0.15, 0.03  # Hz alone; modal mass for the tip, kg; motion of platform over tip
 MATERIAL = 5e-4  # damping of the blades' material and of the flow, part of critical
 MOTIONS = {"circumferential": (1.0, 0.0), "radial": (0.0, 1.0)}  # of the platforms
-MASSES = np.array([2.5, 5.0, 10.0, 20.0, 40.0]) * 1e-3  # kg
+MASSES = np.array([2.5, 5.0, 10.0, 20.0, 40.0]) * 1e-3  # kg, of the tables
+BETWEEN = np.array([3.5, 7.0, 14.0, 28.0]) * 1e-3  # kg, more of them in the picture
 AMPLITUDES = np.geomspace(1e-5, 2e-3, 12)  # of a tip, m
 FORCES = (1.0, 2.0, 4.0)  # at each tip, N
 # half axes of the contact and load (m, N): Hertz's ellipse of these radii, which grows as the cube root of the load
 HALF, LOAD = (7.1e-5, 2.3e-3), 300.0
 ROOM = 1.5  # half width of the grid over half axis
 TIP = 1.0 / np.sqrt(TIP_MASS)
+MARKS = ("o", "s", "^", "D", "v")  # of curves
+BEYOND = {"marker": "$\\uparrow$", "markersize": 11, "linestyle": "none"}  # an amplitude above those computed
 
 
 def damper(mass):
@@ -67,6 +70,11 @@ def resonance(found, force):
     return np.exp(np.interp(np.log(force), np.log(given), np.log(found.amplitude), np.nan, np.nan))
 
 
+def alone(force):
+    """The same without a damper: the material damps alone."""
+    return force / (2.0 * MATERIAL * TIP_MASS * (2 * np.pi * BLADE) ** 2)
+
+
 def sketch(ax):
     """The damper below its platforms, and the force on it."""
     angle = damper(MASSES[0]).angles[0]
@@ -86,25 +94,47 @@ def sketch(ax):
 
 
 def draw(found, folder):
-    """The damper, damping over amplitude for all masses, and the amplitude at resonance over the mass."""
+    """The damper, damping over amplitude for the masses of the tables, and the amplitude at resonance over all."""
     with plt.rc_context(STYLE):
-        figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12.5, 3.8), layout="constrained")
+        figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12.5, 4.2), layout="constrained")
         sketch(left)
-        for k, (mass, one) in enumerate(found.items()):
-            label, color = f"{1e3 * mass:g} g, {damper(mass).force:.0f} N", tint(k, len(found))
-            middle.plot(1e6 * one.amplitude, 100.0 * one.damping, "o-", color=color, label=label, markersize=4.0)
-        frame(middle, "Damping by friction", "amplitude of a tip, µm", "damping, % of critical")
-        logarithmic(middle, "xy")
-        middle.legend()
-        for k, force in enumerate(FORCES):
-            reach = [1e6 * resonance(one, force) for one in found.values()]
-            right.plot(1e3 * np.array(list(found)), reach, "o-", color=COLORS[k], label=f"{force:g} N", markersize=4.0)
-        frame(right, "Amplitude at resonance", "mass of the damper, g", "amplitude of a tip, µm")
-        logarithmic(right, "xy")
-        right.legend(title="force at each tip")
-        right.set_xticks(1e3 * np.array(list(found)), labels=[f"{1e3 * mass:g}" for mass in found])
-        right.minorticks_off()
+        draw_damping(middle, {mass: one for mass, one in found.items() if mass in MASSES})
+        draw_resonances(right, found)
         save(figure, folder, "damper.png")
+
+
+def draw_damping(ax, found):
+    """Damping by friction over the amplitude, and that of the material, which is left where friction damps nothing."""
+    for k, (mass, one) in enumerate(found.items()):
+        label = f"{1e3 * mass:g} g, {damper(mass).force:.0f} N"
+        joined(ax, 1e6 * one.amplitude, 100.0 * one.damping, tint(k, len(found)), MARKS[k] + "-", label=label)
+    ax.axhline(100.0 * MATERIAL, **CLOSED, linestyle="--")
+    text, at = f"by the material: {100.0 * MATERIAL:g} %", (0.02, 100.0 * MATERIAL)
+    ax.annotate(text, at, (0, 3), ax.get_yaxis_transform(), "offset points", fontsize=8.5)
+    frame(ax, "Damping by friction", "amplitude of a tip, µm", "damping, % of critical")
+    logarithmic(ax, "xy")
+    ax.legend(loc="lower left", title="damper: mass, centrifugal force", ncols=2)
+    ax.set_ylim(0.16 * 100.0 * MATERIAL, None)  # with room for the legend
+
+
+def draw_resonances(ax, found):
+    """Amplitude at resonance over the mass; arrows where it is above those computed, dashed lines without a damper."""
+    masses, last = 1e3 * np.array(list(found)), 1e6 * max(np.max(one.amplitude) for one in found.values())
+    for k, force in enumerate(FORCES):
+        reach = np.array([1e6 * resonance(one, force) for one in found.values()])
+        joined(ax, masses, reach, COLORS[k], MARKS[k] + "-", label=f"{force:g} N")
+        ax.axhline(1e6 * alone(force), color=COLORS[k], linewidth=1.2, linestyle="--")
+        at = masses[-1], 1e6 * alone(force)
+        ax.annotate(f"{force:g} N, no damper", at, (0, 2), textcoords="offset points", ha="right", fontsize=8.5)
+        beyond = masses[np.array([force > np.max(excitations(one)) for one in found.values()])]
+        ax.plot(beyond, np.full(beyond.size, last), color=COLORS[k], **BEYOND)
+    frame(ax, "Amplitude at resonance", "mass of the damper, g", "amplitude of a tip, µm")
+    logarithmic(ax, "xy")
+    ax.plot([], [], color="0.35", **BEYOND, label="more than computed")
+    ax.legend(title="force at each tip", loc="upper right", bbox_to_anchor=(1.0, 0.74))
+    some = [mass for mass in MASSES if mass in found]
+    ax.set_xticks(1e3 * np.array(some), labels=[f"{1e3 * mass:g}" for mass in some])
+    ax.minorticks_off()
 
 
 def main():
@@ -128,7 +158,9 @@ def main():
     for mass, one in circumferential.items():
         print(f"{1e3 * mass:8g}" + "".join(f"{1e6 * resonance(one, force):11.3g}" for force in FORCES))
     print("nan: not within the computed amplitudes" + (", and --quick has too few of them" if args.quick else ""))
-    draw(circumferential, args.folder)
+    between = () if args.quick else BETWEEN
+    more = {mass: backbone(mass, "circumferential", amplitudes, args.grid_n) for mass in between}
+    draw(dict(sorted({**circumferential, **more}.items())), args.folder)
 
 
 if __name__ == "__main__":

@@ -11,10 +11,12 @@ from pathlib import Path
 import numpy as np
 
 import petsam
-from petsam.plot.style import colors, frame, plt, save, tint
+from petsam.plot.style import CLOSED, colors, frame, plt, points, save, thinned, tint
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
 import comparison  # noqa: E402
+
+LINES = ("-", "--", "-.")  # beside the colours
 
 
 def load(directory, name):
@@ -108,32 +110,41 @@ class Comparison:
         tints = colors(2)
         panel = axes[0, 0]
         panel.plot(x, 1e-6 * 0.5 * self.one["pressure"][0], ":", color="0.5", linewidth=1.0, label=r"$\mu p$")
-        panel.plot(x, 1e-6 * self.exact, color=tints[1], linewidth=2.5, alpha=0.5, label="Nowell and Hills")
-        panel.plot(x, 1e-6 * self.one["shear_x"][0], color=tints[0], linewidth=1.1, label="petsam")
-        panel.legend(fontsize=8)
+        panel.plot(x, 1e-6 * self.exact, **CLOSED, label="Nowell and Hills")
+        some = thinned(np.arange(x.size), 60)
+        points(panel, x[some], 1e-6 * self.one["shear_x"][0][some], tints[0], label="petsam, some cells")
+        panel.legend()
         frame(panel, "Cylinder with bulk tension in the flat: shear", "$x$, mm", "$q_x$, MPa")
         panel = axes[0, 1]
         for k, depth in enumerate((0.0, 10e-6, 50e-6)):
             row = int(np.argmin(np.abs(self.fatigue.z - depth)))
             name = "on the surface" if depth == 0 else f"{1e6 * depth:.0f} µm below"
-            panel.plot(1e3 * self.fatigue.x, 1e-6 * self.swt[row], color=tint(k, 3), linewidth=1.2, label=name)
-        panel.legend(fontsize=8)
+            panel.plot(
+                1e3 * self.fatigue.x,
+                1e-6 * self.swt[row],
+                color=tint(k, 3),
+                linestyle=LINES[k],
+                linewidth=1.3,
+                label=name,
+            )
+        panel.legend()
         frame(panel, "Rounded pad: fatigue parameter at its edges", "$x$, mm", "SWT, MPa")
         panel = axes[1, 0]
         for k, cycle in enumerate((1e4, 1e5, 1e6)):
             depth = self.life.field("wear_depth2", self.life.of_cycle(cycle))[0]
-            panel.plot(1e3 * self.life.x, 1e6 * depth, color=tint(k, 3), linewidth=1.2, label=f"{cycle:,.0f} cycles")
+            look = {"color": tint(k, 3), "linestyle": LINES[k], "linewidth": 1.3}
+            panel.plot(1e3 * self.life.x, 1e6 * depth, **look, label=f"{cycle:,.0f} cycles")
         panel.invert_yaxis()
-        panel.legend(fontsize=8, loc="lower center")
+        panel.legend(loc="lower center")
         frame(panel, "Scar of the pad: the middle sticks, the edges wear", "$x$, mm", "removed depth, µm")
         panel = axes[1, 1]
         x, p, q, one = self.section
         for values, line, name in ((p, one["pressure"][0], "$p$"), (10 * q, 10 * one["shear_x"][0], "$10\\,q_x$")):
             text = ("plane problem", "long punch, its middle") if name == "$p$" else ("", "")
-            panel.plot(1e3 * one.x, 1e-6 * line, color=tints[1], linewidth=2.5, alpha=0.5, label=text[0])
-            panel.plot(1e3 * x[::16], 1e-6 * values[::16], ".", color=tints[0], markersize=4, label=text[1])
+            panel.plot(1e3 * one.x, 1e-6 * line, **CLOSED, label=text[0])
+            points(panel, 1e3 * x[::16], 1e-6 * values[::16], tints[0], label=text[1])
             panel.annotate(name, (0.0, 1e-6 * line[line.size // 2]), xytext=(0, 4), textcoords="offset points")
-        panel.legend(fontsize=8, loc="lower center")
+        panel.legend(loc="lower center")
         frame(panel, "Middle of a long punch and its plane problem", "$x$, mm", "$p$, $10\\,q_x$, MPa")
         save(figure, directory, "plane.png")
 

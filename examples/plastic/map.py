@@ -15,7 +15,7 @@ from multiprocessing import Pool
 import numpy as np
 
 import petsam
-from petsam.plot.style import COLORS, frame, plt, save
+from petsam.plot.style import COLORS, STYLE, frame, plt, save
 
 SHEAR = 100e6  # k, Pa
 HALF = 1e-3  # half width of the elastic contact, m
@@ -87,16 +87,22 @@ def draw(cases, kinds, folder):
     """The map: closed limits as lines, the runs as points."""
     names = ("elastic", "shakes down", "yields every time")
     fine = np.linspace(0.0, max(FRICTIONS) + 0.05, 56)
-    figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
-    axes.plot(fine, [limit(f) for f in fine], color=COLORS[0], label="Melan's limit")
-    axes.plot(fine, [first_yield(f) for f in fine], "--", color="0.4", label="first yield")
-    for kind, (name, marker, color) in enumerate(zip(names, "o^s", (COLORS[2], COLORS[0], COLORS[1]))):
-        chosen = np.array([case for case, one in zip(cases, kinds) if one == kind]).reshape(-1, 2)
-        axes.plot(*chosen.T, marker, color=color, label=f"petsam: {name}", markersize=5)
-    frame(axes, "", "friction $T/N$", "peak pressure over the yield stress in shear, $p_0/k$")
-    axes.set_ylim(0.0)
-    axes.legend()
-    save(figure, folder, "map.png")
+    with plt.rc_context(STYLE):
+        figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
+        axes.plot(fine, [limit(f) for f in fine], color=COLORS[0], label="Melan's limit")
+        axes.plot(fine, [first_yield(f) for f in fine], "--", color="0.4", label="first yield")
+        for kind, (name, marker, color) in enumerate(zip(names, "o^s", (COLORS[2], COLORS[0], COLORS[1]))):
+            chosen = np.array([case for case, one in zip(cases, kinds) if one == kind]).reshape(-1, 2)
+            axes.plot(*chosen.T, marker, color=color, label=f"petsam: {name}", markersize=5)
+        frame(
+            axes,
+            "What the steel does from the second passage on",
+            "friction $T/N$",
+            "peak pressure over the yield stress in shear, $p_0/k$",
+        )
+        axes.set_ylim(0.0)
+        axes.legend()
+        save(figure, folder, "map.png")
 
 
 def main():

@@ -29,6 +29,8 @@ CREEPS = (0.0, 0.1, 0.25, 0.6, 1.5)
 SPINS = (0.0, 0.2, 0.5, 1.2, 3.0)
 ROOM = 1.15  # width of the grid over that of the contact
 FLOOR = 2e-4  # no interval is narrower than twice this
+SHOWN = (0.1, 0.35, 1.0, 3.5, 10.0)  # ratios of the picture
+COARSE, FINE = (64, 128), 41  # cells and points of its curves, extrapolated as the table is
 
 
 def cases():
@@ -67,11 +69,11 @@ def relative(limit, loads):
     return np.asarray(loads) / limit / (1, 1, LENGTH)
 
 
-def forces(ratio, cells):
-    """The relative loads of all cases on a grid."""
+def forces(ratio, cells, some=None):
+    """The relative loads of some cases, of all of the table by default, on a grid."""
     half, options = contact(ratio)
     limit = FRICTION * options["load_n"]
-    rows = [(k + 1, *motion(limit, *case)) for k, case in enumerate(cases())]
+    rows = [(k + 1, *motion(limit, *case)) for k, case in enumerate(some or cases())]
     with tempfile.TemporaryDirectory() as folder:
         loads = Path(folder) / "creepages.csv"
         with loads.open("w", newline="") as file:
@@ -134,22 +136,31 @@ def second(count, seed, path, cells=(32, 64, 128)):
     return apart
 
 
+def along(k, values):
+    """Cases of creepage along x alone (k = 0), or of spin alone (1)."""
+    return [(0, 0, value) if k else (value, 0, 0) for value in values]
+
+
 def picture(table_path, path):
-    """T_x over xi, and T_y over phi, for some contacts."""
-    from petsam.plot.style import STYLE, plt
+    """T_x over xi, and T_y over phi, for some contacts: middles of the table's intervals on curves by petsam."""
+    from petsam.plot.style import STYLE, colors, frame, plt, points, reduce
 
     table = creep.read(table_path)
-    plt.rcParams.update(STYLE)
-    figure, panels = plt.subplots(1, 2, figsize=(7, 2.9), layout="constrained", sharey=True)
-    for ratio in (0.1, 0.35, 1, 3.5, 10):
-        for axes, name, values, force in zip(panels, ("xi", "phi"), (CREEPS, SPINS), (0, 1)):
-            points = [{"xi": 0, "eta": 0, "phi": 0, name: value} for value in values[1:]]
-            ends = np.array([creep.find(table, ratio, **point)[:, force] for point in points])
-            axes.plot(values, [0, *ends.mean(axis=1)], "o-", markersize=3, label=f"a/b = {ratio:g}")
-    panels[0].set(xlabel=r"$\xi G c^2/(\mu N)$", ylabel=r"$T_x/(\mu N)$", title="creepage along x")
-    panels[1].set(xlabel=r"$\varphi G c^3/(\mu N)$", ylabel=r"$T_y/(\mu N)$", title="spin")
-    panels[1].legend(fontsize="small")
-    figure.savefig(path, dpi=130)
+    with plt.rc_context(STYLE):
+        figure, panels = plt.subplots(1, 2, figsize=(9, 3.9), layout="constrained", sharey=True)
+        for ratio, mark, color in zip(SHOWN, "os^Dv", colors(len(SHOWN))):
+            for k, (axes, values) in enumerate(zip(panels, (CREEPS, SPINS))):
+                fine = values[-1] * np.linspace(0, 1, FINE) ** 2
+                grids = [forces(ratio, cells, along(k, fine[1:])) for cells in COARSE]
+                axes.plot(fine, [0, *(2 * grids[1] - grids[0])[:, k]], color=color, linewidth=1.3)
+                ends = np.array([creep.find(table, ratio, *case)[:, k] for case in along(k, values[1:])])
+                points(axes, values[1:], ends.mean(axis=1), color, mark, markersize=5, label=f"a/b = {ratio:g}")
+        frame(panels[0], "Creepage along x alone", r"creepage $\xi G c^2/(\mu N)$", r"force $T_x/(\mu N)$")
+        frame(panels[1], "Spin alone", r"spin $\varphi G c^3/(\mu N)$", r"force $T_y/(\mu N)$")
+        panels[1].yaxis.set_tick_params(labelleft=True)
+        panels[1].legend(title="half axes")
+        figure.savefig(path)
+    reduce(path)
 
 
 def main():

@@ -115,11 +115,12 @@ def pictures(names, _):
     """Draws the pictures of these cases, in 64 colors, so that they are small."""
     from PIL import Image
 
-    from petsam.plot.style import STYLE, plt
+    from petsam.plot.style import COLORS, STYLE, plt
 
+    look = {**STYLE, "axes.grid": False, "axes.prop_cycle": plt.cycler(color=COLORS)}
     for name in names:
         picture = CASES / f"{name}.png"
-        with plt.rc_context({**STYLE, "axes.grid": False}):
+        with plt.rc_context(look):
             figure = plt.figure(figsize=(6.4, 3.2), layout="constrained")
             module(name).draw(figure)
             figure.savefig(picture, dpi=120)

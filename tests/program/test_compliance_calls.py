@@ -105,6 +105,7 @@ def test_words_may_have_units(compliance, tmp_path):  # noqa: F811
     with h5py.File("a.h5", "r") as one, h5py.File("b.h5", "r") as other:
         assert np.allclose(one["compliance"], other["compliance"], rtol=1e-12)
         assert other["bolts/B/young"][()] == pytest.approx(3.0) and other["bolts/B/diameter"][()] == 0.5
+        assert other["bolts/B/place"].shape == (2,) and other["bolts/B/place"].attrs["units"] == "m"
     said = compliance(*PAIR, "--bolt", "B=WASHER1,WASHER2:8mn", *HELD, check=2)[0]
     assert "8mn: expected a length above 0, such as 1e-3 (m) or 1mm; units are m, cm, mm" in said
     said = compliance(*PAIR, "--bolt", "B=WASHER1,WASHER2:8mm:2Gpa", *HELD, check=2)[0]

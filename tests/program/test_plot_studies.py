@@ -96,6 +96,11 @@ def test_a_result_is_drawn_over_a_parameter_with_a_curve_for_each_of_the_others(
     assert marks["mu = 0.1, shape = ball"] == marks["mu = 0.4, shape = ball"] != marks["mu = 0.1, shape = punch"]
 
 
+def test_marks_tell_curves_of_one_parameter_apart_without_colours(study):
+    drawn = curves(tables.study([study], ["dissipated_energy_sum"], "ratio", "mu", [("shape", "ball")]).axes[0])
+    assert len(drawn) == len(FRICTIONS) == len({mark for _, _, _, mark in drawn.values()})
+
+
 def test_errors_are_bars_and_no_panels(tmp_path):
     found = [row(k, ratio, 0.1, "ball") for k, ratio in enumerate(RATIOS, 1)]
     for k, (_, _, values) in enumerate(found, 1):

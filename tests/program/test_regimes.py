@@ -6,6 +6,7 @@ import sys
 import h5py
 import numpy as np
 import pytest
+from matplotlib.colors import LogNorm
 
 import petsam
 from conftest import PROGRAM as PETSAM
@@ -138,7 +139,8 @@ def test_a_map_of_regimes_has_their_borders(table):
     texts = [text.get_text() for text in panel.get_legend().get_texts()]
     assert texts == ["partial slip", "gross slip"]
     assert panel.get_title() == "fretting regime"
-    x, y = np.concatenate([path.vertices for one in panel.collections[1:] for path in one.get_paths()]).T
+    borders = [one for one in panel.collections[1:] if not one.filled]
+    x, y = np.concatenate([path.vertices for one in borders for path in one.get_paths()]).T
     for row, at in ((1.0, 1.5), (2.0, 2.5), (4.0, 4.0)):  # halfway between cases of different regimes
         assert np.ptp(x) > 2.0 and x[np.abs(y - row) < 0.02] == pytest.approx(at, abs=0.03)
 
@@ -152,6 +154,52 @@ def test_borders_are_where_a_column_has_a_value(table):
     assert texts == ["life = 31622.8", "depth = 1 m: all below"]
     points = np.concatenate([path.vertices for one in panel.collections[1:] for path in one.get_paths()])
     assert points.sum(axis=1) == pytest.approx(4.5)  # x + y, linear in the logarithm
+
+
+def test_sliding_as_a_whole_is_hatched_in_the_map_and_in_its_legend(table):
+    panel = planes.planes(petsam.open(table), ["way", "load"]).axes[0]
+    (hatched,) = [one for one in panel.collections[1:] if one.filled]
+    x, y = np.concatenate([path.vertices for path in hatched.get_paths()]).T
+    assert hatched.hatches == ["//"] and x[np.abs(y - 2.0) < 0.02].min() == pytest.approx(2.5, abs=0.03)
+    assert [patch.get_hatch() or "" for patch in panel.get_legend().get_patches()] == ["", "//"]
+
+
+def test_colours_of_a_map_are_logarithmic_if_asked(table):
+    study = petsam.open(table)
+    where = dict(over=["way", "load"], names=["regime", "life", "depth"])
+    regime, life, depth = planes.planes(study, **where, logs=["x", "colors"]).axes[:3]
+    for panel, low, high in ((life, 1e2, 1e9), (depth, 1.0, 5.0)):
+        norm = panel.collections[0].norm
+        assert isinstance(norm, LogNorm) and (norm.vmin, norm.vmax) == pytest.approx((low, high))
+        assert np.diff(np.log(panel.collections[0].levels)) == pytest.approx(np.log(high / low) / planes.LEVELS)
+        assert (panel.get_xscale(), panel.get_yscale()) == ("log", "linear")
+    assert not isinstance(regime.collections[0].norm, LogNorm)
+    linear = planes.planes(study, **where).axes[1].collections[0]
+    assert not isinstance(linear.norm, LogNorm)
+    some = petsam.open(table)
+    some.results["life"][some.inputs["way"] != some.inputs["load"]] = np.nan  # 2 of 12 cases: points
+    some.inputs["way"] = some.inputs["way"].astype(float)
+    panel = planes.planes(some, ["way", "load"], ["life"], logs=["colors"]).axes[0]
+    assert isinstance(panel.collections[0].norm, LogNorm)
+
+
+def test_bars_of_less_than_a_decade_have_numbers(table):
+    study = petsam.open(table)
+    study.results["life"][:] = 5.2 + 0.01 * study.results["life"] / study.results["life"].max()
+    figure = planes.planes(study, ["way", "load"], ["life"], logs=["colors"])
+    assert [text.get_text() for text in figure.axes[0].child_axes[0].get_yticklabels()] == ["5.2", "5.25"]
+    study.results["life"][:] = 3.0
+    planes.planes(study, ["way", "load"], ["life"], logs=["colors"])
+
+
+@pytest.mark.parametrize("least", [0.0, -2.5])
+def test_logarithmic_colours_refuse_what_is_not_positive(draw, table, least):
+    with h5py.File(table, "r+") as file:
+        file["results/life"][3] = least
+    words = ["--against", "way,load", "--scalar", "life", "--log", "colors", "-o", "m.png", table]
+    assert draw(*words) == (3, [f"petsam-plot: error: {table}: --log colors: life has the value {least:g}; omit it"])
+    assert not (table.parent / "m.png").exists()
+    assert draw(*words[:5], "y", *words[6:]) == (0, [])
 
 
 def test_a_map_without_a_border_names_its_regime_and_where_the_border_lies(table):
@@ -207,6 +255,8 @@ def test_the_command_draws_maps_and_refuses_what_is_none(draw, table):
     assert draw("--against", "way,load", "--border", "life=1e4", "--log", "y", "-o", "m.png", table)[0] == 0
     assert (table.parent / "m.png").stat().st_size > 10000
     assert draw("--against", "way,load", "--scalar", "life,depth", "-o", "two.svg", table) == (0, [])
+    log = ("--log", "x,colors")
+    assert draw("--against", "way,load", "--scalar", "life,depth", *log, "-o", "log.png", table) == (0, [])
     for given, says, code in (
         (["--against", "way,load", "--border", "life"], "expected NAME=VALUE", 2),
         (["--against", "way,load", "--border", "wear=1"], "--border wear: there is no such column", 3),
@@ -215,6 +265,8 @@ def test_the_command_draws_maps_and_refuses_what_is_none(draw, table):
         (["--against", "way,load", "--where", "load=1"], "a map needs two values of each", 3),
         (["--against", "way,way"], "12 cases at 4 places", 3),
         (["--against", "way,load,life"], "expected X,Y", 3),
+        (["--against", "way,load", "--log", "colors"], "the regime has no numbers; name a column by --scalar", 2),
+        (["--against", "way", "--log", "colors"], "--log colors: has no effect", 2),
     ):
         found, err = draw(*given, table)
         assert found == code and len(err) == 1 and says in err[0], err

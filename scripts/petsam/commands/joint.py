@@ -336,7 +336,7 @@ def _backbone(args):
         print(_degree_line(args, compute, pair, result))
     _write(args, result, plot.backbone)
     if args.output:
-        write(plot.slip_zones(result), args.output + "-contact.png", args.dpi)
+        write(plot.slip_zones(result, bolts=pair.places), args.output + "-contact.png", args.dpi)
     return 0
 
 

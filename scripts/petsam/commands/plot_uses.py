@@ -51,8 +51,10 @@ def function(kind, options, results):
 def _takes(kind, name, options, results):
     """Whether a kind of picture uses an option, or a word of log, of these files and with the other options."""
     if name.startswith("log "):
-        known = parameters(function(kind, options, results))
-        return "log" in known and (kind == "maps") == (name == "log colors")
+        picture = function(kind, options, results)
+        coloured = kind == "maps" or picture is pictures.regimes
+        fits = coloured if name == "log colors" else kind != "maps"
+        return fits and "log" in parameters(picture)
     if name not in parameters(function(kind, options, results)):
         return False
     if name == "at" and isinstance(results[0], Stresses):  # a section is where it is

@@ -32,14 +32,15 @@ class Washer:
 
 @dataclass
 class Bolt:
-    """Its axial stiffness, N/m, length and diameter, m, modulus, Pa; closing (1, 3 nodes) by displacements of the
-    nodes, and its part of the stiffness matrix."""
+    """Its axial stiffness, N/m, length and diameter, m, modulus, Pa; x and y (m) where its axis crosses the contact's
+    plane; closing (1, 3 nodes) by displacements of the nodes, and its part of the stiffness matrix."""
 
     name: str
     stiffness: float
     length: float
     diameter: float
     young: float
+    place: np.ndarray
     closing: sparse.csr_matrix
     matrix: sparse.csr_matrix
 
@@ -93,6 +94,12 @@ def beam(along, diameter, young, poisson):
     return relative.T @ np.linalg.inv(flexibility) @ relative
 
 
+def crossing(center, along):
+    """x and y where a line through a point crosses z = 0; those of the middle of `along` if it is parallel to it."""
+    part = -center[2] / along[2] if abs(along[2]) > 1e-6 * np.linalg.norm(along) else 0.5
+    return (center + part * along)[:2]
+
+
 def bolt(mesh, name, surfaces, diameter, young):
     """The Bolt between the washers on two surfaces; young: its modulus, Pa, or None for that of the washers."""
     first, second = (washer(mesh, surface) for surface in surfaces)
@@ -108,4 +115,5 @@ def bolt(mesh, name, surfaces, diameter, young):
     matrix = motion.T @ sparse.csr_matrix(beam(along, diameter, young, min(first.moduli)[1])) @ motion
     closing = sparse.csr_matrix(along / length) @ (first.motion[:3] - second.motion[:3])
     stiffness = young * 0.25 * np.pi * diameter**2 / length
-    return Bolt(name, stiffness, length, diameter, young, closing.tocsr(), sparse.csr_matrix(0.5 * (matrix + matrix.T)))
+    whole = sparse.csr_matrix(0.5 * (matrix + matrix.T))
+    return Bolt(name, stiffness, length, diameter, young, crossing(first.center, along), closing.tocsr(), whole)

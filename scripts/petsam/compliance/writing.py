@@ -103,6 +103,8 @@ def _put_bolts(file, put, body):
         put(f"bolts/{one.name}/length", one.length, "m", "distance of the washers' centres")
         put(f"bolts/{one.name}/diameter", one.diameter, "m", "diameter")
         put(f"bolts/{one.name}/young", one.young, "Pa", "Young's modulus")
+        text = "x and y of the frame where its axis crosses the contact's plane"
+        put(f"bolts/{one.name}/place", one.place, "m", text)
     closing = np.stack([body.closing(f"bolt_{name}") for name in names], axis=1)
     put("bolts/closing", closing, "m/N", "approach of a bolt's washers (row) by unit initial tension of one (column)")
     file["bolts/closing"].attrs["names"] = names

@@ -52,6 +52,8 @@ class Pair:
         {name: (modes, 3)}: displacement (m) of a sensor by each modal coordinate.
     tensions : dict
         {name: N}: tension left in each bolt after all are tightened.
+    places : dict
+        {name: (x, y, diameter)}: where each bolt's axis crosses the contact's plane (m), as far as the file has it.
     functions : int
         Number of polynomials of a patch.
 
@@ -133,11 +135,17 @@ class Pair:
         if "modes/sensors" in file:
             names = file["modes/sensors"].attrs["names"]
             self.sensors = {str(n): file["modes/sensors"][:, k] for k, n in enumerate(names)}
-        self.bolts, self.stiffness, self.closing = [], np.zeros(0), np.zeros((0, 0))
+        self.bolts, self.stiffness, self.closing, self.places = [], np.zeros(0), np.zeros((0, 0)), {}
         if "bolts" in file:
             self.bolts = [str(name) for name in file["bolts/closing"].attrs["names"]]
             self.stiffness = np.array([float(file[f"bolts/{name}/stiffness"][()]) for name in self.bolts])
             self.closing = file["bolts/closing"][()].reshape(2 * (len(self.bolts),))
+            groups = {name: file[f"bolts/{name}"] for name in self.bolts}
+            self.places = {
+                name: (*one["place"][()].tolist(), float(one["diameter"][()]))
+                for name, one in groups.items()
+                if "place" in one
+            }
         self.moduli = {
             f"{body}_{name}": float(file.attrs[name + end])
             for body, end in (("body1", "1"), ("body2", ""))

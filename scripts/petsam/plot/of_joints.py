@@ -1,17 +1,27 @@
 """Pictures of what petsam.joint has found: interfaces, backbones and their bands, responses, wear."""
 
+from collections.abc import Mapping
+from typing import Optional
+
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Key
+from matplotlib.patheffects import withStroke
+from numpy.typing import ArrayLike
 
 from ..joint.backbone import MODAL, Backbone
 from ..joint.balance import Response
 from ..joint.band import ASSEMBLED, NUMBERS, Band
 from ..joint.interfaces import Interface
 from ..joint.wear import Wear
-from .fields import OPEN, STATES
-from .style import COLORS, STYLE, WHOLE, drawn, logarithmic, plt
+from ..results.fields import OPEN, SLIP
+from .fields import STATES
+from .style import COLORS, STYLE, WHOLE, bar, drawn, joined, logarithmic, plt
+
+THIN = {"markersize": 5.0, "linewidth": 1.0, "capsize": 3.0}
+MARKS = "os^Dv"
+HATCH, HATCHED = "////", "0.25"  # of what slips
 
 
 @drawn(STYLE, Interface)
@@ -50,9 +60,27 @@ def interface(found: Interface) -> Figure:
     return figure
 
 
+def _changes(ax, first, what):
+    """Title and label of changes of a frequency, whose first value stands in the title."""
+    ax.axhline(0.0, color="0.4", linewidth=0.8, linestyle="--")
+    ax.set(title=f"Frequency: {first:.6g} Hz {what}", ylabel="change of frequency, %")
+
+
+def _relative(frequency, first):
+    """Change of a frequency, %."""
+    return 100.0 * (np.asarray(frequency) / first - 1.0)
+
+
+def _say_last(ax, x, y, above=True):
+    """Writes the last value, %, beside its point."""
+    text = f"{y[-1]:.2g} %".replace("-", "\N{MINUS SIGN}")
+    place = {"xytext": (-7, 0), "textcoords": "offset points", "ha": "right", "va": "bottom" if above else "top"}
+    ax.annotate(text, (x[-1], y[-1]), fontsize=9, **place)
+
+
 @drawn(WHOLE, Backbone)
 def backbone(found: Backbone) -> Figure:
-    """Frequency and damping over the amplitude.
+    """Change of the frequency, and damping, over the amplitude.
 
     Parameters
     ----------
@@ -64,21 +92,51 @@ def backbone(found: Backbone) -> Figure:
     matplotlib.figure.Figure
     """
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-    reach = 1e6 * found.amplitude
-    left.axhline(found.linear, color="0.4", linewidth=0.8, linestyle="--", label="all that touches sticks")
-    left.plot(reach, found.frequency, "o-", color=COLORS[0], markersize=4.0)
+    reach, damping = 1e6 * found.amplitude, 100.0 * (found.damping + found.viscous)
+    title = "Damping by friction" + (" and material" if np.any(found.viscous > 0.0) else "")
+    right.set(title=title, ylabel="damping, % of critical")
+    _changes(left, found.linear, "while all that touches sticks")
     label = "modal amplitude, 1e-6 m kg$^{1/2}$" if found.unit == MODAL else "amplitude, µm"
-    left.set(xlabel=label, ylabel="frequency, Hz")
-    left.legend()
-    right.plot(reach, 100.0 * (found.damping + found.viscous), "o-", color=COLORS[0], markersize=4.0)
-    right.set(xlabel=label, ylabel="damping, % of critical")
+    for ax, values, above in ((left, _relative(found.frequency, found.linear), False), (right, damping, True)):
+        joined(ax, reach, values, COLORS[0], "o-")
+        _say_last(ax, reach, values, above)
+        ax.set_xlabel(label)
     logarithmic(left, "x")
     logarithmic(right, "xy" if np.all(found.damping > 0.0) else "x")
     return figure
 
 
+def _hatched(ax, x, y, inside):
+    """Hatches some cells, for eyes and prints without colours."""
+    if np.any(inside):
+        marked = ax.contourf(x, y, inside, levels=[0.5, 1.5], colors="none", hatches=[HATCH])
+        marked.set(edgecolor=HATCHED, linewidth=0.0)
+
+
+def _keys():
+    """What the legend of zones shows."""
+    hatched = {SLIP: {"hatch": HATCH, "edgecolor": HATCHED, "linewidth": 0.0}}
+    shown = [(STATES[k], hatched.get(k, {})) for k in sorted(STATES) if k != OPEN]
+    return [Key(facecolor=tint, label=word, **look) for (word, tint), look in shown]
+
+
+def _bolts_of(bolts, x, y):
+    """Those bolts whose axes cross a patch, {name: (x, y, diameter)}, m."""
+    return {name: one for name, one in (bolts or {}).items() if x[0] <= one[0] <= x[-1] and y[0] <= one[1] <= y[-1]}
+
+
+def _mark_bolts(ax, bolts):
+    """Section of each bolt, and its name, in mm."""
+    for name, (x, y, diameter) in bolts.items():
+        turn = np.linspace(0.0, 2.0 * np.pi, 60)
+        for look in ({"color": "white", "linewidth": 2.4}, {"color": "black", "linewidth": 1.2, "linestyle": "--"}):
+            ax.plot(1e3 * (x + 0.5 * diameter * np.cos(turn)), 1e3 * (y + 0.5 * diameter * np.sin(turn)), **look)
+        edge = [withStroke(linewidth=2.5, foreground="white")]
+        ax.text(1e3 * x, 1e3 * y, name, ha="center", va="center", path_effects=edge)
+
+
 @drawn({**STYLE, "axes.grid": False}, Backbone)
-def slip_zones(found: Backbone) -> Figure:
+def slip_zones(found: Backbone, *, bolts: Optional[Mapping[str, ArrayLike]] = None) -> Figure:
     """The patches of a backbone, one below the other: pressure in the preload, and where the largest amplitude makes
     them slip.
 
@@ -86,30 +144,36 @@ def slip_zones(found: Backbone) -> Figure:
     ----------
     found : joint.Backbone
         The backbone.
+    bolts : dict, optional
+        {name: (x, y, diameter)} of bolts that are drawn, m, as joint.Pair has them in `places`.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
-    words, tints = zip(*(STATES[k] for k in sorted(STATES)))
+    tints = [STATES[k][1] for k in sorted(STATES)]
     size = (8.0, 3.4 * len(found.names))
     figure, rows = plt.subplots(len(found.names), 2, figsize=size, layout="constrained", squeeze=False)
+    highest = 1e-6 * max(float(np.max(one)) for one in found.pressure)  # one scale of all patches
     for k, ((left, right), (x, y)) in enumerate(zip(rows, found.axes)):
         pressed = np.where(found.pressure[k] > 0.0, 1e-6 * found.pressure[k], np.nan)
-        mesh = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, rasterized=True)
-        figure.colorbar(mesh, ax=left, label="pressure, MPa")
+        mesh = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, vmax=highest, rasterized=True)
+        bar(left, mesh, "pressure $p$, MPa")
         given = dict(cmap=ListedColormap(tints), vmin=-0.5, vmax=len(tints) - 0.5, rasterized=True)
         right.pcolormesh(1e3 * x, 1e3 * y, found.states[k], **given)
-        keys = [Key(color=tint, label=word) for word, tint in zip(words, tints) if word != STATES[OPEN][0]]
-        right.legend(handles=keys, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+        _hatched(right, 1e3 * x, 1e3 * y, np.asarray(found.states[k]) == SLIP)
+        right.legend(handles=_keys(), loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+        near = _bolts_of(bolts, x, y)
+        name = ", ".join([found.names[k], *(f"bolt {one}" for one in near)])
         for ax, title in ((left, "preload"), (right, "largest amplitude")):
-            ax.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", title=f"{found.names[k]}, {title}")
+            _mark_bolts(ax, near)
+            ax.set(xlabel="$x$, mm", ylabel="$y$, mm", aspect="equal", title=f"{name}: {title}")
     return figure
 
 
 @drawn(WHOLE, Band)
 def band(found: Band) -> Figure:
-    """The bands of frequency and damping over the amplitude.
+    """The bands of the frequency's change and of damping over the amplitude.
 
     Parameters
     ----------
@@ -122,17 +186,19 @@ def band(found: Band) -> Figure:
     """
     figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
     reach = 1e6 * found.given.amplitude[: found.count]
-    for ax, name, factor in zip(axes, NUMBERS, (1.0, 100.0)):
-        low, high = (factor * one for one in found.limits(name))
+    first = found.given.linear
+    of_name = (lambda values: _relative(values, first), 100.0 / first), (lambda values: 100.0 * values, 100.0)
+    for ax, name, (shown, factor) in zip(axes, NUMBERS, of_name):
+        low, high = (shown(one) for one in found.limits(name))
         ax.fill_between(reach, low, high, color="0.85", label="all assemblies")
-        for color, (assembly, one) in zip(COLORS, found.backbones.items()):
-            values = factor * one.numbers[name][: found.count]
+        for color, mark, (assembly, one) in zip(COLORS, MARKS, found.backbones.items()):
+            values = shown(one.numbers[name][: found.count])
             error = factor * found.deviation(name) if found.scatter and assembly == ASSEMBLED else None
-            ax.errorbar(reach, values, error, color=color, marker="o", markersize=3.0, label=assembly)
+            ax.errorbar(reach, values, error, color=color, label=assembly, marker=mark, markerfacecolor="none", **THIN)
         ax.set(xlabel="amplitude, µm")
-    axes[0].set(ylabel="frequency, Hz")
-    axes[1].set(ylabel="damping by friction, % of critical")
-    axes[0].legend()
+    _changes(axes[0], first, "while all that touches sticks")
+    axes[1].set(title="Damping by friction", ylabel="damping, % of critical")
+    axes[1].legend()
     logarithmic(axes[0], "x")
     logarithmic(axes[1], "xy" if np.all(found.given.damping > 0.0) else "x")
     return figure
@@ -162,7 +228,7 @@ def response(found: Response) -> Figure:
 
 @drawn(WHOLE, Wear)
 def joint_wear(found: Wear) -> Figure:
-    """Frequency and damping over the cycles.
+    """Change of the frequency, and damping, over the cycles.
 
     Parameters
     ----------
@@ -174,11 +240,13 @@ def joint_wear(found: Wear) -> Figure:
     matplotlib.figure.Figure
     """
     figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-    for ax, name, factor in zip(axes, ("frequency", "damping"), (1.0, 100.0)):
-        values, error = (factor * found.numbers[one] for one in (name, f"{name}_error"))
-        ax.errorbar(found.cycles, values, error, color=COLORS[0], marker="o", markersize=4.0)
+    first = found.numbers["frequency"][0]
+    of_name = (_relative(found.frequency, first), 100.0 / first), (100.0 * found.damping, 100.0)
+    for ax, name, (values, factor) in zip(axes, ("frequency", "damping"), of_name):
+        error = factor * found.numbers[f"{name}_error"]
+        ax.errorbar(found.cycles, values, error, color=COLORS[0], marker="o", markerfacecolor="white", **THIN)
         ax.set_xscale("symlog", linthresh=max(found.cycles[1], 1.0))
         ax.set(xlabel="cycles")
-    axes[0].set(ylabel="frequency, Hz")
-    axes[1].set(ylabel="damping by friction, % of critical")
+    _changes(axes[0], first, "without wear")
+    axes[1].set(title="Damping by friction", ylabel="damping, % of critical")
     return figure

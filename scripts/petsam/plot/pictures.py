@@ -122,6 +122,11 @@ def axes_of(log):
     return [name for name in listed(log) if name in ("x", "y")]
 
 
+def scales_of(log):
+    """The axes that are logarithmic, and "colors"."""
+    return [*axes_of(log), *(name for name in listed(log) if name == "colors")]
+
+
 # ---------------------------------------------------------------- results of petsam
 
 
@@ -693,7 +698,7 @@ def regimes(
     border : list of tuple
         (name, value) of the lines that are drawn, SI units.
     log : str or list of str
-        Axes that are logarithmic: "x", "y".
+        What is logarithmic: the axes "x", "y", the "colors" of numbers.
     xlim, ylim : tuple, optional
         Part of the axes, (low, high), SI units.
     width : float, optional
@@ -706,7 +711,7 @@ def regimes(
     Raises
     ------
     Error
-        If the file is no table of petsam-study, or has no such column.
+        If the file is no table of petsam-study, or has no such column, or a value that a logarithmic scale cannot show.
     """
     against = against.split(",") if isinstance(against, str) else list(against)
-    return planes.planes(one, against, listed(scalar) or None, where, border, axes_of(log))
+    return planes.planes(one, against, listed(scalar) or None, where, border, scales_of(log))

@@ -1,18 +1,22 @@
 """Maps of a study's columns over two inputs: regimes with their borders, numbers as contours, criteria as lines."""
 
 import numpy as np
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.patches import Patch
 
-from ..core.errors import Error, short
+from ..core.errors import Error, Unusable, short
 from ..results.sliding import REGIMES
+from .colours import log_ticks
 from .style import COLORS, bar, logarithmic, need_few, plt
 from .tables import matching, need_case, numbers, titled
 from .units import label, largest, number, on_axis, scale
 
 TINTS = ("#dfe3ee", "#8fb8d8", "#f5e0a0", "#cc79a7")  # of the regimes
+HATCHES = ("", "", "//", "xx")  # of the regimes: where they slide as a whole, for eyes and prints without colours
+HATCHED = "0.55"
 FILLED = 0.5  # of a grid of the distinct values that must have cases, or they are drawn as points
 LEVELS = 12
+LEAST = 0.01  # relative width of a logarithmic scale at least
 FINE = 400  # points of a map of regimes in each direction
 TITLES = {"regime": "fretting regime"}
 LARGER = "the border lies at larger displacements and tangential loads,\nor at smaller normal loads and friction"
@@ -59,11 +63,16 @@ def _regimes(panel, xs, ys, grid, logs):
     shown = np.ma.masked_where(up.T @ np.isfinite(grid) @ across < 1.0 - 1e-9, np.argmax(shares, axis=0))
     panel.pcolormesh(x, y, shown, cmap=ListedColormap(TINTS), vmin=-0.5, vmax=len(REGIMES) - 0.5, shading="nearest")
     for k in np.unique(shown.compressed()):
-        panel.contour(x, y, np.ma.masked_where(shown.mask, shown == k), levels=[0.5], colors="black", linewidths=1.2)
+        inside = np.ma.masked_where(shown.mask, shown == k)
+        panel.contour(x, y, inside, levels=[0.5], colors="black", linewidths=1.2)
+        if HATCHES[k]:
+            hatched = panel.contourf(x, y, inside, levels=[0.5, 1.5], colors="none", hatches=[HATCHES[k]])
+            hatched.set(edgecolor=HATCHED, linewidth=0.0)
     known = sorted({int(value) for value in grid[np.isfinite(grid)]})
     if len(known) == 1:
         _say_uniform(panel, known[0], np.isfinite(grid).sum())
-    return [Patch(color=TINTS[k], label=REGIMES[k]) for k in known]
+    look = {"edgecolor": HATCHED, "linewidth": 0.0}
+    return [Patch(facecolor=TINTS[k], hatch=HATCHES[k], label=REGIMES[k], **look) for k in known]
 
 
 def _say_uniform(panel, regime, count):
@@ -74,17 +83,45 @@ def _say_uniform(panel, regime, count):
     panel.text(0.5, 0.5, text, transform=panel.transAxes, ha="center", va="center", fontsize=9, bbox=box)
 
 
-def _values(panel, xs, ys, grid, name, unit):
-    """Contours of numbers, or coloured points where the cases fill no grid."""
-    factor, prefixed = on_axis(unit, largest([grid]))
-    some = np.isfinite(grid)
+def _need_positive(study, name, values, option):
+    """Raises Error if a column that is to be drawn on a logarithmic scale has a value that is not positive."""
+    least = float(np.nanmin(values))
+    if not least > 0.0:
+        raise Error(f"{study.path}: --log {option}: {name} has the value {least:g}; omit it")
+
+
+def _levels(values):
+    """Levels of contours on a logarithmic scale, and its norm."""
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    high = max(high, low * (1.0 + LEAST))  # where all values are the same
+    return np.geomspace(low, high, LEVELS + 1), LogNorm(low, high)
+
+
+def _values(panel, xs, ys, grid, text, log):
+    """Contours of numbers, or coloured points where the cases fill no grid; text is that of the colour bar."""
+    some, norm, levels = np.isfinite(grid), None, LEVELS
+    if log:
+        levels, norm = _levels(grid)
     if some.mean() < FILLED:
         j, i = np.nonzero(some)
-        image = panel.scatter(xs[i], ys[j], c=factor * grid[some], cmap="viridis", s=36)
+        image = panel.scatter(xs[i], ys[j], c=grid[some], cmap="viridis", norm=norm, s=36)
     else:
-        image = panel.contourf(xs, ys, np.ma.masked_invalid(factor * grid), levels=LEVELS, cmap="viridis")
-        image.drawn = xs, ys, factor * grid
-    bar(panel, image, label(titled(name), prefixed))
+        image = panel.contourf(xs, ys, np.ma.masked_invalid(grid), levels=levels, cmap="viridis", norm=norm)
+        image.drawn = xs, ys, grid
+    beside = bar(panel, image, text)
+    if log:
+        places = log_ticks(norm, 7)
+        places = places if len(places) > 1 else [norm.vmin, norm.vmax]  # less than a decade
+        beside.set_ticks(places, labels=[f"{value:.3g}" for value in places])
+        beside.ax.minorticks_off()
+
+
+def _column(panel, study, name, places, log):
+    """A column over two inputs, places their values and the column's on their grid."""
+    if log:
+        _need_positive(study, name, places[-1], "colors")
+    factor, unit = on_axis(numbers(study, name, "--scalar")[1], largest([places[-1]]))
+    _values(panel, *places[:2], factor * places[-1], label(titled(name), unit), log)
 
 
 def _border(panel, study, over, where, name, limit, color):
@@ -106,29 +143,31 @@ def _border(panel, study, over, where, name, limit, color):
 
 
 def planes(study, over, names=None, where=(), borders=(), logs=()):
-    """Columns (the regime) over two inputs: a panel each, with lines where other columns have the values of borders."""
+    """Columns (the regime) over two inputs: a panel each, with lines where other columns have the values of borders;
+    logs are what is logarithmic: x, y, colors."""
     if len(over) != 2:
         raise Error(f"{study.path}: --against {short(','.join(over))}: expected X,Y")
     names = names or ["regime"]
     need_few(len(names), "columns")
+    if "colors" in logs and set(names) == {"regime"}:
+        raise Unusable(f"{study.path}: --log colors: the regime has no numbers; name a column by --scalar")
+    axes_logs = [letter for letter in logs if letter in "xy"]
     columns = min(2, len(names))
     height = -(-len(names) // columns)
     size = (6.4 * columns, 4.6 * height)
     figure, axes = plt.subplots(height, columns, figsize=size, squeeze=False, layout="constrained")
     for panel, name in zip(axes.flat, names):
         panel.grid(False)
-        logarithmic(panel, logs)
+        logarithmic(panel, axes_logs)
         xs, ys, grid = _grid(study, over, name, where)
-        for letter, values in zip("xy", (xs, ys)):
-            if letter in logs and not values[0] > 0.0:
-                raise Error(
-                    f"{study.path}: --log {letter}: {over['xy'.index(letter)]} has the value {values[0]:g}; omit it"
-                )
+        for letter in axes_logs:
+            which = "xy".index(letter)
+            _need_positive(study, over[which], (xs, ys)[which], letter)
         handles = []
         if name == "regime":
-            handles = _regimes(panel, xs, ys, grid, logs)
+            handles = _regimes(panel, xs, ys, grid, axes_logs)
         else:
-            _values(panel, xs, ys, grid, name, numbers(study, name, "--scalar")[1])
+            _column(panel, study, name, (xs, ys, grid), "colors" in logs)
         j, i = np.nonzero(np.isfinite(grid))
         panel.plot(xs[i], ys[j], ".", color="0.25", markersize=3.0, clip_on=False)
         for (criterion, limit), color in zip(borders, COLORS[1:] * len(borders)):

@@ -194,12 +194,13 @@ def groups(study, other, by, chosen):
 
 
 def _styles(curves):
-    """Colour by the first parameter, mark by the others."""
+    """Colour by the first parameter, mark by the others; without these, or where they are the same, mark as colour."""
     first = list(dict.fromkeys(key[:1] for key, _ in curves))
     others = list(dict.fromkeys(key[1:] for key, _ in curves))
     tints = colors(len(first))
     for key, _ in curves:
-        yield tints[first.index(key[:1])], MARKS[others.index(key[1:]) % len(MARKS)]
+        mark = others.index(key[1:]) if len(others) > 1 else first.index(key[:1])
+        yield tints[first.index(key[:1])], MARKS[mark % len(MARKS)]
 
 
 def _curves(studies, other, by, where):
