@@ -148,7 +148,7 @@ AT_ROOT = {
     "Makefile",
     "README.md",
 }
-WRITING = r"(?:-output|--output|-o|-d|--directory|-checkpoint|--csv|>>?) +([^\s'\"]+)"
+WRITING = r"(?:-output|--output|--report|-o|-d|--directory|-checkpoint|--csv|>>?) +([^\s'\"]+)"
 
 
 def test_no_results_and_nothing_else_unexpected_are_in_git():
