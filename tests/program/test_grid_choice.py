@@ -184,6 +184,26 @@ def test_a_restart_keeps_its_grid(petsam, sphere_alone):
     assert "-accuracy with -restart" in done.complaint[0]
 
 
+def test_numbers_that_are_next_to_nothing_may_be_named(petsam, sphere_alone):
+    """Without T nothing is dissipated: there is nothing to resolve."""
+    case = {**sphere_alone, "load_tx": None}
+    run = petsam(case, "-accuracy", "1%", "-accuracy_of", "dissipated_energy,contact_area", "-output", "own.h5")
+    assert chosen(run.stdout)[0]["grid_n"]
+
+
+def test_what_no_grid_resolves_ends_the_trials(petsam, sphere_alone):
+    """The stick zone of a push to 0.99999 of the limit: three trials, and the error is told."""
+    run = petsam({**sphere_alone, "load_tx": 99.9999}, "-accuracy", "2%")
+    assert chosen(run.stdout)[1] == 3
+    assert any("the largest error is unknown, of stick_area" in line for line in run.complaint)
+
+
+def test_a_note_is_given_once(petsam, sphere_alone):
+    case = {**sphere_alone, "load_tx": None, "rolling": "steady", "creep_spin": 0.2}
+    run = petsam(case, "-accuracy", "3%")
+    assert sum("creep_spin is given without creep_y" in line for line in run.stderr.splitlines()) == 1
+
+
 def test_ranks_choose_alike(petsam, sphere_alone):
     outputs = [petsam(sphere_alone, "-accuracy", "1%", "-output", f"{n}.h5", ranks=n).stdout for n in (1, 2, 3)]
     assert len({str(chosen(stdout)) for stdout in outputs}) == 1

@@ -20,6 +20,7 @@
 #include <petsam/private/grid.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/state.h>
 #include <math.h>
 #include <string.h>
 
@@ -34,6 +35,7 @@
 #define CHEAP      1e6   /* cells times steps of a trial up to which it is repeated on the chosen grid */
 #define AT_ONCE    4.0   /* most times by which cells become narrower from one trial to the next */
 #define ROOM       1.2   /* ratio of the width of the grid to that of the contact */
+#define STALLS     2     /* finer trials with the same error after which no finer ones follow */
 #define SAME       0.1   /* relative changes of the grid's width and place that are no reason for another trial */
 #define FLAT       4.0   /* most times by which a cell is longer than wide */
 #define PROBE      16    /* cells per side on which the separation is looked at */
@@ -49,7 +51,9 @@ typedef struct {
   const SamAccuracy *asked;
   PetscBool          cells, size, center, steps;
   PetscInt           axes;
-  PetscInt           few, most; /* cells along the shorter side: of the first grid; most along any side */
+  PetscInt           few, most;    /* cells along the shorter side: of the first grid; most along any side */
+  double             cell, factor; /* width of the cells of the last trial (m), and how many times they were too wide */
+  PetscInt           stalls;       /* number of finer trials whose errors are the same */
 } Task;
 
 /* What a trial found. */
@@ -57,7 +61,8 @@ typedef struct {
   PetscBool     touched;
   PetscReal     low[2], high[2]; /* the rectangle of the contact in all steps, m */
   SamErrorTable table;
-  PetscInt      steps; /* that it had */
+  PetscInt      steps;       /* that it had */
+  char          names[2048]; /* its numbers that may have errors, separated by ", " */
   SamStatus     status;
   PetscBool     failed; /* it ended with an error */
 } Trial;
@@ -309,6 +314,39 @@ typedef struct {
   Trial  *trial;
 } Watch;
 
+/* True if a list has a name of that many letters; names are separated by commas, and blanks. */
+static PetscBool HasName(const char list[], const char name[], size_t letters)
+{
+  for (const char *at = list; *at; at += strcspn(at, ","), at += strspn(at, ", "))
+    if (strcspn(at, ",") == letters && !strncmp(at, name, letters)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+static void AddName(Trial *t, const char name[])
+{
+  const size_t used = strlen(t->names);
+
+  (void)snprintf(t->names + used, sizeof(t->names) - used, "%s%s", used ? ", " : "", name);
+}
+
+/* Lists the numbers that may have errors: those of the table, and those that are next to nothing in this trial. */
+static PetscErrorCode ListNumbers(SamContact contact, Trial *t)
+{
+  SamState state;
+
+  PetscFunctionBegin;
+  t->names[0] = '\0';
+  for (PetscInt k = 0; k < t->table.count; k++) AddName(t, t->table.row[k].name);
+  PetscCall(SamContactGetState(contact, &state));
+  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
+    PetscInt              id;
+    const SamStateNumber *of = SamStateNumberOf(state, k, &id);
+
+    if (of->order && of->result && !HasName(t->names, of->name, strlen(of->name))) AddName(t, of->name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Note(void *context, SamContact contact, const SamSimulationEvent *news)
 {
   const Watch *w = (const Watch *)context;
@@ -316,7 +354,10 @@ static PetscErrorCode Note(void *context, SamContact contact, const SamSimulatio
   PetscFunctionBegin;
   if ((news->kind == SAM_NOTIFY_STEP || news->kind == SAM_NOTIFY_CYCLE_STEP) && SamStepIsSolved(news->result))
     PetscCall(Extend(contact, w->grid, w->trial));
-  if (news->kind == SAM_NOTIFY_ERRORS) w->trial->table = *news->errors;
+  if (news->kind == SAM_NOTIFY_ERRORS) {
+    w->trial->table = *news->errors;
+    PetscCall(ListNumbers(contact, w->trial));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -363,31 +404,19 @@ static PetscErrorCode Try(const SamOptions *from, const SamArguments *arguments,
 
 PetscBool SamAccuracyConcerns(const SamAccuracy *a, const char name[])
 {
-  const size_t length = strlen(name);
-
-  if (!a->numbers[0]) return PETSC_TRUE;
-  for (const char *at = a->numbers; *at; at += strcspn(at, ","), at += *at == ',')
-    if (strcspn(at, ",") == length && !strncmp(at, name, length)) return PETSC_TRUE;
-  return PETSC_FALSE;
+  return !a->numbers[0] || HasName(a->numbers, name, strlen(name)) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Refuses a name that no number with an error has. */
-static PetscErrorCode CheckNames(const SamOptions *from, const SamAccuracy *a, const SamErrorTable *t)
+static PetscErrorCode CheckNames(const SamOptions *from, const SamAccuracy *a, const Trial *t)
 {
-  char list[2048] = "";
-
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < t->count; k++)
-    (void)snprintf(list + strlen(list), sizeof(list) - strlen(list), "%s%s", k ? ", " : "", t->row[k].name);
-  for (const char *at = a->numbers; *at && t->count; at += strcspn(at, ","), at += *at == ',') {
-    const int length = (int)strcspn(at, ",");
-    PetscBool found  = PETSC_FALSE;
+  for (const char *at = a->numbers; *at && t->names[0]; at += strcspn(at, ","), at += strspn(at, ", ")) {
+    const size_t letters = strcspn(at, ",");
 
-    for (PetscInt k = 0; k < t->count; k++)
-      if (length == (int)strlen(t->row[k].name) && !strncmp(at, t->row[k].name, (size_t)length)) found = PETSC_TRUE;
-    PetscCheck(found, from->comm, SAM_ERR_USER,
+    PetscCheck(HasName(t->names, at, letters), from->comm, SAM_ERR_USER,
                "-%saccuracy_of %.*s: no number of this run with an error: expected some of %s", SamOptionsPrefix(from),
-               length, at, list);
+               (int)letters, at, t->names);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -480,8 +509,22 @@ static PetscBool Moves(const Task *task, const Choice *was, const Choice *c)
   return PETSC_FALSE;
 }
 
+/* True if finer cells have left the error as it is, once more: no grid makes it as small as asked. */
+static PetscBool Stalls(Task *task, const Choice *was, double factor)
+{
+  const double cell = (double)was->width[0] / (double)was->n[0];
+
+  if (cell < task->cell / 1.5 && factor > 0.8 * task->factor)
+    task->stalls++;
+  else if (cell < task->cell / 1.5)
+    task->stalls = 0;
+  task->cell   = cell;
+  task->factor = factor;
+  return task->stalls >= STALLS ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* Changes the choice by what a trial on it found; `last`: it is the one to run. */
-static void Change(const Task *task, const Trial *t, Choice *c, PetscBool *last)
+static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last)
 {
   const Choice was = *c;
   PetscBool    cheap, near;
@@ -500,12 +543,22 @@ static void Change(const Task *task, const Trial *t, Choice *c, PetscBool *last)
   if (*last) return; /* the run tells why */
   if (task->size) Fit(task, t, c);
   Demand(task, &was, t, factor);
+  if (Stalls(task, &was, factor[0])) {
+    *c    = was;
+    *last = PETSC_TRUE;
+    return;
+  }
   cheap = (double)was.n[0] * (double)was.n[1] * (double)t->steps <= CHEAP ? PETSC_TRUE : PETSC_FALSE;
   near  = factor[0] <= NEAR && factor[1] <= NEAR ? PETSC_TRUE : PETSC_FALSE;
-  *last = near && (!cheap || (factor[0] <= 1 && factor[1] <= 1 && !Moves(task, &was, c))) ? PETSC_TRUE : PETSC_FALSE;
+  if (cheap && factor[0] <= 1 && factor[1] <= 1 && !Moves(task, &was, c)) { /* it has been tried itself */
+    *c    = was;
+    *last = PETSC_TRUE;
+    return;
+  }
+  *last = near && !cheap ? PETSC_TRUE : PETSC_FALSE;
   for (int k = 0; k < 2; k++)
     factor[k] = near ? factor[k] : PetscMin(factor[k] > NEAR ? factor[k] / NEAR : factor[k], AT_ONCE);
-  factor[0] = PetscMax(factor[0], *last && !cheap ? 0.5 : 1);
+  factor[0] = PetscMax(factor[0], *last ? 0.5 : 1);
   if (task->cells) Refine(task, &was, factor[0], c);
   Divide(task, factor[1], c);
   if (c->n[0] == was.n[0] && c->n[1] == was.n[1] && c->steps == was.steps && !Moves(task, &was, c))
@@ -569,7 +622,7 @@ static PetscErrorCode Choose(const SamOptions *from, const SamArguments *argumen
   if (!task.cells && !task.size && !task.steps) last = PETSC_TRUE;
   while (!last && a->trials < TRIALS) {
     PetscCall(Try(from, arguments, &task, &c, trial));
-    PetscCall(CheckNames(from, a, &trial->table));
+    PetscCall(CheckNames(from, a, trial));
     a->trials++;
     PetscCall(Tell(&task, &c, trial, a));
     Change(&task, trial, &c, &last);

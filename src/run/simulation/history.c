@@ -141,18 +141,21 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c, P
 /* Notes that spin causes a lateral force: a user who gives no value along y may expect zero creepage there. */
 static PetscErrorCode NoteSpin(SamHistory h, const SamOptions *from, const PetscBool left[])
 {
-  const PetscInt spin   = SAM_COMPONENT_MZ;
-  const char    *prefix = SamOptionsPrefix(from);
-  PetscMPIInt    rank;
+  const PetscInt   spin   = SAM_COMPONENT_MZ;
+  const char      *prefix = SamOptionsPrefix(from);
+  PetscMPIInt      rank;
+  static PetscBool told = PETSC_FALSE; /* by an earlier trial of the same run */
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(from->comm, &rank));
-  if (rank == 0 && left[SAM_COMPONENT_TY] && h->constant.creep[spin] &&
-      (h->column[spin] >= 0 || h->constant.value[spin] != 0))
+  if (rank == 0 && !told && left[SAM_COMPONENT_TY] && h->constant.creep[spin] &&
+      (h->column[spin] >= 0 || h->constant.value[spin] != 0)) {
     SamPrintMessage("petsam",
                     "note: creep_spin is given without creep_y: creep_y is found, for load_ty = 0: give -%screep_y 0 "
                     "for spin alone, or -%sload_ty 0 for this",
                     prefix, prefix);
+    told = PETSC_TRUE;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
