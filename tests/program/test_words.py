@@ -74,7 +74,7 @@ def test_limits_may_be_of_any_quantity():
         ("--body1", "210GPa,0.3", (210e9, 0.3)), ("--body2", "inf,0", (math.inf, 0.0)), ("--area", "2mm2", 2e-6),
         ("--preload", "B1=12kN", [("B1", 12e3)]), ("--amplitudes", "1um:100um:3", [1e-6, 1e-5, 1e-4]),
         ("--force", "TIP:z=500mN", ("TIP:z", 0.5)), ("--frequencies", "0.1kHz,110Hz", [100.0, 110.0]),
-        ("--frequencies", "110:118:3", [110.0, 114.0, 118.0]), ("--damping", "0.01", 0.01), ("--damping", "1%", None),
+        ("--frequencies", "110:118:3", [110.0, 114.0, 118.0]), ("--damping", "0.01", 0.01), ("--damping", "1%", 0.01),
         ("--area", "2mm", None), ("--preload", "B1=12kg", None), ("--force", "TIP:z=0", None),
         ("--amplitudes", "1um:100um", None), ("--frequencies", "110rpm", None), ("--body1", "210GPa", None),
         ("--body1", "0.3,210GPa", None), ("--steps", "2.5", None), ("--cycles", "1e5,1e4", None),
