@@ -119,9 +119,9 @@ def forces(nodes, elements, traction, points=8):
 
 
 def displacements(nodes, elements, held, force, young=1.0, poisson=0.3):
-    """Displacements (n, 2), or (n, 2, columns), with nodes held by a mask."""
+    """Displacements (n, 2), or (n, 2, columns), with nodes, or directions (n, 2), held by a mask."""
     matrix = stiffness(nodes, elements, young, poisson)
-    free = np.flatnonzero(~np.repeat(held, 2))
+    free = np.flatnonzero(~(held.ravel() if held.ndim == 2 else np.repeat(held, 2)))
     found = np.zeros(force.shape)
     found[free] = spsolve(matrix[free][:, free].tocsc(), force[free])
     return found.reshape(len(nodes), 2, *force.shape[1:])

@@ -177,6 +177,15 @@ def test_the_compliance_is_that_of_a_direct_solution(tmp_path):
     assert errors[2] < 3e-3 * np.max(np.abs(exact)) and errors[0] > 2.0 * errors[1] > 3.0 * errors[2]
 
 
+def test_a_line_of_symmetry_is_not_left(tmp_path):
+    nodes, elements = block(tmp_path / "a.inp", 16)
+    given = found(tmp_path / "a.inp", 2, patch=1.0, symmetry="LEFT")
+    held = np.stack([(nodes[:, 0] == -2.0) | (nodes[:, 1] == 4.0), nodes[:, 1] == 4.0], axis=1)
+    other = direct(nodes, elements, held, basis.line(0.0, 0.5, 2))
+    exact = of_both(given.bodies[0].compliance)
+    assert given.bodies[0].method == "cutoff" and np.max(np.abs(other - exact)) < 1e-2 * np.max(np.abs(exact))
+
+
 @pytest.mark.parametrize("method", ["image", "cutoff"])
 def test_the_matrix_is_symmetric_and_both_methods_agree(method, tmp_path):
     block(tmp_path / "a.inp", 12, half=4.0)
@@ -288,6 +297,14 @@ def test_the_contact_has_no_datum_but_the_supports(solve, section):
     assert free["load_n"] < 0.8 * one["load_n"]
 
 
+def test_two_equal_sections_share_the_approach(solve, section):
+    """Neither has a datum; each approaches by half."""
+    one = solve(PLANE, dict(grid_n=40, disp_z=0.004, body2_compliance=section))
+    given = dict(body1_young=1, body1_poisson=NU, body1_compliance=section, body2_compliance=section)
+    both = solve(PLANE, given, dict(grid_n=40, disp_z=0.008, gap_radius_x=50, plane_datum=7))
+    assert l2(both.pressure, one.pressure) < 1e-6 and "plane_datum" not in both.run.stderr
+
+
 def test_body_1_is_the_same_turned_over(solve, section):
     two = solve(PLANE, dict(grid_n=40, load_n=0.004, load_tx=0.001, friction=0.5, body2_compliance=section))
     swapped = dict(body1_young=1, body1_poisson=NU, body2_young="inf", body2_poisson=None, body1_compliance=section)
@@ -318,10 +335,17 @@ def test_what_a_section_cannot_be_is_named(compliance, tmp_path):  # noqa: F811
     for kind, reason in (("CPS8", "is in plane stress"), ("CAX8", "is of a body of revolution")):
         (tmp_path / "b.inp").write_text(text.replace("CPE8", kind))
         assert f"element type {kind} {reason}" in compliance("--mesh", "b.inp", *always[2:], "--patch", "2", check=3)[0]
-    (tmp_path / "b.inp").write_text(
-        text.replace("NSET=BOTTOM", "NSET=OTHER").replace("*NSET, NSET=LEFT", "*NSET, NSET=NONE")
-    )
-    corner = ["--mesh", "b.inp", "--contact", "TOP", "--no-picture", "--patch", "2", "--fixed=2,-4,0:2,-4,0"]
+    assert "remove it" in compliance(*always, "--patch", "2", "--stiffness", "calculix", check=2)[0]
+    two = "1.\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n2."
+    for thin, says in (("0.", "has the thickness 0"), (two, "another thickness")):
+        (tmp_path / "b.inp").write_text(text + thin + "\n")
+        assert says in compliance("--mesh", "b.inp", *always[2:], "--patch", "2", check=3)[0]
+    solid = "*ELEMENT, TYPE=C3D4, ELSET=ALL\n999, 1, 2, 3, 4\n*MATERIAL"
+    (tmp_path / "b.inp").write_text(text.replace("*MATERIAL", solid))
+    said = compliance("--mesh", "b.inp", *always[2:], "--patch", "2", check=3)[0]
+    assert "has solid elements beside those of a section" in said
+    compliance(*always, "--patch", "2", "-o", "a.h5")
+    corner = ["--mesh", "a.inp", "--contact", "TOP", "--no-picture", "--patch", "2", "--fixed=2,-4,0:2,-4,0"]
     assert "is not supported" in compliance(*corner, check=3)[0]
 
 
