@@ -582,7 +582,8 @@ def change(name, value):
     "name, value, says",
     [
         ("@petsam_compliance", None, "the attribute petsam_compliance is missing or no number"),
-        ("@petsam_compliance", 2, "petsam_compliance is 2: expected 1"),
+        ("@petsam_compliance", 3, "petsam_compliance is 3: expected 1 or 2"),
+        ("@petsam_compliance", 2, "the attribute datum is missing or no number"),
         ("@young", "steel", "the attribute young is missing or no number"),
         ("@young", -1.0, "young is -1, poisson 0.3: expected a modulus > 0"),
         ("@poisson", 0.6, "poisson 0.6: expected a modulus > 0"),

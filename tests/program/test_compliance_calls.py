@@ -208,9 +208,12 @@ def test_elements_that_no_deck_has_are_named():
     given = meshio.Mesh(np.zeros((5, 3)), [("pyramid", np.arange(5)[None])])
     with pytest.raises(petsam.Error, match="elements of type pyramid are not supported: use tetra, tetra10"):
         petsam.compliance.of_mesh(given, 1.0, *STEEL, contact="a", supports="b")
-    flat = meshio.Mesh(np.zeros((3, 3)), [("triangle", np.arange(3)[None])])
-    with pytest.raises(petsam.Error, match="has no solid elements"):
+    flat = meshio.Mesh(np.zeros((3, 3)), [("line", np.arange(2)[None])])
+    with pytest.raises(petsam.Error, match="has no solid elements: use tetra, .*, or triangle, .* for a section"):
         petsam.compliance.of_mesh(flat, 1.0, *STEEL, contact="a", supports="b")
+    skin = meshio.Mesh(np.vstack([np.zeros(3), np.eye(3)]), [("triangle", np.array([[0, 1, 2], [0, 1, 3]]))])
+    with pytest.raises(petsam.Error, match="the nodes of a section are in no plane of two axes"):
+        petsam.compliance.of_mesh(skin, 1.0, *STEEL, contact="a", supports="b")
 
 
 def test_without_meshio_its_name_is_printed(compliance, tmp_path, monkeypatch):  # noqa: F811

@@ -30,6 +30,7 @@ struct _n_SamCompliance {
   double   young, poisson;     /* constants of the half-space, Pa, 1 */
   double   young1, poisson1;   /* those of body 1 if the compliance is that of a pair; else NaN */
   double   center[2], half[2]; /* centre and half widths of the patch, m */
+  double   datum;              /* of a section in plane strain: its half-plane's, m; 0: in three dimensions */
   PetscInt modes, degree, power[SAM_COMPLIANCE_MODES][2];
   PetscInt cases;
   char     name[SAM_COMPLIANCE_CASES][32];
@@ -38,6 +39,13 @@ struct _n_SamCompliance {
   double  *field;    /* (cases, 3, modes), coefficients for the unit load case, m2 */
 };
 
+/*
+  A section in plane strain has the centre 0 and the half width 0.5 m in y, and polynomials in x alone, so that all
+  numbers are those of a body of 1 m along y.
+
+  SamComplianceMoveDatum - makes the matrix that of a half-plane with another datum. Not collective.
+*/
+PETSC_INTERN void SamComplianceMoveDatum(SamCompliance compliance, double datum);
 /*
   SamComplianceRead - reads the compliance of body 0 or 1 from the file that `option` (without dash) names, of several
   patches of a structure one, NAME:PATCH, or NAME:PATCH:local[:LOWER] (compliancefile.c); `pair`: the bodies without it.
@@ -72,8 +80,8 @@ PETSC_INTERN PetscErrorCode SamComplianceDestroy(SamCompliance *compliance);
 PETSC_INTERN void SamComplianceMeans(SamCompliance compliance, PetscInt axis, double from, double to, double means[]);
 /*
   SamComplianceEnds - computes the smallest and the largest eigenvalue of the body's compliance relative to that of the
-  body without it (of a pair: of both bodies), for tractions that are uniform on 20 x 20 cells of the patch. For a
-  rigid body they are 0 if the compliance is semidefinite, else negative, and 1.
+  body without it (of a pair: of both bodies), for tractions that are uniform on 20 x 20 cells of the patch, 20 of a
+  section. For a rigid body they are 0 if the compliance is semidefinite, else negative, and 1.
 */
 PETSC_INTERN PetscErrorCode SamComplianceEnds(SamCompliance compliance, SamPair pair, double *least, double *most);
 /*

@@ -202,7 +202,7 @@ def parser():
     _pair_options(found)
     patch = found.add_argument_group("the patch")
     patch.add_argument(
-        "--patch", type=word(words.sides), required=True, metavar="X[,Y]", help="full widths: 2e-3 (m) or 2mm"
+        "--patch", type=word(words.sides), required=True, metavar="X[,Y]", help="full widths: 2mm; X of a section"
     )
     patch.add_argument(
         "--center",
@@ -324,10 +324,13 @@ def description(found):
 def _patch(body):
     """Returns lines that describe the patch of a Body."""
     m = body.patch.count
+    where = "{} x {} about x = {:g} m, y = {:g} m".format(
+        *(shown(2.0 * half) for half in body.patch.half), *body.patch.center
+    )
+    if isinstance(body.patch, basis.LinePatch):
+        where = f"{shown(2.0 * body.patch.half[0])} about x = {body.patch.center[0]:g} m, of a section"
     lines = [
-        "patch       {} x {} about x = {:g} m, y = {:g} m".format(
-            *(shown(2.0 * half) for half in body.patch.half), *body.patch.center
-        ),
+        f"patch       {where}",
         f"functions   {m} of degree {basis.written(body.patch.degree)} in each direction, method {body.method}",
         *(f"            {text}" for text in body.remarks),
         "checks      asymmetry {:.1e}, smallest eigenvalue {:.3g} relative to the half-space".format(
@@ -396,8 +399,9 @@ def carry_out(options, given):
     if len(found.bodies) > 1:
         return
     name = shlex.quote(options.output)
+    plane = "" if body.datum is None else "-elasticity plane "
     print(
-        f"options for petsam:\n  -body2_compliance {name} -body2_young {body.young:.10g} "
+        f"options for petsam:\n  {plane}-body2_compliance {name} -body2_young {body.young:.10g} "
         f"-body2_poisson {body.poisson:.10g}"
         + (" -body1_young {:.10g} -body1_poisson {:.10g}".format(*body.other) if body.other else "")
     )

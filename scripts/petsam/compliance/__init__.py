@@ -8,12 +8,13 @@ of_deck       the Compliance of a CalculiX deck; of_mesh: of a meshio mesh (call
 Bolt, Compliance, Settings   what they take and return (settings.py, result.py)
 
 basis         polynomials on the patch
-halfspace     fields of these as tractions on a half-space
+halfspace     fields of these as tractions on a half-space; halfplane: of a section's
 shapes        elements of CalculiX
 mesh          boundary, Gauss points, places of points
 deck          reading of CalculiX decks
 foreign       meshes of meshio
 boxes         sets by coordinates
+section       sections in plane strain
 frames        origin and axes of a contact
 points        nodes of a deck alone, of any analysis
 stiffness     CalculiX's stiffness matrix, or assembled here

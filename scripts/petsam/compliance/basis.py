@@ -9,6 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.polynomial import legendre
 
+HALF_METRE = 0.5  # m: half width of a section's patch along y
+FAR = 1e6
+
 
 def powers(degree):
     """Degrees (m, 2) in x and y of the functions up to a degree, by their sum, x first."""
@@ -69,6 +72,16 @@ class Patch:
         """Number m of the functions."""
         return len(self.powers)
 
+    @property
+    def narrow(self):
+        """Smaller half width."""
+        return min(self.half)
+
+    @property
+    def wide(self):
+        """Larger half width."""
+        return max(self.half)
+
     def values(self, x, y):
         """Functions (points, m), 1/m, at points."""
         px, py = (along(self.largest[d], v, self.center[d], self.half[d]) for d, v in enumerate((x, y)))
@@ -96,3 +109,33 @@ class Patch:
             means.append(np.einsum("cqk,q->ck", values, 0.5 * weight))
         table = self.powers
         return (means[0][None, :, table[:, 0]] * means[1][:, None, table[:, 1]]).reshape(n[0] * n[1], -1)
+
+
+@dataclass(frozen=True)
+class LinePatch(Patch):
+    """That of a section in plane strain: 1 m along y, along which the functions do not vary."""
+
+    @property
+    def narrow(self):
+        """Half width in x."""
+        return self.half[0]
+
+    @property
+    def wide(self):
+        """Half width in x."""
+        return self.half[0]
+
+    def quadrature(self, nx, ny):
+        """Points (nx, 2) in the plane of the section, and weights, m2; ny: is not used."""
+        x, weights = gauss(nx, self.center[0], self.half[0])
+        return np.stack([x, np.zeros(nx)], axis=1), weights
+
+    def distance(self, points):
+        """Distances (points, 2) in half widths; those in y are far."""
+        beyond = np.maximum(0.0, np.abs(points[:, 0] - self.center[0]) - self.half[0])
+        return np.stack([np.hypot(beyond, points[:, 2]) / self.half[0], np.full(len(points), FAR)], axis=1)
+
+
+def line(center, half, degree):
+    """The LinePatch about x = center."""
+    return LinePatch((center, 0.0), (half, HALF_METRE), (degree, 0))

@@ -18,12 +18,14 @@ def of_deck(
 ) -> Compliance:  # fmt: skip
     """The compliance of a body, or of a pair joined by bolts, from a deck of CalculiX or Abaqus (.inp).
 
+    A deck of CPE elements is the section of a body in plane strain, for -elasticity plane.
+
     Parameters
     ----------
     deck : str or path
         File with mesh, sets, materials and steps.
     patch : float or tuple
-        Full widths (m) of the patch in x and y, or one of a square.
+        Full widths (m) of the patch in x and y, or one of a square or of a section.
     contact : str or tuple
         Element surface on which the patch lies: its name, or a box of two corners, ((x, y, z), (x, y, z)), in the
         mesh's coordinates and units, None leaving a coordinate free.

@@ -6,7 +6,7 @@ the supports by the traction phi_i, the loads F and the prescribed displacements
     <phi_i, v> = F.U_i - S_i.g
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -75,9 +75,14 @@ class Loads:
             raise Error(f"{line.place}: direction {direction}: use 1 to 3")
         return self.frame.axes[:, direction - 1]
 
+    def _unit(self):
+        """Newtons of a force of the deck: for 1 m of a section."""
+        force = self.units.force
+        return force if self.mesh.normal is None else force / (self.mesh.thickness * self.units.length)
+
     def cload(self, card, line):
         """Forces on nodes."""
-        vector = self._direction(card, line[1], line) * number_of(card, line[2], line=line) * self.units.force
+        vector = self._direction(card, line[1], line) * number_of(card, line[2], line=line) * self._unit()
         self.force.reshape(-1, 3)[self._nodes(card, line)] += vector
 
     def boundary(self, card, line):
@@ -123,7 +128,7 @@ class Loads:
         self._pressure(self.mesh.surfaces[name], number_of(card, line[2], line=line))
 
     def _pressure(self, faces, value):
-        loaded = type(self.mesh)(self.mesh.nodes, self.mesh.blocks, surfaces={"": faces})
+        loaded = replace(self.mesh, surfaces={"": faces})
         for group in loaded.surface_faces(""):
             gauss = self.mesh.gauss(group, FACE_POINTS)
             nodal = -value * self.units.stress * np.einsum("qk,nqi->nki", gauss.values, gauss.area)
@@ -152,6 +157,8 @@ def need_supports(deck, mesh, frame, units, fixed, symmetric):
             f"{deck.supports[0].place}: *BOUNDARY holds node {deck.label(mesh.node_numbers[free[0]])}, which is not in "
             "--fixed or --symmetry: add its set to --fixed, or remove the card"
         )
+    if mesh.normal is not None:  # decks of sections have no third direction
+        found.along[np.any(found.along, axis=1)] |= np.abs(frame.axes[1]) > 0.5
     held = np.any(found.along[fixed], axis=1) & ~np.all(found.along[fixed], axis=1)
     if not np.any(held):
         return []
@@ -215,7 +222,7 @@ class Jump:
         self.points, self.weights = patch.quadrature(*counts)
         self.places = []
         for part in parts:
-            inward = max(FLAT, 1.01 * deviation(part.mesh, patch, part.contact)) * min(patch.half)
+            inward = max(FLAT, 1.01 * deviation(part.mesh, patch, part.contact)) * patch.narrow
             lift = np.concatenate([self.points, np.full((len(self.points), 1), part.sign * inward)], axis=1)
             self.places.append(part.mesh.locate(lift))
             if np.any(self.places[-1][0] < 0):

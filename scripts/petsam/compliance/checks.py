@@ -4,7 +4,7 @@ import numpy as np
 from scipy import linalg
 
 from ..core.errors import Error
-from . import basis, images
+from . import basis, halfplane, images
 from .halfspace import cell_compliance, opposite
 
 CELLS = 20  # least number of cells per side of the patch for which the definiteness is examined
@@ -23,7 +23,7 @@ def deviation(mesh, patch, contact):
     x = mesh.nodes[nodes]
     inside = np.all(np.abs(x[:, :2] - patch.center) <= 1.001 * np.array(patch.half), axis=1)
     off = np.abs(x[inside, 2]) if np.any(inside) else np.array([np.min(np.abs(x[:, 2]))])
-    return float(np.max(off)) / min(patch.half)
+    return float(np.max(off)) / patch.narrow
 
 
 def need_plane(mesh, patch, contact):
@@ -31,18 +31,21 @@ def need_plane(mesh, patch, contact):
     off = deviation(mesh, patch, contact)
     if off > CURVED:
         raise Error(
-            f"the contact surface is up to {off * min(patch.half):.3g} m off the plane of the frame, limit "
-            f"{CURVED * min(patch.half):.3g} m: correct --frame, or use a smaller --patch"
+            f"the contact surface is up to {off * patch.narrow:.3g} m off the plane of the frame, limit "
+            f"{CURVED * patch.narrow:.3g} m: correct --frame, or use a smaller --patch"
         )
     return off <= FLATNESS
 
 
 def need_inside(mesh, patch, contact):
     """Raises Error if a part of the patch is not on the contact surface."""
+    if isinstance(patch, basis.LinePatch):
+        _need_inside_line(mesh, patch, contact)
+        return
     ends = [np.linspace(c - h, c + h, INSIDE) for c, h in zip(patch.center, patch.half)]
     points = np.stack(np.meshgrid(*ends), axis=-1).reshape(-1, 2)
     found = np.zeros(len(points), dtype=bool)
-    slack = 1e-6 * min(patch.half)
+    slack = 1e-6 * patch.narrow
     for group in contact:
         count = mesh.blocks[group.block].shape.face_corners(group.local)
         polygons = mesh.nodes[group.nodes[:, :count], :2]
@@ -60,9 +63,23 @@ def need_inside(mesh, patch, contact):
         )
 
 
+def _need_inside_line(mesh, patch, contact):
+    """The same of the patch of a section."""
+    points = np.linspace(patch.center[0] - patch.half[0], patch.center[0] + patch.half[0], INSIDE)
+    found, slack = np.zeros(len(points), dtype=bool), 1e-6 * patch.half[0]
+    for group in contact:
+        low, high = np.sort(mesh.nodes[group.nodes[:, :2], 0], axis=1).T
+        found |= np.any((points[:, None] >= low - slack) & (points[:, None] <= high + slack), axis=1)
+    if not np.all(found):
+        raise Error(
+            f"the patch is not inside the contact surface: x = {points[~found][0]:.6g} m of the frame is not on it: "
+            "use a smaller --patch, move it by --center, or correct --frame"
+        )
+
+
 def need_clearance(mesh, patch, supported):
     """Returns the clearance, m; raises Error if another surface is too near to the patch, or meshed too coarsely."""
-    unit = min(patch.half)
+    unit = patch.narrow
     nearest, coarse = np.inf, (0.0, 0.0, 0.0)
     for faces, _ in images.other_faces(mesh, patch, supported):
         x = mesh.gauss(faces, 2).x
@@ -108,11 +125,16 @@ class Definiteness:
 
     def __init__(self, patch, young, poisson, other=None):
         self.patch = patch
+        line = isinstance(patch, basis.LinePatch)
         cells = tuple(max(CELLS, PER_DEGREE * degree) for degree in patch.largest)
+        cells = (cells[0], 1) if line else cells
         means = patch.cell_means(cells)
         self.area = 4.0 * patch.half[0] * patch.half[1] / (cells[0] * cells[1])
         self.means = np.kron(means, np.eye(3))  # (3 cells, 3 m)
-        self.kernel = cell_compliance(patch.half, cells, young, poisson)
+        if line:
+            self.kernel = halfplane.cell_compliance(patch.half[0], cells[0], young, poisson)
+        else:
+            self.kernel = cell_compliance(patch.half, cells, young, poisson)
         if other:
             self.kernel += opposite(cell_compliance(patch.half, cells, *other))
         self.factor = linalg.cho_factor(0.5 * (self.kernel + self.kernel.T))
@@ -145,6 +167,8 @@ def pressure_coefficients(patch):
     n = 4 * CELLS
     place = [(np.arange(n) + 0.5) / n * 2.0 - 1.0] * 2
     x, y = (v.ravel() for v in np.meshgrid(*place))
+    if isinstance(patch, basis.LinePatch):
+        y = np.zeros_like(y)
     pressure = np.sqrt(np.maximum(0.0, 1.0 - (x**2 + y**2) / 0.64))
     points = np.array(patch.center)[:, None] + np.array(patch.half)[:, None] * np.stack([x, y])
     c = np.zeros((patch.count, 3))

@@ -87,7 +87,7 @@ def widest(mesh, patch, supported, contact, tolerance, moduli):
     points = _obstacles(mesh, supported, contact, tolerance, moduli)
     center, half = np.array([*patch.center, 0.0]), np.array([*patch.half, 0.0])
     inner = np.stack([center - half, center + half])
-    unit = min(patch.half)
+    unit = patch.narrow
     outer, step = inner.copy(), GROWTH * unit
     outer[0, 2] = -2.0 * tolerance - step
     sides = [(0, 0), (1, 0), (0, 1), (1, 1), (1, 2)]

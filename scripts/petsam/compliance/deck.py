@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.errors import Error, short, there_are
-from . import sound
+from . import section, sound
 from .assembly import flat, instance_names, label_of
 from .cards import folded, number_of, read_cards, trimmed
 from .keywords import IGNORED, IN_STEPS, LOADS, READ, known, need_parameters, need_supported
@@ -44,7 +44,7 @@ class Reader:
         self.places, self.kinds = {}, {}  # of elements by number: (file, line); type
         self.node_sets, self.element_sets, self.surfaces = {}, {}, {}
         self.materials, self.densities, self.sections, self.steps, self.supports = {}, {}, [], [], []
-        self._material, self._step = None, None
+        self._material, self._step, self.thicknesses = None, None, []
         cards = read_cards(path)
         for card in cards:
             card.name = known(card)
@@ -106,6 +106,7 @@ class Reader:
     def take_element(self, card):
         """Adds elements."""
         kind = card.need("TYPE").upper()
+        section.need_kind(kind, card.place)
         if kind not in KINDS:
             raise Error(f"{card.place}: elements of type {short(kind)} are not supported; use {', '.join(KINDS)}")
         count = len(SHAPES[KINDS[kind]].family.nodes) + 1
@@ -266,6 +267,9 @@ class Reader:
     def take_solid_section(self, card):
         """Remembers which elements are of which material."""
         self.sections.append((card, folded(card.need("ELSET")), folded(card.need("MATERIAL"))))
+        words = trimmed(card.lines[0]) if card.lines else []
+        values = [number_of(card, word, line=card.lines[0]) for word in words[:1] if word]
+        self.thicknesses.append((card, values))
 
     # ---------------------------------------------------------------- the whole
 
@@ -313,7 +317,8 @@ class Reader:
         points = np.array([self.nodes[number] for number in used.tolist()])
         sets = {name: np.searchsorted(used, np.intersect1d(used, [*n])) for name, n in self.node_sets.items()}
         weightless = sorted({material for _, _, material in self.sections if material not in self.densities})
-        mesh = Mesh(points, blocks, sets, self.surfaces, used)
+        mesh = section.oriented(Mesh(points, blocks, sets, self.surfaces, used), self.path)
+        mesh.thickness = section.thickness(self.thicknesses) if mesh.normal is not None else 1.0
         sound.need_sound(mesh, lambda n: f"{self.place_of(n)}: element {self.label(n)}")
         return Deck(mesh, self.element_sets, self.steps, self.supports, weightless)
 

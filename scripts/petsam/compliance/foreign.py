@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.errors import Error, library, short, there_are
 from ..core.files import need_regular
-from . import sound
+from . import section, sound
 from .boxes import faces_of
 from .cards import folded
 from .deck import Deck
@@ -28,8 +28,9 @@ SOLIDS = {
     "tetra": "C3D4", "tetra10": "C3D10", "wedge": "C3D6", "wedge15": "C3D15", "hexahedron": "C3D8",
     "hexahedron20": "C3D20",
 }  # fmt: skip
-CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}  # of faces
-FLAT = ("vertex", "line", "line3", *CORNERS)  # cells that only name nodes and faces
+PLANE = {"triangle": "CPE3", "quad": "CPE4", "triangle6": "CPE6", "quad8": "CPE8"}  # of meshes without solids
+CORNERS = {"line": 2, "line3": 2, "triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}  # of faces
+FLAT = ("vertex", *CORNERS)  # cells that only name nodes and faces
 TAGS = ("gmsh:physical", "medit:ref")  # numbers of groups, as data of the cells
 
 
@@ -85,14 +86,21 @@ def _need_materials(materials, name):
     return (*materials[:2], 0.0 if materials[2] is None else materials[2])
 
 
+def _kinds(mesh):
+    """Types of the elements by those of meshio's cells: those of a section if there is none of a solid."""
+    solid = any(cells.type not in FLAT for cells in mesh.cells)
+    return SOLIDS if solid or not any(cells.type in PLANE for cells in mesh.cells) else PLANE
+
+
 def _blocks(mesh, groups, settings, name):
     """The Blocks of the solid elements, numbered from 1, with moduli in the mesh's units."""
     units, blocks, first = UNITS[settings.units], [], 1
     young, poisson, density = _need_materials(settings.materials, name)
+    kinds = _kinds(mesh)
     for k, cells in enumerate(mesh.cells):
-        if cells.type in FLAT:
+        if cells.type in FLAT and cells.type not in kinds:
             continue
-        if cells.type not in SOLIDS:
+        if cells.type not in kinds:
             raise Error(f"{name}: elements of type {cells.type} are not supported: use {', '.join(SOLIDS)}")
         numbers = np.arange(first, first + len(cells.data))
         first += len(numbers)
@@ -100,9 +108,9 @@ def _blocks(mesh, groups, settings, name):
         constants = [_of_materials(given, len(numbers), k, groups, option) / size for given, option, size in sizes]
         if not (np.all(constants[0] > 0.0) and np.all((constants[1] > -1.0) & (constants[1] < 0.5))):
             raise Error(f"{name}: use --young above 0 and --poisson from -1 to 0.5, for the sets of all elements")
-        blocks.append(Block(SOLIDS[cells.type], numbers, np.asarray(cells.data, dtype=int), *constants))
+        blocks.append(Block(kinds[cells.type], numbers, np.asarray(cells.data, dtype=int), *constants))
     if not blocks:
-        raise Error(f"{name}: has no solid elements: use {', '.join(SOLIDS)}")
+        raise Error(f"{name}: has no solid elements: use {', '.join(SOLIDS)}, or {', '.join(PLANE)} for a section")
     return blocks
 
 
@@ -121,6 +129,8 @@ def deck_of(given, name, settings):
     groups = _groups(given)
     blocks = _blocks(given, groups, settings, name)
     points = np.asarray(given.points, dtype=float)
+    if points.shape[1] == 2 and _kinds(given) is PLANE:
+        points = np.concatenate([points, np.zeros((len(points), 1))], axis=1)
     if points.shape[1] != 3:
         raise Error(f"{name}: its points have {points.shape[1]} coordinates: give a mesh in three dimensions")
     used = np.unique(np.concatenate([block.nodes.ravel() for block in blocks]))
@@ -128,7 +138,7 @@ def deck_of(given, name, settings):
     place[used] = np.arange(len(used))
     for block in blocks:
         block.nodes = place[block.nodes]
-    mesh = Mesh(points[used], blocks, {}, {}, used + 1)
+    mesh = section.oriented(Mesh(points[used], blocks, {}, {}, used + 1), name)
     sound.need_sound(mesh, lambda number: f"{name}: element {number}")
     faces = list(mesh.boundary())
     for group, chosen in groups.items():

@@ -37,7 +37,7 @@ def in_plane(mesh, faces, tolerance):
 
 def other_faces(mesh, patch, supported):
     """Returns the faces outside of the patch's plane, as (faces, mask of supported ones)."""
-    tolerance = FLAT * max(patch.half)
+    tolerance = FLAT * patch.wide
     held = np.zeros(len(mesh.nodes), dtype=bool)
     held[supported] = True
     for group in mesh.boundary():

@@ -1,4 +1,8 @@
-"""A mesh of solid elements: boundary faces, Gauss points on faces and in elements, places of points."""
+"""A mesh of solid elements: boundary faces, Gauss points on faces and in elements, places of points.
+
+Or of a section in plane strain, 1 m thick: its nodes lie in a plane whose normal is `normal`, its faces are edges, and
+nothing varies along the normal.
+"""
 
 from dataclasses import dataclass, field, replace
 
@@ -57,10 +61,16 @@ class Mesh:
     node_sets: dict = field(default_factory=dict)
     surfaces: dict = field(default_factory=dict)
     node_numbers: np.ndarray = None
+    normal: np.ndarray = None  # of a section
+    thickness: float = 1.0  # of a section, that its forces are for, in the deck's unit
 
     def turned(self, origin, axes):
         """The mesh in the coordinates of a frame: axes (3, 3) are its x, y, z as rows."""
-        return replace(self, nodes=(self.nodes - origin) @ np.asarray(axes).T)
+        nodes = (self.nodes - origin) @ np.asarray(axes).T
+        if self.normal is None:
+            return replace(self, nodes=nodes)
+        nodes[:, 1] = 0.0
+        return replace(self, nodes=nodes, normal=np.round(np.asarray(axes) @ self.normal))
 
     def used(self):
         """Nodes of the elements."""
@@ -105,7 +115,8 @@ class Mesh:
         corners = self.nodes[faces.nodes]
         values = family.values(local)
         tangents = np.einsum("qkd,nkx->nqdx", family.gradients(local), corners)
-        area = -np.cross(tangents[:, :, 0], tangents[:, :, 1]) * weight[:, None]
+        other = tangents[:, :, 1] if self.normal is None else -self.normal
+        area = -np.cross(tangents[:, :, 0], other) * weight[:, None]
         return Points(np.einsum("qk,nkx->nqx", values, corners), area, values)
 
     def sizes(self, faces):
@@ -116,14 +127,18 @@ class Mesh:
 
     # ---------------------------------------------------------------- volumes
 
+    @property
+    def _dimension(self):
+        return 3 if self.normal is None else 2
+
     def volume(self, index, local, weight, elements=slice(None)):
         """Of a block's elements: points (n, q, 3), weights (n, q), shape functions (q, k), gradients (n, q, k, 3)."""
         block = self.blocks[index]
         corners = self.nodes[block.nodes[elements]]
         values = block.shape.family.values(local)
         gradients = block.shape.family.gradients(local)
-        jacobian = np.einsum("qkd,nkx->nqxd", gradients, corners)
-        inverse = np.linalg.inv(jacobian)
+        jacobian = jacobians(gradients, corners, self.normal)
+        inverse = np.linalg.inv(jacobian)[:, :, : gradients.shape[2]]
         size = np.linalg.det(jacobian) * weight
         return (
             np.einsum("qk,nkx->nqx", values, corners),
@@ -135,7 +150,7 @@ class Mesh:
     def locate(self, points):
         """Block, element and local coordinates (n, 3) of points; block -1 where a point is in no element."""
         block, element = np.full(len(points), -1), np.zeros(len(points), dtype=int)
-        local, best = np.zeros((len(points), 3)), np.full(len(points), np.inf)
+        local, best = np.zeros((len(points), self._dimension)), np.full(len(points), np.inf)
         for index, one in enumerate(self.blocks):
             corners = self.nodes[one.nodes]
             low, high = corners.min(axis=1), corners.max(axis=1)
@@ -167,6 +182,16 @@ class Mesh:
         return out
 
 
+def jacobians(gradients, corners, normal=None):
+    """Jacobians (n, q, 3, 3) of elements (n, k, 3) by gradients (q, k, dim); in a section the last column is its
+    normal."""
+    found = np.einsum("qkd,nkx->nqxd", gradients, corners)
+    if normal is None:
+        return found
+    last = np.broadcast_to(np.asarray(normal)[:, None], (*found.shape[:2], 3, 1))
+    return np.concatenate([found, last], axis=-1)
+
+
 def some(faces, mask):
     """The chosen faces."""
     return replace(faces, elements=faces.elements[mask], nodes=faces.nodes[mask])
@@ -174,11 +199,11 @@ def some(faces, mask):
 
 def outside(shape, local):
     """Returns the distance by which local coordinates are outside of the reference shape."""
-    if shape.corners == 8:
+    if shape.corners == 8 or shape.flat and shape.corners == 4:
         return np.max(np.abs(local), axis=1) - 1.0
     flat = local[:, : 2 if shape.corners == 6 else 3]
     out = np.maximum(np.max(-flat, axis=1), flat.sum(axis=1) - 1.0)
-    return out if shape.corners == 4 else np.maximum(out, np.abs(local[:, 2]) - 1.0)
+    return out if shape.corners == 4 or shape.flat else np.maximum(out, np.abs(local[:, 2]) - 1.0)
 
 
 def inverse(shape, corners, points, family=None):
@@ -190,7 +215,10 @@ def inverse(shape, corners, points, family=None):
         values = family.values(local)
         rest = points - np.einsum("pk,pkx->px", values, corners)
         jacobian = np.einsum("pkd,pkx->pxd", family.gradients(local), corners)
-        step = np.linalg.solve(jacobian + 1e-300 * np.eye(3), rest[..., None])[..., 0]
+        if shape.flat:
+            step = (np.linalg.pinv(jacobian) @ rest[..., None])[..., 0]
+        else:
+            step = np.linalg.solve(jacobian + 1e-300 * np.eye(3), rest[..., None])[..., 0]
         local = np.clip(local + step, -3.0, 3.0)
         if np.max(np.abs(step)) < 1e-12:
             break

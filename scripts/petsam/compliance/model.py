@@ -8,11 +8,12 @@ import numpy as np
 
 from ..core.errors import Error, short
 from ..core.progress import Progress, quiet
-from . import bolts, boxes, checks, cutoff, deck, foreign, images, modes, parts, several, stresses
+from . import bolts, boxes, checks, cutoff, deck, foreign, images, modes, parts, section, several, stresses
 from . import cases as load_cases
 from .basis import Patch
 from .cards import folded
 from .frames import Frame, frame_of
+from .halfplane import LineFields
 from .halfspace import Fields, Mirrored, Several
 from .remainder import Side
 from .result import Compliance
@@ -46,6 +47,7 @@ class Body:
     other: tuple = None  # moduli of body 1 of a pair
     modes: object = None
     definite: object = None
+    datum: float | None = None  # m, of a section
 
     @property
     def bolts(self):
@@ -92,6 +94,8 @@ class Model:
         self.path, self.checksum, self.deck = opened(source, settings)
         path = self.path
         mesh = self.deck.mesh
+        if mesh.normal is not None:
+            section.need_settings(settings, path)
         mesh.nodes = mesh.nodes * units.length
         for block in mesh.blocks:
             block.young *= units.stress
@@ -110,19 +114,24 @@ class Model:
             raise Error(f"{path}: surface {settings.contact} has no element faces: define it by TYPE=ELEMENT")
         outward = sum(mesh.gauss(group, 2).area.sum(axis=(0, 1)) for group in faces)
         origin, x, z = (list(settings.frame) + [None, None])[:3]
-        self.frame = frame_of(np.array(origin) * units.length, x, z, outward)
+        self.frame = frame_of(np.array(origin) * units.length, x, z, outward, mesh.normal)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
         planes = np.concatenate([np.zeros(0, dtype=int), *symmetric])
         self.doubts = load_cases.need_supports(self.deck, self.mesh, self.frame, units, self.supported, planes)
         self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(settings.symmetry, symmetric)]
-        half = tuple(0.5 * side for side in settings.patch)
-        self.patches = [Patch(center, half, settings.degree) for center in settings.centers]
+        self.patches = [self._patch(center) for center in settings.centers]
         several.need_apart(self.patches)
         self.patch = self.patches[0]
         self.parts, self.bolts = [parts.Part(self.mesh, faces)], []
         if settings.pair:
             self._take_pair()
         self.doubts += need_units(self)
+
+    def _patch(self, center):
+        """The patch about a centre."""
+        if self.mesh.normal is not None:
+            return section.patch(self.settings, center)
+        return Patch(center, tuple(0.5 * side for side in self.settings.patch), self.settings.degree)
 
     def _take_pair(self):
         """Finds the two bodies and their bolts."""
@@ -177,7 +186,7 @@ class Model:
 
     def sides(self):
         """The Sides of the bodies: body 2 first."""
-        kinds = {1: Fields, -1: Mirrored}
+        kinds = {1: Fields if self.mesh.normal is None else LineFields, -1: Mirrored}
         found = []
         for one in self.parts:
             fields = [kinds[one.sign](patch, *one.moduli(patch)) for patch in self.patches]
@@ -194,7 +203,10 @@ class Model:
 
     def _normal(self, name, nodes):
         """Normal of a plane of symmetry in the frame's coordinates."""
-        normal = plane_normal(self.mesh.nodes[nodes])
+        x = self.mesh.nodes[nodes]
+        if self.mesh.normal is not None:  # a line of nodes is a plane along y
+            x = np.concatenate([x, x + np.ptp(x) * self.mesh.normal])
+        normal = plane_normal(x)
         if normal is None:
             raise Error(f"{self.path}: node set {name} of --symmetry is not a plane: name the nodes of one plane")
         return normal
@@ -227,7 +239,7 @@ def _cutoff(model, plane, moduli):
     if not plane:
         off = checks.deviation(mesh, patch, part.contact)
         remarks.append(f"warning: the surface is up to {off:.2g} of the patch's half width off the tangent plane")
-    tolerance = max(images.FLAT * max(patch.half), 0.0 if plane else checks.CURVED * min(patch.half))
+    tolerance = max(images.FLAT * patch.wide, 0.0 if plane else checks.CURVED * patch.narrow)
     mirrored = np.concatenate([model.supported, *(nodes for nodes, _ in model.planes)])
     chi = cutoff.widest(mesh, patch, mirrored, part.contact, tolerance, moduli)
     coarse = cutoff.too_coarse(mesh, chi)
@@ -326,7 +338,7 @@ def computed(source, settings, command="", say=quiet, every=0.0):
     bodies = _bodies(model, found, method, command)
     bodies[0].remarks = remarks
     _add_cases(bodies, model, loads, (solver, found), progress)
-    if settings.stress and not settings.pair:
+    if settings.stress and not settings.pair and model.mesh.normal is None:
         progress.begin("stresses")
         bodies[0].stress = _stress(model, found, bodies[0].cases)
     if other:
@@ -353,7 +365,7 @@ def _bodies(model, found, method, command):
             patch,
             found.compliance[own, own],
         )
-        body.mesh = model
+        body.mesh, body.datum = model, getattr(fields, "datum", None)
         if model.settings.pair:
             body.other = tuple(getattr(found.sides[1].fields, name) for name in ("young", "poisson"))
         examine(body)

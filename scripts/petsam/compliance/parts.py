@@ -41,7 +41,7 @@ class Part:
     def beyond(self, patch):
         """True if parts of the body lie on the other side of the plane of the patch."""
         z = self.sign * self.mesh.nodes[self.mesh.used(), 2]
-        return bool(np.min(z) < -images.FLAT * max(patch.half))
+        return bool(np.min(z) < -images.FLAT * patch.wide)
 
 
 class Components:

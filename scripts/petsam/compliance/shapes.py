@@ -1,4 +1,5 @@
-"""Shape functions, faces and Gauss points of CalculiX's solid elements.
+"""Shape functions, faces and Gauss points of CalculiX's solid elements, and of its plane strain elements, whose faces
+are edges.
 
 The shape functions are the polynomials of a list of monomials that are 1 at one node and 0 at the others, which gives
 all families by one piece of code: serendipity bricks and wedges, tetrahedra, their faces.
@@ -67,6 +68,7 @@ QUAD4 = Family(_QUAD, list(itertools.product(range(2), repeat=2)))
 QUAD8 = Family(_middles(_QUAD, _RING4), _serendipity(2))
 TRIANGLE3 = Family(_TRIANGLE, _total(2, 1))
 TRIANGLE6 = Family(_middles(_TRIANGLE, _RING3), _total(2, 2))
+LINE2, LINE3 = Family([(-1,), (1,)], [(0,), (1,)]), Family([(-1,), (1,), (0,)], [(0,), (1,), (2,)])
 
 
 def _line(n):
@@ -104,7 +106,12 @@ def wedge_rule(n):
     return points, np.outer(weight, w).ravel()
 
 
-FACE_RULES = {3: simplex_rule, 4: square_rule}  # by the number of corners
+def line_rule(n):
+    """n Gauss points on (-1, 1)."""
+    return square_rule(n, 1)
+
+
+FACE_RULES = {2: line_rule, 3: simplex_rule, 4: square_rule}  # by the number of corners
 
 
 @dataclass(frozen=True)
@@ -118,13 +125,21 @@ class Shape:
     full: int  # points a side that CalculiX uses
     linear: Family = field(repr=False, default=None)
 
+    @property
+    def flat(self):
+        """True for an element of a section."""
+        return self.family.nodes.shape[1] == 2
+
     def face_family(self, face):
         """Shape functions of a face by its number from 0."""
-        return {3: TRIANGLE3, 4: QUAD4, 6: TRIANGLE6, 8: QUAD8}[len(self.faces[face])]
+        count = len(self.faces[face])
+        return {2: LINE2, 3: LINE3}[count] if self.flat else {3: TRIANGLE3, 4: QUAD4, 6: TRIANGLE6, 8: QUAD8}[count]
 
     def face_corners(self, face):
         """Number of corners of a face."""
         count = len(self.faces[face])
+        if self.flat:
+            return 2
         return count if count < 5 else count // 2
 
 
@@ -164,8 +179,23 @@ SHAPES = {
     "C3D6": Shape(_WEDGE6, 6, _faces(_WEDGE_FACES, []), wedge_rule, 2, _WEDGE6),
     "C3D15": Shape(_WEDGE15, 6, _faces(_WEDGE_FACES, _WEDGE_EDGES), wedge_rule, 3, _WEDGE6),
 }
+
+
+def _edges(ring, middle):
+    """The edges of an element of a section, with their middle nodes."""
+    return tuple((a, b, len(ring) + i) if middle else (a, b) for i, (a, b) in enumerate(ring))
+
+
+SECTIONS = {
+    "CPE3": Shape(TRIANGLE3, 3, _edges(_RING3, False), simplex_rule, 1, TRIANGLE3),
+    "CPE4": Shape(QUAD4, 4, _edges(_RING4, False), square_rule, 2, QUAD4),
+    "CPE6": Shape(TRIANGLE6, 3, _edges(_RING3, True), simplex_rule, 3, TRIANGLE3),
+    "CPE8": Shape(QUAD8, 4, _edges(_RING4, True), square_rule, 3, QUAD4),
+}
+SHAPES.update(SECTIONS)
 KINDS = {
     **{name: name for name in SHAPES},
     "C3D8I": "C3D8",
     "C3D20R": "C3D20",
+    "CPE8R": "CPE8",
 }  # element types of CalculiX and the shapes they have

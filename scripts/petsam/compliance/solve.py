@@ -72,9 +72,9 @@ def need_support(nodes, adjacency, axes, free):
     count, part = connected_components(adjacency, directed=False)
     for i in range(count):
         mine = np.flatnonzero(part == i)
-        motions = np.einsum("nkx,nxm->nkm", axes[mine], rigid_motions(nodes[mine]).reshape(-1, 3, 6))
+        motions = np.einsum("nkx,nxm->nkm", axes[mine], rigid_motions(nodes[mine]).reshape(len(mine), 3, -1))
         held = motions[~free[mine]]
-        if len(held) < 6 or np.linalg.svd(held, compute_uv=False)[-1] < LOOSE:
+        if len(held) < motions.shape[2] or np.linalg.svd(held, compute_uv=False)[-1] < LOOSE:
             x = nodes[mine].mean(axis=0)
             raise Error(
                 f"{'the body' if count == 1 else f'one of {count} parts of the body'}, about x = {x[0]:.3g}, y = "

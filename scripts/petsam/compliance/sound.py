@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..core.errors import Error
-from .mesh import inverse, outside
+from .mesh import inverse, jacobians, outside
 
 NEAR = 12  # neighbours of an element whose inside is searched for its centre
 DEEP = 0.05  # depth of a centre in another element, in its local coordinates, from which on they overlap
@@ -32,8 +32,9 @@ def _need_upright(mesh, block, named):
     for first in range(0, len(block.nodes), PIECE):
         x = mesh.nodes[block.nodes[first : first + PIECE]]
         corners = x[:, : shape.corners]
-        scale = np.linalg.norm(np.ptp(corners, axis=1), axis=1)[:, None] ** 3
-        good = np.all(_size(inner, x) > 0.0, axis=1) & np.all(_size(ends, corners) > -FLAT * scale, axis=1)
+        scale = np.linalg.norm(np.ptp(corners, axis=1), axis=1)[:, None] ** shape.family.nodes.shape[1]
+        good = np.all(_size(inner, x, mesh.normal) > 0.0, axis=1)
+        good &= np.all(_size(ends, corners, mesh.normal) > -FLAT * scale, axis=1)
         wrong += (first + np.flatnonzero(~good)).tolist()
         bent += (first + np.flatnonzero(~_straight(shape, x))).tolist()
     for found, what in ((wrong, "is turned inside out or distorted"), (bent, "has middle nodes far off its edges")):
@@ -45,9 +46,9 @@ def _need_upright(mesh, block, named):
             )
 
 
-def _size(gradients, x):
+def _size(gradients, x, normal):
     """Determinants (n, q) of the Jacobian of elements x (n, k, 3)."""
-    return np.linalg.det(np.einsum("qkd,nkx->nqxd", gradients, x))
+    return np.linalg.det(jacobians(gradients, x, normal))
 
 
 def _straight(shape, x):

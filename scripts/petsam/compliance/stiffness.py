@@ -17,7 +17,9 @@ from scipy import sparse
 from ..core import environment
 from ..core.errors import Error, Missing, one_line
 
-OWN = ("C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20", "C3D20R")  # element types that are assembled here
+OWN = (  # element types that are assembled here
+    "C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20", "C3D20R", "CPE3", "CPE4", "CPE6", "CPE8", "CPE8R",
+)  # fmt: skip
 CCX = "ccx"
 MODES = 9  # incompatible modes of an element C3D8I
 RIGID = 1e-9  # relative to the largest diagonal term; largest force on a node by a rigid motion
@@ -52,7 +54,7 @@ def dofs(nodes):
 
 def rule(block):
     """Gauss points of CalculiX in the elements of a block, for stiffness and mass."""
-    return block.shape.rule(2 if block.kind == "C3D20R" else block.shape.full)
+    return block.shape.rule(2 if block.kind in ("C3D20R", "CPE8R") else block.shape.full)
 
 
 def assembles(mesh):
@@ -194,14 +196,16 @@ def of_calculix(mesh, ccx=CCX):
 
 
 def rigid_motions(nodes):
-    """Displacements (3 n, 6) of three translations and three rotations about the middle, by the extent."""
+    """Displacements (3 n, 6) of three translations and three rotations about the middle, by the extent; of a section,
+    in y = 0, (3 n, 4): it rotates about y only, as displacements do not vary along y."""
     x = nodes - nodes.mean(axis=0)
     x = x / np.abs(x).max()
     motions = np.zeros((len(nodes), 3, 6))
     for i in range(3):
         motions[:, i, i] = 1.0
         motions[:, :, 3 + i] = np.cross(np.eye(3)[i], x)
-    return motions.reshape(-1, 6)
+    motions = motions.reshape(-1, 6)
+    return motions if np.any(x[:, 1]) else motions[:, [0, 1, 2, 4]]
 
 
 def rigid_force(matrix, nodes):

@@ -27,7 +27,7 @@ class Grid:
 
 def grid(mesh, patch, depth=None):
     """Returns the grid of the patch down to a depth that the body has everywhere; None if there is none."""
-    depth = depth or DEPTH * min(patch.half)
+    depth = depth or DEPTH * patch.narrow
     x, y = (np.linspace(c - h, c + h, POINTS) for c, h in zip(patch.center, patch.half))
     for _ in range(TRIES):
         z = np.linspace(0.0, depth, POINTS)

@@ -87,7 +87,7 @@ def need_units(model):
 def _patch(model, part):
     """Warns of a patch that is small against all elements of its surface."""
     sizes = np.concatenate([model.mesh.sizes(group) for group in part.contact])
-    width = 2.0 * min(model.patch.half)
+    width = 2.0 * model.patch.narrow
     if sizes.min() <= COARSE * width:
         return []
     return [

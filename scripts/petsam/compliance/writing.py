@@ -10,6 +10,7 @@ from .modes import UNIT as MODE
 
 SIGN = "petsam_compliance"  # root attribute that identifies a file of this command
 VERSION = 1
+PLANE = 2  # version of the file of a section, with its datum
 PATCHES = "patches"  # group of the groups 1, 2, ... where there are several
 
 
@@ -30,6 +31,8 @@ def _fill(file, found):
     degree = max(int(one.patch.powers.max()) for one in found.bodies)
     file.attrs.update(degree=degree, source=os.path.basename(body.source), source_sha256=body.checksum)
     file.attrs["command"] = body.command
+    if body.datum is not None:
+        file.attrs.update({SIGN: PLANE, "datum": body.datum})
     put("frame/origin", body.frame.origin, "m", "origin of the frame in the model's coordinates")
     put("frame/axes", body.frame.axes, "1", "x, y, z of the frame, z into the body, in the model's coordinates")
     several = len(found.bodies) > 1

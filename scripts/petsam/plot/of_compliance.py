@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..compliance.basis import written
+from ..compliance.basis import LinePatch, written
 from ..compliance.result import Compliance
 from .style import COLORS, STYLE, bar, drawn, field, frame, note, plt
 from .units import label, scale
@@ -14,9 +14,11 @@ SIDE = 3.6  # inches of a panel
 
 
 def _outline(body):
-    """Edges (n, 2, 2) of the contact surface's faces, x and y."""
+    """Edges (n, 2, 2) of the contact surface's faces, x and y; of a section its elements' sides, x and z."""
     part = body.mesh.parts[0]
     edges = []
+    if isinstance(body.patch, LinePatch):
+        return np.concatenate([part.mesh.nodes[group.nodes[:, :2]][..., [0, 2]] for group in part.mesh.all_faces()])
     for group in part.contact:
         count = part.mesh.blocks[group.block].shape.face_corners(group.local)
         corners = part.mesh.nodes[group.nodes[:, :count], :2]
@@ -29,8 +31,9 @@ def _mesh(axes, bodies, unit):
 
     if bodies[0].mesh is not None:
         axes.add_collection(LineCollection(_outline(bodies[0]) * unit[0], colors="0.6", linewidths=0.5))
+    line = isinstance(bodies[0].patch, LinePatch)
     for body in bodies:
-        (x, y), (a, b) = body.patch.center, body.patch.half
+        (x, y), (a, b) = body.patch.center, (body.patch.half[0], 0.0 if line else body.patch.half[1])
         corners = np.array([(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]) * unit[0]
         axes.plot(*corners.T, color=COLORS[1], linewidth=1.6)
     axes.autoscale()
@@ -39,9 +42,11 @@ def _mesh(axes, bodies, unit):
         axes,
         "patch on the mesh" if len(bodies) == 1 else "patches on the mesh",
         label("x", unit[1]),
-        label("y", unit[1]),
+        label("z" if line else "y", unit[1]),
     )
     axes.set_aspect("equal", adjustable="datalim")
+    if line:
+        axes.invert_yaxis()
 
 
 def _points(patch):
@@ -52,6 +57,9 @@ def _points(patch):
 def _map(axes, body, coefficients, title, unit, field_unit="m"):
     """u_z, or the largest component, of a displacement on the patch."""
     patch = body.patch
+    if isinstance(patch, LinePatch):
+        _line(axes, body, coefficients, title, unit, field_unit)
+        return
     values = (patch.values(*_points(patch)) @ coefficients).T.reshape(3, CELLS, CELLS)
     largest = int(np.argmax(np.max(np.abs(values), axis=(1, 2))))
     size = scale("m", float(np.max(np.abs(values)))) if field_unit == "m" else (1.0, field_unit)
@@ -61,6 +69,17 @@ def _map(axes, body, coefficients, title, unit, field_unit="m"):
     image = field(axes, shown, edges, shown.min(), shown.max())
     frame(axes, title, label("x", unit[1]), label("y", unit[1]))
     bar(axes, image, label(f"u_{'xyz'[largest]}", size[1]))
+
+
+def _line(axes, body, coefficients, title, unit, field_unit):
+    """u_x and u_z of a displacement on the patch of a section."""
+    x = body.patch.center[0] + body.patch.half[0] * np.linspace(-1.0, 1.0, CELLS)
+    values = body.patch.values(x, np.zeros(CELLS)) @ coefficients
+    size = scale("m", float(np.max(np.abs(values)))) if field_unit == "m" else (1.0, field_unit)
+    for axis, name in ((0, "u_x"), (2, "u_z")):
+        axes.plot(x * unit[0], values[:, axis] * size[0], color=COLORS[axis], label=name)
+    axes.legend()
+    frame(axes, title, label("x", unit[1]), label("u", size[1]))
 
 
 def _unit_load(body, direction):
@@ -114,7 +133,7 @@ def compliance(found: Compliance) -> Figure:
     """
     bodies = found.bodies
     body = bodies[0]
-    unit = scale("m", float(max(body.patch.half)))
+    unit = scale("m", float(body.patch.wide))
     panels = [lambda axes: _mesh(axes, bodies, unit)]
     for k, one in enumerate(bodies, 1):
         panels += _panels(one, unit, f"patch {k}" if len(bodies) > 1 else "")

@@ -16,6 +16,7 @@
   Body 1 is rotated about x by half a turn into its place, so that only y and z change their signs. It bears -t, and u
   is the displacement of body 2 minus that of body 1, so that the contributions of both bodies add.
 */
+#include "../waves.h"
 #include <petsam/private/compliance.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/base.h>
@@ -544,6 +545,28 @@ static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Checks that both or none are in plane strain, and gives the compliance the datum of the half-planes. */
+static PetscErrorCode MatchPlane(SamElasticity e, const SamOptions *from, SamCompliance c)
+{
+  const PetscBool section = c->datum > 0 ? PETSC_TRUE : PETSC_FALSE;
+  SamElasticity   inner   = e;
+
+  PetscFunctionBegin;
+  while (inner->inner) inner = inner->inner;
+  PetscCheck(section || !e->traits.plane, from->comm, SAM_ERR_USER,
+             "-%s%s %s: is of a body of finite length, and -%selasticity %s of an endless one: give the file of a "
+             "section, or omit one of them",
+             SamOptionsPrefix(from), names[c->body], c->file, SamOptionsPrefix(from), inner->type);
+  PetscCheck(e->traits.plane || !section, from->comm, SAM_ERR_USER,
+             "-%s%s %s: is of a section in plane strain: give -%selasticity " SAM_ELASTICITY_PLANE,
+             SamOptionsPrefix(from), names[c->body], c->file, SamOptionsPrefix(from));
+  if (!section) PetscFunctionReturn(PETSC_SUCCESS);
+  SamComplianceMoveDatum(c, (double)*SamHalfSpaceDatum(inner));
+  if (((const Bodies *)e->data)->of[1 - c->body] || isinf((double)SamBodySubstrate(e->pair->body[1 - c->body])->young))
+    e->traits.datum = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Adds the compliance of body b from the file that `option` names. */
 static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, PetscInt b, const char option[],
                           const char file[])
@@ -555,9 +578,6 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   PetscCheck(!e->traits.periodic, from->comm, SAM_ERR_USER,
              "-%s%s: has no meaning with -%selasticity %s, whose bodies have no borders", SamOptionsPrefix(from),
              option, SamOptionsPrefix(from), e->type);
-  PetscCheck(!e->traits.plane, from->comm, SAM_ERR_USER,
-             "-%s%s: is of a body of finite length, and -%selasticity %s of an endless one: omit one of them",
-             SamOptionsPrefix(from), option, SamOptionsPrefix(from), e->type);
   if (!e->traits.patch) {
     PetscCall(SamElasticityWrap(*elasticity, SAM_ELASTICITY_COMPLIANCE, Create, &e));
     PetscCall(SamElasticityDestroy(elasticity));
@@ -567,6 +587,7 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   PetscCall(SamComplianceRead(from->comm, b, e->pair, option, file, &c));
   ((Bodies *)e->data)->of[b] = c;
   PetscCall(CheckConstants(e, from, c));
+  PetscCall(MatchPlane(e, from, c));
   PetscCall(NotePatch(e, from, c));
   if (Couples(c)) e->traits.coupled = PETSC_TRUE;
   if (c->cases) {

@@ -15,6 +15,7 @@
 #define REST    1e-2   /* largest deviation of the polynomials from a load case, relative to its range */
 #define SLENDER 1000   /* largest ratio of a patch's sides: the kernel of slender cells is summed over squares */
 #define LARGE   10000  /* m: largest half side of a patch, and distance of its centre from the origin */
+#define SECTION 2      /* version of the files of sections in plane strain */
 #define SOFT    10000  /* times the half-space's compliance: errors of pressures then exceed the tolerance */
 
 /* `size` 0 in a dimension: any number up to `most`; it is replaced by that number. */
@@ -122,8 +123,8 @@ static PetscErrorCode ReadBasis(SamFile f, SamCompliance c, Choice *from)
   PetscCheck(c->half[0] > 0 && c->half[1] > 0, f->comm, SAM_ERR_FILE,
              "-%s %s: /patch/half is %.6g, %.6g: expected lengths > 0", f->option, f->filename, c->half[0], c->half[1]);
   PetscCheck(
-    PetscMax(c->half[0], c->half[1]) <= SLENDER * PetscMin(c->half[0], c->half[1]) && c->half[0] <= LARGE &&
-      PetscMax(PetscAbsReal(from->center[0]), PetscAbsReal(from->center[1])) <= LARGE,
+    (c->datum > 0 || PetscMax(c->half[0], c->half[1]) <= SLENDER * PetscMin(c->half[0], c->half[1])) &&
+      c->half[0] <= LARGE && PetscMax(PetscAbsReal(from->center[0]), PetscAbsReal(from->center[1])) <= LARGE,
     f->comm, SAM_ERR_FILE,
     "-%s %s: /patch/half is %.6g, %.6g, /patch/center %.6g, %.6g: expected at most %d m, and sides that differ "
     "at most by a factor of %d: check the unit of the file",
@@ -135,6 +136,9 @@ static PetscErrorCode ReadBasis(SamFile f, SamCompliance c, Choice *from)
       PetscCheck(power[m][d] >= 0 && power[m][d] <= SAM_COMPLIANCE_DEGREE && power[m][d] == floor(power[m][d]), f->comm,
                  SAM_ERR_FILE, "-%s %s: /basis/degree_xy has %.6g: expected whole numbers from 0 to %d", f->option,
                  f->filename, power[m][d], SAM_COMPLIANCE_DEGREE);
+  for (PetscInt m = 0; m < from->modes && c->datum > 0; m++)
+    PetscCheck(!power[m][1] && from->center[1] == 0 && c->half[1] == 0.5, f->comm, SAM_ERR_FILE,
+               "-%s %s: is of a section, but varies along y: make the file anew", f->option, f->filename);
   Keep(from, power);
   c->modes = 0;
   for (PetscInt m = 0; m < from->modes; m++) {
@@ -380,6 +384,9 @@ PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double va
 
   PetscFunctionBegin;
   Choose(c->file, &from);
+  PetscCheck(!(c->datum > 0), comm, SAM_ERR_USER,
+             "-%s %s: is of a section, of which the file has no stresses below the surface: they are not supported",
+             option, c->file);
   PetscCheck(c->below[0], comm, SAM_ERR_FILE, "-%s %s: has no group /stress: make the file without --no-stress", option,
              c->file);
   PetscCall(SamFileExamine(comm, option, from.file, NULL, LookBelow, c, values,
@@ -413,16 +420,21 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscFunctionBegin;
   *reading = *(const Reading *)question;
   PetscCall(ReadAttribute(f, "petsam_compliance", &version));
-  PetscCheck(version == 1, f->comm, SAM_ERR_FILE, "-%s %s: petsam_compliance is %.6g: expected 1: use a newer petsam",
-             f->option, f->filename, version);
+  PetscCheck(version == 1 || version == SECTION, f->comm, SAM_ERR_FILE,
+             "-%s %s: petsam_compliance is %.6g: expected 1 or %d: use a newer petsam", f->option, f->filename, version,
+             SECTION);
   PetscCall(ReadAttribute(f, "young", &c->young));
   PetscCall(ReadAttribute(f, "poisson", &c->poisson));
   PetscCheck(c->young > 0 && (isinf(c->young) || (c->poisson > -1 && c->poisson <= 0.5)), f->comm, SAM_ERR_FILE,
              "-%s %s: young is %.6g, poisson %.6g: expected a modulus > 0 and a ratio from -1 to 0.5", f->option,
              f->filename, c->young, c->poisson);
+  if (version == SECTION) PetscCall(ReadAttribute(f, "datum", &c->datum));
   PetscCall(ReadOther(f, c));
   PetscCall(FindPatch(f, &reading->from));
   PetscCall(ReadBasis(f, c, &reading->from));
+  PetscCheck(version != SECTION || (c->datum >= c->half[0] && isfinite(c->datum)), f->comm, SAM_ERR_FILE,
+             "-%s %s: the attribute datum is %.6g: expected at least half of the patch's width, %.6g m", f->option,
+             f->filename, c->datum, c->half[0]);
   PetscCall(ReadCases(f, c, &reading->from));
   if (H5Lexists(f->id, "/stress", H5P_DEFAULT) > 0) PetscCall(ReadAxes(f, c, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -5,18 +5,29 @@
   With K of the half-space on cells, Phi the polynomials' means (modes, cells), A the area of a cell and G =
   A Phi K^-1 Phi', the eigenvalues of K + A Phi'D Phi relative to K are 1 and 1 + those of D G.
 */
+#include "../waves.h"
 #include <petsam/private/body.h>
 #include <petsam/private/compliance.h>
 #include <math.h>
 #include <petscksp.h>
 
-enum { SIDE = 20, CELLS = SIDE * SIDE, UNKNOWNS = 3 * CELLS, LAGS = 2 * SIDE, TABLE = LAGS * LAGS };
+enum { SIDE = 20, LAGS = 2 * SIDE };
 
-/* Computes the displacements (3, LAGS, LAGS) of the cells about the middle one by a unit traction in each direction on
-   it. */
-static PetscErrorCode FillTable(SamElasticity e, double table[])
+/* The numbers of cells along y and in all, and of lags: one row in plane strain */
+typedef struct {
+  PetscInt rows, cells, lags, table;
+} Count;
+
+static Count CountOf(SamCompliance c)
 {
-  const PetscInt middle = SIDE * LAGS + SIDE;
+  return c->datum > 0 ? (Count){1, SIDE, 1, LAGS} : (Count){SIDE, SIDE * SIDE, LAGS, LAGS * LAGS};
+}
+
+/* Computes the displacements (3, lags, LAGS) of the cells about the middle one by a unit traction in each direction on
+   it. */
+static PetscErrorCode FillTable(SamElasticity e, Count n, double table[])
+{
+  const PetscInt middle = n.lags / 2 * LAGS + SIDE;
   Vec            field[2], moved[2];
   const double  *u;
 
@@ -29,20 +40,20 @@ static PetscErrorCode FillTable(SamElasticity e, double table[])
     const PetscInt k = from == 2 ? 0 : 1;
 
     PetscCall(VecZeroEntries(field[k]));
-    PetscCall(VecSetValue(field[k], k * from * TABLE + middle, 1, INSERT_VALUES));
+    PetscCall(VecSetValue(field[k], k * from * n.table + middle, 1, INSERT_VALUES));
     PetscCall(VecAssemblyBegin(field[k]));
     PetscCall(VecAssemblyEnd(field[k]));
     if (k) {
       PetscCall(SamElasticityApplyTangential(e, field[1], moved[1]));
       PetscCall(VecGetArrayRead(moved[1], &u));
-      PetscCall(PetscArraycpy(table + 3 * from * TABLE, u, 2 * TABLE));
+      PetscCall(PetscArraycpy(table + 3 * from * n.table, u, 2 * n.table));
       PetscCall(VecRestoreArrayRead(moved[1], &u));
       if (e->traits.coupled) PetscCall(SamElasticityApplyTangentialToNormal(e, field[1], moved[0]));
     } else {
       PetscCall(SamElasticityApplyNormal(e, field[0], moved[0]));
     }
     PetscCall(VecGetArrayRead(moved[0], &u));
-    PetscCall(PetscArraycpy(table + (3 * from + 2) * TABLE, u, TABLE));
+    PetscCall(PetscArraycpy(table + (3 * from + 2) * n.table, u, n.table));
     PetscCall(VecRestoreArrayRead(moved[0], &u));
   }
   for (PetscInt k = 0; k < 2; k++) {
@@ -55,7 +66,8 @@ static PetscErrorCode FillTable(SamElasticity e, double table[])
 /* Computes the lower triangle of K, by columns; K is the compliance of the body against a rigid one. */
 static PetscErrorCode Fill(SamCompliance c, SamPair both, const double d[2], double matrix[])
 {
-  const PetscReal   width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};
+  const Count       n        = CountOf(c);
+  const PetscReal   width[2] = {LAGS * d[0], (PetscReal)n.lags * d[1]}, center[2] = {0, 0};
   const SamMaterial rigid = {.young = INFINITY};
   SamElasticity     e;
   SamGrid           grid;
@@ -67,17 +79,23 @@ static PetscErrorCode Fill(SamCompliance c, SamPair both, const double d[2], dou
   PetscCall(SamBodyCreate(1, &rigid, &above));
   PetscCall(SamPairCreate(SamComplianceIsPair(c) ? SamPairBody(both, 0) : above, SamPairBody(both, c->body), &pair));
   PetscCall(SamBodyDestroy(&above));
-  PetscCall(SamGridCreate(PETSC_COMM_SELF, (PetscInt[]){LAGS, LAGS}, width, center, &grid));
+  PetscCall(SamGridCreate(PETSC_COMM_SELF, (PetscInt[]){LAGS, n.lags}, width, center, &grid));
   PetscCall(SamElasticityCreate(grid, pair, &e));
-  PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_HALFSPACE));
-  PetscCall(PetscCalloc1(9 * TABLE, &table));
-  PetscCall(FillTable(e, table));
-  for (int column = 0; column < UNKNOWNS; column++)
-    for (int row = column; row < UNKNOWNS; row++) {
-      const int from = column % CELLS, to = row % CELLS, i = to % SIDE - from % SIDE, j = to / SIDE - from / SIDE;
+  if (c->datum > 0) {
+    PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_PLANE));
+    *SamHalfSpaceDatum(e) = c->datum;
+  } else {
+    PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_HALFSPACE));
+  }
+  PetscCall(PetscCalloc1(9 * n.table, &table));
+  PetscCall(FillTable(e, n, table));
+  for (PetscInt column = 0; column < 3 * n.cells; column++)
+    for (PetscInt row = column; row < 3 * n.cells; row++) {
+      const PetscInt from = column % n.cells, to = row % n.cells;
+      const PetscInt i = to % SIDE - from % SIDE, j = to / SIDE - from / SIDE;
 
-      matrix[column * UNKNOWNS + row] =
-        table[(column / CELLS * 3 + row / CELLS) * TABLE + (j + SIDE) * LAGS + i + SIDE];
+      matrix[column * 3 * n.cells + row] =
+        table[(column / n.cells * 3 + row / n.cells) * n.table + (j + n.lags / 2) * LAGS + i + SIDE];
     }
   PetscCall(PetscFree(table));
   PetscCall(SamElasticityDestroy(&e));
@@ -89,30 +107,33 @@ static PetscErrorCode Fill(SamCompliance c, SamPair both, const double d[2], dou
 /* Computes Phi', by columns: polynomial m of direction a is column a modes + m. */
 static void FillMeans(SamCompliance c, const double d[2], double means[])
 {
-  double along[2][SIDE][SAM_COMPLIANCE_DEGREE + 1];
+  const Count n = CountOf(c);
+  double      along[2][SIDE][SAM_COMPLIANCE_DEGREE + 1];
 
-  for (PetscInt k = 0; k < 2 * SIDE; k++) {
+  for (PetscInt k = 0; k < SIDE + n.rows; k++) {
     const double from = c->center[k / SIDE] - c->half[k / SIDE] + (double)(k % SIDE) * d[k / SIDE];
 
     SamComplianceMeans(c, k / SIDE, from, from + d[k / SIDE], along[k / SIDE][k % SIDE]);
   }
   for (PetscInt a = 0; a < 3; a++)
     for (PetscInt m = 0; m < c->modes; m++)
-      for (PetscInt k = 0; k < CELLS; k++)
-        means[(a * c->modes + m) * UNKNOWNS + a * CELLS + k] =
+      for (PetscInt k = 0; k < n.cells; k++)
+        means[((a * c->modes + m) * 3 + a) * n.cells + k] =
           along[0][k % SIDE][c->power[m][0]] * along[1][k / SIDE][c->power[m][1]];
 }
 
 /* Computes D G, the compliance of the tractions on the cells relative to the half-space's, minus the identity. */
 static PetscErrorCode CreateRelative(SamCompliance c, SamPair pair, Mat d, PetscInt n, Mat *relative)
 {
-  const double side[2] = {2 * c->half[0] / SIDE, 2 * c->half[1] / SIDE};
-  Mat          matrix, means, solved, g;
-  double      *values;
+  const Count    count    = CountOf(c);
+  const PetscInt unknowns = 3 * count.cells;
+  const double   side[2]  = {2 * c->half[0] / SIDE, 2 * c->half[1] / (double)count.rows};
+  Mat            matrix, means, solved, g;
+  double        *values;
 
   PetscFunctionBegin;
-  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, UNKNOWNS, NULL, &matrix));
-  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, n, NULL, &means));
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, unknowns, unknowns, NULL, &matrix));
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, unknowns, n, NULL, &means));
   PetscCall(MatDenseGetArray(matrix, &values));
   PetscCall(Fill(c, pair, side, values));
   PetscCall(MatDenseRestoreArray(matrix, &values));
@@ -156,6 +177,19 @@ static PetscErrorCode FindEnds(Mat matrix, PetscInt n, double *least, double *mo
   PetscCall(KSPDestroy(&ksp));
   PetscCall(PetscFree2(real, imaginary));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamComplianceMoveDatum(SamCompliance c, double datum)
+{
+  /* A line load displaces by -ln(|x|/D)/pi times a factor in x, y and z. */
+  const double shear = c->young / (2 * (1 + c->poisson)), change = log(c->datum / datum);
+  const double factor[3] = {(1 - c->poisson) / shear, 1 / shear, (1 - c->poisson) / shear};
+
+  for (PetscInt k = 0; k < 3 && !isinf(c->young); k++)
+    for (PetscInt m = 0; m < c->modes; m++)
+      if (!c->power[m][0])
+        c->matrix[(k * c->modes + m) * (3 * c->modes + 1)] += change * factor[k] / PETSC_PI * 2 * c->half[0];
+  c->datum = datum;
 }
 
 PetscErrorCode SamComplianceEnds(SamCompliance c, SamPair pair, double *least, double *most)
