@@ -103,7 +103,7 @@ PETSC_INTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, Pet
                                                      PetscReal width[2], PetscReal center[2], SamGrid *grid);
 
 /* SamGridRoundUp - returns the smallest number of cells from n on whose only prime factors are 2, 3 and 5, which
-   transforms take well. Not collective. */
+   transforms take well; from 1e9 on n itself. Not collective. */
 PETSC_INTERN double SamGridRoundUp(double n);
 
 #endif

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#define LARGEST    1e9                 /* numbers of cells from here on are not rounded; they may be infinite */
 #define MOST_RATIO (100 * (1 + 1e-12)) /* largest ratio of the sides of a grid or of its cells, apart from rounding */
 
 /*
@@ -393,11 +394,12 @@ PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum)
 
 double SamGridRoundUp(double n)
 {
-  for (n = PetscMax(ceil(n), 1);; n++) {
+  for (n = PetscMax(ceil(n), 1); n < LARGEST; n++) {
     PetscInt rest = (PetscInt)n;
 
     for (PetscInt p = 2; p <= 5; p += p == 2 ? 1 : 2)
       while (rest % p == 0) rest /= p;
     if (rest == 1) return n;
   }
+  return n;
 }
