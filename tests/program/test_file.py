@@ -297,7 +297,7 @@ def test_version_is_one_number(petsam):
 
 
 def test_summary_tells_loads_and_counts(petsam, solve):
-    s, done = solve(CASE), petsam(CASE)
+    s, done = solve(CASE), petsam(CASE, "-profile")
     for name in LOADS + RIGID:
         shown = float(re.search(rf"\b{name} +(\S+)", done.stdout).group(1))
         assert shown == pytest.approx(s[name], rel=1e-6, abs=1e-12), name

@@ -176,7 +176,7 @@ def test_steps_are_told_when_they_are_done(tmp_path):
 
 
 def test_parts_of_the_time_make_up_the_whole(petsam):
-    text = petsam(dict(STEPS, grid_n=200), dict(output="out.h5")).stdout
+    text = petsam(dict(STEPS, grid_n=200), dict(output="out.h5"), "-profile").stdout
     lines = re.search(r"^( +set-up .*?)^ +total ", text, re.M | re.S).group(1).splitlines()
     parts = {line[:30].strip(): seconds(text, line[:30].strip()) for line in lines}
     total = seconds(text, "total")
@@ -316,7 +316,7 @@ def test_progress_may_be_asked_for(petsam):
 def test_help_is_grouped(petsam):
     text = petsam("-help").stdout
     groups = re.findall(r"^([A-Z]\w+(?: \w+)*)$", text, re.M)
-    first = ["Plugins", "Grid", "Bodies", "Elasticity", "Friction", "Surfaces that slide past each other", "Wear"]
+    first = ["Accuracy", "Plugins", "Grid", "Bodies", "Elasticity", "Friction", "Surfaces that slide past each other", "Wear"]
     assert groups[: len(first) + 1] == [*first, "Plastic deformation"]
     assert len(set(groups)) == len(groups)
     assert max(map(len, text.splitlines())) <= 120
@@ -349,7 +349,7 @@ def test_help_into_a_pipe_that_closes_is_no_crash(tmp_path):
 
 def test_edges_that_are_not_found_are_told(petsam):
     case = dict(ball(64), load_tx=25.0, steps=4)
-    assert "  edges " not in petsam(dict(case, steps=1)).stdout.split("worst")[1]
+    assert "  edges " not in petsam(dict(case, steps=1), "-profile").stdout.split("worst")[1]
     unlike = dict(case, body2_poisson=0.1)
     told = petsam(unlike).stdout
     share, step, areas = re.search(

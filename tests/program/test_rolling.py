@@ -423,7 +423,7 @@ def test_wear_of_the_running_band(solve):
 @pytest.mark.parametrize("n", [64, 96])
 def test_dissimilar_bodies(petsam, n):
     case = ellipse(n=n, width=3.2, friction=1.0)
-    done = petsam(case, dict(body2_young=YOUNG / 10, creep_x=U, load_n=case["load_n"] / 4, output="d.h5"))
+    done = petsam(case, dict(body2_young=YOUNG / 10, creep_x=U, load_n=case["load_n"] / 4, output="d.h5"), "-profile")
     assert "coupling" in done.stdout
 
 

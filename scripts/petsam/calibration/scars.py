@@ -19,6 +19,7 @@ from ..core.errors import Error, library
 from .push import options_of
 
 OUTPUTS = 19  # scars of the family
+FEWEST = 4  # of them, where the scar reaches the edge of the grid
 LEAST, MOST = 0.05, 1.6  # their cycles relative to those of the test
 EDGE = 0.02  # of the depth: where a scar ends
 SIDES = 3  # points beyond the scar, on each side, that hold the height of the unworn surface
@@ -121,15 +122,33 @@ def family(shape, life: float, body: str = "2", options: Optional[Mapping] = Non
     parts = np.unique(np.round(life * np.geomspace(LEAST, MOST, OUTPUTS)))
     given.update(wear_cycles=parts[-1], wear_output=parts[:-1].tolist(), output_every=10**6)
     given.pop("output", None)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        results = run(given)
+    results, whole = _simulated(run, given)
     with results:
         depth = [results.field(f"wear_depth{body}", k).reshape(-1) for k in range(len(results.steps))]
         x = np.asarray(results.x)
-    if len(depth) != len(parts):
-        raise Error(f"{shape}: the simulation ended after {len(depth)} of {len(parts)} outputs")
+    if not whole:  # the last one is that of the step at the edge
+        depth = depth[:-1]
+        parts = parts[: len(depth)]
+    if len(depth) != len(parts) or len(parts) < FEWEST:
+        raise Error(
+            f"{shape}: the simulation ended after {len(depth)} of {OUTPUTS} outputs"
+            + ("" if whole else ", at the edge of the grid: give a wider -grid_size")
+        )
     return Family(x, np.array(depth), float(given[name]) * parts, life, body)
+
+
+def _simulated(run, given):
+    """Results of a wear simulation, and whether it has reached its end; else the scar has reached the grid's edge."""
+    from ..contact import EdgeContact
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return run(given), True
+        except EdgeContact as error:
+            if error.results is None:
+                raise
+            return error.results, False
 
 
 def _correlation(residuals, count):

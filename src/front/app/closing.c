@@ -237,7 +237,10 @@ PetscErrorCode SamReportClosing(SamReport r)
 
   PetscFunctionBegin;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
-  if (r->logging) PetscCall(PrintTimes(r));
+  if (r->logging)
+    PetscCall(PrintTimes(r));
+  else
+    PetscCall(PetscPrintf(r->comm, "\n"));
   for (PetscInt k = 0; k < 3 && r->worst[0].step && (r->profile || r->steps > 1);
        k++) { /* only steps with a solution */
     PetscCall(PetscPrintf(r->comm, k ? ", %s %.2e" : "  worst       %s %.2e", names[k], (double)r->worst[k].residual));

@@ -49,7 +49,7 @@ typedef struct {
 /* What is asked for, and which parts of a choice are not given by options. */
 typedef struct {
   const SamAccuracy *asked;
-  PetscBool          cells, size, center, steps;
+  PetscBool          number, size, center, steps; /* of cells, width, centre of the grid, steps per row */
   PetscInt           axes;
   PetscInt           few, most;    /* cells along the shorter side: of the first grid; most along any side */
   double             cell, factor; /* width of the cells of the last trial (m), and how many times they were too wide */
@@ -98,7 +98,7 @@ static PetscErrorCode SetOptions(const SamOptions *from, const Task *task, const
   const double steps[2]  = {(double)c->steps, (double)c->steps};
 
   PetscFunctionBegin;
-  if (task->cells) PetscCall(SetPair(from, "grid_n", n, 17));
+  if (task->number) PetscCall(SetPair(from, "grid_n", n, 17));
   if (task->size) PetscCall(SetPair(from, "grid_size", width, 6));
   if (task->center && (center[0] != 0 || center[1] != 0)) PetscCall(SetPair(from, "grid_center", center, 6));
   if (task->steps) PetscCall(SetPair(from, "steps", steps, 17));
@@ -244,7 +244,7 @@ static PetscErrorCode Begin(SamSimulation s, Task *task, Choice *c)
   }
   c->steps = SamHistoryGetIncrements(s->history);
   if (task->size) PetscCall(ChooseWidth(s, c));
-  if (task->cells) ChooseCells(task, (double)task->few, c);
+  if (task->number) ChooseCells(task, (double)task->few, c);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -252,7 +252,7 @@ static PetscErrorCode Begin(SamSimulation s, Task *task, Choice *c)
 static PetscErrorCode Prepare(const SamOptions *from, const SamArguments *arguments, Task *task, Choice *c)
 {
   static const char *const names[4] = {"grid_n", "grid_size", "grid_center", "steps"};
-  PetscBool *const         free[4]  = {&task->cells, &task->size, &task->center, &task->steps};
+  PetscBool *const         free[4]  = {&task->number, &task->size, &task->center, &task->steps};
   const Choice             any      = {{PROBE, PROBE}, 1, {1e-3, 1e-3}, {0, 0}};
   PetscReal                width[2], center[2];
   PetscInt                 n[2];
@@ -274,11 +274,11 @@ static PetscErrorCode Prepare(const SamOptions *from, const SamArguments *argume
   PetscCall(SamGapSetOptionsPrefix(gap, from->prefix));
   PetscCall(SamGapGetFileGrid(gap, n, width, center));
   PetscCall(SamGapDestroy(&gap));
-  if (n[0] > 0) task->cells = PETSC_FALSE;
+  if (n[0] > 0) task->number = PETSC_FALSE;
   if (width[0] > 0) task->size = PETSC_FALSE;
   task->center = task->center && task->size ? PETSC_TRUE : PETSC_FALSE;
   task->axes   = 2;
-  PetscCall(SetOptions(from, &(Task){.axes = 2, .cells = task->cells, .size = task->size}, &any));
+  PetscCall(SetOptions(from, &(Task){.axes = 2, .number = task->number, .size = task->size}, &any));
   PetscCall(SamSimulationCreate(from->comm, &s));
   PetscCall(SamSimulationSetFromOptions(s, from, arguments));
   PetscCall(Begin(s, task, c));
@@ -535,7 +535,7 @@ static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last)
     for (PetscInt k = 0; k < task->axes; k++) c->width[k] *= 1.6;
     return;
   }
-  if (t->failed && task->cells && was.n[0] < 8 * task->few) { /* as of cells that cannot follow the loads */
+  if (t->failed && task->number && was.n[0] < 8 * task->few) { /* as of cells that cannot follow the loads */
     Refine(task, &was, 2, c);
     return;
   }
@@ -559,7 +559,7 @@ static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last)
   for (int k = 0; k < 2; k++)
     factor[k] = near ? factor[k] : PetscMin(factor[k] > NEAR ? factor[k] / NEAR : factor[k], AT_ONCE);
   factor[0] = PetscMax(factor[0], *last ? 0.5 : 1);
-  if (task->cells) Refine(task, &was, factor[0], c);
+  if (task->number) Refine(task, &was, factor[0], c);
   Divide(task, factor[1], c);
   if (c->n[0] == was.n[0] && c->n[1] == was.n[1] && c->steps == was.steps && !Moves(task, &was, c))
     *last = PETSC_TRUE; /* there are no more */
@@ -572,7 +572,7 @@ static void Describe(const Task *task, const Choice *c, SamAccuracy *a)
   const size_t size = sizeof(a->chosen);
 
   text[0] = '\0';
-  if (task->cells)
+  if (task->number)
     (void)snprintf(text, size, c->n[0] == c->n[1] || task->axes == 1 ? " -grid_n %ld" : " -grid_n %ld,%ld",
                    (long)c->n[0], (long)c->n[1]);
   if (task->size)
@@ -619,7 +619,7 @@ static PetscErrorCode Choose(const SamOptions *from, const SamArguments *argumen
   PetscFunctionBegin;
   PetscCall(Prepare(from, arguments, &task, &c));
   PetscCall(PetscNew(&trial));
-  if (!task.cells && !task.size && !task.steps) last = PETSC_TRUE;
+  if (!task.number && !task.size && !task.steps) last = PETSC_TRUE;
   while (!last && a->trials < TRIALS) {
     PetscCall(Try(from, arguments, &task, &c, trial));
     PetscCall(CheckNames(from, a, trial));
