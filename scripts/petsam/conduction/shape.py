@@ -1,5 +1,6 @@
 """The conductance of a contact in process: constriction, films and gas in one problem."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Optional, Union
 
@@ -114,7 +115,18 @@ def _kind(contact):
         raise Error(
             "conduction: in plane strain a contact's conductance has no limit far away: use a section of one period"
         )
+    need_half_spaces(options)
+    return kind in PERIODIC
+
+
+def need_half_spaces(options: Iterable[str]) -> None:
+    """Raises Error where options make bodies whose flux is not computed: layered ones, and finite ones.
+
+    Parameters
+    ----------
+    options : iterable of str
+        Names of the options.
+    """
     for name in options:
         if "_layer" in name or "_compliance" in name:
             raise Error(f"conduction: {name}: the flux through layers and finite bodies is not computed: omit it")
-    return kind in PERIODIC
