@@ -22,6 +22,7 @@ COLUMNS = {
     "resistance": ("m2 K/W", "resistance per area, 1/h"),
 }
 ELECTRICAL = {"W/(m2 K)": "S/m2", "m2 K/W": "Ohm m2"}
+RTOL = 1e-4  # residual of the flux: the error of its sum, a quadratic form, is about the square, that of parts 1e-5
 FIRST, POWER = 0.1, 0.95  # of the lowest pressure, for which a row of a card is extrapolated; in proportion to p^POWER
 
 
@@ -68,7 +69,7 @@ class Conductors(NamedTuple):
         -------
         dict
         """
-        found = of(contact, *self.lam, film=self.film or None, gas=self.gas)
+        found = of(contact, *self.lam, film=self.film or None, gas=self.gas, rtol=RTOL)
         return {"h_contact": found.contact, "h_gap": found.gap if self.gas else 0.0, "h": found.per_area}
 
     def words(self) -> str:

@@ -23,8 +23,8 @@ def _left_out(found):
         f"** {found.conductors.words()}",
         "** constriction of the interface alone: the bodies' own resistance is that of their elements; without layers,",
         "** radiation, and heat of friction; bodies' conductivities do not change with temperature",
-        "** at pressure 0 the gap alone, as at the lowest computed pressure; at a tenth of that pressure the contact's part is",
-        "** extrapolated in proportion to the power 0.95",
+        "** at pressure 0 the gap alone, as at the lowest computed pressure; at a tenth of that pressure the contact's",
+        "** part is extrapolated in proportion to the power 0.95",
     ]
 
 
