@@ -246,3 +246,16 @@ def test_calculix_takes_the_conductance_from_the_card(tmp_path, gas):
     card = rows(tmp_path / "card.inp", "*GAP CONDUCTANCE")
     h = np.interp(pressure, card[:, 1], card[:, 0])
     assert heat == pytest.approx(100.0 / (2 / 50.0 + 1 / h), rel=1e-4)
+
+
+def test_a_picture_has_the_conductances_of_several_interfaces():
+    several = [found(), found(gas=AIR), found(gas=AIR, film=1e-7)]
+    axes = petsam.plot.conductance(*several).axes[0]
+    labels = ["spots alone", "gas in the gap", "film on the spots and gas in the gap"]
+    assert axes.get_legend_handles_labels()[1] == labels and axes.get_ylabel().endswith("W/(m² K)")
+    for others, says in (
+        ((), "expected interfaces with a conductance"),
+        ((found(electrical=True),), "different units"),
+    ):
+        with pytest.raises(petsam.Error, match=says):
+            petsam.plot.conductance(*(several[:1] if others else []), *others)
