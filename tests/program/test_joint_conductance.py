@@ -253,9 +253,10 @@ def test_a_picture_has_the_conductances_of_several_interfaces():
     axes = petsam.plot.conductance(*several).axes[0]
     labels = ["spots alone", "gas in the gap", "film on the spots and gas in the gap"]
     assert axes.get_legend_handles_labels()[1] == labels and axes.get_ylabel().endswith("W/(m² K)")
-    for others, says in (
+    for several, says in (
         ((), "expected interfaces with a conductance"),
-        ((found(electrical=True),), "different units"),
+        ((found(lam=None),), "expected interfaces with a conductance"),
+        ((found(), found(electrical=True)), "different units"),
     ):
         with pytest.raises(petsam.Error, match=says):
-            petsam.plot.conductance(*(several[:1] if others else []), *others)
+            petsam.plot.conductance(*several)
