@@ -144,7 +144,7 @@ def _stiffness_options(one):
     )
     group.add_argument(
         "--film", type=word(words.number, "a number, 0 or more: 1e-6", "1", _not_below_0), metavar="R",
-        help="resistance of a film on the spots per area, m2 K/W",
+        help="resistance of a film on the spots per area, m2 K/W, or Ohm m2",
     )  # fmt: skip
     group.add_argument(
         "--gas", type=word(gas), metavar="LAM,M",

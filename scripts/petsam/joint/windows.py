@@ -277,14 +277,14 @@ def _pressed(contact, window, pressure, told, begins):
             "check the units of heights and moduli"
         )
     k = contact.stiffness(reversal=True) / window.area
-    if tell:
-        told(solved - start, time.perf_counter() - solved)
     separation = float(np.mean(contact.field("gap")))
     contact.commit()
     numbers = pressure, step.disp_z, separation, k[0, 0], pressure / step.disp_z, step.contact_fraction
     row = dict(zip(NORMAL, map(float, numbers)))
     if window.conductors:
         row.update(window.conductors.measure(contact))
+    if tell:
+        told(solved - start, time.perf_counter() - solved)
     if window.bodies.get("pressure_limit") is not None:
         with _quiet():
             further = contact.try_step(time=pressure, load_n=pressure * (1.0 + FURTHER) * window.area).disp_z
