@@ -17,12 +17,14 @@ def _friction(found):
 
 def _left_out(found):
     """Comments of the conductance: what it is of, and what it does not contain."""
-    kind, unit = ("electrical", "S/mm2") if found.conductors.electrical else ("thermal", "mW/(mm2 K)")
+    kind, unit, less = "thermal", "mW/(mm2 K)", "layers, radiation and heat of friction"
+    if found.conductors.electrical:
+        kind, unit, less = "electrical", "S/mm2", "layers and heat of the current"
     return [
         f"** {kind} conductance in {unit} over the pressure in MPa, computed from the scanned surface by petsam:",
         f"** {found.conductors.words()}",
-        "** constriction of the interface alone: the bodies' own resistance is that of their elements; without layers,",
-        "** radiation, and heat of friction; bodies' conductivities do not change with temperature",
+        "** constriction of the interface alone: the bodies' own resistance is that of their elements;",
+        f"** without {less}; conductivities do not change with temperature",
         "** at pressure 0 the gap alone, as at the lowest computed pressure; at a tenth of that pressure the contact's",
         "** part is extrapolated in proportion to the power 0.95",
     ]

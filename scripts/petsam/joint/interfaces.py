@@ -30,10 +30,7 @@ from .windows import Loop, Window
 
 NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
 SMALL = 100_000  # points of all windows below which starting processes takes longer than the solution
-MEASURED = (
-    "k_n of loading is the stiffness that image correlation measures; k_n of unloading is the one that ultrasound "
-    "measures, and to which the conductance is in proportion"
-)
+MEASURED = "k_n of loading is the stiffness that image correlation measures; k_n of unloading what ultrasound measures"
 APART = 0.05  # relative difference from which k_t along x and y are printed both
 # for the estimate of time: later solutions over the first one, a step of the shear over a solution without one
 LATER, PUSHED = 1.2, 1.5
