@@ -32,6 +32,7 @@ MODULES = (
     "plot.of_loads",
     "plot.of_surface",
     "joint.interfaces",
+    "joint.conductance",
     "joint.structure",
     "joint.pair",
     "joint.backbone",

@@ -198,7 +198,18 @@ def test_labels_of_logarithmic_axes_do_not_collide(decades, inches, first):
 
 def test_pictures_refuse_what_they_do_not_draw(folder):
     file = petsam.open(folder / "c.h5")
-    for name in ("maps", "interface", "backbone", "band", "response", "joint_wear", "compliance", "lives", "surface"):
+    for name in (
+        "maps",
+        "interface",
+        "conductance",
+        "backbone",
+        "band",
+        "response",
+        "joint_wear",
+        "compliance",
+        "lives",
+        "surface",
+    ):
         with pytest.raises(petsam.Error, match=f"{name}: .*expected .*, not a file's name: open it first"):
             getattr(petsam.plot, name)(str(folder / "c.h5"))
         with pytest.raises(petsam.Error, match=f"{name}: expected .*, not int"):

@@ -11,8 +11,11 @@ normal and the tangential stiffness per area of the interface alone, the real co
 the shear; with the standard deviation of five windows of the surface, and the exponent chi and the weight beta of an
 Iwan element. The loops follow from the approach over the pressure by a formula, and one window is computed to check it;
 --full computes the loops of all windows, which dissimilar bodies and a hardness always need. --normal-only leaves the
-shear out. -o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and pyHarm, NAME.inp, the
-interaction for a deck of Abaqus, and NAME.png; with --normal-only NAME.csv and NAME.png.
+shear out. --conductivity adds the thermal conductance per area of the interface alone, or with --electrical the
+electrical one, of films and gas, too. -o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and
+pyHarm, NAME.inp, the interaction for a deck of Abaqus, and NAME.png; with --normal-only NAME.csv and NAME.png. With
+--conductivity NAME.inp has the conductance, too, also with --normal-only, and NAME-calculix.inp is the interaction for
+a deck of CalculiX (not with --electrical).
 
 backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written; each of its patches
 is a contact with the options of --contact, whose origin is the patch's centre. Tightens the bolts and prints frequency
@@ -76,6 +79,22 @@ def cycle_counts(text):
     return found
 
 
+def gas(text):
+    """Conductivity of --gas, and the length of the temperature jump, m."""
+    form = "LAM,M, a conductivity above 0 and a length, 0 or more: 0.026,0.37um"
+    parts = text.split(",")
+    try:
+        if len(parts) == 2:
+            return words.number(parts[0], form, allowed=words.positive), words.number(parts[1], form, "m", _not_below_0)
+    except words.WordError:
+        pass
+    raise words.WordError(text, form)
+
+
+def _not_below_0(value):
+    return 0.0 <= value < np.inf
+
+
 def _spans(form, example, unit, geometric=True):
     """Reader of FIRST:LAST:COUNT, or of values above 0 separated by commas."""
     form = f"FIRST:LAST:COUNT, or {form} above 0 separated by commas: {example}"
@@ -114,6 +133,22 @@ def _stiffness_options(one):
     group.add_argument(
         "--normal-only", action="store_true", default=None,
         help="normal stiffness, real contact area and separation alone, without friction",
+    )  # fmt: skip
+    group.add_argument(
+        "--conductivity", metavar="LAM1,LAM2",
+        type=word(words.numbers, "those of both bodies, two numbers above 0: 50,50", "1", words.positive, count=2),
+        help="conductivities of both bodies, W/(m K), for the conductance; with --electrical S/m",
+    )  # fmt: skip
+    group.add_argument(
+        "--electrical", action="store_true", default=None, help="a current instead of heat: units S/m, S/m2, Ohm m2"
+    )
+    group.add_argument(
+        "--film", type=word(words.number, "a number, 0 or more: 1e-6", "1", _not_below_0), metavar="R",
+        help="resistance of a film on the spots per area, m2 K/W, or Ohm m2",
+    )  # fmt: skip
+    group.add_argument(
+        "--gas", type=word(gas), metavar="LAM,M",
+        help="conductivity of what fills the gap, W/(m K), and length of the temperature jump: air 0.026,0.37um",
     )  # fmt: skip
     group.add_argument("--cores", type=_from(1), help="processes for the windows (all available cores)")
     group.add_argument(
@@ -226,8 +261,8 @@ def _stiffness(args):
                 )
     elif args.friction is None:
         raise Unusable("petsam-joint stiffness needs --friction, or --normal-only")
-    endings = (".csv", ".png") if args.normal_only else (".csv", ".json", ".inp", ".png")
-    for ending in endings if args.output else ():
+    conducting = _conducting(args)
+    for ending in _stiffness_files(args) if args.output else ():
         need_replaceable(args.output + ending)
     options = {name: value for name, value in loops.items() if value is not None and name != "area"}
     options.update(periodic=args.periodic, normal_only=bool(args.normal_only), cores=args.cores)
@@ -237,15 +272,45 @@ def _stiffness(args):
         options["pressure_limit"] = args.hardness
     with _recorded(AdviceWarning) as found:
         windows = _progress("window")
-        result = interface(args.file, args.pressure, report=windows, estimate=windows.estimate, **options)
+        told = dict(report=windows, estimate=windows.estimate)
+        result = interface(args.file, args.pressure, **told, **conducting, **options)
     _print(result, found)
-    if args.output:
-        result.to_csv(args.output + ".csv")
-        if not args.normal_only:
-            result.to_json(args.output + ".json", args.area or 1.0)
-            result.to_abaqus(args.output + ".inp")
-        write(plot.interface(result), args.output + ".png", args.dpi)
+    _write_stiffness(args, result)
     return 0
+
+
+def _conducting(args):
+    """The options of the conductance; ends with an error where they need --conductivity."""
+    names = ("electrical", "film", "gas")
+    given = {name: getattr(args, name) for name in names if getattr(args, name) is not None}
+    if args.conductivity is None:
+        for name in given:
+            raise Unusable(f"--{name}: is for the conductance: give --conductivity LAM1,LAM2, too")
+        return {}
+    return {"conductivity": args.conductivity, **given}
+
+
+def _stiffness_files(args):
+    """Endings of the files that stiffness writes."""
+    endings = [".csv", ".png", *([] if args.normal_only else [".json", ".inp"])]
+    if args.conductivity is not None:
+        endings = [*dict.fromkeys([*endings, ".inp"]), *([] if args.electrical else ["-calculix.inp"])]
+    return endings
+
+
+def _write_stiffness(args, result):
+    """Writes the files of --output, if it is given."""
+    if not args.output:
+        return
+    ways = {
+        ".csv": result.to_csv,
+        ".json": lambda path: result.to_json(path, args.area or 1.0),
+        ".inp": result.to_abaqus,
+        "-calculix.inp": result.to_calculix,
+        ".png": lambda path: write(plot.interface(result), path, args.dpi),
+    }
+    for ending in _stiffness_files(args):
+        ways[ending](args.output + ending)
 
 
 def _progress(what):
@@ -424,6 +489,10 @@ ACTIONS = {
             full=None,
             normal_only=None,
             cores=None,
+            conductivity=None,
+            electrical=None,
+            film=None,
+            gas=None,
         ),
         _stiffness,
     ),

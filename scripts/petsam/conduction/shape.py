@@ -1,5 +1,6 @@
 """The conductance of a contact in process: constriction, films and gas in one problem."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Optional, Union
 
@@ -50,6 +51,7 @@ def of(
     lam2: float,
     film: Union[float, ArrayLike, None] = None,
     gas: Optional[tuple[float, float]] = None,
+    rtol: float = 1e-8,
 ) -> Conductance:
     """The thermal, or electrical, conductance of the committed step of a contact.
 
@@ -64,6 +66,8 @@ def of(
         Resistance of a film on the cells in contact, K m2/W, or Ohm m2; (ny, nx) where it varies.
     gas : pair of floats, optional
         Conductivity of what fills the gap (W/(m K)), and the length of the temperature jump (m): of air 0.026, 0.37e-6.
+    rtol : float
+        Relative residual at which the solution is accepted; the error of the conductance goes with its square.
 
     Returns
     -------
@@ -100,7 +104,7 @@ def of(
             raise Error(f"conduction: gas {lam:g}, {jump:g}: expected a conductivity > 0 and a length >= 0")
         resistance = np.where(touches, resistance, (np.maximum(contact["gap"], 0.0) + jump) / lam)
         conducts = np.ones_like(touches)
-    flux = conduct(conducts, cell, 1 / lam1 + 1 / lam2, resistance, periodic)
+    flux = conduct(conducts, cell, 1 / lam1 + 1 / lam2, resistance, periodic, rtol)
     area = contact.size[0] * contact.size[1]
     total = float(flux.sum()) * cell[0] * cell[1]
     return Conductance(total, total / area, float(flux[touches].sum()) * cell[0] * cell[1] / area, flux)
@@ -114,7 +118,18 @@ def _kind(contact):
         raise Error(
             "conduction: in plane strain a contact's conductance has no limit far away: use a section of one period"
         )
+    need_half_spaces(options)
+    return kind in PERIODIC
+
+
+def need_half_spaces(options: Iterable[str]) -> None:
+    """Raises Error where options make bodies whose flux is not computed: layered ones, and finite ones.
+
+    Parameters
+    ----------
+    options : iterable of str
+        Names of the options.
+    """
     for name in options:
         if "_layer" in name or "_compliance" in name:
             raise Error(f"conduction: {name}: the flux through layers and finite bodies is not computed: omit it")
-    return kind in PERIODIC

@@ -96,11 +96,11 @@ def conduct(
     if periodic and cells.all() and not film.any():
         raise Error("conduction: all cells of the period touch without a film: the interface has no resistance")
     symbol, padded = _symbol(cells.shape, cell, periodic)
-    film = np.where(cells, film, 0.0)
+    symbol, mask, film = resistivity * symbol, cells.astype(float), np.where(cells, film, 0.0)
 
     def apply(q):
         spread = np.fft.irfft2(np.fft.rfft2(q, padded) * symbol, padded)[: cells.shape[0], : cells.shape[1]]
-        return np.where(cells, resistivity * spread + film * q, 0.0)
+        return mask * spread + film * q
 
     return _solve(apply, _preconditioner(cells, cell, resistivity, film), cells, rtol)
 
@@ -119,18 +119,20 @@ def _preconditioner(cells, cell, resistivity, film):
 
 def _solve(apply, precondition, cells, rtol):
     """Conjugate gradients for a potential of 1 on the cells."""
-    right = cells.astype(float)
-    q, residual = np.zeros(cells.shape), right.copy()
-    z = precondition(residual)
-    direction, product = z, np.sum(residual * z)
+    q, residual = np.zeros(cells.shape), cells.astype(float)
+    enough = rtol * np.sqrt(np.vdot(residual, residual))
+    direction = precondition(residual)
+    product = np.vdot(residual, direction)
     for _ in range(MOST):
         applied = apply(direction)
-        step = product / np.sum(direction * applied)
-        q = q + step * direction
-        residual = residual - step * applied
-        if np.linalg.norm(residual) <= rtol * np.linalg.norm(right):
+        step = product / np.vdot(direction, applied)
+        q += step * direction
+        applied *= step
+        residual -= applied
+        if np.sqrt(np.vdot(residual, residual)) <= enough:
             return q
         z = precondition(residual)
-        product, last = np.sum(residual * z), product
-        direction = z + product / last * direction
+        product, last = np.vdot(residual, z), product
+        direction *= product / last
+        direction += z
     raise Error(f"conduction: no convergence within {MOST} iterations: resistances may differ by too many orders")

@@ -1,6 +1,7 @@
 """Joints: what a structural analysis needs of a contact, and the structure itself.
 
 interface   contact stiffness, damping and real contact area of a rough interface per area (interfaces.py)
+conductance of heat or current, beside that stiffness (conductance.py); its cards: decks.py
 structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
 backbone    frequency and damping of a mode over its amplitude (backbone.py)
 band        the same over the histories of assembly, and their scatter (band.py)
@@ -14,6 +15,7 @@ from . import adapters
 from .backbone import Backbone, backbone, shake
 from .balance import Response, forced
 from .band import Band, band
+from .conductance import Conductors
 from .damper import Damper, damper
 from .interfaces import Interface, interface, mirrored, of_interface, of_windows
 from .pair import Pair
@@ -22,7 +24,7 @@ from .sweep import BackboneWarning
 from .wear import Wear, wear
 
 __all__ = [
-    "Backbone", "BackboneWarning", "Band", "Damper", "Interface", "NoSolution", "Pair", "Patch", "Response",
-    "Structure", "Wear", "adapters", "backbone", "band", "damper", "forced", "interface", "mirrored", "of_interface",
-    "of_windows", "shake", "wear",
+    "Backbone", "BackboneWarning", "Band", "Conductors", "Damper", "Interface", "NoSolution", "Pair", "Patch",
+    "Response", "Structure", "Wear", "adapters", "backbone", "band", "damper", "forced", "interface", "mirrored",
+    "of_interface", "of_windows", "shake", "wear",
 ]  # fmt: skip

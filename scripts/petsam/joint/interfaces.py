@@ -16,18 +16,21 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..conduction.shape import need_half_spaces
 from ..contact import AdviceWarning
 from ..core.environment import cores as all_cores
 from ..core.errors import Unusable
 from ..core.tables import Column, Tabled
-from . import elements, processes, windows
+from . import decks, elements, processes, windows
 from .arguments import array, integer, moduli, positive, real
+from .conductance import Conductors, add_resistance, conductors
 from .numbers import columns_of
 from .surfaces import need_fitting, read_separation
 from .windows import Loop, Window
 
 NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
 SMALL = 100_000  # points of all windows below which starting processes takes longer than the solution
+MEASURED = "k_n of loading is the stiffness that image correlation measures; k_n of unloading what ultrasound measures"
 APART = 0.05  # relative difference from which k_t along x and y are printed both
 # for the estimate of time: later solutions over the first one, a step of the shear over a solution without one
 LATER, PUSHED = 1.2, 1.5
@@ -90,6 +93,8 @@ class Interface(Tabled):
         Coefficient of friction, shear over its limit, and steps of the loop.
     bodies : dict
         Options of the bodies, as given.
+    conductors : Conductors, optional
+        What conducts, if the conductance is computed.
 
     Attributes
     ----------
@@ -109,9 +114,11 @@ class Interface(Tabled):
         weighted by their k_t_x.
     """
 
-    def __init__(self, outcome: Outcome, loop: Optional[Loop], bodies: dict[str, Any]) -> None:
+    def __init__(
+        self, outcome: Outcome, loop: Optional[Loop], bodies: dict[str, Any], conductors: Optional[Conductors] = None
+    ) -> None:
         numbers, self.spread, self.loading, self.errors, self.note = outcome
-        self.bodies, self.friction, self.shear = bodies, None, None
+        self.bodies, self.friction, self.shear, self.conductors = bodies, None, None, conductors
         self.parts, self.numbers = np.empty(0), numbers
         if loop:
             self.friction, self.shear, self.parts = loop.friction, loop.shear, loop.parts()
@@ -141,9 +148,10 @@ class Interface(Tabled):
         -------
         list of tables.Column
         """
-        found = columns_of({name: COLUMNS[name] for name in COLUMNS if name in self.numbers}, self.numbers)
+        known = {**COLUMNS, **(self.conductors.columns() if self.conductors else {})}
+        found = columns_of({name: one for name, one in known.items() if name in self.numbers}, self.numbers)
         for name, values in self.spread.items():
-            unit, text = COLUMNS[name]
+            unit, text = known[name]
             found.append(Column(f"{name}_spread", unit, f"standard deviation: {text}", values))
         for name, values in self.errors.items():
             found.append(Column(f"{name}_error", "1", ERRORS[name], values))
@@ -211,7 +219,8 @@ class Interface(Tabled):
             file.write(text + "\n")
 
     def to_abaqus(self, path: Union[str, os.PathLike], name: str = "INTERFACE") -> None:
-        """Writes the interaction for a deck of Abaqus in N, mm: pressure over overclosure, friction.
+        """Writes the interaction for a deck of Abaqus in N, mm: pressure over overclosure, friction, and the
+        conductance over the pressure, if it is computed, in mW/(mm2 K), or S/mm2.
 
         The allowable elastic slip of the penalty method is friction times pressure over the tangential stiffness. The
         deck has one for all pressures, the median, and in a comment the range.
@@ -228,24 +237,33 @@ class Interface(Tabled):
         OSError
             If the file cannot be written.
         """
-        self._need_friction("to_abaqus")
-        slips = self.friction * self.numbers["pressure"] * 2 / (self.numbers["k_t_x"] + self.numbers["k_t_y"])
-        slip = np.median(slips)
-        lines = [
-            "** contact stiffness of a rough interface; pressure in MPa, overclosure from the first touch in mm,",
-            "** linear between the rows",
-            f"** elastic slip in mm: median of {min(slips) * 1e3:.4g} to {max(slips) * 1e3:.4g} at these pressures, so "
-            "that the",
-            f"** tangential stiffness is {min(slips) / slip:.3g} to {max(slips) / slip:.3g} times the computed one",
-            f"*SURFACE INTERACTION, NAME={name}",
-            "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR",
-            "0., 0.",
-            *(f"{p / 1e6:.6g}, {d * 1e3:.6g}" for p, d in zip(self.numbers["pressure"], self.numbers["closure"])),
-            f"*FRICTION, ELASTIC SLIP={slip * 1e3:.4g}",
-            f"{self.friction:.6g}",
-        ]
-        with open(path, "w", encoding="utf-8") as file:
-            file.write("\n".join(lines) + "\n")
+        if self.conductors is None:
+            self._need_friction("to_abaqus")
+        _write(path, decks.abaqus(self, name))
+
+    def to_calculix(self, path: Union[str, os.PathLike], name: str = "INTERFACE") -> None:
+        """Writes the interaction for a deck of CalculiX in N, mm, s, K: linear overclosure, friction, conductance.
+
+        CalculiX finds the pressure of `*GAP CONDUCTANCE` by a linear overclosure alone, in pairs SURFACE TO
+        SURFACE; its slope is the median of pressure over closure.
+
+        Parameters
+        ----------
+        path : str or path
+            Name of the file, which is replaced.
+        name : str
+            Name of the interaction in the deck.
+
+        Raises
+        ------
+        Error
+            Without a thermal conductance.
+        OSError
+            If the file cannot be written.
+        """
+        if self.conductors is None or self.conductors.electrical:
+            raise Unusable("to_calculix: needs a thermal conductance: compute the interface with conductivity")
+        _write(path, decks.calculix(self, name))
 
     def lines(self) -> list[str]:
         """The table that petsam-joint prints: in MPa, N/mm3, %, mJ/m2, with the windows' deviations in %.
@@ -253,7 +271,7 @@ class Interface(Tabled):
         Returns
         -------
         list of str
-            A line of heads, one for each pressure, and one on the loops.
+            A line of heads, one for each pressure, with a hardness one on both stiffnesses, and one on the loops.
         """
         columns = [("p/MPa", 8, "{:8.4g}", self.numbers["pressure"] / 1e6)]
         further = windows.LOADING in self.numbers
@@ -261,18 +279,28 @@ class Interface(Tabled):
         columns.append(self._deviation("k_n"))
         if further:
             columns.append(("loading: k_n/(N/mm3)", 12, "{:12.4g}", self.k_n_loading / 1e9))
+        if self.conductors:
+            columns += self._conductance_columns()
         columns += self._shared_columns() if self.friction is not None else self._normal_columns()
         rows = zip(*([form.format(value) for value in values] for _, _, form, values in columns))
         widths = [max(width, len(head) + 1) for head, width, _, _ in columns]
         heads = " ".join(head.rjust(width) for (head, *_), width in zip(columns, widths))
         body = [" ".join(cell.replace("nan", "  -").rjust(width) for cell, width in zip(row, widths)) for row in rows]
-        return [heads, *body, *([self._note()] if self.note else [])]
+        return [heads, *body, *([MEASURED] if further else []), *([self._note()] if self.note else [])]
 
     def _deviation(self, name):
         """The column of a standard deviation of windows, %."""
         with np.errstate(invalid="ignore"):  # no energy, if nothing slips
             part = 100.0 * self.spread.get(name, np.full_like(self.numbers["pressure"], np.nan)) / self.numbers[name]
         return "+- %", 5, "{:5.0f}", part
+
+    def _conductance_columns(self):
+        """The conductance with its deviation, and the part of the gap where something fills it."""
+        unit = self.conductors.columns()["h"][0]
+        found = [(f"h/({unit})", 13, "{:13.4g}", self.h), self._deviation("h")]
+        if self.conductors.gas:
+            found.append((f"h_gap/({unit})", 13, "{:13.4g}", self.h_gap))
+        return found
 
     def _normal_columns(self):
         return [
@@ -305,6 +333,12 @@ class Interface(Tabled):
         return f"{self.note}: {said} %"
 
 
+def _write(path, lines):
+    """Writes lines to a file."""
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+
+
 def _tell_warnings(found):
     """Gives one warning for all those of solutions, (place, text, kind)."""
     said = []
@@ -335,19 +369,20 @@ def mirrored(separation: np.ndarray) -> np.ndarray:
 
 
 class _Way(NamedTuple):
-    """How numbers are found: why loops are computed (or none), without friction, processes, and who is told."""
+    """How numbers are found: why loops are computed (or none), without friction, processes, who is told, conductors."""
 
     reason: str
     normal_only: bool
     cores: int
     report: Optional[Callable[[int, int], object]]
     estimate: Optional[Callable[[float], object]]
+    conductors: Optional[Conductors]
 
 
 def of_interface(  # noqa: PLR0913  (as those of interface())
     separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: Optional[float] = None,
     shear: float = 0.5, steps: int = 8, full: bool = False, normal_only: bool = False, cores: Optional[int] = 1,
-    estimate: Optional[Callable[[float], object]] = None, **bodies: Any,
+    estimate: Optional[Callable[[float], object]] = None, conductors: Optional[Conductors] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a separation that repeats itself. Warnings of its solutions are gathered in one.
 
@@ -374,6 +409,8 @@ def of_interface(  # noqa: PLR0913  (as those of interface())
         Processes; None: as many as cores are available. The numbers do not depend on it.
     estimate : callable, optional
         Called once, after the first pressure, with an estimate of the time that is left, s.
+    conductors : Conductors, optional
+        What conducts: the conductance is computed, too.
     **bodies
         Options of the two bodies, body1_young (Pa), body1_poisson, body2_young, ..., and of the solution.
 
@@ -389,7 +426,7 @@ def of_interface(  # noqa: PLR0913  (as those of interface())
         Where petsam finds no solution.
     """
     separation = array("separation", separation)
-    loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, None, estimate)
+    loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, None, estimate, conductors)
     return _of_windows([separation], [""], spacing, pressures, loop, way, bodies)
 
 
@@ -397,7 +434,7 @@ def of_windows(  # noqa: PLR0913  (as those of interface())
     separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: Optional[float] = None,
     shear: float = 0.5, steps: int = 8, full: bool = False, normal_only: bool = False, cores: Optional[int] = 1,
     report: Optional[Callable[[int, int], object]] = None, estimate: Optional[Callable[[float], object]] = None,
-    **bodies: Any,
+    conductors: Optional[Conductors] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a measured separation: means and standard deviations of five windows of it, half as wide.
 
@@ -407,7 +444,7 @@ def of_windows(  # noqa: PLR0913  (as those of interface())
     ----------
     separation : array_like
         Separation, (ny, nx), m, of 4 x 4 points or more.
-    spacing, pressures, friction, shear, steps, full, normal_only, cores, estimate
+    spacing, pressures, friction, shear, steps, full, normal_only, cores, estimate, conductors
         As of of_interface(); the formula is checked in the first window.
     report : callable, optional
         Called with the number of the windows that are done, and of all.
@@ -434,21 +471,23 @@ def of_windows(  # noqa: PLR0913  (as those of interface())
     places = [(0, 0), (0, x), (y, 0), (y, x), (y // 2, x // 2)]
     fields = [mirrored(separation[j : j + ny, i : i + nx]) for j, i in places]
     names = [f" in window {k} with its mirror images" for k in range(1, len(places) + 1)]
-    loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, report, estimate)
+    loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, report, estimate, conductors)
     return _of_windows(fields, names, spacing, pressures, loop, way, bodies)
 
 
 def _ways(  # noqa: PLR0913  (as those of interface())
-    friction, shear, steps, full, normal_only, cores, bodies, report, estimate
+    friction, shear, steps, full, normal_only, cores, bodies, report, estimate, conductors
 ):  # fmt: skip
     """The loop, or None, and the way; Error for values that are wrong or do not go together."""
     if cores is not None:
         cores = integer("cores", cores)
+    if conductors:
+        need_half_spaces(bodies)
     if normal_only:
         for name, given in (("friction", friction is not None), ("full", full)):
             if given:
                 raise Unusable(f"{name}: is for loops, which normal_only leaves out: give one of both")
-        return None, _Way("", True, cores, report, estimate)
+        return None, _Way("", True, cores, report, estimate, conductors)
     if friction is None:
         raise Unusable("friction: give a coefficient, or normal_only")
     steps = integer("steps", steps)
@@ -457,7 +496,7 @@ def _ways(  # noqa: PLR0913  (as those of interface())
     what = "a part of friction times pressure, above 0 and below 1"
     shear = real("shear", shear, what, lambda part: 0.0 < part < 1.0)
     reason = windows.need_computing(bodies) or ("as requested" if full else "")
-    return Loop(friction, shear, steps), _Way(reason, False, cores, report, estimate)
+    return Loop(friction, shear, steps), _Way(reason, False, cores, report, estimate, conductors)
 
 
 def _of_windows(fields, names, spacing, pressures, loop, way, bodies):
@@ -478,7 +517,8 @@ def _of_windows(fields, names, spacing, pressures, loop, way, bodies):
         need_fitting(field, step, pressures, loop and loop.friction, bodies)
     given = tuple(map(float, pressures))
     parts = [
-        Window(field, step, given, loop, bodies, name, not k) for k, (field, name) in enumerate(zip(fields, names))
+        Window(field, step, given, loop, bodies, name, not k, way.conductors)
+        for k, (field, name) in enumerate(zip(fields, names))
     ]
     found = _computed(parts, way)
     _tell_warnings([one for each in found for one in each.warnings])
@@ -489,13 +529,14 @@ def _of_windows(fields, names, spacing, pressures, loop, way, bodies):
         for name in numbers:
             if name != "pressure":
                 spread[name] = np.std([one.numbers[name] for one in several], axis=0, ddof=1)
+    add_resistance(numbers, spread)
     loading = several[0].loading
     if loop and len(parts) > 1:
         # shears over their own stiffness: a mean of the displacements would be that of compliances, and seem to slip
         loading = np.mean([one.loading * one.numbers["k_t_x"][:, None] for one in several], axis=0)
         loading /= numbers["k_t_x"][:, None]
     errors, note = _errors(several[0], each, way, given)
-    return Interface(Outcome(numbers, spread, loading, errors, note), loop, bodies)
+    return Interface(Outcome(numbers, spread, loading, errors, note), loop, bodies, way.conductors)
 
 
 def _errors(first, computed, way, pressures):
@@ -565,7 +606,8 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     surface: Any, pressures: ArrayLike, *, friction: Optional[float] = None, spacing: Optional[ArrayLike] = None,
     periodic: bool = False, shear: float = 0.5, steps: Optional[int] = None, full: bool = False,
     normal_only: bool = False, cores: Optional[int] = 1, report: Optional[Callable[[int, int], object]] = None,
-    estimate: Optional[Callable[[float], object]] = None, **bodies: Any,
+    estimate: Optional[Callable[[float], object]] = None, conductivity: Optional[ArrayLike] = None,
+    electrical: bool = False, film: Optional[float] = None, gas: Optional[ArrayLike] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a surface: a scan in a file, a map of petsam.surface, or an array.
 
@@ -597,6 +639,16 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
         Called with the number of the windows that are done, and of all.
     estimate : callable, optional
         Called once, after the first pressure of the first window, with an estimate of the time that is left, s.
+    conductivity : pair of floats, optional
+        Conductivities of both bodies, W/(m K), or S/m: the conductance is computed, too, with the columns h_contact,
+        h_gap, h and resistance.
+    electrical : bool
+        Whether it is that of a current, S/m2, instead of heat, W/(m2 K): changes units alone.
+    film : float, optional
+        Resistance of a film on the spots, m2 K/W, or Ohm m2.
+    gas : pair of floats, optional
+        Conductivity of what fills the gap, W/(m K), or S/m, and the length of the temperature jump, m: of air 0.026,
+        0.37e-6; of liquids the length is 0.
     **bodies
         Options of the bodies, body1="steel" (petsam.materials), or body1_young (Pa, or "210GPa"), body1_poisson,
         body2_young, ..., and of the solution.
@@ -612,6 +664,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     ContactError
         Where petsam finds no solution.
     """
+    conducting = conductors(conductivity, electrical, film, gas)
     if isinstance(surface, (str, os.PathLike)):
         surface, own, doubts = read_separation(os.fspath(surface))
         for text in doubts:
@@ -627,7 +680,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
         raise Unusable("spacing: the surface has its own: leave it out")
     bodies = moduli(bodies)
     given = dict(friction=friction, shear=shear, **({} if steps is None else {"steps": steps}), **bodies)
-    given.update(full=full, normal_only=normal_only, cores=cores, estimate=estimate)
+    given.update(full=full, normal_only=normal_only, cores=cores, estimate=estimate, conductors=conducting)
     if periodic:
         return of_interface(surface, own, pressures, **given)
     return of_windows(surface, own, pressures, report=report, **given)

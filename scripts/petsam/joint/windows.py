@@ -24,6 +24,7 @@ from ..closed.materials import shear_modulus
 from ..contact import AdviceWarning, Contact
 from ..core.errors import Unusable
 from . import elements
+from .conductance import Conductors
 
 HALVES = 4  # half cycles of a loop; the last two count
 LARGEST = 0.95  # shear over its limit at the end of the first loading to which elements are fitted
@@ -59,7 +60,8 @@ class Loop(NamedTuple):
 class Window(NamedTuple):
     """A separation that repeats itself, the distances of its points, the pressures, the loop, and options.
 
-    Without a loop there is no friction. The name is for warnings; of the first window the time is told.
+    Without a loop there is no friction. The name is for warnings; of the first window the time is told. With conductors
+    the conductance is found, too.
     """
 
     separation: np.ndarray
@@ -69,6 +71,7 @@ class Window(NamedTuple):
     bodies: dict
     name: str = ""
     first: bool = False
+    conductors: Optional[Conductors] = None
 
     @property
     def area(self) -> float:
@@ -274,12 +277,14 @@ def _pressed(contact, window, pressure, told, begins):
             "check the units of heights and moduli"
         )
     k = contact.stiffness(reversal=True) / window.area
-    if tell:
-        told(solved - start, time.perf_counter() - solved)
     separation = float(np.mean(contact.field("gap")))
     contact.commit()
     numbers = pressure, step.disp_z, separation, k[0, 0], pressure / step.disp_z, step.contact_fraction
     row = dict(zip(NORMAL, map(float, numbers)))
+    if window.conductors:
+        row.update(window.conductors.measure(contact))
+    if tell:
+        told(solved - start, time.perf_counter() - solved)
     if window.bodies.get("pressure_limit") is not None:
         with _quiet():
             further = contact.try_step(time=pressure, load_n=pressure * (1.0 + FURTHER) * window.area).disp_z

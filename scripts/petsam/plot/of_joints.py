@@ -10,6 +10,7 @@ from matplotlib.patches import Patch as Key
 from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
+from ..core.errors import Error
 from ..joint.backbone import MODAL, Backbone
 from ..joint.balance import Response
 from ..joint.band import ASSEMBLED, NUMBERS, Band
@@ -250,3 +251,46 @@ def joint_wear(found: Wear) -> Figure:
     _changes(axes[0], first, "without wear")
     axes[1].set(title="Damping by friction", ylabel="damping, % of critical")
     return figure
+
+
+@drawn(STYLE, Interface)
+def conductance(*found: Interface) -> Figure:
+    """The conductance per area over the pressure, of one interface or of several: bare, with a film, with gas.
+
+    Parameters
+    ----------
+    *found : joint.Interface
+        Interfaces with a conductance, all thermal or all electrical, of petsam.joint.interface().
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        Without a conductance, or if thermal and electrical ones are mixed.
+    """
+    if not found or any(one.conductors is None for one in found):
+        raise Error("conductance: expected interfaces with a conductance: compute them with conductivity")
+    electrical = {one.conductors.electrical for one in found}
+    if len(electrical) > 1:
+        raise Error("conductance: thermal and electrical conductances have different units: draw one picture of each")
+    figure, axes = plt.subplots(figsize=(5.0, 3.4), layout="constrained")
+    for k, one in enumerate(found):
+        spread = one.spread.get("h")
+        look = {"ms": 5.0, "linewidth": 1.2, "markerfacecolor": "none", "capsize": 3.0, "marker": "osD^v"[k % 5]}
+        axes.errorbar(
+            one.pressure / 1e6, one.h, spread, color=COLORS[k % len(COLORS)], label=_conducting(one.conductors), **look
+        )
+    unit = "S/m²" if electrical.pop() else "W/(m² K)"
+    axes.set(xlabel="nominal pressure, MPa", ylabel=f"contact conductance, {unit}")
+    logarithmic(axes, "xy")
+    axes.legend()
+    return figure
+
+
+def _conducting(conductors):
+    """What conducts, in a few words."""
+    film = "film on the spots" if conductors.film else ""
+    return " and ".join(word for word in (film, "gas in the gap" if conductors.gas else "") if word) or "spots alone"

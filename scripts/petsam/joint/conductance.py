@@ -1,0 +1,168 @@
+"""Thermal or electrical conductance of a rough interface per area, beside its stiffness: Conductors.
+
+It is that of constriction into the spots, of films on them and of what fills the gap, in one problem
+(petsam.conduction), without the mean wave: two finite element models whose surfaces are flat conduct in series with it.
+It has its own solution, since the normal stiffness of dissimilar bodies contains their stuck shear. The cells in
+contact are those from which k_n is taken, all of them, as at an unloading: yielded summits conduct, too.
+"""
+
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..conduction import of
+from ..core.errors import Unusable
+from .arguments import array, real
+
+COLUMNS = {
+    "h_contact": ("W/(m2 K)", "conductance per area through the contact"),
+    "h_gap": ("W/(m2 K)", "the same through what fills the gap"),
+    "h": ("W/(m2 K)", "the sum of both, from one problem"),
+    "resistance": ("m2 K/W", "resistance per area, 1/h"),
+}
+ELECTRICAL = {"W/(m2 K)": "S/m2", "m2 K/W": "Ohm m2"}
+RTOL = 3e-4  # residual of the flux: the error of its sum, a quadratic form, is about the square, that of parts 3e-5
+FIRST, POWER = 0.1, 0.95  # of the lowest pressure, for which a row of a card is extrapolated; in proportion to p^POWER
+
+
+class Conductors(NamedTuple):
+    """What conducts in an interface.
+
+    Attributes
+    ----------
+    lam : pair of floats
+        Conductivities of both bodies, W/(m K), or S/m.
+    film : float
+        Resistance of a film on the spots, m2 K/W, or Ohm m2.
+    gas : pair of floats or None
+        Conductivity of what fills the gap, W/(m K), or S/m; length of the temperature jump, m.
+    electrical : bool
+        Whether a current flows instead of heat.
+    """
+
+    lam: tuple[float, float]
+    film: float = 0.0
+    gas: Optional[tuple[float, float]] = None
+    electrical: bool = False
+
+    def columns(self) -> dict[str, tuple[str, str]]:
+        """Unit and meaning of each number, by its name.
+
+        Returns
+        -------
+        dict
+        """
+        if not self.electrical:
+            return COLUMNS
+        return {name: (ELECTRICAL[unit], f"electrical {text}") for name, (unit, text) in COLUMNS.items()}
+
+    def measure(self, contact: Any) -> dict[str, float]:
+        """The conductances of the committed step of a contact of one period.
+
+        Parameters
+        ----------
+        contact : petsam.Contact
+            The contact.
+
+        Returns
+        -------
+        dict
+        """
+        found = of(contact, *self.lam, film=self.film or None, gas=self.gas, rtol=RTOL)
+        return {"h_contact": found.contact, "h_gap": found.gap if self.gas else 0.0, "h": found.per_area}
+
+    def words(self) -> str:
+        """What conducts, for the comment of a card.
+
+        Returns
+        -------
+        str
+        """
+        kind = "S/m" if self.electrical else "W/(m K)"
+        parts = [f"bodies of {self.lam[0]:g} and {self.lam[1]:g} {kind}"]
+        if self.film:
+            parts.append(f"a film of {self.film:g} {'Ohm m2' if self.electrical else 'm2 K/W'}")
+        if self.gas:
+            parts.append(f"{self.gas[0]:g} {kind} in the gap, temperature jump {self.gas[1]:g} m")
+        return ", ".join(parts)
+
+
+def conductors(
+    conductivity: Optional[ArrayLike], electrical: bool, film: Optional[float], gas: Optional[ArrayLike]
+) -> Optional[Conductors]:
+    """The Conductors of these options, or None without a conductivity.
+
+    Parameters
+    ----------
+    conductivity : pair of floats or None
+        Of both bodies.
+    electrical : bool
+        Whether a current flows instead of heat.
+    film : float or None
+        Resistance of a film on the spots.
+    gas : pair of floats or None
+        Conductivity of what fills the gap, and the length of the temperature jump.
+
+    Returns
+    -------
+    Conductors or None
+
+    Raises
+    ------
+    Error
+        For wrong values, and options without a conductivity.
+    """
+    if conductivity is None:
+        for name, given in (("electrical", electrical), ("film", film is not None), ("gas", gas is not None)):
+            if given:
+                raise Unusable(f"{name}: is for the conductance: give the conductivity of both bodies, too")
+        return None
+    lam = _pair("conductivity", conductivity, "two numbers above 0, those of both bodies", lambda a, b: a > 0 and b > 0)
+    if film is not None:
+        film = real("film", film, "a resistance >= 0, of the spots per area", lambda one: 0.0 <= one < np.inf)
+    if gas is not None:
+        gas = _pair("gas", gas, "a conductivity above 0 and a length >= 0, m", lambda a, b: a > 0 and b >= 0)
+    return Conductors(lam, film or 0.0, gas, bool(electrical))
+
+
+def _pair(name, values, what, good):
+    """The values, two finite numbers of which good(a, b) holds."""
+    found = np.atleast_1d(array(name, values, what))
+    if found.shape != (2,) or not np.isfinite(found).all() or not good(*found):
+        raise Unusable(f"{name} {values!r}: expected {what}")
+    return float(found[0]), float(found[1])
+
+
+def add_resistance(numbers: dict, spread: dict) -> None:
+    """Adds the resistance, that of the mean conductance, to numbers and standard deviations.
+
+    Parameters
+    ----------
+    numbers, spread : dict
+        {name: (pressures,)}, changed in place; without the conductance they stay.
+    """
+    if "h" in numbers:
+        numbers["resistance"] = 1.0 / numbers["h"]
+    if "h" in spread:
+        spread["resistance"] = spread["h"] / numbers["h"] ** 2
+
+
+def rows(numbers: dict) -> list[tuple[float, float]]:
+    """Pressures (Pa) and conductances of a card, from the pressure 0 on.
+
+    Where the pressure is 0 the gap alone conducts, as at the lowest pressure; at a tenth of that the contact's part is
+    extrapolated in proportion to p^0.95.
+
+    Parameters
+    ----------
+    numbers : dict
+        {name: (pressures,)}.
+
+    Returns
+    -------
+    list of (pressure, conductance)
+    """
+    p, low, gap = numbers["pressure"], float(numbers["h_contact"][0]), float(numbers["h_gap"][0])
+    first = [(0.0, gap), (FIRST * float(p[0]), gap + FIRST**POWER * low)]
+    return [*first, *((float(a), float(b)) for a, b in zip(p, numbers["h"]))]
