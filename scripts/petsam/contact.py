@@ -808,9 +808,9 @@ class Contact:
             message = self._message()
             self._advise()
             if code == EDGE:
-                error = EdgeContact(code, message)
-                error.steps, error.step = found, self._last_step(code, message)
-                raise error
+                ended = EdgeContact(code, message)
+                ended.steps, ended.step = found, self._last_step(code, message)
+                raise ended
         return found
 
     def _last_step(self, status=0, message=""):

@@ -58,7 +58,7 @@ def test_errors_are_below_what_is_asked(petsam, sphere_alone, asked):
     grid, _ = chosen(run.stdout)
     told = errors("own.h5")
     assert set(NUMBERS) <= set(told) and max(told.values()) <= share
-    assert f"the largest error is {100 * max(told.values()):.2g} %" in run.stdout
+    assert f"the maximum error is {100 * max(told.values()):.2g} %" in run.stdout
     words = [word for option, value in grid.items() for word in (f"-{option}", value)]
     petsam(sphere_alone, *words, "-errors", "companion", "-output", "given.h5")
     assert_same_bits("own.h5", "given.h5")
@@ -117,7 +117,7 @@ def test_a_given_grid_is_kept(petsam, sphere_alone):
     assert grid.keys() == {"grid_n"}
     done = petsam(sphere_alone, "-accuracy", "0.5%", "-grid_n", "40", "-grid_size", "2.4e-3")
     assert "chose nothing, as all is given" in done.stdout
-    assert any("the largest error is" in line for line in done.complaint)
+    assert any("the maximum error is" in line for line in done.complaint)
     done = petsam(sphere_alone, "-grid", "auto", "-grid_n", "40", check=2)
     assert "-grid does not work with -grid_n" in done.complaint[0]
 
@@ -165,7 +165,7 @@ def test_what_has_no_solution_is_told_by_the_run(petsam, sphere_alone):
 def test_flat_bodies_need_a_width(petsam, sphere_alone):
     case = {**sphere_alone, "gap_type": "flat", "gap_radius1": None, "gap_radius2": None}
     done = petsam(case, "-accuracy", "1%", check=2)
-    assert "do not tell how wide the contact is: give -grid_size" in done.complaint[0]
+    assert "do not give the width of the contact: give -grid_size" in done.complaint[0]
 
 
 def test_periodic_bodies_need_their_period(petsam, sphere_alone):
@@ -195,7 +195,7 @@ def test_what_no_grid_resolves_ends_the_trials(petsam, sphere_alone):
     """The stick zone of a push to 0.99999 of the limit: three trials, and the error is told."""
     run = petsam({**sphere_alone, "load_tx": 99.9999}, "-accuracy", "2%")
     assert chosen(run.stdout)[1] == 3
-    assert any("the largest error is unknown, of stick_area" in line for line in run.complaint)
+    assert any("the maximum error is unknown, of stick_area" in line for line in run.complaint)
 
 
 def test_a_note_is_given_once(petsam, sphere_alone):

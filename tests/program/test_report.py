@@ -316,7 +316,16 @@ def test_progress_may_be_asked_for(petsam):
 def test_help_is_grouped(petsam):
     text = petsam("-help").stdout
     groups = re.findall(r"^([A-Z]\w+(?: \w+)*)$", text, re.M)
-    first = ["Accuracy", "Plugins", "Grid", "Bodies", "Elasticity", "Friction", "Surfaces that slide past each other", "Wear"]
+    first = [
+        "Accuracy",
+        "Plugins",
+        "Grid",
+        "Bodies",
+        "Elasticity",
+        "Friction",
+        "Surfaces that slide past each other",
+        "Wear",
+    ]
     assert groups[: len(first) + 1] == [*first, "Plastic deformation"]
     assert len(set(groups)) == len(groups)
     assert max(map(len, text.splitlines())) <= 120

@@ -273,7 +273,7 @@ def conductance(*found: Interface) -> Figure:
     """
     if not found or any(one.conductors is None for one in found):
         raise Error("conductance: expected interfaces with a conductance: compute them with conductivity")
-    electrical = {one.conductors.electrical for one in found}
+    electrical = {one.conductors.electrical for one in found if one.conductors}
     if len(electrical) > 1:
         raise Error("conductance: thermal and electrical conductances have different units: draw one picture of each")
     figure, axes = plt.subplots(figsize=(5.0, 3.4), layout="constrained")
@@ -281,7 +281,12 @@ def conductance(*found: Interface) -> Figure:
         spread = one.spread.get("h")
         look = {"ms": 5.0, "linewidth": 1.2, "markerfacecolor": "none", "capsize": 3.0, "marker": "osD^v"[k % 5]}
         axes.errorbar(
-            one.pressure / 1e6, one.h, spread, color=COLORS[k % len(COLORS)], label=_conducting(one.conductors), **look
+            one.numbers["pressure"] / 1e6,
+            one.numbers["h"],
+            spread,
+            color=COLORS[k % len(COLORS)],
+            label=_conducting(one.conductors),
+            **look,
         )
     unit = "S/m²" if electrical.pop() else "W/(m² K)"
     axes.set(xlabel="nominal pressure, MPa", ylabel=f"contact conductance, {unit}")

@@ -249,7 +249,7 @@ static PetscErrorCode CheckStrengths(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes the safety of a layer against its largest principal stress; empty for other numbers, and without a strength. */
+/* Writes the safety of a layer against its largest principal stress; empty for other numbers, or without a strength. */
 static void WriteSafety(const SamStressRun *run, const SamLargestSeries *of, double value, char text[], size_t size)
 {
   text[0] = '\0';

@@ -449,7 +449,7 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
     if (SamAccuracyConcerns(r->accuracy, t->row[k].name) && (!worst || !(t->row[k].error <= worst->error)))
       worst = &t->row[k];
   if (!worst) PetscFunctionReturn(PETSC_SUCCESS);
-  (void)snprintf(text, sizeof(text), "the largest error is %s, of %s, by the %s",
+  (void)snprintf(text, sizeof(text), "the maximum error is %s, of %s, by the %s",
                  SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause]);
   if (!(worst->error <= r->accuracy->error))
     PetscCall(Say(r, &(SamSimulationEvent){.kind = SAM_NOTIFY_ADVICE, .text = text, .setting = ""}));

@@ -79,9 +79,10 @@ struct _n_SamReport {
 };
 
 /*
-  SamReportCreateFromOptions - reads -quiet (nothing on stdout; warnings and errors are still printed), -profile (times by part, iterations, largest residuals) and -progress
-  (auto, always or never: a line that is updated while a step is solved; auto: on a terminal, in steps that take longer
-  than a second). With -profile it starts PETSc's log, from which the closing table takes its times. Collective. Errors: SAM_ERR_USER.
+  SamReportCreateFromOptions - reads -quiet (nothing on stdout; warnings and errors are still printed), -profile (times
+  by part, iterations, largest residuals) and -progress (auto, always or never: a line that is updated while a step is
+  solved; auto: on a terminal, in steps that take longer than a second). With -profile it starts PETSc's log, from which
+  the closing table takes its times. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *report);
 PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);

@@ -70,7 +70,7 @@ typedef struct {
 /* ---- options ---- */
 
 static const SamOptionRow rows[] = {
-  {"accuracy", "largest error () of the numbers, as 1%: chooses grid and steps unless given", SAM_OPTION_REAL,
+  {"accuracy", "maximum error () of the numbers, as 1%: chooses grid and steps unless given", SAM_OPTION_REAL,
    offsetof(SamAccuracy, error), .range = SAM_RANGE_PART, .unit = "1"},
   {"accuracy_of", "the numbers that it concerns, separated by commas: all with an error", SAM_OPTION_STRING,
    offsetof(SamAccuracy, numbers), .size = SAM_ACCURACY_NAMES, .needs = "accuracy or -grid"},
@@ -207,7 +207,7 @@ static PetscErrorCode ChooseWidth(SamSimulation s, Choice *c)
     half[1] = half[0];
   }
   PetscCheck(half[0] > 0 && value > 0, s->comm, SAM_ERR_USER,
-             "-accuracy: the loads and the shape do not tell how wide the contact is: give -grid_size");
+             "-accuracy: the loads and the shape do not give the width of the contact: give -grid_size");
   for (PetscInt k = 0; k < 2; k++)
     c->width[k] = (PetscReal)SamAdviceRoundUp(2 * ROOM * (double)half[k % setup->grid->axes]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -600,7 +600,7 @@ static PetscErrorCode Tell(const Task *task, const Choice *c, const Trial *t, Sa
     (void)snprintf(what, sizeof(what),
                    t->status == SAM_STATUS_EDGE_CONTACT ? "the contact reaches the edge" : "no solution");
   else if (worst)
-    (void)snprintf(what, sizeof(what), "%s has the largest error, %s", worst->name,
+    (void)snprintf(what, sizeof(what), "%s has the maximum error, %s", worst->name,
                    SamErrorWrite(worst->error, error, sizeof(error)));
   Describe(task, c, a);
   (void)snprintf(text, sizeof(text), "trial %ld:%s: %s", (long)a->trials, a->chosen, what);

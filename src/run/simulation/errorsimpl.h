@@ -62,8 +62,8 @@ PETSC_INTERN void           SamErrorsAddRow(SamSimulation simulation, const SamS
                                             double value, double least, const double run[SAM_RUNS]);
 PETSC_INTERN PetscErrorCode SamErrorsAddNumbers(SamSimulation simulation, const SamControl *control);
 PETSC_INTERN PetscErrorCode SamErrorsAddDoubts(SamErrors errors, SamAdvice *advice);
-/* SamErrorsCompareSteps - updates the error of a number by the steps, at a moment that SAM_RUN_OTHER shares with the run.
-   Not collective (errors.c). */
+/* SamErrorsCompareSteps - updates the error of a number by the steps, at a moment that SAM_RUN_OTHER shares with the
+   run. Not collective (errors.c). */
 PETSC_INTERN void SamErrorsCompareSteps(SamSimulation simulation, SamErrorNumber *number);
 /* SamErrorsKeep - keeps the largest values, and what is driven, with the committed steps. Not collective. */
 PETSC_INTERN void SamErrorsKeep(SamSimulation simulation);
