@@ -162,6 +162,11 @@ def test_what_has_no_solution_is_told_by_the_run(petsam, sphere_alone):
     assert "gross slip" in done.complaint[0]
 
 
+def test_a_folder_that_is_not_there_ends_before_the_trials(petsam, sphere_alone):
+    done = petsam(sphere_alone, "-accuracy", "1%", "-output", "nowhere/own.h5", check=3)
+    assert "its folder does not exist" in done.complaint[0] and "trial" not in done.stdout
+
+
 def test_flat_bodies_need_a_width(petsam, sphere_alone):
     case = {**sphere_alone, "gap_type": "flat", "gap_radius1": None, "gap_radius2": None}
     done = petsam(case, "-accuracy", "1%", check=2)

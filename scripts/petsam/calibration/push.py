@@ -24,7 +24,7 @@ FINE = 600  # points of the table, dense at the end, where the curve is flat
 BALL = {
     "gap_type", "gap_radius1", "gap_radius2", "body1_young", "body1_poisson", "body2_young", "body2_poisson", "body1",
     "body2", "grid_n", "grid_size", "grid_center", "elasticity", "friction", "load_n", "output", "output_fields",
-    "steps",
+    "steps", "accuracy", "accuracy_of", "grid",
 }  # fmt: skip
 LOADS = ("load_", "disp_", "rot_", "creep_", "history", "steps", "friction", "wear_", "output", "checkpoint", "restart")
 
@@ -169,6 +169,12 @@ def _ball_of(path, options, normal):
 def _computed(path, options, normal, width):
     """A push by petsam: STEPS load steps at a friction of 1."""
     from ..running import run
+
+    if "accuracy" in options or "grid" in options:
+        raise Unusable(
+            f"{path}: -accuracy: the push goes on to gross slip, where no grid resolves the stick zone: give -grid_n and "
+            "-grid_size, as a run of the loop has chosen them by it"
+        )
 
     kept = {name: value or True for name, value in options.items() if not name.startswith(LOADS)}
     part = _dense(STEPS + 1)[:-1]

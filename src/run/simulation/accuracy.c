@@ -16,6 +16,7 @@
 #include <petsam/private/base.h>
 #include <petsam/private/body.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/file.h>
 #include <petsam/private/gap.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/motionimpl.h>
@@ -281,6 +282,7 @@ static PetscErrorCode Prepare(const SamOptions *from, const SamArguments *argume
   PetscCall(SetOptions(from, &(Task){.axes = 2, .number = task->number, .size = task->size}, &any));
   PetscCall(SamSimulationCreate(from->comm, &s));
   PetscCall(SamSimulationSetFromOptions(s, from, arguments));
+  if (s->has_output) PetscCall(SamFileCheckName(s->setup.grid, "output", s->filename, SAM_FILE_RESULTS));
   PetscCall(Begin(s, task, c));
   PetscCall(SamSimulationDestroy(&s));
   PetscFunctionReturn(PETSC_SUCCESS);
