@@ -628,9 +628,7 @@ def test_a_shape_with_an_accuracy_is_refused_unless_it_is_a_ball(fit, tmp_path):
     (tmp_path / "punch.opts").write_text(f"{bodies}-gap_type punch\n-gap_flat_radius 1mm\n-gap_edge_radius 5mm\n")
     (tmp_path / "ball.opts").write_text(f"{bodies}-gap_type sphere\n-gap_radius1 0.1\n-gap_radius2 inf\n")
     words = ("--plan", "--normal", "1kN", "--friction", "0.6", "--rig", "20N/um", "--shape")
-    assert "-accuracy: the push goes on to gross slip" in fit(
-        "none.csv", "--normal", "1kN", "--shape", "punch.opts", check=2
-    )
+    assert "-accuracy: the push goes on to gross slip" in fit(*words, "punch.opts", check=2)
     assert "N/um" in fit(*words, "ball.opts")
 
 

@@ -172,7 +172,7 @@ def _computed(path, options, normal, width):
 
     if "accuracy" in options or "grid" in options:
         raise Unusable(
-            f"{path}: -accuracy: the push goes on to gross slip, where no grid resolves the stick zone: give -grid_n and "
+            f"{path}: -accuracy: the push goes on to gross slip, where no grid resolves stick: give -grid_n and "
             "-grid_size, as a run of the loop has chosen them by it"
         )
 
