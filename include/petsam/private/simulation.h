@@ -190,7 +190,8 @@ PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
   SAM_ERR_USER, SAM_ERR_FILE.
   SamAccuracyRefuse - refuses these options for a contact whose steps are given one by one. Collective. Errors:
   SAM_ERR_USER.
-  SamAccuracyConcerns - returns true if it concerns the number of this name. Not collective (accuracy.c).
+  SamAccuracyWorst - returns the row with the maximum error of the numbers that it concerns, borrowed; NULL: there is
+  none. Not collective (accuracy.c).
 */
 #define SAM_ACCURACY_NAMES 512
 typedef struct {
@@ -203,9 +204,9 @@ typedef struct {
   /* if not NULL, receives a line about each trial */
   PetscErrorCode (*tell)(const char text[]);
 } SamAccuracy;
-PETSC_EXTERN PetscErrorCode SamAccuracyChoose(const SamOptions *from, const struct _n_SamArguments *arguments,
-                                              SamAccuracy *accuracy);
-PETSC_INTERN PetscErrorCode SamAccuracyRefuse(const SamOptions *from);
-PETSC_EXTERN PetscBool      SamAccuracyConcerns(const SamAccuracy *accuracy, const char name[]);
+PETSC_EXTERN PetscErrorCode     SamAccuracyChoose(const SamOptions *from, const struct _n_SamArguments *arguments,
+                                                  SamAccuracy *accuracy);
+PETSC_INTERN PetscErrorCode     SamAccuracyRefuse(const SamOptions *from);
+PETSC_EXTERN const SamErrorRow *SamAccuracyWorst(const SamAccuracy *accuracy, const SamErrorTable *table);
 
 #endif

@@ -441,13 +441,10 @@ void SamReportSetAccuracy(SamReport r, const SamAccuracy *accuracy)
 /* Compares the largest error with that asked for, and warns if it is larger. */
 static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
 {
-  const SamErrorRow *worst = NULL;
+  const SamErrorRow *worst = r->accuracy ? SamAccuracyWorst(r->accuracy, t) : NULL;
   char               error[SAM_ERROR_TEXT], text[256];
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; r->accuracy && k < t->count; k++)
-    if (SamAccuracyConcerns(r->accuracy, t->row[k].name) && (!worst || !(t->row[k].error <= worst->error)))
-      worst = &t->row[k];
   if (!worst) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(text, sizeof(text), "the maximum error is %s, of %s, by the %s",
                  SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause]);

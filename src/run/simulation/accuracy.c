@@ -78,31 +78,42 @@ static const SamOptionRow rows[] = {
   {"grid", "chooses the grid by -accuracy, of 1% if that is not given", SAM_OPTION_WORD, offsetof(SamAccuracy, grid),
    .size = 8, .words = "auto", .excludes = "grid_n,grid_size"}};
 
-/* Sets an option to one or two numbers. */
-static PetscErrorCode SetPair(const SamOptions *from, const char name[], const double x[2], int digits)
+/* Writes the value of an option, of one number or two; in plane strain the second one is the first. */
+static void WritePair(const double x[2], PetscInt axes, int digits, char text[], size_t size)
 {
-  char option[64], text[96];
+  (void)snprintf(text, size, axes == 1 || x[0] == x[1] ? "%.*g" : "%.*g,%.*g", digits, x[0], digits, x[1]);
+}
 
-  PetscFunctionBegin;
-  (void)snprintf(option, sizeof(option), "-%s%s", SamOptionsPrefix(from), name);
-  (void)snprintf(text, sizeof(text), x[0] == x[1] ? "%.*g" : "%.*g,%.*g", digits, x[0], digits, x[1]);
-  PetscCall(PetscOptionsSetValue(NULL, option, text));
-  PetscFunctionReturn(PETSC_SUCCESS);
+#define CHOSEN 4 /* options of a choice */
+#define VALUE  96
+
+static const char *const chosen[CHOSEN] = {"grid_n", "grid_size", "grid_center", "steps"};
+
+/* Writes the value of an option of a choice; empty if it is given, or is the default. */
+static void WriteOption(const Task *task, const Choice *c, int option, char text[VALUE])
+{
+  const double n[2]      = {(double)c->n[0], (double)c->n[1]};
+  const double width[2]  = {(double)c->width[0], (double)c->width[1]};
+  const double center[2] = {(double)c->center[0], (double)c->center[1]};
+
+  text[0] = '\0';
+  if (option == 0 && task->number) WritePair(n, task->axes, 17, text, VALUE);
+  if (option == 1 && task->size) WritePair(width, task->axes, 6, text, VALUE);
+  if (option == 2 && task->center && (center[0] != 0 || center[1] != 0)) WritePair(center, 2, 6, text, VALUE);
+  if (option == 3 && task->steps) (void)snprintf(text, VALUE, "%ld", (long)c->steps);
 }
 
 /* Makes a choice the options of the next simulation. */
 static PetscErrorCode SetOptions(const SamOptions *from, const Task *task, const Choice *c)
 {
-  const double n[2]      = {(double)c->n[0], (double)c->n[task->axes - 1]};
-  const double width[2]  = {(double)c->width[0], (double)c->width[task->axes - 1]};
-  const double center[2] = {(double)c->center[0], (double)c->center[1]};
-  const double steps[2]  = {(double)c->steps, (double)c->steps};
+  char option[64], text[VALUE];
 
   PetscFunctionBegin;
-  if (task->number) PetscCall(SetPair(from, "grid_n", n, 17));
-  if (task->size) PetscCall(SetPair(from, "grid_size", width, 6));
-  if (task->center && (center[0] != 0 || center[1] != 0)) PetscCall(SetPair(from, "grid_center", center, 6));
-  if (task->steps) PetscCall(SetPair(from, "steps", steps, 17));
+  for (int k = 0; k < CHOSEN; k++) {
+    (void)snprintf(option, sizeof(option), "-%s%s", SamOptionsPrefix(from), chosen[k]);
+    WriteOption(task, c, k, text);
+    if (text[0]) PetscCall(PetscOptionsSetValue(NULL, option, text));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -252,18 +263,17 @@ static PetscErrorCode Begin(SamSimulation s, Task *task, Choice *c)
 /* Reads the options once, with any grid, for those that are not given. */
 static PetscErrorCode Prepare(const SamOptions *from, const SamArguments *arguments, Task *task, Choice *c)
 {
-  static const char *const names[4] = {"grid_n", "grid_size", "grid_center", "steps"};
-  PetscBool *const         free[4]  = {&task->number, &task->size, &task->center, &task->steps};
-  const Choice             any      = {{PROBE, PROBE}, 1, {1e-3, 1e-3}, {0, 0}};
-  PetscReal                width[2], center[2];
-  PetscInt                 n[2];
-  PetscBool                periodic[2];
-  SamGap                   gap;
-  SamSimulation            s;
+  PetscBool *const free[CHOSEN] = {&task->number, &task->size, &task->center, &task->steps};
+  const Choice     any          = {{PROBE, PROBE}, 1, {1e-3, 1e-3}, {0, 0}};
+  PetscReal        width[2], center[2];
+  PetscInt         n[2];
+  PetscBool        periodic[2];
+  SamGap           gap;
+  SamSimulation    s;
 
   PetscFunctionBegin;
-  for (int k = 0; k < 4; k++) {
-    PetscCall(SamOptionsHas(from, names[k], free[k]));
+  for (int k = 0; k < CHOSEN; k++) {
+    PetscCall(SamOptionsHas(from, chosen[k], free[k]));
     *free[k] = *free[k] ? PETSC_FALSE : PETSC_TRUE;
   }
   PetscCall(SamOptionsHas(from, "elasticity periodic", &periodic[0]));
@@ -291,8 +301,9 @@ static PetscErrorCode Prepare(const SamOptions *from, const SamArguments *argume
 /* ---- a trial ---- */
 
 /* Extends the rectangle of the contact by that of the last step. */
-static PetscErrorCode Extend(SamContact contact, SamGrid grid, Trial *t)
+static PetscErrorCode Extend(SamContact contact, Trial *t)
 {
+  const SamGrid      grid    = SamContactGetGrid(contact);
   const PetscReal    cell[2] = {grid->dx, grid->dy};
   PetscInt           first[2], n[2];
   const SamSolution *solution;
@@ -310,11 +321,6 @@ static PetscErrorCode Extend(SamContact contact, SamGrid grid, Trial *t)
   t->touched = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-typedef struct {
-  SamGrid grid;
-  Trial  *trial;
-} Watch;
 
 /* True if a list has a name of that many letters; names are separated by commas, and blanks. */
 static PetscBool HasName(const char list[], const char name[], size_t letters)
@@ -351,14 +357,14 @@ static PetscErrorCode ListNumbers(SamContact contact, Trial *t)
 
 static PetscErrorCode Note(void *context, SamContact contact, const SamSimulationEvent *news)
 {
-  const Watch *w = (const Watch *)context;
+  Trial *const t = (Trial *)context;
 
   PetscFunctionBegin;
   if ((news->kind == SAM_NOTIFY_STEP || news->kind == SAM_NOTIFY_CYCLE_STEP) && SamStepIsSolved(news->result))
-    PetscCall(Extend(contact, w->grid, w->trial));
+    PetscCall(Extend(contact, t));
   if (news->kind == SAM_NOTIFY_ERRORS) {
-    w->trial->table = *news->errors;
-    PetscCall(ListNumbers(contact, w->trial));
+    t->table = *news->errors;
+    PetscCall(ListNumbers(contact, t));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -369,14 +375,12 @@ static PetscErrorCode RunAlone(SamSimulation s, const SamOptions *from, Trial *t
   char           message[SAM_MESSAGE] = "";
   PetscErrorCode code;
   PetscBool      stopped;
-  Watch          watch;
 
   PetscFunctionBegin;
   s->has_output = s->needs.stiffness = PETSC_FALSE;
   s->checkpoints                     = (SamCheckpoints){.every = 0};
   s->needs.companion = s->untold = PETSC_TRUE;
-  watch                          = (Watch){s->setup.grid, t};
-  PetscCall(SamSimulationSetMonitor(s, Note, &watch));
+  PetscCall(SamSimulationSetMonitor(s, Note, t));
   PetscCall(SamSimulationSetUp(s, from));
   PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
   code = SamSimulationRun(s);
@@ -404,9 +408,19 @@ static PetscErrorCode Try(const SamOptions *from, const SamArguments *arguments,
 
 /* ---- what a trial says ---- */
 
-PetscBool SamAccuracyConcerns(const SamAccuracy *a, const char name[])
+/* True if -accuracy concerns the number of this name. */
+static PetscBool Concerns(const SamAccuracy *a, const char name[])
 {
   return !a->numbers[0] || HasName(a->numbers, name, strlen(name)) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+const SamErrorRow *SamAccuracyWorst(const SamAccuracy *a, const SamErrorTable *t)
+{
+  const SamErrorRow *worst = NULL;
+
+  for (PetscInt k = 0; k < t->count; k++)
+    if (Concerns(a, t->row[k].name) && (!worst || !(t->row[k].error <= worst->error))) worst = &t->row[k];
+  return worst;
 }
 
 /* Refuses a name that no number with an error has. */
@@ -457,7 +471,7 @@ static void Demand(const Task *task, const Choice *c, const Trial *t, double fac
     const double       part = task->steps ? ErrorBySteps(row, c->steps) : 0;
     const double       left = asked - (part > 0 ? PetscMin(part, 0.5 * asked) : 0);
 
-    if (!SamAccuracyConcerns(task->asked, row->name)) continue;
+    if (!Concerns(task->asked, row->name)) continue;
     factor[0] = PetscMax(factor[0], Narrower(row, left));
     if (isnan(part)) factor[1] = PetscMax(factor[1], AT_ONCE);
     if (part > 0.5 * asked) factor[1] = PetscMax(factor[1], part / (0.5 * asked));
@@ -570,34 +584,25 @@ static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last)
 /* Describes what was chosen. */
 static void Describe(const Task *task, const Choice *c, SamAccuracy *a)
 {
-  char *const  text = a->chosen;
-  const size_t size = sizeof(a->chosen);
+  char text[VALUE];
 
-  text[0] = '\0';
-  if (task->number)
-    (void)snprintf(text, size, c->n[0] == c->n[1] || task->axes == 1 ? " -grid_n %ld" : " -grid_n %ld,%ld",
-                   (long)c->n[0], (long)c->n[1]);
-  if (task->size)
-    (void)snprintf(text + strlen(text), size - strlen(text),
-                   c->width[0] == c->width[1] || task->axes == 1 ? " -grid_size %.6g" : " -grid_size %.6g,%.6g",
-                   (double)c->width[0], (double)c->width[1]);
-  if (task->center && (c->center[0] != 0 || c->center[1] != 0))
-    (void)snprintf(text + strlen(text), size - strlen(text), " -grid_center %.6g,%.6g", (double)c->center[0],
-                   (double)c->center[1]);
-  if (task->steps) (void)snprintf(text + strlen(text), size - strlen(text), " -steps %ld", (long)c->steps);
+  a->chosen[0] = '\0';
+  for (int k = 0; k < CHOSEN; k++) {
+    const size_t used = strlen(a->chosen);
+
+    WriteOption(task, c, k, text);
+    if (text[0]) (void)snprintf(a->chosen + used, sizeof(a->chosen) - used, " -%s %s", chosen[k], text);
+  }
 }
 
 /* Tells what a trial found, before the choice changes. */
 static PetscErrorCode Tell(const Task *task, const Choice *c, const Trial *t, SamAccuracy *a)
 {
-  const SamErrorRow *worst = NULL;
+  const SamErrorRow *worst = SamAccuracyWorst(a, &t->table);
   char               text[640], error[SAM_ERROR_TEXT], what[160] = "";
 
   PetscFunctionBegin;
   if (!a->tell) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < t->table.count; k++)
-    if (SamAccuracyConcerns(a, t->table.row[k].name) && (!worst || !(t->table.row[k].error <= worst->error)))
-      worst = &t->table.row[k];
   if (t->failed || t->status)
     (void)snprintf(what, sizeof(what),
                    t->status == SAM_STATUS_EDGE_CONTACT ? "the contact reaches the edge" : "no solution");
