@@ -86,7 +86,7 @@ def of(
     """
     if not (lam1 > 0 and lam2 > 0):
         raise Error(f"conduction: conductivities {lam1:g} and {lam2:g}: expected numbers > 0")
-    periodic = _kind(contact)
+    periodic = _is_periodic(contact)
     pressure = contact["pressure"]
     touches = pressure > 0
     cell = tuple(size / n for size, n in zip(contact.size, contact.n))
@@ -110,8 +110,8 @@ def of(
     return Conductance(total, total / area, float(flux[touches].sum()) * cell[0] * cell[1] / area, flux)
 
 
-def _kind(contact):
-    """Whether the bodies of a contact are periodic; Error where no conductance is known."""
+def _is_periodic(contact):
+    """Returns True for periodic bodies; Error where no conductance is known."""
     options = contact.options
     kind = str(options.get("elasticity", "halfspace"))
     if kind.startswith("plane"):

@@ -84,7 +84,7 @@ def plain(name: str) -> str:
 
 
 def has(name: str) -> bool:
-    """Whether there is a material of this name.
+    """Returns True if there is a material of this name.
 
     Parameters
     ----------

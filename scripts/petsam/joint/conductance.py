@@ -27,7 +27,7 @@ FIRST, POWER = 0.1, 0.95  # of the lowest pressure, for which a row of a card is
 
 
 class Conductors(NamedTuple):
-    """What conducts in an interface.
+    """The conductors of an interface: bodies, films, gas.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Conductors(NamedTuple):
         return {"h_contact": found.contact, "h_gap": found.gap if self.gas else 0.0, "h": found.per_area}
 
     def words(self) -> str:
-        """What conducts, for the comment of a card.
+        """A description of the conductors for the comment of a card.
 
         Returns
         -------

@@ -557,7 +557,7 @@ def _errors(first, computed, way, pressures):
 
 
 def _computed(parts, way):
-    """What is found of the windows, and after them of the loops that check the formula."""
+    """Outcome of the windows, and after them of the loops that check the formula."""
     one = windows.normal_curve if way.normal_only else windows.by_loops if way.reason else windows.by_formula
     jobs = [(one, part) for part in parts]
     if one is windows.by_formula:

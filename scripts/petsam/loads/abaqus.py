@@ -23,7 +23,7 @@ END = re.compile(r"\s*(Minimum|Maximum|Total|\*{5,})")
 
 
 def is_report(text):
-    """Whether a text is a field output report."""
+    """True if a text is a field output report."""
     return "Field Output Report" in text or bool(re.search(r"CNORMF\.?\s*CNORMF1.*\n(.*\n){0,3}-{5,}", text))
 
 

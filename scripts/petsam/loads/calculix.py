@@ -21,12 +21,12 @@ WIDTH = 12  # columns of a number in .frd
 
 
 def is_dat(text):
-    """Whether a text is a .dat with forces."""
+    """True if a text is a .dat with forces."""
     return bool(re.search(r"^\s*(forces \(fx,fy,fz\) for set|statistics for slave set) ", text, re.M))
 
 
 def is_frd(text):
-    """Whether a text is a .frd."""
+    """True if a text is a .frd."""
     return text.startswith("    1C")
 
 

@@ -16,7 +16,7 @@ OF = {"length": "m", "force": "N"}
 
 @dataclass
 class Given:
-    """What options say of a file: the deck of its nodes, and the names of its units (None: not given)."""
+    """Options on a file: the deck of its nodes, and the names of its units (None: not given)."""
 
     deck: str = None
     length: str = None

@@ -21,7 +21,7 @@ MANY = 3  # cycles from which their loops and energies are drawn without being a
 
 
 def of_results(results):
-    """What results of petsam are good for; of one that lacks fields, a picture whose message says so."""
+    """Kinds of pictures for results of petsam; of one that lacks fields, a picture whose message says so."""
     lines = any(one.is_plane for one in results)
     maps = ["maps", "profiles"][lines:] if all(one.steps and fields.usual(one) for one in results) else []
     if all(one.has_life for one in results):
@@ -37,7 +37,7 @@ def of_results(results):
 
 
 def of_stresses(files):
-    """What files of stresses are good for; of one that lacks stresses, a picture whose message says so."""
+    """Kinds of pictures for files of stresses; of one that lacks stresses, a picture whose message says so."""
     kinds = []
     if any(name in file for file in files for name in ("stress_xx", "mises")):
         if not any(file.along for file in files):
