@@ -111,13 +111,27 @@ def test_an_accuracy_that_is_none_is_refused(petsam, sphere_alone, asked):
     assert f"-accuracy {asked}: expected a number > 0 and < 1" in done.complaint[0]
 
 
+def test_an_unknown_option_is_refused_before_any_trial(petsam, sphere_alone):
+    done = petsam(sphere_alone, "-accuracy", "1%", "-frictoin", "0.3", check=2)
+    assert "-frictoin 0.3: unknown option: is -friction meant?" in done.complaint[0]
+    assert "trial" not in done.stdout
+    late = ("-profile", "-memory_check", "false", "-progress", "never", "-errors", "companion")
+    assert "trial 1:" in petsam(sphere_alone, "-accuracy", "5%", *late).stdout
+
+
+def test_a_misspelled_accuracy_is_named_beside_the_missing_grid(petsam, sphere_alone):
+    done = petsam(sphere_alone, "-acuracy", "1%", check=2)
+    assert "-grid_n is missing" in done.complaint[0]
+    assert "is -acuracy meant for -accuracy?" in done.complaint[0]
+
+
 def test_a_given_grid_is_kept(petsam, sphere_alone):
     """Only what is missing is chosen; a grid that does not do is told."""
     grid, _ = chosen(petsam(sphere_alone, "-accuracy", "2%", "-grid_size", "4e-3").stdout)
     assert grid.keys() == {"grid_n"}
     done = petsam(sphere_alone, "-accuracy", "0.5%", "-grid_n", "40", "-grid_size", "2.4e-3")
     assert "chose nothing, as all is given" in done.stdout
-    assert any("the maximum error is" in line for line in done.complaint)
+    assert any("-accuracy 0.5 % is not reached: the maximum error is" in line for line in done.complaint)
     done = petsam(sphere_alone, "-grid", "auto", "-grid_n", "40", check=2)
     assert "-grid does not work with -grid_n" in done.complaint[0]
 

@@ -184,10 +184,10 @@ PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
   SamAccuracy - what -accuracy asks for, and what was chosen.
 
   SamAccuracyChoose - reads the options -accuracy, -accuracy_of and -grid into `accuracy`, all of whose members but
-  `tell` must be zero; chooses, by trials on coarse grids, the grid
-  and the steps where they are not given, and sets them as options, with -errors companion, for the simulation that
-  follows. Without -accuracy it only reads. `arguments`: see SamHistoryCreateFromOptions(). Collective. Errors:
-  SAM_ERR_USER, SAM_ERR_FILE.
+  `tell` and `later` must be zero; chooses, by trials on coarse grids, the grid and the steps where they are not given,
+  and sets them as options, with -errors companion, for the simulation that follows. Options that neither a trial nor
+  the program reads are refused before the first trial is solved. Without -accuracy it only reads. `arguments`: see
+  SamHistoryCreateFromOptions(). Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
   SamAccuracyRefuse - refuses these options for a contact whose steps are given one by one. Collective. Errors:
   SAM_ERR_USER.
   SamAccuracyWorst - returns the row with the maximum error of the numbers that it concerns, borrowed; NULL: there is
@@ -203,6 +203,7 @@ typedef struct {
   double    seconds; /* time that the trials took, s */
   /* if not NULL, receives a line about each trial */
   PetscErrorCode (*tell)(const char text[]);
+  const char *const *later; /* names, with -, of the options that the program reads after the choice, ended by NULL */
 } SamAccuracy;
 PETSC_EXTERN PetscErrorCode     SamAccuracyChoose(const SamOptions *from, const struct _n_SamArguments *arguments,
                                                   SamAccuracy *accuracy);

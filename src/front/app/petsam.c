@@ -199,15 +199,17 @@ static PetscErrorCode TellTrial(const char text[])
 
 static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 {
-  static const SamOptionRow dry  = {"dry_run", "check everything, print memory, disk and time, and solve nothing",
-                                    SAM_OPTION_BOOL, .member = 0};
-  SamRun *const             run  = (SamRun *)context;
-  const SamOptions          from = {PETSC_COMM_WORLD, NULL};
+  static const char *const  later[] = {"-profile", "-quiet", "-progress", "-dry_run", "-memory_check", NULL};
+  static const SamOptionRow dry     = {"dry_run", "check everything, print memory, disk and time, and solve nothing",
+                                       SAM_OPTION_BOOL, .member = 0};
+  SamRun *const             run     = (SamRun *)context;
+  const SamOptions          from    = {PETSC_COMM_WORLD, NULL};
   SamSimulationFiles        files;
 
   PetscFunctionBegin;
   CatchSignals(PETSC_FALSE);
-  run->accuracy.tell = TellTrial;
+  run->accuracy.tell  = TellTrial;
+  run->accuracy.later = later;
   PetscCall(SamAccuracyChoose(&from, arguments, &run->accuracy));
   PetscCall(SamSimulationCreate(from.comm, &run->simulation));
   PetscCall(SamSimulationSetSignals(run->simulation, signaled));

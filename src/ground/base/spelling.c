@@ -1,8 +1,7 @@
 /*
   Suggests the intended meaning of a mistyped option: the nearest known name, a decimal comma, a unit.
 
-  Known names are all options that have been queried so far, given or not. Options that do not work with those given
-  are noted, so that no remedy proposes them.
+  Known names are all options that have been queried so far, given or not.
 */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/base.h>
@@ -142,8 +141,11 @@ const char *SamOptionsNearest(const char tried[])
   return SamNearestName(tried, count, names);
 }
 
-/* Finds an unused option on the command line that may be a misspelling of this name. */
-static PetscErrorCode FindMisspelled(const char name[], char found[], size_t size)
+/*
+  Finds an unused option on the command line that may be a misspelling of this name; if there is none, one of any option
+  that has been read, whose name then replaces it.
+*/
+static PetscErrorCode FindMisspelled(char name[], char found[], size_t size)
 {
   PetscInt count;
   char   **names, **values;
@@ -153,6 +155,13 @@ static PetscErrorCode FindMisspelled(const char name[], char found[], size_t siz
   PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
   for (PetscInt k = 0; k < count && !found[0]; k++)
     if (IsNear(names[k], name) && !SamOptionsIsKnown(names[k], NULL)) (void)snprintf(found, size, "%s", names[k]);
+  for (PetscInt k = 0; k < count && !found[0]; k++) {
+    const char *nearest = SamOptionsIsKnown(names[k], NULL) ? NULL : SamOptionsNearest(names[k]);
+
+    if (!nearest || !SamOptionsIsKnown(nearest, NULL)) continue;
+    (void)snprintf(found, size, "%s", names[k]);
+    (void)snprintf(name, LENGTH, "%s", nearest);
+  }
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &names, &values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -166,8 +175,8 @@ PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const 
   if (given) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(option, sizeof(option), "%.*s%.*s", LENGTH / 2, prefix, (int)strcspn(name, " "), name);
   PetscCall(FindMisspelled(option, meant, sizeof(meant)));
-  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s%s is missing: %s; is -%s meant for it?", prefix, name, text,
-             meant);
+  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s%s is missing: %s; is -%s meant for -%s?", prefix, name, text,
+             meant, option);
   SETERRQ(from->comm, SAM_ERR_USER, "-%s%s is missing: %s", prefix, name, text);
 }
 

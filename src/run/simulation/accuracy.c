@@ -369,19 +369,39 @@ static PetscErrorCode Note(void *context, SamContact contact, const SamSimulatio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Runs a simulation without its files. */
-static PetscErrorCode RunAlone(SamSimulation s, const SamOptions *from, Trial *t)
+/* Refuses options that nobody reads, once a trial has read those of the contact and of the history. */
+static PetscErrorCode RefuseUnknown(const SamOptions *from, const SamArguments *arguments, const SamAccuracy *a)
 {
-  char           message[SAM_MESSAGE] = "";
-  PetscErrorCode code;
-  PetscBool      stopped;
+  static const char *const of_run[] = {"-errors", "-grid_check", NULL};
+  PetscBool                ignored;
 
+  PetscFunctionBegin;
+  for (int k = 0; of_run[k]; k++) PetscCall(PetscOptionsHasName(NULL, NULL, of_run[k], &ignored));
+  for (int k = 0; a->later && a->later[k]; k++) PetscCall(PetscOptionsHasName(NULL, NULL, a->later[k], &ignored));
+  PetscCall(SamArgumentsRefuseUnknown(from->comm, arguments));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Prepares a simulation without its files. */
+static PetscErrorCode PrepareAlone(SamSimulation s, const SamOptions *from, Trial *t)
+{
   PetscFunctionBegin;
   s->has_output = s->needs.stiffness = PETSC_FALSE;
   s->checkpoints                     = (SamCheckpoints){.every = 0};
   s->needs.companion = s->untold = PETSC_TRUE;
   PetscCall(SamSimulationSetMonitor(s, Note, t));
   PetscCall(SamSimulationSetUp(s, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Runs it, and keeps whether it failed. */
+static PetscErrorCode RunAlone(SamSimulation s, Trial *t)
+{
+  char           message[SAM_MESSAGE] = "";
+  PetscErrorCode code;
+  PetscBool      stopped;
+
+  PetscFunctionBegin;
   PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
   code = SamSimulationRun(s);
   PetscCall(PetscPopErrorHandler());
@@ -401,7 +421,9 @@ static PetscErrorCode Try(const SamOptions *from, const SamArguments *arguments,
   PetscCall(SetOptions(from, task, c));
   PetscCall(SamSimulationCreate(from->comm, &s));
   PetscCall(SamSimulationSetFromOptions(s, from, arguments));
-  PetscCall(RunAlone(s, from, t));
+  PetscCall(PrepareAlone(s, from, t));
+  PetscCall(RefuseUnknown(from, arguments, task->asked));
+  PetscCall(RunAlone(s, t));
   PetscCall(SamSimulationDestroy(&s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

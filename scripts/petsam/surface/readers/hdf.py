@@ -86,9 +86,9 @@ def of_hdf5(path, dataset, bare=False):
         name = name if name in file or dataset else "separation"
         data = file.get(name)
         if data is None and not dataset:
-            raise Error(f"{path}: no dataset height or separation; choose another by --dataset")
+            raise Error(f"{path}: no dataset height or separation; petsam-surface --dataset chooses another")
         if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
-            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); choose another by --dataset")
+            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); petsam-surface --dataset chooses another")
         if "scale_factor" in data.attrs or "add_offset" in data.attrs:
             raise Error(
                 f"{path}: /{name}: its attributes scale_factor or add_offset show that it is packed; unpack it first"
