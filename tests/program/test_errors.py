@@ -317,3 +317,9 @@ def test_time_that_companions_add_is_told_before(petsam, loop):
     assert not SHARE.search(petsam(loop, "-errors", "none").stdout)
     assert not SHARE.search(petsam(dict(loop, grid_size=1e-3), check=12).stdout)
     assert not SHARE.search(petsam(dict(loop, grid_n="3,30", allow_edge_contact=True)).stdout)
+
+
+def test_billions_of_steps_are_judged_at_the_ends_of_rows(petsam, loop):
+    """Twice their number is beyond an integer."""
+    many = dict(loop, steps=700000000)
+    assert re.search(r"steps +2100000000,", petsam(many, "-errors", "companion", "-dry_run").stdout)

@@ -180,6 +180,30 @@ static void test_increments_lie_on_the_line_between_rows(void **state)
   sam_call(SamHistoryDestroy(&h));
 }
 
+/* The ends found one from the other are those whose time, or that of the step before, is a row's (the start is time 0). */
+static void test_ends_of_rows_follow_each_other(void **state)
+{
+  (void)state;
+  for (int steps = 1; steps < 5; steps++) {
+    char       text[64];
+    SamHistory h;
+    PetscInt   end = 0;
+
+    Write("time,load_n\n1,1\n2,3\n3,2\n4,5\n");
+    (void)snprintf(text, sizeof(text), "-history test_history.csv -steps %d", steps);
+    h = Read(text);
+    for (PetscInt k = 0; k < CountOf(h); k++) {
+      const PetscReal time = StepOf(h, k).time, before = k ? StepOf(h, k - 1).time : 0;
+      const int       is_end = k == 0 || time == floor(time) || before == floor(before);
+
+      sam_assert((k == end) == is_end);
+      if (k == end) end = SamHistoryNextEnd(h, k);
+    }
+    sam_assert(end == CountOf(h));
+    sam_call(SamHistoryDestroy(&h));
+  }
+}
+
 static void test_increments_end_on_the_row_exactly(void **state)
 {
   static const double n[3] = {0.1, 0.7, 1.0 / 3}, time[3] = {0.3, 0.4, 1e9};
@@ -441,6 +465,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_step_holds_nothing_but_time_and_control),
     cmocka_unit_test(test_without_a_file_there_is_one_step_at_time_one),
     cmocka_unit_test(test_increments_lie_on_the_line_between_rows),
+    cmocka_unit_test(test_ends_of_rows_follow_each_other),
     cmocka_unit_test(test_increments_end_on_the_row_exactly),
     cmocka_unit_test(test_constant_load_does_not_change_between_rows),
     cmocka_unit_test(test_single_load_is_divided),

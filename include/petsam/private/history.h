@@ -65,12 +65,16 @@ PETSC_INTERN PetscInt SamHistoryGetIncrements(SamHistory history);
 /* SamHistoryGetStart - returns the number of load steps up to the first row: the increments, or 1. Not collective. */
 PETSC_INTERN PetscInt SamHistoryGetStart(SamHistory history);
 /*
-  SamHistoryIsFirst, SamHistoryIsLast - return true if step k is the first, or the last, of those that lead to a row. If
-  both have allowed values, the steps between have, too: their values are interpolated, and the changes of conditions
-  are the same in all of them. Not collective.
+  SamHistoryIsLast - returns true if step k is the last of those that lead to a row. Not collective.
 */
-PETSC_INTERN PetscBool SamHistoryIsFirst(SamHistory history, PetscInt k);
 PETSC_INTERN PetscBool SamHistoryIsLast(SamHistory history, PetscInt k);
+/*
+  SamHistoryNextEnd - returns the step after k that is the first or the last of those that lead to a row; the number of
+  steps if there is none. If both have allowed values, the steps between have, too: their values are interpolated, and
+  the changes of conditions are the same in all of them. So a loop over the ends (from 0) is as long as the history has
+  rows, not as it has steps. Not collective.
+*/
+PETSC_INTERN PetscInt SamHistoryNextEnd(SamHistory history, PetscInt k);
 /*
   SamHistoryGives - returns true if the history gives any condition of the group of `one`: it has a column of it, or a
   value other than the usual one. Not collective.

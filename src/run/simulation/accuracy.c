@@ -139,7 +139,7 @@ static PetscReal Largest(SamSimulation s, PetscBool *force)
   PetscReal most = 0;
 
   *force = PETSC_TRUE;
-  for (PetscInt k = 0; k < s->needs.steps; k++) {
+  for (PetscInt k = 0; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k)) {
     SamControl control;
 
     if (!SamHistoryIsLast(s->history, k)) continue;

@@ -253,14 +253,17 @@ PetscInt SamHistoryGetStart(SamHistory h)
   return h->start;
 }
 
-PetscBool SamHistoryIsFirst(SamHistory h, PetscInt k)
-{
-  return (PetscBool)(k < h->start ? k == 0 : (k - h->start) % h->increments == 0);
-}
-
 PetscBool SamHistoryIsLast(SamHistory h, PetscInt k)
 {
   return (PetscBool)(k < h->start ? k == h->start - 1 : (k - h->start + 1) % h->increments == 0);
+}
+
+PetscInt SamHistoryNextEnd(SamHistory h, PetscInt k)
+{
+  const PetscInt before = k < h->start ? 0 : h->start + (k - h->start) / h->increments * h->increments,
+                 last   = before + (k < h->start ? h->start : h->increments) - 1;
+
+  return k < last ? last : k + 1;
 }
 
 PetscBool SamHistoryGives(SamHistory h, const SamCondition *condition)

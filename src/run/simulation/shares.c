@@ -14,7 +14,7 @@ static PetscErrorCode FindHalf(SamSimulation s, PetscReal half[2], PetscBool *kn
   PetscReal most[2] = {0, 0}; /* approach, load */
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < s->needs.steps; k++) {
+  for (PetscInt k = 0; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k)) {
     const SamControl control = SamHistoryGetStep(s->history, k);
     const PetscBool  force   = control.force[SAM_COMPONENT_N];
 
@@ -63,7 +63,7 @@ static SamTouches FindTouches(SamSimulation s)
   SamControl before;
 
   if (!s->needs.friction || !s->needs.coupled || SamElasticityGetTraits(s->setup.elasticity).upwind) return touches;
-  for (PetscInt k = 0; k < s->needs.steps && touches < SAM_TOUCHES_LATER; k++) {
+  for (PetscInt k = 0; k < s->needs.steps && touches < SAM_TOUCHES_LATER; k = SamHistoryNextEnd(s->history, k)) {
     const SamControl control = SamHistoryGetStep(s->history, k);
 
     if (k == 0 && BeginsByTouching(&control)) touches = SAM_TOUCHES_FIRST;

@@ -58,11 +58,9 @@ static PetscErrorCode AdviseLoads(SamSimulation s)
   s->advice.steps      = s->needs.steps;
   s->advice.increments = SamHistoryGetIncrements(s->history);
   s->advice.step_rtol  = s->step_rtol;
-  for (PetscInt k = first; k < s->needs.steps; k++) {
-    SamControl control;
+  for (PetscInt k = first; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k)) {
+    const SamControl control = SamHistoryGetStep(s->history, k);
 
-    if (!SamHistoryIsFirst(s->history, k) && !SamHistoryIsLast(s->history, k) && k > first) continue;
-    control = SamHistoryGetStep(s->history, k);
     SamAdviceAddLoads(&s->advice, k, &control);
   }
   PetscCall(SamAdviceRefuse(&s->advice));
@@ -99,32 +97,35 @@ static PetscErrorCode Offer(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Rejects a load step that no contact of this kind can take. */
+static PetscErrorCode CheckStep(SamSimulation s, PetscInt k)
+{
+  const SamControl control = SamHistoryGetStep(s->history, k);
+  char             where[PETSC_MAX_PATH_LEN + 32];
+
+  PetscFunctionBegin;
+  PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
+  PetscCall(SamContactCheckConditions(s->setup.contact, &control, where));
+  PetscCall(SamMotionCheck(s->setup.elasticity, s->conditions, &control, where));
+  PetscCheck(SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
+             "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
+  PetscCheck(s->step_rtol == 0 || (SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 &&
+                                   SamMotionOf(s->setup.elasticity)->continues),
+             s->comm, SAM_ERR_USER, "-step_rtol with rolling, which has no estimate of the energy's error: use -steps");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Rejects a load history with an inconsistent step before the first one is solved; checks the ends of rows first, since
   their values are those of the file.
 */
 static PetscErrorCode CheckSteps(SamSimulation s)
 {
-  char where[PETSC_MAX_PATH_LEN + 32];
-
   PetscFunctionBegin;
-  for (PetscInt n = 0; n < 2 * s->needs.steps; n++) {
-    const PetscInt  k    = n % s->needs.steps;
-    const PetscBool last = n < s->needs.steps ? PETSC_TRUE : PETSC_FALSE;
-    SamControl      control;
-
-    if (!(last ? SamHistoryIsLast(s->history, k) : SamHistoryIsFirst(s->history, k))) continue;
-    control = SamHistoryGetStep(s->history, k);
-    PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
-    PetscCall(SamContactCheckConditions(s->setup.contact, &control, where));
-    PetscCall(SamMotionCheck(s->setup.elasticity, s->conditions, &control, where));
-    PetscCheck(SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
-               "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
-    PetscCheck(s->step_rtol == 0 || (SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 &&
-                                     SamMotionOf(s->setup.elasticity)->continues),
-               s->comm, SAM_ERR_USER,
-               "-step_rtol with rolling, which has no estimate of the energy's error: use -steps");
-  }
+  for (PetscInt k = 0; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k))
+    if (SamHistoryIsLast(s->history, k)) PetscCall(CheckStep(s, k));
+  for (PetscInt k = 0; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k))
+    if (!SamHistoryIsLast(s->history, k)) PetscCall(CheckStep(s, k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -193,7 +194,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   start->cyclic     = s->plan.cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
   start->companions = SamErrorsDescribe(s->errors);
   start->share      = SamErrorsShare(s);
-  for (PetscInt k = 0; k < s->needs.steps; k++) {
+  for (PetscInt k = 0; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k)) {
     SamControl control;
 
     if (!SamHistoryIsLast(s->history, k)) continue;

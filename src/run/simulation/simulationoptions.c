@@ -20,11 +20,8 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
   const PetscInt count = SamHistoryGetCount(s->history);
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < count; k++) {
-    SamControl control;
-
-    if (!SamHistoryIsFirst(s->history, k) && !SamHistoryIsLast(s->history, k)) continue;
-    control = SamHistoryGetStep(s->history, k);
+  for (PetscInt k = 0; k < count; k = SamHistoryNextEnd(s->history, k)) {
+    SamControl control = SamHistoryGetStep(s->history, k);
 
     PetscCall(SamProblemCheckControl(s->setup.problem, &control, &wrong, why, sizeof(why)));
     PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s, or its column in -history: %.6g: %s", SamOptionsPrefix(from),
