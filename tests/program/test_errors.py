@@ -160,6 +160,15 @@ def test_errors_are_the_same_on_any_ranks_and_after_a_restart(petsam, tmp_path, 
                 assert np.array_equal(own["history"][name][-count:], rest["history"][name][:], equal_nan=True), name
 
 
+def test_a_run_that_stops_has_the_errors_as_far_as_it_has_come(petsam, tmp_path, loop):
+    """Those of a run to its end whose history ends there."""
+    case = dict(loop, steps=1, errors="companion")
+    done = petsam(case, "-checkpoint", "state.h5", "-max_walltime", "1e-3", "-output", "stopped.h5", check=75)
+    assert "errors of the last numbers" in done.stdout
+    petsam(case, history(tmp_path / "head.csv", *LOOP[:2]), "-output", "head.h5")
+    np.testing.assert_equal(table("stopped.h5"), table("head.h5"))
+
+
 @pytest.mark.parametrize("plane", [False, True])
 def test_every_capability_has_companions(petsam, tmp_path, plane):
     """Also friction fields of a file, steady rolling, sliding surfaces, divided steps: all have errors."""

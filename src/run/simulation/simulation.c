@@ -327,11 +327,28 @@ static PetscErrorCode SolveSteps(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  Tells the errors of the last numbers. A run that stops for the time being has them as far as it has come; a life has
+  not, since its companions live as long as it does.
+*/
+static PetscErrorCode EndErrors(SamSimulation s)
+{
+  SamControl last;
+
+  PetscFunctionBegin;
+  if (s->point.worst == SAM_STATUS_CONVERGED && !(s->stopped && s->life)) {
+    last = SamHistoryGetStep(s->history, (s->life ? s->needs.steps : s->point.steps) - 1);
+    PetscCall(SamErrorsEnd(s, &last));
+  } else {
+    PetscCall(SamErrorsLose(s, "an earlier history ended before its last step"));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode RunAll(SamSimulation s)
 {
   PetscErrorCode code;
   const SamSlip *slip = NULL;
-  SamControl     last;
 
   PetscFunctionBegin;
   if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
@@ -344,12 +361,7 @@ static PetscErrorCode RunAll(SamSimulation s)
     PetscCall(SolveSteps(s));
   if (s->point.worst == SAM_STATUS_CONVERGED) PetscCall(SamAdviceEnd(&s->advice, &slip));
   if (slip) PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_SLIP, .slip = slip}));
-  if (s->point.worst == SAM_STATUS_CONVERGED && !s->stopped) {
-    last = SamHistoryGetStep(s->history, s->needs.steps - 1);
-    PetscCall(SamErrorsEnd(s, &last));
-  } else {
-    PetscCall(SamErrorsLose(s, "an earlier history ended before its last step"));
-  }
+  PetscCall(EndErrors(s));
   if (!s->untold) PetscCall(SamAdviceTell(&s->advice));
   PetscCall(Finish(s));
   PetscFunctionReturn(PETSC_SUCCESS);
