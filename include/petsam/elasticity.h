@@ -26,8 +26,7 @@ typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_PLANE          "plane" /* half-spaces in plane strain, on a grid of one row; forces per metre */
 #define SAM_ELASTICITY_PLANE_PERIODIC "plane_periodic" /* periodic in plane strain */
 
-#define SAM_ELASTICITY_COMPLIANCE \
-  "compliance" /* half-spaces plus the compliance of finite bodies: SamElasticityAddCompliances() */
+#define SAM_ELASTICITY_COMPLIANCE "compliance" /* half-spaces plus the compliance of finite bodies: -body1_compliance */
 
 /* SamElasticityTraits - properties of a type that users of the operator rely on. They are independent of each other. */
 typedef struct {

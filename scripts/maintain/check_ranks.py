@@ -24,7 +24,7 @@ ALONE = re.compile(
 )
 # the same on all ranks: tables, sums over cells, outputs that a caller wants, memory by SamAllocate(), never NULL
 SAME = {
-    "src/bodies/elasticity/initialstress.c": {"rows"},
+    "src/bodies/body/initialstress.c": {"rows"},
     "src/contact/step/fixedpoint.c": {"largest"},
     "src/contact/step/stepcache.c": {"table"},
     "src/laws/plastic/plasticnewton.c": {"energy"},

@@ -69,7 +69,7 @@ static void test_symbols_have_reference_values(void **state)
     SamPairSymbols(pair, rows[n].k, c, d);
     for (int s = 0; s < 4; s++) AssertRelative(c[s], rows[n].c[s], 1e-12);
     SamPairSymbols(other, rows[n].k, c, d);
-    for (int s = 0; s < 4; s++) AssertRelative(c[s], (s == SAM_LAYERED_ZR ? -1 : 1) * rows[n].c[s], 1e-12);
+    for (int s = 0; s < 4; s++) AssertRelative(c[s], (s == SAM_WAVE_ZR ? -1 : 1) * rows[n].c[s], 1e-12);
   }
 }
 
@@ -327,7 +327,7 @@ static void test_waves_are_multiplied_by_symbols(void **state)
   SamPairSymbols(pair, size, c, d);
   for (int across = 0; across < 2; across++) {
     const double along[2] = {across ? -k[1] / size : k[0] / size, across ? k[0] / size : k[1] / size},
-                 gain     = c[across ? SAM_LAYERED_TT : SAM_LAYERED_RR] / size;
+                 gain     = c[across ? SAM_WAVE_TT : SAM_WAVE_RR] / size;
 
     sam_call(VecGetArray(in, &a));
     for (PetscInt m = 0; m < 2 * grid->cells; m++) {
@@ -368,10 +368,10 @@ static void test_waves_are_multiplied_by_symbols(void **state)
       const PetscInt cell = m % grid->cells;
       const double   x = SamGridX(grid, cell % grid->nx), y = SamGridY(grid, grid->row_start + cell / grid->nx);
 
-      worst = fmax(worst, fabs(u[m] - c[SAM_LAYERED_ZR] / size * k[m / grid->cells] / size * sin(k[0] * x + k[1] * y)));
+      worst = fmax(worst, fabs(u[m] - c[SAM_WAVE_ZR] / size * k[m / grid->cells] / size * sin(k[0] * x + k[1] * y)));
     }
     sam_call(VecRestoreArrayRead(out, &u));
-    sam_assert_close(worst, 0, 1e-13 * fabs(c[SAM_LAYERED_ZR]) / size);
+    sam_assert_close(worst, 0, 1e-13 * fabs(c[SAM_WAVE_ZR]) / size);
     sam_call(VecDestroy(&p));
   }
   sam_destroy(&in, &out, &back);

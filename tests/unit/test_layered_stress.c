@@ -36,7 +36,7 @@ static void Disc(SamBody body, PetscInt layer, double z, double r, double stress
                       weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
                                   0.2369268850561891};
   const double step = 0.1, last = 80, root = sqrt(1 + z * z), nu = body->material[0].poisson;
-  double       s[SAM_LAYERED_STRESSES], sum[3] = {0, 0, 0};
+  double       s[SAM_WAVE_STRESSES], sum[3] = {0, 0, 0};
 
   for (int m = 0; m < last / step; m++)
     for (int g = 0; g < 5; g++) {

@@ -90,16 +90,16 @@ static void test_kernels_are_the_closed_forms(void **state)
   Of layered bodies: the symbols' differences by quadrature over k, with 1/k cos(kx), or sin, over a cell; what remains
   of them at k = 0 is c0 exp(-kd), whose line load is -c0/pi ln(sqrt(x^2 + d^2)/D), or c0/pi atan(x/d).
 */
-static double LayeredKernel(SamPair pair, SamLayeredSymbol symbol, double x, double h, double datum)
+static double LayeredKernel(SamPair pair, SamWaveSymbol symbol, double x, double h, double datum)
 {
   enum { PANELS = 30000 };
   static const double at[4][2] = {{-0.861136311594053, 0.347854845137454},
                                   {-0.339981043584856, 0.652145154862546},
                                   {0.339981043584856, 0.652145154862546},
                                   {0.861136311594053, 0.347854845137454}};
-  const PetscBool     odd      = symbol == SAM_LAYERED_ZR;
+  const PetscBool     odd      = symbol == SAM_WAVE_ZR;
   const double        d = 1e-4, least = log(1e-8), step = (log(6e5) - least) / PANELS; /* of ln k */
-  double              total[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS], some[SAM_LAYERED_SYMBOLS], sum = 0;
+  double              total[SAM_WAVE_SYMBOLS], limit[SAM_WAVE_SYMBOLS], some[SAM_WAVE_SYMBOLS], sum = 0;
 
   SamPairSymbols(pair, 1e-15, total, limit);
   for (int n = 0; n < 4 * PANELS; n++) {
@@ -119,7 +119,7 @@ static double LayeredKernel(SamPair pair, SamLayeredSymbol symbol, double x, dou
 
 static void test_layers_add_their_symbols(void **state)
 {
-  static const SamLayeredSymbol symbols[4] = {SAM_LAYERED_ZZ, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_ZR};
+  static const SamWaveSymbol symbols[4] = {SAM_WAVE_ZZ, SAM_WAVE_RR, SAM_WAVE_TT, SAM_WAVE_ZR};
   const SamMaterial             one[2]     = {{120e9, 0.1, 1e-4}, {.young = 210e9, .poisson = poisson[0]}},
                     two[3] = {{150e9, 0.2, 6e-5}, {60e9, 0.4, 2e-4}, {.young = 70e9, .poisson = poisson[1]}};
   SamGrid       grid       = NewGridOn(PETSC_COMM_WORLD, 37, 1, width, 1, 0, 0);

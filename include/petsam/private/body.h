@@ -66,6 +66,39 @@ PETSC_INTERN PetscBool SamPairIsUniform(SamPair pair);
 PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
 
 /*
+  Symbols times |k|, m/Pa times 1/m: u_z from p, the coupling, u_t from q along the wave, and across it. A wave along x
+  of p and (q_x, q_y) moves a surface by u_z = (zz p + zr q_x)/k, u_x = (rr q_x + zr p)/k, u_y = tt q_y/k, where p and
+  u_z go like cos kx and q_x and u_x like sin kx.
+*/
+typedef enum { SAM_WAVE_ZZ, SAM_WAVE_ZR, SAM_WAVE_RR, SAM_WAVE_TT, SAM_WAVE_SYMBOLS } SamWaveSymbol;
+
+/*
+  SamBodySymbols - adds the symbols of a body at the wave number k > 0 (1/m) to `total`, and to `difference` their
+  difference from those of a half-space of the material at the surface, which is accurate even if it is as small as
+  exp(-2 k h). `sign`: the sign of zr.
+  SamPairSymbols - computes the symbols of a pair: zz, rr, tt are sums over both bodies, zr is that of body 2 minus that
+  of body 1.
+  SamBodyInterfaceStiffness - computes the stiffness (Pa/m) against an opening of a body's last interface by (u_x, u_y,
+  u_z) of its lower side, for a wave along x: p = -(s[0] u_z - i s[1] u_x), q_x = -(s[2] u_x + i s[1] u_z), q_y = -s[3]
+  u_y between the layers, which are free at the surface of the body, and the substrate. 0 where rounding hides it.
+  None is collective.
+*/
+PETSC_INTERN void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_WAVE_SYMBOLS],
+                                 double difference[SAM_WAVE_SYMBOLS]);
+PETSC_INTERN void SamBodyInterfaceStiffness(SamBody body, double k, double s[4]);
+PETSC_INTERN void SamPairSymbols(SamPair pair, double k, double total[SAM_WAVE_SYMBOLS],
+                                 double difference[SAM_WAVE_SYMBOLS]);
+
+/*
+  SamBodyStresses - computes, at a wave number k (1/m) and the depth z (m) below the top of a material, which must be
+  elastic, the ten functions that compose the stresses by unit waves of traction, in the order of the transforms at the
+  head of layeredstress.c. In the first of several materials they are the differences from those of a half-space of this
+  material. Not collective.
+*/
+#define SAM_WAVE_STRESSES 10
+PETSC_INTERN void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_WAVE_STRESSES]);
+
+/*
   SamPairCreateFromOptions - creates a pair from -body1, -body1_young, -body1_poisson, -body1_layers,
   -body1_layer_young, -body1_layer_poisson, -body1_layer_thickness, -body1_layer_file, -body1_initial_stress, the same
   options of body 2, and -film_thickness and -film_shear of the film. Collective. Errors: SAM_ERR_USER, where

@@ -72,6 +72,15 @@ static inline double        SamDepthTableGet(const SamDepthTable *d, PetscInt ro
   return d->table.value[row * d->table.columns + d->column[c]];
 }
 
+/*
+  SamBodyReadProfile - reads the layers of a body whose constants vary with the depth, from the text file that an option
+  (its name without prefix) names: columns depth (m, from 0 on), young (Pa), poisson. Constants are linear between rows,
+  and jump at a depth that two rows have. It makes at most SAM_MATERIALS - 1 layers, each with the constants at its
+  middle. `set`: true if the option is given. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamBodyReadProfile(const SamOptions *from, const char option[], SamMaterial layers[],
+                                               PetscInt *count, PetscBool *set);
+
 /* The same of the stress before any load alone. */
 PETSC_INTERN PetscErrorCode SamBodyReadInitialStress(const SamOptions *from, SamBody body);
 PETSC_INTERN PetscErrorCode SamBodyAddInitialStress(SamBody body, const char prefix[], SamParameters *parameters);

@@ -8,11 +8,10 @@
 #include <petsam/private/stress.h>
 
 /*
-  SamElasticityAddCompliances - replaces the bodies by finite ones, whose compliances the files of -body1_compliance and
-  -body2_compliance add (elasticity/compliance/); without these options does nothing. Collective. Errors: SAM_ERR_USER,
-  SAM_ERR_FILE.
+  SamElasticityAddFromOptions - replaces the bodies by those with all that the options add to them, as the compliances
+  of finite bodies (-body1_compliance). Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
-PETSC_INTERN PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamElasticityAddFromOptions(SamElasticity *elasticity, const SamOptions *from);
 /* SamElasticityGetTypes - writes the registered types as a text: a, b or c. Not collective. */
 PETSC_INTERN PetscErrorCode SamElasticityGetTypes(char types[], size_t size);
 PETSC_INTERN PetscErrorCode SamElasticityReference(SamElasticity elasticity);

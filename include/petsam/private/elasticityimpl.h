@@ -131,12 +131,27 @@ PETSC_INTERN PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity elastici
 PETSC_INTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreate_Plane(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity elasticity);
+/* SamElasticityIsRegistered - returns true if there is a type of this name. Not collective. */
+PETSC_INTERN PetscBool SamElasticityIsRegistered(const char name[]);
 /*
-  SamElasticityAddRecordedCompliances - does the same as SamElasticityAddCompliances(), but from recorded parameters;
-  `source` names their file in messages. Collective.
+  SamElasticityRegisterAll - registers the types of the library that are not replaced, and what may be added to them
+  (bodies/register.c). SamInitialize() calls it. Not collective, on all ranks.
 */
-PETSC_INTERN PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
-                                                                const char source[]);
+PETSC_INTERN PetscErrorCode SamElasticityRegisterAll(void);
+
+/*
+  SamElasticityAddition - something that options may add to bodies of any type, by SamElasticityWrap(): `fromoptions`
+  replaces the bodies if its options are given; `fromparameters` does the same from recorded parameters, whose file
+  `source` names in messages. Both are collective.
+  SamElasticityRegisterAddition - adds one to the list, in whose order they wrap; it is not copied. Not collective, on
+  all ranks.
+*/
+typedef struct {
+  PetscErrorCode (*fromoptions)(SamElasticity *, const SamOptions *from);
+  PetscErrorCode (*fromparameters)(SamElasticity *, const SamParameters *, const char source[]);
+} SamElasticityAddition;
+PETSC_INTERN PetscErrorCode              SamElasticityRegisterAddition(const SamElasticityAddition *addition);
+PETSC_INTERN const SamElasticityAddition SamElasticityCompliances; /* compliances of finite bodies */
 /*
   SamElasticityCreateRolling - creates the operator of the same bodies under a contact that rolls towards +x in a steady
   state: u_t is the slip by the tractions in 1 m of rolled distance, and creepages take the place of tangential rigid

@@ -2,6 +2,7 @@
 #ifndef PETSAM_HALFSPACE_H
 #define PETSAM_HALFSPACE_H
 
+#include <petsam/elasticity.h>
 #include <petsam/private/stressimpl.h>
 
 /*
@@ -60,6 +61,8 @@ PETSC_INTERN void SamHalfSpaceStressRow(const SamHalfSpaceSource *source, SamStr
 */
 PETSC_INTERN PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
                                                      PetscReal poisson, SamStress *stress);
+/* SamHalfSpaceDatum - returns the datum of half-spaces in plane strain, m; 0 in three dimensions. Not collective. */
+PETSC_INTERN PetscReal *SamHalfSpaceDatum(SamElasticity elasticity);
 /* SamHalfSpaceStressAtEdge - does the work of SamStressAtEdge() in a half-space. Collective. */
 PETSC_INTERN PetscErrorCode SamHalfSpaceStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
 

@@ -2,14 +2,15 @@
 #ifndef PETSAM_LAYERED_H
 #define PETSAM_LAYERED_H
 
+#include <petsam/private/body.h>
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/halfspace.h>
 
 /*
   The flow of data for a pair of bodies of which at least one has layers, that is, several materials:
-    symbols.c        the layers of each body become symbols, functions of the wave number, by a recursion from the
+    body/symbols.c   the layers of each body become symbols, functions of the wave number, by a recursion from the
                      substrate up: the symbols themselves, and their differences from those of a half-space of the
-                     surface's material
+                     surface's material (private/body.h)
     spline.c         functions of s = r^2 or s = k^2 become polynomials on short intervals, which are evaluated quickly
     radial.c         the differences become radial functions, the influence in space that is added to the half-space's
     cells.c          the radial functions become integrals over cells, which halfspace.c adds to its closed forms. All
@@ -19,47 +20,6 @@
   Source of formulas: Burmister 1945, J. Appl. Phys. 16, 89; O'Sullivan and King 1988, J. Tribol. 110, 235.
 */
 
-/*
-  Symbols times |k|, m/Pa times 1/m: u_z from p, the coupling, u_t from q along the wave, and across it. A wave along x
-  of p and (q_x, q_y) moves a surface by u_z = (zz p + zr q_x)/k, u_x = (rr q_x + zr p)/k, u_y = tt q_y/k, where p and
-  u_z go like cos kx and q_x and u_x like sin kx.
-*/
-typedef enum { SAM_LAYERED_ZZ, SAM_LAYERED_ZR, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_SYMBOLS } SamLayeredSymbol;
-
-/*
-  SamBodySymbols - adds the symbols of a body at the wave number k > 0 (1/m) to `total`, and to `difference` their
-  difference from those of a half-space of the material at the surface, which is accurate even if it is as small as
-  exp(-2 k h). `sign`: the sign of zr.
-  SamPairSymbols - computes the symbols of a pair: zz, rr, tt are sums over both bodies, zr is that of body 2 minus that
-  of body 1.
-  SamBodyInterfaceStiffness - computes the stiffness (Pa/m) against an opening of a body's last interface by (u_x, u_y,
-  u_z) of its lower side, for a wave along x: p = -(s[0] u_z - i s[1] u_x), q_x = -(s[2] u_x + i s[1] u_z), q_y = -s[3]
-  u_y between the layers, which are free at the surface of the body, and the substrate. 0 where rounding hides it.
-  None is collective.
-*/
-PETSC_INTERN void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERED_SYMBOLS],
-                                 double difference[SAM_LAYERED_SYMBOLS]);
-PETSC_INTERN void SamBodyInterfaceStiffness(SamBody body, double k, double s[4]);
-PETSC_INTERN void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS],
-                                 double difference[SAM_LAYERED_SYMBOLS]);
-
-/*
-  SamBodyReadProfile - reads the layers of a body whose constants vary with the depth, from the text file that an option
-  (its name without prefix) names: columns depth (m, from 0 on), young (Pa), poisson. Constants are linear between rows,
-  and jump at a depth that two rows have. It makes at most SAM_MATERIALS - 1 layers, each with the constants at its
-  middle. `set`: true if the option is given. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
-*/
-PETSC_INTERN PetscErrorCode SamBodyReadProfile(const SamOptions *from, const char option[], SamMaterial layers[],
-                                               PetscInt *count, PetscBool *set);
-
-/*
-  SamBodyStresses - computes, at a wave number k (1/m) and the depth z (m) below the top of a material, which must be
-  elastic, the ten functions that compose the stresses by unit waves of traction, in the order of the transforms at the
-  head of layeredstress.c. In the first of several materials they are the differences from those of a half-space of this
-  material. Not collective.
-*/
-#define SAM_LAYERED_STRESSES 10
-PETSC_INTERN void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_LAYERED_STRESSES]);
 /*
   SamLayeredCreateStress - creates the object for the stresses in a body with layers, body 1 or 2 of a pair
   (layeredstress.c). Collective.
@@ -77,7 +37,7 @@ PETSC_INTERN PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourie
 */
 #define SAM_SPLINE_DEGREE 9
 #define SAM_RADIALS       10
-typedef struct {
+typedef struct SamSpline {
   double least, most, *centre, *scale, *coefficients; /* of each interval; coefficients of each function and interval */
   int    first, intervals, functions;
 } SamSpline;
@@ -177,7 +137,7 @@ PETSC_INTERN void SamLayeredAddRow(SamLayered layered, SamIntegral kind, double 
   `datum` (m). Not collective.
 */
 PETSC_INTERN PetscErrorCode SamLayeredPrepareLine(SamLayered layered, double r);
-PETSC_INTERN void SamLayeredAddLine(SamLayered layered, SamLayeredSymbol symbol, double dx, double datum, PetscInt n,
+PETSC_INTERN void SamLayeredAddLine(SamLayered layered, SamWaveSymbol symbol, double dx, double datum, PetscInt n,
                                     double values[]);
 
 #endif

@@ -46,7 +46,7 @@ PETSC_INTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
 /*
   SamStressAtEdge - computes the stresses xx, yy and xy (Pa, three per point) on the surface at the points of the
   contact edge, which was reconstructed from the square of the pressure. The maximum tension lies there, and the values
-  of the map approach it only with the square root of the cell size (src/bodies/elasticity/halfspace/stressedge.c).
+  of the map approach it only with the square root of the cell size (src/bodies/kernels/stressedge.c).
   `field`: the map of SamStressApply() at depth 0. NaN within six cells of the grid's border, and if the type of
   elasticity has no such method. Collective.
 */

@@ -40,7 +40,7 @@ PETSC_INTERN const PetscBool SamStressOdd[SAM_STRESS_GROUPS][SAM_STRESS_GROUP][2
   type owns `data`.
     row           required: computes the kernels of a group at a cell's centre at the lags (i, j), i = 0 ... n - 1, j >=
                   0, in cells of these sides, by unit traction on the cell that lies (i, j) before it, z = depth >= 0
-                  (all m). They contain the correction of values at centres (elasticity/halfspace/stresscell.c). Not
+                  (all m). They contain the correction of values at centres (kernels/stresscell.c). Not
                   collective.
     usedepth      computes the tables of a depth for the following calls of row. Not collective.
     atedge        does the work of SamStressAtEdge(). Collective.

@@ -12,22 +12,17 @@
 
 static PetscFunctionList SamElasticityList = NULL;
 
-static PetscErrorCode FreeList(void)
+#define ADDITIONS 8 /* most of them */
+
+static const SamElasticityAddition *additions[ADDITIONS];
+static PetscInt                     added = 0;
+
+/* Empties both lists. */
+static PetscErrorCode FreeLists(void)
 {
   PetscFunctionBegin;
   PetscCall(PetscFunctionListDestroy(&SamElasticityList));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode RegisterAll(void)
-{
-  PetscFunctionBegin;
-  if (SamElasticityList) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_HALFSPACE, SamElasticityCreate_HalfSpace));
-  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PERIODIC, SamElasticityCreate_Periodic));
-  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PLANE, SamElasticityCreate_Plane));
-  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PLANE_PERIODIC, SamElasticityCreate_PlanePeriodic));
-  PetscCall(PetscRegisterFinalize(FreeList));
+  added = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -36,15 +31,39 @@ PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)
   PetscFunctionBegin;
   SamValidPointer(name, 1);
   SamValidPointer(create, 2);
-  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces a built-in one */
+  if (!SamElasticityList) PetscCall(PetscRegisterFinalize(FreeLists));
   PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamElasticityIsRegistered(const char name[])
+{
+  SamElasticityCreateFunction create = NULL;
+
+  return !PetscFunctionListFind(SamElasticityList, name, &create) && create ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode SamElasticityRegisterAddition(const SamElasticityAddition *addition)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < added; k++)
+    if (additions[k] == addition) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(added < ADDITIONS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "More than %d additions to bodies",
+             ADDITIONS);
+  additions[added++] = addition;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityAddFromOptions(SamElasticity *elasticity, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < added; k++) PetscCall((*additions[k]->fromoptions)(elasticity, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamElasticityGetTypes(char types[], size_t size)
 {
   PetscFunctionBegin;
-  PetscCall(RegisterAll());
   PetscCall(SamTypesList(SamElasticityList, types, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -58,7 +77,6 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *el
   SamValidHandle(pair, SamPair, 2);
   SamValidPointer(elasticity, 3);
   PetscCall(SamBaseInitialize());
-  PetscCall(RegisterAll());
   PetscCall(PetscNew(&e));
   e->class_id   = SamElasticity_CLASSID;
   e->references = 1;
@@ -119,8 +137,8 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
   SamValidPointer(type, 2);
   PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
-  PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: use %s", type,
-             types);
+  PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: %s%s", type,
+             types[0] ? "use " : "call SamInitialize() first", types);
   PetscCheck(e->references == 1, e->grid->comm, PETSC_ERR_ORDER,
              "The type of an elasticity must be set before a problem or a solver refers to it");
   PetscCall(Create(e, type, create));
@@ -332,7 +350,7 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
              type->text, grid->ny);
   for (SamElasticity e = *elasticity; e; e = e->inner)
     if (e->ops.setparameters) PetscCall((*e->ops.setparameters)(e, p, source));
-  PetscCall(SamElasticityAddRecordedCompliances(elasticity, p, source));
+  for (PetscInt k = 0; k < added; k++) PetscCall((*additions[k]->fromparameters)(elasticity, p, source));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

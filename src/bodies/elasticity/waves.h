@@ -3,7 +3,6 @@
 #define PETSAM_WAVES_H
 
 #include <petsam/private/elasticityimpl.h>
-#include <petsam/private/layered.h>
 
 /* Part of a column of spectra: entries first ... last - 1 have the wave number ky = step (m - origin). */
 typedef struct {
@@ -22,11 +21,11 @@ typedef struct SamSymbol {
   double slip;    /* and the inverse symbol over |k| */
   double turn[2]; /* the wave is divided by 1 + i turn.k/|k| besides, in single precision; 0: it is not */
   double film;    /* added to the tangential symbol without a film before it is inverted */
-  /* for layered bodies (layered/layeredwaves.c): */
-  const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */
-  double           unit;    /* 1/m^2 in units of k^2 */
-  double           top;     /* the normal symbol of the materials at the surfaces */
-  PetscBool        inverse; /* true: the inverses of the symbols */
+  /* for layered bodies (layered/layeredwaves.h): */
+  const struct SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */
+  double                  unit;    /* 1/m^2 in units of k^2 */
+  double                  top;     /* the normal symbol of the materials at the surfaces */
+  PetscBool               inverse; /* true: the inverses of the symbols */
   void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
 } SamSymbol;
 
@@ -37,22 +36,5 @@ PETSC_INTERN PetscErrorCode SamSymbolApplySingle(SamElasticity elasticity, const
                                                  const float *const in[], float *const out[]);
 /* Multiplies by gain |k|, and by `mean` instead of |k| for the mean; in single precision. */
 PETSC_INTERN void SamSymbolDivideNormal(const SamSymbol *symbol, SamWaves waves);
-/*
-  SamLayeredSymbolSet - gives a symbol whose `step` is set the tables of layered bodies, and extends these to all waves
-  of hx * hy. Not collective, the same on all ranks.
-*/
-PETSC_INTERN PetscErrorCode SamLayeredSymbolSet(SamLayered layered, PetscReal length, PetscInt hx, PetscInt hy,
-                                                SamSymbol *symbol);
-/*
-  For layered bodies, in two precisions, these multiply by gain c/|k| or gain |k|/c, where c are the symbols in the
-  table. The mean is multiplied by 0, in inverses by `mean`. Tangential components are along and across each wave.
-*/
-PETSC_INTERN void SamLayeredMultiplyNormal(const SamSymbol *symbol, SamWaves waves);
-PETSC_INTERN void SamLayeredMultiplyTangential(const SamSymbol *symbol, SamWaves waves);
-PETSC_INTERN void SamLayeredMultiplyNormalSingle(const SamSymbol *symbol, SamWaves waves);
-PETSC_INTERN void SamLayeredMultiplyTangentialSingle(const SamSymbol *symbol, SamWaves waves);
-
-/* SamHalfSpaceDatum - returns the datum of half-spaces in plane strain, m; 0 in three dimensions. Not collective. */
-PETSC_INTERN PetscReal *SamHalfSpaceDatum(SamElasticity elasticity);
 
 #endif

@@ -29,8 +29,7 @@
   slip velocity of cylinders are within 4 % (1 % from two cells on), slip of spheres within 6 % divided by the width in
   cells. Cells alone are wrong by up to 24, 99 and 20 % in zones of one cell, and by 10, 21 and 11 % in zones of two.
 */
-#include <petsam/private/bodyimpl.h>
-#include <petsam/private/layered.h>
+#include <petsam/private/body.h>
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/elasticity.h>
@@ -57,15 +56,15 @@ static PetscErrorCode Begin(SamProblem problem, const SamSolution *s, Vec separa
   const SamElasticity e    = SamProblemGetElasticity(problem);
   const SamGrid       grid = SamProblemGetGrid(problem);
   const double        k    = 1 / (double)grid->side[0];
-  double              c[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
+  double              c[SAM_WAVE_SYMBOLS], difference[SAM_WAVE_SYMBOLS];
 
   PetscFunctionBegin;
   *seen = (Seen){.grid = grid, .streams = SamMotionOf(e)->streams, .wraps = SamElasticityGetTraits(e).periodic};
   SamPairSymbols(SamElasticityGetPair(e), k, c, difference);
-  seen->modulus  = 2 / c[SAM_LAYERED_ZZ];
-  seen->strain   = c[SAM_LAYERED_ZR];
-  seen->ratio[0] = c[SAM_LAYERED_RR] / c[SAM_LAYERED_ZZ];
-  seen->ratio[1] = c[SAM_LAYERED_TT] / c[SAM_LAYERED_ZZ];
+  seen->modulus  = 2 / c[SAM_WAVE_ZZ];
+  seen->strain   = c[SAM_WAVE_ZR];
+  seen->ratio[0] = c[SAM_WAVE_RR] / c[SAM_WAVE_ZZ];
+  seen->ratio[1] = c[SAM_WAVE_TT] / c[SAM_WAVE_ZZ];
   PetscCall(SamRigidSet(&seen->rigid, problem, s));
   PetscCall(SamValuesGet(s, &seen->own));
   PetscCall(SamHaloBegin(grid, s->pressure, 1, HALO, seen->wraps, &seen->p));

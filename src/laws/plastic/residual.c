@@ -8,7 +8,7 @@
   of each layer, and the displacement by plastic strain from the transpose of these.
 
   If the body has layers of other materials on its surface, the layers of plastic strain begin below them. The layers
-  above are bonded to the waves' surface: with the compliances C of both sides of this interface (layered/symbols.c),
+  above are bonded to the waves' surface: with the compliances C of both sides of this interface (bodies/body/symbols.c),
   they answer the displacement u that the strain would cause without them by tractions -u/C. Their images are those of a
   half-space without them, since long waves bend thin layers freely.
 */
@@ -17,7 +17,6 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/body.h>
-#include <petsam/private/layered.h>
 
 struct _n_SamResidual {
   SamGrid         grid;

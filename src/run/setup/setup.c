@@ -18,7 +18,7 @@ static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
   PetscCall(SamElasticityCreate(s->grid, s->pair, &s->elasticity));
   PetscCall(SamElasticitySetOptionsPrefix(s->elasticity, from->prefix));
   PetscCall(SamElasticitySetFromOptions(s->elasticity));
-  PetscCall(SamElasticityAddCompliances(&s->elasticity, from));
+  PetscCall(SamElasticityAddFromOptions(&s->elasticity, from));
   PetscCall(SamMotionSetFromOptions(from, &s->elasticity));
   PetscCall(SamProblemCreate(s->elasticity, &s->problem));
   PetscCall(SamProblemSetLawsFromOptions(s->problem, from));

@@ -1,6 +1,5 @@
 /* Bodies: their materials from the surface down, options, records and advice. */
 #include <petsam/private/bodyimpl.h>
-#include <petsam/private/layered.h>
 #include <petsam/private/base.h>
 #include <petsam/private/body.h>
 #include <math.h>

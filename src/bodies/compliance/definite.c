@@ -5,7 +5,7 @@
   With K of the half-space on cells, Phi the polynomials' means (modes, cells), A the area of a cell and G =
   A Phi K^-1 Phi', the eigenvalues of K + A Phi'D Phi relative to K are 1 and 1 + those of D G.
 */
-#include "../waves.h"
+#include <petsam/private/halfspace.h>
 #include <petsam/private/body.h>
 #include <petsam/private/compliance.h>
 #include <math.h>

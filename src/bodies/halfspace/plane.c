@@ -1,7 +1,7 @@
 /* Two half-spaces in plane strain: the type, and the distance of the reference point of displacements (halfspace.c). */
-#include "../waves.h"
-#include <petsam/private/layered.h>
+#include "../elasticity/waves.h"
 #include <petsam/private/body.h>
+#include <petsam/private/halfspace.h>
 #include <math.h>
 
 #define DATUM "plane_datum"
@@ -23,21 +23,20 @@
 static double LeastDatum(SamElasticity e)
 {
   const double width = (double)e->grid->width[0], half_plane = exp(-1.5);
-  double       farthest            = half_plane, limit[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS],
-         sums[SAM_LAYERED_SYMBOLS] = {0};
+  double farthest = half_plane, limit[SAM_WAVE_SYMBOLS], difference[SAM_WAVE_SYMBOLS], sums[SAM_WAVE_SYMBOLS] = {0};
 
   if (SamPairIsUniform(e->pair)) return width / 2;
   SamPairSymbols(e->pair, exp(2 * LONG) / width, limit, difference);
   for (double x = LONG; x < SHORT; x += STEP) {
     const double k = exp(x), sinc = sin(k / 2) / (k / 2);
-    double       c[SAM_LAYERED_SYMBOLS];
+    double       c[SAM_WAVE_SYMBOLS];
 
     SamPairSymbols(e->pair, k / width, c, difference);
-    for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++) sums[s] += STEP * (c[s] * sinc * sinc - limit[s] / (1 + k * k));
+    for (int s = 0; s < SAM_WAVE_SYMBOLS; s++) sums[s] += STEP * (c[s] * sinc * sinc - limit[s] / (1 + k * k));
   }
   /* Bodies on rigid bases have no logarithm. */
-  for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++)
-    if (s != SAM_LAYERED_ZR && limit[s] > exp(LONG) * fabs(sums[s]))
+  for (int s = 0; s < SAM_WAVE_SYMBOLS; s++)
+    if (s != SAM_WAVE_ZR && limit[s] > exp(LONG) * fabs(sums[s]))
       farthest = PetscMax(farthest, exp(-EULER - sums[s] / limit[s]));
   return width * farthest / (2 * half_plane);
 }
@@ -45,11 +44,11 @@ static double LeastDatum(SamElasticity e)
 /* True if displacements have no limit far away: but for bodies on rigid bases. */
 static PetscBool HasDatum(SamElasticity e)
 {
-  double limit[SAM_LAYERED_SYMBOLS], waves[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
+  double limit[SAM_WAVE_SYMBOLS], waves[SAM_WAVE_SYMBOLS], difference[SAM_WAVE_SYMBOLS];
 
   SamPairSymbols(e->pair, exp(2 * LONG) / (double)e->grid->width[0], limit, difference);
   SamPairSymbols(e->pair, 1 / (double)e->grid->width[0], waves, difference);
-  return limit[SAM_LAYERED_ZZ] > exp(LONG) * waves[SAM_LAYERED_ZZ] ? PETSC_TRUE : PETSC_FALSE;
+  return limit[SAM_WAVE_ZZ] > exp(LONG) * waves[SAM_WAVE_ZZ] ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode CheckDatum(SamElasticity e, PetscErrorCode error, const char source[], const char before[])

@@ -16,7 +16,7 @@
   Source of the normal symbol: Westergaard 1939, J. Appl. Mech. 6, A49-A53; Stanley and Kato 1997, J. Tribol. 119,
   481-485.
 */
-#include "../waves.h"
+#include "../layered/layeredwaves.h"
 #include <math.h>
 
 typedef struct {
@@ -47,7 +47,7 @@ static inline double IsOwnMirror(PetscInt k, PetscInt n)
 /* ---- coupling ---- */
 
 /* Returns a symbol of layered bodies. */
-static double SymbolAt(const SamSymbol *s, SamLayeredSymbol symbol, double k2)
+static double SymbolAt(const SamSymbol *s, SamWaveSymbol symbol, double k2)
 {
   const double argument = k2 * s->unit;
   double       value;
@@ -64,7 +64,7 @@ static void CouplingAt(const SamSymbol *s, const SamFourierBlock *block, PetscIn
                ky = s->step[1] * (double)(2 * m <= block->hy ? m : m - block->hy), k2 = kx * kx + ky * ky;
   double gain = s->gain;
 
-  if (s->table) gain *= SymbolAt(s, SAM_LAYERED_ZR, k2);
+  if (s->table) gain *= SymbolAt(s, SAM_WAVE_ZR, k2);
   g[0] = k2 > 0 ? gain * kx / k2 * (1 - IsOwnMirror(block->first + b, block->hx)) : 0;
   g[1] = k2 > 0 ? gain * ky / k2 * (1 - IsOwnMirror(m, block->hy)) : 0;
 }
@@ -283,9 +283,9 @@ static void SumWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sum
                  part = weight * Multiplicity(l, e->grid->nx) / sqrt(k2);
 
     if (s->table) {
-      const double along = SymbolAt(s, SAM_LAYERED_RR, k2), across = SymbolAt(s, SAM_LAYERED_TT, k2);
+      const double along = SymbolAt(s, SAM_WAVE_RR, k2), across = SymbolAt(s, SAM_WAVE_TT, k2);
 
-      sums[0] += part * SymbolAt(s, SAM_LAYERED_ZZ, k2);
+      sums[0] += part * SymbolAt(s, SAM_WAVE_ZZ, k2);
       sums[1] += part * (along * kx * kx + across * ky * ky) / k2;
       sums[2] += part * (along * ky * ky + across * kx * kx) / k2;
     } else {

@@ -8,7 +8,7 @@
   of 0.003 to 0.1 of the contact's radius, all converge, in 30 iterations on average; with the power 5/8 one of 300 does
   not, with 3/4 more.
 */
-#include "../waves.h"
+#include "layeredwaves.h"
 #include <math.h>
 
 #define CHUNK 256
@@ -20,11 +20,11 @@ typedef struct {
 } Waves;
 
 /* Computes |k|^2 and gain c/|k|, or its inverse, of up to CHUNK waves from entry `first` on; returns their number. */
-static PetscInt Gains(const SamSymbol *s, const SamWaves *at, PetscInt first, SamLayeredSymbol symbol, double k2[],
+static PetscInt Gains(const SamSymbol *s, const SamWaves *at, PetscInt first, SamWaveSymbol symbol, double k2[],
                       double gain[])
 {
   const PetscInt n     = PetscMin(CHUNK, at->last - first);
-  const double   least = s->mean * s->mean, film = symbol == SAM_LAYERED_ZZ ? 0 : s->film;
+  const double   least = s->mean * s->mean, film = symbol == SAM_WAVE_ZZ ? 0 : s->film;
   double         argument[CHUNK] = {0};
 
   for (PetscInt m = 0; m < n; m++) {
@@ -36,7 +36,7 @@ static PetscInt Gains(const SamSymbol *s, const SamWaves *at, PetscInt first, Sa
   SamSplineRow(s->table, symbol, n, argument, gain);
   for (PetscInt m = 0; m < n; m++) {
     const double k = sqrt(k2[m]), ratio = gain[m] / s->top,
-                 eased = symbol == SAM_LAYERED_ZZ && ratio > 1 ? sqrt(ratio) : PetscMax(ratio, LEAST);
+                 eased = symbol == SAM_WAVE_ZZ && ratio > 1 ? sqrt(ratio) : PetscMax(ratio, LEAST);
 
     gain[m] = s->inverse ? s->gain * k / (s->top * eased + film * k) : s->gain * gain[m] / k;
   }

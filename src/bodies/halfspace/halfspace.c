@@ -9,7 +9,7 @@
   p. They are the integrals of the kernels below over all y, except that displacements are relative to a point at the
   distance D. Waves have the same symbols. Source: Johnson 1985, Contact Mechanics, sections 2.2 and 2.3.
 */
-#include "../waves.h"
+#include "../layered/layeredwaves.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/halfspace.h>
@@ -75,8 +75,8 @@ static double PlaneIntegral(double dx, double datum, PetscInt i)
 
 static void PlaneRow(const Coefficients *c, PetscInt j, PetscInt n, double values[])
 {
-  static const SamLayeredSymbol symbols[] = {
-    [ZZ] = SAM_LAYERED_ZZ, [XX] = SAM_LAYERED_RR, [YY] = SAM_LAYERED_TT, [XZ] = SAM_LAYERED_ZR};
+  static const SamWaveSymbol symbols[] = {
+    [ZZ] = SAM_WAVE_ZZ, [XX] = SAM_WAVE_RR, [YY] = SAM_WAVE_TT, [XZ] = SAM_WAVE_ZR};
   const double more = c->kind == YY ? c->factor[1] : 0;
 
   for (PetscInt i = 0; i < n; i++) {

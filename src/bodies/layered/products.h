@@ -10,7 +10,7 @@ void Name(SamLayeredMultiplyNormal)(const SamSymbol *s, SamWaves at)
   Waves w;
 
   for (PetscInt first = at.first; first < at.last; first += CHUNK) {
-    const PetscInt n = Gains(s, &at, first, SAM_LAYERED_ZZ, w.k2, w.along);
+    const PetscInt n = Gains(s, &at, first, SAM_WAVE_ZZ, w.k2, w.along);
 
     for (PetscInt m = 0; m < n; m++)
       for (int part = 0; part < 2; part++) column[first + m][part] *= (Real)w.along[m];
@@ -24,9 +24,9 @@ void Name(SamLayeredMultiplyTangential)(const SamSymbol *s, SamWaves at)
   Waves w;
 
   for (PetscInt first = at.first; first < at.last; first += CHUNK) {
-    const PetscInt n = Gains(s, &at, first, SAM_LAYERED_RR, w.k2, w.along);
+    const PetscInt n = Gains(s, &at, first, SAM_WAVE_RR, w.k2, w.along);
 
-    (void)Gains(s, &at, first, SAM_LAYERED_TT, w.k2, w.across);
+    (void)Gains(s, &at, first, SAM_WAVE_TT, w.k2, w.across);
     for (PetscInt m = 0; m < n; m++) {
       const double ky = s->step[1] * (double)(first + m - at.origin), part = (w.along[m] - w.across[m]) / w.k2[m];
       const Real   xx = (Real)(w.across[m] + part * at.kx * at.kx), xy = (Real)(at.cross * part * at.kx * ky),

@@ -18,8 +18,8 @@
   together with b, is the difference from it. Across the wave, V = v exp(-kz) + g exp(kz) v, v = -T/(mu (1 - g)). In the
   plane, S_xx = (2 mu U + nu S)/(1 - nu), S_yy = nu (S_xx + S), S_xy = -mu V sin kx.
 */
-#include <petsam/private/layered.h>
 #include <petsam/private/body.h>
+#include <petsam/private/bodyimpl.h>
 
 typedef struct {
   double m[2][2];
@@ -144,16 +144,16 @@ static Surface SurfaceOf(SamBody body, double k, Surface below[])
 }
 
 /* Adds the symbols of a compliance in the plane of the wave and across it. */
-static void AddSymbols(const Matrix *m, double across, double sign, double to[SAM_LAYERED_SYMBOLS])
+static void AddSymbols(const Matrix *m, double across, double sign, double to[SAM_WAVE_SYMBOLS])
 {
-  to[SAM_LAYERED_ZZ] -= m->m[1][1];
-  to[SAM_LAYERED_ZR] -= sign * m->m[1][0];
-  to[SAM_LAYERED_RR] -= m->m[0][0];
-  to[SAM_LAYERED_TT] += across;
+  to[SAM_WAVE_ZZ] -= m->m[1][1];
+  to[SAM_WAVE_ZR] -= sign * m->m[1][0];
+  to[SAM_WAVE_RR] -= m->m[0][0];
+  to[SAM_WAVE_TT] += across;
 }
 
-void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERED_SYMBOLS],
-                    double difference[SAM_LAYERED_SYMBOLS])
+void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_WAVE_SYMBOLS],
+                    double difference[SAM_WAVE_SYMBOLS])
 {
   const Surface s = SurfaceOf(body, k, NULL);
 
@@ -164,9 +164,9 @@ void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERE
 /* The inverse of the compliance of a pair of which the layers, upside down, are body 1, and the substrate is body 2. */
 void SamBodyInterfaceStiffness(SamBody body, double k, double s[4])
 {
-  const Material base                   = MaterialOf(SamBodySubstrate(body));
-  Surface        film                   = {.across = 0};
-  double         c[SAM_LAYERED_SYMBOLS] = {0}, det;
+  const Material base                = MaterialOf(SamBodySubstrate(body));
+  Surface        film                = {.across = 0};
+  double         c[SAM_WAVE_SYMBOLS] = {0}, det;
 
   for (PetscInt n = 0; n < body->count - 1; n++) { /* from the free surface to the substrate */
     const Material m = MaterialOf(&body->material[n]);
@@ -175,18 +175,18 @@ void SamBodyInterfaceStiffness(SamBody body, double k, double s[4])
   }
   AddSymbols(&film.compliance, film.across, -1, c);
   AddSymbols(&base.half_space, 1 / base.mu, 1, c);
-  det  = c[SAM_LAYERED_ZZ] * c[SAM_LAYERED_RR] - c[SAM_LAYERED_ZR] * c[SAM_LAYERED_ZR];
+  det  = c[SAM_WAVE_ZZ] * c[SAM_WAVE_RR] - c[SAM_WAVE_ZR] * c[SAM_WAVE_ZR];
   s[0] = s[1] = s[2] = s[3] = 0;
-  if (!(det > 0) || !(c[SAM_LAYERED_TT] > 0) || isinf(det)) return;
-  s[0] = k * c[SAM_LAYERED_RR] / det;
-  s[1] = k * c[SAM_LAYERED_ZR] / det;
-  s[2] = k * c[SAM_LAYERED_ZZ] / det;
-  s[3] = k / c[SAM_LAYERED_TT];
+  if (!(det > 0) || !(c[SAM_WAVE_TT] > 0) || isinf(det)) return;
+  s[0] = k * c[SAM_WAVE_RR] / det;
+  s[1] = k * c[SAM_WAVE_ZR] / det;
+  s[2] = k * c[SAM_WAVE_ZZ] / det;
+  s[3] = k / c[SAM_WAVE_TT];
 }
 
-void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS], double difference[SAM_LAYERED_SYMBOLS])
+void SamPairSymbols(SamPair pair, double k, double total[SAM_WAVE_SYMBOLS], double difference[SAM_WAVE_SYMBOLS])
 {
-  for (int c = 0; c < SAM_LAYERED_SYMBOLS; c++) total[c] = difference[c] = 0;
+  for (int c = 0; c < SAM_WAVE_SYMBOLS; c++) total[c] = difference[c] = 0;
   for (int b = 0; b < 2; b++) SamBodySymbols(pair->body[b], b ? 1 : -1, k, total, difference);
 }
 
@@ -200,7 +200,7 @@ typedef struct {
 
 /* Computes the ten functions from (U, W), (T, S) by p and q, and from V, T across, in a material. */
 static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, double v, double across,
-                            double s[SAM_LAYERED_STRESSES])
+                            double s[SAM_WAVE_STRESSES])
 {
   double xx[2], yy[2];
 
@@ -221,7 +221,7 @@ static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, d
 }
 
 /* Computes the stress functions in the substrate, at the depth z below its top. */
-static void Below(const SamMaterial *of, Wave top, double kz, double s[SAM_LAYERED_STRESSES])
+static void Below(const SamMaterial *of, Wave top, double kz, double s[SAM_WAVE_STRESSES])
 {
   const Material m = MaterialOf(of);
   const Matrix   a = Times(Decay(kz), Times(Inverse(m.A), top.stress));
@@ -230,7 +230,7 @@ static void Below(const SamMaterial *of, Wave top, double kz, double s[SAM_LAYER
   CombineStresses(m.mu, of->poisson, Times(m.D, a), Times(m.A, a), v, -m.mu * v, s);
 }
 
-void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_LAYERED_STRESSES])
+void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_WAVE_STRESSES])
 {
   Surface below[SAM_MATERIALS]; /* of a material, at its number + 1 */
   Wave    top = {{{{0, -1}, {-1, 0}}}, -1};

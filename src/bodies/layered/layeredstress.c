@@ -14,7 +14,7 @@
 
   Algorithm. For each depth, a table of the ten functions (radial.c) is computed and integrated over the cells
   (cells.c). In the first layer the functions are the differences from a half-space of its material, whose closed forms
-  (halfspace/stresscell.c) are added; they decay like exp(-k (2 h - z)). Below the first layer the functions decay like
+  (kernels/stresscell.c) are added; they decay like exp(-k (2 h - z)). Below the first layer the functions decay like
   exp(-kz).
 
   In plane strain the ten become even functions (cosines) xx = s2 + s3, yy = s2 - s3, zz = s0 by p, xz = s5 + s6 by q_x
@@ -47,7 +47,7 @@ typedef struct {
 
 /* ---- the functions ---- */
 
-static void StressesAt(const Layered *l, double k, double s[SAM_LAYERED_STRESSES])
+static void StressesAt(const Layered *l, double k, double s[SAM_WAVE_STRESSES])
 {
   const double least = isinf(SamBodySubstrate(l->body)->young) ? LONG_WAVE / l->base : 0;
 
@@ -57,7 +57,7 @@ static void StressesAt(const Layered *l, double k, double s[SAM_LAYERED_STRESSES
 static void FunctionsAt(const void *context, double k, double g[])
 {
   StressesAt((const Layered *)context, k, g);
-  for (int f = 0; f < SAM_LAYERED_STRESSES; f++) g[f] *= k;
+  for (int f = 0; f < SAM_WAVE_STRESSES; f++) g[f] *= k;
 }
 
 /* The functions of plane strain, in a separate order */
@@ -65,7 +65,7 @@ enum { P_XX, P_YY, P_ZZ, X_XZ, Y_YZ, EVEN, P_XZ = EVEN, X_XX, X_YY, X_ZZ, Y_XY }
 
 static void LineFunctionsAt(const void *context, double k, double g[])
 {
-  double s[SAM_LAYERED_STRESSES];
+  double s[SAM_WAVE_STRESSES];
 
   StressesAt((const Layered *)context, k, s);
   g[P_XX] = s[2] + s[3];
@@ -86,7 +86,7 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
   static const int line_orders[] = {0, 0, 0, 0, 0, 1, 1, 1, 1, 1};
   const SamGrid    grid          = stress->grid;
   Layered         *l             = (Layered *)stress->data;
-  SamRadialSource  of            = {.functions = SAM_LAYERED_STRESSES,
+  SamRadialSource  of            = {.functions = SAM_WAVE_STRESSES,
                                     .line      = SamGridIsRow(grid),
                                     .orders    = SamGridIsRow(grid) ? line_orders : orders,
                                     .values    = SamGridIsRow(grid) ? LineFunctionsAt : FunctionsAt,
@@ -177,12 +177,12 @@ typedef struct {
 static Jumps JumpsOf(const Layered *l, double side)
 {
   const double power = pow(3 + sqrt(8), ALTERNATING), d = 0.5 * (power + 1 / power);
-  double       b = -1, c = -d, sums[SAM_LAYERED_STRESSES] = {0}, s[SAM_LAYERED_STRESSES];
+  double       b = -1, c = -d, sums[SAM_WAVE_STRESSES] = {0}, s[SAM_WAVE_STRESSES];
 
   for (int m = 0; m < ALTERNATING; m++) {
     c = b - c;
     StressesAt(l, 2 * PETSC_PI * (m + 1) / side, s);
-    for (int f = 0; f < SAM_LAYERED_STRESSES; f++) sums[f] -= c / d * s[f] / (m + 1) / (2 * PETSC_PI);
+    for (int f = 0; f < SAM_WAVE_STRESSES; f++) sums[f] -= c / d * s[f] / (m + 1) / (2 * PETSC_PI);
     b *= (double)(m + ALTERNATING) * (m - ALTERNATING) / ((m + 0.5) * (m + 1));
   }
   return (Jumps){.xx = sums[7] + sums[8] + sums[9],

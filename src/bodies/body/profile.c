@@ -5,7 +5,7 @@
   Parts of the profile, from one row of the file to the next, get one layer where the constants do not vary; the other
   parts share the rest, in proportion to how much Young's modulus changes in them.
 */
-#include <petsam/private/layered.h>
+#include <petsam/private/bodyimpl.h>
 
 enum { DEPTH, YOUNG, POISSON };
 

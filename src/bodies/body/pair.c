@@ -1,6 +1,5 @@
 /* Pairs of bodies: the sums of their constants, and the film between them. */
 #include <petsam/private/bodyimpl.h>
-#include <petsam/private/layered.h>
 #include <petsam/private/base.h>
 #include <petsam/private/body.h>
 #include <petsam/private/parameters.h>
@@ -128,10 +127,10 @@ double SamPairCoupling(SamPair pair, double first, double last)
 
   if (SamPairIsUniform(pair)) return fabs((double)pair->dundurs);
   for (int m = 0; m < SAMPLES; m++) {
-    double total[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
+    double total[SAM_WAVE_SYMBOLS], difference[SAM_WAVE_SYMBOLS];
 
     SamPairSymbols(pair, first * pow(last / first, (double)m / (SAMPLES - 1)), total, difference);
-    most = PetscMax(most, fabs(total[SAM_LAYERED_ZR]) / total[SAM_LAYERED_ZZ]);
+    most = PetscMax(most, fabs(total[SAM_WAVE_ZR]) / total[SAM_WAVE_ZZ]);
   }
   return most;
 }

@@ -16,7 +16,7 @@
   Body 1 is rotated about x by half a turn into its place, so that only y and z change their signs. It bears -t, and u
   is the displacement of body 2 minus that of body 1, so that the contributions of both bodies add.
 */
-#include "../waves.h"
+#include <petsam/private/halfspace.h>
 #include <petsam/private/compliance.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/base.h>
@@ -599,7 +599,8 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from)
+/* Adds the compliances whose files -body1_compliance and -body2_compliance name; without these options nothing. */
+static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions *from)
 {
   PetscBool given;
   char      file[PETSC_MAX_PATH_LEN] = "";
@@ -616,8 +617,8 @@ PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamO
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
-                                                   const char source[])
+/* The same from recorded parameters. */
+static PetscErrorCode AddFromParameters(SamElasticity *elasticity, const SamParameters *p, const char source[])
 {
   const SamOptions from = {(*elasticity)->grid->comm, NULL};
 
@@ -634,3 +635,5 @@ PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, co
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+const SamElasticityAddition SamElasticityCompliances = {AddFromOptions, AddFromParameters};

@@ -242,15 +242,15 @@ PetscErrorCode SamLayeredDestroy(SamLayered *layered)
 /* Computes the functions of k whose transforms are N, A, B and C from differences of symbols. */
 static void Combine(const double symbols[], double g[])
 {
-  g[SAM_RADIAL_N] = symbols[SAM_LAYERED_ZZ];
-  g[SAM_RADIAL_A] = 0.5 * (symbols[SAM_LAYERED_RR] + symbols[SAM_LAYERED_TT]);
-  g[SAM_RADIAL_B] = 0.5 * (symbols[SAM_LAYERED_TT] - symbols[SAM_LAYERED_RR]);
-  g[SAM_RADIAL_C] = symbols[SAM_LAYERED_ZR];
+  g[SAM_RADIAL_N] = symbols[SAM_WAVE_ZZ];
+  g[SAM_RADIAL_A] = 0.5 * (symbols[SAM_WAVE_RR] + symbols[SAM_WAVE_TT]);
+  g[SAM_RADIAL_B] = 0.5 * (symbols[SAM_WAVE_TT] - symbols[SAM_WAVE_RR]);
+  g[SAM_RADIAL_C] = symbols[SAM_WAVE_ZR];
 }
 
 static void DifferencesAt(const void *context, double k, double values[])
 {
-  double total[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
+  double total[SAM_WAVE_SYMBOLS], difference[SAM_WAVE_SYMBOLS];
 
   SamPairSymbols(((SamLayered)context)->pair, k, total, difference);
   Combine(difference, values);
@@ -259,11 +259,11 @@ static void DifferencesAt(const void *context, double k, double values[])
 /* Describes a source of these differences, whose images are those of the symbols. */
 static SamRadialSource SourceOf(SamLayered l)
 {
-  SamRadialSource of = {.functions = SAM_LAYERED_SYMBOLS, .depth = l->depth, .context = l};
+  SamRadialSource of = {.functions = SAM_WAVE_SYMBOLS, .depth = l->depth, .context = l};
 
   for (PetscInt b = 0; b < 2; b++) {
-    const SamBody body                       = l->pair->body[b];
-    double        total[SAM_LAYERED_SYMBOLS] = {0};
+    const SamBody body                    = l->pair->body[b];
+    double        total[SAM_WAVE_SYMBOLS] = {0};
 
     of.thickness[b] = (double)SamBodySubstrateTop(body);
     of.longest      = PetscMax(of.longest, of.thickness[b]);
@@ -281,9 +281,9 @@ static PetscErrorCode CreateRadial(SamLayered l, double r)
   of.orders = orders;
   of.values = DifferencesAt;
   for (PetscInt b = 0; b < 2; b++) {
-    double limit[SAM_LAYERED_SYMBOLS];
+    double limit[SAM_WAVE_SYMBOLS];
 
-    PetscCall(PetscArraycpy(limit, of.image[b], SAM_LAYERED_SYMBOLS));
+    PetscCall(PetscArraycpy(limit, of.image[b], SAM_WAVE_SYMBOLS));
     Combine(limit, of.image[b]);
   }
   PetscCall(SamRadialCreate(&of, r, &l->radial));
@@ -307,11 +307,11 @@ typedef struct {
 static void RestsAt(const void *context, double k, double values[])
 {
   const Rest *rest = (const Rest *)context;
-  double      total[SAM_LAYERED_SYMBOLS];
+  double      total[SAM_WAVE_SYMBOLS];
 
   k = PetscMax(k, PROPORTIONAL / rest->of.longest);
   SamPairSymbols(rest->l->pair, k, total, values);
-  for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++) {
+  for (int s = 0; s < SAM_WAVE_SYMBOLS; s++) {
     for (int b = 0; b < 2; b++) values[s] -= rest->of.image[b][s] * exp(-k * rest->of.thickness[b]);
     values[s] /= k;
   }
@@ -319,10 +319,10 @@ static void RestsAt(const void *context, double k, double values[])
 
 PetscErrorCode SamLayeredPrepareLine(SamLayered l, double r)
 {
-  static const int orders[] = {[SAM_LAYERED_ZZ] = 0, [SAM_LAYERED_ZR] = 1, [SAM_LAYERED_RR] = 0, [SAM_LAYERED_TT] = 0};
+  static const int orders[] = {[SAM_WAVE_ZZ] = 0, [SAM_WAVE_ZR] = 1, [SAM_WAVE_RR] = 0, [SAM_WAVE_TT] = 0};
   const Rest       rest     = {l, SourceOf(l)};
   /* The images fall like exp(-k Z); Z is at least half the depth. */
-  SamRadialSource of = {.functions = SAM_LAYERED_SYMBOLS,
+  SamRadialSource of = {.functions = SAM_WAVE_SYMBOLS,
                         .line      = PETSC_TRUE,
                         .orders    = orders,
                         .depth     = l->depth / 2,
@@ -360,9 +360,9 @@ static double ImageOver(double x, double dx, double Z, double datum, PetscBool o
   return sum;
 }
 
-void SamLayeredAddLine(SamLayered l, SamLayeredSymbol symbol, double dx, double datum, PetscInt n, double values[])
+void SamLayeredAddLine(SamLayered l, SamWaveSymbol symbol, double dx, double datum, PetscInt n, double values[])
 {
-  const PetscBool        odd    = symbol == SAM_LAYERED_ZR;
+  const PetscBool        odd    = symbol == SAM_WAVE_ZR;
   const SamRadialSource  images = SourceOf(l);
   const SamRadialTerm    term   = {symbol, 0, odd ? SAM_ANGULAR_X : SAM_ANGULAR_1, 1};
   const SamRadialKernels of     = {.table = &l->line, .depth = l->depth / 2, .kernels = 1, .count = 1, .terms = &term};
@@ -375,7 +375,7 @@ void SamLayeredAddLine(SamLayered l, SamLayeredSymbol symbol, double dx, double 
 
 static void SymbolsAt(const void *context, double k2, double values[])
 {
-  double difference[SAM_LAYERED_SYMBOLS];
+  double difference[SAM_WAVE_SYMBOLS];
 
   SamPairSymbols(((SamLayered)context)->pair, sqrt(k2), values, difference);
 }
@@ -394,7 +394,7 @@ PetscErrorCode SamLayeredPrepare(SamLayered l, double r, const double k[2])
                             PetscMax(sqrt(l->symbols.most), k[1])};
 
     PetscCall(SamSplineDestroy(&l->symbols));
-    PetscCall(SamSplineCreate(&l->symbols, SAM_LAYERED_SYMBOLS, ends[0] * ends[0] / (room * room),
+    PetscCall(SamSplineCreate(&l->symbols, SAM_WAVE_SYMBOLS, ends[0] * ends[0] / (room * room),
                               room * room * ends[1] * ends[1], SymbolsAt, l));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
