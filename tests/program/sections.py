@@ -37,7 +37,9 @@ def faces_of(nodes, elements, corners, mask):
             if mask[one[k]] and mask[one[(k + 1) % corners]]]  # fmt: skip
 
 
-def deck(path, nodes, elements, kind, sets, surfaces, young=1.0, poisson=0.3, lines=(), section="", plane="xy"):
+def deck(
+    path, nodes, elements, kind, sets, surfaces, young=1.0, poisson=0.3, density=None, lines=(), section="", plane="xy"
+):  # fmt: skip
     """Writes a deck; sets: {name: mask of the nodes}; surfaces: {name: mask}; nodes in x and z, z downwards."""
     corners = 3 if kind in ("CPE3", "CPE6") else 4
     text = ["*NODE"]
@@ -56,6 +58,7 @@ def deck(path, nodes, elements, kind, sets, surfaces, young=1.0, poisson=0.3, li
         "*MATERIAL, NAME=M",
         "*ELASTIC",
         f"{young!r}, {poisson!r}",
+        *([] if density is None else ["*DENSITY", f"{density!r}"]),
         "*SOLID SECTION, ELSET=ALL, MATERIAL=M",
         section,
     ]
