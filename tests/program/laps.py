@@ -30,7 +30,7 @@ class Lap:
     sets: dict
 
     @classmethod
-    def made(cls, size=1.5e-3, rows=6):
+    def made(cls, size=2e-3, rows=6):
         """Strips of elements as wide as `size` along the lap."""
         near = np.linspace(-LAP, LAP, 1 + round(2 * LAP / size))
         far = LAP + (LENGTH - LAP) * np.linspace(0.0, 1.0, 17)[1:] ** 1.5
@@ -45,11 +45,11 @@ class Lap:
                 "WASHER2": second & washer & (z == HEIGHT), "WASHER1": ~second & washer & (z == -HEIGHT)}  # fmt: skip
         return cls(nodes, np.concatenate([two[1], one[1] + len(two[0])]), second, sets)
 
-    def write(self, path):
-        """Its deck in mm, of strips as thick as the bolts' distance."""
+    def write(self, path, thickness=SPACING):
+        """Its deck in mm, with a bolt in each thickness (m) of the strips."""
         named = {name: self.sets[name] for name in ("CLAMP", "TIP")}
         surfaces = {name: mask for name, mask in self.sets.items() if name not in named}
-        more = dict(young=1e-6 * YOUNG, poisson=POISSON, density=1e-12 * DENSITY, section=f"{1e3 * SPACING}")
+        more = dict(young=1e-6 * YOUNG, poisson=POISSON, density=1e-12 * DENSITY, section=f"{1e3 * thickness}")
         sections.deck(path, 1e3 * self.nodes, self.elements, "CPE8", named, surfaces, **more)
 
     def sides(self, mask):
@@ -83,17 +83,20 @@ def line(at):
 class Reference:
     """The structure in modes of the tests' own, and its full compliance on n cells of |x| < half."""
 
-    def __init__(self, lap, half, n, modes=14):
+    def __init__(self, lap, half, n, modes=14, clamped=True):
         self.lap, self.half, self.n = lap, half, n
         count = len(lap.nodes)
         self.matrix = sections.stiffness(lap.nodes, lap.elements, YOUNG, POISSON)
         self.tie, closing = bolt(lap)
-        self.free = np.flatnonzero(~np.repeat(lap.sets["CLAMP"], 2))
+        self.free = np.flatnonzero(~np.repeat(lap.sets["CLAMP"] & clamped, 2))
         whole = (self.matrix + self.tie).tocsr()
         self.whole, inner = whole, whole[self.free][:, self.free].tocsc()
-        self.factor = splu(inner)
         mass = masses(lap)[self.free][:, self.free]
-        square, shapes = eigsh(inner, modes, mass, sigma=0.0)
+        square, shapes = eigsh(inner, modes, mass, sigma=0.0 if clamped else -1e4)
+        if not clamped:
+            self.omega = np.sqrt(np.abs(square))
+            return
+        self.factor = splu(inner)
         self.omega = np.sqrt(square)
         modal = np.zeros((2 * count, modes))
         modal[self.free] = shapes
@@ -241,7 +244,7 @@ class Friction:
         self.n, self.compliance, self.friction = len(compliance) // 2, compliance, friction
 
     def step(self, last, given):
-        """The State after a step to the displacements `given` (2 n) without tractions; friction None: none."""
+        """The State after a step to the displacements `given` (2 n), which are those without tractions."""
         n = self.n
         touches, sign = last.p > 0.0, np.sign(last.q) * (np.abs(last.q) >= (1.0 - 1e-9) * self.friction * last.p)
         if not np.any(touches):
@@ -261,7 +264,8 @@ class Friction:
                 if most == 1:  # sets that repeat: one cell at a time
                     changes &= np.arange(n) == self.chosen(changes)
                 touches = (touches & ~(opens & changes)) | (closes & changes)
-                sign = np.where(slips & changes, -0.0 + np.sign(q), np.where((sticks | opens | closes) & changes, 0.0, sign))
+                sign = np.where((sticks | opens | closes) & changes, 0.0, sign)
+                sign = np.where(slips & changes, np.sign(q), sign)
         raise AssertionError("the reference's sets do not settle")
 
     def chosen(self, changes):
