@@ -67,7 +67,7 @@ class Lap:
             for k in range(4):
                 side = one[[k, (k + 1) % 4, 4 + k]]
                 ends.setdefault(frozenset(side[:2].tolist()), []).append((side, self.nodes[one].mean(axis=0)))
-        for ((side, middle), *other) in ends.values():
+        for (side, middle), *other in ends.values():
             a, b = self.nodes[side[:2]]
             if other or a[1] == b[1] == 0.0:
                 continue
@@ -162,8 +162,10 @@ class Reference:
     def _moved(self, points, second):
         """Displacements (points, 2, 2 n) of a half-plane by unit tractions on the cells."""
         d, weights = self._lines(points, second)
-        u = halfplane.displacement(d, POISSON, 2.0 * self.half)[[0, 2]][:, [0, 2]] * (1.0 + POISSON) / (
-            2.0 * np.pi * YOUNG
+        u = (
+            halfplane.displacement(d, POISSON, 2.0 * self.half)[[0, 2]][:, [0, 2]]
+            * (1.0 + POISSON)
+            / (2.0 * np.pi * YOUNG)
         )
         return self._turned(u, weights, second, 1)
 
@@ -290,21 +292,24 @@ class Friction:
 
 
 class Quasistatic:
-    """Frequency and damping of a mode of a Reference with contact, by a full compliance of its cells."""
+    """Frequency and damping of a mode of a Reference with contact, by a full compliance of its cells, or of some of
+    them, whose surfaces have a gap (m)."""
 
-    def __init__(self, reference, tension=TENSION, friction=FRICTION, mode=1):
-        n, self.area = reference.n, 2.0 * reference.half / reference.n
-        self.given = tension * reference.bolt
+    def __init__(self, reference, cells=None, gap=0.0):
+        cells = np.arange(reference.n) if cells is None else cells
+        n, self.area, both = len(cells), 2.0 * reference.half / reference.n, np.append(cells, cells + reference.n)
+        compliance = reference.compliance[np.ix_(both, both)]
+        self.given = TENSION * reference.bolt[both] + np.repeat([0.0, 1.0], n) * np.tile(gap * np.ones(n), 2)
         apart = State(np.zeros(n), np.zeros(n), np.zeros(n))
-        pressed = Friction(reference.compliance, 0.0).step(apart, self.given)
-        self.preload, self.contact = pressed, Friction(reference.compliance, friction)
+        pressed = Friction(compliance, 0.0).step(apart, self.given)
+        self.preload, self.contact = pressed, Friction(compliance, FRICTION)
         touches = np.tile(pressed.p > 0.0, 2)
-        phi, omega = reference.modes, reference.omega
-        rest = reference.compliance - phi @ (phi / omega**2).T * self.area
+        phi, omega = reference.modes[both], reference.omega
+        rest = compliance - phi @ (phi / omega**2).T * self.area
         held = phi[touches]
         stiff = np.diag(omega**2) + self.area * held.T @ np.linalg.solve(rest[np.ix_(touches, touches)], held)
         squares, shapes = np.linalg.eigh(0.5 * (stiff + stiff.T))
-        self.omega, self.x = np.sqrt(squares[mode - 1]), shapes[:, mode - 1]
+        self.omega, self.x = np.sqrt(squares[0]), shapes[:, 0]
         self.moved, self.own = phi @ (self.x / omega**2), self.x @ (self.x / omega**2)
 
     def point(self, alpha, steps, cycles=2):

@@ -328,8 +328,10 @@ def test_what_a_section_cannot_be_is_named(compliance, tmp_path):  # noqa: F811
     block(tmp_path / "a.inp", 4)
     text = (tmp_path / "a.inp").read_text()
     always = ["--mesh", "a.inp", "--contact", "TOP", "--fixed", "BOTTOM", "--no-picture", "--degree", "2"]
-    said = compliance(*always, "--patch", "2", "--pair", "TOP", check=2)[0]
-    assert "--pair is not supported for a section" in said
+    said = compliance(*always, "--patch", "2", "--depth", "1", check=2)[0]
+    assert "--depth is not supported for a section" in said
+    said = compliance(*always, "--patch", "2", "--pair", "TOP", check=3)[0]
+    assert "are of one body: give both bodies nodes of their own" in said
     said = compliance(*always, "--patch", "2,1", check=2)[0]
     assert "does not vary along y: --patch X,Y has no meaning: give X alone" in said
     for kind, reason in (("CPS8", "is in plane stress"), ("CAX8", "is of a body of revolution")):

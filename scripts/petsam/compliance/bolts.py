@@ -34,8 +34,9 @@ class Washer:
 
 @dataclass
 class Bolt:
-    """Its axial stiffness, N/m, of a section N/m2, length and diameter, m, modulus, Pa; x and y (m) where its axis crosses the contact's
-    plane; closing (1, 3 nodes) by displacements of the nodes, and its part of the stiffness matrix."""
+    """Its axial stiffness, N/m, of a section N/m2, length and diameter, m, modulus, Pa; x and y (m) where its axis
+    crosses the contact's plane; closing (1, 3 nodes) by displacements of the nodes, and its part of the stiffness
+    matrix."""
 
     name: str
     stiffness: float

@@ -131,8 +131,8 @@ class Solver:
 
 
 def isostatic(motions):
-    """As many unknowns (of 3 n) as motions (3 n, 6), of a section (3 n, 4), that hold a body which moves by these: those
-    that bear least."""
+    """As many unknowns (of 3 n) as there are motions (3 n, 6), of a section (3 n, 4), that hold a body which moves by
+    these: those that bear least."""
     return linalg.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]]
 
 

@@ -55,6 +55,8 @@ class Pair:
         {name: N}: tension left in each bolt after all are tightened; of a section N/m.
     places : dict
         {name: (x, y, diameter)}: where each bolt's axis crosses the contact's plane (m), as far as the file has it.
+    unit : str
+        Of tensions: "N", of a section "N/m".
     functions : int
         Number of polynomials of a patch.
 
@@ -158,7 +160,7 @@ class Pair:
 
     def _choose(self, plane):
         """Takes the displacements that a contact has, of a section those in its plane and along its normal."""
-        self.plane = dict(elasticity="plane") if plane else {}
+        self.plane, self.unit = (dict(elasticity="plane"), "N/m") if plane else ({}, "N")
         self.displacements = [name for name in DISPLACEMENTS if not plane or name not in ACROSS]
         own = [name in self.displacements for name in DISPLACEMENTS]
         kept = np.flatnonzero(np.concatenate([[*own, *(True for _ in names)] for names in self.far]))
