@@ -1,4 +1,4 @@
-"""The structure of a pair of bodies, from a file of petsam-compliance --pair."""
+"""The structure of a pair of bodies, or of sections in plane strain, from a file of petsam-compliance --pair."""
 
 import os
 import re
