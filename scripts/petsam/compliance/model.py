@@ -339,7 +339,7 @@ def computed(source, settings, command="", say=quiet, every=0.0):
     bodies = _bodies(model, found, method, command)
     bodies[0].remarks = remarks
     _add_cases(bodies, model, loads, (solver, found), progress)
-    if settings.stress and not settings.pair and model.mesh.normal is None:
+    if settings.stress and not settings.pair:
         progress.begin("stresses")
         bodies[0].stress = _stress(model, found, bodies[0].cases)
     if other:

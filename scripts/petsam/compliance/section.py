@@ -66,8 +66,6 @@ def need_settings(settings, path):
     across = next((one for one in across if one), None)
     if across:
         raise Unusable(f"{path}: is a section, which does not vary along y: {across} has no meaning: give X alone")
-    if settings.depth:
-        raise Unusable(f"{path}: --depth is not supported for a section, of which no stresses are computed: remove it")
     if settings.stiffness == "calculix":
         raise Unusable(f"{path}: --stiffness calculix is not for sections, which petsam assembles by itself: remove it")
 
