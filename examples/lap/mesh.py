@@ -3,6 +3,7 @@
 
     mesh.py lap lap.inp     body 2, x -150..30 mm, clamped at its end; body 1 above it, x -30..150 mm, TIP at its end
     mesh.py two two.inp     the same for two bolts at x = -30 and 30 mm: overlap -56..56 mm, ends at -160 and 160 mm
+    mesh.py section s.inp   the section y = 0 of the lap in plane strain, with a bolt in each 50 mm
 
 The contact's plane is z = 0, z points down into body 2. Strips are 50 mm wide; washers are squares. --coarse is for an
 estimate of the mesh's error.
@@ -22,6 +23,7 @@ from decks import write_deck  # noqa: E402
 
 STEEL, DENSITY = (210000.0, 0.3), 7.8e-9
 WASHER = 6.0  # half a side of a washer
+SECTION = "section"
 Y = ([3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0, 25.0], [6.0, 12.0, 18.0, 25.0])
 
 
@@ -62,7 +64,9 @@ STRIPS = {
 
 
 def lines(name, coarse, kind):
-    """The deck of one of STRIPS."""
+    """The deck of one of STRIPS, or of the lap's section."""
+    if name == SECTION:
+        return section_lines(STRIPS["lap"].edges(coarse))
     return strip_lines(f"{name} joint", STRIPS[name], STRIPS[name].edges(coarse), kind)
 
 
@@ -100,6 +104,31 @@ def strip_lines(title, strips, edges, kind):
     return out + sets + (["*NSET, NSET=MIDDLE", *numbers(plane)] if plane else [])
 
 
+def section_lines(edges):
+    """The deck of the section of the lap with these planes of elements, of CPE8 in x and z."""
+    (x, y, z), first = edges, 0
+    out, more = ["*HEADING", "section of a lap joint, mm, N, MPa, t"], []
+    mesh = grid_mesh((x, np.array([0.0, 1.0]), z), "C3D20", *STEEL)
+    quads = np.concatenate([group.nodes for group in mesh.boundary() if not np.any(mesh.nodes[group.nodes][..., 1])])
+    used, quads = np.unique(quads, return_inverse=True)
+    nodes, quads = mesh.nodes[used], quads.reshape(-1, 8) + 1
+    for body, sign in ((1, 1.0), (2, -1.0)):
+        points = nodes * [sign, 1.0, -sign]
+        out += ["*NODE", *("{}, {:.12e}, {:.12e}, {:.12e}".format(first + i, *p) for i, p in enumerate(points, 1))]
+        out.append("*ELEMENT, TYPE=CPE8, ELSET=ALL")
+        out += [", ".join(map(str, [k + first, *(one + first)])) for k, one in enumerate(quads, 1)]
+        on = np.abs(points[:, 0]) <= WASHER + 1e-9
+        for name, mask in (("CONTACT", nodes[:, 2] == 0.0), ("WASHER", on & (nodes[:, 2] == z[-1]))):
+            held = mask[quads[:, :4] - 1] & mask[np.roll(quads[:, :4], -1, axis=1) - 1]
+            more += [f"*SURFACE, NAME={name}{body}", *(f"{e + 1 + first}, S{k + 1}" for e, k in np.argwhere(held))]
+        end = np.flatnonzero(nodes[:, 0] == x[-1])
+        chosen = end if body == 2 else end[[np.argmin(nodes[end, 2])]]
+        more += [f"*NSET, NSET={'CLAMP' if body == 2 else 'TIP'}", *numbers(chosen + 1 + first)]
+        first += max(len(nodes), len(quads))
+    out += ["*MATERIAL, NAME=STEEL", "*ELASTIC", "{}, {}".format(*STEEL), "*DENSITY", f"{DENSITY}"]
+    return [*out, "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL", f"{2.0 * y[-1]}", *more]
+
+
 def washer(mesh, points, center, height, first):
     """Faces of a washer about x = center, of a body whose nodes are at `points`."""
     on = (np.abs(mesh.nodes[:, 2] - height) < 1e-9) & (np.abs(points[:, 1]) <= WASHER + 1e-9)
@@ -114,4 +143,4 @@ def washer(mesh, points, center, height, first):
 
 
 if __name__ == "__main__":
-    write_deck(__doc__, tuple(STRIPS), lines)
+    write_deck(__doc__, (*STRIPS, SECTION), lines)

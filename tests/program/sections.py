@@ -37,7 +37,9 @@ def faces_of(nodes, elements, corners, mask):
             if mask[one[k]] and mask[one[(k + 1) % corners]]]  # fmt: skip
 
 
-def deck(path, nodes, elements, kind, sets, surfaces, young=1.0, poisson=0.3, lines=(), section="", plane="xy"):
+def deck(
+    path, nodes, elements, kind, sets, surfaces, young=1.0, poisson=0.3, density=None, lines=(), section="", plane="xy"
+):  # fmt: skip
     """Writes a deck; sets: {name: mask of the nodes}; surfaces: {name: mask}; nodes in x and z, z downwards."""
     corners = 3 if kind in ("CPE3", "CPE6") else 4
     text = ["*NODE"]
@@ -56,6 +58,7 @@ def deck(path, nodes, elements, kind, sets, surfaces, young=1.0, poisson=0.3, li
         "*MATERIAL, NAME=M",
         "*ELASTIC",
         f"{young!r}, {poisson!r}",
+        *([] if density is None else ["*DENSITY", f"{density!r}"]),
         "*SOLID SECTION, ELSET=ALL, MATERIAL=M",
         section,
     ]
@@ -125,3 +128,17 @@ def displacements(nodes, elements, held, force, young=1.0, poisson=0.3):
     found = np.zeros(force.shape)
     found[free] = spsolve(matrix[free][:, free].tocsc(), force[free])
     return found.reshape(len(nodes), 2, *force.shape[1:])
+
+
+def stresses(nodes, elements, u, young=1.0, poisson=0.3):
+    """Depth of the lower two of the 2 x 2 Gauss points of a row of elements, and the means of xx, zz, xz there."""
+    lame, shear = young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))
+    found, place = np.zeros((3, len(elements))), 1.0 / np.sqrt(3.0)
+    for k, one in enumerate(elements):
+        for a in (-place, place):
+            n, local = shapes(a, -place)  # elements begin at their lower corner
+            g = u[one].T @ local @ np.linalg.inv(nodes[one].T @ local)
+            spread = lame * np.trace(g)
+            found[:, k] += [0.5 * spread + shear * g[0, 0], 0.5 * spread + shear * g[1, 1],
+                            0.5 * shear * (g[0, 1] + g[1, 0])]  # fmt: skip
+    return float((n @ nodes[elements[0]])[1]), found

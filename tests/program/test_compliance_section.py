@@ -6,6 +6,7 @@ import pytest
 
 import petsam as package
 import sections
+from conftest import PROGRAM, execute
 from petsam.compliance import basis, checks, deck, halfplane, stiffness
 from support import assert_same, l2
 from test_compliance_command import compliance  # noqa: F401
@@ -197,6 +198,18 @@ def test_the_matrix_is_symmetric_and_both_methods_agree(method, tmp_path):
     assert np.max(np.abs(m[:, 1][:, :, [0, 2]])) < 1e-12  # antiplane shear is by itself
 
 
+def test_the_stresses_of_both_methods_approach_each_other(tmp_path):
+    """Those of the cut-off are of its ramps, which finer elements resolve."""
+    errors = []
+    for n in (12, 24):
+        block(tmp_path / "a.inp", n, half=4.0)
+        one, other = (found(tmp_path / "a.inp", 0, method=which).bodies[0].stress[1] for which in ("cutoff", "image"))
+        assert one.shape == (1, 3, 49, 1, 49, 6)
+        errors.append(np.max(np.abs(one - other)) / np.max(np.abs(other)))
+    print(errors)
+    assert errors[1] < 0.06 and errors[1] < 0.4 * errors[0]
+
+
 def test_decks_in_other_planes_and_units_are_the_same(tmp_path):
     block(tmp_path / "a.inp", 4)
     block(tmp_path / "b.inp", 4, plane="xz")
@@ -290,6 +303,39 @@ def test_a_contact_is_that_of_the_body_by_a_direct_solution(ranks, solve, sectio
     assert_same(r, solve(PLANE, given), 0)
 
 
+@pytest.mark.parametrize("body", [1, 2])
+def test_stresses_below_a_contact_are_those_of_a_direct_solution(body, solve, launcher, section, tmp_path):
+    """At Gauss points of elements of the tests' own under petsam's tractions; z points into either body."""
+    n, row = 40, 7
+    two = dict(body2_compliance=section)
+    one = dict(body1_young=1, body1_poisson=NU, body2_young="inf", body2_poisson=None, body1_compliance=section)
+    r = solve(PLANE, dict(grid_n=n, disp_z=0.004, disp_x=2e-4, rot_y=0, friction=0.5), one if body == 1 else two)
+    p, q = r.pressure.ravel(), r.shear_x.ravel()
+    sign = -1.0 if body == 1 else 1.0  # body 1 turned over about x: the shear on it is -q
+    nodes, elements, x = cells_of(n)
+    edges = np.linspace(-1.0, 1.0, n + 1)
+
+    def traction(at):
+        cell = np.clip(np.searchsorted(edges, at) - 1, 0, n - 1)
+        return np.stack([sign * q[cell], p[cell]], axis=1) * (np.abs(at) < 1.0)[:, None]
+
+    u = sections.displacements(nodes, elements, nodes[:, 1] == 4.0, sections.forces(nodes, elements, traction))
+    lines = np.unique(nodes[:, 1])[::2]
+    middle = nodes[elements].mean(axis=1)
+    chosen = elements[(np.abs(middle[:, 0]) < 1.0) & (middle[:, 1] > lines[row]) & (middle[:, 1] < lines[row + 1])]
+    chosen = chosen[np.argsort(nodes[chosen].mean(axis=1)[:, 0])]
+    depth, wanted = sections.stresses(nodes, chosen, u)
+    given = dict(input=r.path, body=body, depths=depth, output=tmp_path / "s.h5")
+    execute(launcher, tmp_path, [given], 1, 0, program=PROGRAM.with_name("petsam-stress"))
+    with h5py.File(tmp_path / "s.h5") as file:
+        found = np.stack([file[f"stress_{name}"][-1].ravel() for name in ("xx", "zz", "xz")])
+        across = file["stress_yy"][-1].ravel()
+    scale = np.abs(wanted[1]).max()
+    print(np.abs(found - wanted).max(axis=1) / scale)
+    assert np.abs(found - wanted).max() < 1e-3 * scale
+    assert np.allclose(across, NU * (found[0] + found[1]), atol=1e-3 * scale)
+
+
 def test_the_contact_has_no_datum_but_the_supports(solve, section):
     one, other = (solve(PLANE, dict(grid_n=40, disp_z=0.004, body2_compliance=section, plane_datum=d)) for d in (2, 30))
     free = solve(PLANE, dict(grid_n=40, disp_z=0.004, plane_datum=30))
@@ -328,8 +374,8 @@ def test_what_a_section_cannot_be_is_named(compliance, tmp_path):  # noqa: F811
     block(tmp_path / "a.inp", 4)
     text = (tmp_path / "a.inp").read_text()
     always = ["--mesh", "a.inp", "--contact", "TOP", "--fixed", "BOTTOM", "--no-picture", "--degree", "2"]
-    said = compliance(*always, "--patch", "2", "--pair", "TOP", check=2)[0]
-    assert "--pair is not supported for a section" in said
+    said = compliance(*always, "--patch", "2", "--pair", "TOP", check=3)[0]
+    assert "are of one body: give both bodies nodes of their own" in said
     said = compliance(*always, "--patch", "2,1", check=2)[0]
     assert "does not vary along y: --patch X,Y has no meaning: give X alone" in said
     for kind, reason in (("CPS8", "is in plane stress"), ("CAX8", "is of a body of revolution")):

@@ -56,6 +56,7 @@ from ..plot.saving import write
 from .line import Parser, add_choice, frame, guarded, joined, quietly, word
 
 PROGRAM = "petsam-compliance"
+RIGID = {6: "six", 4: "four"}  # motions of bodies, of sections
 SECONDS = 5.0  # between two lines of progress
 
 
@@ -352,18 +353,19 @@ def _patch(body):
 
 def _joint(body):
     """Returns lines that describe the bolts and modes of a Body."""
-    lines = []
+    lines, unit = [], "N/m" if body.datum is None else "N/m2"
     for one in body.bolts:
         left = 1.0 - one.stiffness * one.closing @ body.cases[f"bolt_{one.name}"].displacement
         lines.append(
-            f"bolt        {one.name}: {one.stiffness:.4g} N/m, {shown(one.diameter)} x {shown(one.length)}, without "
+            f"bolt        {one.name}: {one.stiffness:.4g} {unit}, {shown(one.diameter)} x {shown(one.length)}, without "
             f"contact {max(0.0, left[0, 0]):.2g} of its tension is left"
         )
     if body.modes:
         lines.append("modes, Hz   " + ", ".join(f"{omega / (2.0 * math.pi):.6g}" for omega in body.modes.omega))
         if body.modes.rigid is not None:
             lines.append(
-                f"            six rigid motions are left out, at most {body.modes.rigid[-1] / (2.0 * math.pi):.1e} Hz"
+                f"            {RIGID[len(body.modes.rigid)]} rigid motions are left out, at most "
+                f"{body.modes.rigid[-1] / (2.0 * math.pi):.1e} Hz"
             )
         lines.append(
             f"            orthonormal within {body.modes.mass_error:.1e}, smallest eigenvalue without them "

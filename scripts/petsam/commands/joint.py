@@ -373,7 +373,8 @@ def _pair(args, preload, **more):
 
 def _tell_tensions(pair, preload):
     for name, tension in pair.tensions.items():
-        print(f"bolt {name}: {tension:.6g} N left of {preload.get(name, 0.0):g} N after all are tightened")
+        given = preload.get(name, 0.0)
+        print(f"bolt {name}: {tension:.6g} {pair.unit} left of {given:g} {pair.unit} after all are tightened")
         if not tension > 0.0:
             print(f"petsam-joint: warning: bolt {name} bears no tension: a bolt here has no slack", file=sys.stderr)
 
@@ -424,7 +425,7 @@ def _wear(args):
     preload = _judged(args)
     pair = _pair(args, preload)
     sensor = _sensor(args.sensor, pair)
-    tension = lambda structure: {f"{name} [N]": left for name, left in pair.left(structure).items()}  # noqa: E731
+    tension = lambda structure: {f"{name} [{pair.unit}]": left for name, left in pair.left(structure).items()}  # noqa: E731
     with _recorded(BackboneWarning) as found:
         given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension, report=_progress("vibration"))
         result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)

@@ -8,6 +8,8 @@ with r from its centroid, so that the bolt's forces are spread over it and nothi
 Timoshenko, with Cowper's shear factor and Poisson's ratio of the elements of washer 1, clamped to the motions of both
 washers. Initial tension F pulls the washers together. With closing = e.(U_1 - U_2), e from washer 1 to 2 and
 k = E A/l, the tension is F - k closing.
+
+In a section there is one bolt in each thickness t of it: stiffness and tensions are those of all bolts per metre, k/t.
 """
 
 from dataclasses import dataclass
@@ -32,8 +34,9 @@ class Washer:
 
 @dataclass
 class Bolt:
-    """Its axial stiffness, N/m, length and diameter, m, modulus, Pa; x and y (m) where its axis crosses the contact's
-    plane; closing (1, 3 nodes) by displacements of the nodes, and its part of the stiffness matrix."""
+    """Its axial stiffness, N/m, of a section N/m2, length and diameter, m, modulus, Pa; x and y (m) where its axis
+    crosses the contact's plane; closing (1, 3 nodes) by displacements of the nodes, and its part of the stiffness
+    matrix."""
 
     name: str
     stiffness: float
@@ -67,7 +70,9 @@ def washer(mesh, name):
         inertia += np.trace(square) * np.eye(3) - square
         np.add.at(mean, nodes, np.einsum("nq,qk->nk", weight, values))
         np.add.at(moment, nodes, np.einsum("nq,qk,nqij->nkij", weight, values, cross(r)))
-    rotation = np.einsum("ij,njk->ink", np.linalg.inv(inertia), moment).reshape(3, -1)
+    axes = np.eye(3) if mesh.normal is None else np.eye(3)[1:2]  # washers of a section turn in its plane alone
+    inverse = axes.T @ np.linalg.inv(axes @ inertia @ axes.T) @ axes
+    rotation = np.einsum("ij,njk->ink", inverse, moment).reshape(3, -1)
     translation = np.einsum("n,ij->inj", mean / area, np.eye(3)).reshape(3, -1)
     return Washer(center, sparse.csr_matrix(np.concatenate([translation, rotation])), moduli)
 
@@ -100,8 +105,9 @@ def crossing(center, along):
     return (center + part * along)[:2]
 
 
-def bolt(mesh, name, surfaces, diameter, young):
-    """The Bolt between the washers on two surfaces; young: its modulus, Pa, or None for that of the washers."""
+def bolt(mesh, name, surfaces, diameter, young, thickness=1.0):
+    """The Bolt between the washers on two surfaces; young: its modulus, Pa, or None for that of the washers; thickness:
+    that of a section, m, in which there is one bolt."""
     first, second = (washer(mesh, surface) for surface in surfaces)
     along = second.center - first.center
     length = float(np.linalg.norm(along))
@@ -114,6 +120,6 @@ def bolt(mesh, name, surfaces, diameter, young):
     motion = sparse.vstack([first.motion, second.motion]).tocsr()
     matrix = motion.T @ sparse.csr_matrix(beam(along, diameter, young, min(first.moduli)[1])) @ motion
     closing = sparse.csr_matrix(along / length) @ (first.motion[:3] - second.motion[:3])
-    stiffness = young * 0.25 * np.pi * diameter**2 / length
-    whole = sparse.csr_matrix(0.5 * (matrix + matrix.T))
+    stiffness = young * 0.25 * np.pi * diameter**2 / (length * thickness)
+    whole = sparse.csr_matrix(0.5 * (matrix + matrix.T) / thickness)
     return Bolt(name, stiffness, length, diameter, young, crossing(first.center, along), closing.tocsr(), whole)

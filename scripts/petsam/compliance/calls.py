@@ -18,7 +18,7 @@ def of_deck(
 ) -> Compliance:  # fmt: skip
     """The compliance of a body, or of a pair joined by bolts, from a deck of CalculiX or Abaqus (.inp).
 
-    A deck of CPE elements is the section of a body in plane strain, for -elasticity plane.
+    A deck of CPE elements is the section of a body or of a pair in plane strain, for -elasticity plane.
 
     Parameters
     ----------

@@ -131,12 +131,11 @@ class Definiteness:
         means = patch.cell_means(cells)
         self.area = 4.0 * patch.half[0] * patch.half[1] / (cells[0] * cells[1])
         self.means = np.kron(means, np.eye(3))  # (3 cells, 3 m)
-        if line:
-            self.kernel = halfplane.cell_compliance(patch.half[0], cells[0], young, poisson)
-        else:
-            self.kernel = cell_compliance(patch.half, cells, young, poisson)
+        half_space = halfplane.cell_compliance if line else cell_compliance
+        sides = (patch.half[0], cells[0]) if line else (patch.half, cells)
+        self.kernel = half_space(*sides, young, poisson)
         if other:
-            self.kernel += opposite(cell_compliance(patch.half, cells, *other))
+            self.kernel += opposite(half_space(*sides, *other))
         self.factor = linalg.cho_factor(0.5 * (self.kernel + self.kernel.T))
         gram = self.area * self.means.T @ linalg.cho_solve(self.factor, self.means)
         self.root = linalg.cholesky(0.5 * (gram + gram.T), lower=True)

@@ -12,7 +12,7 @@ with u_ik in i by a force in k. On the surface u_xx, u_yy and u_zz vanish at the
 
 import numpy as np
 
-from .halfspace import Fields
+from .halfspace import Fields, Mirroring
 
 
 def displacement(d, poisson, datum):
@@ -65,6 +65,10 @@ class LineFields(Fields):
             return np.swapaxes(gradient(d, poisson), 1, 2).reshape(9, 3, *d.shape[1:])
 
         return self._sum(kernel, points, 9).reshape(len(points), 3, 3, self.columns)
+
+
+class MirroredLine(Mirroring, LineFields):
+    """The fields of -phi_j on the half-plane z <= 0."""
 
 
 def cell_compliance(half, n, young, poisson):

@@ -103,7 +103,7 @@ class Fields:
         self.patch, self.young, self.poisson = patch, young, poisson
         self.shear = 0.5 * young / (1.0 + poisson)
         self.lame = 2.0 * self.shear * poisson / (1.0 - 2.0 * poisson)
-        self.columns = 3 * patch.count
+        self.columns, self.datum = 3 * patch.count, None
 
     def _sum(self, kernel, points, parts):
         """Sums (points, parts, m, 3) of kernel(differences, poisson) (parts, 3, ...) over the patch."""
@@ -154,6 +154,7 @@ class Several(Fields):
     def __init__(self, fields):
         super().__init__(fields[0].patch, fields[0].young, fields[0].poisson)
         self.fields, self.columns = fields, sum(one.columns for one in fields)
+        self.datum = fields[0].datum
 
     def displacement(self, points):
         """As that of Fields."""
@@ -167,8 +168,8 @@ class Several(Fields):
 MIRROR = np.array([1.0, 1.0, -1.0])
 
 
-class Mirrored(Fields):
-    """The same of -phi_j on the half-space z <= 0, by reflection."""
+class Mirroring(Fields):
+    """Fields of -phi_j on z <= 0 by reflection of those of the class that follows it."""
 
     def __init__(self, patch, young, poisson):
         super().__init__(patch, young, poisson)
@@ -181,6 +182,10 @@ class Mirrored(Fields):
     def gradient(self, points):
         """As that of Fields."""
         return super().gradient(points * MIRROR) * np.outer(MIRROR, MIRROR)[:, :, None] * self.signs
+
+
+class Mirrored(Mirroring, Fields):
+    """The fields of -phi_j on the half-space z <= 0."""
 
 
 def opposite(matrix):

@@ -13,7 +13,7 @@ from . import cases as load_cases
 from .basis import Patch
 from .cards import folded
 from .frames import Frame, frame_of
-from .halfplane import LineFields
+from .halfplane import LineFields, MirroredLine
 from .halfspace import Fields, Mirrored, Several
 from .remainder import Side
 from .result import Compliance
@@ -149,7 +149,8 @@ class Model:
             self.need_densities("--free")
         else:
             components.need_held(self.supported, links)
-        self.bolts = [bolts.bolt(self.mesh, *one) for one in settings.bolts]
+        thickness = 1.0 if self.mesh.normal is None else self.mesh.thickness * self.units.length
+        self.bolts = [bolts.bolt(self.mesh, *one, thickness) for one in settings.bolts]
 
     def prepare_modes(self):
         """Finds what the modes need: densities, and the nodes of the sensors."""
@@ -186,10 +187,10 @@ class Model:
 
     def sides(self):
         """The Sides of the bodies: body 2 first."""
-        kinds = {1: Fields if self.mesh.normal is None else LineFields, -1: Mirrored}
+        kinds = (Fields, Mirrored) if self.mesh.normal is None else (LineFields, MirroredLine)
         found = []
         for one in self.parts:
-            fields = [kinds[one.sign](patch, *one.moduli(patch)) for patch in self.patches]
+            fields = [kinds[one.sign < 0](patch, *one.moduli(patch)) for patch in self.patches]
             found.append(Side(one.mesh, fields[0] if len(fields) == 1 else Several(fields)))
         return found
 
@@ -338,7 +339,7 @@ def computed(source, settings, command="", say=quiet, every=0.0):
     bodies = _bodies(model, found, method, command)
     bodies[0].remarks = remarks
     _add_cases(bodies, model, loads, (solver, found), progress)
-    if settings.stress and not settings.pair and model.mesh.normal is None:
+    if settings.stress and not settings.pair:
         progress.begin("stresses")
         bodies[0].stress = _stress(model, found, bodies[0].cases)
     if other:
@@ -365,7 +366,7 @@ def _bodies(model, found, method, command):
             patch,
             found.compliance[own, own],
         )
-        body.mesh, body.datum = model, getattr(fields, "datum", None)
+        body.mesh, body.datum = model, fields.datum
         if model.settings.pair:
             body.other = tuple(getattr(found.sides[1].fields, name) for name in ("young", "poisson"))
         examine(body)

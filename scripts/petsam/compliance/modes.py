@@ -47,26 +47,36 @@ def mass(mesh):
 
 def found(model, solver, count, sensors):
     """The Modes with the lowest frequencies; sensors: indices of nodes."""
-    matrix = mass(model.mesh)
-    free = (solver.moves.T @ matrix @ solver.moves).tocsr()
-    stiffness = (solver.moves.T @ solver.matrix @ solver.moves).tocsr()
+    matrix, pick = mass(model.mesh), _in_plane(model.mesh, solver)
+    moves = solver.moves @ pick
+    free = (moves.T @ matrix @ moves).tocsr()
+    stiffness = (moves.T @ solver.matrix @ moves).tocsr()
     size = free.shape[0]
     if count >= size - 1:
         raise Error(f"--modes {count}: the mesh has {size} free unknowns: use a finer mesh, or fewer modes")
-    inverse = LinearOperator(free.shape, matvec=solver.inverse, dtype=float)
+    inverse = LinearOperator(free.shape, matvec=lambda force: pick.T @ solver.inverse(pick @ force), dtype=float)
     start = np.cos(np.arange(size))  # the same in each run
     try:
         squares, shapes = eigsh(stiffness, count, free, sigma=0.0, OPinv=inverse, v0=start)
     except ArpackError as error:
         raise Error(f"the modes were not found ({error}): use fewer --modes") from error
     order = np.argsort(squares)
-    shapes = solver.moves @ shapes[:, order]
+    shapes = moves @ shapes[:, order]
     shapes *= _signs(shapes)
     deviation = shapes.T @ matrix @ shapes - np.eye(count)
     at = shapes.reshape(-1, 3, count)[sensors]
     turned = np.einsum("sik,ij->ksj", at, model.frame.axes)
     rigid = _without_rigid(solver, np.sqrt(squares[order][0])) if isinstance(solver, Floating) else None
     return Modes(np.sqrt(squares[order]), shapes, turned, float(np.max(np.abs(deviation))), rigid)
+
+
+def _in_plane(mesh, solver):
+    """The columns of the free unknowns that take part: all, of a section those that move it in its plane, from which
+    shear along its normal is separate."""
+    every = sparse.identity(solver.moves.shape[1], format="csc")
+    if mesh.normal is None:
+        return every
+    return every[:, abs(solver.moves[1::3]).sum(axis=0).A1 == 0.0]
 
 
 def _without_rigid(solver, first):

@@ -12,16 +12,20 @@ is what the structure adds to the compliance of a rigid motion. D - Q b Q' is po
 import numpy as np
 from scipy import linalg
 
+from .basis import LinePatch
+
 COMPONENTS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
 
 
 def motions(patch):
     """Coefficients (6, m, 3) of the displacement of body 1 by a unit of each component, in body 2's frame and about
-    the patch's centre; zeros where the polynomials do not have it."""
+    the patch's centre; zeros where the polynomials do not have it, and of a section's rotations out of its plane."""
     points, weight = patch.quadrature(patch.largest[0] + 2, patch.largest[1] + 2)
     values, (x, y), zero = patch.values(*points.T), (points - patch.center).T, np.zeros(len(points))
     one = zero + 1.0
-    fields = [(zero, zero, one), (one, zero, zero), (zero, one, zero), (zero, zero, -y), (zero, zero, x), (-y, x, zero)]
+    fields = [(zero, zero, one), (one, zero, zero), (zero, one, zero), (zero, zero, -y), (zero, zero, x)]
+    if not isinstance(patch, LinePatch):  # sections turn in their plane alone
+        fields.append((-y, x, zero))
     found = np.zeros((6, patch.count, 3))
     for k, field in enumerate(fields):
         field = np.stack(field, axis=1)

@@ -66,9 +66,6 @@ def need_settings(settings, path):
     across = next((one for one in across if one), None)
     if across:
         raise Unusable(f"{path}: is a section, which does not vary along y: {across} has no meaning: give X alone")
-    for name, value in (("--pair", settings.pair), ("--depth", settings.depth)):
-        if value:
-            raise Unusable(f"{path}: {name} is not supported for a section: give one body, without stresses")
     if settings.stiffness == "calculix":
         raise Unusable(f"{path}: --stiffness calculix is not for sections, which petsam assembles by itself: remove it")
 

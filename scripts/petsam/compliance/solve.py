@@ -131,8 +131,9 @@ class Solver:
 
 
 def isostatic(motions):
-    """Six unknowns (of 3 n) that hold a body which moves by motions (3 n, 6): those that bear least."""
-    return linalg.qr(motions.T, mode="r", pivoting=True)[1][:6]
+    """As many unknowns (of 3 n) as there are motions (3 n, 6), of a section (3 n, 4), that hold a body which moves by
+    these: those that bear least."""
+    return linalg.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]]
 
 
 class Floating(Solver):
@@ -144,7 +145,7 @@ class Floating(Solver):
     """
 
     def __init__(self, matrix, nodes, mass, hold=None):
-        """hold: six unknowns; None: those of isostatic()."""
+        """hold: as many unknowns as rigid motions; None: those of isostatic()."""
         motions = rigid_motions(nodes)
         fixed = np.zeros(len(motions), dtype=bool)
         fixed[isostatic(motions) if hold is None else hold] = True
@@ -166,5 +167,5 @@ class Floating(Solver):
         return u - self.rigid @ (self.inertia.T @ u)
 
     def rigid_frequencies(self):
-        """Angular frequencies (6) of the rigid motions, rising: 0 to rounding."""
+        """Angular frequencies (6; of a section 4) of the rigid motions, rising: 0 to rounding."""
         return np.sort(np.sqrt(np.abs(linalg.eigvalsh(self.rigid.T @ (self.matrix @ self.rigid)))))

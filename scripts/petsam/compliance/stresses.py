@@ -4,12 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .basis import LinePatch
 from .images import FLAT
 from .shapes import KINDS, SHAPES
 from .stiffness import dofs, elasticity, strain_matrix
 
 COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 POINTS = 13  # number along each axis
+LINE_POINTS = 49  # the same along x, and over the depth, of a section
 DEPTH = 2.0  # in half widths
 TRIES = 12  # number of attempts, each with a depth smaller by a fifth
 
@@ -29,8 +31,10 @@ def grid(mesh, patch, depth=None):
     """Returns the grid of the patch down to a depth that the body has everywhere; None if there is none."""
     depth = depth or DEPTH * patch.narrow
     x, y = (np.linspace(c - h, c + h, POINTS) for c, h in zip(patch.center, patch.half))
+    if isinstance(patch, LinePatch):
+        x, y = np.linspace(x[0], x[-1], LINE_POINTS), np.zeros(1)
     for _ in range(TRIES):
-        z = np.linspace(0.0, depth, POINTS)
+        z = np.linspace(0.0, depth, LINE_POINTS if len(y) == 1 else POINTS)
         points = np.stack(np.meshgrid(z, y, x, indexing="ij")[::-1], axis=-1).reshape(-1, 3)
         probe = points * (1.0 - 1e-9)
         probe[:, 2] += FLAT * depth

@@ -87,6 +87,12 @@ def _put_stress(put, body):
         put(f"stress/cases/{name}", stress, "Pa", "stress xx, yy, zz, xy, xz, yz by the unit load case")
 
 
+def _per_metre(body, unit):
+    """A unit, of sections that of 1 m."""
+    units = {"N/m": "N/m2", "m/N": "m2/N", MODE: "m/(m (kg/m)^0.5)"}
+    return unit if body.datum is None else units[unit]
+
+
 def _put_modes(file, put, body):
     put("modes/omega", body.modes.omega, "rad/s", "angular frequencies without contact")
     put("modes/mass_error", body.modes.mass_error, "1", "maximum error of the modes' orthonormality")
@@ -94,7 +100,7 @@ def _put_modes(file, put, body):
         put("modes/rigid", body.modes.rigid, "rad/s", "angular frequencies of the rigid motions, which are left out")
     if body.mesh.sensors:
         text = "mass-normalised modes at the sensors, in the deck's directions"
-        put("modes/sensors", body.modes.sensors, MODE, text)
+        put("modes/sensors", body.modes.sensors, _per_metre(body, MODE), text)
         file["modes/sensors"].attrs["names"] = [name for name, _ in body.mesh.settings.sensors]
 
 
@@ -102,14 +108,15 @@ def _put_bolts(file, put, body):
     names = [one.name for one in body.bolts]
     for one in body.bolts:
         text = "axial stiffness between the washers"
-        put(f"bolts/{one.name}/stiffness", one.stiffness, "N/m", text)
+        put(f"bolts/{one.name}/stiffness", one.stiffness, _per_metre(body, "N/m"), text)
         put(f"bolts/{one.name}/length", one.length, "m", "distance of the washers' centres")
         put(f"bolts/{one.name}/diameter", one.diameter, "m", "diameter")
         put(f"bolts/{one.name}/young", one.young, "Pa", "Young's modulus")
         text = "x and y of the frame where its axis crosses the contact's plane"
         put(f"bolts/{one.name}/place", one.place, "m", text)
     closing = np.stack([body.closing(f"bolt_{name}") for name in names], axis=1)
-    put("bolts/closing", closing, "m/N", "approach of a bolt's washers (row) by unit initial tension of one (column)")
+    text = "approach of a bolt's washers (row) by unit initial tension of one (column)"
+    put("bolts/closing", closing, _per_metre(body, "m/N"), text)
     file["bolts/closing"].attrs["names"] = names
     for name, case in body.cases.items():
         if not name.startswith("bolt_") and case.displacement is not None:

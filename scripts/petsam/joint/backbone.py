@@ -107,8 +107,8 @@ class Backbone(Numbers):
             lines.append(f"without a quarter of the structure's modes its frequency changes by {self.modes_change:.1e}")
         lines.append("")
         lines.append(
-            f"{'amplitude/m':>12} {'accel./(m/s2)':>14} {'f/Hz':>11} {'zeta':>10} {'W/J':>10} {'slip':>6} cycles"
-            + (", amplitudes are modal, in m kg^0.5" if self.unit == MODAL else "")
+            f"{'amplitude/m':>12} {'accel./(m/s2)':>14} {'f/Hz':>11} {'zeta':>10} {self._head('W', 'J'):>10} "
+            f"{'slip':>6} cycles" + (f", amplitudes are modal, in {self._unit(MODAL)}" if self.unit == MODAL else "")
         )
         for k in range(len(self.alpha)):
             below = f"{f'<{self.unresolved[k]:.1e}':>10}"
@@ -209,6 +209,7 @@ def backbone(
         states,
         [(patch.contact.x + patch.center[0], patch.contact.y + patch.center[1]) for patch in structure.patches],
     )
+    found.per_metre = structure.per_metre
     _warn(found)
     return found
 

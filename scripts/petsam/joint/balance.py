@@ -278,7 +278,10 @@ class Response(Numbers):
         list of str
             A line of heads, and one for each frequency.
         """
-        lines = [f"{'f/Hz':>11} {'amplitude/m':>12} {'phase/deg':>9} {'higher/m':>10} {'W/J':>10} {'slip':>6} cycles"]
+        lines = [
+            f"{'f/Hz':>11} {'amplitude/m':>12} {'phase/deg':>9} {'higher/m':>10} {self._head('W', 'J'):>10} "
+            f"{'slip':>6} cycles"
+        ]
         for k in range(len(self.frequency)):
             lines.append(
                 f"{self.frequency[k]:11.6g} {self.amplitude[k]:12.4e} {np.degrees(self.phase[k]):9.2f} "
@@ -345,7 +348,9 @@ def forced(
         motions.append(moves)
         patches.append(cycle.energies)
     numbers = {name: np.array(column) for name, column in zip(RESPONSE, np.transpose(rows))}
-    return Response(numbers, np.array(motions), np.array(patches), structure.names)
+    found = Response(numbers, np.array(motions), np.array(patches), structure.names)
+    found.per_metre = structure.per_metre
+    return found
 
 
 def peak(harmonics):

@@ -6,6 +6,8 @@ from ..core.tables import Column, Tabled
 from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
 
+PER_METRE = {"J": "J/m", "N": "N/m", "m3": "m3/m", "m kg^0.5": "m (kg/m)^0.5", "m/s2 kg^0.5": "m/s2 (kg/m)^0.5"}
+
 
 class Numbers(Tabled):
     """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"].
@@ -14,15 +16,27 @@ class Numbers(Tabled):
     ----------
     columns : dict
         {name: (unit, text)} of the kind of result.
+    per_metre : bool
+        Whether loads, energies and masses are those of sections in plane strain, per metre.
     """
 
     columns = {}
+    per_metre = False
     form = staticmethod("{:.10g}".format)
 
     def __getattr__(self, name):
         if name != "numbers" and name in self.numbers:
             return self.numbers[name]
         raise AttributeError(name)
+
+    def _unit(self, unit):
+        """A unit, of sections that of 1 m."""
+        return PER_METRE.get(unit, unit) if self.per_metre else unit
+
+    def _head(self, name, unit):
+        """The head of a printed column."""
+        own = self._unit(unit)
+        return f"{name}/{own}" if own == unit else f"{name}/({own})"
 
     def more_columns(self) -> list[Column]:
         """Columns beside the numbers.
@@ -41,7 +55,8 @@ class Numbers(Tabled):
         -------
         list of tables.Column
         """
-        return [*columns_of(self.columns, self.numbers), *self.more_columns()]
+        found = [*columns_of(self.columns, self.numbers), *self.more_columns()]
+        return [one._replace(unit=self._unit(one.unit)) for one in found]
 
 
 def columns_of(columns, numbers):

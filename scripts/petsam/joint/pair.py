@@ -1,4 +1,4 @@
-"""The structure of a pair of bodies, from a file of petsam-compliance --pair."""
+"""The structure of a pair of bodies, or of sections in plane strain, from a file of petsam-compliance --pair."""
 
 import os
 import re
@@ -17,6 +17,7 @@ from .structure import DISPLACEMENTS, Patch, Structure
 PRESS = 4  # steps in which each bolt is tightened
 SNUG = 0.1  # part of the tension of several bolts that all get before the first one is tightened
 FIRST = 0.1  # the first guess of the loads over the tension: from loads that are too large the iteration may not end
+ACROSS = ("rot_x", "rot_z")  # rotations that a section does not have
 PRESSING = ("disp_z", "rot_x", "rot_y")  # displacements whose loads press the bodies together
 
 
@@ -28,7 +29,7 @@ class Pair:
     path : str or path
         File of petsam-compliance --pair with --modes.
     preload : mapping
-        {bolt: initial tension in N}; the bolts are tightened in this order.
+        {bolt: initial tension in N, of a section N/m}; the bolts are tightened in this order.
     press : int
         Load steps in which each bolt is tightened; several bolts are snug first, with a tenth of the tension.
     frictionless : bool
@@ -51,9 +52,11 @@ class Pair:
     sensors : dict
         {name: (modes, 3)}: displacement (m) of a sensor by each modal coordinate.
     tensions : dict
-        {name: N}: tension left in each bolt after all are tightened.
+        {name: N}: tension left in each bolt after all are tightened; of a section N/m.
     places : dict
         {name: (x, y, diameter)}: where each bolt's axis crosses the contact's plane (m), as far as the file has it.
+    unit : str
+        Of tensions: "N", of a section "N/m".
     functions : int
         Number of polynomials of a patch.
 
@@ -82,12 +85,13 @@ class Pair:
         # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
         # of each patch what is local: the structure has the motions as a whole
         contacts = [
-            Contact(**{**grid, **self.moduli, **options, "body2_compliance": f"{path}:{k}:local:{lower}"})
+            Contact(**{**grid, **self.moduli, **self.plane, **options, "body2_compliance": f"{path}:{k}:local:{lower}"})
             for k, grid in enumerate(grids, 1)
         ]
-        self.structure = self._structure(contacts, DISPLACEMENTS, damping)
+        self.structure = self._structure(contacts, self.displacements, damping)
         if frictionless:
-            pressed = self._structure(contacts, PRESSING, damping)
+            pressing = [name for name in PRESSING if name in self.displacements]
+            pressed = self._structure(contacts, pressing, damping)
             self._tighten(pressed, preload, press, 0.0)
             self._continue(pressed, friction_scale)
         else:
@@ -101,7 +105,8 @@ class Pair:
         try:
             with opened(path) as file:
                 self._read(file)
-                grids = [dict(grid_size=2 * group["patch/half"][()], gap_type="flat") for group in patches_of(file)]
+                halves = [group["patch/half"][()][: 1 if self.plane else 2] for group in patches_of(file)]
+                grids = [dict(grid_size=np.squeeze(2 * half), gap_type="flat") for half in halves]
                 degrees = patches_of(file)[0]["basis/degree_xy"][()]
                 self.functions, self.degree = len(degrees), int(degrees.max())
         except DAMAGED as error:
@@ -113,7 +118,7 @@ class Pair:
         modes = [f"body2_case_mode{k + 1}" for k in range(self.omega.size)]
         patches, static, moved = [], [], []
         for k, (contact, far) in enumerate(zip(contacts, self.far), 1):
-            names = [*DISPLACEMENTS, *(f"body2_case_{name}" for name in far)]
+            names = [*self.displacements, *(f"body2_case_{name}" for name in far)]
             name = "contact" if len(contacts) == 1 else f"patch{k}"
             patches.append(Patch(contact, [*names, *modes], by_load=by_load, name=name, center=self.centers[k - 1]))
             static += [True] * len(names) + [False] * len(modes)
@@ -130,6 +135,7 @@ class Pair:
         self.centers = [group["patch/center"][()] for group in patches_of(file)]
         if len(self.coupling) != sum(6 + len(names) for names in self.far):
             raise ValueError(f"the coupling of its patches has the shape {self.coupling.shape}")
+        self._choose("datum" in file.attrs)
         self.omega = file["modes/omega"][()].astype(float)
         self.sensors = {}
         if "modes/sensors" in file:
@@ -151,6 +157,14 @@ class Pair:
             for body, end in (("body1", "1"), ("body2", ""))
             for name in ("young", "poisson")
         }
+
+    def _choose(self, plane):
+        """Takes the displacements that a contact has, of a section those in its plane and along its normal."""
+        self.plane, self.unit = (dict(elasticity="plane"), "N/m") if plane else ({}, "N")
+        self.displacements = [name for name in DISPLACEMENTS if not plane or name not in ACROSS]
+        own = [name in self.displacements for name in DISPLACEMENTS]
+        kept = np.flatnonzero(np.concatenate([[*own, *(True for _ in names)] for names in self.far]))
+        self.coupling = self.coupling[np.ix_(kept, kept)]
 
     def _check(self, preload):
         if not isinstance(preload, Mapping):

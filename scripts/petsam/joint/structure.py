@@ -347,6 +347,11 @@ class Structure:
         return self.omega.size + self.rigid.shape[1]
 
     @property
+    def per_metre(self) -> bool:
+        """True if a patch is of sections in plane strain: loads, energies and masses are per metre."""
+        return any(len(patch.contact.y) == 1 for patch in self.patches)
+
+    @property
     def by_load(self) -> np.ndarray:
         """(n,) mask of the coordinates whose loads steps prescribe."""
         return np.concatenate([patch.by_load for patch in self.patches])

@@ -64,9 +64,12 @@ class Wear(Numbers):
         list of str
             A line of heads, and one for each number of cycles.
         """
-        shown = ("/".join(filter(None, split(name))) for name in self.measured)
+        shown = (_shown(*split(name)) for name in self.measured)
         heads = "".join(f" {name:>12}" for name in shown)
-        lines = [f"{'cycles':>10} {'f/Hz':>13} {'+-':>8} {'zeta':>10} {'+-':>8} {'W/J':>10} {'volume/m3':>10}{heads}"]
+        lines = [
+            f"{'cycles':>10} {'f/Hz':>13} {'+-':>8} {'zeta':>10} {'+-':>8} {self._head('W', 'J'):>10} "
+            f"{self._head('volume', 'm3'):>10}{heads}"
+        ]
         for k in range(len(self.cycles)):
             lines.append(
                 f"{self.cycles[k]:10.4g} {self.frequency[k]:13.8g} {self.frequency_error[k]:8.1e} "
@@ -85,6 +88,11 @@ class Wear(Numbers):
         """
         heads = [(*split(name), values) for name, values in self.measured.items()]
         return [Column(name, unit or "1", "measured after the cycles", values) for name, unit, values in heads]
+
+
+def _shown(name, unit):
+    """The head of a printed column."""
+    return f"{name}/({unit})" if "/" in unit else "/".join(filter(None, (name, unit)))
 
 
 def wear(  # noqa: PLR0913  (as the options of petsam-joint wear)
@@ -145,7 +153,9 @@ def wear(  # noqa: PLR0913  (as the options of petsam-joint wear)
         coarse = _run(structure.copy(), *given, 1)
     for name in ("frequency", "damping"):
         rows[f"{name}_error"] = np.abs(rows[name] - coarse[0][name])
-    return Wear({"cycles": np.append(0.0, cycles), **rows}, measured, structures)
+    found = Wear({"cycles": np.append(0.0, cycles), **rows}, measured, structures)
+    found.per_metre = structure.per_metre
+    return found
 
 
 def _wears(patch):

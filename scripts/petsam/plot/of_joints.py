@@ -136,17 +136,31 @@ def _mark_bolts(ax, bolts):
         ax.text(1e3 * x, 1e3 * y, name, ha="center", va="center", path_effects=edge)
 
 
+def _line(left, right, x, fields, highest):
+    """Pressure (MPa) and state of the cells of a section over x, mm; the states with the pressure as their height."""
+    pressure, states = fields
+    width = np.diff(x).mean()
+    left.step(x, pressure, where="mid", color=COLORS[0])
+    for k, (_, tint) in STATES.items():
+        chosen = (states == k) & (pressure > 0.0)
+        look = {"hatch": HATCH, "edgecolor": HATCHED, "linewidth": 0.0} if k == SLIP else {}
+        right.bar(x[chosen], pressure[chosen], width, color=tint, **look)
+    right.legend(handles=_keys(), loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+    for ax in (left, right):
+        ax.set(xlabel="$x$, mm", ylabel="pressure in the preload, MPa", xlim=(x[0], x[-1]), ylim=(0.0, 1.05 * highest))
+
+
 @drawn({**STYLE, "axes.grid": False}, Backbone)
 def slip_zones(found: Backbone, *, bolts: Optional[Mapping[str, ArrayLike]] = None) -> Figure:
     """The patches of a backbone, one below the other: pressure in the preload, and where the largest amplitude makes
-    them slip.
+    them slip. Those of sections are lines over x.
 
     Parameters
     ----------
     found : joint.Backbone
         The backbone.
     bolts : dict, optional
-        {name: (x, y, diameter)} of bolts that are drawn, m, as joint.Pair has them in `places`.
+        {name: (x, y, diameter)} of bolts that are drawn on maps, m, as joint.Pair has them in `places`.
 
     Returns
     -------
@@ -157,6 +171,11 @@ def slip_zones(found: Backbone, *, bolts: Optional[Mapping[str, ArrayLike]] = No
     figure, rows = plt.subplots(len(found.names), 2, figsize=size, layout="constrained", squeeze=False)
     highest = 1e-6 * max(float(np.max(one)) for one in found.pressure)  # one scale of all patches
     for k, ((left, right), (x, y)) in enumerate(zip(rows, found.axes)):
+        if len(y) == 1:
+            _line(left, right, 1e3 * x, (1e-6 * found.pressure[k][0], found.states[k][0]), highest)
+            left.set_title(f"{found.names[k]}: preload")
+            right.set_title(f"{found.names[k]}: largest amplitude")
+            continue
         pressed = np.where(found.pressure[k] > 0.0, 1e-6 * found.pressure[k], np.nan)
         mesh = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, vmax=highest, rasterized=True)
         bar(left, mesh, "pressure $p$, MPa")

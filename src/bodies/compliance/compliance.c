@@ -562,7 +562,8 @@ static PetscErrorCode MatchPlane(SamElasticity e, const SamOptions *from, SamCom
              SamOptionsPrefix(from), names[c->body], c->file, SamOptionsPrefix(from));
   if (!section) PetscFunctionReturn(PETSC_SUCCESS);
   SamComplianceMoveDatum(c, (double)*SamHalfSpaceDatum(inner));
-  if (((const Bodies *)e->data)->of[1 - c->body] || isinf((double)SamBodySubstrate(e->pair->body[1 - c->body])->young))
+  if (SamComplianceIsPair(c) || ((const Bodies *)e->data)->of[1 - c->body] ||
+      isinf((double)SamBodySubstrate(e->pair->body[1 - c->body])->young))
     e->traits.datum = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

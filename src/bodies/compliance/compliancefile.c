@@ -384,9 +384,6 @@ PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double va
 
   PetscFunctionBegin;
   Choose(c->file, &from);
-  PetscCheck(!(c->datum > 0), comm, SAM_ERR_USER,
-             "-%s %s: is of a section, of which the file has no stresses below the surface: they are not supported",
-             option, c->file);
   PetscCheck(c->below[0], comm, SAM_ERR_FILE, "-%s %s: has no group /stress: make the file without --no-stress", option,
              c->file);
   PetscCall(SamFileExamine(comm, option, from.file, NULL, LookBelow, c, values,

@@ -181,14 +181,18 @@ static PetscErrorCode FindEnds(Mat matrix, PetscInt n, double *least, double *mo
 
 void SamComplianceMoveDatum(SamCompliance c, double datum)
 {
-  /* A line load displaces by -ln(|x|/D)/pi times a factor in x, y and z. */
-  const double shear = c->young / (2 * (1 + c->poisson)), change = log(c->datum / datum);
-  const double factor[3] = {(1 - c->poisson) / shear, 1 / shear, (1 - c->poisson) / shear};
+  /* A line load displaces by -ln(|x|/D)/pi times a factor in x, y and z; that of a pair displaces both bodies. */
+  const double young[2] = {c->young, c->young1}, poisson[2] = {c->poisson, c->poisson1}, change = log(c->datum / datum);
 
-  for (PetscInt k = 0; k < 3 && !isinf(c->young); k++)
-    for (PetscInt m = 0; m < c->modes; m++)
-      if (!c->power[m][0])
-        c->matrix[(k * c->modes + m) * (3 * c->modes + 1)] += change * factor[k] / PETSC_PI * 2 * c->half[0];
+  for (PetscInt b = 0; b < (SamComplianceIsPair(c) ? 2 : 1) && !isinf(young[b]); b++) {
+    const double shear = young[b] / (2 * (1 + poisson[b]));
+    const double factor[3] = {(1 - poisson[b]) / shear, 1 / shear, (1 - poisson[b]) / shear};
+
+    for (PetscInt k = 0; k < 3; k++)
+      for (PetscInt m = 0; m < c->modes; m++)
+        if (!c->power[m][0])
+          c->matrix[(k * c->modes + m) * (3 * c->modes + 1)] += change * factor[k] / PETSC_PI * 2 * c->half[0];
+  }
   c->datum = datum;
 }
 
