@@ -2,12 +2,13 @@
 
 import warnings
 
+from ..core.shown import Shown
 from ..core.tables import Column, Tabled
 from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
 
 
-class Numbers(Tabled):
+class Numbers(Tabled, Shown):
     """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"].
 
     Attributes
