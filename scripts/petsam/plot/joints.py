@@ -94,7 +94,9 @@ def _numbers(found):
     known = {column.name: column for column in columns}
     owners = {column.name: _error_of(column, known) for column in columns}
     limits = known["unresolved"].values if "unresolved" in known else None
-    shown = [column for column in columns if not owners[column.name] and column.name != "unresolved"]
+    numbers = [column for column in columns if not owners[column.name] and column.name != "unresolved"]
+    same = [column for column in numbers[1:] if len(set(column.values)) == 1 < len(column.values)]
+    shown = [column for column in numbers if column.name not in {one.name for one in same}]
     cells = [
         _cells(
             column,
@@ -109,9 +111,12 @@ def _numbers(found):
     meanings += [
         (page.broken(f"\N{PLUS-MINUS SIGN} of {owner}"), known[name].text) for name, owner in owners.items() if owner
     ]
-    facts = _facts(found)
+    facts = _facts(found) + [
+        (page.text(f"{one.text[0].upper()}{one.text[1:]}, of all rows"), page.quantity(float(one.values[0]), one.unit))
+        for one in same
+    ]
     lead = [page.terms(facts)] if facts else []
-    return page.section("Numbers", *lead, table, page.terms(meanings), class_="many" if len(shown) > 6 else None)
+    return page.section("Numbers", *lead, table, page.terms(meanings))
 
 
 def _facts(found):
@@ -124,7 +129,7 @@ def _facts(found):
         return facts
     if isinstance(found, Band):
         return [(name, TEXTS[name]) for name in found.backbones]
-    return [("Loops", found.note)] if isinstance(found, Interface) and found.note else []
+    return [("Note", found.note)] if isinstance(found, Interface) and found.note else []
 
 
 # ---------------------------------------------------------------- pictures and inputs

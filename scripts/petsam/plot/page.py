@@ -41,6 +41,7 @@ CSS = """
 .petsam tbody th { position: sticky; left: 0; background: #fff; }
 .petsam td.number { text-align: right; white-space: nowrap; }
 .petsam th.number { text-align: right; }
+.petsam thead th { vertical-align: bottom; }
 .petsam td.error { white-space: nowrap; }
 .petsam td.long { min-width: 12em; max-width: 34em; white-space: normal; overflow-wrap: anywhere; }
 .petsam dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.2em 1em; margin: 0.8em 0; }

@@ -119,7 +119,9 @@ def _of_joint(found, path, inputs):
     rows = [("Program", f"petsam-joint {__version__}"), ("Date", _date(written))]
     title = joints.title(found)
     head = page.element("header", page.element("h1", title), page.terms(rows))
-    save(path, title, [head, *joints.parts(found, inputs), _cited(__version__)])
+    numbers, *others = joints.parts(found, inputs)
+    first = page.element("div", head, numbers, class_="many")  # on paper on one page
+    save(path, title, [first, *others, _cited(__version__)])
 
 
 def save(path, title, parts):
