@@ -32,6 +32,7 @@ available by its name, petsam.cycles or petsam.closed.plane, without a separate 
 import importlib
 import os
 
+from .core import shown as _shown
 from .core.errors import Error, Missing, MissingFile
 from .core.version import __version__ as __version__
 
@@ -124,6 +125,11 @@ def __getattr__(name):
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(importlib.import_module(_HOMES[name], __name__), name)
+
+
+# for methods of packages below plot
+_shown.provide("report", lambda: __getattr__("plot").report)
+_shown.provide("view", lambda: __getattr__("plot").view)
 
 
 def __dir__():

@@ -362,10 +362,33 @@ def test_loop_is_force_over_displacement_of_every_step(strokes):
     assert np.allclose(x, factor * history["disp_x"]) and np.allclose(y, history["load_tx"])
     text = axes.get_legend().get_texts()[0].get_text()
     energy = cycles.find(results).energies[-1]  # of the last cycle, not of all steps
-    assert energy < 0.9 * history["dissipated_energy"].sum() and text.endswith(" in the last cycle")
+    assert energy < 0.9 * history["dissipated_energy"].sum() and " dissipated in the last cycle" in text
     assert any(text.startswith(f"{factor * energy:.4g} ") for factor in (1e9, 1e6))
     results.label = "own"
     assert loops.loop([results]).axes[0].get_legend().get_texts()[0].get_text() == f"own: {text}"
+
+
+@pytest.mark.parametrize(
+    "drawn, text",
+    [
+        (2.0, "2 mJ in the last cycle"),
+        (1.99, "2 mJ dissipated in the last cycle"),
+        (1.9, "2 mJ dissipated in the last cycle\n(lines between steps: area 1.9 mJ)"),
+        (2.1, "2 mJ dissipated in the last cycle\n(lines between steps: area 2.1 mJ)"),
+    ],
+)
+def test_a_legend_tells_the_energy_from_the_area_between_the_lines(drawn, text):
+    assert loops._energy_text(SimpleNamespace(work_unit="J"), (2e-3, 1e-3 * drawn)) == text
+
+
+def test_a_loop_of_few_steps_has_the_area_as_it_is_drawn(strokes):
+    results = Results(str(strokes))
+    figure = loops.loop([results])
+    text, rows = figure.axes[0].get_legend().get_texts()[0].get_text(), list(cycles.find(results))[-1].rows
+    x, y = (results.history[name][rows] for name in ("disp_x", "load_tx"))
+    area = 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+    apart = abs(area / cycles.find(results).energies[-1] - 1.0) > loops.SEEN
+    assert ("area" in text) == apart and (not apart or any(f"area {f * area:.4g} " in text for f in (1e6, 1e9)))
 
 
 def test_a_load_that_does_not_vary_has_no_loop(strokes):

@@ -410,7 +410,7 @@ def test_history_of_a_life_sums_no_energy_of_some_of_its_cycles(life, direct):
     assert "dissipated energy" not in names(life) and "volume removed of body 2" in names(life)
     assert {"dissipated energy", "volume removed of body 1"} <= set(names(petsam.open(direct)))
     energy, text = life.wear["dissipated_energy"][-1], texts(loops.loop([life]).axes[0])[1][0]
-    assert text.endswith("in the last cycle") and any(f"{factor * energy:.4g} " in text for factor in (1e9, 1e6))
+    assert " in the last cycle" in text and any(f"{factor * energy:.4g} " in text for factor in (1e9, 1e6))
 
 
 @pytest.mark.parametrize(

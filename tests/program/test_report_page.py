@@ -13,7 +13,7 @@ import yaml
 
 import conftest
 import petsam
-from petsam.plot import frames, reports
+from petsam.plot import frames, reports, sheets
 from petsam.study.cases import Case
 from petsam.study.tables import write_hdf5
 from support import ROOT, ball, history, slide_limit
@@ -168,6 +168,20 @@ def test_errors_stand_beside_their_numbers(page, strokes):
     assert not any(name.endswith("_max_error") for name in found)  # they are beside the numbers
 
 
+def test_the_error_by_the_load_step_stands_beside_the_energy(copy):
+    with h5py.File(copy, "r+") as file:
+        del file["history/dissipated_energy_error"]
+        energy = file["history/dissipated_energy"][-1]
+        file["history/energy_error"][-1] = 0.1 * energy
+    found = {row[0]: row for row in sheets.numbers(petsam.open(copy), 47)[0]}
+    error = found["dissipated_energy"][2]
+    assert error.endswith(", by the load step") and "energy_error" not in found
+    assert float(re.search(r'value="(.*?)"', error)[1]) == pytest.approx(0.1 * energy)
+    names = list(found)
+    if "dissipated_energy_closed" in found:
+        assert names.index("dissipated_energy_closed") == names.index("dissipated_energy") + 1
+
+
 @pytest.mark.usefixtures("few")
 def test_large_errors_are_warned_of(copy, tmp_path):
     with h5py.File(copy, "r+") as file:
@@ -305,7 +319,11 @@ def test_stresses(launcher, strokes, tmp_path, more):
     with petsam.open(tmp_path / "s.h5") as stresses:
         stresses.report(tmp_path / "s.html")
         found, text = read(tmp_path / "s.html")
-        assert f'value="{float(stresses.history["mises_max"][-1])!r}"' in rows(text)["mises_max"]
+        shown, error = rows(text), float(stresses.parameters["traction_error"])
+        assert f'value="{float(stresses.history["mises_max"][-1])!r}"' in shown["mises_max"]
+        assert f"&plusmn; {100 * error:.2g} %" in shown["mises_max"] and ", by the tractions" in shown["mises_max"]
+        assert f'value="{float(stresses.history["mises_max_z"][-1])!r}"' in shown["mises_max"]  # its place
+        assert not {"traction_error", "mises_max_z"} & set(shown)
     assert found.titles == ["Numbers of the last step", "Pictures", "History", "Inputs", "Citation"]
 
 

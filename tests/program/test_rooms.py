@@ -1,6 +1,6 @@
 """The floors of src/ use each other as src/README.md says: by the linker's symbols, a floor uses those below it only,
 and so does a room those that stand below it on its floor. The packages of scripts/petsam use each other as
-scripts/README.md says, by all imports, those within functions too.
+scripts/README.md says, by all imports, those within functions and those by a name in a text too.
 
 python3 tests/program/test_rooms.py [build]     prints the arrows and the circles
 """
@@ -141,7 +141,7 @@ def modules():
 
 
 def imported(name, path, known):
-    """The modules of the package that a module imports, at any place."""
+    """The modules of the package that a module imports, at any place, or names in a text, as importlib needs it."""
     package = name if path.name == "__init__.py" else name.rpartition(".")[0]
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.level:
@@ -151,6 +151,22 @@ def imported(name, path, known):
                 yield f"{home}.{alias.name}" if f"{home}.{alias.name}" in known else home
         elif isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in known)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            relative = node.value.startswith(".") and path.name != "__init__.py"  # which lists its package's modules
+            whole = package + node.value if relative else node.value
+            yield from [whole] if whole in known else []
+
+
+def composed(path):
+    """The arguments of importlib.import_module() that are composed, so that imported() cannot read them; those of a
+    module's own package, as "." + home, are none."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        called = node.func if isinstance(node, ast.Call) else None
+        if getattr(called, "attr", getattr(called, "id", "")) in ("import_module", "__import__"):
+            what = node.args[0]
+            own = isinstance(what, ast.BinOp) and isinstance(what.left, ast.Constant) and what.left.value == "."
+            if not own and not isinstance(what, (ast.Constant, ast.Name, ast.Subscript)):
+                yield ast.unparse(what)
 
 
 def imports():
@@ -215,6 +231,31 @@ def test_no_package_uses_one_above_it():
     places = parts()
     upward = [(a, b) for a, b in imports() if places.index(part(b)) < places.index(part(a))]
     assert not upward, upward
+
+
+def test_no_name_of_an_import_is_composed():
+    found = {name: list(composed(path)) for name, path in modules().items() if name != "petsam"}
+    assert not {name: texts for name, texts in found.items() if texts}
+
+
+@pytest.mark.parametrize(
+    "text, other",
+    [
+        ("from ..plot import reports", "petsam.plot.reports"),
+        ("import importlib\nREPORTS = 'petsam.plot.reports'\nimportlib.import_module(REPORTS)", "petsam.plot.reports"),
+        ("import importlib\nimportlib.import_module('.cycles', __package__)", "petsam.results.cycles"),
+    ],
+)
+def test_imports_are_seen(tmp_path, text, other):
+    (tmp_path / "one.py").write_text(text)
+    assert other in imported("petsam.results.one", tmp_path / "one.py", modules())
+
+
+@pytest.mark.parametrize("name, seen", [("f'petsam.{part}.reports'", True), ("'petsam.' + part", True),
+                                        ("'.' + part", False), ("part", False)])  # fmt: skip
+def test_composed_names_are_seen(tmp_path, name, seen):
+    (tmp_path / "one.py").write_text(f"import importlib\nimportlib.import_module({name}, __name__)")
+    assert list(composed(tmp_path / "one.py")) == ([name] if seen else [])
 
 
 def test_modules_form_no_large_circle():

@@ -32,6 +32,8 @@ options give the wear coefficients. -o NAME writes NAME.csv and NAME.png.
 
 response: prints the response of the same to a harmonic force over its frequency, by harmonic balance, with the damping
 of the material and of friction. -o NAME writes NAME.csv and NAME.png.
+
+--report NAME.html writes a page of any of these: the table with its errors, the pictures, and the options as inputs.
 """
 
 import argparse
@@ -55,9 +57,11 @@ from ..joint.pair import Pair, contents
 from ..joint.structure import ENDS
 from ..joint.sweep import BackboneWarning
 from ..joint.wear import rising, wear
+from ..plot import page
 from ..plot.saving import DPI, write
 from .line import Parser, add_resolution, guarded, joined, word
 
+OF_FILES = ("output", "report", "dpi")  # options of the written files
 BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest
 
 
@@ -219,6 +223,9 @@ def _parser():
         "--steps", type=_from(1), help="load steps of a half cycle (8, response 16) or quarter (stiffness 8)"
     )
     one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv and NAME.png, and other files of NAME")
+    one.add_argument(
+        "--report", type=word(page.name), metavar="NAME.html", help="write a page with inputs, numbers and pictures"
+    )
     add_resolution(one)
     _stiffness_options(one)
     _structure_options(one)
@@ -248,6 +255,8 @@ def _run():
         raise Unusable("--dpi: is for the picture, which --output writes; give both or none")
     if args.area is not None and not args.output:
         raise Unusable("--area: is for NAME.json, which --output writes; give both or none")
+    if args.report:
+        need_replaceable(args.report)
     return ACTIONS[args.action][2](args)
 
 
@@ -276,6 +285,7 @@ def _stiffness(args):
         result = interface(args.file, args.pressure, **told, **conducting, **options)
     _print(result, found)
     _write_stiffness(args, result)
+    _report(args, result)
     return 0
 
 
@@ -327,6 +337,28 @@ def _recorded(kind):
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", kind)
         yield found
+
+
+def _report(args, result):
+    """Writes the page of --report, if it is given, with the options as inputs."""
+    if args.report:
+        plot.report(result, args.report, _given(args, joined(sys.argv[1:])))
+
+
+def _given(args, given):
+    """{name: text} of the action, the file, and the options as they are given, but those of the written files."""
+    shown, rest = {"action": args.action, "file": args.file}, iter(given)
+    for one in rest:
+        if not one.startswith("--"):
+            continue
+        option, _, value = one.partition("=")
+        name = option[2:]
+        if getattr(args, name.replace("-", "_")) is True:
+            value = "yes"
+        value = value or next(rest, "")
+        if name not in OF_FILES:
+            shown[name] = f"{shown[name]}, {value}" if name in shown else value
+    return shown
 
 
 def _print(result, found):
@@ -403,6 +435,7 @@ def _backbone(args):
     _write(args, result, plot.backbone)
     if args.output:
         write(plot.slip_zones(result, bolts=pair.places), args.output + "-contact.png", args.dpi)
+    _report(args, result)
     return 0
 
 
@@ -416,6 +449,7 @@ def _band(args):
         result = band(make, preload, args.amplitudes, sensor, spread, _progress("assembly"), **given)
     _print(result, found)
     _write(args, result, plot.band)
+    _report(args, result)
     return 0
 
 
@@ -431,6 +465,7 @@ def _wear(args):
         result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)
     _print(result, found)
     _write(args, result, plot.joint_wear)
+    _report(args, result)
     return 0
 
 
@@ -457,6 +492,7 @@ def _response(args):
     _tell_tensions(pair, preload)
     _print(result, found)
     _write(args, result, plot.response)
+    _report(args, result)
     return 0
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.errors import Unusable, short
+from ..core.shown import Shown
 from ..core.tables import Column, Tabled
 from .arguments import positive, real
 from .backbone import COLUMNS, Backbone, backbone, shake
@@ -35,7 +36,7 @@ NUMBERS = ("frequency", "damping")
 
 
 @dataclass
-class Band(Tabled):
+class Band(Tabled, Shown):
     """Backbones of a joint.
 
     Attributes

@@ -20,6 +20,7 @@ from ..conduction.shape import need_half_spaces
 from ..contact import AdviceWarning
 from ..core.environment import cores as all_cores
 from ..core.errors import Unusable
+from ..core.shown import Shown
 from ..core.tables import Column, Tabled
 from . import decks, elements, processes, windows
 from .arguments import array, integer, moduli, positive, real
@@ -81,7 +82,7 @@ class Outcome(NamedTuple):
     note: str
 
 
-class Interface(Tabled):
+class Interface(Tabled, Shown):
     """Numbers of an interface at nominal pressures, each an array: pressure, k_n, k_t_x, area ... (COLUMNS).
 
     Parameters

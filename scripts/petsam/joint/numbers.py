@@ -2,6 +2,7 @@
 
 import warnings
 
+from ..core.shown import Shown
 from ..core.tables import Column, Tabled
 from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
@@ -9,7 +10,7 @@ from .sweep import BackboneWarning
 PER_METRE = {"J": "J/m", "N": "N/m", "m3": "m3/m", "m kg^0.5": "m (kg/m)^0.5", "m/s2 kg^0.5": "m/s2 (kg/m)^0.5"}
 
 
-class Numbers(Tabled):
+class Numbers(Tabled, Shown):
     """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"].
 
     Attributes

@@ -3,7 +3,8 @@
 fields and crossings draw fields over the surface and along x and y, series scalars over time or over one another,
 loops and wear cycles and scars, bodies stresses, tables and planes studies; of_compliance, of_lives, of_loads,
 of_surface and of_joints what these parts of the package have found. kinds lists the pictures that suit a file; reports
-makes a page of a file, with the tables of sheets, the slider of frames and the elements of page. colours chooses the
+makes a page of a file or of results of a joint, with the tables of sheets and joints, the slider of frames and the
+elements of page. colours chooses the
 colours of maps, symbols what known quantities are called, units the prefixes; style has the look of all, saving writes
 files.
 """

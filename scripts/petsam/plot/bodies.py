@@ -255,7 +255,7 @@ def maps(steps, component=None, depths=None, limits=None):
     length, unit = scale("m", max(np.ptp(file.x) for file, _ in steps) / 2)
     edges = [extent(file.x, file.y, 1.0 / length, _stride(file)) for file, _, _ in rows]
     layout = Layout([{"extent": one} for one in edges], len(columns), side=3.2)
-    figure, axes = plt.subplots(layout.rows, layout.columns, figsize=layout.size, squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(layout.rows, layout.columns, figsize=layout.size, squeeze=False, layout="compressed")
     for column, (name, text) in enumerate(columns):
         data = []
         for file, index, k in rows:

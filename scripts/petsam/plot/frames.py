@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 from matplotlib.text import Text
+from matplotlib.ticker import MaxNLocator
 
 from ..core.errors import counted
 from ..results.fields import OPEN
@@ -16,6 +17,7 @@ BYTES = 1100000  # of all pictures of a slider at most
 DPI = 110  # pixels per inch
 WIDTH = 100.0  # mm of a map
 TEXT = 8.0  # points of a text at least
+TICKS = 4  # intervals along x at most
 LINES = ("shear", "slip")  # in plane strain their components along x
 NUMBERS = itertools.count(1)  # of the sliders of a process, whose names differ
 
@@ -66,6 +68,8 @@ def _picture(results, index, name, span, part):
     looks.adapt(figure, width=WIDTH)
     for panel in figure.axes:
         panel.tick_params(labelsize=TEXT)
+        if panel.images or panel.lines:  # no bar of colours
+            panel.xaxis.set_major_locator(MaxNLocator(TICKS))
     for text in figure.findobj(Text):
         text.set_fontsize(max(text.get_fontsize(), TEXT))
     return figure

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from ..core.errors import Error
 from ..results import sliding
 from ..results.cycles import ENERGY, PAIRS, busiest, by_turns
-from ..results.sliding import cycle_energy, loop_energy
+from ..results.sliding import area, cycle_energy, loop_energy
 from . import noise, symbols
 from .style import colors, curve, logarithmic, named, need_few, plt, tint
 from .units import counted, label, largest, plain, scale
@@ -19,6 +19,7 @@ from .units import counted, label, largest, plain, scale
 LOOPS = 8  # in a panel; more would be indistinguishable
 DENSE = 1000  # points above which a loop is drawn in transparent pieces, darker where it passes often
 PIECE = 20  # points of a piece
+SEEN = 0.01  # difference of a loop's energy and its drawn area, relative, that a legend mentions
 HEADROOM = 1.08  # the top of an axis of energies over the largest one
 
 
@@ -36,14 +37,34 @@ def loop_axes(results, pair=None):
 
 
 def _last_cycle(results, names):
-    """Returns the energy of the last whole cycle of the displacement, J; None if there is none."""
+    """Returns the energy of the last whole cycle of the displacement, and the area of its loop as it is drawn, J; None
+    if there is none."""
     if results.has_life:
         steps = results.of_computed_cycle(results.wear["cycle"][-1])
-        return loop_energy(results, names, lambda name: results.history[name][steps], results.wear[ENERGY][-1])
+        force, way = (results.history[name][steps] for name in names)
+        energy = results.wear[ENERGY][-1]
+        return loop_energy(results, names, lambda name: results.history[name][steps], energy), area(way, force)
     cycles = by_turns(results.series(names[1]).astype(float))
     if not cycles:
         return None
-    return cycle_energy(results, names, cycles[-1])
+    force, way = (results.series(name)[cycles[-1].rows] for name in names)
+    return cycle_energy(results, names, cycles[-1]), area(way, force)
+
+
+def _is_drawn(energy, drawn):
+    """Whether the area of a loop as it is drawn, whose steps are joined by straight lines, shows its energy."""
+    return abs(drawn - energy) <= SEEN * abs(energy)
+
+
+def _energy_text(results, energies):
+    """What a legend says of the energy of the last cycle; of the area, too, where few steps make it another one."""
+    if energies is None:
+        return None
+    energy, drawn = energies
+    factor, unit = scale(results.work_unit, energy)
+    of = "" if energy == drawn else " dissipated"
+    text = f"{factor * energy:.4g} {unit}{of} in the last cycle"
+    return text if _is_drawn(energy, drawn) else f"{text}\n(lines between steps: area {factor * drawn:.4g} {unit})"
 
 
 def _labels(axes, factors):
@@ -71,9 +92,7 @@ def loop(results, pair=None):
     figure, axes = plt.subplots(figsize=(6.4, 4.8), constrained_layout=True)
     for one, color in zip(results, colors(len(results))):
         x, y = (factors[name][0] * one.series(name) for name in (way, force))
-        energy = _last_cycle(one, tuple(factors))
-        factor, unit = scale(one.work_unit, energy or 0.0)
-        text = f"{factor * energy:.4g} {unit} in the last cycle" if energy is not None else None
+        text = _energy_text(one, _last_cycle(one, tuple(factors)))
         if named(results):
             text = ": ".join(filter(None, (plain(one.label), text)))
         (_line if x.size <= DENSE else _cloud)(axes, x, y, color, text)
@@ -107,7 +126,12 @@ def cycle_loops(found, pair=None, numbers=None):
         axes.plot(x, y, color=color, label=text, **curve(x.size))
     _labels(axes, factors)
     outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.3}
-    axes.legend(title="cycle: energy of the loop,\nenergy ratio, sliding ratio", **outside)
+    title = "cycle: energy of the loop,\nenergy ratio, sliding ratio"
+    drawn = [area(*(one.results.series(name)[cycle.rows] for name in (way, force))) for one, cycle in chosen]
+    apart = [abs(size / of.energy - 1.0) for size, of in zip(drawn, known) if not _is_drawn(of.energy, size)]
+    if apart:
+        title += f"\n(lines between steps: area differs by up to {100.0 * max(apart):.2g} %)"
+    axes.legend(title=title, **outside)
     axes.set_title("cycles by " + plain(found[0].manner), fontsize=9.5, color="0.35")
     return figure
 

@@ -33,11 +33,15 @@ CSS = """
 .petsam .wide:focus-visible, .petsam input:focus-visible { outline: 3px solid #0072b2; }
 .petsam table { border-collapse: collapse; font-size: 0.92em; font-variant-numeric: tabular-nums; }
 .petsam caption { text-align: left; color: #444; padding: 0.2em 0; }
+.petsam caption > span { display: block; position: sticky; left: 0; width: max-content; max-width: min(100%, 92vw); }
+.petsam data { white-space: nowrap; }
 .petsam th, .petsam td { padding: 0.2em 0.9em 0.2em 0; border-bottom: 1px solid #ddd; text-align: left;
   vertical-align: top; background: none; }
 .petsam th { font-weight: 600; white-space: nowrap; }
+.petsam tbody th { position: sticky; left: 0; background: #fff; }
 .petsam td.number { text-align: right; white-space: nowrap; }
 .petsam th.number { text-align: right; }
+.petsam thead th { vertical-align: bottom; }
 .petsam td.error { white-space: nowrap; }
 .petsam td.long { min-width: 12em; max-width: 34em; white-space: normal; overflow-wrap: anywhere; }
 .petsam dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.2em 1em; margin: 0.8em 0; }
@@ -61,6 +65,7 @@ body { margin: 0; background: #fff; }
 main { max-width: 76em; margin: 0 auto; padding: 0.8em clamp(0.8em, 3vw, 2em) 3em; }
 @media print {
   @page { margin: 16mm 14mm; }
+  @page many { size: landscape; }
   .petsam { font-size: 10pt; }
   main { max-width: none; padding: 0; }
   .petsam h2, .petsam caption { break-after: avoid; }
@@ -72,6 +77,8 @@ main { max-width: 76em; margin: 0 auto; padding: 0.8em clamp(0.8em, 3vw, 2em) 3e
   .petsam th, .petsam td.number, .petsam td.error { white-space: normal; padding-right: 0.6em; }
   .petsam .frame { grid-template-columns: repeat(3, 1fr); }
   .petsam .page { break-before: page; }
+  .petsam .many { page: many; }
+  .petsam tbody th { position: static; }
   .petsam .choice input, .petsam .screen { display: none; }
   .petsam figure img { max-height: 230mm; object-fit: contain; object-position: left; }
 }
@@ -104,6 +111,12 @@ POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-s
 
 class Html(str):
     """A text with elements of HTML, in which everything else is escaped."""
+
+    __slots__ = ()
+
+
+class Number(Html):
+    """A number as HTML, with what stands beside it; a column of these is aligned as one of numbers."""
 
     __slots__ = ()
 
@@ -149,17 +162,19 @@ def broken(name):
 def table(caption, heads, rows, long=()):
     """A table that scrolls within the page where it is wide: cells are texts, or (value, unit); long: columns of texts
     that are broken into lines."""
-    count = [all(isinstance(row[k], tuple) for row in rows) for k in range(len(heads))]
+    count = [all(isinstance(row[k], (tuple, Number)) for row in rows) for k in range(len(heads))]
     top = [element("th", broken(head), scope="col", class_="number" if of else None) for head, of in zip(heads, count)]
     body = [element("tr", *(_cell(k, cell, k in long) for k, cell in enumerate(row))) for row in rows]
     inner = joined([element("thead", element("tr", *top)), element("tbody", Html("\n".join(body)))])
-    whole = element("table", element("caption", caption), inner)
+    whole = element("table", element("caption", element("span", caption)), inner)
     return element("div", whole, class_="wide", role="region", tabindex="0", aria_label=caption)
 
 
 def _cell(column, cell, long):
     if isinstance(cell, tuple):
         return element("td", quantity(*cell), class_="number")
+    if isinstance(cell, Number):
+        return element("td", cell, class_="number")
     if column == 0:
         return element("th", broken(cell), scope="row")
     return element("td", cell, class_="long" if long else "error" if isinstance(cell, Html) else None)

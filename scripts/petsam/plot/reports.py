@@ -2,7 +2,8 @@
 
 import datetime
 import os
-from typing import Union
+from collections.abc import Mapping
+from typing import Any, Optional, Union
 
 from ..core.errors import Error
 from ..core.files import need_replaceable, same
@@ -10,7 +11,7 @@ from ..core.version import __version__
 from ..results.file import Results
 from ..results.stresses import Stresses
 from ..results.studies import Study
-from . import frames, kinds, page, sheets
+from . import frames, joints, kinds, page, sheets
 from .style import need_kind
 
 CITED = "petsam: partial-slip contact of elastic bodies by the semi-analytical method"
@@ -31,21 +32,28 @@ WIDE = 7.5  # inches of a picture from which it scrolls on small screens
 OF_STRESSES = {"maps": "Stresses over planes", "profiles": "Stress on the surface"}
 
 
-def report(results: Union[Results, Stresses, Study], path: Union[str, os.PathLike]) -> None:
-    """Writes a page of HTML with the inputs, numbers, errors, check and pictures of a file.
+def report(results: Any, path: Union[str, os.PathLike], inputs: Optional[Mapping[str, Any]] = None) -> None:
+    """Writes a page of HTML with the inputs, numbers, errors, check and pictures of results.
 
     Parameters
     ----------
-    results : Results, Stresses or Study
-        What petsam.open() returns.
+    results : Results, Stresses, Study, or a result of petsam.joint
+        What petsam.open() returns; or a joint.Backbone, Band, Response, Wear or Interface.
     path : str
         Name of the page, which ends in .html; an older one is replaced.
+    inputs : mapping, optional
+        {name: value} of inputs that a result of petsam.joint does not have itself.
 
     Raises
     ------
     Error
         If the page cannot be written, or no step has a solution.
     """
+    if isinstance(results, joints.RESULTS):
+        _of_joint(results, path, inputs or {})
+        return
+    if inputs:
+        raise Error("report: inputs are for results of petsam.joint; files have their own: remove them")
     need(results, path)
     names = kinds.usual([results])
     write(results, path, {name: kinds.function(name, [results])(results) for name in names})
@@ -100,8 +108,25 @@ def write(results, path, figures, dpi=page.DPI):
         wide = figure.get_size_inches()[0] > WIDE
         shown.append(page.figure(page.image(figure, alternative, dpi), caption, wide))
     pictures = page.section("Pictures", *shown, class_="page")
-    text = page.whole(f"{results.label}: report of petsam", page.joined(_parts(results, pictures)))
-    data = text.encode()
+    save(path, results.label, _parts(results, pictures))
+
+
+def _of_joint(found, path, inputs):
+    """Writes the page of a result of petsam.joint."""
+    path = page.name(os.fspath(path))
+    need_replaceable(path)
+    written = datetime.datetime.now().astimezone()
+    rows = [("Program", f"petsam-joint {__version__}"), ("Date", _date(written))]
+    title = joints.title(found)
+    head = page.element("header", page.element("h1", title), page.terms(rows))
+    numbers, *others = joints.parts(found, inputs)
+    first = page.element("div", head, numbers, class_="many")  # on paper on one page
+    save(path, title, [first, *others, _cited(__version__)])
+
+
+def save(path, title, parts):
+    """Writes the page that has these parts; raises Error if it would be too large."""
+    data = page.whole(f"{title}: report of petsam", page.joined(parts)).encode()
     if len(data) > page.MOST:
         size = f"{len(data) / 1e6:.1f} MB, more than {page.MOST / 1e6:g}"
         raise Error(f"{path}: would have {size}; draw fewer kinds, or at a smaller --dpi")
@@ -134,7 +159,7 @@ def _head(results):
     about = str(parameters.get("title", ""))
     rows = [
         ("Program", f"{results.program} {_version(results)}".rstrip()),
-        ("Date", page.element("time", f"{written:%Y-%m-%d %H:%M %Z}", datetime=written.isoformat(timespec="seconds"))),
+        ("Date", _date(written)),
         ("File", os.path.basename(results.path)),
     ]
     if isinstance(results, Results):
@@ -142,6 +167,10 @@ def _head(results):
         rows.append(("Steps", f"{results.history['time'].size}, fields of {results.times.size}"))
     title = page.element("h1", results.label)
     return page.element("header", title, *([page.element("p", about)] if about else []), page.terms(rows))
+
+
+def _date(written):
+    return page.element("time", f"{written:%Y-%m-%d %H:%M %Z}", datetime=written.isoformat(timespec="seconds"))
 
 
 def _version(results):
@@ -154,6 +183,9 @@ def _size(results):
 
 
 def _citation(results):
-    version = _version(results) or __version__
+    return _cited(_version(results) or __version__)
+
+
+def _cited(version):
     text = f"The petsam authors. {CITED}. Version {version}. Licence BSD-2-Clause."
     return page.element("footer", page.element("h2", "Citation"), page.element("p", page.element("cite", text)))

@@ -11,9 +11,10 @@ from . import noise, page
 
 ROWS = 20  # of a history or of a study
 MOST = 14  # columns of a study
+PORTRAIT = 6  # columns of a history beside step and time from which paper is turned
 ABOUT = (
     "CLASS", "Conventions", "NAME", "closed", "fixed_parameters", "options", "part_identity", "petsam_version",
-    "source", "title",
+    "source", "title", "traction_error",
 )  # attributes that are no inputs  # fmt: skip
 WORK = ("_iterations", "_applies", "_preconditions", "_residual")  # ends of the names of numbers about the solution
 STATES = {
@@ -29,6 +30,9 @@ CHECK = {
 }
 OVER = "above: accepted as rounding"
 SLACK = 1.05  # the check allows so much of a tolerance
+BY_STEP = {"dissipated_energy": "energy_error"}  # numbers and columns with their errors by the length of the load step
+CLOSED = "_closed"  # end of the name of a number in closed form, which stands below that number
+PLACE = ("_x", "_y", "_z")  # ends of the names of the places of a stress
 LARGE = 0.05  # errors of numbers from which they are warned of
 SAME = 1e-6  # relative difference of a number and the one that its error is of
 COLUMNS = (
@@ -63,7 +67,8 @@ def _value(value):
     return f"{value:.10g}" if np.issubdtype(type(value), np.number) else str(value)
 
 
-def _input(name, value, options):
+def as_input(name, value, options):
+    """The row of an input: its name, its value with the unit, and how it was given."""
     unit = OPTIONS.get(name, "")
     number = np.ndim(value) == 0 and np.issubdtype(type(value), np.number)
     shown = page.quantity(float(value), unit, 10) if number else page.text(_value(value) + (unit and f" {unit}"))
@@ -78,7 +83,7 @@ def inputs(results):
         command = page.Html(" \\\n  ".join(page.text(word) for word in words))
         parts.append(page.element("pre", page.element("code", command)))
     named, known = dict(options), [name for name in results.parameters if name not in ABOUT]
-    rows = [_input(name, results.parameters[name], named) for name in known]
+    rows = [as_input(name, results.parameters[name], named) for name in known]
     rows += [(name[1:], value, value) for name, value in options if name[1:] not in known]
     what = f"All {counted(len(rows), 'parameter')}, in SI units with prefixes"
     table = page.table(what, ("option", "value", "given as"), rows, (1, 2))
@@ -93,13 +98,24 @@ def percent(error):
     return "unknown" if not math.isfinite(error) else f"{100.0 * error:.2g} %"
 
 
-def estimate(one):
-    """The error of a number: in percent, in its unit, and what it comes from."""
-    if not math.isfinite(one.error):
+def relative(value, unit, error, cause=""):
+    """An error relative to a number: in percent, in its unit, and what it comes from."""
+    if not math.isfinite(error):
         return page.Html("&plusmn; unknown")
-    size = page.quantity(abs(one.value) * one.error, one.unit, 2)
-    cause = page.text(f", by the {one.cause}" if one.cause else "")
-    return page.Html(f"&plusmn; {percent(one.error)} (&plusmn; {size}){cause}")
+    size = page.quantity(abs(value) * error, unit, 2)
+    return page.Html(f"&plusmn; {percent(error)} (&plusmn; {size}){page.text(cause and f', by the {cause}')}")
+
+
+def absolute(size, unit, cause=""):
+    """An error in the unit of its number, and what it comes from; nothing where it is 0 or unknown."""
+    if not size > 0.0:
+        return ""
+    return page.Html(f"&plusmn; {page.quantity(size, unit, 2)}{page.text(cause and f', by the {cause}')}")
+
+
+def estimate(one):
+    """The error of a number of /errors."""
+    return relative(one.value, one.unit, one.error, one.cause)
 
 
 def _is_same(value, other):
@@ -107,19 +123,45 @@ def _is_same(value, other):
 
 
 def _error(results, name, row, of):
-    """The error of a number of the history: as /errors has it, of others as a column of the history has it."""
-    value, column = float(results.history[name][row]), f"{name}_error"
+    """The error of a number of the history: as /errors has it, of others as a column of the history has it; of stresses
+    that of the tractions."""
+    value, unit = float(results.history[name][row]), results.units[name]
     if of and _is_same(of.value, value):
         return estimate(of)
-    size = float(results.history[column][row]) if column in results.history else math.nan
-    return page.Html("&plusmn; " + page.quantity(size, results.units[name], 2)) if size > 0.0 else ""
+    if results.program != "petsam":
+        error = float(results.parameters.get("traction_error", math.nan))
+        return relative(value, unit, error, "tractions") if unit == "Pa" and error > 0.0 else ""
+    sizes = [
+        (float(results.history[column][row]), cause)
+        for column, cause in ((f"{name}_error", ""), (BY_STEP.get(name), "load step"))
+        if column in results.history
+    ]
+    return next(filter(None, (absolute(size, unit, cause) for size, cause in sizes)), "")
+
+
+def _beside(results, name, ends):
+    """Whether a column belongs to another one, whose name lacks one of these ends."""
+    return any(name.endswith(end) and name.removesuffix(end) in results.history for end in ends)
+
+
+def _meaning(results, name, row):
+    """What a number means; of the maximum of a stress also where it is."""
+    text = results.meaning(name)
+    places = [name + end for end in PLACE if name + end in results.history] if results.program != "petsam" else []
+    if not places:
+        return text
+    where = ", ".join(page.quantity(float(results.history[one][row]), results.units[one]) for one in places)
+    axes = ", ".join(one[-1] for one in places)
+    return page.Html(f"{page.text(text)}{' ' if text else ''}at {axes} = {where}")
 
 
 def _is_shown(results, name, value, known):
     """Whether a number says something beyond the check, the errors of others and rounding."""
     if name in ("status", "time") or name.endswith(WORK) or not math.isfinite(value):
         return False
-    if name.endswith("_error") and name.removesuffix("_error") in results.history:
+    if name in BY_STEP.values() or _beside(results, name, ("_error",)):
+        return False
+    if results.program != "petsam" and _beside(results, name, PLACE):
         return False
     return abs(value) >= noise.NOISE * known.get(results.units[name], 0.0)
 
@@ -133,14 +175,15 @@ def numbers(results, row):
         value = float(values[row])
         if _is_shown(results, name, value, known):
             error = _error(results, name, row, errors.get(name))
-            rows.append((name, (value, results.units[name]), error, results.meaning(name)))
+            rows.append((name, (value, results.units[name]), error, _meaning(results, name, row)))
     rows += [
         (f"{name}, sum", (one.value, one.unit), estimate(one), "over the steps of the run")
         for name, one in errors.items()
         if not (name in results.history and _is_same(one.value, float(results.history[name][row])))
     ]
     if any(row[2] for row in rows):
-        rows.sort(key=lambda row: not row[2])
+        wrong = {name for name, _, error, _ in rows if error}
+        rows.sort(key=lambda row: row[0].removesuffix(CLOSED) not in wrong)
         return rows, ("number", "value", "error", "meaning")
     return [(name, value, meaning) for name, value, _, meaning in rows], ("number", "value", "meaning")
 
@@ -152,8 +195,8 @@ def of_last(results, row):
     step = int(results.history["step"][row]) if "step" in results.history else number
     left = "; numbers that are zero to rounding are left out" if results.program == "petsam" else ""
     what = f"Load step {step}, t = {results.history['time'][row]:.6g} s{left}"
-    note = "The file has no errors of its numbers: run petsam with -errors companion." if len(heads) == 3 else ""
-    note = note if results.program == "petsam" else ""
+    lacks = results.program == "petsam" and not results.errors
+    note = "The file has no errors of its numbers by the cells: run petsam with -errors companion." if lacks else ""
     return page.section(
         "Numbers of the last step",
         page.table(what, heads, rows, (len(heads) - 1,)),
@@ -235,7 +278,7 @@ def doubts(results):
     found = warnings(results)
     note = "What the run has printed on stderr is not in the file."
     if not found:
-        return page.section("Warnings", page.element("p", f"None of what the file holds. {note}"))
+        return page.section("Warnings", page.element("p", f"The file has none. {note}"))
     lines = page.element("ul", *(page.element("li", one) for one in found), class_="warning")
     return page.section("Warnings", lines, page.element("p", note))
 
@@ -270,7 +313,8 @@ def history(results, columns=COLUMNS):
     ]
     left = "; numbers that do not vary are left out" if results.program == "petsam" else ""
     caption = f"{_rest(count, 'load step')}{left}"
-    return page.section("History", page.table(caption, ("step", "time", *names), rows), class_="page")
+    shape = "page many" if len(names) > PORTRAIT else "page"  # of paper
+    return page.section("History", page.table(caption, ("step", "time", *names), rows), class_=shape)
 
 
 def life(results):
@@ -285,23 +329,28 @@ def life(results):
     return page.section("Life", page.table(_rest(count, "computed cycle"), ("cycles before", *names), rows))
 
 
+def beside(value, unit, size):
+    """A number with its error in the same unit."""
+    shown = [page.quantity(value, unit), " \N{PLUS-MINUS SIGN} ", page.quantity(size, unit, 2)]
+    return page.Html("".join(page.text(one) for one in shown))
+
+
 def _case(study, name, case):
     """A cell of a study: a text, or a number with its error."""
     values, unit = study.column(name)
     if values.dtype.kind not in "biuf":
         return str(values[case])
     unit = study.unit_of_input(name) if name in study.inputs else unit
-    value, error = float(values[case]), f"{name.removesuffix('_end')}_error"
-    if name in study.inputs or error not in study.results:
+    value, own = float(values[case]), name.removesuffix("_end")
+    error = next((one for one in (f"{own}_error", BY_STEP.get(own)) if one in study.results), None)
+    if name in study.inputs or error is None:
         return value, unit
-    size = float(study.results[error][case])
-    shown = [page.quantity(value, unit), " \N{PLUS-MINUS SIGN} ", page.quantity(size, unit, 2)]
-    return page.Html("".join(page.text(one) for one in shown))
+    return beside(value, unit, float(study.results[error][case]))
 
 
 def _columns(study):
     """The columns of a study that are shown: inputs that vary, results that do, and then others, at most MOST."""
-    errors = [f"{name}_error" for name in study.results]
+    errors = [*(f"{name}_error" for name in study.results), *BY_STEP.values()]
     names = [name for name in study.names if name not in errors]
     varying = [name for name in names if len(set(study.column(name)[0][study.codes == 0].tolist())) > 1]
     inputs = [name for name in names if name in study.inputs]

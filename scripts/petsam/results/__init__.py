@@ -9,7 +9,7 @@ errors    errors of the last numbers, of petsam -errors companion
 parts     the parts of a run that was restarted
 stresses  Stresses of petsam-stress
 studies   Study, the table of petsam-study
-shown     reports as pages, views in notebooks, by petsam.plot
+shown     views in notebooks, by petsam.plot
 cycles    cycles of a load history and their energies
 sliding   regime, energy ratio, sliding ratio of a cycle; slip amplitudes
 """

@@ -13,7 +13,7 @@ import numpy as np
 from ..core.errors import Error, one_line, short, there_are
 from ..core.files import decoded, need_regular, state_of
 from ..core.hdf5 import DAMAGED, fresh
-from .shown import Shown
+from ..core.shown import Shown
 
 WHOLE = 1 << 27  # maximum number of values read at once; a damaged file may claim any number
 

@@ -10,8 +10,8 @@ from ..core.declared import FOLLOWING, OPTIONS
 from ..core.errors import Error, counted, library, short, there_are
 from ..core.files import decoded, need_regular
 from ..core.hdf5 import DAMAGED, opened
+from ..core.shown import Shown
 from .datafile import WHOLE, _own, _reason
-from .shown import Shown
 
 NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eE]([+-]?\d+))?([a-zA-Z].*)?")
 

@@ -1,0 +1,131 @@
+"""Reports of results of petsam.joint: numbers with their errors, constants apart, limits, pictures, inputs."""
+
+import re
+
+import numpy as np
+import pytest
+
+import petsam
+from petsam.commands import joint as command
+from petsam.joint.band import Band
+from petsam.joint.interfaces import Interface, Outcome
+from petsam.joint.wear import Wear
+from test_plot_joints import FIRST, made
+from test_report_page import read, rows
+
+pytestmark = pytest.mark.usefixtures("closing")
+
+STEEL = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+
+
+def interface(errors=None):
+    """An interface of three pressures, with k_n in proportion to them and a spread of a tenth."""
+    pressure = np.array([1e6, 2e6, 4e6])
+    numbers = {"pressure": pressure, "k_n": 1e6 * pressure, "area": 1e-9 * pressure}
+    numbers.update(closure=1e-12 * pressure, separation=1.0 / pressure)
+    return Interface(Outcome(numbers, {"k_n": 1e5 * pressure}, np.empty((3, 0)), errors or {}, "none"), None, STEEL)
+
+
+def cells(text):
+    """{first number of a row: values of its cells} of the table of numbers."""
+    body = text.partition("<h2>Numbers</h2>")[2].partition("<tbody>")[2].partition("</tbody>")[0]
+    found = {}
+    for row in re.findall(r"<tr>(.*?)</tr>", body, re.S):
+        first, *rest = [[float(one) for one in re.findall(r'value="(.*?)"', cell)] for cell in row.split("<t")[1:]]
+        found[first[0]] = rest
+    return found
+
+
+def heads(text):
+    top = text.partition("<h2>Numbers</h2>")[2].partition("<thead>")[2].partition("</thead>")[0]
+    return [re.sub("<.*?>", "", one) for one in re.findall(r"<th .*?</th>", top)]
+
+
+def test_errors_stand_beside_the_numbers_of_an_interface(tmp_path):
+    found = interface()
+    found.report(tmp_path / "i.html")
+    page, text = read(tmp_path / "i.html")
+    assert page.titles == ["Numbers", "Pictures", "Inputs", "Citation"]
+    assert heads(text) == ["pressure", "closure", "separation", "k_n", "area"]  # the spread has no column
+    for pressure, row in cells(text).items():
+        assert row[2:] == [[1e6 * pressure, 1e5 * pressure], [1e-9 * pressure]]
+    assert "standard deviation: normal stiffness per area" in page.said()
+    given = rows(text.partition("<h2>Inputs</h2>")[2])
+    assert "210 GPa" in given["body1_young"] and 'value="0.3"' in given["body2_poisson"]
+
+
+def test_relative_errors_are_percent(tmp_path):
+    found = interface({"loop_energy": np.array([0.01, 0.02, 0.03])})
+    found.numbers["loop_energy"] = np.array([1e-3, 2e-3, 4e-3])
+    petsam.plot.report(found, tmp_path / "i.html")
+    text = (tmp_path / "i.html").read_text()
+    assert [re.search(r"&plusmn; (\d+) %", row)[1] for row in re.findall(r"mJ.*?</td>", text)] == ["1", "2", "3"]
+
+
+def test_a_backbone_has_its_numbers_and_what_all_rows_share_apart(tmp_path):
+    found = made(viscous=2e-3)
+    found.numbers["unresolved"] = np.array([3e-4, 0.0, 0.0])
+    found.report(tmp_path / "b.html")
+    page, text = read(tmp_path / "b.html")
+    shown = heads(text)
+    assert shown[:4] == ["alpha", "amplitude", "frequency", "damping"] and "unresolved" not in shown
+    assert "viscous" not in shown and 'value="0.002"' in text  # constant
+    table = cells(text)
+    assert [row[1] for row in table.values()] == [[one] for one in found.frequency]
+    assert [row[2] for row in table.values()] == [[3e-4], [2e-4], [4e-4]] and text.count("&lt; <data") == 1
+    assert len(page.all("img")) == 2 and "Inputs" not in page.titles
+
+
+def test_a_band_has_its_limits_and_deviations(tmp_path):
+    sides = (made(lower=0.002), made())
+    found = Band({"as given": made(), "without friction": made(lower=0.01)}, {"friction": sides})
+    found.report(tmp_path / "band.html")
+    _, text = read(tmp_path / "band.html")
+    assert heads(text)[:4] == ["amplitude", "frequency", "frequency_lowest", "frequency_highest"]
+    first, deviation = next(iter(cells(text).values())), 0.5 * 0.002e-2 * FIRST
+    assert first[0] == pytest.approx([99.99, deviation]) and first[1] == pytest.approx([99.98])
+
+
+def test_errors_of_wear_are_in_the_unit_of_the_number(tmp_path):
+    names = ("frequency", "damping", "energy", "volume")
+    numbers = {"cycles": np.array([0.0, 1e3, 1e4]), **{name: np.array([3.0, 2.0, 1.0]) for name in names}}
+    numbers.update(frequency_error=np.array([0.1, 0.2, 0.3]), damping_error=np.array([0.01, 0.02, 0.03]))
+    Wear(numbers, {}, []).report(tmp_path / "w.html")
+    _, text = read(tmp_path / "w.html")
+    assert [row[:2] for row in cells(text).values()] == [
+        [[3, 0.1], [3, 0.01]],
+        [[2, 0.2], [2, 0.02]],
+        [[1, 0.3], [1, 0.03]],
+    ]
+
+
+def test_the_command_writes_the_page_with_its_options(tmp_path, monkeypatch):
+    words = ["petsam-joint", "stiffness", "scan<1>.h5", "--normal-only", "--pressure", "1MPa,2MPa", "--body1=steel",
+             "--body2", "steel", "--report", "c.html"]  # fmt: skip
+    monkeypatch.setattr("sys.argv", words)
+    monkeypatch.setattr(command, "interface", lambda *_, **__: interface())
+    monkeypatch.chdir(tmp_path)
+    assert command.main() == 0 and [path.name for path in tmp_path.iterdir()] == ["c.html"]
+    _, text = read(tmp_path / "c.html")
+    given = rows(text.partition("<h2>Inputs</h2>")[2])
+    shown = {name: re.sub("<.*?>", "", cell) for name, cell in given.items()}
+    expected = dict(action="stiffness", file="scan&lt;1&gt;.h5", pressure="1MPa,2MPa", body1="steel", body2="steel")
+    assert {name: shown[name] for name in expected} == expected and shown["normal-only"] == "yes"
+    assert "report" not in shown
+
+
+def test_what_cannot_be_is_refused(tmp_path, monkeypatch, capsys):
+    with pytest.raises(petsam.Error, match=r"i.txt: expected a name that ends in .html"):
+        interface().report(tmp_path / "i.txt")
+    with pytest.raises(petsam.Error, match="is a directory"):
+        (tmp_path / "d.html").mkdir()
+        interface().report(tmp_path / "d.html")
+    monkeypatch.setattr(command, "interface", lambda *_, **__: pytest.fail("computed"))
+    given = ["stiffness", "scan.h5", "--normal-only", "--pressure", "1MPa", "--body1", "steel", "--body2", "steel"]
+    for name, says in (("c.pdf", "--report: c.pdf: expected a name"), (str(tmp_path / "d.html"), "is a directory")):
+        monkeypatch.setattr("sys.argv", ["petsam-joint", *given, "--report", name])
+        try:
+            assert command.main() != 0
+        except SystemExit as error:
+            assert error.code
+        assert says in capsys.readouterr().err
