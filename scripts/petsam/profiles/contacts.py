@@ -125,7 +125,8 @@ class Contacts:
             If the grid would be too large.
         """
         cell = self.settings.cell
-        n = tuple(int(np.ceil((width / cell + 1.0) / MULTIPLE)) * MULTIPLE for width in widths)
+        nx, ns = (int(np.ceil((width / cell + 1.0) / MULTIPLE)) * MULTIPLE for width in widths)
+        n = nx, ns
         if max(n) > MOST:
             x, s = widths
             raise Error(f"cell {cell:g}: the overlap of {x:g} x {s:g} m needs {n[0]} x {n[1]} cells: give wider ones")

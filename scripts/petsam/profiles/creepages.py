@@ -67,7 +67,7 @@ def creepages(
         speed = 0.5 * abs(ground[0] + wheel[0])
     else:
         rolled = np.cross(frame.rotation @ np.array([0.0, pitch, 0.0]), arm)[0]
-        speed = 0.5 * (abs(position.speed) + abs(rolled))
+        speed = 0.5 * (abs(wheel[0] - ground[0] - rolled) + abs(rolled))
     if not speed > 0.0:
         raise Error("speed 0 and pitch_rate 0: creepages are relative to the rolling speed: give speed above 0")
     x, s, _ = place.axes @ (ground - wheel) / speed

@@ -7,7 +7,7 @@ overlap^2.5. The box spans the overlap; an elastic contact is about 0.7 of it in
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Union
+from typing import Optional, Union
 
 import numpy as np
 
@@ -232,7 +232,7 @@ def _zero(one, other):
     return one + part * (other - one)
 
 
-def search(rail: Union[Track, Roller], radius: float, line: Locus) -> Search:
+def search(rail: Union[Track, Roller], radius: float, line: Locus) -> Optional[Search]:
     """The gap along the locus where rail and wheel are both visible.
 
     Parameters
@@ -306,7 +306,7 @@ def places(search: Search, regions: Sequence[Region], separation: float, combina
         one, other = found[k], found[k + 1]
         part = 2.0 * separation - combination - regions[k].distance(regions[k + 1])
         part = max(part, 0.0) / (separation - combination)
-        mean = np.average([one.angle, other.angle], weights=[one.weight, other.weight])
+        mean = float(np.average([one.angle, other.angle], weights=[one.weight, other.weight]))
         turns[k] += part * (mean - one.angle)
         turns[k + 1] += part * (mean - other.angle)
     turned = [replace(place, angle=float(place.angle + turn)) for place, turn in zip(found, turns)]

@@ -1,7 +1,7 @@
 """The solution at a position of the wheelset: at a given height, or under a vertical force.
 
 The force is found by a secant in the logarithms of overlap and force, of slope 1.5 at first, by steps of at most a
-factor of 2, and by bisection where it leaves the bracket. Frames, boxes and creepages move with each pass.
+factor of 2, and by bisection where it leaves the bracket. Frames, boxes and creepages follow the overlap.
 """
 
 import math
@@ -118,7 +118,7 @@ class Pair:
         if self.side == "left":
             position = position.mirrored()
         case = _Case(self, position)
-        found = case.at(position.z) if force is None else _under(case, force)
+        found = case.at(position.z or 0.0) if force is None else _under(case, force)
         case.warn(found)
         return found if self.side == "right" else found.mirrored()
 
@@ -214,11 +214,14 @@ class _Case:
         pressure = contact["pressure"]
         self._doubt(place, np.arctan(pair.rail.section.slope(y[pressure > 0.0])))
         numbers = found.numbers
+        tx, ts = map(float, found.shear)
+        px, py, pz = map(float, place.origin)
         return Patch(
-            *map(float, place.origin), place.angle, *creeps, friction,
-            found.n, -float(found.shear[0]), -float(found.shear[1]), -float(found.moment), approach,
-            numbers["pressure_max"], numbers["contact_area"], numbers["stick_area"],
-            int(numbers["contact_cells"]), int(numbers["stick_cells"]), contact.n, x, s, pressure,
+            x=px, y=py, z=pz, angle=place.angle, creep_x=creeps.x, creep_s=creeps.s, creep_spin=creeps.spin,
+            speed=creeps.speed, friction=friction, n=found.n, fx=-tx, fs=-ts, mn=-found.moment, approach=approach,
+            p_max=numbers["pressure_max"], area=numbers["contact_area"], stick_area=numbers["stick_area"],
+            cells=int(numbers["contact_cells"]), stick_cells=int(numbers["stick_cells"]), grid=contact.n,
+            grid_x=x, grid_s=s, pressure=pressure,
         )  # fmt: skip
 
     def _doubt(self, place, angles):

@@ -99,7 +99,7 @@ class Profile:
             raise Error(f"{self.name}: wavelength {wavelength:g}: expected a length (m) above 0 and within {s[-1]:g}")
         t = s / wavelength
         steps = np.diff(t)
-        weights = self.weights * 0.5 * np.concatenate([[steps[0]], steps[1:] + steps[:-1], [steps[-1]]])
+        weights = np.asarray(self.weights) * 0.5 * np.concatenate([[steps[0]], steps[1:] + steps[:-1], [steps[-1]]])
         penalty = 1.0 / (2.0 * np.pi) ** 4
         y, z = (make_smoothing_spline(t, values, w=weights, lam=penalty)(t) for values in (self.y, self.z))
         return replace(self, y=y, z=z)
