@@ -209,8 +209,9 @@ class _Case:
         friction = _coefficient(pair.friction, place.angle)
         found = contacts.solved(contact, apart + approach, approach, creeps[:3], friction, middle)
         for text in found.advice:
+            text, use, _ = text.partition(": use ")
             kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", text)
-            self.advice[kind] = f"patch at y = {place.origin[1]:.6g} m: {text.partition(': use ')[0]}"
+            self.advice[kind] = f"patch at y = {place.origin[1]:.6g} m: {text}" + ": try a smaller cell" * bool(use)
         pressure = contact["pressure"]
         self._doubt(place, np.arctan(pair.rail.section.slope(y[pressure > 0.0])))
         numbers = found.numbers
@@ -239,7 +240,7 @@ class _Case:
         for kind, text in self._warned:
             warnings.warn(text, kind, stacklevel=3)
         for text in self.advice.values():
-            warnings.warn(f"{text}: try a smaller cell", AdviceWarning, stacklevel=3)
+            warnings.warn(text, AdviceWarning, stacklevel=3)
 
 
 def _under(case: _Case, force: float) -> Result:

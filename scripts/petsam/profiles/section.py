@@ -16,7 +16,8 @@ from .profile import Profile
 STEP = 25e-6  # m: of the points of z(y)
 FINE = 10e-6  # m: of the search along the chord length
 STEEPEST = 11.0  # slope beyond which a profile does not count as visible
-HIDDEN = 2e-6  # m by which a point outside the visible part may lie before it
+HIDDEN = 1e-4  # m by which a point outside the visible part may lie before it
+BACK = -0.8  # cosine of the angle between two chords below which points go back
 DEEP = 1e-3  # m by which a rail's head must be hollow, at least, to be taken for one upside down
 FLANGE = 0.01  # m by which a flange stands out of the tread, at least
 STEEP = 1.0  # slope of a flange, at least
@@ -150,6 +151,7 @@ def visible(profile: Profile) -> Section:
     Error
         If other parts of the profile lie before it: a profile that is folded, unsorted or upside down.
     """
+    _need_forward(profile)
     curve = path(profile)
     s = fine(curve)
     tangent = curve(s, 1)
@@ -160,6 +162,19 @@ def visible(profile: Profile) -> Section:
     _need_unfolded(profile, section)
     (_need_head if profile.kind == "rail" else _need_flange_inside)(profile, section)
     return section
+
+
+def _need_forward(profile):
+    """Raises Error where points go back along the profile."""
+    steps = np.diff(np.column_stack([profile.y, profile.z]), axis=0)
+    steps /= np.hypot(*steps.T)[:, None]
+    back = np.flatnonzero(np.sum(steps[1:] * steps[:-1], axis=1) < BACK)
+    if len(back):
+        k = back[0] + 1
+        raise Error(
+            f"{profile.name}: point {k + 1}, y = {profile.y[k]:.6g} m, z = {profile.z[k]:.6g} m: the points go back "
+            "there: sort them along the profile, and remove folds"
+        )
 
 
 def _longest(good):
