@@ -520,20 +520,23 @@ def test_the_rail_of_the_standard():
 def test_places_of_rail_and_wheel():
     """Top at z = 0, inner face at half the gauge; the wheel by its flange's back, and by its tape line.
 
-    The top is above the centre of the arc of 300 mm, the inner face of a canted rail beside that of 13 mm."""
+    The top is above the centre of the arc of 300 mm; the inner face is a line of 1:20 from the end of that of 13 mm."""
     first = np.arcsin(10.228 / 300)
     second = np.arcsin((26.0265 - 220 * np.sin(first)) / 80)
     centre = np.array([0, 300]) + 220 * np.array([np.sin(first), -np.cos(first)])
     centre += 67 * np.array([np.sin(second), -np.cos(second)])
+    last = 0.5 * np.pi - np.arctan(1 / 20)
+    end = centre + 13 * np.array([np.sin(last), -np.cos(last)])
     for cant in (0.02, 0.0, 0.025):
-        section = profiles.Track(profiles.uic60(), 1.435, 0.0145, cant).section
+        section = profiles.Track(profiles.uic60(), 1.435, 0.02, cant).section
         top = section.y[section.z.argmin()]
         assert section.height(np.linspace(top - 5e-5, top + 5e-5, 1001)).min() == pytest.approx(0.0, abs=1e-11)
-        if cant:
-            inner = -(centre[0] * np.cos(cant) - centre[1] * np.sin(cant)) - 13.0
-            apart = 300 * np.sin(cant) - inner
-        else:
-            apart = np.interp(14.5e-3, *np.array([profiles.uic60().z, profiles.uic60().y])[:, -300:]) * 1e3
+        c, s = np.cos(cant), np.sin(cant)
+        turn = np.array([[c, s], [-s, c]])  # to the middle
+        start, along = turn @ (-end[0], end[1]), turn @ (-1 / 20, 1)
+        summit = turn @ (0, 300) - (0, 300)
+        inner = start[0] + (summit[1] + 20.0 - start[1]) / along[1] * along[0]
+        apart = summit[0] - inner
         assert top == pytest.approx(0.7175 + 1e-3 * apart, abs=1.3e-5)  # points of the section are 25 um apart
     assert section.slope(np.array(0.752)) > 0.03  # cant is towards the middle: the field side falls away
     wheel = profiles.Wheelset(profiles.s1002(), 0.46, 1.36, -0.07, tape_line=0.01).section
