@@ -538,7 +538,8 @@ def test_places_of_rail_and_wheel():
         inner = start[0] + (summit[1] + 20.0 - start[1]) / along[1] * along[0]
         apart = summit[0] - inner
         assert top == pytest.approx(0.7175 + 1e-3 * apart, abs=1.3e-5)  # points of the section are 25 um apart
-    assert section.slope(np.array(0.752)) > 0.03  # cant is towards the middle: the field side falls away
+    middle = top - 0.3 * np.sin(0.025)
+    assert section.slope(np.array(middle)) == pytest.approx(-np.tan(0.025), rel=2e-3)  # the field side rises
     wheel = profiles.Wheelset(profiles.s1002(), 0.46, 1.36, -0.07, tape_line=0.01).section
     assert wheel.last == pytest.approx(0.68 + 0.07 + 0.06, abs=1e-9)
     assert wheel.height(np.array(0.76)) == pytest.approx(0.0, abs=1e-12)
