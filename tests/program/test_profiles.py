@@ -17,7 +17,7 @@ from petsam import profiles
 from petsam.closed.ellipse import hertz_ellipse
 from petsam.contact import AdviceWarning
 from petsam.core.errors import Error, MissingFile
-from petsam.profiles import Position, Profile, Settings
+from petsam.profiles import Position, Profile, Settings, contacts
 from petsam.profiles.gap import separation
 from petsam.profiles.locus import locus
 from petsam.profiles.patches import search
@@ -149,6 +149,7 @@ def test_a_cylinder_on_a_crowned_roller():
     assert patch.n == pytest.approx(97190, rel=2e-4)  # CONTACT
     assert patch.p_max == pytest.approx(2901e6, rel=1e-3)
     assert patch.speed == pytest.approx(2.0, rel=2e-3)
+    assert patch.grid == (60, 60)  # the overlap is round: 2 sqrt(2 0.16 100) = 11.3 mm wide
     # the reference point is deeper by the approach: nearer to the roller's axis, farther from the wheel's
     assert patch.creep_x == pytest.approx(creep_of_roller(), abs=1e-8)
 
@@ -158,6 +159,19 @@ def creep_of_roller():
     roller = -5.0 * (0.4 - 0.16e-3)
     wheel = -15.0 * (0.4 / 3)
     return (roller - wheel) / (0.5 * abs(roller + wheel))
+
+
+@pytest.mark.parametrize("curvature, rate", [(0.1, 0.0), (0.0, 0.3), (0.1, 0.3)])
+def test_a_sphere_rolls_freely_in_a_curve_and_under_a_yaw_rate(curvature, rate):
+    """At y the rail passes with V (1 - k y), the wheel moves with V - y times the yaw rate."""
+    track = profiles.Track(flat("rail"), 0.34, curvature=curvature)
+    wheelset = profiles.Wheelset(arc("wheel", 0.1, 0.05), 0.1, 0.4, 0.0)
+    passing = 2.0 * (1 - curvature * 0.2) - rate * 0.2
+    where = Position(z=1e-6, speed=2.0, yaw_rate=rate, pitch_rate=-passing / 0.1)
+    (patch,) = profiles.solve(track, wheelset, where, settings=Settings(STEEL, STEEL, cell=2e-5)).patches
+    assert patch.speed == pytest.approx(passing, rel=1e-5)
+    assert (patch.creep_x, patch.creep_s) == pytest.approx((0.0, 0.0), abs=3e-5)
+    assert patch.creep_spin == pytest.approx(-(2.0 * curvature + rate) / passing, rel=1e-5)
 
 
 def test_a_crown_on_a_conical_roller():
@@ -334,7 +348,7 @@ def test_gap_is_that_of_the_points_on_both_surfaces(made):
     frame = Frame(where.rotation, np.array([0.0, where.y, z - 0.46]))
     found = search(rail, 0.46, locus(rail, wheel, where.rotation, where.y))
     place = found.place(found.regions(found.touch + 3e-5)[-1])
-    x, s = np.linspace(-6e-3, 6e-3, 3), np.linspace(-1e-3, 1e-3, 3)
+    x, s = np.linspace(-16e-3, 16e-3, 3), np.linspace(-4e-3, 4e-3, 3)
     apart, _ = separation(rail, wheel, frame, place, x, s)
     normal = place.axes[2]
     point = surface_of(wheel, where.rotation, frame.centre)
@@ -353,13 +367,43 @@ def test_gap_is_that_of_the_points_on_both_surfaces(made):
 
 
 def test_cells_beyond_a_profile_have_a_large_gap(made):
-    rail, wheel = made
+    """A rail that ends in the middle of the contact: its end would be held on and touch."""
+    kept = profiles.uic60().y < 0.0
+    rail = profiles.Track(Profile(profiles.uic60().y[kept], profiles.uic60().z[kept], "rail"))
+    wheel = profiles.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
     frame = Frame(np.eye(3), np.array([0.0, 0.0, -0.46]))
     found = search(rail, 0.46, locus(rail, wheel, np.eye(3), 0.0))
     place = found.place(found.regions(found.touch + 2e-5)[0])
-    s = np.array([0.0, 0.1])  # the rail ends 0.04 m from there
-    apart, y = separation(rail, wheel, frame, place, np.array([0.0]), s)
-    assert y[1, 0] > rail.section.last and apart[1, 0] >= 1e-3 > abs(apart[0, 0])
+    end = (rail.section.last - place.origin[1]) / place.axes[1, 1]
+    apart, _ = separation(rail, wheel, frame, place, np.array([0.0]), np.array([0.0, end - 1e-4, end + 1e-4]))
+    assert place.at_end and apart[2, 0] >= 1e-3 > np.abs(apart[:2]).max()
+
+
+def test_the_box_of_a_flange_is_along_its_slope(made):
+    """Its width is the length of the overlap's arc; dy/cos d and dy alone are too short."""
+    found = search(made[0], 0.46, locus(*made, np.eye(3), 6e-3))
+    region = found.regions(found.touch + 1e-4)[0]
+    place = found.place(region)
+    length = np.hypot(np.diff(region.y), np.diff(region.z)).sum()
+    assert place.angle < -0.3
+    assert place.high[1] - place.low[1] == pytest.approx(length, rel=0.03)
+    assert np.ptp(region.y) < 0.95 * length
+
+
+def test_a_solution_does_not_depend_on_the_place_of_its_grid():
+    """Creepages and moment are those at the patch's origin, wherever the grid's centre is."""
+    found = []
+    for cells in ((0, 0), (7, -5)):
+        kept = contacts.Contacts(Settings(STEEL, STEEL))
+        contact, middle = kept.of(np.array([1.0e-2, 1.0e-2])), np.array(cells) * 2e-4
+        x, s = contact.x + middle[0], contact.y + middle[1]
+        gap = (x**2 / 0.46 + s[:, None] ** 2 / 0.2) / 2
+        found.append(contacts.solved(contact, gap, 1e-5, (5e-4, -2e-4, 0.3), 0.3, middle))
+        kept.close()
+    one, other = found
+    assert other.n == pytest.approx(one.n, rel=1e-5)
+    assert other.shear == pytest.approx(one.shear, rel=1e-4)
+    assert other.moment == pytest.approx(one.moment, rel=1e-3)
 
 
 # ---------------------------------------------------------------- symmetry, several patches, force
@@ -409,8 +453,8 @@ def test_two_ridges_far_apart_are_two_contacts():
 
 def test_patches_that_merge_have_turned_towards_each_other():
     """Angles of two grids just above the separation are that of the one grid just below."""
-    wheel = profiles.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
-    track, where = profiles.Track(bumps(0.016, 0.002), 2 * 0.73), Position(speed=2.0, roll=2e-3)
+    wheel = profiles.Wheelset(arc("wheel", -0.4, 0.03), 0.46, 1.5, 0.0)
+    track, where = profiles.Track(bumps(0.016), 2 * 0.73), Position(speed=2.0, roll=2e-4)
     case = search(track, 0.46, locus(track, wheel, where.rotation, 0.0))
     z = case.touch + 6e-5
     (left, right) = case.regions(z)
@@ -420,10 +464,21 @@ def test_patches_that_merge_have_turned_towards_each_other():
         settings = Settings(STEEL, STEEL, separation=separation, combination=combination)
         return profiles.solve(track, wheel, replace(where, z=z), settings=settings).patches
 
-    apart, joined, free = (solved(distance * f, g * distance) for f, g in ((0.9999, 0.5), (1.0001, 0.5), (0.4, 0.3)))
+    apart, joined, free = (solved(distance * f, g * distance) for f, g in ((0.999999, 0.5), (1.000001, 0.5), (0.4, 0.3)))
     assert (len(apart), len(joined), len(free)) == (2, 1, 2)
     assert [patch.angle for patch in apart] == pytest.approx([joined[0].angle] * 2, abs=1e-6)
-    assert abs(free[0].angle - left.mean(left.angle)) < 1e-12 < abs(apart[0].angle - free[0].angle)
+    assert free[0].angle == pytest.approx(left.mean(left.angle), abs=1e-12)
+    assert free[1].angle - free[0].angle < -0.03  # those of both ridges in the hollow wheel
+
+
+def test_regions_that_carry_nothing_are_left_out():
+    """The second ridge lies 40 um lower: up to 4 nm of overlap it does not count."""
+    track = profiles.Track(bumps(0.02, 0.002), 2 * 0.73)
+    wheel = profiles.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
+    found = search(track, 0.46, locus(track, wheel, np.eye(3), 0.0))
+    second = found.gap[found.y > 0.75].min()
+    assert second - found.touch == pytest.approx(40e-6, rel=1e-3)
+    assert [len(found.regions(second + depth)) for depth in (2e-9, 1e-7)] == [1, 2]
 
 
 def test_beyond_the_limit_of_nadal_no_height_gives_the_force(made):
