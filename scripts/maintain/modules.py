@@ -46,6 +46,14 @@ MODULES = (
     "loads.reading",
     "loads.resultants",
     "loads.forces",
+    "profiles.profile",
+    "profiles.reading",
+    "profiles.standard",
+    "profiles.placement",
+    "profiles.pose",
+    "profiles.contacts",
+    "profiles.positions",
+    "profiles.result",
     "surface.reading",
     "surface.maps",
     "study.jobs",
@@ -69,7 +77,14 @@ MODULES = (
     "closed.plane",
 )
 # packages that list what users call, and the constant of their __init__.py that has the names
-LISTING = {"compliance": "__all__", "joint": "__all__", "loads": "_HOMES", "study": "__all__", "surface": "_HOMES"}
+LISTING = {
+    "compliance": "__all__",
+    "joint": "__all__",
+    "loads": "_HOMES",
+    "profiles": "_HOMES",
+    "study": "__all__",
+    "surface": "_HOMES",
+}
 PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")

@@ -12,6 +12,7 @@ cycles          results.cycles, and
 sliding         results.sliding: regime, energy ratio, sliding ratio of a cycle; slip amplitudes
 Element         a contact as a force element of a time integration or of a static solver (joint/element.py)
 joint           contact stiffness and damping of rough interfaces per area; joints in a structure
+profiles        wheel and rail: patches, creepages and forces from two profiles
 calibration     friction, rig stiffness, wear from measured loops: petsam-fit
 conduction      thermal and electrical conductance of contacts: conduction.of(contact, lam1, lam2)
 closed          closed-form solutions of contact mechanics
@@ -109,8 +110,8 @@ _HOMES = {
 }
 
 _PARTS = (
-    "calibration", "closed", "compliance", "conduction", "joint", "lives", "loads", "materials", "plot", "results",
-    "study", "surface",
+    "calibration", "closed", "compliance", "conduction", "joint", "lives", "loads", "materials", "plot", "profiles",
+    "results", "study", "surface",
 )  # fmt: skip
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 

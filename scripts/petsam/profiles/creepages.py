@@ -1,0 +1,74 @@
+"""Creepages of a patch: the velocities of rail and wheel at its reference point, in vectors, without small angles."""
+
+from typing import NamedTuple, Union
+
+import numpy as np
+
+from ..core.errors import Error
+from .patches import Place
+from .placement import Roller, Track
+from .pose import Frame, Position
+
+
+class Creepages(NamedTuple):
+    """Creepages of the rail relative to the wheel.
+
+    Attributes
+    ----------
+    x, s : float
+        Along the patch's axes.
+    spin : float
+        About its normal, 1/m.
+    speed : float
+        The rolling speed that they are relative to, m/s.
+    """
+
+    x: float
+    s: float
+    spin: float
+    speed: float
+
+
+def creepages(
+    rail: Union[Track, Roller], frame: Frame, pitch: float, position: Position, place: Place, approach: float
+) -> Creepages:
+    """The creepages of a patch.
+
+    Parameters
+    ----------
+    rail : Track or Roller
+        The rail.
+    frame : pose.Frame
+        Place of the wheelset.
+    pitch : float
+        Pitch rate of the wheelset, rad/s.
+    position : Position
+        Its speeds.
+    place : Place
+        The patch.
+    approach : float
+        Approach of the bodies along its normal, m.
+
+    Returns
+    -------
+    Creepages
+
+    Raises
+    ------
+    Error
+        If nothing moves along the rail: creepages are relative to the rolling speed.
+    """
+    point = place.origin + approach * place.axes[2]
+    arm = point - frame.centre
+    rates = frame.rotation @ np.array([position.roll_rate, pitch, position.yaw_rate])
+    wheel = np.array([position.speed, position.vy, position.vz]) + np.cross(rates, arm)
+    ground, ground_rates = rail.velocity(point, position)
+    if np.isfinite(rail.roller_radius):
+        speed = 0.5 * abs(ground[0] + wheel[0])
+    else:
+        rolled = np.cross(frame.rotation @ np.array([0.0, pitch, 0.0]), arm)[0]
+        speed = 0.5 * (abs(wheel[0] - ground[0] - rolled) + abs(rolled))
+    if not speed > 0.0:
+        raise Error("speed 0 and pitch_rate 0: creepages are relative to the rolling speed: give speed above 0")
+    x, s, _ = place.axes @ (ground - wheel) / speed
+    return Creepages(float(x), float(s), float((ground_rates - rates) @ place.axes[2] / speed), float(speed))

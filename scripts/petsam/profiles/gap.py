@@ -1,0 +1,70 @@
+"""The separation of the undeformed bodies along the normal of a patch, at the centres of its cells.
+
+Each surface is where a level function is 0; Newton's iteration along the normal finds it for all cells at once. It has
+the whole geometry: no curvatures, no parabola.
+"""
+
+from typing import Union
+
+import numpy as np
+
+from .patches import Place
+from .placement import Roller, Track, Wheelset
+from .pose import Frame
+
+PASSES, ROUNDING = 12, 1e-13  # of Newton's iteration; m
+FAR = 1e-3  # m: the gap beyond the ends of the profiles, above that of all other cells
+
+
+def separation(
+    rail: Union[Track, Roller], wheel: Wheelset, frame: Frame, place: Place, x: np.ndarray, s: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """n of the rail less n of the wheel at places of a patch, negative where they overlap, and y of the rail there.
+
+    Parameters
+    ----------
+    rail : Track or Roller
+        The rail.
+    wheel : Wheelset
+        The wheel.
+    frame : pose.Frame
+        Place of the wheelset.
+    place : Place
+        The patch.
+    x, s : ndarray
+        In the patch, (nx,) and (ns,), m.
+
+    Returns
+    -------
+    separation, y : ndarray
+        (ns, nx), m; beyond the ends of the visible profiles the separation is large.
+    """
+    axes = place.axes
+    along, across = np.meshgrid(x, s)
+    points = np.stack([place.origin[k] + along * axes[0, k] + across * axes[1, k] for k in range(3)])
+    inner = frame.inward(points)
+    normal = frame.rotation.T @ axes[2]
+    on_rail = _way(rail, points, axes[2])
+    on_wheel = _way(wheel, inner, normal)
+    y = points[1] + on_rail * axes[2, 1]
+    axle = inner[1] + on_wheel * normal[1]
+    seen = _within(rail.section, y) & _within(wheel.section, axle)
+    found = on_rail - on_wheel
+    return np.where(seen, found, max(np.max(found[seen], initial=0.0), 0.0) + FAR), y
+
+
+def _within(section, y):
+    return (y >= section.first) & (y <= section.last)
+
+
+def _way(body, points, normal):
+    """The way from points along the normal to the surface of a body."""
+    way = np.zeros(points.shape[1:])
+    direction = normal.reshape(3, 1, 1)
+    for _ in range(PASSES):
+        level, derivative = body.level(points + way * direction, normal)
+        step = level / np.where(np.abs(derivative) < 0.05, np.copysign(0.05, derivative), derivative)
+        way -= step
+        if np.abs(step).max() < ROUNDING:
+            break
+    return way

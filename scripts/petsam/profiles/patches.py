@@ -1,0 +1,313 @@
+"""Regions of overlap of the undeformed bodies, and the frames of their patches.
+
+A patch has its origin on the rail and the axes e_x = (1, 0, 0), e_s = (0, cos d, sin d), e_n = (0, -sin d, cos d) into
+the rail. Origin and angle d are means over the region with the weight overlap^2, integrated along x as for a parabola:
+overlap^2.5. The box spans the overlap; an elastic contact is about 0.7 of it in each direction.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Optional, Union
+
+import numpy as np
+
+from .locus import Locus
+from .placement import Roller, Track
+
+STEP = 60e-6  # m: of the search for overlaps
+SMALLEST = 1e-4  # of the deepest overlap: regions below it carry nothing that counts
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """An interval of y in which the undeformed bodies overlap.
+
+    Parameters
+    ----------
+    x, y, z : ndarray
+        Of the locus' x and of points on the rail, the ends included, (n,), m.
+    overlap : ndarray
+        (n,), m; 0 at the ends.
+    angle : ndarray
+        Inclination of the rail, (n,), rad.
+    at_end : bool
+        True where the region reaches the end of a profile.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    overlap: np.ndarray
+    angle: np.ndarray
+    at_end: bool
+
+    @property
+    def weights(self) -> np.ndarray:
+        """Weights of the points in means over the region, (n,)."""
+        return self.overlap**2.5
+
+    def mean(self, values: np.ndarray) -> float:
+        """Weighted mean of values at the points.
+
+        Parameters
+        ----------
+        values : ndarray
+            (n,).
+
+        Returns
+        -------
+        float
+        """
+        return float(np.average(values, weights=self.weights))
+
+    def joined(self, other: "Region") -> "Region":
+        """This region and the next one as one.
+
+        Parameters
+        ----------
+        other : Region
+            The next one.
+
+        Returns
+        -------
+        Region
+        """
+        names = ("x", "y", "z", "overlap", "angle")
+        arrays = {name: np.concatenate([getattr(self, name), getattr(other, name)]) for name in names}
+        return Region(**arrays, at_end=self.at_end or other.at_end)
+
+    def distance(self, other: "Region") -> float:
+        """Distance from the end of this region to the start of the next one.
+
+        Parameters
+        ----------
+        other : Region
+            The next one.
+
+        Returns
+        -------
+        float
+            m.
+        """
+        return float(np.hypot(other.y[0] - self.y[-1], other.z[0] - self.z[-1]))
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """The frame of a patch and the box of its overlap.
+
+    Parameters
+    ----------
+    origin : ndarray
+        On the rail, (3,), m.
+    angle : float
+        d, rad.
+    low, high : ndarray
+        Corners of the box in the patch's x and s, (2,), m.
+    weight : float
+        Of the patch in means over patches.
+    at_end : bool
+        True where the overlap reaches the end of a profile.
+    """
+
+    origin: np.ndarray
+    angle: float
+    low: np.ndarray
+    high: np.ndarray
+    weight: float
+    at_end: bool
+
+    @property
+    def axes(self) -> np.ndarray:
+        """e_x, e_s, e_n as rows, (3, 3)."""
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """Gap of the undeformed bodies along the locus, at z = 0 of the wheelset.
+
+    Parameters
+    ----------
+    rail : Track or Roller
+        The rail.
+    radius : float
+        Nominal radius of the wheel, m.
+    x, y, z : ndarray
+        Of the locus' x and of points on the rail above it, (n,), m.
+    gap : ndarray
+        (n,), m.
+    """
+
+    rail: Union[Track, Roller]
+    radius: float
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    gap: np.ndarray
+
+    @property
+    def touch(self) -> float:
+        """z of the wheelset at which the bodies touch, m."""
+        k = int(np.argmin(self.gap))
+        if not 0 < k < len(self.gap) - 1:
+            return float(self.gap[k])
+        a, b, c = self.gap[k - 1 : k + 2]
+        return float(b - 0.125 * (c - a) ** 2 / (a - 2.0 * b + c)) if a - 2.0 * b + c > 0.0 else float(b)
+
+    def regions(self, z: float) -> list[Region]:
+        """The regions of overlap at a height.
+
+        Parameters
+        ----------
+        z : float
+            Of the wheelset, m.
+
+        Returns
+        -------
+        list of Region
+            In growing y; without those that carry nothing that counts.
+        """
+        overlap = z - self.gap
+        inside = np.concatenate([[False], overlap > 0.0, [False]])
+        edges = np.flatnonzero(np.diff(inside.astype(int)))
+        found = [self._region(overlap, first, last) for first, last in zip(edges[::2], edges[1::2])]
+        return [one for one in found if one.overlap.max() > SMALLEST * overlap.max()]
+
+    def _region(self, overlap, first, last):
+        """The region of the points first to last - 1, with its ends by linear interpolation."""
+        at_end = first == 0 or last == len(overlap)
+        columns = np.stack([self.x, self.y, self.z, overlap])
+        points = columns[:, first:last]
+        if first > 0:
+            points = np.column_stack([_zero(columns[:, first - 1], columns[:, first]), points])
+        if last < len(overlap):
+            points = np.column_stack([points, _zero(columns[:, last - 1], columns[:, last])])
+        x, y, z, depth = points
+        return Region(x, y, z, np.maximum(depth, 0.0), np.arctan(self.rail.section.slope(y)), bool(at_end))
+
+    def place(self, region: Region) -> Place:
+        """The frame and the box of a patch on a region.
+
+        Parameters
+        ----------
+        region : Region
+            The region.
+
+        Returns
+        -------
+        Place
+        """
+        x, y, angle = (region.mean(values) for values in (region.x, region.y, region.angle))
+        origin = np.array([x, y, float(self.rail.surface(np.array(x), np.array(y)))])
+        place = Place(origin, angle, origin[:2], origin[:2], float(region.weights.sum()), region.at_end)
+        return self.boxed(place, region)
+
+    def boxed(self, place: Place, region: Region) -> Place:
+        """A patch with its box along the axes of its angle.
+
+        Parameters
+        ----------
+        place : Place
+            Its frame.
+        region : Region
+            Its region.
+
+        Returns
+        -------
+        Place
+        """
+        curvature = 1.0 / self.radius + 1.0 / self.rail.roller_radius
+        half = np.sqrt(2.0 * region.overlap / curvature)
+        s = (region.y - place.origin[1]) * place.axes[1, 1] + (region.z - place.origin[2]) * place.axes[1, 2]
+        low = np.array([(region.x - half).min() - place.origin[0], s.min()])
+        high = np.array([(region.x + half).max() - place.origin[0], s.max()])
+        return replace(place, low=low, high=high)
+
+
+def _zero(one, other):
+    """The point between two points at which their last number is 0."""
+    part = one[-1] / (one[-1] - other[-1])
+    return one + part * (other - one)
+
+
+def search(rail: Union[Track, Roller], radius: float, line: Locus) -> Optional[Search]:
+    """The gap along the locus where rail and wheel are both visible.
+
+    Parameters
+    ----------
+    rail : Track or Roller
+        The rail.
+    radius : float
+        Nominal radius of the wheel, m.
+    line : Locus
+        The locus.
+
+    Returns
+    -------
+    Search or None
+        None where the wheel is beside the rail.
+    """
+    first, last = max(rail.section.first, line.first), min(rail.section.last, line.last)
+    if last - first < 4.0 * STEP:
+        return None
+    y = np.linspace(first, last, int(np.ceil((last - first) / STEP)) + 1)
+    x, z = line.at(y)
+    return Search(rail, radius, x, y, rail.section.height(y), rail.surface(x, y) - z)
+
+
+def merged(regions: Sequence[Region], separation: float) -> list[Region]:
+    """Regions whose distance is up to a separation as one.
+
+    Parameters
+    ----------
+    regions : sequence of Region
+        In growing y.
+    separation : float
+        m.
+
+    Returns
+    -------
+    list of Region
+    """
+    found = list(regions[:1])
+    for region in regions[1:]:
+        if found[-1].distance(region) <= separation:
+            found[-1] = found[-1].joined(region)
+        else:
+            found.append(region)
+    return found
+
+
+def places(search: Search, regions: Sequence[Region], separation: float, combination: float) -> list[Place]:
+    """The patches of regions: near ones share a grid, and those a little farther apart are turned towards each other.
+
+    Parameters
+    ----------
+    search : Search
+        Has made the regions.
+    regions : sequence of Region
+        In growing y.
+    separation : float
+        Distance up to which two regions share a grid, m.
+    combination : float
+        Below `separation`, m: neighbours between `separation` and 2 separation - combination are turned towards their
+        mean angle, so that forces do not jump where they merge.
+
+    Returns
+    -------
+    list of Place
+    """
+    regions = merged(regions, separation)
+    found = [search.place(region) for region in regions]
+    turns = np.zeros(len(found))
+    for k in range(len(found) - 1):
+        one, other = found[k], found[k + 1]
+        part = 2.0 * separation - combination - regions[k].distance(regions[k + 1])
+        part = max(part, 0.0) / (separation - combination)
+        mean = float(np.average([one.angle, other.angle], weights=[one.weight, other.weight]))
+        turns[k] += part * (mean - one.angle)
+        turns[k + 1] += part * (mean - other.angle)
+    turned = [replace(place, angle=float(place.angle + turn)) for place, turn in zip(found, turns)]
+    return [search.boxed(place, region) for place, region in zip(turned, regions)]

@@ -1,0 +1,350 @@
+"""Rails, rollers and wheels in their places in the track, and the functions that are 0 on their surfaces.
+
+A rail is turned by its cant, its top moved to z = 0, and its innermost point within the gauge height to y = gauge/2.
+The wheel's radius is r(y) = radius + z(y), y along the axle from the wheelset's middle.
+"""
+
+import warnings
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Optional
+
+import numpy as np
+
+from ..core.errors import Error
+from .pose import Position
+from .profile import Profile, ProfileWarning
+from .section import Section, fine, path, visible
+
+GAUGES = (0.05, 4.0)  # m
+DEEPEST = 0.05  # m: gauge heights
+STRONGEST = 0.2  # rad: cant, 1:5
+
+
+def _need(value, what, low, high, cure):
+    """Raises Error unless a number lies within a range."""
+    if not low <= value <= high:
+        raise Error(f"{what} {value:g}: {cure}")
+
+
+def _need_kind(profile, kind, name):
+    if not isinstance(profile, Profile):
+        raise TypeError(f"{name}: expected a Profile, and not {type(profile).__name__}")
+    if profile.kind != kind:
+        raise Error(f"{profile.name}: is the profile of a {profile.kind}: {name} takes that of a {kind}")
+
+
+def _to_gauge(profile, gauge, gauge_height):
+    """Shift along y to the gauge, and height of the top, of a profile."""
+    curve = path(profile)
+    points = curve(fine(curve))
+    section = visible(profile)
+    top = _top(section)
+    inner = points[points[:, 1] <= top + gauge_height, 0]
+    return 0.5 * gauge - _refined(points, top + gauge_height, float(inner.min())), top, section
+
+
+def _top(section):
+    """Height of the highest point, between the points by a parabola, m."""
+    k = int(np.argmin(section.z))
+    if not 0 < k < len(section.z) - 1:
+        return float(section.z[k])
+    a, b, c = section.z[k - 1 : k + 2]
+    return float(b - 0.125 * (c - a) ** 2 / (a - 2.0 * b + c)) if a - 2.0 * b + c > 0.0 else float(b)
+
+
+def _refined(points, level, inner):
+    """y of the innermost point above a level: where the curve crosses it, between the points."""
+    y, z = points.T
+    cross = np.flatnonzero((z[:-1] - level) * (z[1:] - level) < 0.0)
+    if not len(cross):
+        return inner
+    part = (level - z[cross]) / (z[cross + 1] - z[cross])
+    return min(inner, float((y[cross] + part * (y[cross + 1] - y[cross])).min()))
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """A rail of a track; that of the right side, whose mirror image the left one is.
+
+    Parameters
+    ----------
+    profile : Profile
+        Of a rail.
+    gauge : float
+        Distance of the rails' inner faces, m.
+    gauge_height : float
+        Depth below the rails' tops down to which the inner face counts, m.
+    cant : float
+        Inclination of the rail towards the middle, rad: 0.025 of 1:40; 0 of a profile that was drawn or measured in its
+        place.
+    curvature : float
+        Of the track, 1/m, positive to the right.
+
+    Raises
+    ------
+    Error
+        If a number is not of this quantity in this unit, or the profile cannot be seen from a wheel.
+
+    Notes
+    -----
+    A ProfileWarning is issued of a cant that leans away from the middle.
+    """
+
+    profile: Profile
+    gauge: float = 1.435
+    gauge_height: float = 0.014
+    cant: float = 0.0
+    curvature: float = 0.0
+    roller_radius = np.inf
+
+    def __post_init__(self) -> None:
+        _need_kind(self.profile, "rail", "Track")
+        _need(self.gauge, "gauge", *GAUGES, "expected the distance of the rails' inner faces, m, such as 1.435")
+        _need(self.gauge_height, "gauge_height", 0.0, DEEPEST, "expected a depth below the rail's top, m, as 0.014")
+        _need(self.cant, "cant", -STRONGEST, STRONGEST, "expected rad: 1:40 is 0.025")
+        if self.cant < 0.0:
+            warnings.warn(f"cant {self.cant:g} rad leans away from the middle", ProfileWarning, stacklevel=3)
+        self.section  # noqa: B018  fails early
+
+    @cached_property
+    def section(self) -> Section:
+        """The rail's visible part in the track."""
+        shift, top, section = _to_gauge(self.profile.turned(-self.cant), self.gauge, self.gauge_height)
+        return section.moved(shift, -top)
+
+    def surface(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Height z of the rail's surface, m.
+
+        Parameters
+        ----------
+        x, y : ndarray
+            Places in the track, m.
+
+        Returns
+        -------
+        ndarray
+        """
+        return self.section.height(y) + 0.0 * x
+
+    def level(self, points: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """A function that is 0 on the surface and grows into the body, and its derivative along a direction.
+
+        Parameters
+        ----------
+        points : ndarray
+            (3, ...), m.
+        direction : ndarray
+            Unit vector, (3,).
+
+        Returns
+        -------
+        level, derivative : ndarray
+            m, and 1.
+        """
+        _, y, z = points
+        return z - self.section.height(y), direction[2] - self.section.slope(y) * direction[1]
+
+    def velocity(self, point: np.ndarray, motion: Position) -> tuple[np.ndarray, np.ndarray]:
+        """Velocity of the rail at a point in the frame that runs with the wheelset, and its rate of rotation.
+
+        Parameters
+        ----------
+        point : ndarray
+            (3,), m.
+        motion : Position
+            Has the speed.
+
+        Returns
+        -------
+        velocity, rate : ndarray
+            (3,), m/s and rad/s.
+        """
+        rate = np.array([0.0, 0.0, -motion.speed * self.curvature])
+        return np.cross(rate, point), rate
+
+    def mirrored(self) -> "Track":
+        """The track as seen in a mirror: its curvature changes its sign.
+
+        Returns
+        -------
+        Track
+        """
+        return Track(self.profile, self.gauge, self.gauge_height, self.cant, -self.curvature)
+
+
+@dataclass(frozen=True, eq=False)
+class Roller:
+    """A roller of a test rig in place of a rail: a body of revolution about an axis along y.
+
+    Parameters
+    ----------
+    profile : Profile
+        Of a rail, whose z = 0 is the roller's nominal radius; it is not moved along z.
+    radius : float
+        Nominal radius, m.
+    gauge, gauge_height : float
+        See Track; the height counts from the profile's highest point.
+
+    Raises
+    ------
+    Error
+        If a number is not of this quantity in this unit, or the profile cannot be seen from a wheel.
+    """
+
+    profile: Profile
+    radius: float
+    gauge: float = 1.435
+    gauge_height: float = 0.014
+
+    def __post_init__(self) -> None:
+        _need_kind(self.profile, "rail", "Roller")
+        _need(self.radius, "radius", 0.01, 50.0, "expected the roller's nominal radius, m, such as 0.7")
+        _need(self.gauge, "gauge", *GAUGES, "expected the distance of the rollers' inner faces, m, such as 1.435")
+        _need(self.gauge_height, "gauge_height", 0.0, DEEPEST, "expected a depth below the top, m, as 0.014")
+        self.section  # noqa: B018  fails early
+
+    @property
+    def roller_radius(self) -> float:
+        """Nominal radius, m."""
+        return self.radius
+
+    @cached_property
+    def section(self) -> Section:
+        """The roller's visible part in the track."""
+        shift, _, section = _to_gauge(self.profile, self.gauge, self.gauge_height)
+        return section.moved(shift, 0.0)
+
+    def surface(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Height z of the roller's surface, m.
+
+        Parameters
+        ----------
+        x, y : ndarray
+            Places in the track, m.
+
+        Returns
+        -------
+        ndarray
+        """
+        rho = self.radius - self.section.height(y)
+        return self.radius - np.sqrt(np.maximum(rho * rho - x * x, 0.0))
+
+    def level(self, points: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """A function that is 0 on the surface and grows into the body, and its derivative along a direction.
+
+        Parameters
+        ----------
+        points : ndarray
+            (3, ...), m.
+        direction : ndarray
+            Unit vector, (3,).
+
+        Returns
+        -------
+        level, derivative : ndarray
+            m, and 1.
+        """
+        x, y, z = points[0], points[1], points[2] - self.radius
+        distance = np.hypot(x, z)
+        toward = (x * direction[0] + z * direction[2]) / distance
+        rho = self.radius - self.section.height(y)
+        return rho - distance, -self.section.slope(y) * direction[1] - toward
+
+    def velocity(self, point: np.ndarray, motion: Position) -> tuple[np.ndarray, np.ndarray]:
+        """Velocity of the roller at a point, and its rate of rotation.
+
+        Parameters
+        ----------
+        point : ndarray
+            (3,), m.
+        motion : Position
+            Has the roller's rate.
+
+        Returns
+        -------
+        velocity, rate : ndarray
+            (3,), m/s and rad/s.
+        """
+        rate = np.array([0.0, motion.roller_rate, 0.0])
+        return np.cross(rate, point - np.array([0.0, 0.0, self.radius])), rate
+
+    def mirrored(self) -> "Roller":
+        """The roller as seen in a mirror: the same.
+
+        Returns
+        -------
+        Roller
+        """
+        return self
+
+
+@dataclass(frozen=True, eq=False)
+class Wheelset:
+    """A wheel of a wheelset; that of the right side, whose mirror image the left one is.
+
+    Parameters
+    ----------
+    profile : Profile
+        Of a wheel.
+    radius : float
+        Nominal radius, m, at z = 0 of the profile, or at the tape line.
+    flange_back : float
+        Distance of the backs of both flanges, m.
+    flange_position : float
+        y of the flange's back in the profile, m: -0.07 of S1002.
+    tape_line : float, optional
+        y of the tape line in the profile, m, where the radius is the nominal one.
+
+    Raises
+    ------
+    Error
+        If a number is not of this quantity in this unit, or the profile cannot be seen from a rail: one with its flange
+        on the field side, or pointing up.
+    """
+
+    profile: Profile
+    radius: float
+    flange_back: float = 1.36
+    flange_position: float = -0.07
+    tape_line: Optional[float] = None
+
+    def __post_init__(self) -> None:
+        _need_kind(self.profile, "wheel", "Wheelset")
+        _need(self.radius, "radius", 0.01, 5.0, "expected the wheel's nominal radius, m, such as 0.46")
+        _need(
+            self.flange_back, "flange_back", 0.0, GAUGES[1], "expected the distance of the flanges' backs, m, as 1.36"
+        )
+        _need(self.flange_position, "flange_position", -1.0, 1.0, "expected y of the flange's back in the profile, m")
+        section = visible(self.profile)
+        if self.tape_line is not None and not section.first <= self.tape_line <= section.last:
+            raise Error(f"tape_line {self.tape_line:g}: the profile is from {section.first:g} to {section.last:g} m")
+        if not 0.5 * self.radius < self.section.z.min() + self.radius:
+            raise Error(f"radius {self.radius:g}: the profile is too deep for it: check the units of both")
+
+    @cached_property
+    def section(self) -> Section:
+        """The visible part: z, 0 at the nominal radius, over y along the axle from the wheelset's middle."""
+        section = visible(self.profile)
+        down = 0.0 if self.tape_line is None else float(section.height(np.array(self.tape_line)))
+        return section.moved(0.5 * self.flange_back - self.flange_position, -down)
+
+    def level(self, points: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """A function that is 0 on the surface and grows out of the body, and its derivative along a direction.
+
+        Parameters
+        ----------
+        points : ndarray
+            In the wheelset's axes, (3, ...), m.
+        direction : ndarray
+            Unit vector in the same axes, (3,).
+
+        Returns
+        -------
+        level, derivative : ndarray
+            m, and 1.
+        """
+        x, y, z = points
+        distance = np.hypot(x, z)
+        toward = (x * direction[0] + z * direction[2]) / distance
+        return distance - self.radius - self.section.height(y), toward - self.section.slope(y) * direction[1]

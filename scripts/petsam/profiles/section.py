@@ -1,0 +1,240 @@
+"""The visible part of a profile as a function z(y).
+
+Cubic splines y(s), z(s) over the chord length through the given points, then a cubic spline z(y) through points every
+25 um: a spline over y through the given points would miss corners that are sampled coarsely by more than 1 um.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ..core.errors import Error
+from .profile import Profile
+
+STEP = 25e-6  # m: of the points of z(y)
+FINE = 10e-6  # m: of the search along the chord length
+STEEPEST = 11.0  # slope beyond which a profile does not count as visible
+HIDDEN = 1e-4  # m by which a point outside the visible part may lie before it
+BACK = -0.8  # cosine of the angle between two chords below which points go back
+DEEP = 1e-3  # m by which a rail's head must be hollow, at least, to be taken for one upside down
+FLANGE = 0.01  # m by which a flange stands out of the tread, at least
+STEEP = 1.0  # slope of a flange, at least
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """The visible part of a profile.
+
+    Parameters
+    ----------
+    y, z : ndarray
+        Points in growing y, (n,), m.
+    """
+
+    y: np.ndarray
+    z: np.ndarray
+
+    @cached_property
+    def _spline(self):
+        return CubicSpline(self.y, self.z)
+
+    @cached_property
+    def _derivative(self):
+        return self._spline.derivative()
+
+    @property
+    def first(self) -> float:
+        """The least y, m."""
+        return float(self.y[0])
+
+    @property
+    def last(self) -> float:
+        """The greatest y, m."""
+        return float(self.y[-1])
+
+    def height(self, y: np.ndarray) -> np.ndarray:
+        """z at y, m; beyond an end that at the end.
+
+        Parameters
+        ----------
+        y : ndarray
+            m.
+
+        Returns
+        -------
+        ndarray
+        """
+        return self._spline(np.clip(y, self.first, self.last))
+
+    def slope(self, y: np.ndarray) -> np.ndarray:
+        """dz/dy at y; beyond an end that at the end.
+
+        Parameters
+        ----------
+        y : ndarray
+            m.
+
+        Returns
+        -------
+        ndarray
+        """
+        return self._derivative(np.clip(y, self.first, self.last))
+
+    def moved(self, dy: float, dz: float) -> "Section":
+        """The section moved along y and z.
+
+        Parameters
+        ----------
+        dy, dz : float
+            m.
+
+        Returns
+        -------
+        Section
+        """
+        return Section(self.y + dy, self.z + dz)
+
+
+def path(profile: Profile) -> CubicSpline:
+    """The curve (y, z) over the chord length, in the direction of growing y.
+
+    Parameters
+    ----------
+    profile : Profile
+        The points.
+
+    Returns
+    -------
+    CubicSpline
+        Values have the shape (..., 2), m.
+    """
+    points = np.column_stack([profile.y, profile.z])
+    if profile.y[0] > profile.y[-1]:
+        points = points[::-1]
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    return CubicSpline(np.concatenate([[0.0], np.cumsum(steps)]), points)
+
+
+def fine(curve: CubicSpline) -> np.ndarray:
+    """Chord lengths along a curve in small steps.
+
+    Parameters
+    ----------
+    curve : CubicSpline
+        Of path().
+
+    Returns
+    -------
+    ndarray
+        m.
+    """
+    length = float(curve.x[-1])
+    return np.linspace(0.0, length, int(np.ceil(length / FINE)) + 1)
+
+
+def visible(profile: Profile) -> Section:
+    """The part of a profile that the other body can see: the longest one without folds and slopes above 11.
+
+    Parameters
+    ----------
+    profile : Profile
+        The points.
+
+    Returns
+    -------
+    Section
+
+    Raises
+    ------
+    Error
+        If other parts of the profile lie before it: a profile that is folded, unsorted or upside down.
+    """
+    _need_forward(profile)
+    curve = path(profile)
+    s = fine(curve)
+    tangent = curve(s, 1)
+    first, last = _longest(tangent[:, 0] * STEEPEST > np.abs(tangent[:, 1]))
+    if last - first < 2:
+        raise Error(f"{profile.name}: no part is seen from the other body: are its points sorted along the profile?")
+    section = _section(curve, s[first : last + 1])
+    _need_unfolded(profile, section)
+    (_need_head if profile.kind == "rail" else _need_flange_inside)(profile, section)
+    return section
+
+
+def _need_forward(profile):
+    """Raises Error where points go back along the profile."""
+    steps = np.diff(np.column_stack([profile.y, profile.z]), axis=0)
+    steps /= np.hypot(*steps.T)[:, None]
+    back = np.flatnonzero(np.sum(steps[1:] * steps[:-1], axis=1) < BACK)
+    if len(back):
+        k = back[0] + 1
+        raise Error(
+            f"{profile.name}: point {k + 1}, y = {profile.y[k]:.6g} m, z = {profile.z[k]:.6g} m: the points go back "
+            "there: sort them along the profile, and remove folds"
+        )
+
+
+def _longest(good):
+    """First and last index of the longest run of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int)))
+    if not len(edges):
+        return 0, 0
+    starts, ends = edges[::2], edges[1::2] - 1
+    k = int(np.argmax(ends - starts))
+    return int(starts[k]), int(ends[k])
+
+
+def _section(curve, s):
+    """z(y) through points every 25 um of the part of a curve at these chord lengths."""
+    along = curve(s)[:, 0]
+    y = np.linspace(along[0], along[-1], max(int(np.round((along[-1] - along[0]) / STEP)), 4) + 1)
+    t = np.interp(y, along, s)
+    for _ in range(4):  # Newton's iteration for y(t) = y
+        t = np.clip(t - (curve(t)[:, 0] - y) / curve(t, 1)[:, 0], s[0], s[-1])
+    return Section(y, curve(t)[:, 1])
+
+
+def _need_unfolded(profile, section):
+    """Raises Error where points lie before the visible part: above that of a rail, below that of a wheel."""
+    inside = (profile.y > section.first) & (profile.y < section.last)
+    before = section.height(profile.y) - profile.z
+    worst = np.max((before if profile.kind == "rail" else -before)[inside], initial=0.0)
+    if worst > HIDDEN:
+        where = "above" if profile.kind == "rail" else "below"
+        raise Error(
+            f"{profile.name}: points lie {worst:.3g} m {where} its visible part: sort the points along the profile, "
+            "remove folds, and check the direction of z (down)"
+        )
+
+
+def _need_head(profile, section):
+    """Raises Error for a rail whose head is hollow."""
+    hollow = float(section.z.max() - max(section.z[0], section.z[-1]))
+    if hollow > DEEP:
+        raise Error(
+            f"{profile.name}: the rail's head is hollow by {hollow:.3g} m: is its z up? read(..., z='up') turns it over"
+        )
+
+
+def _need_flange_inside(profile, section):
+    """Raises Error for a wheel upside down, and for one with its flange on the field side."""
+    tread = float(np.median(section.z))
+    low, high = (int(pick(section.z)) for pick in (np.argmax, np.argmin))
+    down, up = section.z[low] - tread, tread - section.z[high]
+    if up > max(FLANGE, down) and _steep(section, high):
+        raise Error(f"{profile.name}: the wheel's flange points up: is its z up? read(..., z='up') turns it over")
+    if down > FLANGE and _steep(section, low) and section.y[low] > 0.5 * (section.first + section.last):
+        raise Error(
+            f"{profile.name}: the wheel's flange is on the field side, at greater y: the profile is mirrored; give "
+            "mirror=True to read(), or mirror.y = 1 in the file, or take mirrored()"
+        )
+
+
+def _steep(section, index):
+    """Whether a profile is as steep as a flange between its middle and a point."""
+    first, last = sorted((index, len(section.y) // 2))
+    slopes = section.slope(section.y[first : last + 1])
+    return bool(np.abs(slopes).max() > STEEP)
