@@ -180,7 +180,7 @@ static void test_increments_lie_on_the_line_between_rows(void **state)
   sam_call(SamHistoryDestroy(&h));
 }
 
-/* The ends found one from the other are those whose time, or that of the step before, is a row's (the start is time 0). */
+/* The ends found one from the other are those whose time, or that of the step before, is a row's, or the start's. */
 static void test_ends_of_rows_follow_each_other(void **state)
 {
   (void)state;

@@ -120,7 +120,7 @@ static double LayeredKernel(SamPair pair, SamWaveSymbol symbol, double x, double
 static void test_layers_add_their_symbols(void **state)
 {
   static const SamWaveSymbol symbols[4] = {SAM_WAVE_ZZ, SAM_WAVE_RR, SAM_WAVE_TT, SAM_WAVE_ZR};
-  const SamMaterial             one[2]     = {{120e9, 0.1, 1e-4}, {.young = 210e9, .poisson = poisson[0]}},
+  const SamMaterial          one[2]     = {{120e9, 0.1, 1e-4}, {.young = 210e9, .poisson = poisson[0]}},
                     two[3] = {{150e9, 0.2, 6e-5}, {60e9, 0.4, 2e-4}, {.young = 70e9, .poisson = poisson[1]}};
   SamGrid       grid       = NewGridOn(PETSC_COMM_WORLD, 37, 1, width, 1, 0, 0);
   SamParameters p          = {.count = 0};

@@ -185,7 +185,7 @@ void SamComplianceMoveDatum(SamCompliance c, double datum)
   const double young[2] = {c->young, c->young1}, poisson[2] = {c->poisson, c->poisson1}, change = log(c->datum / datum);
 
   for (PetscInt b = 0; b < (SamComplianceIsPair(c) ? 2 : 1) && !isinf(young[b]); b++) {
-    const double shear = young[b] / (2 * (1 + poisson[b]));
+    const double shear     = young[b] / (2 * (1 + poisson[b]));
     const double factor[3] = {(1 - poisson[b]) / shear, 1 / shear, (1 - poisson[b]) / shear};
 
     for (PetscInt k = 0; k < 3; k++)

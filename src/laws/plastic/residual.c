@@ -8,7 +8,7 @@
   of each layer, and the displacement by plastic strain from the transpose of these.
 
   If the body has layers of other materials on its surface, the layers of plastic strain begin below them. The layers
-  above are bonded to the waves' surface: with the compliances C of both sides of this interface (bodies/body/symbols.c),
+  above are bonded to the waves' surface: with the compliances C of both sides of this interface (body/symbols.c),
   they answer the displacement u that the strain would cause without them by tractions -u/C. Their images are those of a
   half-space without them, since long waves bend thin layers freely.
 */
