@@ -208,6 +208,7 @@ static void test_wrong_bodies_are_refused(void **state)
   sam_says(SamHeatRow(&good, (const PetscReal[]){0, 1}, 0, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "Sides 0");
   sam_says(SamHeatRow(&good, unit, -1, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "Depth -1");
   sam_says(SamHeatRow(&still, strip, 0, 0, 0, 1, &v), PETSC_ERR_SUP, "plane strain");
+  sam_says(SamHeatRow(&(SamHeatBody){1, 1, 1e-200}, strip, 0, 0, 0, 1, &v), PETSC_ERR_SUP, "plane strain");
   sam_call(SamHeatRow(&good, strip, 0, 0, 0, 1, &v));
 }
 
@@ -556,6 +557,9 @@ static void test_no_convergence_is_reported(void **state)
   sam_call(VecSet(s.heat, 0));
   Divide(&s);
   sam_assert(s.report.reason == SAM_HEAT_CONVERGED && s.report.products == 0 && s.report.residual == 0);
+  s.bulk[0] = NAN;
+  Divide(&s);
+  sam_assert(s.report.reason == SAM_HEAT_STAGNATES && !(s.report.residual <= s.pair.rtol));
   DestroySplit(&s);
   sam_call(SamGridDestroy(&grid));
 }
