@@ -6,13 +6,13 @@
 
   Algorithm: generalised conjugate residuals. A direction is the preconditioned residual, from which the part is
   subtracted that is needed to make its product orthogonal to the earlier products; the step along it minimises the
-  residual. The preconditioner is the inverse of the symbol of K1 + K2 + r, cut off outside of
-  contact: a wave of flux with the wave numbers kx, ky has the temperature
+  residual. The preconditioner is the inverse of the symbol of K1 + K2 + r, cut off outside of contact: a wave of flux
+  with the wave numbers kx, ky has the temperature
       1/(conductivity kappa),   kappa^2 = k^2 + i kx speed/D,   Re kappa > 0,
-  times itself; for the mean k is half the smallest wave number. On the padded grid, as the trail of a fast body is long:
-  a periodic one takes up to twice as many products. The directions restart after RESTART. At the end the true residual
-  is computed; if it is above the tolerance, the steps go on from it, as long as that halves it. Sums are the same on any
-  number of ranks.
+  times itself; for the mean k is half the smallest wave number. It acts on the padded grid, as the trail of a fast body
+  is long: on the periodic one up to twice as many products are needed. The directions restart after RESTART. At the end
+  the true residual is computed; above the tolerance, the steps go on from it, as long as that halves it. Sums are the
+  same on any number of ranks.
 
   References: Bos and Moes 1995, J. Tribol. 117, 171; Eisenstat, Elman and Schultz 1983, SIAM J. Numer. Anal. 20, 345.
 */
@@ -277,7 +277,8 @@ static PetscErrorCode CheckPair(const SamHeatPair *pair, Vec contact, Vec heat, 
   PetscCheck(pair->resistance >= 0 && isfinite(pair->resistance), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "Resistance %g m2 K/W: expected a number from 0 on", (double)pair->resistance);
   PetscCheck(pair->rtol > 0 && pair->most > 0, grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Tolerance %g and %" PetscInt_FMT " products: expected numbers above 0", (double)pair->rtol, pair->most);
+             "Tolerance %g, %" PetscInt_FMT " operator applications: expected numbers above 0", (double)pair->rtol,
+             pair->most);
   PetscCall(SamGridCheckVec(grid, 1, contact, "Contact"));
   PetscCall(SamGridCheckVec(grid, 1, heat, "Heat"));
   PetscCall(SamGridCheckVec(grid, 1, heat_2, "Heat into body 2"));
