@@ -1,0 +1,74 @@
+"""How well the parts of petsam know only what they need: counts that should fall, each with what it is now at most.
+
+    python3 scripts/maintain/ruler.py [build]     prints the counts, the limits and the goals
+
+tests/program/test_ruler.py holds the limits. Who brings a count down lowers its limit; who must raise one says why in
+the commit.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SRC = ROOT / "src"
+sys.path.insert(0, str(ROOT / "tests" / "program"))
+
+# count: what it is at most now, and what it should be
+LIMITS = {
+    "laws asked for by name outside of contact/problem": (28, 8),
+    "flags of the motion in contact": (40, 12),
+    "calls of a body's materials outside of bodies": (42, 0),
+    "files outside of bodies that call them": (15, 0),
+    "files in the largest circle of C files": (3, 3),
+    "modules in the largest circle of Python modules": (3, 3),
+    "fitted or chosen numbers in advice": (125, 40),
+    "options of a command line outside of commands": (0, 0),
+}
+MATERIALS = r"\bSamBody(?:MaterialAt|Substrate|SubstrateTop|Count|Top|At)\("
+
+
+def code(path):
+    """A source without its comments."""
+    return re.sub(r"/\*.*?\*/", "", path.read_text(encoding="utf-8"), flags=re.S)
+
+
+def found(pattern, folder, but=()):
+    """Path to number of matches in the C files below a folder, but for some folders."""
+    counts = {}
+    for path in sorted(folder.rglob("*.[ch]")):
+        if any(SRC / name in path.parents for name in but):
+            continue
+        count = len(re.findall(pattern, code(path), re.M))
+        if count:
+            counts[path] = count
+    return counts
+
+
+def measure(build):
+    """All counts, by name; build: the folder of the built program, whose symbols join the files."""
+    import test_rooms as rooms
+
+    materials = found(MATERIALS, SRC, but=("bodies",))
+    values = (
+        sum(found(r"\bSamProblemGetLaw\(", SRC, but=("contact/problem",)).values()),
+        sum(found(r"(?:->|\.)(?:rolls|streams|continues)\b", SRC / "contact").values()),
+        sum(materials.values()),
+        len(materials),
+        max(map(len, rooms.circles(rooms.arrows(build).keys())), default=1),
+        max(map(len, rooms.circles(rooms.imports())), default=1),
+        sum(found(r"^#define [A-Z_0-9]+ +\(?-?[0-9.]", SRC / "post" / "advice").values()),
+        len(rooms.command_line_outside_commands()),
+    )
+    return dict(zip(LIMITS, values, strict=True))
+
+
+def main():
+    where = (ROOT / (sys.argv[1] if len(sys.argv) > 1 else "build")).resolve()
+    print(f"{'now':>5} {'limit':>5} {'goal':>5}")
+    for name, value in measure(where).items():
+        print(f"{value:5d} {LIMITS[name][0]:5d} {LIMITS[name][1]:5d}  {name}")
+
+
+if __name__ == "__main__":
+    main()

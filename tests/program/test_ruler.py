@@ -1,0 +1,34 @@
+"""The counts of scripts/maintain/ruler.py do not rise, and their limits follow them down."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from conftest import PROGRAM
+
+ROOT = Path(__file__).resolve().parents[2]
+
+sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
+import ruler  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def counts():
+    return ruler.measure(PROGRAM.parents[1])
+
+
+@pytest.mark.parametrize("name", ruler.LIMITS)
+def test_no_count_rises(counts, name):
+    assert counts[name] <= ruler.LIMITS[name][0], f"{name}: {counts[name]}"
+
+
+@pytest.mark.parametrize("name", ruler.LIMITS)
+def test_limits_are_what_there_is(counts, name):
+    assert counts[name] >= ruler.LIMITS[name][0], f"{name} has come down to {counts[name]}: lower its limit"
+
+
+def test_comments_do_not_count(tmp_path):
+    path = tmp_path / "one.c"
+    path.write_text("/* SamBodyTop(b, 1) */ x = SamBodyTop(b, 2); /* more */\n")
+    assert ruler.found(ruler.MATERIALS, tmp_path) == {path: 1}
