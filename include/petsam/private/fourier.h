@@ -142,6 +142,12 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[],
                                         double *const out[]);
 /*
+  SamConvolveSum - computes the sum of the convolutions of one field with n kernels: a kernel without parity is its even
+  part plus its odd part. One transform and its inverse serve all. out may be the same array as in. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamConvolveSum(SamFourier fourier, PetscInt n, const SamKernel kernels[], const double in[],
+                                           double out[]);
+/*
   SamKernelMatrixAdd - adds the products with a matrix of 3 x 3 kernels for columns of spectra that are kept between
   passes of transforms: those of a phase of column b of a block, whose data are not used. A grid of one row has a single
   column, of all frequencies along x; the block then has hy of them. `scratch`: 3 columns of hy entries. Not collective.

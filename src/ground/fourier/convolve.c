@@ -188,6 +188,13 @@ static PetscBool IsSymmetricPair(const SamKernelMatrix *M)
   return PETSC_TRUE;
 }
 
+/* Kernels whose products with one field are added, and work space for a column. */
+typedef struct {
+  PetscInt         n;
+  const SamKernel *kernels;
+  double (*column)[2];
+} Summands;
+
 typedef struct Factors {
   const SamKernelMatrix *matrix;
   double                 factor;
@@ -195,6 +202,7 @@ typedef struct Factors {
   void (*multiply)(const struct Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b);
   Nine nine;
   double (*column[SAM_FOURIER_FIELDS])[2]; /* work space of the general case */
+  const Summands *summands;                /* NULL: not a sum of kernels */
 } Factors;
 
 /* Multiplies three columns in place. */
@@ -307,6 +315,30 @@ PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *M, const double 
       PetscCall(SamAllocate(sizeof(*factors.column[o]) * (size_t)(F->row ? F->hx + 1 : F->hy), &factors.column[o]));
   PetscCall(SamFourierApply(F, &filter, in, out));
   for (PetscInt o = 0; o < M->n_out; o++) SamFree(factors.column[o]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void MultiplySum(const Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b)
+{
+  const Summands *s = factors->summands;
+  double(*from)[2]  = block->data[0] + (phase * block->width + b) * (ptrdiff_t)block->stride;
+
+  memset(s->column, 0, sizeof(*s->column) * (size_t)block->hy);
+  for (PetscInt k = 0; k < s->n; k++)
+    AddProduct(s->kernels[k], block, phase, b, 1, (const double(*)[2])from, s->column);
+  memcpy(from, s->column, sizeof(*s->column) * (size_t)block->hy);
+}
+
+PetscErrorCode SamConvolveSum(SamFourier F, PetscInt n, const SamKernel kernels[], const double in[], double out[])
+{
+  Summands               summands = {.n = n, .kernels = kernels};
+  const Factors          factors  = {.multiply = MultiplySum, .summands = &summands};
+  const SamFourierFilter filter   = {SAM_FOURIER_PADDED, 1, 1, Multiply, &factors};
+
+  PetscFunctionBegin;
+  PetscCall(SamAllocate(sizeof(*summands.column) * (size_t)(F->row ? F->hx + 1 : F->hy), &summands.column));
+  PetscCall(SamFourierApply(F, &filter, &in, &out));
+  SamFree(summands.column);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

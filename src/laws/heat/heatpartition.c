@@ -1,0 +1,345 @@
+/*
+  Partition of the heat of a contact between two bodies.
+
+  Problem: (K1 + K2 + r) q2 = T1_bulk - T2_bulk + K1 Q in cells in contact, q2 = 0 elsewhere (heat.h). The operator is
+  positive, as Re 1/kappa > 0 below, but not symmetric if a body moves.
+
+  Algorithm: generalised conjugate residuals. A direction is the preconditioned residual, from which the part is
+  subtracted that is needed to make its product orthogonal to the earlier products; the step along it minimises the
+  residual. The preconditioner is the inverse of the symbol of K1 + K2 + r on the periodic grid, cut off outside of
+  contact: a wave of flux with the wave numbers kx, ky has the temperature
+      1/(conductivity kappa),   kappa^2 = k^2 + i kx speed/D,   Re kappa > 0,
+  times itself; for the mean k is half the smallest wave number. The directions restart after RESTART, and the method
+  gives up if these have not halved the residual. Sums are the same on any number of ranks.
+
+  References: Bos and Moes 1995, J. Tribol. 117, 171; Eisenstat, Elman and Schultz 1983, SIAM J. Numer. Anal. 20, 345.
+*/
+#include "heatimpl.h"
+#include <petsam/private/baseimpl.h>
+#include <petsam/private/grid.h>
+#include <math.h>
+
+#define RESTART 30
+#define GOAL    0.7 /* part of the tolerance at which the steps end, as the true residual is a little larger */
+
+/* The symbol of the preconditioner. Wave numbers are times the grid's length, of which symbols are multiples. */
+typedef struct {
+  double step[2], mean; /* smallest wave number along x, y; k of the mean */
+  double drift[2];      /* of each body: speed/D */
+  double factor[2];     /* of each body: 1/(conductivity * conductivity of the pair) */
+  double resistance;
+  double gain; /* of the transforms */
+} Symbol;
+
+/* A direction, and its product, which is a unit vector */
+typedef struct {
+  double *p, *v;
+} Direction;
+
+typedef struct {
+  const SamHeatPair *pair;
+  SamGrid            grid;
+  const double      *contact;
+  double             scale; /* of temperature over flux, which makes residuals dimensionless, K m2/W */
+  Symbol             symbol;
+  float             *work; /* a field */
+  PetscInt           products;
+} Split;
+
+/* ---- the preconditioner ---- */
+
+static void SetSymbol(Split *s)
+{
+  const SamGrid grid = s->grid;
+  Symbol       *y    = &s->symbol;
+  PetscInt      h[2];
+
+  (void)SamFourierGetPeriods(s->pair->body[0]->fourier, &h[0], &h[1]);
+  y->step[0] = 2 * PETSC_PI / (double)h[0] * grid->length / grid->dx;
+  y->step[1] = SamGridIsRow(grid) ? y->step[0] : 2 * PETSC_PI / (double)h[1] * grid->length / grid->dy;
+  y->mean    = 0.5 * PetscMin(y->step[0], y->step[1]);
+  y->gain    = 1 / ((double)h[0] * (SamGridIsRow(grid) ? 1 : (double)h[1]));
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamHeatBody *body = &s->pair->body[b]->body;
+
+    y->drift[b]  = body->speed / body->conductivity * body->capacity * grid->length;
+    y->factor[b] = grid->length / body->conductivity / s->scale;
+  }
+  y->resistance = s->pair->resistance / s->scale;
+}
+
+/* Divides n waves with the wave numbers kx and from ky on, in steps of `step`, by the symbol. `turn`: 0 for the wave of
+   two cells' length along x, which has no phase. */
+SAM_VECTORIZED static void Divide(const Symbol *s, PetscInt n, double kx, double ky, double step, double turn,
+                                  float (*restrict z)[2])
+{
+  const float x = (float)kx, least = (float)(s->mean * s->mean), r = (float)s->resistance, gain = (float)s->gain;
+  const float drift[2]  = {(float)(turn * kx * s->drift[0]), (float)(turn * kx * s->drift[1])};
+  const float factor[2] = {(float)s->factor[0], (float)s->factor[1]}, first = (float)ky, by = (float)step;
+
+#pragma omp simd
+  for (PetscInt m = 0; m < n; m++) {
+    const float y = first + by * (float)m, some = x * x + y * y, k2 = some > least ? some : least;
+    const float a0 = sqrtf(0.5f * (k2 + sqrtf(k2 * k2 + drift[0] * drift[0]))), b0 = 0.5f * drift[0] / a0;
+    const float a1 = sqrtf(0.5f * (k2 + sqrtf(k2 * k2 + drift[1] * drift[1]))), b1 = 0.5f * drift[1] / a1;
+    const float c0 = factor[0] / (a0 * a0 + b0 * b0), c1 = factor[1] / (a1 * a1 + b1 * b1);
+    const float re = c0 * a0 + c1 * a1 + r, im = -c0 * b0 - c1 * b1, g = gain / (re * re + im * im);
+    const float z0 = z[m][0], z1 = z[m][1];
+
+    z[m][0] = g * (re * z0 + im * z1);
+    z[m][1] = g * (re * z1 - im * z0);
+  }
+}
+
+/* Filters the columns of a block; the waves of a single row run along x, one in each column. */
+static void Filter(const SamFourierBlock *block, const void *context)
+{
+  const Symbol *s = (const Symbol *)context;
+
+  for (PetscInt b = 0; b < block->columns; b++) {
+    const PetscInt i = block->first + b, half = block->hy / 2 + 1;
+    const double   kx = s->step[0] * (double)i, turn = 2 * i == block->hx ? 0 : 1;
+    float(*column)[2] = block->single[0] + (ptrdiff_t)b * block->stride;
+
+    Divide(s, half > block->hy ? block->hy : half, kx, 0, s->step[1], turn, column);
+    if (block->hy > half)
+      Divide(s, block->hy - half, kx, -s->step[1] * (double)(block->hy - half), s->step[1], turn, column + half);
+  }
+}
+
+/* Computes z = M r in cells in contact. */
+static PetscErrorCode Precondition(Split *s, const double r[], double size, double z[])
+{
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, Filter, &s->symbol};
+  const float           *in     = s->work;
+  float                 *out    = s->work;
+
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < s->grid->cells; m++) s->work[m] = (float)(r[m] / size);
+  PetscCall(SamFourierApplySingle(s->pair->body[0]->fourier, &filter, &in, &out));
+  for (PetscInt m = 0; m < s->grid->cells; m++) z[m] = s->contact[m] > 0 ? (double)s->work[m] : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- products and sums ---- */
+
+/* Computes u = (K1 + K2 + r) q / scale in cells in contact, 0 elsewhere. */
+static PetscErrorCode Multiply(Split *s, const double q[], double u[])
+{
+  const SamHeatPair *pair = s->pair;
+  SamKernel          kernels[4];
+  PetscInt           n = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++)
+    for (PetscInt k = 0; k < pair->body[b]->kernels; k++) kernels[n++] = pair->body[b]->kernel[k];
+  PetscCall(SamConvolveSum(pair->body[0]->fourier, n, kernels, q, u));
+  for (PetscInt m = 0; m < s->grid->cells; m++)
+    u[m] = s->contact[m] > 0 ? (u[m] + pair->resistance * q[m]) / s->scale : 0;
+  s->products++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the dot products of x with n vectors. */
+static PetscErrorCode Dots(const Split *s, PetscInt n, double *const v[], const double x[], double dots[])
+{
+  const PetscInt nx = s->grid->nx;
+  SamTotal       totals[RESTART];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < n; k++) {
+    totals[k] = (SamTotal){0};
+    for (PetscInt j = 0; j < s->grid->rows; j++) {
+      double row = 0;
+
+      for (PetscInt i = 0; i < nx; i++) row += v[k][j * (ptrdiff_t)nx + i] * x[j * (ptrdiff_t)nx + i];
+      SamAdd(&totals[k], row);
+    }
+  }
+  if (n) PetscCall(SamSumTotals(s->grid->comm, n, totals, dots));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Norm(const Split *s, double x[], double *norm)
+{
+  PetscFunctionBegin;
+  PetscCall(Dots(s, 1, &x, x, norm));
+  *norm = sqrt(*norm);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the solve ---- */
+
+/* Computes direction k from the residual r; its product is orthogonal to the earlier ones. */
+static PetscErrorCode NewDirection(Split *s, PetscInt k, const double r[], double size, Direction d[], double *norm)
+{
+  const PetscInt n = s->grid->cells;
+  double        *v[RESTART], dots[RESTART];
+
+  PetscFunctionBegin;
+  if (!d[k].p) PetscCall(PetscMalloc2(n, &d[k].p, n, &d[k].v));
+  for (PetscInt i = 0; i <= k; i++) v[i] = d[i].v;
+  PetscCall(Precondition(s, r, size, d[k].p));
+  PetscCall(Multiply(s, d[k].p, v[k]));
+  for (PetscInt twice = 0; twice < 2; twice++) { /* repeated against rounding */
+    PetscCall(Dots(s, k, v, v[k], dots));
+    for (PetscInt i = 0; i < k; i++)
+      for (PetscInt m = 0; m < n; m++) {
+        v[k][m] -= dots[i] * v[i][m];
+        d[k].p[m] -= dots[i] * d[i].p[m];
+      }
+  }
+  PetscCall(Norm(s, v[k], norm));
+  for (PetscInt m = 0; *norm > 0 && m < n; m++) {
+    v[k][m] /= *norm;
+    d[k].p[m] /= *norm;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes steps until the residual r, of the size *left, is at most `goal`; x and r are updated. */
+static PetscErrorCode Iterate(Split *s, double goal, Direction d[], double x[], double r[], double *left)
+{
+  double last = PETSC_INFINITY, size, step;
+
+  PetscFunctionBegin;
+  for (PetscInt it = 0; s->products<s->pair->most && * left> goal; it++) {
+    const PetscInt k = it % RESTART;
+
+    if (k == 0 && *left > 0.5 * last) break;
+    if (k == 0) last = *left;
+    PetscCall(NewDirection(s, k, r, *left, d, &size));
+    if (!(size > 0)) break;
+    PetscCall(Dots(s, 1, &d[k].v, r, &step));
+    for (PetscInt m = 0; m < s->grid->cells; m++) {
+      x[m] += step * d[k].p[m];
+      r[m] -= step * d[k].v[m];
+    }
+    PetscCall(Norm(s, r, left));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves from x = 0 on. On entry r is the right side; it is scratch afterwards. */
+static PetscErrorCode Solve(Split *s, double x[], double r[], SamHeatReport *report)
+{
+  const PetscInt n          = s->grid->cells;
+  Direction      d[RESTART] = {{NULL, NULL}};
+  double        *b, norm, left;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &b));
+  PetscCall(PetscArraycpy(b, r, n));
+  PetscCall(PetscArrayzero(x, n));
+  PetscCall(Norm(s, b, &norm));
+  left = norm;
+  PetscCall(Iterate(s, GOAL * s->pair->rtol * norm, d, x, r, &left));
+  if (s->products) { /* the true residual */
+    PetscCall(Multiply(s, x, r));
+    for (PetscInt m = 0; m < n; m++) r[m] = b[m] - r[m];
+    PetscCall(Norm(s, r, &left));
+  }
+  report->products = s->products;
+  report->residual = norm > 0 ? left / norm : 0;
+  report->reason   = report->residual <= s->pair->rtol ? SAM_HEAT_CONVERGED
+                     : s->products >= s->pair->most    ? SAM_HEAT_LIMIT
+                                                       : SAM_HEAT_STAGNATES;
+  for (PetscInt k = 0; k < RESTART; k++) PetscCall(PetscFree2(d[k].p, d[k].v));
+  PetscCall(PetscFree(b));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the right side ---- */
+
+static PetscErrorCode CheckPair(const SamHeatPair *pair, Vec contact, Vec heat, Vec heat_2)
+{
+  const SamGrid grid = pair->body[0]->grid;
+
+  PetscFunctionBegin;
+  PetscCheck(grid == pair->body[1]->grid, grid->comm, PETSC_ERR_ARG_WRONG,
+             "Operators of heat on different grids: expected one grid");
+  PetscCheck(pair->body[0]->depth == 0 && pair->body[1]->depth == 0, grid->comm, PETSC_ERR_ARG_WRONG,
+             "Operators of heat at the depths %g, %g m: expected 0", (double)pair->body[0]->depth,
+             (double)pair->body[1]->depth);
+  PetscCheck(pair->resistance >= 0 && isfinite(pair->resistance), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Resistance %g m2 K/W: expected a number from 0 on", (double)pair->resistance);
+  PetscCheck(pair->rtol > 0 && pair->most > 0, grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Tolerance %g and %" PetscInt_FMT " products: expected numbers above 0", (double)pair->rtol, pair->most);
+  PetscCall(SamGridCheckVec(grid, 1, contact, "Contact"));
+  PetscCall(SamGridCheckVec(grid, 1, heat, "Heat"));
+  PetscCall(SamGridCheckVec(grid, 1, heat_2, "Heat into body 2"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses heat outside of contact. */
+static PetscErrorCode CheckHeat(SamGrid grid, const double contact[], const double heat[])
+{
+  double outside = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < grid->cells; m++)
+    if (!(contact[m] > 0) && heat[m] != 0) outside = 1;
+  PetscCall(SamMax(grid->comm, 1, &outside));
+  PetscCheck(outside == 0, grid->comm, PETSC_ERR_ARG_WRONG, "Heat outside of contact: expected 0 there");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* True if half of the heat goes into each body. */
+static PetscBool IsEqual(const SamHeatPair *pair, const PetscReal bulk[2])
+{
+  const SamHeatBody *one = &pair->body[0]->body, *other = &pair->body[1]->body;
+
+  if (one->conductivity != other->conductivity || one->capacity != other->capacity) return PETSC_FALSE;
+  return one->speed == other->speed && bulk[0] == bulk[1] && pair->resistance == 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Computes the right side T1_bulk - T2_bulk + K1 Q over the scale, in cells in contact. */
+static PetscErrorCode RightSide(const Split *s, const double heat[], double difference, double b[])
+{
+  const SamConductor one = s->pair->body[0];
+
+  PetscFunctionBegin;
+  PetscCall(SamConvolveSum(one->fourier, one->kernels, one->kernel, heat, b));
+  for (PetscInt m = 0; m < s->grid->cells; m++) b[m] = s->contact[m] > 0 ? (difference + b[m]) / s->scale : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SolveArrays(const SamHeatPair *pair, const double contact[], const double heat[],
+                                  const PetscReal bulk[2], double heat_2[], SamHeatReport *report)
+{
+  const SamGrid grid = pair->body[0]->grid;
+  Split         s    = {.pair = pair, .grid = grid, .contact = contact};
+  double       *b;
+
+  PetscFunctionBegin;
+  s.scale = grid->length * (1 / pair->body[0]->body.conductivity + 1 / pair->body[1]->body.conductivity);
+  SetSymbol(&s);
+  PetscCall(PetscMalloc2(grid->cells, &b, grid->cells, &s.work));
+  PetscCall(RightSide(&s, heat, bulk[0] - bulk[1], b));
+  PetscCall(Solve(&s, heat_2, b, report));
+  PetscCall(PetscFree2(b, s.work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamHeatSplit(const SamHeatPair *pair, Vec contact, Vec heat, const PetscReal bulk[2], Vec heat_2,
+                            SamHeatReport *report)
+{
+  const double *in, *from;
+  double       *to;
+
+  PetscFunctionBegin;
+  PetscCall(CheckPair(pair, contact, heat, heat_2));
+  *report = (SamHeatReport){.reason = SAM_HEAT_CONVERGED};
+  PetscCall(VecGetArrayRead(contact, &in));
+  PetscCall(VecGetArrayRead(heat, &from));
+  PetscCall(CheckHeat(pair->body[0]->grid, in, from));
+  PetscCall(VecGetArrayWrite(heat_2, &to));
+  if (IsEqual(pair, bulk))
+    for (PetscInt m = 0; m < pair->body[0]->grid->cells; m++) to[m] = 0.5 * from[m];
+  else
+    PetscCall(SolveArrays(pair, in, from, bulk, to, report));
+  PetscCall(VecRestoreArrayWrite(heat_2, &to));
+  PetscCall(VecRestoreArrayRead(heat, &from));
+  PetscCall(VecRestoreArrayRead(contact, &in));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
