@@ -49,7 +49,7 @@ static void test_cells_have_reference_values(void **state)
 static void test_strips_have_reference_values(void **state)
 {
   static const PetscInt  lags[4] = {0, -1, 1, -5};
-  static const PetscReal strip[] = {1, INFINITY}, half[] = {2, INFINITY};
+  static const PetscReal strip[] = {1, INFINITY};
   static const struct {
     double p, at[4];
   } rows[] = {{0.1, {1.309535207055, 0.8671775822426, 0.7149869623082, 0.4855447645104}},
@@ -62,11 +62,36 @@ static void test_strips_have_reference_values(void **state)
 
       sam_assert_close(Cell(&body, strip, 0, lags[l], 0), rows[k].at[l], 1e-12 * rows[k].at[0]);
     }
-  sam_assert(Cell(&(SamHeatBody){1, 1, -2}, half, 0, 0, 0) < 0.991850421751); /* the maximum is behind */
 }
 
-/* The longest of three bands of equal cells: its temperature at x is the sum of those of its cells. */
-static void test_temperature_of_a_strip_is_that_of_its_parts(void **state)
+/* The maximum of a band with half width 1 lies behind its centre; here it is the sum of those of narrow strips. */
+static void test_maximum_of_a_band(void **state)
+{
+  static const PetscReal side[] = {1e-3, INFINITY};
+  static const struct {
+    double p, x, most;
+  } rows[] = {{1, -0.66644701, 0.991850421751}, {10, -0.92438129, 0.348499748743}};
+  enum { N = 2000 };
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    const SamHeatBody body  = Moving(rows[k].p);
+    const PetscInt    place = (PetscInt)floor((rows[k].x + 1) / side[0]);
+    double           *value = (double *)malloc(sizeof(*value) * N), at[3] = {0};
+
+    for (PetscInt l = 0; l < 3; l++) { /* the cell of the maximum, and those beside it */
+      sam_call(SamHeatRow(&body, side, 0, 0, place + l - N, N, value));
+      for (PetscInt i = 0; i < N; i++) at[l] += value[i];
+    }
+    sam_assert(at[1] > at[0] && at[1] > at[2]);
+    at[1] += (at[2] - at[0]) * (at[2] - at[0]) / (16 * at[1] - 8 * at[0] - 8 * at[2]); /* vertex of a parabola */
+    sam_assert_close(at[1], rows[k].most, 1e-8 * rows[k].most);
+    free(value);
+  }
+}
+
+/* A band and a square of three cells along each side: their temperature is the sum of those of their cells. */
+static void test_temperature_is_that_of_the_parts(void **state)
 {
   static const PetscReal whole[] = {3, INFINITY}, part[] = {1, INFINITY}, cell[] = {3, 3};
   const SamHeatBody      body = Moving(0.7), back = {2, 3, 0.5};
@@ -180,8 +205,8 @@ static void test_wrong_bodies_are_refused(void **state)
   sam_says(SamHeatRow(&(SamHeatBody){0, 1, 1}, unit, 0, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "Conductivity 0");
   sam_says(SamHeatRow(&(SamHeatBody){1, -2, 1}, unit, 0, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "capacity -2");
   sam_says(SamHeatRow(&(SamHeatBody){1, 1, NAN}, unit, 0, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "Speed nan");
-  sam_says(SamHeatRow(&good, (const PetscReal[]){0, 1}, 0, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "Sides 0, 1 m");
-  sam_says(SamHeatRow(&good, unit, -1, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "Depth -1 m");
+  sam_says(SamHeatRow(&good, (const PetscReal[]){0, 1}, 0, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "Sides 0");
+  sam_says(SamHeatRow(&good, unit, -1, 0, 0, 1, &v), PETSC_ERR_ARG_OUTOFRANGE, "Depth -1");
   sam_says(SamHeatRow(&still, strip, 0, 0, 0, 1, &v), PETSC_ERR_SUP, "plane strain");
   sam_call(SamHeatRow(&good, strip, 0, 0, 0, 1, &v));
 }
@@ -239,7 +264,7 @@ static void test_products_are_sums_over_cells(void **state)
   sam_call(SamGridDestroy(&row));
 }
 
-static double Sphere(double x, double y, const void *context)
+static double Dome(double x, double y, const void *context)
 {
   const double square = 1 - x * x - y * y;
 
@@ -247,17 +272,31 @@ static double Sphere(double x, double y, const void *context)
   return square > 0 ? sqrt(square) : 0;
 }
 
-/* The part of a cell within the unit circle, by points; the context is the cells' width. */
-static double Disc(double x, double y, const void *context)
+static double Circle(double x, double y, const void *context)
 {
-  const double width = *(const double *)context;
+  (void)context;
+  return hypot(x, y) < 1 ? 1 : 0;
+}
+
+/* Means over a cell, by points; the context is the cells' width. */
+static double MeanOf(double (*flux)(double, double, const void *), double x, double y, double width)
+{
   enum { N = 40 };
-  int inside = 0;
+  double sum = 0;
 
   for (int i = 0; i < N; i++)
-    for (int j = 0; j < N; j++)
-      if (hypot(x + width * ((i + 0.5) / N - 0.5), y + width * ((j + 0.5) / N - 0.5)) < 1) inside++;
-  return (double)inside / (N * N);
+    for (int j = 0; j < N; j++) sum += flux(x + width * ((i + 0.5) / N - 0.5), y + width * ((j + 0.5) / N - 0.5), NULL);
+  return sum / (N * N);
+}
+
+static double MeanDome(double x, double y, const void *width)
+{
+  return MeanOf(Dome, x, y, *(const double *)width);
+}
+
+static double MeanCircle(double x, double y, const void *width)
+{
+  return MeanOf(Circle, x, y, *(const double *)width);
 }
 
 /* Temperature of the centre, on n cells along each side of a square, n odd. */
@@ -288,13 +327,13 @@ static void test_centres_of_discs_are_of_second_order(void **state)
 
   (void)state;
   for (int k = 0; k < 3; k++) {
-    const double coarse = fabs(CentreOf(Sphere, 65, rows[k].p) / rows[k].hertz - 1),
-                 fine   = fabs(CentreOf(Sphere, 129, rows[k].p) / rows[k].hertz - 1);
+    const double coarse = fabs(CentreOf(MeanDome, 65, rows[k].p) / rows[k].hertz - 1),
+                 fine   = fabs(CentreOf(MeanDome, 129, rows[k].p) / rows[k].hertz - 1);
 
     sam_assert(coarse < 3e-4 && fine < 8e-5);
     sam_assert(coarse / fine > 3.2 && coarse / fine < 5);
   }
-  for (int k = 0; k < 3; k++) sam_assert_close(CentreOf(Disc, 65, discs[k][0]) / discs[k][1], 1, 2e-4);
+  for (int k = 0; k < 3; k++) sam_assert_close(CentreOf(MeanCircle, 65, discs[k][0]) / discs[k][1], 1, 2e-4);
 }
 
 /* ---- partition ---- */
@@ -306,12 +345,6 @@ typedef struct {
   PetscReal     bulk[2];
   Vec           contact, heat, q[2], t[2];
 } Split;
-
-static double Circle(double x, double y, const void *context)
-{
-  (void)context;
-  return hypot(x, y) < 1 ? 1 : 0;
-}
 
 static void Divide(Split *s)
 {
@@ -328,7 +361,7 @@ static Split NewSplit(SamGrid grid, SamHeatBody one, SamHeatBody two)
   Split s = {.pair    = {.body = {NewConductor(grid, one, 0), NewConductor(grid, two, 0)}, .rtol = 1e-8, .most = 60},
              .grid    = grid,
              .contact = NewFrom(grid, Circle, NULL),
-             .heat    = NewFrom(grid, Sphere, NULL)};
+             .heat    = NewFrom(grid, Dome, NULL)};
 
   for (int b = 0; b < 2; b++) {
     s.q[b] = NewField(grid, 1);
@@ -403,14 +436,11 @@ static void test_shares_of_discs(void **state)
 
     Divide(&s);
     f = Measure(&s);
-    if (getenv("SHOW") && !Rank())
-      fprintf(stdout, "%zu: %d products, %.2e; %.6f %.7f %.7f jump %.1e\n", k, (int)s.report.products,
-              s.report.residual, f.share, f.most, f.mean, f.jump);
     sam_assert(s.report.reason == SAM_HEAT_CONVERGED && s.report.residual <= 1e-8);
-    sam_assert(s.report.products <= rows[k].products + 3);
-    sam_assert_close(f.share, rows[k].share, 2e-6);
+    sam_assert(s.report.products <= rows[k].products + 2);
+    sam_assert_close(f.share, rows[k].share, 5e-6);
     sam_assert_close(f.most / rows[k].most, 1, 1e-5);
-    sam_assert_close(f.mean / rows[k].mean, 1, 1e-5);
+    sam_assert_close(f.mean / rows[k].mean, 1, 2e-5);
     sam_assert(f.jump < 1e-6 * f.most);
     DestroySplit(&s);
   }
@@ -449,8 +479,7 @@ static void test_a_cool_body_chills_the_other(void **state)
   s.bulk[0] = 20;
   s.bulk[1] = 150;
   Divide(&s);
-  if (getenv("SHOW") && !Rank()) fprintf(stdout, "chill: %d products\n", (int)s.report.products);
-  sam_assert(s.report.reason == SAM_HEAT_CONVERGED && s.report.products <= 20);
+  sam_assert(s.report.reason == SAM_HEAT_CONVERGED && s.report.products <= 24);
   sam_assert(Measure(&s).jump < 1e-4);
   t       = Whole(grid, 1, s.t[0]);
   contact = Whole(grid, 1, s.contact);
@@ -477,9 +506,7 @@ static void test_resistance_and_plane_strain(void **state)
       s.bulk[1]         = 0.1;
       Divide(&s);
       f = Measure(&s);
-      if (getenv("SHOW") && !Rank())
-        fprintf(stdout, "%d %d: %d products share %g jump %.1e\n", k, r, (int)s.report.products, f.share, f.jump);
-      sam_assert(s.report.reason == SAM_HEAT_CONVERGED && s.report.products <= 22);
+      sam_assert(s.report.reason == SAM_HEAT_CONVERGED && s.report.products <= 14);
       sam_assert(f.jump < 1e-6 * f.most);
       sam_assert(f.share > 0.1 && f.share < 0.9);
       DestroySplit(&s);
@@ -547,7 +574,7 @@ static void test_wrong_pairs_are_refused(void **state)
   sam_split_says(PETSC_ERR_ARG_OUTOFRANGE, "Tolerance 0");
   s.pair         = good.pair;
   s.pair.body[1] = NewConductor(grid, (SamHeatBody){2, 1, -8}, 0.1);
-  sam_split_says(PETSC_ERR_ARG_WRONG, "depths 0, 0.1 m");
+  sam_split_says(PETSC_ERR_ARG_WRONG, "Operators of heat at the depths 0");
   sam_call(SamConductorDestroy(&s.pair.body[1]));
   s.pair.body[1] = NewConductor(other, (SamHeatBody){2, 1, -8}, 0);
   sam_split_says(PETSC_ERR_ARG_WRONG, "different grids");
@@ -566,7 +593,8 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_cells_have_reference_values),
     cmocka_unit_test(test_strips_have_reference_values),
-    cmocka_unit_test(test_temperature_of_a_strip_is_that_of_its_parts),
+    cmocka_unit_test(test_maximum_of_a_band),
+    cmocka_unit_test(test_temperature_is_that_of_the_parts),
     cmocka_unit_test(test_directions_mirror_each_other),
     cmocka_unit_test(test_slow_bodies_approach_the_one_at_rest),
     cmocka_unit_test(test_long_cells_are_strips),

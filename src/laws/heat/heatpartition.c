@@ -55,10 +55,10 @@ static void SetSymbol(Split *s)
   PetscInt      h[2];
 
   (void)SamFourierGetPeriods(s->pair->body[0]->fourier, &h[0], &h[1]);
-  y->step[0] = 2 * PETSC_PI / (double)h[0] * grid->length / grid->dx;
-  y->step[1] = SamGridIsRow(grid) ? y->step[0] : 2 * PETSC_PI / (double)h[1] * grid->length / grid->dy;
+  y->step[0] = PETSC_PI / (double)h[0] * grid->length / grid->dx;
+  y->step[1] = SamGridIsRow(grid) ? y->step[0] : PETSC_PI / (double)h[1] * grid->length / grid->dy;
   y->mean    = 0.5 * PetscMin(y->step[0], y->step[1]);
-  y->gain    = 1 / ((double)h[0] * (SamGridIsRow(grid) ? 1 : (double)h[1]));
+  y->gain    = 1 / (2 * (double)h[0] * (SamGridIsRow(grid) ? 1 : 2 * (double)h[1]));
   for (PetscInt b = 0; b < 2; b++) {
     const SamHeatBody *body = &s->pair->body[b]->body;
 
@@ -91,26 +91,28 @@ SAM_VECTORIZED static void Divide(const Symbol *s, PetscInt n, double kx, double
   }
 }
 
-/* Filters the columns of a block; the waves of a single row run along x, one in each column. */
+/* Filters the columns of a block: the waves of a single row run along x, one in each column. */
 static void Filter(const SamFourierBlock *block, const void *context)
 {
-  const Symbol *s = (const Symbol *)context;
+  const Symbol  *s    = (const Symbol *)context;
+  const PetscInt last = block->phases * block->hx, rest = block->hy / 2;
 
-  for (PetscInt b = 0; b < block->columns; b++) {
-    const PetscInt i = block->first + b, half = block->hy / 2 + 1;
-    const double   kx = s->step[0] * (double)i, turn = 2 * i == block->hx ? 0 : 1;
-    float(*column)[2] = block->single[0] + (ptrdiff_t)b * block->stride;
+  for (PetscInt f = 0; f < block->phases; f++)
+    for (PetscInt b = 0; b < block->columns; b++) {
+      const PetscInt i = block->first + b, up = block->hy - rest;
+      const double   kx = s->step[0] * (double)i, first = s->step[1] * (double)f, step = s->step[1] * block->phases,
+                   turn = 2 * i == (block->stride == 1 ? 2 : 1) * last ? 0 : 1;
+      float(*column)[2] = block->single[0] + (f * block->width + b) * (ptrdiff_t)block->stride;
 
-    Divide(s, half > block->hy ? block->hy : half, kx, 0, s->step[1], turn, column);
-    if (block->hy > half)
-      Divide(s, block->hy - half, kx, -s->step[1] * (double)(block->hy - half), s->step[1], turn, column + half);
-  }
+      Divide(s, up, kx, first, step, turn, column);
+      Divide(s, rest, kx, first - step * (double)rest, step, turn, column + up);
+    }
 }
 
 /* Computes z = M r in cells in contact. */
 static PetscErrorCode Precondition(Split *s, const double r[], double size, double z[])
 {
-  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, Filter, &s->symbol};
+  const SamFourierFilter filter = {SAM_FOURIER_PADDED, 1, 1, Filter, &s->symbol};
   const float           *in     = s->work;
   float                 *out    = s->work;
 
