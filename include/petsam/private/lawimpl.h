@@ -72,7 +72,15 @@ typedef struct {
     SAM_USE_GAP      the gap of the surfaces as they were before the step, m
     SAM_USE_SLOPE    the derivative of the bound of the shear by the pressure, 1
 */
-typedef enum { SAM_USE_PATH, SAM_USE_PRESSED, SAM_USE_WORK, SAM_USE_POWER, SAM_USE_GAP, SAM_USE_SLOPE, SAM_USES } SamLawUse;
+typedef enum {
+  SAM_USE_PATH,
+  SAM_USE_PRESSED,
+  SAM_USE_WORK,
+  SAM_USE_POWER,
+  SAM_USE_GAP,
+  SAM_USE_SLOPE,
+  SAM_USES
+} SamLawUse;
 
 /* SamLawStep - a solved step, for laws to advance their tried state. */
 typedef struct _n_SamLawStep SamLawStep;

@@ -18,11 +18,11 @@
 #include <petsam/private/grid.h>
 #include <math.h>
 
-#define PASSES     30    /* most of Newton's method */
-#define DIRECTIONS 40    /* most of GCR in a pass */
-#define INNER      0.1   /* residual of a linear system relative to that of the pass */
-#define RTOL       1e-8  /* largest residual relative to the largest rise of temperature */
-#define SHORTEST   1e-3  /* shortest part of a step of Newton's method */
+#define PASSES     30   /* most of Newton's method */
+#define DIRECTIONS 40   /* most of GCR in a pass */
+#define INNER      0.1  /* residual of a linear system relative to that of the pass */
+#define RTOL       1e-8 /* largest residual relative to the largest rise of temperature */
+#define SHORTEST   1e-3 /* shortest part of a step of Newton's method */
 
 double SamHeatFrictionAt(const SamHeatFriction *f, double temperature, double *by_temperature)
 {
@@ -41,8 +41,9 @@ PetscErrorCode SamHeatTemperatures(const SamHeatPair *pair, Vec contact, Vec hea
   failed[0] = '\0';
   PetscCall(SamHeatSplit(pair, contact, heat, bulk, heat_2, &report));
   if (report.reason != SAM_HEAT_CONVERGED)
-    (void)snprintf(failed, size, "the heat could not be divided between the bodies: residual %.2g after %ld operator "
-                                 "applications",
+    (void)snprintf(failed, size,
+                   "the heat could not be divided between the bodies: residual %.2g after %ld operator "
+                   "applications",
                    (double)report.residual, (long)report.products);
   for (int b = 0; b < 2; b++) {
     if (!surface[b]) continue;
@@ -220,8 +221,13 @@ PetscErrorCode SamHeatSolveFriction(const SamHeatPair *pair, const PetscReal bul
                                     const SamHeatRate *rate, Vec temperature, PetscInt *products, char failed[],
                                     size_t size)
 {
-  Solve     s = {.pair = pair, .friction = friction, .rate = rate, .grid = rate->grid, .bulk = {bulk[0], bulk[1]}, .failed = failed,
-                 .size = size};
+  Solve     s = {.pair     = pair,
+                 .friction = friction,
+                 .rate     = rate,
+                 .grid     = rate->grid,
+                 .bulk     = {bulk[0], bulk[1]},
+                 .failed   = failed,
+                 .size     = size};
   PetscReal error;
   PetscInt  passes = 0;
   Vec       residual, step;
@@ -239,8 +245,9 @@ PetscErrorCode SamHeatSolveFriction(const SamHeatPair *pair, const PetscReal bul
     if (!failed[0]) PetscCall(Advance(&s, temperature, step, residual, &error));
   }
   if (!failed[0] && !(error <= RTOL))
-    (void)snprintf(failed, size, "the temperature did not converge with the friction in %ld passes, the last residual "
-                                 "is %.2g: where friction rises with the temperature, this may run away",
+    (void)snprintf(failed, size,
+                   "the temperature did not converge with the friction in %ld passes, the last residual "
+                   "is %.2g: where friction rises with the temperature, this may run away",
                    (long)passes, (double)error);
   *products = s.products;
   PetscCall(VecDestroy(&step));

@@ -29,14 +29,14 @@ enum { NONE, STEADY };
 enum { FROM, OVER, CHANGE, CHANGES };
 
 typedef struct {
-  int             kind;
-  PetscReal       conductivity[2], capacity[2], bulk[2], speed[2], resistance;
-  PetscReal       change[CHANGES];
-  PetscInt        changes; /* 0, or CHANGES: friction depends on the temperature */
-  PetscReal       rolling; /* speed of rolling, m/s */
-  SamHeatPair     pair;    /* body[0] NULL: not created yet */
-  PetscReal       duration; /* of the step, s */
-  char            failed[192]; /* why the last bound has no temperature; empty: it has one */
+  int         kind;
+  PetscReal   conductivity[2], capacity[2], bulk[2], speed[2], resistance;
+  PetscReal   change[CHANGES];
+  PetscInt    changes;     /* 0, or CHANGES: friction depends on the temperature */
+  PetscReal   rolling;     /* speed of rolling, m/s */
+  SamHeatPair pair;        /* body[0] NULL: not created yet */
+  PetscReal   duration;    /* of the step, s */
+  char        failed[192]; /* why the last bound has no temperature; empty: it has one */
 } Heat;
 
 #define NEEDED "heat steady"
@@ -47,8 +47,8 @@ typedef struct {
 #define BODY(k) \
   ROW("body" #k "_conductivity", conductivity[k - 1], "thermal conductivity () of body " #k, .unit = "W/(m K)", \
       .range = SAM_RANGE_POSITIVE), \
-    ROW("body" #k "_heat_capacity", capacity[k - 1], "density times specific heat () of body " #k, \
-        .unit = "J/(m3 K)", .range = SAM_RANGE_POSITIVE), \
+    ROW("body" #k "_heat_capacity", capacity[k - 1], "density times specific heat () of body " #k, .unit = "J/(m3 K)", \
+        .range = SAM_RANGE_POSITIVE), \
     ROW("body" #k "_bulk_temperature", bulk[k - 1], "temperature () of body " #k " far from the contact", .unit = "K", \
         .range = SAM_RANGE_ANY), \
     ROW("body" #k "_speed", speed[k - 1], "speed () of body " #k "'s material along x, as seen from the contact", \
@@ -56,7 +56,8 @@ typedef struct {
 static const SamOptionRow rows[] = {
   {"heat", "temperatures by frictional heat: of a steady state, or none", SAM_OPTION_ENUM, offsetof(Heat, kind),
    .words = "none,steady", .recorded = PETSC_FALSE},
-  BODY(1), BODY(2),
+  BODY(1),
+  BODY(2),
   ROW("heat_resistance", resistance, "resistance () of the contact to heat on its way to body 2", .unit = "m2 K/W",
       .range = SAM_RANGE_NONNEGATIVE)};
 
@@ -97,9 +98,7 @@ static PetscErrorCode ReadFriction(Heat *h, const SamOptions *from)
 {
   static const SamOptionRow row = {"friction_temperature",
                                    "T0,dT,dmu: friction changes linearly by dmu from T0 to T0 + dT (K)",
-                                   SAM_OPTION_REAL,
-                                   .size  = CHANGES,
-                                   .range = SAM_RANGE_ANY};
+                                   SAM_OPTION_REAL, .size = CHANGES, .range = SAM_RANGE_ANY};
 
   PetscFunctionBegin;
   PetscCall(SamOptionsReals(from, &row, h->change, &h->changes));
@@ -121,7 +120,8 @@ static PetscErrorCode CheckBodies(SamLaw law, const Heat *h, const SamOptions *f
 
   PetscFunctionBegin;
   PetscCheck(!traits.periodic, from->comm, SAM_ERR_USER,
-             "-%sheat steady with periodic bodies: they warm up without end: use -elasticity halfspace or plane", prefix);
+             "-%sheat steady with periodic bodies: they warm up without end: use -elasticity halfspace or plane",
+             prefix);
   PetscCheck(!traits.patch, from->comm, SAM_ERR_USER,
              "-%sheat steady with -%sbody1_compliance or -%sbody2_compliance: the temperature is that of half-spaces: "
              "omit one of them",
@@ -138,8 +138,12 @@ static PetscErrorCode CheckBodies(SamLaw law, const Heat *h, const SamOptions *f
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
   Heat *const               h       = (Heat *)law->data;
-  static const SamOptionRow rolling = {"rolling_speed", "speed of rolling", SAM_OPTION_REAL,
-                                       offsetof(Heat, rolling), .range = SAM_RANGE_POSITIVE, .unit = "m/s",
+  static const SamOptionRow rolling = {"rolling_speed",
+                                       "speed of rolling",
+                                       SAM_OPTION_REAL,
+                                       offsetof(Heat, rolling),
+                                       .range   = SAM_RANGE_POSITIVE,
+                                       .unit    = "m/s",
                                        .missing = "required by -heat steady with -rolling steady"};
 
   PetscFunctionBegin;
@@ -180,9 +184,9 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     .name = name_, .unit = unit_, .text = text_, .components = 1, .generations = 2, .kept = kept_, \
     .result = SAM_RESULT_USUAL, .motion = SAM_STAYS \
   }
-  static const SamStateField  fields[]         = {FIELD("temperature_1", "K", "temperature of body 1's surface", PETSC_TRUE),
-                                                  FIELD("temperature_2", "K", "temperature of body 2's surface", PETSC_FALSE),
-                                                  FIELD("heat_2", "W/m2", "frictional heat into body 2", PETSC_FALSE)};
+  static const SamStateField  fields[] = {FIELD("temperature_1", "K", "temperature of body 1's surface", PETSC_TRUE),
+                                          FIELD("temperature_2", "K", "temperature of body 2's surface", PETSC_FALSE),
+                                          FIELD("heat_2", "W/m2", "frictional heat into body 2", PETSC_FALSE)};
   static const SamStateNumber numbers[NUMBERS] = {
     {"temperature_max", "K", "maximum temperature in contact", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 1},
@@ -259,9 +263,9 @@ static PetscErrorCode FillRate(SamLaw law, Vec slip, Vec rate)
 /* Sets the start of the temperature, relative to the bulk of body 1: that of the step before, 0 outside of contact. */
 static PetscErrorCode FillStart(SamLaw law, const SamBoundAt *at, Vec temperature)
 {
-  const Heat   *h      = (const Heat *)law->data;
-  const Vec     before = at->state ? SamStateGetField(at->state, SamStateFindField(at->state, surfaces[0]), SAM_COMMITTED)
-                                   : NULL;
+  const Heat *h = (const Heat *)law->data;
+  const Vec   before =
+    at->state ? SamStateGetField(at->state, SamStateFindField(at->state, surfaces[0]), SAM_COMMITTED) : NULL;
   const double *p, *was = NULL;
   double       *t;
 
@@ -290,8 +294,8 @@ static PetscErrorCode FindTemperature(SamLaw law, const SamBoundAt *at, Vec boun
   PetscCall(FillStart(law, at, temperature));
   PetscCall(VecDuplicate(temperature, &rate.rate));
   if (at->slip) PetscCall(FillRate(law, at->slip, rate.rate));
-  PetscCall(SamHeatSolveFriction(&h->pair, bulk, &friction, &rate, temperature, &products, h->failed,
-                                 sizeof(h->failed)));
+  PetscCall(
+    SamHeatSolveFriction(&h->pair, bulk, &friction, &rate, temperature, &products, h->failed, sizeof(h->failed)));
   PetscCall(VecDestroy(&rate.rate));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -424,8 +428,8 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(SumField(step->grid, heat, &power));
   PetscCall(SumField(step->grid, heat_2, &into));
   PetscCall(FindMaximum(step, surface, &numbers[MAXIMUM]));
-  numbers[POWER]   = power * area;
-  numbers[SHARE]   = power > 0 ? into / power : NAN;
+  numbers[POWER] = power * area;
+  numbers[SHARE] = power > 0 ? into / power : NAN;
   PetscCall(VecDestroy(&heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -456,24 +460,24 @@ PetscErrorCode SamLawCreate_Heat(SamLaw law)
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
   for (int b = 0; b < 2; b++) h->conductivity[b] = h->capacity[b] = NAN;
-  h->rolling              = NAN;
-  law->data               = h;
-  law->option             = "heat";
-  law->heading            = "Frictional heat";
-  law->rows               = rows;
-  law->row_count          = sizeof(rows) / sizeof(rows[0]);
-  law->bytes              = 80;
-  law->needs_friction     = PETSC_TRUE;
-  law->any_motion         = PETSC_TRUE;
-  law->forbids_jumps      = PETSC_TRUE;
-  law->ops.setfromoptions = SetFromOptions;
-  law->ops.addparameters  = AddParameters;
-  law->ops.declare        = Declare;
-  law->ops.begin          = Begin;
-  law->ops.bound          = Bound;
-  law->ops.advance        = Advance;
-  law->ops.view           = View;
-  law->ops.destroy        = Destroy;
+  h->rolling                                                                      = NAN;
+  law->data                                                                       = h;
+  law->option                                                                     = "heat";
+  law->heading                                                                    = "Frictional heat";
+  law->rows                                                                       = rows;
+  law->row_count                                                                  = sizeof(rows) / sizeof(rows[0]);
+  law->bytes                                                                      = 80;
+  law->needs_friction                                                             = PETSC_TRUE;
+  law->any_motion                                                                 = PETSC_TRUE;
+  law->forbids_jumps                                                              = PETSC_TRUE;
+  law->ops.setfromoptions                                                         = SetFromOptions;
+  law->ops.addparameters                                                          = AddParameters;
+  law->ops.declare                                                                = Declare;
+  law->ops.begin                                                                  = Begin;
+  law->ops.bound                                                                  = Bound;
+  law->ops.advance                                                                = Advance;
+  law->ops.view                                                                   = View;
+  law->ops.destroy                                                                = Destroy;
   law->uses[SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK] = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
