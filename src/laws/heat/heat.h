@@ -97,7 +97,7 @@ typedef struct {
 typedef enum {
   SAM_HEAT_CONVERGED, /* the residual is within the tolerance */
   SAM_HEAT_LIMIT,     /* `most` products were not enough */
-  SAM_HEAT_STAGNATES  /* the last directions did not halve the residual: the tolerance is below rounding */
+  SAM_HEAT_STAGNATES  /* the residual falls no more: the tolerance is below rounding, or a number is not finite */
 } SamHeatReason;
 
 typedef struct {

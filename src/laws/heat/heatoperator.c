@@ -1,7 +1,7 @@
 /*
   The operator from a flux on the surface of a half-space to its temperature.
 
-  Tractions of heat are constant on each cell, kernels are those of a cell (heatkernel.c), and products are convolutions
+  The flux is constant on each cell, kernels are those of a cell (heatkernel.c), and products are convolutions
   without periodic images (fourier/kernel.c). A kernel is even along y. Along x it is even for a body that stands only;
   else it is the sum of its even and its odd part, which share the transforms of the field.
 
