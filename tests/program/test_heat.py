@@ -72,6 +72,37 @@ def test_friction_that_falls_with_the_temperature(tmp_path):
     assert np.allclose(shear[there], ((0.3 - 0.18 * temperature / 400) * pressure)[there], rtol=1e-4)
 
 
+def test_mild_friction_of_contact_in_partial_slip(tmp_path):
+    """The heat within the bound is that of the results: friction follows from the stored temperature."""
+    case = dict(RAIL, creep_x=0.002, creep_y=0.001, creep_spin=-0.2, friction_temperature=(0, 20, -0.15))
+    last = Last(package.run(**case, output=tmp_path / "own.h5"))
+    shear, pressure = np.hypot(last["shear_x"], last["shear_y"]), last["pressure"]
+    slips = (last["state"] == 2) & (pressure > 1e-2 * pressure.max())
+    expected = (0.3 - 0.15 * np.clip(last["temperature_1"] / 20, 0, 1)) * pressure
+    assert slips.sum() > 100
+    assert np.median(abs(shear / np.where(pressure > 0, expected, 1) - 1)[slips]) < 3e-3
+
+
+def test_friction_of_unequally_warm_bodies(tmp_path):
+    """A warm wheel on a cold rail: the contact is half way between them, and its friction that of this temperature."""
+    case = dict(RAIL, creep_x=FULL, body1_bulk_temperature=20, body2_bulk_temperature=120)
+    last = Last(package.run(**case, friction_temperature=(60, 200, -0.2), output=tmp_path / "own.h5"))
+    there = last["pressure"] > 1e-3 * last["pressure"].max()
+    friction = 0.3 - 0.2 * np.clip((last["temperature_1"] - 60) / 200, 0, 1)
+    shear = np.hypot(last["shear_x"], last["shear_y"])
+    assert last["temperature_1"][there].min() > 69
+    assert np.allclose(shear[there], (friction * last["pressure"])[there], rtol=1e-4)
+
+
+def test_heat_stays_behind(full_slip):
+    """Rolling towards +x: warm behind the contact, at -x, and cold ahead of it; the maximum is behind the centre."""
+    temperature, pressure = full_slip["temperature_1"], full_slip["pressure"]
+    middle, nx = temperature.shape[0] // 2, temperature.shape[1]
+    assert temperature[middle, 2] > 20 and abs(temperature[middle, -3]) < 1e-3
+    assert np.argmax(temperature[middle]) < nx / 2 - 5
+    assert pressure[middle, 2] == pressure[middle, -3] == 0
+
+
 def test_steep_friction_has_its_solution(tmp_path):
     """-0.18 in 30 K, where passes of heat and friction in turn do not converge."""
     case = dict(RAIL, creep_x=FULL, friction_temperature=(20, 30, -0.18))
