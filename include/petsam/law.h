@@ -20,6 +20,7 @@ typedef const char       *SamLawType;
 #define SAM_LAW_SLIP_DEPENDENT    "slip_dependent" /* friction changes with accumulated slip (changingfriction.c) */
 #define SAM_LAW_PRESSURE_FRICTION "pressure_friction" /* friction changes with the pressure */
 #define SAM_LAW_FALLING_FRICTION  "falling_friction"  /* friction changes with the slip velocity in rolling */
+#define SAM_LAW_HEAT              "heat"              /* temperatures by frictional heat (laws/heat/heatlaw.c) */
 #define SAM_LAW_SLIDE             "slide"             /* the surfaces move past each other (laws/slide.c) */
 #define SAM_LAW_ARCHARD           "archard"           /* wear in proportion to pressure and slip (wear.h) */
 #define SAM_LAW_ENERGY            "energy"            /* wear in proportion to the frictional work (wear.h) */

@@ -293,6 +293,8 @@ static PetscErrorCode CreateFields(SamContact c, SamLawStep *step)
     if (uses[use]) PetscCall(SamGridCreateVec(c->grid, 1, &f[use]));
   if (f[SAM_USE_PATH] || f[SAM_USE_PRESSED] || f[SAM_USE_WORK])
     PetscCall(SamContactComputeFriction(c, f[SAM_USE_PATH], f[SAM_USE_PRESSED], f[SAM_USE_WORK]));
+  if (f[SAM_USE_POWER])
+    PetscCall(SamSolutionComputeRolling(c->problem, &c->generation[SAM_TRIED], PETSC_FALSE, f[SAM_USE_POWER]));
   if (f[SAM_USE_GAP]) PetscCall(ComputeGap(c, f[SAM_USE_GAP]));
   if (SamProblemFollowsSlip(c->problem)) at.slip = f[SAM_USE_PATH];
   if (f[SAM_USE_SLOPE])

@@ -68,10 +68,19 @@ typedef struct {
                      surfaces have moved over each other
     SAM_USE_PRESSED  p |ds| in cells that slip, Pa m
     SAM_USE_WORK     -q.ds in cells that slip, J/m2 (both as in SamContactComputeFriction())
+    SAM_USE_POWER    in steady rolling, the frictional power per area over the speed, with the centred slip, Pa
     SAM_USE_GAP      the gap of the surfaces as they were before the step, m
     SAM_USE_SLOPE    the derivative of the bound of the shear by the pressure, 1
 */
-typedef enum { SAM_USE_PATH, SAM_USE_PRESSED, SAM_USE_WORK, SAM_USE_GAP, SAM_USE_SLOPE, SAM_USES } SamLawUse;
+typedef enum {
+  SAM_USE_PATH,
+  SAM_USE_PRESSED,
+  SAM_USE_WORK,
+  SAM_USE_POWER,
+  SAM_USE_GAP,
+  SAM_USE_SLOPE,
+  SAM_USES
+} SamLawUse;
 
 /* SamLawStep - a solved step, for laws to advance their tried state. */
 typedef struct _n_SamLawStep SamLawStep;
@@ -241,6 +250,7 @@ PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_BulkStress(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Bodies(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Friction(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Heat(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Slide(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);

@@ -21,6 +21,7 @@ const char *SamUnitOn(SamGrid grid, const char unit[])
                                          {"N m", "N m/m"},
                                          {"J", "J/m"},
                                          {"J/m", "J/m2"},
+                                         {"W", "W/m"},
                                          {"m2", "m2/m"},
                                          {"m3", "m3/m"},
                                          {"N/m, N/rad, N, N m/rad", "N/m2, N/(m rad), N/m, N/rad"}};

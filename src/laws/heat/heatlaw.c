@@ -1,0 +1,483 @@
+/*
+  Frictional heat: the steady temperatures of both surfaces by the frictional power of a step, and friction that depends
+  on the temperature.
+
+  In steady rolling the power is the rolling speed times -q.s, s being the centred slip in 1 m of rolled distance
+  (frictionwork.c): its sum is the power of the loads on the creepages. In other steps it is the work of the step over
+  its time. The temperatures are those of a state that lasts (-heat steady): the bodies are half-spaces whose material
+  moves along x relative to the contact, in rolling both at the rolling speed towards -x.
+
+  With -friction_temperature the bound of the shear is b + p dmu(T). It follows the slip of the step, as falling friction
+  does, and the temperature that belongs to a slip is found within the bound (contactheat.c). Its derivatives are those
+  at the same temperature.
+  Source: Bos and Moes 1995, J. Tribol. 117, 171-177; Ertz and Knothe 2002, Wear 253, 498-508.
+*/
+#include "contactheat.h"
+#include <petsam/private/base.h>
+#include <petsam/private/body.h>
+#include <petsam/private/elasticity.h>
+#include <petsam/private/lawimpl.h>
+#include <petsam/private/motionimpl.h>
+#include <petsam/private/parameters.h>
+#include <petsam/private/state.h>
+#include <math.h>
+
+#define RTOL 1e-8 /* of the partition */
+#define MOST 200  /* operator applications in it */
+
+enum { NONE, STEADY };
+enum { FROM, OVER, CHANGE, CHANGES };
+
+typedef struct {
+  int         kind;
+  PetscReal   conductivity[2], capacity[2], bulk[2], speed[2], resistance;
+  PetscReal   change[CHANGES];
+  PetscInt    changes;     /* 0, or CHANGES: friction depends on the temperature */
+  PetscReal   rolling;     /* speed of rolling, m/s */
+  SamHeatPair pair;        /* body[0] NULL: not created yet */
+  PetscReal   duration;    /* of the step, s */
+  char        failed[192]; /* why the last bound has no temperature; empty: it has one */
+} Heat;
+
+#define NEEDED "heat steady"
+#define ROW(name, member_, text_, ...) \
+  { \
+    name, text_, SAM_OPTION_REAL, offsetof(Heat, member_), .needs = NEEDED, .recorded = PETSC_TRUE, __VA_ARGS__ \
+  }
+#define BODY(k) \
+  ROW("body" #k "_conductivity", conductivity[k - 1], "thermal conductivity () of body " #k, .unit = "W/(m K)", \
+      .range = SAM_RANGE_POSITIVE), \
+    ROW("body" #k "_heat_capacity", capacity[k - 1], "density times specific heat () of body " #k, .unit = "J/(m3 K)", \
+        .range = SAM_RANGE_POSITIVE), \
+    ROW("body" #k "_bulk_temperature", bulk[k - 1], "temperature () of body " #k " far from the contact", .unit = "K", \
+        .range = SAM_RANGE_ANY), \
+    ROW("body" #k "_speed", speed[k - 1], "speed () of body " #k "'s material along x, as seen from the contact", \
+        .unit = "m/s", .range = SAM_RANGE_ANY, .excludes = "rolling")
+static const SamOptionRow rows[] = {
+  {"heat", "temperatures by frictional heat: of a steady state, or none", SAM_OPTION_ENUM, offsetof(Heat, kind),
+   .words = "none,steady", .recorded = PETSC_FALSE},
+  BODY(1),
+  BODY(2),
+  ROW("heat_resistance", resistance, "resistance () of the contact to heat on its way to body 2", .unit = "m2 K/W",
+      .range = SAM_RANGE_NONNEGATIVE)};
+
+/* ---- options ---- */
+
+/* Returns a constant of a named material, NAN if it has none. */
+static double ConstantOf(const SamNamedMaterial *m, const char name[])
+{
+  for (PetscInt k = 0; SamMaterialConstantAt(k); k++)
+    if (!strcmp(SamMaterialConstantAt(k)->name, name)) return m->value[k];
+  return NAN;
+}
+
+/* Takes the constants of a body from its named material where they are not given, and requires them. */
+static PetscErrorCode TakeMaterial(Heat *h, const SamOptions *from, int b)
+{
+  char                    option[16], name[64] = "", conductivity[32], capacity[32];
+  const SamNamedMaterial *m;
+
+  PetscFunctionBegin;
+  (void)snprintf(option, sizeof(option), "-body%d", b + 1);
+  (void)snprintf(conductivity, sizeof(conductivity), "body%d_conductivity", b + 1);
+  (void)snprintf(capacity, sizeof(capacity), "body%d_heat_capacity", b + 1);
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, option, name, sizeof(name), NULL));
+  m = name[0] ? SamMaterialFind(name) : NULL;
+  if (m && isnan(h->conductivity[b])) h->conductivity[b] = (PetscReal)ConstantOf(m, "conductivity");
+  if (m && isnan(h->capacity[b]))
+    h->capacity[b] = (PetscReal)(ConstantOf(m, "density") * ConstantOf(m, "specific_heat"));
+  PetscCall(SamOptionsRequire(from, isfinite(h->conductivity[b]), conductivity,
+                              "required by -heat steady: the thermal conductivity, W/(m K)"));
+  PetscCall(SamOptionsRequire(from, isfinite(h->capacity[b]), capacity,
+                              "required by -heat steady: density times specific heat, J/(m3 K)"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads how friction depends on temperature. */
+static PetscErrorCode ReadFriction(Heat *h, const SamOptions *from)
+{
+  static const SamOptionRow row = {"friction_temperature",
+                                   "T0,dT,dmu: friction changes linearly by dmu from T0 to T0 + dT (K)",
+                                   SAM_OPTION_REAL, .size = CHANGES, .range = SAM_RANGE_ANY};
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsReals(from, &row, h->change, &h->changes));
+  if (!h->changes) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOptionsNeed(from, PETSC_TRUE, row.name, NEEDED));
+  PetscCheck(h->changes == CHANGES && h->change[OVER] > 0, from->comm, SAM_ERR_USER,
+             "-%s%s: expected three numbers, T0,dT,dmu: friction changes by dmu from the temperature T0 to T0 + dT, dT "
+             "> 0",
+             SamOptionsPrefix(from), row.name);
+  if (h->change[CHANGE] == 0) h->changes = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses bodies whose temperatures are not those of half-spaces, or never become steady. */
+static PetscErrorCode CheckBodies(SamLaw law, const Heat *h, const SamOptions *from)
+{
+  const SamElasticityTraits traits = SamElasticityGetTraits(law->elasticity);
+  const char *const         prefix = SamOptionsPrefix(from);
+
+  PetscFunctionBegin;
+  PetscCheck(!traits.periodic, from->comm, SAM_ERR_USER,
+             "-%sheat steady with periodic bodies: they warm up without end: use -elasticity halfspace or plane",
+             prefix);
+  PetscCheck(!traits.patch, from->comm, SAM_ERR_USER,
+             "-%sheat steady with -%sbody1_compliance or -%sbody2_compliance: the temperature is that of half-spaces: "
+             "omit one of them",
+             prefix, prefix, prefix);
+  PetscCheck(SamPairIsUniform(SamElasticityGetPair(law->elasticity)), from->comm, SAM_ERR_USER,
+             "-%sheat steady with layers: the temperature is that of bodies of one material: omit one of them", prefix);
+  for (int b = 0; b < 2; b++)
+    PetscCheck(!traits.plane || h->speed[b] != 0, from->comm, SAM_ERR_USER,
+               "-%sheat steady in plane strain: body %d stands and warms up without end: give -%sbody%d_speed", prefix,
+               b + 1, prefix, b + 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
+{
+  Heat *const               h       = (Heat *)law->data;
+  static const SamOptionRow rolling = {"rolling_speed",
+                                       "speed of rolling",
+                                       SAM_OPTION_REAL,
+                                       offsetof(Heat, rolling),
+                                       .range   = SAM_RANGE_POSITIVE,
+                                       .unit    = "m/s",
+                                       .missing = "required by -heat steady with -rolling steady"};
+
+  PetscFunctionBegin;
+  PetscCall(ReadFriction(h, from));
+  *asked = h->kind == STEADY ? PETSC_TRUE : PETSC_FALSE;
+  if (!*asked || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamMotionOf(law->elasticity)->streams) {
+    PetscCall(SamOptionsRead(from, NULL, 1, &rolling, h, NULL));
+    for (int b = 0; b < 2; b++) h->speed[b] = -h->rolling;
+  }
+  for (int b = 0; b < 2; b++) PetscCall(TakeMaterial(h, from, b));
+  PetscCall(CheckBodies(law, h, from));
+  law->follows_slip = h->changes ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
+{
+  const Heat *h = (const Heat *)law->data;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddText(p, "heat", PETSC_TRUE, "steady"));
+  if (h->changes) PetscCall(SamParametersAddReals(p, "friction_temperature", PETSC_TRUE, CHANGES, h->change));
+  if (h->rolling > 0) PetscCall(SamParametersAddReals(p, "rolling_speed", PETSC_TRUE, 1, &h->rolling));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- memory and results ---- */
+
+static const char *const surfaces[2] = {"temperature_1", "temperature_2"};
+
+enum { MAXIMUM, POWER, SHARE, NUMBERS };
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+#define FIELD(name_, unit_, text_, kept_) \
+  { \
+    .name = name_, .unit = unit_, .text = text_, .components = 1, .generations = 2, .kept = kept_, \
+    .result = SAM_RESULT_USUAL, .motion = SAM_STAYS \
+  }
+  static const SamStateField  fields[] = {FIELD("temperature_1", "K", "temperature of body 1's surface", PETSC_TRUE),
+                                          FIELD("temperature_2", "K", "temperature of body 2's surface", PETSC_FALSE),
+                                          FIELD("heat_2", "W/m2", "frictional heat into body 2", PETSC_FALSE)};
+  static const SamStateNumber numbers[NUMBERS] = {
+    {"temperature_max", "K", "maximum temperature in contact", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+     SAM_JOIN_LAST, 1},
+    {"heat_power", "W", "frictional power", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 1},
+    {"heat_share_2", "1", "part of the frictional power that flows into body 2", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+     PETSC_TRUE, SAM_JOIN_LAST, 1}};
+  PetscInt id;
+
+  PetscFunctionBegin;
+  (void)law;
+  for (size_t k = 0; k < sizeof(fields) / sizeof(fields[0]); k++)
+    PetscCall(SamStateDeclareField(state, &fields[k], &id));
+  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- a step ---- */
+
+/* Creates the operators at their first use. */
+static PetscErrorCode Prepare(SamLaw law)
+{
+  Heat *const h = (Heat *)law->data;
+
+  PetscFunctionBegin;
+  for (int b = 0; b < 2 && !h->pair.body[b]; b++) {
+    const SamHeatBody body = {h->conductivity[b], h->capacity[b], h->speed[b]};
+
+    PetscCall(SamConductorCreate(law->grid, NULL, &body, 0, &h->pair.body[b]));
+  }
+  h->pair.resistance = h->resistance;
+  h->pair.rtol       = RTOL;
+  h->pair.most       = MOST;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
+{
+  Heat *const h = (Heat *)law->data;
+
+  PetscFunctionBegin;
+  (void)state;
+  h->duration  = duration > 0 ? duration : control->time; /* the first step begins at time 0 */
+  h->failed[0] = '\0';
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Computes the velocity of slip from the slip of the step. In steady rolling that is taken at the side of a cell that
+  the stream reaches first, so that the mean with the cell behind is that at the centre.
+*/
+static PetscErrorCode FillRate(SamLaw law, Vec slip, Vec rate)
+{
+  const Heat     *h       = (const Heat *)law->data;
+  const PetscBool streams = SamMotionOf(law->elasticity)->streams;
+  const double   *s;
+  double         *v;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(slip, &s));
+  PetscCall(VecGetArrayWrite(rate, &v));
+  for (PetscInt k = 0; k < law->grid->cells; k++) {
+    const PetscInt behind = k % law->grid->nx ? 1 : 0;
+
+    if (streams)
+      v[k] = (double)h->rolling * 0.5 * (s[k] + s[k - behind]);
+    else
+      v[k] = h->duration > 0 ? s[k] / (double)h->duration : 0;
+  }
+  PetscCall(VecRestoreArrayWrite(rate, &v));
+  PetscCall(VecRestoreArrayRead(slip, &s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sets the start of the temperature, relative to the bulk of body 1: that of the step before, 0 outside of contact. */
+static PetscErrorCode FillStart(SamLaw law, const SamBoundAt *at, Vec temperature)
+{
+  const Heat *h = (const Heat *)law->data;
+  const Vec   before =
+    at->state ? SamStateGetField(at->state, SamStateFindField(at->state, surfaces[0]), SAM_COMMITTED) : NULL;
+  const double *p, *was = NULL;
+  double       *t;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(at->pressure, &p));
+  if (before) PetscCall(VecGetArrayRead(before, &was));
+  PetscCall(VecGetArrayWrite(temperature, &t));
+  for (PetscInt k = 0; k < law->grid->cells; k++) t[k] = p[k] > 0 && was ? was[k] - (double)h->bulk[0] : 0;
+  PetscCall(VecRestoreArrayWrite(temperature, &t));
+  if (before) PetscCall(VecRestoreArrayRead(before, &was));
+  PetscCall(VecRestoreArrayRead(at->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the temperature relative to the bulk of body 1 by the friction that it changes. */
+static PetscErrorCode FindTemperature(SamLaw law, const SamBoundAt *at, Vec bound, Vec temperature)
+{
+  Heat *const           h        = (Heat *)law->data;
+  const SamHeatFriction friction = {h->change[FROM] - h->bulk[0], h->change[OVER], h->change[CHANGE]};
+  const PetscReal       bulk[2]  = {0, h->bulk[1] - h->bulk[0]};
+  SamHeatRate           rate     = {.grid = law->grid, .pressure = at->pressure, .bound = bound};
+  PetscInt              products;
+
+  PetscFunctionBegin;
+  PetscCall(Prepare(law));
+  PetscCall(FillStart(law, at, temperature));
+  PetscCall(VecDuplicate(temperature, &rate.rate));
+  if (at->slip) PetscCall(FillRate(law, at->slip, rate.rate));
+  PetscCall(
+    SamHeatSolveFriction(&h->pair, bulk, &friction, &rate, temperature, &products, h->failed, sizeof(h->failed)));
+  PetscCall(VecDestroy(&rate.rate));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds what the temperature changes to the bound and to its derivative by the pressure. */
+static PetscErrorCode AddChange(SamLaw law, const SamBoundAt *at, Vec temperature, const SamBound *bound)
+{
+  const Heat           *h        = (const Heat *)law->data;
+  const SamHeatFriction friction = {h->change[FROM] - h->bulk[0], h->change[OVER], h->change[CHANGE]};
+  const double         *p, *t;
+  double               *value = NULL, *slope = NULL, ignored;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(at->pressure, &p));
+  PetscCall(VecGetArrayRead(temperature, &t));
+  if (bound->value) PetscCall(VecGetArray(bound->value, &value));
+  if (bound->by_pressure) PetscCall(VecGetArray(bound->by_pressure, &slope));
+  for (PetscInt k = 0; k < law->grid->cells; k++) {
+    const double change = p[k] > 0 ? SamHeatFrictionAt(&friction, t[k], &ignored) : 0;
+
+    if (value) value[k] = PetscMax(value[k] + change * p[k], 0);
+    if (slope) slope[k] = PetscMax(slope[k] + change, 0);
+  }
+  if (bound->by_pressure) PetscCall(VecRestoreArray(bound->by_pressure, &slope));
+  if (bound->value) PetscCall(VecRestoreArray(bound->value, &value));
+  PetscCall(VecRestoreArrayRead(temperature, &t));
+  PetscCall(VecRestoreArrayRead(at->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound *bound)
+{
+  Heat *const h  = (Heat *)law->data;
+  SamBoundAt  at = *given;
+  Vec         before, temperature, pressure;
+
+  PetscFunctionBegin;
+  if (!h->changes) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(law->grid, 1, &before));
+  PetscCall(SamGridCreateVec(law->grid, 1, &temperature));
+  PetscCall(SamGridCreateVec(law->grid, 1, &pressure));
+  PetscCall(VecCopy(at.pressure, pressure)); /* the bound may be written over it */
+  at.pressure = pressure;
+  PetscCall(bound->value ? VecCopy(bound->value, before) : VecPointwiseMult(before, bound->by_pressure, pressure));
+  PetscCall(FindTemperature(law, &at, before, temperature));
+  PetscCall(AddChange(law, &at, temperature, bound));
+  PetscCall(VecDestroy(&pressure));
+  PetscCall(VecDestroy(&temperature));
+  PetscCall(VecDestroy(&before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the frictional power per area, W/m2, which is 0 without contact. */
+static PetscErrorCode FillHeat(SamLaw law, const SamLawStep *step, Vec heat)
+{
+  const Heat     *h       = (const Heat *)law->data;
+  const PetscBool streams = SamMotionOf(law->elasticity)->streams;
+  const double    per     = streams ? (double)h->rolling : h->duration > 0 ? 1 / (double)h->duration : 0;
+  const double   *p, *work;
+  double         *q;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(step->pressure, &p));
+  PetscCall(VecGetArrayRead(step->field[streams ? SAM_USE_POWER : SAM_USE_WORK], &work));
+  PetscCall(VecGetArrayWrite(heat, &q));
+  for (PetscInt k = 0; k < step->grid->cells; k++) q[k] = p[k] > 0 ? per * PetscMax(work[k], 0) : 0;
+  PetscCall(VecRestoreArrayWrite(heat, &q));
+  PetscCall(VecRestoreArrayRead(step->field[streams ? SAM_USE_POWER : SAM_USE_WORK], &work));
+  PetscCall(VecRestoreArrayRead(step->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SumField(SamGrid grid, Vec field, double *sum)
+{
+  SamTotal      total = {0};
+  const double *values;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(field, &values));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row = 0;
+
+    for (PetscInt i = 0; i < grid->nx; i++) row += values[(ptrdiff_t)j * grid->nx + i];
+    SamAdd(&total, row);
+  }
+  PetscCall(VecRestoreArrayRead(field, &values));
+  PetscCall(SamSumTotals(grid->comm, 1, &total, sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the maximum temperature of both surfaces in contact; NAN without contact. */
+static PetscErrorCode FindMaximum(const SamLawStep *step, const Vec surface[2], double *most)
+{
+  const double *p, *t;
+
+  PetscFunctionBegin;
+  *most = -INFINITY;
+  PetscCall(VecGetArrayRead(step->pressure, &p));
+  for (int b = 0; b < 2; b++) {
+    PetscCall(VecGetArrayRead(surface[b], &t));
+    for (PetscInt k = 0; k < step->grid->cells; k++)
+      if (p[k] > 0) *most = PetscMax(*most, t[k]);
+    PetscCall(VecRestoreArrayRead(surface[b], &t));
+  }
+  PetscCall(VecRestoreArrayRead(step->pressure, &p));
+  PetscCall(SamMax(step->grid->comm, 1, most));
+  if (isinf(*most)) *most = NAN;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  Heat *const  h       = (Heat *)law->data;
+  const double area    = (double)(step->grid->dx * step->grid->dy);
+  double      *numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "temperature_max"), SAM_TRIED);
+  Vec          surface[2], heat, heat_2;
+  double       power, into;
+  char         failed[192];
+
+  PetscFunctionBegin;
+  PetscCall(Prepare(law));
+  for (int b = 0; b < 2; b++)
+    PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, surfaces[b]), &surface[b]));
+  PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, "heat_2"), &heat_2));
+  PetscCall(SamGridCreateVec(step->grid, 1, &heat));
+  PetscCall(FillHeat(law, step, heat));
+  PetscCall(SamHeatTemperatures(&h->pair, step->pressure, heat, h->bulk, heat_2, surface, failed, sizeof(failed)));
+  if (h->failed[0] || failed[0])
+    (void)snprintf(step->failed, sizeof(step->failed), "%s", h->failed[0] ? h->failed : failed);
+  PetscCall(SumField(step->grid, heat, &power));
+  PetscCall(SumField(step->grid, heat_2, &into));
+  PetscCall(FindMaximum(step, surface, &numbers[MAXIMUM]));
+  numbers[POWER] = power * area;
+  numbers[SHARE] = power > 0 ? into / power : NAN;
+  PetscCall(VecDestroy(&heat));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
+{
+  const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "temperature_max"));
+
+  PetscFunctionBegin;
+  (void)law;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g %s, %.4g %% of it into body 2, at most %.6g K\n", "heat",
+                                   numbers[POWER], SamStateUnitOf(state, "heat_power"), 100 * numbers[SHARE],
+                                   numbers[MAXIMUM]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamLaw law)
+{
+  PetscFunctionBegin;
+  for (int b = 0; b < 2; b++) PetscCall(SamConductorDestroy(&((Heat *)law->data)->pair.body[b]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_Heat(SamLaw law)
+{
+  Heat *h;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&h));
+  for (int b = 0; b < 2; b++) h->conductivity[b] = h->capacity[b] = NAN;
+  h->rolling                                                                      = NAN;
+  law->data                                                                       = h;
+  law->option                                                                     = "heat";
+  law->heading                                                                    = "Frictional heat";
+  law->rows                                                                       = rows;
+  law->row_count                                                                  = sizeof(rows) / sizeof(rows[0]);
+  law->bytes                                                                      = 80;
+  law->needs_friction                                                             = PETSC_TRUE;
+  law->any_motion                                                                 = PETSC_TRUE;
+  law->forbids_jumps                                                              = PETSC_TRUE;
+  law->ops.setfromoptions                                                         = SetFromOptions;
+  law->ops.addparameters                                                          = AddParameters;
+  law->ops.declare                                                                = Declare;
+  law->ops.begin                                                                  = Begin;
+  law->ops.bound                                                                  = Bound;
+  law->ops.advance                                                                = Advance;
+  law->ops.view                                                                   = View;
+  law->ops.destroy                                                                = Destroy;
+  law->uses[SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK] = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,205 @@
+"""Frictional heat: temperatures beside published ones, their partition, friction that depends on them, and refusals."""
+
+import h5py
+import numpy as np
+import pytest
+from scipy import integrate, special
+
+import petsam as package
+from support import history
+
+# E. A. H. Vollebregt, CONTACT, example ertz_temperature: rail and wheel of steel, 30 m/s, 100 kN
+SHEAR, POISSON = 82e9, 0.28
+RAIL = dict(
+    body1_young=2 * SHEAR * (1 + POISSON), body1_poisson=POISSON,
+    body2_young=2 * SHEAR * (1 + POISSON), body2_poisson=POISSON,
+    gap_type="ellipsoid", gap_radius_x=1 / 2.03, gap_radius_y=1 / 0.843, load_n=1e5, friction=0.3,
+    grid_n=(80, 45), grid_size=(16e-3, 22.5e-3), rolling="steady", rolling_speed=30, heat="steady",
+    body1_conductivity=50, body2_conductivity=50, body1_heat_capacity=3.5325e6, body2_heat_capacity=3.5325e6,
+)  # fmt: skip
+FULL = 29940 / (0.3e5 * 30)  # creepage of its full slip, by the power that it prints
+
+
+class Last:
+    """Numbers and fields of the last step."""
+
+    def __init__(self, results):
+        self.results = results
+
+    def __getitem__(self, name):
+        return self.results[name][-1]
+
+
+@pytest.fixture(scope="module")
+def full_slip(tmp_path_factory):
+    return Last(package.run(**RAIL, creep_x=FULL, output=tmp_path_factory.mktemp("heat") / "full.h5"))
+
+
+def test_full_slip_of_contact(full_slip):
+    """Its own printed maximum, 166.8, counts a cell's own heat twice; without that 152.35 on these cells."""
+    assert full_slip["heat_power"] == pytest.approx(29940, rel=3e-4)
+    assert full_slip["temperature_max"] == pytest.approx(152.35, rel=2e-3)
+    assert full_slip["heat_share_2"] == pytest.approx(0.5, abs=1e-12)
+
+
+def test_chill_of_a_warm_wheel(tmp_path):
+    """Without slip to speak of, equal bodies meet half way between their temperatures; heat adds to that."""
+    cold = Last(package.run(**RAIL, creep_x=1e-9, body2_bulk_temperature=150, output=tmp_path / "cold.h5"))
+    assert cold["temperature_max"] == pytest.approx(75, abs=0.01)
+    both = Last(package.run(**RAIL, creep_x=FULL, body2_bulk_temperature=150, output=tmp_path / "both.h5"))
+    assert both["temperature_max"] == pytest.approx(227.35, rel=2e-3)
+
+
+def test_partial_slip_of_contact(tmp_path):
+    case = dict(RAIL, creep_x=0.002, creep_y=0.001, creep_spin=-0.2, body2_bulk_temperature=150)
+    last = Last(package.run(**case, output=tmp_path / "own.h5"))
+    assert abs(last["load_tx"]) / 3e4 == pytest.approx(0.7274, rel=3e-3)
+    assert last["heat_power"] == pytest.approx(30 * last["rolling_energy"], rel=1e-3)
+    assert 30 * last["rolling_energy_cells"] == pytest.approx(1671.8, rel=5e-3)  # as CONTACT sums it
+    rise = (last["temperature_max"] - 75) / last["heat_power"]
+    assert rise == pytest.approx((89.10 - 75) / 1671.8, rel=0.02)
+
+
+def test_friction_that_falls_with_the_temperature(tmp_path):
+    """0.3 - 0.18 T/400, and the shear of each cell is that of its temperature."""
+    case = dict(RAIL, creep_x=FULL, friction_temperature=(0, 400, -0.18))
+    last = Last(package.run(**case, output=tmp_path / "own.h5"))
+    assert abs(last["load_tx"]) == pytest.approx(26436, rel=1e-3)
+    assert last["temperature_max"] == pytest.approx(128.43, rel=2e-3)
+    pressure, temperature = last["pressure"], last["temperature_1"]
+    shear = np.hypot(last["shear_x"], last["shear_y"])
+    there = pressure > 1e-3 * pressure.max()
+    assert np.allclose(shear[there], ((0.3 - 0.18 * temperature / 400) * pressure)[there], rtol=1e-4)
+
+
+def test_mild_friction_of_contact_in_partial_slip(tmp_path):
+    """The heat within the bound is that of the results: friction follows from the stored temperature."""
+    case = dict(RAIL, creep_x=0.002, creep_y=0.001, creep_spin=-0.2, friction_temperature=(0, 20, -0.15))
+    last = Last(package.run(**case, output=tmp_path / "own.h5"))
+    shear, pressure = np.hypot(last["shear_x"], last["shear_y"]), last["pressure"]
+    slips = (last["state"] == 2) & (pressure > 1e-2 * pressure.max())
+    expected = (0.3 - 0.15 * np.clip(last["temperature_1"] / 20, 0, 1)) * pressure
+    assert slips.sum() > 100
+    assert np.median(abs(shear / np.where(pressure > 0, expected, 1) - 1)[slips]) < 3e-3
+
+
+def test_friction_of_unequally_warm_bodies(tmp_path):
+    """A warm wheel on a cold rail: the contact is half way between them, and its friction that of this temperature."""
+    case = dict(RAIL, creep_x=FULL, body1_bulk_temperature=20, body2_bulk_temperature=120)
+    last = Last(package.run(**case, friction_temperature=(60, 200, -0.2), output=tmp_path / "own.h5"))
+    there = last["pressure"] > 1e-3 * last["pressure"].max()
+    friction = 0.3 - 0.2 * np.clip((last["temperature_1"] - 60) / 200, 0, 1)
+    shear = np.hypot(last["shear_x"], last["shear_y"])
+    assert last["temperature_1"][there].min() > 69
+    assert np.allclose(shear[there], (friction * last["pressure"])[there], rtol=1e-4)
+
+
+def test_heat_stays_behind(full_slip):
+    """Rolling towards +x: warm behind the contact, at -x, and cold ahead of it; the maximum is behind the centre."""
+    temperature, pressure = full_slip["temperature_1"], full_slip["pressure"]
+    middle, nx = temperature.shape[0] // 2, temperature.shape[1]
+    assert temperature[middle, 2] > 20 and abs(temperature[middle, -3]) < 1e-3
+    assert np.argmax(temperature[middle]) < nx / 2 - 5
+    assert pressure[middle, 2] == pressure[middle, -3] == 0
+
+
+def test_steep_friction_has_its_solution(tmp_path):
+    """-0.18 in 30 K, where passes of heat and friction in turn do not converge."""
+    case = dict(RAIL, creep_x=FULL, friction_temperature=(20, 30, -0.18))
+    last = Last(package.run(**case, output=tmp_path / "own.h5"))
+    there = last["pressure"] > 1e-3 * last["pressure"].max()
+    friction = 0.3 - 0.18 * np.clip((last["temperature_1"] - 20) / 30, 0, 1)
+    shear = np.hypot(last["shear_x"], last["shear_y"])
+    assert np.allclose(shear[there], (friction * last["pressure"])[there], rtol=1e-4)
+
+
+def temperature_of(lam, peclet, side, x, y):
+    """Steady temperature (K m2/W) at x, y from the centre of a cell with unit flux: the integral over ages, by quad."""
+
+    def integrand(s):
+        ex = special.erf((x + peclet * s * s / 2 + side[0] / 2) / s) - special.erf(
+            (x + peclet * s * s / 2 - side[0] / 2) / s
+        )
+        ey = special.erf((y + side[1] / 2) / s) - special.erf((y - side[1] / 2) / s)
+        return ex * ey / 4
+
+    end = 100 * max(side[0], side[1], abs(x), abs(y))
+    parts = [0, *np.geomspace(1e-4, 1, 25) * end]
+    total = sum(
+        integrate.quad(integrand, a, b, epsabs=0, epsrel=1e-10)[0] for a, b in zip(parts, parts[1:], strict=False)
+    )
+    tail = side[0] * side[1] / (np.pi * end) if peclet == 0 else 0
+    return (total + tail) / (lam * np.sqrt(np.pi))
+
+
+def test_temperatures_are_sums_of_cells(tmp_path):
+    """Unlike bodies that slide: one stands, the other moves; temperatures by direct summation of the stored heat."""
+    case = dict(
+        body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, gap_type="sphere",
+        gap_radius1=5e-3, gap_radius2="inf", load_n=20, friction=0.4, grid_n=(17, 14), grid_size=(3e-4, 2.6e-4),
+        heat="steady", body1_conductivity=50, body1_heat_capacity=3.6e6, body2_conductivity=7, body2_heat_capacity=2.3e6,
+        body1_bulk_temperature=20, body2_bulk_temperature=35, body2_speed=-0.3, disp_x=2e-5, heat_resistance=1e-6,
+    )  # fmt: skip
+    last = Last(package.run(**case, output=tmp_path / "own.h5"))
+    assert last["heat_power"] == pytest.approx(last["dissipated_energy"], rel=1e-2)  # in a step of 1 s
+    heat_2, there = last["heat_2"], last["pressure"] > 0
+    ny, nx = heat_2.shape
+    side = (3e-4 / nx, 2.6e-4 / ny)
+    peclet = -0.3 / (2 * 7 / 2.3e6)
+    j, i = np.argwhere(there)[len(np.argwhere(there)) // 3]
+    total = 35 + sum(
+        heat_2[b, a] * temperature_of(7, -peclet, side, (i - a) * side[0], (j - b) * side[1])
+        for b, a in np.argwhere(heat_2 != 0)
+    )
+    assert last["temperature_2"][j, i] == pytest.approx(total, rel=1e-6)
+    difference = last["temperature_1"] - last["temperature_2"]
+    assert np.allclose(difference[there], 1e-6 * heat_2[there], atol=1e-6 * abs(difference).max() + 1e-9)
+
+
+def test_standing_bodies_share_by_their_conductivities(tmp_path):
+    case = dict(
+        gap_type="sphere", gap_radius1=0.02, gap_radius2="inf", load_n=50, load_tx=20, friction=0.5, grid_n=33, grid_size=6e-4, heat="steady",
+        body1="aluminium", body2="steel",
+    )  # fmt: skip
+    last = Last(package.run(**case, output=tmp_path / "own.h5"))
+    assert last["heat_share_2"] == pytest.approx(53.3 / (53.3 + 237), rel=1e-6)
+
+
+@pytest.fixture
+def fretting(tmp_path):
+    """A loop, whose steps have half a second."""
+    case = dict(
+        body1="steel", body2="Ti-6Al-4V", gap_type="sphere", gap_radius1=0.02, gap_radius2="inf", friction=0.5,
+        grid_n=(21, 18), grid_size=6e-4, heat="steady", friction_temperature=(0, 1e-4, -0.1), steps=2,
+    )  # fmt: skip
+    rows = [(1, 50, 15), (2, 50, -15), (3, 50, 15)]
+    return {**case, **history(tmp_path / "loop.csv", "time,load_n,load_tx", *rows)}
+
+
+def test_ranks_and_restarts_have_the_same_bits(petsam, fretting, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for ranks in (1, 2, 3):
+        petsam(fretting, "-output", f"{ranks}.h5", ranks=ranks)
+    petsam(fretting, "-checkpoint", "state.h5", "-checkpoint_every", "3", "-output", "other.h5")
+    petsam(fretting, "-restart", "state.h5.1", "-output", "rest.h5")
+    with h5py.File("1.h5") as one:
+        for name in ("temperature_max", "heat_power", "heat_share_2", "dissipated_energy"):
+            whole = one["history"][name][:]
+            for other, count in (("2.h5", 6), ("3.h5", 6), ("rest.h5", 3)):
+                with h5py.File(other) as file:
+                    np.testing.assert_array_equal(whole[-count:], file["history"][name][:])
+        assert (one["history/temperature_max"][2:] > 1e-6).all()  # so that friction has changed
+
+
+def test_rejected_steps_leave_no_heat(fretting):
+    case = {name: value for name, value in fretting.items() if name not in ("history", "steps")}
+    contact = package.Contact(**case)
+    other, time = package.Contact(**case), 0.0
+    for load in (15, -10):
+        time += 0.5
+        contact.try_step(time, load_n=50, load_tx=0.9 * load)
+        contact.reject()
+        for one in (contact, other):
+            one.try_step(time, load_n=50, load_tx=load)
+            one.commit()
+    np.testing.assert_array_equal(contact["temperature_1"], other["temperature_1"])
