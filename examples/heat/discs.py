@@ -1,6 +1,6 @@
-"""Temperatures of a twin disc test beside published ones, and the creep curve of a wheel whose friction falls with heat.
+"""Temperatures of a twin disc test beside published ones; the creep curve of a wheel whose friction falls with heat.
 
-    build/venv/bin/python examples/heat/discs.py [picture]
+build/venv/bin/python examples/heat/discs.py [picture]
 """
 
 import sys

@@ -2,8 +2,8 @@
 
     python3 scripts/maintain/ruler.py [build]     prints the counts, the limits and the goals
 
-tests/program/test_ruler.py holds the limits. Who brings a count down lowers its limit; who must raise one says why in
-the commit.
+tests/program/test_ruler.py holds the limits. Who brings a count down lowers its limit; who must raise one gives the
+reason in the commit.
 """
 
 import re
@@ -16,7 +16,7 @@ sys.path.insert(0, str(ROOT / "tests" / "program"))
 
 # count: what it is at most now, and what it should be
 LIMITS = {
-    "laws asked for by name outside of contact/problem": (28, 8),
+    "laws that are looked up by name outside of contact/problem": (28, 8),
     "flags of the motion in contact": (40, 12),
     "calls of a body's materials outside of bodies": (42, 0),
     "files outside of bodies that call them": (15, 0),

@@ -12,7 +12,7 @@ PetscErrorCode SamLawRegisterAll(void)
   PetscCall(SamLawRegister(SAM_LAW_SLIP_DEPENDENT, SamLawCreate_Friction));
   PetscCall(SamLawRegister(SAM_LAW_PRESSURE_FRICTION, SamLawCreate_Friction));
   PetscCall(SamLawRegister(SAM_LAW_FALLING_FRICTION, SamLawCreate_Friction));
-  PetscCall(SamLawRegister(SAM_LAW_HEAT, SamLawCreate_Heat)); /* its bound changes that of all friction above */
+  PetscCall(SamLawRegister(SAM_LAW_HEAT, SamLawCreate_Heat));   /* its bound changes that of all friction above */
   PetscCall(SamLawRegister(SAM_LAW_SLIDE, SamLawCreate_Slide)); /* before the laws with fields of body 2 */
   PetscCall(SamLawRegister(SAM_LAW_ARCHARD, SamLawCreate_Archard));
   PetscCall(SamLawRegister(SAM_LAW_ENERGY, SamLawCreate_Energy));

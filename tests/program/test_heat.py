@@ -137,7 +137,8 @@ def test_temperatures_are_sums_of_cells(tmp_path):
     case = dict(
         body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, gap_type="sphere",
         gap_radius1=5e-3, gap_radius2="inf", load_n=20, friction=0.4, grid_n=(17, 14), grid_size=(3e-4, 2.6e-4),
-        heat="steady", body1_conductivity=50, body1_heat_capacity=3.6e6, body2_conductivity=7, body2_heat_capacity=2.3e6,
+        heat="steady", body1_conductivity=50, body1_heat_capacity=3.6e6, body2_conductivity=7,
+        body2_heat_capacity=2.3e6,
         body1_bulk_temperature=20, body2_bulk_temperature=35, body2_speed=-0.3, disp_x=2e-5, heat_resistance=1e-6,
     )  # fmt: skip
     last = Last(package.run(**case, output=tmp_path / "own.h5"))
@@ -158,8 +159,8 @@ def test_temperatures_are_sums_of_cells(tmp_path):
 
 def test_standing_bodies_share_by_their_conductivities(tmp_path):
     case = dict(
-        gap_type="sphere", gap_radius1=0.02, gap_radius2="inf", load_n=50, load_tx=20, friction=0.5, grid_n=33, grid_size=6e-4, heat="steady",
-        body1="aluminium", body2="steel",
+        gap_type="sphere", gap_radius1=0.02, gap_radius2="inf", load_n=50, load_tx=20, friction=0.5, grid_n=33,
+        grid_size=6e-4, heat="steady", body1="aluminium", body2="steel",
     )  # fmt: skip
     last = Last(package.run(**case, output=tmp_path / "own.h5"))
     assert last["heat_share_2"] == pytest.approx(53.3 / (53.3 + 237), rel=1e-6)

@@ -132,7 +132,7 @@ static void test_results_do_not_depend_on_the_start(void **state)
   DestroyWheel(&other);
 }
 
-/* Heat rises with friction that rises with temperature, steeply enough to meet no solution below the end of the rise. */
+/* Heat rises with friction that rises with temperature, so steeply that there is no solution before its end. */
 static void test_temperature_that_runs_away_reaches_the_end_of_the_rise(void **state)
 {
   const SamHeatFriction friction = {5, 10, 3};

@@ -17,14 +17,10 @@ const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
 
 const char *SamUnitOn(SamGrid grid, const char unit[])
 {
-  static const char *const units[][2] = {{"N", "N/m"},
-                                         {"N m", "N m/m"},
-                                         {"J", "J/m"},
-                                         {"J/m", "J/m2"},
-                                         {"W", "W/m"},
-                                         {"m2", "m2/m"},
-                                         {"m3", "m3/m"},
-                                         {"N/m, N/rad, N, N m/rad", "N/m2, N/(m rad), N/m, N/rad"}};
+  static const char *const units[][2] = {{"N", "N/m"},   {"N m", "N m/m"},
+                                         {"J", "J/m"},   {"J/m", "J/m2"},
+                                         {"W", "W/m"},   {"m2", "m2/m"},
+                                         {"m3", "m3/m"}, {"N/m, N/rad, N, N m/rad", "N/m2, N/(m rad), N/m, N/rad"}};
 
   for (size_t k = 0; SamGridIsRow(grid) && k < sizeof(units) / sizeof(units[0]); k++)
     if (!strcmp(unit, units[k][0])) return units[k][1];

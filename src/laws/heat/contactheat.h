@@ -5,8 +5,8 @@
 #include "heat.h"
 
 /*
-  SamHeatFriction - the change of the coefficient of friction: none up to the temperature `from`, `change` above `from` +
-  `over`, linear in between. Temperatures may be relative to any one.
+  SamHeatFriction - the change of the coefficient of friction: none up to the temperature `from`, `change` above `from`
+  + `over`, linear in between. Temperatures may be relative to any one.
 */
 typedef struct {
   PetscReal from, over, change; /* K, K, 1; change 0: friction does not depend on the temperature */

@@ -7,7 +7,7 @@
   Method: heat that entered at one time is, at the age tau, a Gaussian of the width s = sqrt(4 D tau), D being the
   diffusivity, and has moved by tau times the speed, which is P s^2/2 with P = speed/(2 D). The sum over all ages is
       T = 1/(conductivity sqrt(pi)) int_0^inf X(x + P s^2/2, s) Y(y, s) exp(-z^2/s^2) ds,
-      X(x, s) = [erf((x + a)/s) - erf((x - a)/s)]/2, a half the side of the cell, Y alike; here the material moves to -x.
+      X(x, s) = [erf((x + a)/s) - erf((x - a)/s)]/2, a half of the cell's side, Y alike; the material moves to -x.
   The integral is computed by Gauss points on panels. Their borders are where the arguments of the functions erf have
   certain values, multiples of the depth, and doublings of a length that is short against the cell. For slow bodies the
   ages after the last border follow in closed form, as X Y is then that of a point source:

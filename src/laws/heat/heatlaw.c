@@ -7,9 +7,9 @@
   its time. The temperatures are those of a state that lasts (-heat steady): the bodies are half-spaces whose material
   moves along x relative to the contact, in rolling both at the rolling speed towards -x.
 
-  With -friction_temperature the bound of the shear is b + p dmu(T). It follows the slip of the step, as falling friction
-  does, and the temperature that belongs to a slip is found within the bound (contactheat.c). Its derivatives are those
-  at the same temperature.
+  With -friction_temperature the bound of the shear is b + p dmu(T). It follows the slip of the step, as falling
+  friction does, and the temperature that belongs to a slip is found within the bound (contactheat.c). Its derivatives
+  are those at the same temperature.
   Source: Bos and Moes 1995, J. Tribol. 117, 171-177; Ertz and Knothe 2002, Wear 253, 498-508.
 */
 #include "contactheat.h"
@@ -120,7 +120,7 @@ static PetscErrorCode CheckBodies(SamLaw law, const Heat *h, const SamOptions *f
 
   PetscFunctionBegin;
   PetscCheck(!traits.periodic, from->comm, SAM_ERR_USER,
-             "-%sheat steady with periodic bodies: they warm up without end: use -elasticity halfspace or plane",
+             "-%sheat steady with periodic bodies: they have no steady state: use -elasticity halfspace or plane",
              prefix);
   PetscCheck(!traits.patch, from->comm, SAM_ERR_USER,
              "-%sheat steady with -%sbody1_compliance or -%sbody2_compliance: the temperature is that of half-spaces: "
@@ -130,7 +130,7 @@ static PetscErrorCode CheckBodies(SamLaw law, const Heat *h, const SamOptions *f
              "-%sheat steady with layers: the temperature is that of bodies of one material: omit one of them", prefix);
   for (int b = 0; b < 2; b++)
     PetscCheck(!traits.plane || h->speed[b] != 0, from->comm, SAM_ERR_USER,
-               "-%sheat steady in plane strain: body %d stands and warms up without end: give -%sbody%d_speed", prefix,
+               "-%sheat steady in plane strain: body %d stands, and has no steady state: give -%sbody%d_speed", prefix,
                b + 1, prefix, b + 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
