@@ -438,3 +438,19 @@ def test_headings_have_the_units_of_the_results(petsam, tmp_path, change, group,
         for label, name in columns.items():
             unit = f[group][name].attrs["units"]
             assert printed[label] == SHORTER.get(unit, unit), (label, heading)
+
+
+def test_contact_that_grows_by_many_cells_in_a_step(petsam, tmp_path):
+    """A pad on 17,280 cells: from the extrapolated pressure its edges would move by a cell in an iteration."""
+    case = dict(
+        elasticity="plane", gap_type="pad", gap_half_flat_x=2.4416e-3, gap_edge_radius_x=0.251, friction=0,
+        body1_young=70e9, body1_poisson=0, body2_young=70e9, body2_poisson=0, grid_n=17280, grid_size=7.7e-3,
+        steps=4, errors="none",
+    )  # fmt: skip
+    out = tmp_path / "own.h5"
+    petsam(case, history(tmp_path / "loads.csv", "time,load_n", (1, 141e3)), "-output", out)
+    petsam(case, "-load_n", 0.75 * 141e3, "-steps", "1", "-output", tmp_path / "alone.h5")
+    with h5py.File(out) as file, h5py.File(tmp_path / "alone.h5") as alone:
+        area = alone["history/contact_area"][0]
+        assert file["history/contact_area"][2] == pytest.approx(area, rel=1e-4)
+        assert file["history/pressure_max"][2] == pytest.approx(alone["history/pressure_max"][0], rel=1e-5)

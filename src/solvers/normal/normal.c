@@ -252,6 +252,22 @@ static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can
 
 /* ---- the kind ---- */
 
+/*
+  Solves from the guess, or on nested grids; if the guess stagnates, on nested grids. Where the contact of a guess is
+  many cells too narrow, the pressure piles up at its edges and opens the gap beyond them, so that the edges move by a
+  cell in an iteration; on a coarse grid they move by as many cells as it is coarser.
+*/
+static PetscErrorCode SolveWithStarts(SamSolver s, SamLevel *level, PetscBool guess)
+{
+  PetscFunctionBegin;
+  PetscCall(SamLevelSolveNested(s, level, SamSolverLevels(s), guess));
+  if (s->reason != SAM_SOLVER_DIVERGED_STAGNATED || !guess) PetscFunctionReturn(PETSC_SUCCESS);
+  SamLevelForgetProduct(level);
+  PetscCall(SamVecZero(level->traction));
+  PetscCall(SamLevelSolveNested(s, level, SamSolverLevels(s), PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 {
   SamBalance apart;
@@ -270,7 +286,7 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
     s->reason = possible && can ? SAM_SOLVER_CONVERGED_TRIVIAL : SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
     if (s->reason > 0) *level->balance = apart;
   } else {
-    PetscCall(SamLevelSolveNested(s, level, SamSolverLevels(s), guess));
+    PetscCall(SolveWithStarts(s, level, guess));
     SamLevelGetRigid(level, level->balance);
     PetscCall(SamBalanceGetLoads(level->grid, SAM_BALANCE_NORMAL, level->traction, level->balance->load));
   }
