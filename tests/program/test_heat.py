@@ -177,6 +177,18 @@ def fretting(tmp_path):
     return {**case, **history(tmp_path / "loop.csv", "time,load_n,load_tx", *rows)}
 
 
+def test_errors_are_those_of_states_that_last(petsam, fretting, tmp_path, monkeypatch):
+    """In steady rolling; the power of a step in time is that of this step, and other steps have another one."""
+    monkeypatch.chdir(tmp_path)
+    petsam(dict(RAIL, creep_x=0.01, errors="companion"), "-output", "rolls.h5")
+    petsam(dict(fretting, errors="companion"), "-output", "frets.h5")
+    names = {"temperature_max", "heat_power", "heat_share_2"}
+    for file, there in (("rolls.h5", names), ("frets.h5", set())):
+        with h5py.File(file) as found:
+            assert {name.decode() for name in found["errors/name"]} & names == there
+            assert not there or found["history/temperature_max_error"][0] < 0.2 * found["history/temperature_max"][0]
+
+
 def test_ranks_and_restarts_have_the_same_bits(petsam, fretting, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for ranks in (1, 2, 3):

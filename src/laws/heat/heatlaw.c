@@ -196,10 +196,15 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscInt id;
 
   PetscFunctionBegin;
-  (void)law;
   for (size_t k = 0; k < sizeof(fields) / sizeof(fields[0]); k++)
     PetscCall(SamStateDeclareField(state, &fields[k], &id));
-  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
+  for (PetscInt k = 0; k < NUMBERS; k++) {
+    SamStateNumber one = numbers[k];
+
+    if (!SamMotionOf(law->elasticity)->streams)
+      one.order = 0; /* the power is that of a step: others have another one */
+    PetscCall(SamStateDeclareNumber(state, &one, &id));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
