@@ -23,6 +23,7 @@ from kinds import Outcome
 KINDS = {
     "decks": "decks for petsam-compliance: a body in many forms, with cards that change it, and damaged",
     "energies": "load cycles: the error of their dissipated energy and petsam's estimate of it",
+    "heat": "frictional heat: each temperature by direct summation in numpy",
     "kills": "runs with checkpoints that are killed at random moments: the same end as without kills",
     "layered": "layered bodies: each step against an own solution of the layers in numpy",
     "lives": "joints that wear: the last step and the worn volume, by direct summation",
