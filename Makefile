@@ -213,7 +213,7 @@ check-readmes: all bench-programs $(B)/venv/tests-done ## run the commands in th
 
 # the format of the sources; the tests' environment has the formatters in fixed versions
 C_SOURCES := $(shell find src include tests examples -name '*.[ch]')
-PYTHON_SOURCES := scripts examples tests scripts/petsam-compliance scripts/petsam-fatigue scripts/petsam-fit scripts/petsam-joint scripts/petsam-loads scripts/petsam-plot scripts/petsam-study scripts/petsam-surface
+PYTHON_SOURCES := scripts examples tests scripts/petsam-compliance scripts/petsam-fatigue scripts/petsam-fit scripts/petsam-joint scripts/petsam-loads scripts/petsam-plot scripts/petsam-study scripts/petsam-surface scripts/petsam-wheel
 format: $(B)/venv/tests-done ## format C and Python by .clang-format and .ruff.toml
 	@$(B)/venv/bin/clang-format -i $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)

@@ -327,7 +327,12 @@ class Wheelset:
         """The visible part: z, 0 at the nominal radius, over y along the axle from the wheelset's middle."""
         section = visible(self.profile)
         down = 0.0 if self.tape_line is None else float(section.height(np.array(self.tape_line)))
-        return section.moved(0.5 * self.flange_back - self.flange_position, -down)
+        return section.moved(self.offset, -down)
+
+    @property
+    def offset(self) -> float:
+        """y of the profile's origin along the axle, m."""
+        return 0.5 * self.flange_back - self.flange_position
 
     def level(self, points: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """A function that is 0 on the surface and grows out of the body, and its derivative along a direction.

@@ -117,7 +117,7 @@ class Pair:
             raise Error(f"force {force:g}: expected a vertical force above 0, N")
         if self.side == "left":
             position = position.mirrored()
-        case = _Case(self, position)
+        case = Case(self, position)
         found = case.at(position.z or 0.0) if force is None else _under(case, force)
         case.warn(found)
         return found if self.side == "right" else found.mirrored()
@@ -162,8 +162,28 @@ def _coefficient(friction, angle):
     return value
 
 
-class _Case:
-    """A position but for its height: the locus, and the patches at a height."""
+class Case:
+    """A position but for its height: the locus, and the patches at a height.
+
+    Parameters
+    ----------
+    pair : Pair
+        A wheel on its rail.
+    position : Position
+        As a right wheel has it; its z does not count.
+
+    Attributes
+    ----------
+    search : patches.Search
+        Gap of the undeformed bodies, with the height at which they touch.
+    passes : int
+        Solutions so far.
+
+    Raises
+    ------
+    Error
+        If the wheel is beside the rail.
+    """
 
     def __init__(self, pair: Pair, position: Position) -> None:
         self.pair, self.position, self.passes = pair, position, 0
@@ -180,7 +200,23 @@ class _Case:
         self._warned: list[tuple[type, str]] = []
 
     def at(self, z: float) -> Result:
-        """The solution at a height."""
+        """The solution at a height.
+
+        Parameters
+        ----------
+        z : float
+            Of the wheelset, m.
+
+        Returns
+        -------
+        Result
+            That of a right wheel.
+
+        Raises
+        ------
+        Error
+            If the bodies overlap too much.
+        """
         if z - self.search.touch > DEEPEST:
             raise Error(
                 f"z {z:g}: the bodies overlap by {z - self.search.touch:.3g} m: z is 0 at the nominal height and "
@@ -214,7 +250,7 @@ class _Case:
             self.advice[kind] = f"patch at y = {place.origin[1]:.6g} m: {text}" + ": try a smaller cell" * bool(use)
         pressure = contact["pressure"]
         self._doubt(place, np.arctan(pair.rail.section.slope(y[pressure > 0.0])))
-        numbers = found.numbers
+        numbers, power = found.numbers, contact["power_density"]
         tx, ts = map(float, found.shear)
         px, py, pz = map(float, place.origin)
         return Patch(
@@ -222,8 +258,16 @@ class _Case:
             speed=creeps.speed, friction=friction, n=found.n, fx=-tx, fs=-ts, mn=-found.moment, approach=approach,
             p_max=numbers["pressure_max"], area=numbers["contact_area"], stick_area=numbers["stick_area"],
             cells=int(numbers["contact_cells"]), stick_cells=int(numbers["stick_cells"]), grid=contact.n,
-            grid_x=x, grid_s=s, pressure=pressure,
+            grid_x=x, grid_s=s, pressure=pressure, t_gamma=float(power.sum()) * cell * cell, power=power,
+            slip=np.hypot(contact["slip_velocity_x"], contact["slip_velocity_y"]),
+            wheel_y=self._along_wheel(frame, np.asarray(x), y),
         )  # fmt: skip
+
+    def _along_wheel(self, frame, x, y):
+        """y of the wheel's profile at the middle of each row of cells."""
+        y = y[:, int(np.argmin(np.abs(x)))]
+        points = np.stack([np.zeros_like(y), y, self.pair.rail.section.height(y)])
+        return frame.inward(points)[1] - self.pair.wheel.offset
 
     def _doubt(self, place, angles):
         """Keeps warnings about the patch of this pass."""
@@ -243,7 +287,7 @@ class _Case:
             warnings.warn(text, AdviceWarning, stacklevel=3)
 
 
-def _under(case: _Case, force: float) -> Result:
+def _under(case: Case, force: float) -> Result:
     """The solution under a vertical force."""
     touch, rtol = case.search.touch, case.pair.settings.rtol
     radius, modulus = case.pair.wheel.radius, case.pair.settings.modulus

@@ -27,6 +27,7 @@ COLUMNS = (
     ("stick_area", "m2", "area of stick"),
     ("cells", "1", "cells in contact"),
     ("stick_cells", "1", "cells in stick"),
+    ("t_gamma", "N", "frictional work per distance rolled"),
 )
 
 
@@ -70,6 +71,14 @@ class Patch:
         Centres of the cells in the patch, m; those of a left wheel have s of the other sign than in growing order.
     pressure : ndarray
         (ns, nx), Pa.
+    t_gamma : float
+        Frictional work per distance rolled, N: "T-gamma".
+    power : ndarray
+        Frictional power per area over the rolling speed, (ns, nx), Pa.
+    slip : ndarray
+        Slip velocity over the rolling speed, (ns, nx).
+    wheel_y : ndarray
+        y of the wheel's profile at each row of cells, (ns,), m; of a left wheel that of its right one, too.
     """
 
     x: float
@@ -95,6 +104,24 @@ class Patch:
     grid_x: np.ndarray = field(repr=False)
     grid_s: np.ndarray = field(repr=False)
     pressure: np.ndarray = field(repr=False)
+    t_gamma: float
+    power: np.ndarray = field(repr=False)
+    slip: np.ndarray = field(repr=False)
+    wheel_y: np.ndarray = field(repr=False)
+
+    @property
+    def centre(self) -> np.ndarray:
+        """Centre of pressure in the track, (3,), m: a point of the line of the normal force."""
+        total = self.pressure.sum()
+        x = float(self.pressure.sum(axis=0) @ self.grid_x / total)
+        s = float(self.pressure.sum(axis=1) @ self.grid_s / total)
+        return np.array([self.x + x, self.y + s * np.cos(self.angle), self.z + s * np.sin(self.angle)])
+
+    @property
+    def worn(self) -> tuple[np.ndarray, np.ndarray]:
+        """Of each row of cells, (ns,): frictional work per area (J/m2) in one passage, and pressure times way slipped (N/m)."""
+        step = abs(float(self.grid_x[1] - self.grid_x[0]))
+        return self.power.sum(axis=1) * step, (self.pressure * self.slip).sum(axis=1) * step
 
     @property
     def force(self) -> np.ndarray:
