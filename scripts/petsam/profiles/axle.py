@@ -20,12 +20,15 @@ from . import contacts
 from .placement import Track, Wheelset
 from .pose import Position
 from .positions import SIDES, Case, Friction, Pair
+from .profile import ProfileWarning
 from .result import COLUMNS, Result
 
 PASSES, TURNS = 60, 25  # of the equilibrium, and of the roll of rigid bodies
 SHARE = 1e-9  # m: overlaps of rigid bodies agree to it
 FASTEST = math.log(2.0)  # change of the logarithm of an overlap in one pass
 STEP, WIDEST = 2e-3, 0.03  # m: of the search for a lateral force, and its end
+FLANGE = 0.01  # m below the nominal radius, where the thickness of the flange is measured
+PLAY = (0.0, 0.02)  # m: usual distances of flange and rail
 CLOSE = 1e-8  # m: of the lateral displacement under a lateral force
 
 
@@ -172,6 +175,8 @@ class Axle:
         both = (rail, wheel), left or (rail, wheel)
         self.pairs = [Pair(*one, friction, side, settings) for one, side in zip(both, SIDES)]
         self.wheel, self.settings = wheel, self.pairs[0].settings
+        for track, one in both:
+            _doubt_play(track, one)
 
     def __enter__(self) -> "Axle":
         return self
@@ -234,8 +239,8 @@ class Axle:
         Parameters
         ----------
         position : Position
-            Yaw, speeds and lateral displacement; roll and, under a lateral force, y are where the search begins. Without
-            a pitch rate the wheelset rolls by the mean of its rolling radii.
+            Yaw, speeds and lateral displacement; roll and, under a lateral force, y are where the search begins.
+            Without a pitch rate the wheelset rolls by the mean of its rolling radii.
         load : Load
             The forces.
         start : Equilibrium, optional
@@ -423,6 +428,18 @@ class _Search:
         radii = tuple(_radius(one, self.position, self.axle.wheel.radius) for one in state.found)
         force, moment = map(float, state.rest)
         return Equilibrium(self.position, self.load, *state.found, lateral, force, moment, radii, self.passes)
+
+
+def _doubt_play(rail, wheel):
+    """Warns of a flange that lies on the rail's inner face, or far from it, in the middle of the track."""
+    deep = np.flatnonzero(wheel.section.z >= FLANGE)
+    if not len(deep) or not isinstance(rail, Track):
+        return
+    play = 0.5 * rail.gauge - float(wheel.section.y[deep[-1]])
+    if not PLAY[0] <= play <= PLAY[1]:
+        text = f"the flange is {play:.4g} m from the rail's inner face in the middle of the track, usually 0.005"
+        cure = "check gauge, flange_back and flange_position"
+        warnings.warn(f"{wheel.profile.name}: {text}: {cure}", ProfileWarning, stacklevel=4)
 
 
 def _hertz(axle, force):

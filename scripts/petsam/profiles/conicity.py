@@ -60,7 +60,8 @@ class Geometry(tables.Tabled):
             A row for each displacement.
         """
         rows = (
-            ("y", "m", "lateral displacement", self.y), ("roll", "rad", "roll", self.roll), ("z", "m", "height", self.z),
+            ("y", "m", "lateral displacement", self.y), ("roll", "rad", "roll", self.roll),
+            ("z", "m", "height", self.z),
             ("right_y", "m", "contact point of the right wheel", self.points[0]),
             ("left_y", "m", "contact point of the left wheel", self.points[1]),
             ("right_radius", "m", "rolling radius of the right wheel", self.radii[0]),

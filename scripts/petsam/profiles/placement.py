@@ -104,7 +104,11 @@ class Track:
         _need(self.gauge_height, "gauge_height", 0.0, DEEPEST, "expected a depth below the rail's top, m, as 0.014")
         _need(self.cant, "cant", -STRONGEST, STRONGEST, "expected rad: 1:40 is 0.025")
         if self.cant < 0.0:
-            warnings.warn(f"cant {self.cant:g} rad leans away from the middle", ProfileWarning, stacklevel=3)
+            warnings.warn(
+                f"cant {self.cant:g} rad leans away from the middle: is {-self.cant:g} meant?",
+                ProfileWarning,
+                stacklevel=3,
+            )
         self.section  # noqa: B018  fails early
 
     @cached_property

@@ -119,7 +119,7 @@ class Patch:
 
     @property
     def worn(self) -> tuple[np.ndarray, np.ndarray]:
-        """Of each row of cells, (ns,): frictional work per area (J/m2) in one passage, and pressure times way slipped (N/m)."""
+        """Work of friction per area (J/m2), and pressure times slipped way (N/m), of each row of cells in a passage."""
         step = abs(float(self.grid_x[1] - self.grid_x[0]))
         return self.power.sum(axis=1) * step, (self.pressure * self.slip).sum(axis=1) * step
 

@@ -237,6 +237,33 @@ def wear(
     return Worn(new, _off(new, depth), depth, np.abs(depth - half), distance, jumps, area, one.failures)
 
 
+def rates(
+    vehicle: batch.Vehicle, states: Sequence[State], law: Law, cores: int = 1
+) -> tuple[Profile, np.ndarray, list[str]]:
+    """Worn depth per distance of each place of the new profile.
+
+    Parameters
+    ----------
+    vehicle, states, law, cores
+        See wear().
+
+    Returns
+    -------
+    profile : Profile
+        The wheel's, with points at equal distances.
+    rates : ndarray
+        At its points, (n,).
+    failures : list of str
+        Positions without an equilibrium, which wear nothing.
+    """
+    weights = np.array([state.weight for state in states], dtype=float)
+    if not weights.sum() > 0.0:
+        raise Error("weight: expected at least one above 0")
+    new = _dense(vehicle.wheel.profile)
+    one = _Wear(vehicle, list(states), weights / weights.sum(), law, cores)
+    return new, one.rates(new), one.failures
+
+
 def _off(profile, depth):
     """The profile with depths taken off along its normal."""
     normals, _ = _normals(profile)
@@ -255,7 +282,7 @@ class _Wear:
         new = self.vehicle.wheel.profile
         depth, profile, areas = np.zeros(len(new.y)), new, [0.0]
         for k in range(1, jumps + 1):
-            rates = _smoothed(self._rates(profile), new.lengths, self.law.wavelength)
+            rates = _smoothed(self.rates(profile), new.lengths, self.law.wavelength)
             if rates.max() * distance / jumps > DEEPEST:
                 needed = int(np.ceil(rates.max() * distance / DEEPEST / 2.0)) * 2
                 raise Error(
@@ -268,7 +295,7 @@ class _Wear:
             told(k)
         return depth, np.array(areas)
 
-    def _rates(self, profile):
+    def rates(self, profile):
         """Depth per distance at the points of a profile."""
         vehicle = replace(self.vehicle, wheel=replace(self.vehicle.wheel, profile=profile))
         found = batch.run(vehicle, self.states, self.cores, functools.partial(rows_of, law=self.law.name))
