@@ -286,7 +286,9 @@ def carry_out(options):
     cores = options.cores or all_cores()
     if len(states) == 1:
         cores = 1
-    found = profiles.solve_all(vehicle, states, cores, Progress("position", every=EVERY))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of the vehicle: printed above
+        found = profiles.solve_all(vehicle, states, cores, Progress("position", every=EVERY))
     table = found.table()
     _print(options, found, table)
     wrote = []
@@ -372,9 +374,7 @@ def _wear(options, vehicle, states, cores, endings):
     law = wearing.Law(options.law or "energy", options.wear)
     if options.distance is None:
         profile, rates, failures = wearing.rates(vehicle, states, law, cores)
-        print(
-            f"wear: at most {rates.max():.4g} m per m, at y {1e3 * profile.y[int(np.argmax(rates))]:.2f} mm of the profile"
-        )
+        print(f"wear: at most {rates.max():.4g} m per m, at y {1e3 * profile.y[int(np.argmax(rates))]:.2f} mm")
         columns = [
             tables.Column("y", "m", "of the profile", profile.y), tables.Column("z", "m", "down", profile.z),
             tables.Column("depth_per_distance", "1", "worn depth per distance", rates),

@@ -157,6 +157,7 @@ def run(
     list of Found
         In the order of the positions.
     """
+    vehicle.axle().close()  # fails and warns early, and once
     parts = [states[k : k + CHUNK] for k in range(0, len(states), CHUNK)]
     ended = [0]
 
@@ -176,7 +177,10 @@ def _quiet(*_):
 def _solved(vehicle, keep, states, _told):
     """Found of each position of a part."""
     found, before = [], None
-    with vehicle.axle() as axle:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # run() has issued those of the vehicle
+        made = vehicle.axle()
+    with made as axle:
         for state in states:
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")

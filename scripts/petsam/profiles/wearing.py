@@ -26,7 +26,9 @@ from .spectrum import State
 
 LAWS = ("energy", "archard")
 POINT = 2e-4  # m: distance of the points of the worn profile
-DEEPEST = 0.3e-3  # m that one jump may take off
+DEEPEST = 1e-4  # m that one jump may take off: deeper ones leave grooves that change the contact too much
+
+LONGER = 4.0  # times as deep may the jumps be that only give the error
 
 
 @dataclass(frozen=True)
@@ -233,7 +235,7 @@ def wear(
     vehicle = replace(vehicle, wheel=replace(vehicle.wheel, profile=new))
     one = _Wear(vehicle, list(states), weights / weights.sum(), law, cores)
     depth, area = one.run(distance, jumps, lambda k: report and report(k, total))
-    half, _ = one.run(distance, jumps // 2, lambda k: report and report(jumps + k, total))
+    half, _ = one.run(distance, jumps // 2, lambda k: report and report(jumps + k, total), LONGER * DEEPEST)
     return Worn(new, _off(new, depth), depth, np.abs(depth - half), distance, jumps, area, one.failures)
 
 
@@ -277,14 +279,14 @@ class _Wear:
         self.vehicle, self.states, self.shares, self.law, self.cores = vehicle, states, shares, law, cores
         self.failures = []
 
-    def run(self, distance, jumps, told):
+    def run(self, distance, jumps, told, most=DEEPEST):
         """Depth at the points of the new profile, and worn area after each jump."""
         new = self.vehicle.wheel.profile
         depth, profile, areas = np.zeros(len(new.y)), new, [0.0]
         for k in range(1, jumps + 1):
             rates = _smoothed(self.rates(profile), new.lengths, self.law.wavelength)
-            if rates.max() * distance / jumps > DEEPEST:
-                needed = int(np.ceil(rates.max() * distance / DEEPEST / 2.0)) * 2
+            if rates.max() * distance / jumps > most:
+                needed = 2 * int(np.ceil(rates.max() * distance / DEEPEST / 2.0))
                 raise Error(
                     f"jumps {jumps}: jump {k} takes off {rates.max() * distance / jumps:.3g} m: use at least {needed}, "
                     "or check the coefficient of wear and the distance"
