@@ -229,10 +229,10 @@ def test_worn_places_are_those_in_contact(axle):
 def test_wear_takes_off_what_the_rates_say_and_has_an_error(vehicle):
     states = [State(Position(y=y, yaw=1e-3, speed=20.0), LOAD, weight) for y, weight in ((-2e-3, 1.0), (3e-3, 2.0))]
     law = Law("energy", 1e-14)
-    few = profiles.wear(vehicle, states, 2e7, law, 2)
+    few = profiles.wear(vehicle, states, 5e6, law, 2)
     profile, rates, failures = wearing.rates(vehicle, states, law)
     assert not failures and not few.failures
-    area = float(np.sum(rates * np.gradient(profile.lengths))) * 2e7
+    area = float(np.sum(rates * np.gradient(profile.lengths))) * 5e6
     assert few.area[-1] == pytest.approx(area, rel=0.1)
     deepest, error = few.deepest
     assert 0.0 < error < 0.5 * deepest
@@ -382,7 +382,7 @@ def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
     cured = run(*words, "--unit", "mm", "--z", "up", "--mirror", kind, *ONE, "--y", "2mm")
     plain = run(*BASE, *ONE, "--y", "2mm")
     numbers = [[*map(float, re.findall(r"-?\d+\.\d+(?:e[-+]\d+)?", text))] for text in (cured, plain)]
-    assert len(numbers[1]) > 20
+    assert len(numbers[1]) > 15
     assert numbers[0] == pytest.approx(numbers[1], rel=0.02, abs=1e-2)
 
 
