@@ -102,7 +102,9 @@ class Batch(tables.Tabled):
         solved = next((one.value for one in self.found if one.value), None)
         if solved is None:
             raise Error(f"no position has an equilibrium; of the first one: {self.found[0].failure}")
-        numbers, notes, rows = [], [], [[] for _ in solved]
+        numbers: list[int] = []
+        notes: list[str] = []
+        rows: list[list] = [[] for _ in solved]
         for k, one in enumerate(self.found, 1):
             count = len(one.value[0].values) if one.value else 1
             numbers += [k] * count
