@@ -18,8 +18,8 @@
   with xi' = G c^2 xi/(mu N), phi' = G c^3 phi/(mu N), c^2 = a b, and Kalker's coefficients. The table holds Fx/(mu N),
   Fy/(mu N), Mz/(mu N c) over v, as cubic splines: their value uses four coefficients along each axis, and is twice
   continuously differentiable. Mirrored creepages, X < 0 or Z < 0, give the same bits but for signs. |F| is cut to mu N
-  by a rounded corner, 1e-3 mu N wide, 1.25e-4 mu N deep. The linear theory holds for any Poisson's ratio; other forces
-  are those of the table's, at the same X, Y, Z.
+  by a rounded corner, 1e-3 mu N wide, 1.25e-4 mu N deep. Poisson's ratio changes C11, C22 and C23 above only, which is
+  right for small creepages without spin, and approximate else: make a table for yours.
 
   Friction that falls with the slip velocity: `friction` is its value at the rolling speed times petsam_creep_slip().
 */

@@ -18,7 +18,7 @@ import numpy as np
 from petsam.commands.line import fail
 from petsam.core.errors import Error
 from petsam.profiles import creeptable
-from petsam.profiles.creep import Table
+from petsam.profiles.creep import CreepTable
 
 
 def parser():
@@ -56,7 +56,7 @@ def make_table(args):
 
 def check_table(args):
     """Prints the errors of a table."""
-    table = Table.open(args.table)
+    table = CreepTable.open(args.table)
     errors = creeptable.check(table, args.cases, args.cells, args.seed, args.poisson, args.jobs)
     found = creeptable.statistics(errors.max(axis=1))
     print("median {:.4f}, 90 % {:.4f}, worst {:.4f} of mu N".format(*found))

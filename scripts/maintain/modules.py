@@ -54,6 +54,7 @@ MODULES = (
     "profiles.contacts",
     "profiles.positions",
     "profiles.result",
+    "profiles.creep",
     "surface.reading",
     "surface.maps",
     "study.jobs",

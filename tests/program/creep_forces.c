@@ -31,7 +31,7 @@ static double timed(const petsam_creep_table *table, long count)
 int main(int argc, char **argv)
 {
   char                message[PETSAM_CREEP_MESSAGE] = "";
-  petsam_creep_table *table = argc > 1 ? petsam_creep_load(argv[1], message) : NULL;
+  petsam_creep_table *table                         = argc > 1 ? petsam_creep_load(argv[1], message) : NULL;
   double              given[9], found[16];
   if (!table) {
     fprintf(stderr, "%s\n", message);

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import petsam
+from petsam import profiles
 from petsam.core.progress import quiet
 from petsam.profiles import creep, creepcases, creeptable
 from support import ROOT
@@ -33,7 +34,7 @@ def file(folder):
 
 @pytest.fixture(scope="module")
 def table(file):
-    return creep.Table.open(file)
+    return profiles.CreepTable.open(file)
 
 
 @pytest.fixture(scope="module")
@@ -176,9 +177,9 @@ def test_small_creepages_are_kalkers_linear_theory(table, poisson):
     area, c = 16e-6, 4e-3
     slopes = by_python(table, case(poisson=poisson)).derivative[0, :, :3] / (G * area)
     assert slopes[0, 0] == pytest.approx(c11, rel=0.015) and slopes[1, 1] == pytest.approx(c22, rel=0.015)
-    assert slopes[1, 2] / c == pytest.approx(c23, rel=0.03) and slopes[2, 1] / c == pytest.approx(-c23, rel=0.03)
-    # only the table's own Poisson's ratio has its moment by spin
-    assert slopes[2, 2] / c**2 == pytest.approx(c33, rel=0.03 if poisson == PLAN.poisson else 0.06)
+    if poisson == PLAN.poisson:  # by spin only that of the table
+        assert slopes[1, 2] / c == pytest.approx(c23, rel=0.015) and slopes[2, 1] / c == pytest.approx(-c23, rel=0.015)
+        assert slopes[2, 2] / c**2 == pytest.approx(c33, rel=0.015)
     assert np.abs(slopes[[0, 0, 1, 2], [1, 2, 0, 0]]).max() < 1e-12
     small = 1e-4 * MU * LOAD / (G * area)
     force = by_python(table, case(poisson=poisson, xi=small)).force[0]
@@ -280,13 +281,13 @@ def test_forces_are_continuous_around_spin_alone(table):
 
 
 def test_falling_friction(table):
-    law = creep.Falling(0.33, 0.14, 1.25)
+    law = profiles.FallingFriction(0.33, 0.14, 1.25)
     assert law(np.array([0.0, 1.25, 1e6])) == pytest.approx([0.33, 0.235, 0.14])
     sliding = dict(load=LOAD, half_axes=(4e-3, 4e-3), creepages=(0.2, 0.0, 0.0), friction=law)
     slow, fast = (table.forces(**sliding, speed=v).force[0] / LOAD for v in (0.0, 6.25))
     assert slow == pytest.approx(0.33, rel=2e-3) and fast == pytest.approx(0.235, rel=2e-3)
     with pytest.raises(petsam.Error, match="expected two coefficients of friction"):
-        creep.Falling(0.1, 0.2, 1.0)
+        profiles.FallingFriction(0.1, 0.2, 1.0)
 
 
 def test_slip_is_the_root_of_the_mean_square():
@@ -334,14 +335,14 @@ def test_damaged_files_are_rejected(tmp_path, file, program, spoil, words):
     done = subprocess.run([program, bad], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and words in done.stderr and str(bad) in done.stderr and "make" in done.stderr
     with pytest.raises(petsam.Error, match=words):
-        creep.Table.open(bad)
+        profiles.CreepTable.open(bad)
 
 
 def test_missing_file(tmp_path, program):
     done = subprocess.run([program, tmp_path / "none"], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "none: cannot be read" in done.stderr
     with pytest.raises(FileNotFoundError):
-        creep.Table.open(tmp_path / "none")
+        profiles.CreepTable.open(tmp_path / "none")
 
 
 def test_an_interrupted_table_is_completed(folder, tmp_path, file):

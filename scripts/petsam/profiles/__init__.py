@@ -26,6 +26,7 @@ creepages   creepages of a patch
 contacts    contacts in process, kept by their grids
 positions   the solution at a position
 result      what solve() returns
+creep       the table of creep forces of elliptic contacts, CreepTable; creeptable makes it from creepcases
 
 Axes: x forward, y to the right, z down; z = 0 is the plane on the rails' tops, y = 0 the middle of the track. Profiles
 have y to the field side and z down, of both bodies. SI units, angles in rad.
@@ -35,6 +36,8 @@ import importlib
 
 _HOMES = {
     "ConformalWarning": "result",
+    "CreepTable": "creep",
+    "FallingFriction": "creep",
     "Material": "contacts",
     "Pair": "positions",
     "Patch": "result",

@@ -1,4 +1,4 @@
-"""The table of creep forces of elliptic contacts in Python: Table, the same file and numbers as include/petsam/creep.h.
+"""Creep forces of elliptic contacts from a table: CreepTable, with the file and the numbers of include/petsam/creep.h.
 
 Axes of the table: log(a/b), and the scaled creepages (X, Y, Z) in spherical coordinates,
 
@@ -51,8 +51,8 @@ class Forces(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Falling:
-    """Friction that falls with the slip velocity, as by -friction_law falling, for Table.forces().
+class FallingFriction:
+    """Friction that falls with the slip velocity, as by -friction_law falling, for CreepTable.forces().
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ class Falling:
     def __post_init__(self) -> None:
         if not (0.0 < self.kinetic <= self.static < np.inf and 0.0 < self.half_speed < np.inf):
             raise Error(
-                f"Falling {self.static:g}, {self.kinetic:g}, {self.half_speed:g}: expected two coefficients of "
+                f"FallingFriction {self.static:g}, {self.kinetic:g}, {self.half_speed:g}: expected two coefficients of "
                 "friction, the second one not above the first, and a speed in m/s"
             )
 
@@ -169,7 +169,7 @@ def checksum(data: bytes) -> int:
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class CreepTable:
     """A table of creep forces.
 
     Parameters
@@ -199,7 +199,7 @@ class Table:
         object.__setattr__(self, "_full", continued(self.coefficients))
 
     @classmethod
-    def open(cls, path: Union[str, "os.PathLike[str]"]) -> "Table":
+    def open(cls, path: Union[str, "os.PathLike[str]"]) -> "CreepTable":
         """The table of a file.
 
         Parameters
@@ -209,7 +209,7 @@ class Table:
 
         Returns
         -------
-        Table
+        CreepTable
 
         Raises
         ------
@@ -314,7 +314,7 @@ class Table:
         creepages : tuple
             xi, eta and the spin phi, 1/m; a positive creepage gives a positive force.
         friction : float, ndarray or callable
-            mu; a function of the slip velocity (m/s), such as Falling.
+            mu; a function of the slip velocity (m/s), such as FallingFriction.
         material : tuple
             G, Pa, and Poisson's ratio, equal in both bodies.
         speed : float or ndarray
@@ -429,7 +429,7 @@ class Table:
         k, wk, dk = basis(np.clip((alpha + 0.5 * np.pi) * steps[1], 0.0, n[2] - 1.0), n[2], True)
         m, wm, dm = basis(np.clip(beta * steps[2], 0.0, n[3] - 1.0), n[3], True)
         four = np.arange(4)
-        found = self._full[  # type: ignore[attr-defined]
+        found = self._full[
             (i[:, None] + four)[:, :, None, None, None], (j[:, None] + four)[:, None, :, None, None],
             (k[:, None] + four)[:, None, None, :, None], (m[:, None] + four)[:, None, None, None, :],
         ].astype(float)  # fmt: skip

@@ -7,7 +7,6 @@ import concurrent.futures
 import hashlib
 import multiprocessing
 import os
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Optional
 
@@ -15,7 +14,7 @@ import numpy as np
 
 from ..core.errors import Error
 from ..core.progress import Progress, Say, to_stderr
-from .creep import LEAST, Table
+from .creep import LEAST, CreepTable
 from .creepcases import Rolling, linear, sliding
 
 CASES = 60  # of the table's own error
@@ -125,7 +124,7 @@ def coefficients_job(plan: Plan, i: int) -> np.ndarray:
     """
     found = []
     for poisson in (0.0, plan.poisson, 0.5):
-        rolling = Rolling(plan.ratios[i], poisson, max(plan.cells, FINE))
+        rolling = Rolling(float(plan.ratios[i]), poisson, max(plan.cells, FINE))
         found.append(rolling.coefficients())
         rolling.close()
     return np.array(found)
@@ -148,14 +147,14 @@ def forces_job(plan: Plan, i: int, m: int, coefficients: np.ndarray) -> np.ndarr
     ndarray
         Forces over v, (nodes of v, alpha, 3).
     """
-    ratio, (alphas, betas) = plan.ratios[i], plan.directions
+    ratio, (alphas, betas) = float(plan.ratios[i]), plan.directions
     count = len(alphas)
     found = np.empty((plan.nodes[1], count, 3))
     rolling = Rolling(ratio, plan.poisson, plan.cells)
     pole = m == len(betas) - 1
     first = count // 2 if m == 0 or pole else 0
     for k in range(first, first + 1 if pole else count):
-        towards = direction(alphas[k], betas[m]) / factors(coefficients, ratio)
+        towards = direction(float(alphas[k]), float(betas[m])) / factors(coefficients, ratio)
         found[:, k] = _along(plan, rolling, towards, coefficients, ratio)
     rolling.close()
     if pole:  # spin alone
@@ -177,7 +176,7 @@ def _along(plan, rolling, towards, coefficients, ratio):
 
 def make(
     plan: Plan, folder: str, jobs: int = 1, say: Say = to_stderr, checked: Optional[tuple[int, int]] = None
-) -> Table:
+) -> CreepTable:
     """A table, from the cases that a folder already has, and those that remain.
 
     Parameters
@@ -195,7 +194,7 @@ def make(
 
     Returns
     -------
-    Table
+    CreepTable
     """
     count, fine = checked or (CASES, 2 * plan.cells)
     n = plan.nodes
@@ -211,7 +210,7 @@ def make(
     errors = np.array(_run(own, folder, jobs, Progress("finer case", say))).ravel()
     stored = (*statistics(errors), float(count)) if count else (0.0, 0.0, 0.0, 0.0)
     scales = _solved(np.log(coefficients[..., :3]), 0)
-    return Table(plan.range, plan.poisson, scales, spline(nodes).astype(np.float32), plan.cells, stored)
+    return CreepTable(plan.range, plan.poisson, scales, spline(nodes).astype(np.float32), plan.cells, stored)
 
 
 def statistics(errors: np.ndarray) -> tuple[float, float, float]:
@@ -267,14 +266,14 @@ def _single(ratio, poisson, cells, creepages):
 
 
 def check(
-    table: Table, count: int, cells: int, seed: int = 1, poisson: Optional[float] = None, jobs: int = 1,
+    table: CreepTable, count: int, cells: int, seed: int = 1, poisson: Optional[float] = None, jobs: int = 1,
     say: Say = to_stderr,
 ) -> np.ndarray:  # fmt: skip
     """Errors of a table on random cases: a/b from 0.1 to 10 within its range, v to 0.95, all directions.
 
     Parameters
     ----------
-    table : Table
+    table : CreepTable
         The table.
     count : int
         Cases.
@@ -325,14 +324,14 @@ def _job(folder, name, function, *given):
 
 def _run(work, folder, jobs, progress):
     """Results of jobs in their order."""
-    found: list[Optional[np.ndarray]] = [None] * len(work)
+    found = [None] * len(work)
     for done, (k, result) in enumerate(_results(work, folder, jobs), 1):
         found[k] = result
         progress(done, len(work))
     return found
 
 
-def _results(work, folder, jobs) -> Iterator[tuple[int, np.ndarray]]:
+def _results(work, folder, jobs):
     """Numbers and results of jobs as they end."""
     if jobs == 1:
         yield from ((k, _job(folder, *one)) for k, one in enumerate(work))
