@@ -61,7 +61,7 @@ VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p'
 SONAME  := libpetsam.so.$(basename $(VERSION))
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help pages units bench bench-programs reference peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel site clean
+.PHONY: all help pages units bench bench-programs reference peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel site clean creep-table
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -138,6 +138,9 @@ reference: all $(B)/venv/tests-done ## petsam's answers to the problems of examp
 	$(B)/venv/bin/python -W ignore examples/reference/reference.py answers $(ARGS) -o $(B)/run/answers.json
 	$(B)/venv/bin/python examples/reference/check.py $(B)/run/answers.json
 	$(foreach peer,$(PEERS),$(B)/$(if $(filter tamaas aspher,$(peer)),peers,venv)/bin/python examples/reference/peers.py $(peer) $(ARGS) -o $(B)/run/$(peer).json && $(B)/venv/bin/python examples/reference/check.py $(B)/run/$(peer).json;)
+
+creep-table: all $(B)/venv/done ## the table of creep forces for include/petsam/creep.h, about 10 minutes of CPU: ARGS="--poisson 0.25 --jobs 4"
+	$(B)/venv/bin/python scripts/maintain/creep_table.py make -o $(B)/creep-forces.bin $(ARGS)
 
 # the programs that the benchmark compares with, built for this processor; the benchmark also runs without them
 peers: $(B)/peers/done ## install the programs that the benchmark compares with

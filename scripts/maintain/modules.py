@@ -60,6 +60,7 @@ MODULES = (
     "profiles.batch",
     "profiles.conicity",
     "profiles.wearing",
+    "profiles.creep",
     "surface.reading",
     "surface.maps",
     "study.jobs",
