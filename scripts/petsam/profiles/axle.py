@@ -2,8 +2,10 @@
 
 Unknowns are the overlaps of both wheels, in their logarithms; height and roll follow from them, as the height at which
 a wheel touches falls with the roll by the lateral arm of its contact. Broyden's iteration begins with Hertz's slope:
-vertical force and roll moment of a wheel grow with its overlap^1.5. Where a lateral force is given, the lateral
-displacement is found around it. Inertia is left out: give the forces that remain at the wheelset.
+vertical force and roll moment of a wheel grow with its overlap^1.5. It solves for the pressure alone, with tangential
+forces as shares of the normal ones, which come from the last full solution; two or three of these are enough. Where a
+lateral force is given, the lateral displacement is found around it. Inertia is left out: give the forces that remain at
+the wheelset.
 """
 
 import math
@@ -24,6 +26,12 @@ from .profile import ProfileWarning
 from .result import COLUMNS, Result
 
 PASSES, TURNS = 60, 25  # of the equilibrium, and of the roll of rigid bodies
+ROUNDS, PRESSED = 8, 20  # full solutions with shares of tangential forces, and pressures between two of them
+FIRST, NEXT = 0.02, 0.02  # residual of the first pressures, and of others relative to that of the last full solution
+DIRECT = 5e-4  # residual of a full solution from which one step leads to the next
+NEAR = 0.01  # relative change of overlaps across which a force that changes five times as much jumps
+ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
+STEADY = 1e-8  # relative change of the pitch rate of a wheelset that rolls freely
 SHARE = 1e-9  # m: overlaps of rigid bodies agree to it
 FASTEST = math.log(2.0)  # change of the logarithm of an overlap in one pass
 STEP, WIDEST = 2e-3, 0.03  # m: of the search for a lateral force, and its end
@@ -92,7 +100,10 @@ class Equilibrium(tables.Tabled):
     radii : tuple of float
         Rolling radii of the right and the left wheel, m: distances of their normal forces from the axle.
     passes : int
-        Solutions of both wheels that it took.
+        Solutions of both wheels that it took, without those of the pressure alone.
+    slopes : ndarray
+        Derivative of what is left, and of the sum of both radii over the nominal diameter, by the logarithms of the
+        overlaps of both wheels, (3, 2), approximate: a neighbour's iteration begins with it.
     """
 
     position: Position
@@ -104,6 +115,7 @@ class Equilibrium(tables.Tabled):
     moment_error: float
     radii: tuple[float, float]
     passes: int
+    slopes: Optional[np.ndarray] = None
 
     @property
     def radius_difference(self) -> float:
@@ -189,7 +201,7 @@ class Axle:
         for pair in self.pairs:
             pair.close()
 
-    def rigid(self, position: Position, overlaps: tuple[float, float] = (0.0, 0.0)) -> "Rigid":
+    def rigid(self, position: Position, overlaps: tuple[float, float] = (0.0, 0.0), share: float = SHARE) -> "Rigid":
         """Roll and height at which both wheels overlap their rails by so much; 0: rigid bodies that touch.
 
         Parameters
@@ -198,6 +210,8 @@ class Axle:
             Its roll is where the search begins.
         overlaps : tuple of float
             Of the right and the left wheel, m.
+        share : float
+            Error of their difference, m.
 
         Returns
         -------
@@ -214,7 +228,7 @@ class Axle:
             cases = self._cases(now)
             arms = _arms(cases, position.y)
             apart = cases[0].search.touch + overlaps[0] - cases[1].search.touch - overlaps[1]
-            if abs(apart) < SHARE:
+            if abs(apart) < share:
                 break
             roll += apart / (arms[0] - arms[1])
         z = 0.5 * (cases[0].search.touch + overlaps[0] + cases[1].search.touch + overlaps[1])
@@ -297,22 +311,16 @@ class Axle:
 
     def _upright(self, position, load, start):
         """The equilibrium at a lateral displacement."""
-        search = _Search(self, position, load)
+        search = _Search(self, position, load, start.slopes if start else None)
         overlaps = _hertz(self, 0.5 * load.vertical)
         if start is not None:
             overlaps = tuple(max(found.overlap, 0.1 * overlaps[0]) for found in start.wheels)
         search.begin(overlaps)
         rtol = self.settings.rtol
-        for _ in range(PASSES):
-            state = search.state()
-            if max(abs(state.rest)) <= rtol and search.settled:
-                return search.equilibrium(state)
-            search.improve(state)
-        right, left = (float(found.force[2]) for found in state.found)
-        raise Error(
-            f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium: the rails carry {right:.4g} N (right) and "
-            f"{left:.4g} N (left) at last: a wheel lifts or climbs: check offset, lateral, height and y, and the flange"
-        )
+        state = search.by_shares(rtol, _shares(start.wheels) if start else ((), ())) or search.iterate(rtol, PASSES)
+        if max(abs(state.rest)) <= rtol:
+            return search.equilibrium(state)
+        raise _no_equilibrium(position, load, search.seen)
 
 
 @dataclass(frozen=True, eq=False)
@@ -348,33 +356,81 @@ class _State:
 class _Search:
     """The iteration for an equilibrium at a lateral displacement."""
 
-    def __init__(self, axle, position, load):
+    def __init__(self, axle, position, load, slopes=None):
         self.axle, self.load, self.passes = axle, load, 0
         self.free = position.pitch_rate is None  # rolls by the mean of its radii
-        self.position, self.settled = position, not self.free
-        self.slopes, self.before, self.limit = None, None, FASTEST
+        self.position = position
+        self.slopes, self.before, self.limit = slopes, None, FASTEST
 
     def begin(self, overlaps):
         """Height and roll of these overlaps."""
-        rigid = self.axle.rigid(self.position, overlaps)
+        rigid = self.axle.rigid(self.position, overlaps, ROUGH)
         self.position, self.scale = rigid.position, 0.5 * (rigid.points[0] - rigid.points[1])
-        self._roll_freely(rigid.radii)
+        self._roll_freely(sum(rigid.radii))
 
-    def _roll_freely(self, radii):
-        """The pitch rate of a wheelset that rolls without a mean creepage."""
+    def _roll_freely(self, diameter):
+        """The pitch rate of a wheelset that rolls without a mean creepage, by the sum of both radii."""
         if self.free:
-            rate = -2.0 * self.position.speed / sum(radii)
-            change = abs(rate - (self.position.pitch_rate or 0.0))
-            self.settled = change <= 1e-8 * abs(rate)
-            self.position = replace(self.position, pitch_rate=rate)
+            self.position = replace(self.position, pitch_rate=-2.0 * self.position.speed / diameter)
 
-    def state(self):
-        """The solutions at the present height and roll."""
-        self.passes += 1
+    def _radii(self, state):
+        """Rolling radii of both wheels."""
+        return [_radius(one, self.position, self.axle.wheel.radius) for one in state.found]
+
+    def done(self, state, rtol):
+        """Whether a state is in equilibrium, and the wheelset rolls freely if it is to."""
+        if max(abs(state.rest)) > rtol:
+            return False
+        rate = -2.0 * self.position.speed / sum(self._radii(state))
+        return not self.free or abs(rate - self.position.pitch_rate) <= STEADY * abs(rate)
+
+    def iterate(self, rtol, passes):
+        """The equilibrium by full solutions alone; else the last state."""
+        self.seen = []
+        for _ in range(passes):
+            state = self.state()
+            self.seen.append(state)
+            if self.done(state, rtol):
+                break
+            self.improve(state)
+        return state
+
+    def press(self, least, shares):
+        """Moves to the equilibrium of pressures with shares of tangential forces; False where there is none."""
+        for _ in range(PRESSED):
+            state = self.state(shares)
+            self.improve(state)
+            if max(abs(state.rest)) <= least:
+                return True
+        return False
+
+    def by_shares(self, rtol, shares):
+        """The equilibrium from pressures and few full solutions; None where the shares do not lead to it."""
+        begun, least = self.position, FIRST
+        for _ in range(ROUNDS):
+            if least < 1.0 and not self.press(least, shares):
+                break
+            state = self.state()
+            if self.done(state, rtol):
+                return state
+            shares = _shares(state.found)
+            rest = max(abs(state.rest))
+            least = 1.0 if rest <= DIRECT else max(rtol, NEXT * rest)
+            self.before = None  # the residual of other shares
+            self.improve(state)
+        self.position, self.slopes, self.before, self.limit = begun, None, None, FASTEST
+        return None
+
+    def state(self, shares=None):
+        """The solutions at the present height and roll; with shares of tangential forces the pressures alone."""
+        self.passes += shares is None
         p = self.position
         self.cases = self.axle._cases(p)
         touch = np.array([case.search.touch for case in self.cases])
-        one, other = (case.at(p.z) for case in self.cases)
+        if shares is None:
+            one, other = (case.at(p.z) for case in self.cases)
+        else:
+            one, other = (case.pressed(p.z, share) for case, share in zip(self.cases, shares))
         found = [one, other.mirrored()]
         parts = np.array([_part(result, p, self.axle.wheel.radius, self.load) for result in found])
         given = np.array([self.load.vertical, self.load.offset * self.load.vertical])
@@ -389,22 +445,23 @@ class _Search:
         """Moves height and roll."""
         if min(state.overlaps) <= 0.0 or min(state.parts[:, 0]) <= 0.0:
             return self._press(state)
-        now = np.log(state.overlaps)
-        own = 1.5 * state.parts.T
+        now, nominal = np.log(state.overlaps), 2.0 * self.axle.wheel.radius
+        values = np.append(state.rest, sum(self._radii(state)) / nominal)
+        own = np.vstack([1.5 * state.parts.T, np.zeros(2)])
         slopes = own if self.slopes is None else self.slopes
         if self.before is not None:
-            step, change = now - self.before[0], state.rest - self.before[1]
+            step, change = now - self.before[0], values - self.before[1]
             if step @ step > 0.0:
                 slopes = slopes + np.outer(change - slopes @ step, step) / (step @ step)
-            if np.linalg.norm(state.rest) > 2.0 * np.linalg.norm(self.before[1]):
+            if np.linalg.norm(state.rest) > 2.0 * np.linalg.norm(self.before[1][:2]):
                 self.limit, slopes = max(0.5 * self.limit, 0.05), own
-        if np.linalg.cond(slopes) > 1e6:
+        if np.linalg.cond(slopes[:2]) > 1e6:
             slopes = own
-        step = np.linalg.solve(slopes, -state.rest)
+        step = np.linalg.solve(slopes[:2], -state.rest)
         step *= min(1.0, self.limit / max(np.abs(step).max(), 1e-300))
-        self.slopes, self.before = slopes, (now, state.rest)
+        self.slopes, self.before = slopes, (now, values)
         self._move(state, np.exp(now + step) - state.overlaps)
-        self._roll_freely([_radius(one, self.position, self.axle.wheel.radius) for one in state.found])
+        self._roll_freely(nominal * (values[2] + slopes[2] @ step))
 
     def _press(self, state):
         """Presses wheels that lift onto their rails again."""
@@ -425,9 +482,11 @@ class _Search:
         for case, found in zip(self.cases, state.found):
             case.warn(found)
         lateral = float(sum(one.force[1] for one in state.found))
-        radii = tuple(_radius(one, self.position, self.axle.wheel.radius) for one in state.found)
+        radii = tuple(self._radii(state))
         force, moment = map(float, state.rest)
-        return Equilibrium(self.position, self.load, *state.found, lateral, force, moment, radii, self.passes)
+        return Equilibrium(
+            self.position, self.load, *state.found, lateral, force, moment, radii, self.passes, self.slopes
+        )
 
 
 def _doubt_play(rail, wheel):
@@ -446,6 +505,43 @@ def _hertz(axle, force):
     """Overlaps by Hertz under a vertical force, m."""
     modulus, radius = axle.settings.modulus, axle.wheel.radius
     return ((force / (4.0 / 3.0 * modulus * math.sqrt(0.5 * radius))) ** (2.0 / 3.0),) * 2
+
+
+def _no_equilibrium(position, load, seen):
+    """The error of an iteration without an end."""
+    where = f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium: "
+    jump = _jump(seen)
+    if jump is not None:
+        k, least, most = jump
+        return Error(
+            f"{where}the vertical force on the {SIDES[k]} rail jumps from {least:.4g} to {most:.4g} N where regions of "
+            "contact join or part, and the load is between both: take y a little beside it"
+        )
+    right, left = (float(found.force[2]) for found in seen[-1].found)
+    return Error(
+        f"{where}the rails carry {right:.4g} N (right) and {left:.4g} N (left) at last: a wheel lifts or climbs: check "
+        "offset, lateral, height and y, and the flange"
+    )
+
+
+def _jump(seen):
+    """Wheel and vertical forces on both sides of a jump between almost equal overlaps; None without one."""
+    late = [one for one in seen[len(seen) // 2 :] if min(one.overlaps) > 0.0]
+    for one, other in zip(late, late[1:]):
+        step = float(np.abs(np.log(one.overlaps / other.overlaps)).max())
+        for k in range(2):
+            forces = sorted(float(state.found[k].force[2]) for state in (one, other))
+            parted = len(one.found[k].patches) != len(other.found[k].patches)
+            if parted and step < NEAR and forces[1] > (1.0 + 5.0 * step) * forces[0] > 0.0:
+                return k, *forces
+    return None
+
+
+def _shares(wheels):
+    """Tangential over normal forces of the patches of both wheels, as right ones have them, with their y."""
+    right, left = wheels
+    both = right, left.mirrored()
+    return tuple([(p.centre[1], p.fx / p.n, p.fs / p.n) for p in one.patches if p.n > 0.0] for one in both)
 
 
 def _point(case, sign):

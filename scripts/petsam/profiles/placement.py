@@ -14,7 +14,7 @@ import numpy as np
 from ..core.errors import Error
 from .pose import Position
 from .profile import Profile, ProfileWarning
-from .section import Section, fine, path, visible
+from .section import STEP, Section, fine, path, visible
 
 GAUGES = (0.05, 4.0)  # m
 DEEPEST = 0.05  # m: gauge heights
@@ -332,6 +332,13 @@ class Wheelset:
         section = visible(self.profile)
         down = 0.0 if self.tape_line is None else float(section.height(np.array(self.tape_line)))
         return section.moved(self.offset, -down)
+
+    @cached_property
+    def line(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """y, z and slope of points of the visible part in small steps, m and 1, (n,) each."""
+        section = self.section
+        y = np.linspace(section.first, section.last, int(np.ceil((section.last - section.first) / STEP)) + 1)
+        return y, section.height(y), section.slope(y)
 
     @property
     def offset(self) -> float:

@@ -7,12 +7,13 @@ factor of 2, and by bisection where it leaves the bracket. Frames, boxes and cre
 import math
 import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 import numpy as np
 
-from ..contact import AdviceWarning
+from ..contact import AdviceWarning, Contact
 from ..core.errors import Error
 from . import contacts, gap
 from .creepages import creepages
@@ -21,7 +22,7 @@ from .patches import Place, Search, places, search
 from .placement import Roller, Track, Wheelset
 from .pose import Frame, Position
 from .profile import ProfileWarning
-from .result import ConformalWarning, Patch, Result
+from .result import ConformalWarning, Patch, Pressed, Result
 
 CONFORMAL = 0.24  # rad: 3 % in the distance
 DEEPEST = 1e-3  # m: no elastic wheel overlaps a rail by more
@@ -162,6 +163,19 @@ def _coefficient(friction, angle):
     return value
 
 
+@dataclass(frozen=True, eq=False)
+class _Laid:
+    """The undeformed bodies on the grid of a patch."""
+
+    contact: Contact
+    middle: np.ndarray
+    x: np.ndarray
+    s: np.ndarray
+    apart: np.ndarray
+    y: np.ndarray
+    approach: float
+
+
 class Case:
     """A position but for its height: the locus, and the patches at a height.
 
@@ -217,33 +231,76 @@ class Case:
         Error
             If the bodies overlap too much.
         """
+        self.passes += 1
+        self._warned = []
+        return self._result(z, self._patch)
+
+    def pressed(self, z: float, shares: Sequence[tuple[float, float, float]]) -> Result:
+        """The pressure at a height, with given shares of tangential forces: a fraction of the work of at().
+
+        Parameters
+        ----------
+        z : float
+            Of the wheelset, m.
+        shares : sequence of tuple
+            y of patches (m) and their fx and fs over n: each patch takes those of the nearest one; none: 0.
+
+        Returns
+        -------
+        Result
+            That of a right wheel; its patches are Pressed.
+
+        Raises
+        ------
+        Error
+            If the bodies overlap too much.
+        """
+
+        def patch(frame, place):
+            laid = self._laid(frame, place, False)
+            if laid is None:
+                return None
+            n = contacts.pressed(laid.contact, laid.apart + laid.approach, laid.approach)
+            pressure = laid.contact["pressure"]
+            x, s = (pressure.sum(axis=0) @ laid.x, pressure.sum(axis=1) @ laid.s) / pressure.sum()
+            _, fx, fs = min(shares, key=lambda one: abs(one[0] - place.origin[1]), default=(0.0, 0.0, 0.0))
+            return Pressed(place.origin + x * place.axes[0] + s * place.axes[1], place.angle, n, fx * n, fs * n)
+
+        return self._result(z, patch)
+
+    def _result(self, z, patch):
+        """The patches at a height, by a function of the wheelset's frame and a place."""
         if z - self.search.touch > DEEPEST:
             raise Error(
                 f"z {z:g}: the bodies overlap by {z - self.search.touch:.3g} m: z is 0 at the nominal height and "
                 f"positive down; they touch at {self.search.touch:.6g}"
             )
-        self.passes += 1
-        self._warned = []
         frame = Frame(self.rotation, np.array([0.0, self.position.y, z - self.pair.wheel.radius]))
         settings = self.pair.settings
         found = places(self.search, self.search.regions(z), settings.separation, settings.combination)
-        patches = [self._patch(frame, place) for place in found]
+        patches = [patch(frame, place) for place in found]
         return Result(tuple(one for one in patches if one is not None), float(z), self.search.touch, self.passes)
 
-    def _patch(self, frame: Frame, place: Place) -> Optional[Patch]:
-        """The solution on a patch; None where no cell touches."""
+    def _laid(self, frame: Frame, place: Place, rolling: bool) -> Optional["_Laid"]:
+        """The undeformed bodies on the grid of a patch; None where no cell touches."""
         pair = self.pair
-        contact = pair._contacts.of(place.high - place.low)
+        contact = pair._contacts.of(place.high - place.low, rolling)
         cell = pair.settings.cell  # the origin is a cell's centre: results change little from grid to grid
         middle = (np.round(0.5 * (place.low + place.high) / cell - 0.5) + 0.5) * cell
         x, s = middle[0] + contact.x, middle[1] + contact.y
         apart, y = gap.separation(pair.rail, pair.wheel, frame, place, x, s)
         approach = -float(apart.min())
-        if not approach > 0.0:
+        return _Laid(contact, middle, x, s, apart, y, approach) if approach > 0.0 else None
+
+    def _patch(self, frame: Frame, place: Place) -> Optional[Patch]:
+        """The solution on a patch; None where no cell touches."""
+        pair, laid = self.pair, self._laid(frame, place, True)
+        if laid is None:
             return None
+        contact, x, y, approach, cell = laid.contact, laid.x, laid.y, laid.approach, pair.settings.cell
         creeps = creepages(pair.rail, frame, self.pitch, self.position, place, approach)
         friction = _coefficient(pair.friction, place.angle)
-        found = contacts.solved(contact, apart + approach, approach, creeps[:3], friction, middle)
+        found = contacts.solved(contact, laid.apart + approach, approach, creeps[:3], friction, laid.middle)
         for text in found.advice:
             text, use, _ = text.partition(": use ")
             kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", text)
@@ -258,7 +315,7 @@ class Case:
             speed=creeps.speed, friction=friction, n=found.n, fx=-tx, fs=-ts, mn=-found.moment, approach=approach,
             p_max=numbers["pressure_max"], area=numbers["contact_area"], stick_area=numbers["stick_area"],
             cells=int(numbers["contact_cells"]), stick_cells=int(numbers["stick_cells"]), grid=contact.n,
-            grid_x=x, grid_s=s, pressure=pressure, t_gamma=float(power.sum()) * cell * cell, power=power,
+            grid_x=x, grid_s=laid.s, pressure=pressure, t_gamma=float(power.sum()) * cell * cell, power=power,
             slip=np.hypot(contact["slip_velocity_x"], contact["slip_velocity_y"]),
             wheel_y=self._along_wheel(frame, np.asarray(x), y),
         )  # fmt: skip

@@ -36,6 +36,47 @@ class ConformalWarning(UserWarning):
 
 
 @dataclass(frozen=True, eq=False)
+class Pressed:
+    """A contact patch by its pressure alone: its tangential forces are given shares of the normal force.
+
+    Attributes
+    ----------
+    centre : ndarray
+        Centre of pressure in the track, (3,), m.
+    angle : float
+        Inclination of the patch, rad.
+    n, fx, fs : float
+        Normal force, and forces on the rail along x and s, N.
+    """
+
+    centre: np.ndarray
+    angle: float
+    n: float
+    fx: float
+    fs: float
+
+    @property
+    def force(self) -> np.ndarray:
+        """Force on the rail in the track, (3,), N."""
+        return _in_track(self)
+
+    def mirrored(self) -> "Pressed":
+        """The patch as seen in a mirror in the plane y = 0.
+
+        Returns
+        -------
+        Pressed
+        """
+        return Pressed(self.centre * np.array([1.0, -1.0, 1.0]), -self.angle, self.n, self.fx, -self.fs)
+
+
+def _in_track(patch):
+    """Force of a patch on the rail in the track, N."""
+    c, s = np.cos(patch.angle), np.sin(patch.angle)
+    return np.array([patch.fx, patch.fs * c - patch.n * s, patch.fs * s + patch.n * c])
+
+
+@dataclass(frozen=True, eq=False)
 class Patch:
     """A contact patch. The forces act on the rail.
 
@@ -126,8 +167,7 @@ class Patch:
     @property
     def force(self) -> np.ndarray:
         """Force on the rail in the track, (3,), N: x forward, y to the right, z down."""
-        c, s = np.cos(self.angle), np.sin(self.angle)
-        return np.array([self.fx, self.fs * c - self.n * s, self.fs * s + self.n * c])
+        return _in_track(self)
 
     def mirrored(self) -> "Patch":
         """The patch as seen in a mirror in the plane y = 0.
