@@ -268,6 +268,9 @@ def test_one_position_and_its_files(run, tmp_path):
     ):
         assert column in head.split(",")
     assert len(rows) == 2 and (tmp_path / "one.png").stat().st_size > 10000
+    values = dict(zip(head.split(","), rows[0].split(",")))
+    left = max(abs(float(values[f"{name}_error [1]"])) for name in ("force", "moment"))
+    assert 0.0 < left <= 1e-5 and f"residual {left:.1g}\n" in text
 
 
 def test_a_table_of_a_simulation(run, tmp_path):
@@ -346,6 +349,7 @@ def shuffled(profile):
 
 MISTAKES = {
     "mirrored wheel": ("wheel", dict(mirror=-1.0), [], "the profile is mirrored; give --mirror wheel"),
+    "mirrored rail": ("rail", dict(order="gauge side", mirror=-1.0), [], "is mirrored; give --mirror rail"),
     "z up, wheel": ("wheel", dict(turn=-1.0), [], "give --z up"),
     "z up, rail": ("rail", dict(turn=-1.0), [], "is its z up? give --z up"),
     "m taken for mm": ("wheel", dict(scale=1.0), [], "check its unit of length"),
@@ -363,6 +367,8 @@ def test_mistakes_of_profiles_are_errors_with_their_cure(run, tmp_path, name):
     if order == "folded":
         k = len(profile.y) // 2
         given = dict(order=np.r_[0:k, k - 30 : len(profile.y)])
+    elif order == "gauge side":
+        given = dict(given, order=(profile.y < 0.0) | (profile.z < 4e-3))
     elif order:
         given = dict(order=order(profile))
     path = columns(tmp_path / "profile.txt", profile, **given)

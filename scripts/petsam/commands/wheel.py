@@ -15,6 +15,8 @@ names with units, y [mm],yaw [mrad],speed [km/h],load [kN],weight, and a line pe
 roll_rate, yaw_rate, pitch_rate, lateral, offset, height, load_right and load_left (the vertical forces of both wheels
 instead of the axle load), and roll, which is compared with the one that is found.
 
+The residual is what is left of the balance of forces or moments, relative to the axle load.
+
 -o NAME writes NAME.csv: a row for each patch with contact point, angle, creepages, forces in the patch (n, fx, fs) and
 in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, and T-gamma; NAME.png, of one position
 the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference, equivalent
@@ -226,8 +228,8 @@ def _optioned(error):
     """A message of the profiles with the command's options in place of Python's arguments."""
     text = str(error)
     for old, new in (
-        ("read(..., z='up') turns it over", "give --z up"), ("mirror=True to read()", "--mirror wheel"),
-        (", or mirror.y = 1 in the file, or take mirrored()", ", or mirror.y = 1 in the file"),
+        ("read(..., z='up') turns it over", "give --z up"), ("mirror=True to read() of the rail", "--mirror rail"),
+        ("mirror=True to read()", "--mirror wheel"), (", or mirror.y = 1 in the file, or take mirrored()", ", or mirror.y = 1 in the file"),
         ("unit='mm'", "--unit mm"), ("z='down' or z='up'", "--z down or --z up"),
         ("flange_position", "--flange-position"), ("flange_back", "--flange-back"),
     ):  # fmt: skip
@@ -313,8 +315,9 @@ def _print(options, found, table):
         y, z, roll, lateral, difference = (
             columns[name][k] for name in ("ws_y", "ws_z", "ws_roll", "ws_lateral", "radius_difference")
         )
+        left = max(abs(columns[name][k]) for name in ("force_error", "moment_error"))
         print(f"position {number}: y {1e3 * y:.4f} mm, z {1e3 * z:.4f} mm, roll {1e3 * roll:.5f} mrad, lateral "
-              f"force {lateral:.5g} N, rolling radius difference {1e3 * difference:.4f} mm")  # fmt: skip
+              f"force {lateral:.5g} N, rolling radius difference {1e3 * difference:.4f} mm, residual {left:.1g}")  # fmt: skip
         for row in [j for j, one in enumerate(columns["position"]) if one == number]:
             _print_patch({name: values[row] for name, values in columns.items()})
     if len(solved) > SHOWN:

@@ -147,6 +147,8 @@ class Equilibrium(tables.Tabled):
             ("ws_roll", "rad", "roll", self.position.roll), ("ws_yaw", "rad", "yaw", self.position.yaw),
             ("ws_load", "N", "axle load", self.load.vertical), ("ws_lateral", "N", "lateral force", self.lateral),
             ("radius_difference", "m", "rolling radius of the right wheel less the left", self.radius_difference),
+            ("force_error", "1", "what is left of the vertical forces over the axle load", self.force_error),
+            ("moment_error", "1", "what is left of the moments over the axle load times its arm", self.moment_error),
         )  # fmt: skip
         columns = [tables.Column(name, unit, text, [value] * count) for name, unit, text, value in common]
         columns.append(tables.Column("side", "", "right or left", [found.side for found, _ in rows]))

@@ -40,8 +40,20 @@ def _to_gauge(profile, gauge, gauge_height):
     points = curve(fine(curve))
     section = visible(profile)
     top = _top(section)
+    _need_gauge_face(profile, points, top + gauge_height)
     inner = points[points[:, 1] <= top + gauge_height, 0]
     return 0.5 * gauge - _refined(points, top + gauge_height, float(inner.min())), top, section
+
+
+def _need_gauge_face(profile, points, level):
+    """Raises Error for a rail that reaches the gauge height on its field side alone: one that is mirrored."""
+    y, z = points.T
+    middle = y[int(np.argmin(z))]
+    if z[y > middle].max(initial=-np.inf) > level > z[y < middle].max(initial=-np.inf):
+        raise Error(
+            f"{profile.name}: the rail reaches the gauge height on the field side alone, at greater y: the profile is "
+            "mirrored; give mirror=True to read() of the rail, or mirror.y = 1 in the file, or take mirrored()"
+        )
 
 
 def _top(section):
