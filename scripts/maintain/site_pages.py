@@ -77,6 +77,7 @@ PARTS = (
             "examples/pad/README.md",
             "examples/dovetail/README.md",
             "examples/rolling/README.md",
+            "examples/wheel/README.md",
             "examples/creep/README.md",
         ),
     ),

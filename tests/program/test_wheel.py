@@ -13,7 +13,9 @@ from petsam import plot, profiles
 from petsam.commands import wheel
 from petsam.core.errors import Error
 from petsam.profiles import Load, Position, Profile, Settings, State, Vehicle, wearing
+from petsam.profiles import axle as axle_module
 from petsam.profiles.conicity import equivalent_conicity
+from petsam.profiles.positions import Case
 from petsam.profiles.wearing import Law, depth_rates, rows_of
 
 pytestmark = pytest.mark.filterwarnings("ignore:patch at:UserWarning")
@@ -136,6 +138,25 @@ def test_too_much_is_an_error_that_names_it(axle):
         axle.solve(Position(speed=20.0), Load(100e3, 0.9))
     with pytest.raises(Error, match="the wheelset climbs: reduce it"):
         axle.solve(Position(speed=20.0), Load(100e3, lateral=1e6))
+
+
+def test_between_two_regions_the_message_names_no_lift(axle, monkeypatch):
+    """At 6.3 mm the right contact is between root and flange: slow, but in equilibrium."""
+    found = axle.solve(Position(y=6.3e-3, speed=20.0), LOAD)
+    assert max(abs(found.force_error), abs(found.moment_error)) < 1e-5
+    assert min(one.force[2] for one in found.wheels) > 1e4
+    monkeypatch.setattr(axle_module, "MORE", 0)
+    with pytest.raises(Error, match="no wheel lifts, but a contact moves between two regions"):
+        axle.solve(Position(y=6.3e-3, speed=20.0), LOAD)
+
+
+def test_pressures_alone_are_those_of_the_solution(axle):
+    """With the shares of a full solution the pressures of all patches have its forces and moments."""
+    found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
+    shares = [(p.centre[1], p.fx / p.n, p.fs / p.n) for p in found.right.patches]
+    again = Case(axle.pairs[0], found.position).pressed(found.position.z, shares)
+    assert again.force == pytest.approx(found.right.force, rel=1e-6)
+    assert again.patches[0].centre == pytest.approx(found.right.patches[0].centre, abs=1e-9)
 
 
 def test_work_of_friction_is_that_of_forces_and_creepages(axle):

@@ -229,7 +229,8 @@ def _optioned(error):
     text = str(error)
     for old, new in (
         ("read(..., z='up') turns it over", "give --z up"), ("mirror=True to read() of the rail", "--mirror rail"),
-        ("mirror=True to read()", "--mirror wheel"), (", or mirror.y = 1 in the file, or take mirrored()", ", or mirror.y = 1 in the file"),
+        ("mirror=True to read()", "--mirror wheel"),
+        (", or mirror.y = 1 in the file, or take mirrored()", ", or mirror.y = 1 in the file"),
         ("unit='mm'", "--unit mm"), ("z='down' or z='up'", "--z down or --z up"),
         ("flange_position", "--flange-position"), ("flange_back", "--flange-back"),
     ):  # fmt: skip
@@ -317,7 +318,8 @@ def _print(options, found, table):
         )
         left = max(abs(columns[name][k]) for name in ("force_error", "moment_error"))
         print(f"position {number}: y {1e3 * y:.4f} mm, z {1e3 * z:.4f} mm, roll {1e3 * roll:.5f} mrad, lateral "
-              f"force {lateral:.5g} N, rolling radius difference {1e3 * difference:.4f} mm, residual {left:.1g}")  # fmt: skip
+              f"force {lateral:.5g} N, rolling radius difference {1e3 * difference:.4f} mm, "
+              f"residual {left:.1g}")  # fmt: skip
         for row in [j for j, one in enumerate(columns["position"]) if one == number]:
             _print_patch({name: values[row] for name, values in columns.items()})
     if len(solved) > SHOWN:

@@ -29,7 +29,7 @@ PASSES, TURNS = 60, 25  # of the equilibrium, and of the roll of rigid bodies
 ROUNDS, PRESSED = 8, 20  # full solutions with shares of tangential forces, and pressures between two of them
 FIRST, NEXT = 0.02, 0.02  # residual of the first pressures, and of others relative to that of the last full solution
 DIRECT = 5e-4  # residual of a full solution from which one step leads to the next
-NEAR = 0.01  # relative change of overlaps across which a force that changes five times as much jumps
+MORE, ALMOST = 100, 0.05  # full solutions beyond PASSES, while no more than this is left
 ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
 STEADY = 1e-8  # relative change of the pitch rate of a wheelset that rolls freely
 SHARE = 1e-9  # m: overlaps of rigid bodies agree to it
@@ -322,7 +322,7 @@ class Axle:
         state = search.by_shares(rtol, _shares(start.wheels) if start else ((), ())) or search.iterate(rtol, PASSES)
         if max(abs(state.rest)) <= rtol:
             return search.equilibrium(state)
-        raise _no_equilibrium(position, load, search.seen)
+        raise _no_equilibrium(position, load, state)
 
 
 @dataclass(frozen=True, eq=False)
@@ -388,11 +388,9 @@ class _Search:
 
     def iterate(self, rtol, passes):
         """The equilibrium by full solutions alone; else the last state."""
-        self.seen = []
-        for _ in range(passes):
+        for k in range(passes + MORE):
             state = self.state()
-            self.seen.append(state)
-            if self.done(state, rtol):
+            if self.done(state, rtol) or (k >= passes and max(abs(state.rest)) > ALMOST):
                 break
             self.improve(state)
         return state
@@ -509,34 +507,21 @@ def _hertz(axle, force):
     return ((force / (4.0 / 3.0 * modulus * math.sqrt(0.5 * radius))) ** (2.0 / 3.0),) * 2
 
 
-def _no_equilibrium(position, load, seen):
+def _no_equilibrium(position, load, state):
     """The error of an iteration without an end."""
-    where = f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium: "
-    jump = _jump(seen)
-    if jump is not None:
-        k, least, most = jump
+    right, left = (float(found.force[2]) for found in state.found)
+    where = f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium: the rails carry {right:.4g} N (right) and "
+    rest = max(abs(state.rest))
+    if rest <= ALMOST:
         return Error(
-            f"{where}the vertical force on the {SIDES[k]} rail jumps from {least:.4g} to {most:.4g} N where regions of "
-            "contact join or part, and the load is between both: take y a little beside it"
+            f"{where}{left:.4g} N (left), and {rest:.2g} of the load or its moment is left: no wheel lifts, but a "
+            "contact moves between two regions of its profiles, where the forces change much with the height: take y "
+            "a little beside it"
         )
-    right, left = (float(found.force[2]) for found in seen[-1].found)
     return Error(
-        f"{where}the rails carry {right:.4g} N (right) and {left:.4g} N (left) at last: a wheel lifts or climbs: check "
-        "offset, lateral, height and y, and the flange"
+        f"{where}{left:.4g} N (left) at last: a wheel lifts or climbs: check offset, lateral, height and y, and the "
+        "flange"
     )
-
-
-def _jump(seen):
-    """Wheel and vertical forces on both sides of a jump between almost equal overlaps; None without one."""
-    late = [one for one in seen[len(seen) // 2 :] if min(one.overlaps) > 0.0]
-    for one, other in zip(late, late[1:]):
-        step = float(np.abs(np.log(one.overlaps / other.overlaps)).max())
-        for k in range(2):
-            forces = sorted(float(state.found[k].force[2]) for state in (one, other))
-            parted = len(one.found[k].patches) != len(other.found[k].patches)
-            if parted and step < NEAR and forces[1] > (1.0 + 5.0 * step) * forces[0] > 0.0:
-                return k, *forces
-    return None
 
 
 def _shares(wheels):
