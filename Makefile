@@ -61,7 +61,7 @@ VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p'
 SONAME  := libpetsam.so.$(basename $(VERSION))
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help pages units bench bench-programs reference peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel site clean
+.PHONY: all help pages units bench bench-programs reference peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel site clean creep-table
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -139,6 +139,9 @@ reference: all $(B)/venv/tests-done ## petsam's answers to the problems of examp
 	$(B)/venv/bin/python examples/reference/check.py $(B)/run/answers.json
 	$(foreach peer,$(PEERS),$(B)/$(if $(filter tamaas aspher,$(peer)),peers,venv)/bin/python examples/reference/peers.py $(peer) $(ARGS) -o $(B)/run/$(peer).json && $(B)/venv/bin/python examples/reference/check.py $(B)/run/$(peer).json;)
 
+creep-table: all $(B)/venv/done ## the table of creep forces for include/petsam/creep.h, about 10 minutes of CPU: ARGS="--poisson 0.25 --jobs 4"
+	$(B)/venv/bin/python scripts/maintain/creep_table.py make -o $(B)/creep-forces.bin $(ARGS)
+
 # the programs that the benchmark compares with, built for this processor; the benchmark also runs without them
 peers: $(B)/peers/done ## install the programs that the benchmark compares with
 $(B)/peers/done: tests/bench/requirements.txt
@@ -213,7 +216,7 @@ check-readmes: all bench-programs $(B)/venv/tests-done ## run the commands in th
 
 # the format of the sources; the tests' environment has the formatters in fixed versions
 C_SOURCES := $(shell find src include tests examples -name '*.[ch]')
-PYTHON_SOURCES := scripts examples tests scripts/petsam-compliance scripts/petsam-fatigue scripts/petsam-fit scripts/petsam-joint scripts/petsam-loads scripts/petsam-plot scripts/petsam-study scripts/petsam-surface
+PYTHON_SOURCES := scripts examples tests scripts/petsam-compliance scripts/petsam-fatigue scripts/petsam-fit scripts/petsam-joint scripts/petsam-loads scripts/petsam-plot scripts/petsam-study scripts/petsam-surface scripts/petsam-wheel
 format: $(B)/venv/tests-done ## format C and Python by .clang-format and .ruff.toml
 	@$(B)/venv/bin/clang-format -i $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)

@@ -15,7 +15,7 @@ import options
 TITLES = {"history": "LOAD HISTORIES", "exit codes": "EXIT STATUS"}
 SEE_ALSO = {
     "petsam": "petsam-stress petsam-compliance petsam-fatigue petsam-fit petsam-joint petsam-loads petsam-plot "
-    "petsam-study petsam-surface",
+    "petsam-study petsam-surface petsam-wheel",
     "petsam-stress": "petsam petsam-fatigue petsam-plot",
     "petsam-compliance": "petsam petsam-stress",
     "petsam-fatigue": "petsam-stress petsam-plot petsam-study",
@@ -25,6 +25,7 @@ SEE_ALSO = {
     "petsam-plot": "petsam petsam-stress petsam-study petsam-fatigue",
     "petsam-study": "petsam petsam-stress petsam-plot",
     "petsam-surface": "petsam petsam-joint",
+    "petsam-wheel": "petsam petsam-plot",
 }
 WIDTH = 70  # columns of commands
 OPTION = re.compile(r' +(?=--?[a-z])(?=(?:[^"]*"[^"]*")*[^"]*$)')  # where a command may be broken: not in a quotation

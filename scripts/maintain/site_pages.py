@@ -78,6 +78,8 @@ PARTS = (
             "examples/dovetail/README.md",
             "examples/rolling/README.md",
             "examples/heat/README.md",
+            "examples/wheel/README.md",
+            "examples/creep/README.md",
         ),
     ),
     (

@@ -91,6 +91,7 @@ def test_petsam_of_the_environment_comes_first(tree, tmp_path):
         "petsam-plot",
         "petsam-study",
         "petsam-surface",
+        "petsam-wheel",
     ],
 )
 def test_missing_libraries_are_named_with_the_remedy(tree, tmp_path, script):

@@ -747,6 +747,12 @@ def upside_down(profile):
     return Profile(profile.y, -profile.z, profile.kind)
 
 
+def without_field_side(profile):
+    """As measured from the gauge side: down to 4 mm below the top at the field side."""
+    keep = (profile.y < 0.0) | (profile.z < 4e-3)
+    return Profile(profile.y[keep], profile.z[keep], profile.kind)
+
+
 def swapped(profile):
     order = np.arange(len(profile.y))
     order[[200, 201]] = order[[201, 200]]
@@ -769,6 +775,10 @@ TRAPS = {
         "flange is on the field side.*mirror=True",
     ),
     "wheel upside down": (lambda: profiles.Wheelset(upside_down(profiles.s1002()), 0.46), "flange points up.*z='up'"),
+    "mirrored rail": (
+        lambda: profiles.Track(without_field_side(profiles.uic60()).mirrored()),
+        "gauge height on the field side alone.*mirror=True",
+    ),
     "rail upside down": (lambda: profiles.Track(upside_down(profiles.uic60())), "hollow.*z='up'"),
     "unsorted": (lambda: profiles.Track(swapped(profiles.uic60())), "point 20[0-3], y = .* go back there: sort"),
     "folded": (lambda: profiles.Track(folded(profiles.uic60())), "above its visible part: sort"),
@@ -786,6 +796,12 @@ TRAPS = {
     ),
     "cell": (lambda: Settings(cell=0.2), "cell 0.2: expected the width of a cell in m"),
 }
+
+
+def test_a_rail_without_its_field_side_lies_as_the_whole_one():
+    whole, part = (profiles.Track(one) for one in (profiles.uic60(), without_field_side(profiles.uic60())))
+    y = np.linspace(0.72, 0.76, 9)
+    assert part.section.height(y) == pytest.approx(whole.section.height(y), abs=1e-7)
 
 
 @pytest.mark.parametrize("trap", list(TRAPS))

@@ -1,184 +1,455 @@
-"""`make wheel`: in an environment of its own, without the sources, it solves the README's first contact."""
+"""petsam-wheel, wheelsets on both rails: equilibrium, symmetry, continuity, conicity, wear, mistakes of first users."""
 
-import importlib.util
-import os
 import re
-import shutil
-import subprocess
 import sys
-import sysconfig
-import zipfile
+import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
-from conftest import PROGRAM, environment
-from support import ROOT, Results
+from petsam import plot, profiles
+from petsam.commands import wheel
+from petsam.core.errors import Error
+from petsam.profiles import Load, Position, Profile, Settings, State, Vehicle, wearing
+from petsam.profiles import axle as axle_module
+from petsam.profiles.conicity import equivalent_conicity
+from petsam.profiles.positions import Case
+from petsam.profiles.wearing import Law, depth_rates, rows_of
 
-FIRST = re.search(r"^build/bin/petsam (.*?[^\\])$", (ROOT / "README.md").read_text(), re.M | re.S)
-STEEL = "body1='steel', body2='steel'"
+pytestmark = pytest.mark.filterwarnings("ignore:patch at:UserWarning")
 
-
-_spec = importlib.util.spec_from_file_location("make_wheel", ROOT / "scripts/packaging/wheel.py")
-maker = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(maker)
-
-
-def shell(command, cwd, check=0, **variables):
-    """Output of a line of a shell that knows nothing of the sources."""
-    hidden = ("PYTHON", "PYTHONPATH", "PETSAM", "PETSAM_LIBRARY", "PETSAM_BUILD", "VIRTUAL_ENV")
-    env = {**{key: value for key, value in environment().items() if key not in hidden}, **variables}
-    done = subprocess.run(command, shell=True, cwd=cwd, env=env, capture_output=True, text=True, timeout=300)
-    assert done.returncode == check, (command, done.stdout, done.stderr)
-    return done.stdout + done.stderr
+COARSE = Settings(cell=4e-4)
+LOAD = Load(100e3)
+BASE = ["--wheel", "s1002", "--rail", "uic60", "--cant", "1:40", "--cell", "0.4mm"]
+ONE = ["--load", "100kN", "--speed", "20"]
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory):
-    """Made of what is being tested, without the libraries, which are those of this system."""
-    script = ROOT / "scripts/packaging/wheel.py"
-    build = PROGRAM.parents[1]
-    subprocess.run(["make", f"B={build}", "pages"], cwd=ROOT, check=True, capture_output=True, timeout=300)
-    words = [sys.executable, script, "--build", build, "--out", tmp_path_factory.mktemp("wheel")]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=600)
-    if "No matching distribution found for setuptools" in done.stderr:
-        pytest.skip("no setuptools to make a wheel with")
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout.split()[1]
+def vehicle():
+    """S1002 on UIC60 with cant 1:40."""
+    track, one = profiles.Track(profiles.uic60(), cant=0.025), profiles.Wheelset(profiles.s1002(), 0.46)
+    return Vehicle(track, one, 0.3, COARSE)
 
 
-def test_the_wheel_has_the_package_the_programs_and_the_license(wheel):
-    with zipfile.ZipFile(wheel) as archive:
-        names = {name.split(".data/", 1)[-1] for name in archive.namelist()}
-        (metadata,) = (name for name in archive.namelist() if name.endswith("METADATA"))
-        required = re.findall(r"^Requires-Dist: ([\w-]+)[>=\d.]+$", archive.read(metadata).decode(), re.M)
-    assert {"petsam/__init__.py", "data/bin/petsam", "data/bin/petsam-stress", "data/share/petsam/LICENSE"} <= names
-    assert sorted(required) == sorted(re.findall(r"^[\w-]+", (ROOT / "scripts/requirements.txt").read_text(), re.M))
-    assert not any("maintain/" in name or "packaging/" in name for name in names)
-
-
-def install(wheel, folder):
-    """A new environment with the wheel; numpy and the others are those of this Python."""
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True, timeout=300)
-    pip = [sys.executable, "-m", "pip", "--python", folder / "bin/python", "install", "-q", "--no-deps", wheel]
-    subprocess.run(pip, check=True, timeout=300)
-    (site,) = folder.glob("lib/python*/site-packages")
-    (site / "others.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    return folder
+@pytest.fixture(scope="module")
+def axle(vehicle):
+    with vehicle.axle() as one:
+        yield one
 
 
 @pytest.fixture
-def fresh(wheel, tmp_path):
-    return install(wheel, tmp_path / "fresh")
+def run(monkeypatch, capsys):
+    """run(*words, check=0): what petsam-wheel prints on both streams."""
+
+    def call(*given, check=0):
+        monkeypatch.setattr(sys, "argv", ["petsam-wheel", *map(str, given)])
+        try:
+            code = wheel.main()
+        except SystemExit as end:
+            code = end.code
+        out, err = capsys.readouterr()
+        assert code == check, err
+        return out + err
+
+    return call
 
 
-def first_contact(fresh, tmp_path, launcher):
-    """Solves the README's contact on two ranks and in process; returns {name: path} of the libraries of the latter."""
-    path = f"{fresh}/bin:{os.environ['PATH']}"
-    command = f"{launcher} -n 2 petsam " + FIRST.group(1)
-    (tmp_path / "build/run").mkdir(parents=True)
-    n, width = re.search(r" chose -grid_n (\d+) -grid_size (\S+)\n", shell(command, tmp_path, PATH=path)).groups()
-    result = Results(next(tmp_path.glob("build/run/*.h5")))
-    assert np.isclose(result["load_n"], 1000, rtol=1e-12) and result.pressure.shape == (int(n), int(n))
-    # the same contact in process, by the library of the wheel
-    code = (
-        f"import petsam; print(petsam.__file__); c = petsam.Contact(grid_n={n}, grid_size={width}, {STEEL}, "
-        "friction=0.1, gap_type='sphere', gap_radius1=0.2, gap_radius2=0.2); "
-        "print(c.try_step(load_n=1000, load_tx=60).pressure_max);"
-        "print(*{line.split()[-1] for line in open('/proc/self/maps') if '.so' in line})"
+# ---------------------------------------------------------------- equilibrium
+
+
+def moment(found):
+    """Moment of the pressure and the shear on the wheels about x through the axle's middle, cell by cell."""
+    total, radius = 0.0, 0.46
+    middle = np.array([0.0, found.position.y, found.position.z - radius])
+    for result in found.wheels:
+        for patch in result.patches:
+            normal = np.array([0.0, -np.sin(patch.angle), np.cos(patch.angle)])
+            across = np.array([0.0, np.cos(patch.angle), np.sin(patch.angle)])
+            cell = abs(patch.grid_x[1] - patch.grid_x[0]) * abs(patch.grid_s[1] - patch.grid_s[0])
+            origin = np.array([patch.x, patch.y, patch.z])
+            for s, row in zip(patch.grid_s, patch.pressure):
+                force = row.sum() * cell * (normal + patch.fs / patch.n * across)
+                total += np.cross(origin + s * across - middle, force)[0]
+    return total
+
+
+@pytest.mark.parametrize(
+    ("y", "yaw", "offset", "height"),
+    [(0.0, 0.0, 0.0, 0.0), (3e-3, 2e-3, 0.0, 0.0), (-5.2e-3, 0.01, 0.1, 0.0), (5.8e-3, 4e-3, 0.0, 0.46)],
+)
+def test_vertical_forces_and_moments_balance(axle, y, yaw, offset, height):
+    load = Load(100e3, offset, height=height)
+    found = axle.solve(Position(y=y, yaw=yaw, speed=20.0), load)
+    vertical = sum(one.force[2] for one in found.wheels)
+    assert vertical == pytest.approx(100e3, rel=2e-5)
+    # the shear acts at the centre of pressure here: its own distribution moves it by less than 0.1 mm
+    assert moment(found) == pytest.approx(offset * 100e3 - height * found.lateral, abs=2e-5 * 100e3 * 0.75 + 5.0)
+    assert found.lateral == pytest.approx(sum(one.force[1] for one in found.wheels))
+    assert max(abs(found.force_error), abs(found.moment_error)) < 1e-5
+
+
+def test_without_friction_the_loads_of_the_wheels_follow_the_lever(vehicle):
+    with replace(vehicle, friction=0.0).axle() as axle:
+        found = axle.solve(Position(speed=20.0), Load(100e3, 0.2))
+    arms = [sum(p.centre[1] * p.force[2] for p in one.patches) / one.force[2] for one in found.wheels]
+    height = [sum((p.centre[2] - found.position.z + 0.46) * p.force[1] for p in one.patches) for one in found.wheels]
+    right = (100e3 * (0.2 - arms[1]) + sum(height)) / (arms[0] - arms[1])
+    assert found.right.force[2] == pytest.approx(right, rel=1e-4)
+    assert found.right.force[2] > found.left.force[2]
+
+
+def test_left_and_right_are_mirror_images(axle):
+    one = axle.solve(Position(y=4e-3, yaw=3e-3, vy=0.01, speed=20.0), Load(100e3, 0.05))
+    other = axle.solve(Position(y=-4e-3, yaw=-3e-3, vy=-0.01, speed=20.0), Load(100e3, -0.05))
+    assert other.position.roll == pytest.approx(-one.position.roll, abs=1e-9)
+    assert other.lateral == pytest.approx(-one.lateral, rel=1e-4)
+    assert other.radius_difference == pytest.approx(-one.radius_difference, abs=1e-9)
+    assert [p.n for p in other.left.patches] == pytest.approx([p.n for p in one.right.patches][::-1], rel=1e-4)
+    assert [p.fx for p in other.right.patches] == pytest.approx([p.fx for p in one.left.patches][::-1], rel=1e-4)
+
+
+def test_numbers_are_continuous_over_y(vehicle):
+    """Steps of 0.05 mm: changes vary little from step to step while the contact moves on without a jump."""
+    y = np.arange(2.0e-3, 3.0e-3 + 1e-9, 5e-5)
+    batch = profiles.solve_all(vehicle, [State(Position(y=float(one), speed=20.0), LOAD) for one in y])
+    assert not batch.failures
+    for name, most in (("ws_roll", 0.05), ("ws_z", 0.05), ("radius_difference", 0.05), ("ws_lateral", 0.15)):
+        values = batch.of(name)
+        steps = np.diff(values)
+        assert np.abs(steps).max() < most * np.ptp(values) + 2.0 * np.ptp(values) / len(steps), name
+
+
+def test_a_lateral_force_is_that_of_its_displacement(axle):
+    at = axle.solve(Position(y=5.2e-3, speed=20.0), LOAD)
+    found = axle.solve(Position(speed=20.0), Load(100e3, lateral=at.lateral))
+    assert found.position.y == pytest.approx(5.2e-3, abs=2e-6)
+    assert found.lateral == pytest.approx(at.lateral, rel=1e-3)
+
+
+def test_given_loads_of_the_wheels_are_met(axle):
+    found = axle.solve(Position(y=2e-3, speed=20.0), Load(100e3, right=60e3))
+    assert [one.force[2] for one in found.wheels] == pytest.approx([60e3, 40e3], rel=1e-4)
+
+
+def test_too_much_is_an_error_that_names_it(axle):
+    with pytest.raises(Error, match="a wheel lifts or climbs: check offset"):
+        axle.solve(Position(speed=20.0), Load(100e3, 0.9))
+    with pytest.raises(Error, match="the wheelset climbs: reduce it"):
+        axle.solve(Position(speed=20.0), Load(100e3, lateral=1e6))
+
+
+def test_between_two_regions_the_message_names_no_lift(axle, monkeypatch):
+    """At 6.3 mm the right contact is between root and flange: slow, but in equilibrium."""
+    found = axle.solve(Position(y=6.3e-3, speed=20.0), LOAD)
+    assert max(abs(found.force_error), abs(found.moment_error)) < 1e-5
+    assert min(one.force[2] for one in found.wheels) > 1e4
+    monkeypatch.setattr(axle_module, "MORE", 0)
+    with pytest.raises(Error, match="no wheel lifts, but a contact moves between two regions"):
+        axle.solve(Position(y=6.3e-3, speed=20.0), LOAD)
+
+
+def test_pressures_alone_are_those_of_the_solution(axle):
+    """With the shares of a full solution the pressures of all patches have its forces and moments."""
+    found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
+    shares = [(p.centre[1], p.fx / p.n, p.fs / p.n) for p in found.right.patches]
+    again = Case(axle.pairs[0], found.position).pressed(found.position.z, shares)
+    assert again.force == pytest.approx(found.right.force, rel=1e-6)
+    assert again.patches[0].centre == pytest.approx(found.right.patches[0].centre, abs=1e-9)
+
+
+def test_work_of_friction_is_that_of_forces_and_creepages(axle):
+    found = axle.solve(Position(y=4e-3, yaw=5e-3, speed=20.0), LOAD)
+    for patch in [patch for one in found.wheels for patch in one.patches]:
+        work = -(patch.fx * patch.creep_x + patch.fs * patch.creep_s + patch.mn * patch.creep_spin)
+        assert patch.t_gamma == pytest.approx(work, rel=0.03)
+
+
+def test_random_wheelsets_are_in_equilibrium_or_named(vehicle):
+    rng = np.random.default_rng(7)
+    states = [
+        State(Position(y=float(y), yaw=float(yaw), speed=20.0), Load(float(load)))
+        for y, yaw, load in zip(
+            rng.uniform(-5.5e-3, 5.5e-3, 16), rng.uniform(-0.05, 0.05, 16), rng.uniform(5e4, 2e5, 16)
+        )
+    ]
+    found = profiles.solve_all(vehicle, states)
+    table = {column.name: column.values for column in found.table()}
+    for number, state in enumerate(states, 1):
+        rows = [k for k, one in enumerate(table["position"]) if one == number]
+        if found.found[number - 1].failure:
+            assert "no equilibrium" in table["note"][rows[0]]
+        else:
+            assert sum(table["track_fz"][k] for k in rows) == pytest.approx(state.load.vertical, rel=2e-5)
+    assert len(found.failures) <= 1
+
+
+def test_a_batch_does_not_depend_on_its_processes(vehicle):
+    states = [State(Position(y=1e-4 * k, speed=20.0), LOAD) for k in range(12)]
+    one, two = (profiles.solve_all(vehicle, states, cores) for cores in (1, 2))
+    assert [column.values for column in one.table()] == [column.values for column in two.table()]
+
+
+# ---------------------------------------------------------------- equivalent conicity
+
+
+def test_conicity_of_cones_is_their_slope():
+    y = np.linspace(-0.01, 0.01, 201)
+    assert equivalent_conicity(y, 2 * 0.05 * y, [1e-3, 8e-3], 0.46) == pytest.approx(0.05, rel=1e-6)
+
+
+def test_conicity_is_that_of_the_integrated_motion():
+    """By the wavelength of y'' = -difference/(e r0), integrated in time."""
+    y = np.linspace(-0.01, 0.01, 2001)
+    law = lambda y: 0.1 * y + 3e3 * y**3 + 0.02 * np.maximum(y, 0.0)  # noqa: E731
+    radius, start = 0.46, -5e-3
+    turn = lambda x, state: state[1]  # noqa: E731
+    turn.terminal, turn.direction = True, -1
+    slope = lambda x, state: [state[1], -law(state[0]) / (1.5 * radius)]  # noqa: E731
+    motion = solve_ivp(slope, (0, 200), [start, 0.0], events=turn, rtol=1e-10, atol=1e-13)
+    half, end = motion.t_events[0][0], motion.y_events[0][0][0]
+    expected = (np.pi / (2.0 * half)) ** 2 * 2.0 * 1.5 * radius
+    assert equivalent_conicity(y, law(y), [0.5 * (end - start)], radius)[0] == pytest.approx(expected, rel=1e-4)
+
+
+def test_rigid_wheels_touch_at_both_sides(axle):
+    shape = profiles.geometry(axle, [-4e-3, 0.0, 4e-3])
+    assert shape.radius_difference == pytest.approx(
+        [-shape.radius_difference[2], 0.0, shape.radius_difference[2]], abs=1e-8
     )
-    package, pressure, libraries = shell(f'"{fresh}/bin/python" -c "{code}"', tmp_path).splitlines()
-    mapped = {name.rsplit("/", 1)[-1]: name for name in libraries.split()}
-    (library,) = (name for name in mapped if name.startswith("libpetsam"))
-    assert package.startswith(str(fresh)) and mapped[library] == str(next(fresh.glob("lib/libpetsam.so.*.?")))
-    assert np.isclose(float(pressure), result["pressure_max"], rtol=1e-12)
-    for tool in ("petsam-plot --maps -o maps.png build/run/*.h5", "petsam-surface --help", "petsam-stress --version"):
-        shell(tool, tmp_path, PATH=path)
-    assert (tmp_path / "maps.png").exists()
-    return mapped
+    assert shape.points[0] == pytest.approx(-shape.points[1][::-1], abs=7e-5)
+    for y, roll, z in zip(shape.y, shape.roll, shape.z):
+        for pair, sign in zip(axle.pairs, (1.0, -1.0)):
+            near = pair.solve(Position(y=float(y), roll=float(roll), z=float(z) + 1e-5, speed=20.0))
+            assert near.overlap == pytest.approx(1e-5, abs=1e-8), sign
 
 
-def test_an_environment_with_the_wheel_alone_solves_the_first_contact_of_the_README(fresh, tmp_path):
-    first_contact(fresh, tmp_path, "mpirun --oversubscribe")
+# ---------------------------------------------------------------- wear
 
 
-def test_a_study_finds_program_and_job_script_of_the_wheel(fresh, tmp_path):
-    (tmp_path / "one.csv").write_text("load_n\n1\n")
-    fake = tmp_path / "bin" / "sbatch"
-    fake.parent.mkdir()
-    fake.write_text(f'#!/bin/sh\necho "$@" >>{tmp_path}/sbatch.txt\necho 1\n')
-    fake.chmod(0o755)
-    path = f"{fresh}/bin:{fake.parent}:{os.environ['PATH']}"
-    shell("petsam-study one.csv --slurm", tmp_path, PATH=path)
-    first, last = (tmp_path / "sbatch.txt").read_text().splitlines()
-    assert f"{fresh}/share/petsam/scripts/slurm/array.sbatch" in first and f"{fresh}/bin/petsam-study" in last
-    assert "exit 2: " in shell("petsam-study one.csv", tmp_path, check=1, PATH=path)  # petsam lacks the other options
+def test_worn_volume_is_coefficient_times_work(vehicle, axle):
+    """The integral of the depths of a revolution is the work of friction in it."""
+    found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
+    y = np.linspace(-0.06, 0.06, 12001)
+    rows = rows_of(found, "energy")
+    rates = depth_rates(y, rows, 1e-14)
+    slopes = [abs(np.cos(patch.angle)) for one in found.wheels for patch in one.patches]
+    area = np.trapezoid(rates, y) / np.mean(slopes)
+    assert 2.0 * area == pytest.approx(1e-14 * found.t_gamma / (2 * np.pi * 0.46), rel=0.02)
 
 
-def test_a_library_whose_license_is_not_listed_is_not_carried(monkeypatch):
-    """Everything that the programs need is the system's, MPI's, or carried with its license."""
-    assert "libhdf5" in " ".join(maker.needed(PROGRAM)) and maker.MPI not in maker.needed(PROGRAM)
-    monkeypatch.setattr(maker, "LICENSES", {})
-    with pytest.raises(SystemExit, match="unknown license"):
-        maker.carried([PROGRAM])
+def test_worn_places_are_those_in_contact(axle):
+    found = axle.solve(Position(y=3e-3, speed=20.0), LOAD)
+    for result, sign in zip(found.wheels, (1.0, -1.0)):
+        for patch in result.patches:
+            place = np.average(patch.wheel_y, weights=patch.pressure.sum(axis=1))
+            assert place == pytest.approx(sign * (patch.centre[1] - 3e-3) - 0.75, abs=2e-4)
 
 
-def test_the_carrying_wheel_is_refused_where_a_file_needs_a_newer_C_library(monkeypatch):
-    machine = sysconfig.get_platform().replace("-", "_")
-    assert maker.platform(None) == machine
-    table = {"old": "(GLIBC_2.2.5) pow\n(GLIBC_2.28) a", "new": "(GLIBC_2.9) a\n(GLIBC_2.34) b\n(GFORTRAN_8) c", "": ""}
-    monkeypatch.setattr(maker, "output", lambda *words: table[words[-1]])
-    assert [maker.c_library(file) for file in table] == [(2, 28), (2, 34), (0, 0)]
-    assert maker.platform(["old", ""]) == machine.replace("linux", "manylinux_2_28")
-    with pytest.raises(SystemExit, match="new needs glibc 2.34, expected 2.28"):
-        maker.platform(["old", "new"])
+def test_wear_takes_off_what_the_rates_say_and_has_an_error(vehicle):
+    states = [State(Position(y=y, yaw=1e-3, speed=20.0), LOAD, weight) for y, weight in ((-2e-3, 1.0), (3e-3, 2.0))]
+    law = Law("energy", 1e-14)
+    few = profiles.wear(vehicle, states, 5e6, law, 2)
+    profile, rates, failures = wearing.rates(vehicle, states, law)
+    assert not failures and not few.failures
+    area = float(np.sum(rates * np.gradient(profile.lengths))) * 5e6
+    assert few.area[-1] == pytest.approx(area, rel=0.1)
+    deepest, error = few.deepest
+    assert 0.0 < error < 0.5 * deepest
+    removed = np.hypot(few.new.y - few.worn.y, few.new.z - few.worn.z)
+    assert removed == pytest.approx(few.depth, abs=1e-12)
+    assert (few.worn.z <= few.new.z + 1e-15).all()
+    with pytest.raises(Error, match="takes off .* use at least"):
+        profiles.wear(vehicle, states, 5e9, law, 2)
 
 
-def test_the_libraries_are_linked_with_the_C_library_that_the_wheel_names():
-    script = (ROOT / "scripts/packaging/wheel-libraries.sh").read_text()
-    assert re.search(r"^glibc=(.*)$", script, re.M)[1] == "{}.{}".format(*maker.C_LIBRARY)
+def test_archard_with_full_sliding_is_energy_over_friction(axle):
+    found = axle.solve(Position(y=3e-3, yaw=0.05, speed=20.0), LOAD)
+    for (_, work, _), (_, way, _) in zip(rows_of(found, "energy"), rows_of(found, "archard")):
+        assert work.sum() == pytest.approx(0.3 * way.sum(), rel=0.02)
 
 
-@pytest.fixture(scope="module")
-def standing():
-    """The wheel of `make wheel`."""
-    wheels = list((ROOT / "build/wheel").glob("petsam-*manylinux_*.whl"))
-    if not wheels:
-        pytest.skip("no wheel of make wheel stands in build/wheel")
-    return wheels[0]
+# ---------------------------------------------------------------- the command
 
 
-@pytest.fixture(scope="module")
-def data(standing, tmp_path_factory):
-    """The folder of its files for the environment."""
-    folder = tmp_path_factory.mktemp("standing")
-    with zipfile.ZipFile(standing) as archive:
-        archive.extractall(folder)
-    return next(folder.glob("*.data/data"))
+def test_one_position_and_its_files(run, tmp_path):
+    name = tmp_path / "one"
+    text = run(*BASE, *ONE, "--y", "3mm", "--yaw", "2mrad", "-o", name)
+    assert "position 1: y 3.0000 mm" in text and "right" in text and "T-gamma" in text
+    head, *rows = (tmp_path / "one.csv").read_text().splitlines()
+    for column in (
+        "y [m]",
+        "angle [rad]",
+        "creep_spin [1/m]",
+        "track_fy [N]",
+        "p_max [Pa]",
+        "stick_area [m2]",
+        "t_gamma [N]",
+    ):
+        assert column in head.split(",")
+    assert len(rows) == 2 and (tmp_path / "one.png").stat().st_size > 10000
+    values = dict(zip(head.split(","), rows[0].split(",")))
+    left = max(abs(float(values[f"{name}_error [1]"])) for name in ("force", "moment"))
+    assert 0.0 < left <= 1e-5 and f"residual {left:.1g}\n" in text
 
 
-def test_a_wheel_that_stands_needs_no_newer_C_library_than_its_name_says(standing, data):
-    files = [path for path in data.rglob("*") if path.is_file() and path.read_bytes()[:4] == b"\x7fELF"]
-    named = re.search(r"manylinux_(\d+)_(\d+)_", standing.name)
-    assert len(files) > 4 and max(map(maker.c_library, files)) <= (int(named[1]), int(named[2])) == maker.C_LIBRARY
+def test_a_table_of_a_simulation(run, tmp_path):
+    table = tmp_path / "vehicle.csv"
+    table.write_text(
+        "x [m],y [mm],yaw [deg],speed [km/h],load_right [kN],load_left [kN],weight\n"
+        "1,2,0.1,72,45,55,2\n2,-1,0,36,50,50,1\n"
+    )
+    name = tmp_path / "many"
+    text = run(*BASE, "--table", table, "--cores", 1, "--wear", "1e-14", "--no-picture", "-o", name)
+    assert "columns that are not used: x" in text and "wear: at most" in text
+    rows = (tmp_path / "many.csv").read_text().splitlines()
+    head = rows[0].split(",")
+    first = dict(zip(head, rows[1].split(",")))
+    assert float(first["ws_yaw [rad]"]) == pytest.approx(np.radians(0.1))
+    assert float(first["ws_y [m]"]) == 2e-3 and float(first["track_fz [N]"]) == pytest.approx(45e3, rel=1e-4)
+    assert (tmp_path / "many-wear.csv").read_text().startswith("y [m],z [m],depth_per_distance [1]\n")
 
 
-def test_a_wheel_that_stands_has_the_license_of_each_library(data):
-    licenses = data / "share/petsam/licenses"
-    listed = dict(line.split(": ") for line in (licenses / "libraries.txt").read_text().splitlines())
-    assert set(listed) == {path.name for path in data.glob("lib/petsam/lib*")}
-    assert all((licenses / text).stat().st_size > 1000 for text in (*listed.values(), "compiler_rt"))
+def test_a_roll_of_another_sign_is_a_warning(run, tmp_path):
+    table = tmp_path / "vehicle.csv"
+    table.write_text("y [mm],roll [mrad],speed [m/s],load [kN]\n5,5,20,100\n")
+    assert "line 2: roll differs by" in run(*BASE, "--table", table, "--cores", 1)
 
 
-def test_a_wheel_that_stands_solves_the_first_contact_with_libraries_of_its_own(standing, data, tmp_path):
-    """Its MPI is the one of PyPI that it was built with."""
-    fresh = install(standing, tmp_path / "fresh")
-    mpich = ROOT / "build/wheel/libraries"
-    for name in ("bin/mpirun", "bin/hydra_pmi_proxy", f"lib/{maker.MPI}"):
-        shutil.copy(mpich / name, fresh / name)
-    (fresh / "lib/mpich").symlink_to(mpich / "lib/mpich")
-    mapped = first_contact(fresh, tmp_path, "mpirun")
-    inside = {path.name for path in data.glob("lib/petsam/lib*")} | {maker.MPI}
-    assert {name: mapped[name] for name in inside} == {
-        name: str(fresh / "lib" / ("" if name == maker.MPI else "petsam") / name) for name in inside
-    }
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("y,speed [m/s],load [N]\n1,2,3\n", "line 1: column y: has no unit: write y [m]"),
+        ("y [mm],yaw [furlong],speed [m/s],load [N]\n1,2,3,4\n", "furlong: is no unit of it"),
+        ("y [mm],yaw [rad],speed [m/s],load [kN]\n0,0,20,100\n0,2,20,100\n", "line 3: roll 0, yaw 2: expected rad"),
+        ("y [m],speed [m/s],load [kN]\n3,20,100\n", "line 2: y 3, z 0: expected displacements in m"),
+        ("y [mm],load [kN]\n3,100\n", "has no column speed: give it, speed [km/h], or --speed"),
+        ("y [mm],speed [m/s]\n3,20\n", "has no column load: give the axle load"),
+        ("y [mm],speed [m/s],load [kN]\n3,20,-1\n", "line 2: load -1000: expected an axle load above 0"),
+        ("y [mm],speed [m/s],load [kN]\n3,20\n", "line 2 has 2 words, line 1 has 3 heads"),
+    ],
+)
+def test_faults_of_a_table_have_their_line(run, tmp_path, text, message):
+    table = tmp_path / "vehicle.csv"
+    table.write_text(text)
+    assert message in run(*BASE, "--table", table, check=3)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ([], "--load is missing: give it, or --table"),
+        ([*ONE], "give --y, --lateral or --table, and only one"),
+        ([*ONE, "--y", "1mm", "--lateral", "1kN"], "only one of them"),
+        (["--table", "t.csv", "--y", "1mm"], "--y: --table has it as a column: remove it"),
+        ([*ONE, "--y", "1mm", "--distance", "1km"], "--distance: needs --wear"),
+        ([*ONE, "--y", "1mm", "--wear", "1e-14", "--jumps", "4"], "--jumps: needs --distance"),
+        ([*ONE, "--y", "1mm", "--wear", "1e-14", "--distance", "1km", "--jumps", "3"], "an even number"),
+    ],
+)
+def test_options_that_do_not_fit(run, words, message):
+    assert message in run(*BASE, *words, check=2)
+
+
+# ---------------------------------------------------------------- mistakes of a first user
+
+
+def columns(path, profile, scale=1e3, turn=1.0, order=slice(None), mirror=1.0):
+    """Writes a profile as columns."""
+    points = np.column_stack([mirror * scale * profile.y, turn * scale * profile.z])[order]
+    np.savetxt(path, points, fmt="%.6f")
+    return path
+
+
+def shuffled(profile):
+    order = np.arange(len(profile.y))
+    np.random.default_rng(3).shuffle(order)
+    return order
+
+
+MISTAKES = {
+    "mirrored wheel": ("wheel", dict(mirror=-1.0), [], "the profile is mirrored; give --mirror wheel"),
+    "mirrored rail": ("rail", dict(order="gauge side", mirror=-1.0), [], "is mirrored; give --mirror rail"),
+    "z up, wheel": ("wheel", dict(turn=-1.0), [], "give --z up"),
+    "z up, rail": ("rail", dict(turn=-1.0), [], "is its z up? give --z up"),
+    "m taken for mm": ("wheel", dict(scale=1.0), [], "check its unit of length"),
+    "mm taken for m": ("wheel", {}, ["--unit", "m"], "check its unit of length"),
+    "unsorted": ("wheel", dict(order=shuffled), [], "sort them along the profile"),
+    "folded": ("rail", dict(order="folded"), [], "sort them along the profile, and remove folds"),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_mistakes_of_profiles_are_errors_with_their_cure(run, tmp_path, name):
+    kind, given, more, message = MISTAKES[name]
+    profile = profiles.s1002() if kind == "wheel" else profiles.uic60()
+    order = given.get("order")
+    if order == "folded":
+        k = len(profile.y) // 2
+        given = dict(order=np.r_[0:k, k - 30 : len(profile.y)])
+    elif order == "gauge side":
+        given = dict(given, order=(profile.y < 0.0) | (profile.z < 4e-3))
+    elif order:
+        given = dict(order=order(profile))
+    path = columns(tmp_path / "profile.txt", profile, **given)
+    words = list(BASE)
+    words[words.index(f"--{kind}") + 1] = path
+    more = more if "--unit" in more else ["--unit", "mm", *more]
+    text = run(*words, "--z", "down", *more, *ONE, "--y", "0", check=3)
+    assert message in text and len(text.splitlines()) == 1
+
+
+@pytest.mark.parametrize("kind", ["wheel", "rail"])
+def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
+    profile = profiles.s1002() if kind == "wheel" else profiles.uic60()
+    path = columns(tmp_path / "profile.txt", profile, mirror=-1.0, turn=-1.0)
+    words = list(BASE)
+    words[words.index(f"--{kind}") + 1] = path
+    cured = run(*words, "--unit", "mm", "--z", "up", "--mirror", kind, *ONE, "--y", "2mm")
+    plain = run(*BASE, *ONE, "--y", "2mm")
+    numbers = [[*map(float, re.findall(r"-?\d+\.\d+(?:e[-+]\d+)?", text))] for text in (cured, plain)]
+    assert len(numbers[1]) > 15
+    assert numbers[0] == pytest.approx(numbers[1], rel=0.02, abs=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("words", "message", "code"),
+    [
+        (["--cant", "-1:40"], "leans away from the middle: is 0.0249948 meant?", 0),
+        (["--gauge", "1435"], "expected the distance of the rails' inner faces, m, such as 1.435", 3),
+        (["--gauge", "1.0m"], "wheel is beside the rail: check gauge", 3),
+        (["--gauge", "1.5m"], "check gauge, --flange-back", 0),
+        (["--gauge", "1.42m"], "check gauge, --flange-back", 0),
+        (["--yaw", "2"], "expected rad", 3),
+        (["--yaw", "0.3"], "yaw 0.3 rad is 17.2 degrees", None),
+        (["--radius", "460"], "expected the wheel's nominal radius, m, such as 0.46", 3),
+        (["--flange-position", "70mm"], "check gauge, --flange-back", 3),
+        (["--y", "3"], "expected displacements in m", 3),
+        (["--rail", "s1002"], "is the profile of a wheel: give --wheel s1002", 2),
+    ],
+)  # fmt: skip
+def test_mistakes_of_places_are_named_with_their_cure(run, monkeypatch, capsys, words, message, code):
+    given = [*BASE, *ONE, *([] if "--y" in words else ["--y", "0"]), *words]
+    if code is not None:
+        assert message in run(*given, check=code)
+        return
+    monkeypatch.setattr(sys, "argv", ["petsam-wheel", *given])
+    wheel.main()
+    assert message in "".join(capsys.readouterr())
+
+
+def test_pictures_show_what_was_found(vehicle, axle):
+    found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
+    figure = plot.wheels(vehicle, found)
+    assert len([axes for axes in figure.axes if "wheel" in axes.get_title()]) == 2
+    shape = profiles.geometry(axle, np.linspace(-5e-3, 5e-3, 21))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        panels = plot.over_y(shape, None, [2e-3, 4e-3]).axes
+    drawn = panels[1].lines[0].get_ydata()
+    assert drawn == pytest.approx(1e3 * shape.radius_difference)
+    assert panels[2].lines[0].get_ydata() == pytest.approx(
+        equivalent_conicity(shape.y, shape.radius_difference, [2e-3, 4e-3], 0.46)
+    )
+    assert isinstance(vehicle.wheel.profile, Profile)

@@ -18,11 +18,12 @@ from numpy.typing import ArrayLike
 
 from ..conduction.shape import need_half_spaces
 from ..contact import AdviceWarning
+from ..core import processes
 from ..core.environment import cores as all_cores
 from ..core.errors import Unusable
 from ..core.shown import Shown
 from ..core.tables import Column, Tabled
-from . import decks, elements, processes, windows
+from . import decks, elements, windows
 from .arguments import array, integer, moduli, positive, real
 from .conductance import Conductors, add_resistance, conductors
 from .numbers import columns_of

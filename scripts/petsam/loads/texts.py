@@ -36,23 +36,29 @@ class Table:
     ----------
     path : path
         The file.
+    known : mapping
+        Names of columns, and what each is called here.
+    row, kind : str
+        What a line is for, and what lines are of, for messages.
     """
 
-    def __init__(self, path):
-        self.path, text = path, Text(path)
+    def __init__(self, path, known=KNOWN, row="node and time", kind="forces"):
+        self.path, self.kind, text = path, kind, Text(path)
         self.lines, self.decimal = text.kept, text.decimal
         if not self.lines:
-            raise Error(f"{path}: is empty: give a head and a line per node and time")
+            raise Error(f"{path}: is empty: give a head and a line per {row}")
         self.head, line = self.lines[0]
-        self.columns, self.units = {}, {}
+        self.columns, self.units, self.others = {}, {}, []
         words = split(line, self.decimal)[0]
         for k, word in enumerate(words):
             name, unit = HEAD.fullmatch(word).groups()
-            name = KNOWN.get(" ".join(name.lower().split()))
+            other, name = name, known.get(" ".join(name.lower().split()))
             if name in self.columns:
                 raise Error(f"{path}: line {self.head}: two columns are {name}: remove one")
             if name:
                 self.columns[name], self.units[name] = k, unit or None
+            else:
+                self.others.append(other)
         self.count = len(words)
 
     def need(self, names, what):
@@ -84,7 +90,7 @@ class Table:
             found.append([self._number(number, names[k], words[place]) for k, place in enumerate(places)])
             numbers.append(number)
         if not found:
-            raise Error(f"{self.path}: has a head, but no lines of forces below it")
+            raise Error(f"{self.path}: has a head, but no lines of {self.kind} below it")
         return numbers, dict(zip(names, np.array(found).T))
 
     def _number(self, line, name, word):

@@ -28,6 +28,7 @@ _HOMES = {
     "of_compliance": ("compliance",),
     "of_lives": ("lives",),
     "of_loads": ("loads", "loads_beside"),
+    "of_profiles": ("over_y", "wheels", "worn_profile"),
     "of_surface": ("surface",),
 }  # fmt: skip
 __all__ = sorted(name for names in _HOMES.values() for name in names)

@@ -11,6 +11,8 @@ s1002       the wheel profile of UIC 510-2, by its formula; uic60, the rail's he
 Track       a rail profile in its place; Roller: a roller of a test rig instead
 Wheelset    a wheel profile in its place
 Position    position and speeds of the wheelset
+Axle        both wheels: roll and height from the equilibrium under a Load; Vehicle: many positions, by solve_all
+geometry    contact points and rolling radii of rigid wheels over y; equivalent_conicity of EN 15302
 solve       one position: Result with its patches; Pair solves several positions with the same two profiles
 
 profile     points of a profile, its smoothing, turning and mirror image
@@ -26,6 +28,12 @@ creepages   creepages of a patch
 contacts    contacts in process, kept by their grids
 positions   the solution at a position
 result      what solve() returns
+axle        equilibrium of a wheelset on both rails
+spectrum    table of positions
+batch       many positions in processes
+conicity    geometry of rigid wheels, equivalent conicity
+wearing     wear of a wheel's profile by a spectrum of positions
+creep       the table of creep forces of elliptic contacts, CreepTable; creeptable makes it from creepcases
 
 Axes: x forward, y to the right, z down; z = 0 is the plane on the rails' tops, y = 0 the middle of the track. Profiles
 have y to the field side and z down, of both bodies. SI units, angles in rad.
@@ -34,7 +42,20 @@ have y to the field side and z down, of both bodies. SI units, angles in rad.
 import importlib
 
 _HOMES = {
+    "Axle": "axle",
+    "Equilibrium": "axle",
+    "Load": "axle",
+    "State": "spectrum",
+    "Vehicle": "batch",
+    "Worn": "wearing",
+    "equivalent_conicity": "conicity",
+    "geometry": "conicity",
+    "read_positions": "spectrum",
+    "solve_all": "batch",
+    "wear": "wearing",
     "ConformalWarning": "result",
+    "CreepTable": "creep",
+    "FallingFriction": "creep",
     "Material": "contacts",
     "Pair": "positions",
     "Patch": "result",

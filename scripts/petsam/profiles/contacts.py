@@ -104,15 +104,17 @@ class Contacts:
 
     def __init__(self, settings: Settings) -> None:
         self.settings = settings
-        self._kept: OrderedDict[tuple[int, int], Contact] = OrderedDict()
+        self._kept: OrderedDict[tuple, Contact] = OrderedDict()
 
-    def of(self, widths: np.ndarray) -> Contact:
+    def of(self, widths: np.ndarray, rolling: bool = True) -> Contact:
         """The contact whose grid covers a box.
 
         Parameters
         ----------
         widths : ndarray
             Along x and s, (2,), m.
+        rolling : bool
+            False: without friction, for the pressure alone.
 
         Returns
         -------
@@ -130,19 +132,20 @@ class Contacts:
         if max(n) > MOST:
             x, s = widths
             raise Error(f"cell {cell:g}: the overlap of {x:g} x {s:g} m needs {n[0]} x {n[1]} cells: give wider ones")
-        if n not in self._kept:
+        key = n, rolling
+        if key not in self._kept:
             if len(self._kept) >= KEPT:
                 self._kept.popitem(last=False)[1].close()
-            self._kept[n] = self._made(n)
-        self._kept.move_to_end(n)
-        return self._kept[n]
+            self._kept[key] = self._made(n, rolling)
+        self._kept.move_to_end(key)
+        return self._kept[key]
 
-    def _made(self, n):
+    def _made(self, n, rolling):
         """A new contact of so many cells."""
         rail, wheel = self.settings.rail, self.settings.wheel
+        motion = dict(rolling="steady", friction=1.0) if rolling else dict(friction=0.0)
         return Contact(
-            grid_n=n, grid_size=tuple(k * self.settings.cell for k in n), gap_type="flat", rolling="steady",
-            friction=1.0,
+            grid_n=n, grid_size=tuple(k * self.settings.cell for k in n), gap_type="flat", **motion,
             body1_young=rail.young, body1_poisson=rail.poisson, body2_young=wheel.young, body2_poisson=wheel.poisson,
         )  # fmt: skip
 
@@ -175,6 +178,31 @@ class Solution:
     moment: float
     numbers: dict[str, float]
     advice: list[str]
+
+
+def pressed(contact: Contact, gap: np.ndarray, approach: float) -> float:
+    """Solves for the pressure alone, under an approach, and keeps it as the next one's start.
+
+    Parameters
+    ----------
+    contact : Contact
+        Without friction, with a grid centred at 0.
+    gap : ndarray
+        Separation of the undeformed bodies, 0 where it is least, (ns, nx), m.
+    approach : float
+        m.
+
+    Returns
+    -------
+    float
+        Normal force, N.
+    """
+    contact.gap = gap
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        step = contact.try_step(disp_z=approach, rot_x=0.0, rot_y=0.0)
+        contact.commit()
+    return float(step.load_n)
 
 
 def solved(

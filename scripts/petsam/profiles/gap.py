@@ -44,13 +44,14 @@ def separation(
     points = np.stack([place.origin[k] + along * axes[0, k] + across * axes[1, k] for k in range(3)])
     inner = frame.inward(points)
     normal = frame.rotation.T @ axes[2]
-    on_rail = _way(rail, points, axes[2])
+    # a rail is the same at all x: one column of cells has its ways
+    on_rail = _way(rail, points[:, :, :1] if np.isinf(rail.roller_radius) else points, axes[2])
     on_wheel = _way(wheel, inner, normal)
     y = points[1] + on_rail * axes[2, 1]
     axle = inner[1] + on_wheel * normal[1]
     seen = _within(rail.section, y) & _within(wheel.section, axle)
     found = on_rail - on_wheel
-    return np.where(seen, found, max(np.max(found[seen], initial=0.0), 0.0) + FAR), y
+    return np.where(seen, found, max(np.max(found[seen], initial=0.0), 0.0) + FAR), np.broadcast_to(y, found.shape)
 
 
 def _within(section, y):

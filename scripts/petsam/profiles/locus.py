@@ -16,7 +16,6 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .placement import Roller, Track, Wheelset
-from .section import STEP
 
 STEEPEST = 0.5  # of the argument of asin: steep parts under large yaw are cut
 PASSES = 12  # of the relaxed iteration on rollers: 6 reach rounding
@@ -86,9 +85,8 @@ def locus(rail: Union[Track, Roller], wheel: Wheelset, rotation: np.ndarray, asi
     -------
     Locus
     """
-    section = wheel.section
-    y = np.linspace(section.first, section.last, int(np.ceil((section.last - section.first) / STEP)) + 1)
-    radius, slope = wheel.radius + section.height(y), section.slope(y)
+    y, height, slope = wheel.line
+    radius = wheel.radius + height
     row = rotation[0][:, None] * np.ones_like(y)
 
     def points(angle):

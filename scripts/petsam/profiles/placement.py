@@ -14,7 +14,7 @@ import numpy as np
 from ..core.errors import Error
 from .pose import Position
 from .profile import Profile, ProfileWarning
-from .section import Section, fine, path, visible
+from .section import STEP, Section, fine, path, visible
 
 GAUGES = (0.05, 4.0)  # m
 DEEPEST = 0.05  # m: gauge heights
@@ -40,8 +40,20 @@ def _to_gauge(profile, gauge, gauge_height):
     points = curve(fine(curve))
     section = visible(profile)
     top = _top(section)
+    _need_gauge_face(profile, points, top + gauge_height)
     inner = points[points[:, 1] <= top + gauge_height, 0]
     return 0.5 * gauge - _refined(points, top + gauge_height, float(inner.min())), top, section
+
+
+def _need_gauge_face(profile, points, level):
+    """Raises Error for a rail that reaches the gauge height on its field side alone: one that is mirrored."""
+    y, z = points.T
+    middle = y[int(np.argmin(z))]
+    if z[y > middle].max(initial=-np.inf) > level > z[y < middle].max(initial=-np.inf):
+        raise Error(
+            f"{profile.name}: the rail reaches the gauge height on the field side alone, at greater y: the profile is "
+            "mirrored; give mirror=True to read() of the rail, or mirror.y = 1 in the file, or take mirrored()"
+        )
 
 
 def _top(section):
@@ -104,7 +116,11 @@ class Track:
         _need(self.gauge_height, "gauge_height", 0.0, DEEPEST, "expected a depth below the rail's top, m, as 0.014")
         _need(self.cant, "cant", -STRONGEST, STRONGEST, "expected rad: 1:40 is 0.025")
         if self.cant < 0.0:
-            warnings.warn(f"cant {self.cant:g} rad leans away from the middle", ProfileWarning, stacklevel=3)
+            warnings.warn(
+                f"cant {self.cant:g} rad leans away from the middle: is {-self.cant:g} meant?",
+                ProfileWarning,
+                stacklevel=3,
+            )
         self.section  # noqa: B018  fails early
 
     @cached_property
@@ -327,7 +343,19 @@ class Wheelset:
         """The visible part: z, 0 at the nominal radius, over y along the axle from the wheelset's middle."""
         section = visible(self.profile)
         down = 0.0 if self.tape_line is None else float(section.height(np.array(self.tape_line)))
-        return section.moved(0.5 * self.flange_back - self.flange_position, -down)
+        return section.moved(self.offset, -down)
+
+    @cached_property
+    def line(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """y, z and slope of points of the visible part in small steps, m and 1, (n,) each."""
+        section = self.section
+        y = np.linspace(section.first, section.last, int(np.ceil((section.last - section.first) / STEP)) + 1)
+        return y, section.height(y), section.slope(y)
+
+    @property
+    def offset(self) -> float:
+        """y of the profile's origin along the axle, m."""
+        return 0.5 * self.flange_back - self.flange_position
 
     def level(self, points: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """A function that is 0 on the surface and grows out of the body, and its derivative along a direction.

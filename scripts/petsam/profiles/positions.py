@@ -7,12 +7,13 @@ factor of 2, and by bisection where it leaves the bracket. Frames, boxes and cre
 import math
 import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 import numpy as np
 
-from ..contact import AdviceWarning
+from ..contact import AdviceWarning, Contact
 from ..core.errors import Error
 from . import contacts, gap
 from .creepages import creepages
@@ -21,7 +22,7 @@ from .patches import Place, Search, places, search
 from .placement import Roller, Track, Wheelset
 from .pose import Frame, Position
 from .profile import ProfileWarning
-from .result import ConformalWarning, Patch, Result
+from .result import ConformalWarning, Patch, Pressed, Result
 
 CONFORMAL = 0.24  # rad: 3 % in the distance
 DEEPEST = 1e-3  # m: no elastic wheel overlaps a rail by more
@@ -117,7 +118,7 @@ class Pair:
             raise Error(f"force {force:g}: expected a vertical force above 0, N")
         if self.side == "left":
             position = position.mirrored()
-        case = _Case(self, position)
+        case = Case(self, position)
         found = case.at(position.z or 0.0) if force is None else _under(case, force)
         case.warn(found)
         return found if self.side == "right" else found.mirrored()
@@ -162,8 +163,41 @@ def _coefficient(friction, angle):
     return value
 
 
-class _Case:
-    """A position but for its height: the locus, and the patches at a height."""
+@dataclass(frozen=True, eq=False)
+class _Laid:
+    """The undeformed bodies on the grid of a patch."""
+
+    contact: Contact
+    middle: np.ndarray
+    x: np.ndarray
+    s: np.ndarray
+    apart: np.ndarray
+    y: np.ndarray
+    approach: float
+
+
+class Case:
+    """A position but for its height: the locus, and the patches at a height.
+
+    Parameters
+    ----------
+    pair : Pair
+        A wheel on its rail.
+    position : Position
+        As a right wheel has it; its z does not count.
+
+    Attributes
+    ----------
+    search : patches.Search
+        Gap of the undeformed bodies, with the height at which they touch.
+    passes : int
+        Solutions so far.
+
+    Raises
+    ------
+    Error
+        If the wheel is beside the rail.
+    """
 
     def __init__(self, pair: Pair, position: Position) -> None:
         self.pair, self.position, self.passes = pair, position, 0
@@ -180,41 +214,100 @@ class _Case:
         self._warned: list[tuple[type, str]] = []
 
     def at(self, z: float) -> Result:
-        """The solution at a height."""
+        """The solution at a height.
+
+        Parameters
+        ----------
+        z : float
+            Of the wheelset, m.
+
+        Returns
+        -------
+        Result
+            That of a right wheel.
+
+        Raises
+        ------
+        Error
+            If the bodies overlap too much.
+        """
+        self.passes += 1
+        self._warned = []
+        return self._result(z, self._patch)
+
+    def pressed(self, z: float, shares: Sequence[tuple[float, float, float]]) -> Result:
+        """The pressure at a height, with given shares of tangential forces: a fraction of the work of at().
+
+        Parameters
+        ----------
+        z : float
+            Of the wheelset, m.
+        shares : sequence of tuple
+            y of patches (m) and their fx and fs over n: each patch takes those of the nearest one; none: 0.
+
+        Returns
+        -------
+        Result
+            That of a right wheel; its patches are Pressed.
+
+        Raises
+        ------
+        Error
+            If the bodies overlap too much.
+        """
+
+        def patch(frame, place):
+            laid = self._laid(frame, place, False)
+            if laid is None:
+                return None
+            n = contacts.pressed(laid.contact, laid.apart + laid.approach, laid.approach)
+            pressure = laid.contact["pressure"]
+            x, s = (pressure.sum(axis=0) @ laid.x, pressure.sum(axis=1) @ laid.s) / pressure.sum()
+            _, fx, fs = min(shares, key=lambda one: abs(one[0] - place.origin[1]), default=(0.0, 0.0, 0.0))
+            return Pressed(place.origin + x * place.axes[0] + s * place.axes[1], place.angle, n, fx * n, fs * n)
+
+        return self._result(z, patch)
+
+    def _result(self, z, patch):
+        """The patches at a height, by a function of the wheelset's frame and a place."""
         if z - self.search.touch > DEEPEST:
             raise Error(
                 f"z {z:g}: the bodies overlap by {z - self.search.touch:.3g} m: z is 0 at the nominal height and "
                 f"positive down; they touch at {self.search.touch:.6g}"
             )
-        self.passes += 1
-        self._warned = []
         frame = Frame(self.rotation, np.array([0.0, self.position.y, z - self.pair.wheel.radius]))
         settings = self.pair.settings
         found = places(self.search, self.search.regions(z), settings.separation, settings.combination)
-        patches = [self._patch(frame, place) for place in found]
+        patches = [patch(frame, place) for place in found]
         return Result(tuple(one for one in patches if one is not None), float(z), self.search.touch, self.passes)
 
-    def _patch(self, frame: Frame, place: Place) -> Optional[Patch]:
-        """The solution on a patch; None where no cell touches."""
+    def _laid(self, frame: Frame, place: Place, rolling: bool) -> Optional["_Laid"]:
+        """The undeformed bodies on the grid of a patch; None where no cell touches."""
         pair = self.pair
-        contact = pair._contacts.of(place.high - place.low)
+        contact = pair._contacts.of(place.high - place.low, rolling)
         cell = pair.settings.cell  # the origin is a cell's centre: results change little from grid to grid
         middle = (np.round(0.5 * (place.low + place.high) / cell - 0.5) + 0.5) * cell
         x, s = middle[0] + contact.x, middle[1] + contact.y
         apart, y = gap.separation(pair.rail, pair.wheel, frame, place, x, s)
         approach = -float(apart.min())
-        if not approach > 0.0:
+        return _Laid(contact, middle, x, s, apart, y, approach) if approach > 0.0 else None
+
+    def _patch(self, frame: Frame, place: Place) -> Optional[Patch]:
+        """The solution on a patch; None where no cell touches."""
+        pair, laid = self.pair, self._laid(frame, place, True)
+        if laid is None:
             return None
+        contact, x, y, approach, cell = laid.contact, laid.x, laid.y, laid.approach, pair.settings.cell
         creeps = creepages(pair.rail, frame, self.pitch, self.position, place, approach)
         friction = _coefficient(pair.friction, place.angle)
-        found = contacts.solved(contact, apart + approach, approach, creeps[:3], friction, middle)
+        found = contacts.solved(contact, laid.apart + approach, approach, creeps[:3], friction, laid.middle)
         for text in found.advice:
             text, use, _ = text.partition(": use ")
             kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", text)
             self.advice[kind] = f"patch at y = {place.origin[1]:.6g} m: {text}" + ": try a smaller cell" * bool(use)
         pressure = contact["pressure"]
         self._doubt(place, np.arctan(pair.rail.section.slope(y[pressure > 0.0])))
-        numbers = found.numbers
+        numbers, power = found.numbers, contact["power_density"]
         tx, ts = map(float, found.shear)
         px, py, pz = map(float, place.origin)
         return Patch(
@@ -222,8 +315,16 @@ class _Case:
             speed=creeps.speed, friction=friction, n=found.n, fx=-tx, fs=-ts, mn=-found.moment, approach=approach,
             p_max=numbers["pressure_max"], area=numbers["contact_area"], stick_area=numbers["stick_area"],
             cells=int(numbers["contact_cells"]), stick_cells=int(numbers["stick_cells"]), grid=contact.n,
-            grid_x=x, grid_s=s, pressure=pressure,
+            grid_x=x, grid_s=laid.s, pressure=pressure, t_gamma=float(power.sum()) * cell * cell, power=power,
+            slip=np.hypot(contact["slip_velocity_x"], contact["slip_velocity_y"]),
+            wheel_y=self._along_wheel(frame, np.asarray(x), y),
         )  # fmt: skip
+
+    def _along_wheel(self, frame, x, y):
+        """y of the wheel's profile at the middle of each row of cells."""
+        y = y[:, int(np.argmin(np.abs(x)))]
+        points = np.stack([np.zeros_like(y), y, self.pair.rail.section.height(y)])
+        return frame.inward(points)[1] - self.pair.wheel.offset
 
     def _doubt(self, place, angles):
         """Keeps warnings about the patch of this pass."""
@@ -243,7 +344,7 @@ class _Case:
             warnings.warn(text, AdviceWarning, stacklevel=3)
 
 
-def _under(case: _Case, force: float) -> Result:
+def _under(case: Case, force: float) -> Result:
     """The solution under a vertical force."""
     touch, rtol = case.search.touch, case.pair.settings.rtol
     radius, modulus = case.pair.wheel.radius, case.pair.settings.modulus

@@ -27,11 +27,53 @@ COLUMNS = (
     ("stick_area", "m2", "area of stick"),
     ("cells", "1", "cells in contact"),
     ("stick_cells", "1", "cells in stick"),
+    ("t_gamma", "N", "frictional work per distance rolled"),
 )
 
 
 class ConformalWarning(UserWarning):
     """The inclination of a contact varies so much that bodies are no half-spaces: results are approximate."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pressed:
+    """A contact patch by its pressure alone: its tangential forces are given shares of the normal force.
+
+    Attributes
+    ----------
+    centre : ndarray
+        Centre of pressure in the track, (3,), m.
+    angle : float
+        Inclination of the patch, rad.
+    n, fx, fs : float
+        Normal force, and forces on the rail along x and s, N.
+    """
+
+    centre: np.ndarray
+    angle: float
+    n: float
+    fx: float
+    fs: float
+
+    @property
+    def force(self) -> np.ndarray:
+        """Force on the rail in the track, (3,), N."""
+        return _in_track(self)
+
+    def mirrored(self) -> "Pressed":
+        """The patch as seen in a mirror in the plane y = 0.
+
+        Returns
+        -------
+        Pressed
+        """
+        return Pressed(self.centre * np.array([1.0, -1.0, 1.0]), -self.angle, self.n, self.fx, -self.fs)
+
+
+def _in_track(patch):
+    """Force of a patch on the rail in the track, N."""
+    c, s = np.cos(patch.angle), np.sin(patch.angle)
+    return np.array([patch.fx, patch.fs * c - patch.n * s, patch.fs * s + patch.n * c])
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +112,14 @@ class Patch:
         Centres of the cells in the patch, m; those of a left wheel have s of the other sign than in growing order.
     pressure : ndarray
         (ns, nx), Pa.
+    t_gamma : float
+        Frictional work per distance rolled, N: "T-gamma".
+    power : ndarray
+        Frictional power per area over the rolling speed, (ns, nx), Pa.
+    slip : ndarray
+        Slip velocity over the rolling speed, (ns, nx).
+    wheel_y : ndarray
+        y of the wheel's profile at each row of cells, (ns,), m; of a left wheel that of its right one, too.
     """
 
     x: float
@@ -95,12 +145,29 @@ class Patch:
     grid_x: np.ndarray = field(repr=False)
     grid_s: np.ndarray = field(repr=False)
     pressure: np.ndarray = field(repr=False)
+    t_gamma: float
+    power: np.ndarray = field(repr=False)
+    slip: np.ndarray = field(repr=False)
+    wheel_y: np.ndarray = field(repr=False)
+
+    @property
+    def centre(self) -> np.ndarray:
+        """Centre of pressure in the track, (3,), m: a point of the line of the normal force."""
+        total = self.pressure.sum()
+        x = float(self.pressure.sum(axis=0) @ self.grid_x / total)
+        s = float(self.pressure.sum(axis=1) @ self.grid_s / total)
+        return np.array([self.x + x, self.y + s * np.cos(self.angle), self.z + s * np.sin(self.angle)])
+
+    @property
+    def worn(self) -> tuple[np.ndarray, np.ndarray]:
+        """Work of friction per area (J/m2), and pressure times slipped way (N/m), of each row of cells in a passage."""
+        step = abs(float(self.grid_x[1] - self.grid_x[0]))
+        return self.power.sum(axis=1) * step, (self.pressure * self.slip).sum(axis=1) * step
 
     @property
     def force(self) -> np.ndarray:
         """Force on the rail in the track, (3,), N: x forward, y to the right, z down."""
-        c, s = np.cos(self.angle), np.sin(self.angle)
-        return np.array([self.fx, self.fs * c - self.n * s, self.fs * s + self.n * c])
+        return _in_track(self)
 
     def mirrored(self) -> "Patch":
         """The patch as seen in a mirror in the plane y = 0.

@@ -1,0 +1,573 @@
+"""A wheelset on both rails: roll and height from the equilibrium of vertical forces and of moments about x.
+
+Unknowns are the overlaps of both wheels, in their logarithms; height and roll follow from them, as the height at which
+a wheel touches falls with the roll by the lateral arm of its contact. Broyden's iteration begins with Hertz's slope:
+vertical force and roll moment of a wheel grow with its overlap^1.5. It solves for the pressure alone, with tangential
+forces as shares of the normal ones, which come from the last full solution; two or three of these are enough. Where a
+lateral force is given, the lateral displacement is found around it. Inertia is left out: give the forces that remain at
+the wheelset.
+"""
+
+import math
+import warnings
+from dataclasses import dataclass, replace
+from typing import Any, Optional
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ..core import tables
+from ..core.errors import Error
+from . import contacts
+from .placement import Track, Wheelset
+from .pose import Position
+from .positions import SIDES, Case, Friction, Pair
+from .profile import ProfileWarning
+from .result import COLUMNS, Result
+
+PASSES, TURNS = 60, 25  # of the equilibrium, and of the roll of rigid bodies
+ROUNDS, PRESSED = 8, 20  # full solutions with shares of tangential forces, and pressures between two of them
+FIRST, NEXT = 0.02, 0.02  # residual of the first pressures, and of others relative to that of the last full solution
+DIRECT = 5e-4  # residual of a full solution from which one step leads to the next
+MORE, ALMOST = 100, 0.05  # full solutions beyond PASSES, while no more than this is left
+ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
+STEADY = 1e-8  # relative change of the pitch rate of a wheelset that rolls freely
+SHARE = 1e-9  # m: overlaps of rigid bodies agree to it
+FASTEST = math.log(2.0)  # change of the logarithm of an overlap in one pass
+STEP, WIDEST = 2e-3, 0.03  # m: of the search for a lateral force, and its end
+FLANGE = 0.01  # m below the nominal radius, where the thickness of the flange is measured
+PLAY = (0.0, 0.02)  # m: usual distances of flange and rail
+CLOSE = 1e-8  # m: of the lateral displacement under a lateral force
+
+
+@dataclass(frozen=True)
+class Load:
+    """Forces on a wheelset.
+
+    Parameters
+    ----------
+    vertical : float
+        Axle load with the wheelset's weight, N, downwards.
+    offset : float
+        y of its line from the wheelset's middle, m, positive to the right.
+    lateral : float, optional
+        Lateral force, N, positive to the right; None: the one that holds the wheelset in its position.
+    height : float
+        z of the lateral force's line below the axle, m, negative above it.
+    right : float, optional
+        Vertical force on the right rail, N, from a simulation of the vehicle: instead of the balance of moments.
+
+    Raises
+    ------
+    Error
+        If a number is none of this quantity.
+    """
+
+    vertical: float
+    offset: float = 0.0
+    lateral: Optional[float] = None
+    height: float = 0.0
+    right: Optional[float] = None
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.vertical < math.inf:
+            raise Error(f"load {self.vertical:g}: expected an axle load above 0, N")
+        if not math.isfinite(self.lateral or 0.0):
+            raise Error(f"lateral {self.lateral:g}: expected a force, N")
+        if not (abs(self.offset) < 2.0 and abs(self.height) < 5.0):
+            raise Error(f"offset {self.offset:g}, height {self.height:g}: expected distances from the axle's middle, m")
+        if self.right is not None and not 0.0 < self.right < self.vertical:
+            raise Error(f"right {self.right:g}: expected a vertical force above 0 and below the axle load, N")
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibrium(tables.Tabled):
+    """A wheelset in equilibrium on its rails.
+
+    Attributes
+    ----------
+    position : Position
+        With the roll, height, lateral displacement and pitch rate that were found.
+    load : Load
+        The forces.
+    right, left : Result
+        The solutions at both wheels, each in the track's axes.
+    lateral : float
+        Lateral force on the wheelset, N, positive to the right.
+    force_error, moment_error : float
+        What is left of the vertical forces over the axle load, and of the moments about x over the axle load times half
+        the distance of the contacts.
+    radii : tuple of float
+        Rolling radii of the right and the left wheel, m: distances of their normal forces from the axle.
+    passes : int
+        Solutions of both wheels that it took, without those of the pressure alone.
+    slopes : ndarray
+        Derivative of what is left, and of the sum of both radii over the nominal diameter, by the logarithms of the
+        overlaps of both wheels, (3, 2), approximate: a neighbour's iteration begins with it.
+    """
+
+    position: Position
+    load: Load
+    right: Result
+    left: Result
+    lateral: float
+    force_error: float
+    moment_error: float
+    radii: tuple[float, float]
+    passes: int
+    slopes: Optional[np.ndarray] = None
+
+    @property
+    def radius_difference(self) -> float:
+        """Rolling radius of the right wheel less that of the left one, m."""
+        return self.radii[0] - self.radii[1]
+
+    @property
+    def wheels(self) -> tuple[Result, Result]:
+        """The right and the left solution."""
+        return self.right, self.left
+
+    @property
+    def t_gamma(self) -> float:
+        """Frictional work of all patches per distance rolled, N."""
+        return float(sum(patch.t_gamma for found in self.wheels for patch in found.patches))
+
+    def table(self) -> list[tables.Column]:
+        """The numbers of the patches, right wheel first, with forces on the rail in the track.
+
+        Returns
+        -------
+        list of Column
+            A row for each patch; see also to_csv() and to_dataframe().
+        """
+        rows = [(found, patch) for found in self.wheels for patch in found.patches]
+        count = len(rows)
+        common = (
+            ("ws_y", "m", "lateral displacement", self.position.y), ("ws_z", "m", "height", self.position.z),
+            ("ws_roll", "rad", "roll", self.position.roll), ("ws_yaw", "rad", "yaw", self.position.yaw),
+            ("ws_load", "N", "axle load", self.load.vertical), ("ws_lateral", "N", "lateral force", self.lateral),
+            ("radius_difference", "m", "rolling radius of the right wheel less the left", self.radius_difference),
+            ("force_error", "1", "what is left of the vertical forces over the axle load", self.force_error),
+            ("moment_error", "1", "what is left of the moments over the axle load times its arm", self.moment_error),
+        )  # fmt: skip
+        columns = [tables.Column(name, unit, text, [value] * count) for name, unit, text, value in common]
+        columns.append(tables.Column("side", "", "right or left", [found.side for found, _ in rows]))
+        columns += [
+            tables.Column(name, unit, text, [getattr(patch, name) for _, patch in rows]) for name, unit, text in COLUMNS
+        ]
+        for k, axis in enumerate("xyz"):
+            text = f"force on the rail in the track along {axis}"
+            columns.append(tables.Column(f"track_f{axis}", "N", text, [float(patch.force[k]) for _, patch in rows]))
+        return columns
+
+
+class Axle:
+    """A wheelset on both rails: solves positions one after the other and keeps what they share.
+
+    Parameters
+    ----------
+    rail : Track
+        The right rail, whose mirror image the left one is.
+    wheel : Wheelset
+        The right wheel, whose mirror image the left one is.
+    friction : float or callable
+        See Pair.
+    settings : Settings, optional
+        Materials, cells and limits.
+    left : tuple of Track and Wheelset, optional
+        Rail and wheel of the left side, as right ones, where they differ.
+    """
+
+    def __init__(
+        self,
+        rail: Track,
+        wheel: Wheelset,
+        friction: Friction = 0.3,
+        settings: Optional[contacts.Settings] = None,
+        left: Optional[tuple[Track, Wheelset]] = None,
+    ) -> None:
+        both = (rail, wheel), left or (rail, wheel)
+        self.pairs = [Pair(*one, friction, side, settings) for one, side in zip(both, SIDES)]
+        self.wheel, self.settings = wheel, self.pairs[0].settings
+        for track, one in both:
+            _doubt_play(track, one)
+
+    def __enter__(self) -> "Axle":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Frees the contacts."""
+        for pair in self.pairs:
+            pair.close()
+
+    def rigid(self, position: Position, overlaps: tuple[float, float] = (0.0, 0.0), share: float = SHARE) -> "Rigid":
+        """Roll and height at which both wheels overlap their rails by so much; 0: rigid bodies that touch.
+
+        Parameters
+        ----------
+        position : Position
+            Its roll is where the search begins.
+        overlaps : tuple of float
+            Of the right and the left wheel, m.
+        share : float
+            Error of their difference, m.
+
+        Returns
+        -------
+        Rigid
+
+        Raises
+        ------
+        Error
+            If a wheel is beside its rail.
+        """
+        roll = position.roll
+        for _ in range(TURNS):
+            now = replace(position, roll=roll)
+            cases = self._cases(now)
+            arms = _arms(cases, position.y)
+            apart = cases[0].search.touch + overlaps[0] - cases[1].search.touch - overlaps[1]
+            if abs(apart) < share:
+                break
+            roll += apart / (arms[0] - arms[1])
+        z = 0.5 * (cases[0].search.touch + overlaps[0] + cases[1].search.touch + overlaps[1])
+        return Rigid(replace(now, z=z), (_point(cases[0], 1.0), _point(cases[1], -1.0)), self._radii(now, cases, z))
+
+    def _radii(self, position, cases, z):
+        """Distances of the points that touch from the axle, m."""
+        found = []
+        for case, sign in zip(cases, (1.0, -1.0)):
+            k = int(np.argmin(case.search.gap))
+            place = np.array([case.search.x[k], sign * case.search.y[k], case.search.z[k]])
+            found.append(_distance(position.rotation, place - np.array([0.0, position.y, z - self.wheel.radius])))
+        return tuple(found)
+
+    def _cases(self, position):
+        """The cases of both wheels, as right ones."""
+        return [Case(self.pairs[0], position), Case(self.pairs[1], position.mirrored())]
+
+    def solve(self, position: Position, load: Load, start: Optional[Equilibrium] = None) -> Equilibrium:
+        """The equilibrium at a lateral displacement, or under a lateral force.
+
+        Parameters
+        ----------
+        position : Position
+            Yaw, speeds and lateral displacement; roll and, under a lateral force, y are where the search begins.
+            Without a pitch rate the wheelset rolls by the mean of its rolling radii.
+        load : Load
+            The forces.
+        start : Equilibrium, optional
+            A neighbour's, where the search begins.
+
+        Returns
+        -------
+        Equilibrium
+
+        Raises
+        ------
+        Error
+            If z is given, a wheel is beside its rail, or there is no equilibrium with both wheels on their rails.
+        ContactError
+            If a patch has no solution.
+        """
+        if position.z is not None:
+            raise Error("Position z: the axle load gives it: leave it out")
+        if start is not None:
+            position = replace(position, roll=start.position.roll)
+        if load.lateral is None:
+            return self._upright(position, load, start)
+        return self._aside(position, load, start)
+
+    def _aside(self, position, load, start):
+        """The equilibrium under a lateral force."""
+        solved: dict[float, Equilibrium] = {}
+
+        def excess(y):
+            near = solved[min(solved, key=lambda other: abs(other - y))] if solved else start
+            roll = near.position.roll if near else position.roll
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                solved[y] = self._upright(replace(position, y=y, roll=roll), load, near)
+            return solved[y].lateral - load.lateral
+
+        low = high = position.y if start is None else start.position.y
+        first = excess(low)
+        sign, step = -np.sign(first), STEP
+        while first and abs(high) < WIDEST:
+            low, high = high, high + sign * step
+            try:
+                if excess(high) * sign >= 0.0:
+                    break
+            except Error:  # beyond Nadal's limit, or beside the rail
+                high, step = low, 0.5 * step
+                if step < 0.01 * STEP:
+                    raise _derails(load, solved) from None
+        else:
+            if first:
+                raise _derails(load, solved)
+        y = brentq(excess, low, high, xtol=CLOSE, rtol=1e-12) if first else low
+        return self._upright(replace(position, y=float(y), roll=solved[float(y)].position.roll), load, solved[float(y)])
+
+    def _upright(self, position, load, start):
+        """The equilibrium at a lateral displacement."""
+        search = _Search(self, position, load, start.slopes if start else None)
+        overlaps = _hertz(self, 0.5 * load.vertical)
+        if start is not None:
+            overlaps = tuple(max(found.overlap, 0.1 * overlaps[0]) for found in start.wheels)
+        search.begin(overlaps)
+        rtol = self.settings.rtol
+        state = search.by_shares(rtol, _shares(start.wheels) if start else ((), ())) or search.iterate(rtol, PASSES)
+        if max(abs(state.rest)) <= rtol:
+            return search.equilibrium(state)
+        raise _no_equilibrium(position, load, state)
+
+
+@dataclass(frozen=True, eq=False)
+class Rigid:
+    """Rigid wheels that touch their rails.
+
+    Attributes
+    ----------
+    position : Position
+        With its roll and height.
+    points : tuple of float
+        y of the points that touch in the track, right and left, m.
+    radii : tuple of float
+        Their distances from the axle, m.
+    """
+
+    position: Position
+    points: tuple[float, float]
+    radii: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """Both wheels at a height and a roll: overlaps, solutions, what each gives to the balance, and what is left."""
+
+    overlaps: np.ndarray
+    found: list
+    parts: np.ndarray
+    rest: np.ndarray
+    arms: tuple
+
+
+class _Search:
+    """The iteration for an equilibrium at a lateral displacement."""
+
+    def __init__(self, axle, position, load, slopes=None):
+        self.axle, self.load, self.passes = axle, load, 0
+        self.free = position.pitch_rate is None  # rolls by the mean of its radii
+        self.position = position
+        self.slopes, self.before, self.limit = slopes, None, FASTEST
+
+    def begin(self, overlaps):
+        """Height and roll of these overlaps."""
+        rigid = self.axle.rigid(self.position, overlaps, ROUGH)
+        self.position, self.scale = rigid.position, 0.5 * (rigid.points[0] - rigid.points[1])
+        self._roll_freely(sum(rigid.radii))
+
+    def _roll_freely(self, diameter):
+        """The pitch rate of a wheelset that rolls without a mean creepage, by the sum of both radii."""
+        if self.free:
+            self.position = replace(self.position, pitch_rate=-2.0 * self.position.speed / diameter)
+
+    def _radii(self, state):
+        """Rolling radii of both wheels."""
+        return [_radius(one, self.position, self.axle.wheel.radius) for one in state.found]
+
+    def done(self, state, rtol):
+        """Whether a state is in equilibrium, and the wheelset rolls freely if it is to."""
+        if max(abs(state.rest)) > rtol:
+            return False
+        rate = -2.0 * self.position.speed / sum(self._radii(state))
+        return not self.free or abs(rate - self.position.pitch_rate) <= STEADY * abs(rate)
+
+    def iterate(self, rtol, passes):
+        """The equilibrium by full solutions alone; else the last state."""
+        for k in range(passes + MORE):
+            state = self.state()
+            if self.done(state, rtol) or (k >= passes and max(abs(state.rest)) > ALMOST):
+                break
+            self.improve(state)
+        return state
+
+    def press(self, least, shares):
+        """Moves to the equilibrium of pressures with shares of tangential forces; False where there is none."""
+        for _ in range(PRESSED):
+            state = self.state(shares)
+            self.improve(state)
+            if max(abs(state.rest)) <= least:
+                return True
+        return False
+
+    def by_shares(self, rtol, shares):
+        """The equilibrium from pressures and few full solutions; None where the shares do not lead to it."""
+        begun, least = self.position, FIRST
+        for _ in range(ROUNDS):
+            if least < 1.0 and not self.press(least, shares):
+                break
+            state = self.state()
+            if self.done(state, rtol):
+                return state
+            shares = _shares(state.found)
+            rest = max(abs(state.rest))
+            least = 1.0 if rest <= DIRECT else max(rtol, NEXT * rest)
+            self.before = None  # the residual of other shares
+            self.improve(state)
+        self.position, self.slopes, self.before, self.limit = begun, None, None, FASTEST
+        return None
+
+    def state(self, shares=None):
+        """The solutions at the present height and roll; with shares of tangential forces the pressures alone."""
+        self.passes += shares is None
+        p = self.position
+        self.cases = self.axle._cases(p)
+        touch = np.array([case.search.touch for case in self.cases])
+        if shares is None:
+            one, other = (case.at(p.z) for case in self.cases)
+        else:
+            one, other = (case.pressed(p.z, share) for case, share in zip(self.cases, shares))
+        found = [one, other.mirrored()]
+        parts = np.array([_part(result, p, self.axle.wheel.radius, self.load) for result in found])
+        given = np.array([self.load.vertical, self.load.offset * self.load.vertical])
+        if self.load.right is not None:
+            parts[:, 1] = self.scale * parts[0, 0], 0.0
+            given[1] = self.scale * self.load.right
+        scale = self.load.vertical * np.array([1.0, self.scale])
+        rest = (parts.sum(axis=0) - given) / scale
+        return _State(p.z - touch, found, parts / scale, rest, _arms(self.cases, p.y))
+
+    def improve(self, state):
+        """Moves height and roll."""
+        if min(state.overlaps) <= 0.0 or min(state.parts[:, 0]) <= 0.0:
+            return self._press(state)
+        now, nominal = np.log(state.overlaps), 2.0 * self.axle.wheel.radius
+        values = np.append(state.rest, sum(self._radii(state)) / nominal)
+        own = np.vstack([1.5 * state.parts.T, np.zeros(2)])
+        slopes = own if self.slopes is None else self.slopes
+        if self.before is not None:
+            step, change = now - self.before[0], values - self.before[1]
+            if step @ step > 0.0:
+                slopes = slopes + np.outer(change - slopes @ step, step) / (step @ step)
+            if np.linalg.norm(state.rest) > 2.0 * np.linalg.norm(self.before[1][:2]):
+                self.limit, slopes = max(0.5 * self.limit, 0.05), own
+        if np.linalg.cond(slopes[:2]) > 1e6:
+            slopes = own
+        step = np.linalg.solve(slopes[:2], -state.rest)
+        step *= min(1.0, self.limit / max(np.abs(step).max(), 1e-300))
+        self.slopes, self.before = slopes, (now, values)
+        self._move(state, np.exp(now + step) - state.overlaps)
+        self._roll_freely(nominal * (values[2] + slopes[2] @ step))
+
+    def _press(self, state):
+        """Presses wheels that lift onto their rails again."""
+        least = 0.2 * np.array(_hertz(self.axle, 0.5 * self.load.vertical))
+        wanted = np.where(state.parts[:, 0] <= 0.0, np.maximum(2.0 * state.overlaps, least), state.overlaps)
+        self.slopes = self.before = None
+        self._move(state, np.maximum(wanted, least) - state.overlaps)
+
+    def _move(self, state, more):
+        """Changes height and roll so that the overlaps grow by so much."""
+        right, left = state.arms
+        roll = (more[0] - more[1]) / (right - left)
+        p = self.position
+        self.position = replace(p, roll=float(p.roll + roll), z=float(p.z + more[0] - right * roll))
+
+    def equilibrium(self, state):
+        """The result, with the warnings of its last pass."""
+        for case, found in zip(self.cases, state.found):
+            case.warn(found)
+        lateral = float(sum(one.force[1] for one in state.found))
+        radii = tuple(self._radii(state))
+        force, moment = map(float, state.rest)
+        return Equilibrium(
+            self.position, self.load, *state.found, lateral, force, moment, radii, self.passes, self.slopes
+        )
+
+
+def _doubt_play(rail, wheel):
+    """Warns of a flange that lies on the rail's inner face, or far from it, in the middle of the track."""
+    deep = np.flatnonzero(wheel.section.z >= FLANGE)
+    if not len(deep) or not isinstance(rail, Track):
+        return
+    play = 0.5 * rail.gauge - float(wheel.section.y[deep[-1]])
+    if not PLAY[0] <= play <= PLAY[1]:
+        text = f"the flange is {play:.4g} m from the rail's inner face in the middle of the track, usually 0.005"
+        cure = "check gauge, flange_back and flange_position"
+        warnings.warn(f"{wheel.profile.name}: {text}: {cure}", ProfileWarning, stacklevel=4)
+
+
+def _hertz(axle, force):
+    """Overlaps by Hertz under a vertical force, m."""
+    modulus, radius = axle.settings.modulus, axle.wheel.radius
+    return ((force / (4.0 / 3.0 * modulus * math.sqrt(0.5 * radius))) ** (2.0 / 3.0),) * 2
+
+
+def _no_equilibrium(position, load, state):
+    """The error of an iteration without an end."""
+    right, left = (float(found.force[2]) for found in state.found)
+    where = f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium: the rails carry {right:.4g} N (right) and "
+    rest = max(abs(state.rest))
+    if rest <= ALMOST:
+        return Error(
+            f"{where}{left:.4g} N (left), and {rest:.2g} of the load or its moment is left: no wheel lifts, but a "
+            "contact moves between two regions of its profiles, where the forces change much with the height: take y "
+            "a little beside it"
+        )
+    return Error(
+        f"{where}{left:.4g} N (left) at last: a wheel lifts or climbs: check offset, lateral, height and y, and the "
+        "flange"
+    )
+
+
+def _shares(wheels):
+    """Tangential over normal forces of the patches of both wheels, as right ones have them, with their y."""
+    right, left = wheels
+    both = right, left.mirrored()
+    return tuple([(p.centre[1], p.fx / p.n, p.fs / p.n) for p in one.patches if p.n > 0.0] for one in both)
+
+
+def _point(case, sign):
+    """y of the point that touches, in the track."""
+    return sign * float(case.search.y[int(np.argmin(case.search.gap))])
+
+
+def _arms(cases, y):
+    """Lateral distances of the points that touch from the wheelset's middle, right and left, m."""
+    return tuple(_point(case, sign) - y for case, sign in zip(cases, (1.0, -1.0)))
+
+
+def _part(result, position, radius, load):
+    """Vertical force of a wheel, and its moment about x, which the axle load's balances."""
+    force, moment = 0.0, 0.0
+    centre = position.z - radius + load.height
+    for patch in result.patches:
+        (_, y, z), (_, fy, fz) = patch.centre, patch.force
+        force += fz
+        moment += (y - position.y) * fz - (z - centre) * fy
+    return force, moment
+
+
+def _distance(rotation, arm):
+    """Distance of a point from the axle, m."""
+    x, _, z = rotation.T @ arm
+    return float(np.hypot(x, z))
+
+
+def _radius(result, position, radius):
+    """Rolling radius of a wheel: the mean over its patches by their normal forces."""
+    centre = np.array([0.0, position.y, position.z - radius])
+    found = [_distance(position.rotation, patch.centre - centre) for patch in result.patches]
+    return float(np.average(found, weights=[patch.n for patch in result.patches])) if found else radius
+
+
+def _derails(load, solved):
+    reached = max((abs(one.lateral) for one in solved.values()), default=0.0)
+    return Error(
+        f"lateral {load.lateral:g} N: no lateral displacement up to {WIDEST:g} m gives it (up to {reached:.4g} N were "
+        "found): the wheelset climbs: reduce it, or raise the axle load"
+    )

@@ -1,0 +1,223 @@
+"""Many positions of a wheelset side by side, in processes; results do not depend on how many."""
+
+import functools
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Optional
+
+import numpy as np
+
+from ..contact import ContactError
+from ..core import processes, tables
+from ..core.errors import Error
+from .axle import Axle, Equilibrium
+from .contacts import Settings
+from .placement import Track, Wheelset
+from .positions import Friction
+from .spectrum import State
+
+CHUNK = 10  # positions that one process solves one after the other, each from its neighbour
+
+
+@dataclass(frozen=True, eq=False)
+class Vehicle:
+    """What all positions share: rails, wheels, friction.
+
+    Parameters
+    ----------
+    rail, wheel : Track, Wheelset
+        Of the right side; the left side is its mirror image.
+    friction : float or callable
+        See Pair; a function must be one of a module.
+    settings : Settings, optional
+        Materials, cells and limits.
+    left : tuple of Track and Wheelset, optional
+        See Axle.
+    """
+
+    rail: Track
+    wheel: Wheelset
+    friction: Friction = 0.3
+    settings: Optional[Settings] = None
+    left: Optional[tuple[Track, Wheelset]] = None
+
+    def axle(self) -> Axle:
+        """The wheelset on its rails.
+
+        Returns
+        -------
+        Axle
+        """
+        return Axle(self.rail, self.wheel, self.friction, self.settings, self.left)
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What a position has given.
+
+    Attributes
+    ----------
+    value : object
+        What is kept of the Equilibrium; None where there is none.
+    failure : str
+        The error, where there is no equilibrium.
+    notes : tuple of str
+        Warnings.
+    """
+
+    value: Any
+    failure: str = ""
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Batch(tables.Tabled):
+    """The numbers of many positions.
+
+    Attributes
+    ----------
+    states : list of spectrum.State
+        The positions.
+    found : list of Found
+        Of each the columns of its Equilibrium.
+    """
+
+    states: list[State]
+    found: list[Found]
+
+    @property
+    def failures(self) -> list[tuple[int, str]]:
+        """Number of each position without an equilibrium, from 1 on, and its error."""
+        return [(k, one.failure) for k, one in enumerate(self.found, 1) if one.failure]
+
+    def table(self) -> list[tables.Column]:
+        """A row for each patch, and one with empty cells for a position without an equilibrium.
+
+        Returns
+        -------
+        list of Column
+            See also to_csv() and to_dataframe().
+        """
+        solved = next((one.value for one in self.found if one.value), None)
+        if solved is None:
+            raise Error(f"no position has an equilibrium; of the first one: {self.found[0].failure}")
+        numbers: list[int] = []
+        notes: list[str] = []
+        rows: list[list] = [[] for _ in solved]
+        for k, one in enumerate(self.found, 1):
+            count = len(one.value[0].values) if one.value else 1
+            numbers += [k] * count
+            notes += ["; ".join(filter(None, (one.failure, *one.notes)))] * count
+            for row, column in zip(rows, one.value or [None] * len(solved)):
+                row += list(column.values) if column else [None] * count
+        first = tables.Column("position", "1", "number of the position", numbers)
+        columns = [column._replace(values=row) for column, row in zip(solved, rows)]
+        return [first, *columns, tables.Column("note", "", "error or warnings", notes)]
+
+    def of(self, name: str) -> np.ndarray:
+        """A number of all positions: of the first patch that has it.
+
+        Parameters
+        ----------
+        name : str
+            A column that is equal in all rows of a position, as ws_roll.
+
+        Returns
+        -------
+        ndarray
+            (positions,); NaN without an equilibrium.
+        """
+        picked = [[c.values[0] for c in one.value or () if c.name == name] for one in self.found]
+        return np.array([one[0] if one else np.nan for one in picked], dtype=float)
+
+
+def run(
+    vehicle: Vehicle,
+    states: Sequence[State],
+    cores: int = 1,
+    keep: Callable[[Equilibrium], Any] = Equilibrium.table,
+    report: Optional[Callable[[int, int], object]] = None,
+) -> list[Found]:
+    """What is kept of the equilibrium of each position.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        Rails and wheels.
+    states : sequence of State
+        The positions.
+    cores : int
+        Processes.
+    keep : callable
+        A function of a module that takes an Equilibrium.
+    report : callable, optional
+        Called with the numbers of positions that are done, and of all.
+
+    Returns
+    -------
+    list of Found
+        In the order of the positions.
+    """
+    vehicle.axle().close()  # fails and warns early, and once
+    parts = [states[k : k + CHUNK] for k in range(0, len(states), CHUNK)]
+    ended = [0]
+
+    def done(k):
+        ended[0] += len(parts[k])
+        if report is not None:
+            report(ended[0], len(states))
+
+    found = processes.run([(functools.partial(_solved, vehicle, keep), part) for part in parts], cores, _quiet, done)
+    return [one for part in found for one in part]
+
+
+def _quiet(*_):
+    """Takes what jobs report, which is nothing."""
+
+
+def _solved(vehicle, keep, states, _told):
+    """Found of each position of a part."""
+    found, before = [], None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # run() has issued those of the vehicle
+        made = vehicle.axle()
+    with made as axle:
+        for state in states:
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                try:
+                    before = _near(axle, state, before)
+                    failure = ""
+                except (Error, ContactError) as error:
+                    before, failure = None, str(error)
+            notes = tuple(dict.fromkeys(str(one.message) for one in caught if issubclass(one.category, UserWarning)))
+            found.append(Found(keep(before) if before else None, failure, notes))
+    return found
+
+
+def _near(axle, state, before):
+    """The equilibrium from that of the position before, or from rigid bodies where that leads to none."""
+    if before is not None:
+        try:
+            return axle.solve(state.position, state.load, before)
+        except (Error, ContactError):
+            pass
+    return axle.solve(state.position, state.load)
+
+
+def solve_all(
+    vehicle: Vehicle, states: Sequence[State], cores: int = 1, report: Optional[Callable[[int, int], object]] = None
+) -> Batch:
+    """The numbers of many positions.
+
+    Parameters
+    ----------
+    vehicle, states, cores, report
+        See run().
+
+    Returns
+    -------
+    Batch
+    """
+    return Batch(list(states), run(vehicle, states, cores, report=report))
