@@ -135,7 +135,7 @@ PETSC_INTERN PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity elas
 PETSC_INTERN PetscBool SamElasticityIsRegistered(const char name[]);
 /*
   SamElasticityRegisterAll - registers the types of the library that are not replaced, and what may be added to them
-  (bodies/types.c). SamInitialize() calls it. Not collective, on all ranks.
+  (bodies/bodytypes.c). SamInitialize() calls it. Not collective, on all ranks.
 */
 PETSC_INTERN PetscErrorCode SamElasticityRegisterAll(void);
 

@@ -143,7 +143,7 @@ def _positions(one):
     coefficient = word(words.number, "a coefficient above 0: 1e-14", allowed=words.positive)
     group.add_argument("--wear", type=coefficient, metavar="K", help="coefficient of wear: 1e-14 (m3/J, or 1/Pa)")
     group.add_argument(
-        "--law", choices=("energy", "archard"), help="volume per work of friction (default), or per force and way"
+        "--law", choices=("energy", "archard"), help="volume per frictional work (default), or per force and slip"
     )
     group.add_argument("--distance", type=word(distance), metavar="D", help="update the profile over it: 100000km")
     even = word(words.integer, "an even number, 2 or more", lambda value: value >= 2 and value % 2 == 0)

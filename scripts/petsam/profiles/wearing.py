@@ -1,8 +1,8 @@
 """Wear of a wheel's profile by a spectrum of positions: the profile after a distance, by jumps, with an error estimate.
 
 In each jump all positions of the spectrum are solved with the profile as it is; each point of the tread wears in each
-revolution by the work of friction per area, summed along its way through the patches (energy), or by pressure times way
-slipped (Archard). The depth of a jump is smoothed along the profile and taken off along its normal. The two wheels of
+revolution by the frictional work per area, summed along its way through the patches (energy), or by pressure times slip
+(Archard). The depth of a jump is smoothed along the profile and taken off along its normal. The two wheels of
 the wheelset wear alike, by the mean of both: the vehicle runs in both directions.
 
 The error is the difference to the depth by half the jumps, as the depth of explicit jumps is of first order in them.
