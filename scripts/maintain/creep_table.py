@@ -27,7 +27,7 @@ def parser():
     commands = made.add_subparsers(dest="command", required=True)
     make = commands.add_parser("make", help="make a table")
     make.add_argument("-o", "--output", default="build/creep-forces.bin", help="file of the table")
-    make.add_argument("--nodes", type=int, nargs=4, default=(11, 11, 11, 9), help="along a/b, v, alpha, beta")
+    make.add_argument("--nodes", type=int, nargs=4, default=creeptable.Plan.nodes, help="along a/b, v, turn, rise")
     make.add_argument("--range", type=float, nargs=2, default=(0.05, 20.0), help="first and last a/b")
     make.add_argument("--own-cases", type=int, default=creeptable.CASES, help="cases of the table's own error")
     check = commands.add_parser("check", help="check a table on random cases")
