@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the table of creep forces, or checks one on random cases.
 
-    build/venv/bin/python scripts/maintain/creep_table.py make [-o build/creep-forces.bin] [--cells 128] [--jobs 2]
+    build/venv/bin/python scripts/maintain/creep_table.py make [-o build/creep-forces.bin] [--cells 96] [--jobs 2]
     build/venv/bin/python scripts/maintain/creep_table.py check TABLE [--cases 1000] [--cells 128]
 
 An interrupted table is completed by the same command. The checks print median, 90 % and worst of the maximum error of
@@ -36,7 +36,8 @@ def parser():
     check.add_argument("--seed", type=int, default=1, help="of the random numbers")
     check.add_argument("--limits", type=float, nargs=3, help="of median, 90 %% and worst")
     for one in (make, check):
-        one.add_argument("--cells", type=int, default=128, help="cells of a grid along each axis")
+        cells = creeptable.Plan.cells if one is make else 128
+        one.add_argument("--cells", type=int, default=cells, help="cells of a grid along each axis")
         one.add_argument("--poisson", type=float, default=0.28 if one is make else None, help="Poisson's ratio")
         one.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes")
     return made

@@ -46,7 +46,7 @@ class Plan:
 
     nodes: tuple[int, int, int, int] = (11, 14, 13, 15)
     range: tuple[float, float] = (0.05, 20.0)
-    cells: int = 128
+    cells: int = 96
     poisson: float = 0.28
 
     def __post_init__(self) -> None:
