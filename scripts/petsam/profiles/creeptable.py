@@ -297,7 +297,7 @@ def own_error_job(plan: Plan, k: int, fine: int, coefficients: np.ndarray) -> np
     random = np.random.default_rng([SEED, k])
     i, j = random.integers(plan.nodes[0]), random.integers(1, plan.nodes[1] - 1)
     at = random.integers(plan.nodes[2]), random.integers(plan.nodes[3])
-    alpha, beta = (float(one[at]) for one in plan.directions(i))
+    alpha, beta = (float(one[at]) for one in plan.directions(int(i)))
     v = plan.levels[j]
     creepages = v / (1.0 - v) * direction(alpha, beta) / factors(coefficients[i], plan.ratios[i])
     found = [_single(plan.ratios[i], plan.poisson, cells, creepages) for cells in (plan.cells, fine)]
