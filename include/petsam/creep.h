@@ -152,7 +152,7 @@ static inline void samcreep_multiply(int n, const double *matrix, size_t stride,
 static inline void samcreep_three(const int n[4], double *values, double *work)
 {
   const double signs[3][2] = {{0.0, 0.0}, {-1.0, -1.0}, {1.0, 1.0}};
-  size_t       stride      = 3 * (size_t)n[0] * (size_t)n[1] * (size_t)n[2] * (size_t)n[3], all = stride, at;
+  size_t       stride = 3 * (size_t)n[0] * (size_t)n[1] * (size_t)n[2] * (size_t)n[3], all = stride, at;
   int          axis, s;
   for (axis = 0; axis < 3; axis++) {
     double *matrix = work + n[axis], *inverse = matrix + n[axis] * n[axis];
@@ -215,8 +215,9 @@ static inline void samcreep_continue(petsam_creep_table *table, const double *gi
             double sign = 1.0;
             if (in != at && c == 0) sign = -sign;
             if ((m < 0 && c > 0) || (m == n[3] && c == 0)) sign = -sign;
-            out[c] = sign * given[(((size_t)(i * n[1] + j) * (size_t)n[2] + (size_t)in) * (size_t)n[3] + (size_t)to) * 3 +
-                                  (size_t)c];
+            out[c] =
+              sign *
+              given[(((size_t)(i * n[1] + j) * (size_t)n[2] + (size_t)in) * (size_t)n[3] + (size_t)to) * 3 + (size_t)c];
           }
         }
       }
@@ -227,10 +228,10 @@ static inline void samcreep_continue(petsam_creep_table *table, const double *gi
 /* Splines through the forces, which are whole numbers of steps; returns 0, or 1 without memory */
 static inline int samcreep_fill(petsam_creep_table *table, const unsigned char *steps, const unsigned char *whole)
 {
-  const int   *n = table->n;
+  const int   *n     = table->n;
   const size_t block = 3 * (size_t)n[2] * (size_t)n[3], all = (size_t)n[0] * (size_t)n[1] * block;
   double      *values = (double *)malloc(all * sizeof(double)), *work;
-  size_t       most = 0, at;
+  size_t       most   = 0, at;
   int          i;
   for (i = 0; i < 4; i++) most = (size_t)n[i] > most ? (size_t)n[i] : most;
   work = (double *)malloc(most * (1 + 3 * most) * sizeof(double));
@@ -434,8 +435,7 @@ static inline void samcreep_curved(const petsam_creep_table *table, double ratio
   samcreep_splines(table, place, found);
   for (i = 0; i < 3; i++) {
     double along = (found[0][i] + v * finer * found[1][i]) / (radius * (1.0 + radius) * (1.0 + radius));
-    for (j = 0; j < 3; j++)
-      slopes[i][j] = along * at[j] + v * (found[2][i] * turns[0][j] + found[3][i] * turns[1][j]);
+    for (j = 0; j < 3; j++) slopes[i][j] = along * at[j] + v * (found[2][i] * turns[0][j] + found[3][i] * turns[1][j]);
     force[i] = v * found[0][i] + slopes[i][0] * (x - at[0]) + slopes[i][1] * (y - at[1]);
   }
 }
