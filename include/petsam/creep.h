@@ -19,10 +19,11 @@
   log(a/b) and in a level of v that is finer around v = 0.4, and in two angles,
       (alpha + atan2(Y (kx/ky)^(sin(beta)^2), X))/2, (beta + atan2(Z, hypot(X/sqrt(kx), Y/sqrt(ky))))/2,
   with kx = 1/hypot(1, 0.7 a/b), ky = a/b/hypot(1.37, 0.7 a/b): nearly X/Z and Y/Z where the pole of the rigid slip is
-  at the edge of the contact. The table holds Fx/(mu N), Fy/(mu N), Mz/(mu N c) over v, in 16 bits. Between its nodes are
-  cubic splines: their value uses four coefficients along each axis, and is twice continuously differentiable. Mirrored creepages, X < 0 or Z < 0, give the same bits but for signs. |F| is cut to mu N
-  by a rounded corner, 1e-3 mu N wide, 1.25e-4 mu N deep. Poisson's ratio changes C11, C22 and C23 above only, which is
-  right for small creepages without spin, and approximate else: make a table for yours.
+  at the edge of the contact. The table holds Fx/(mu N), Fy/(mu N), Mz/(mu N c) over v, in 16 bits. Between its nodes
+  are cubic splines: their value uses four coefficients along each axis, and is twice continuously differentiable.
+  Mirrored creepages, X < 0 or Z < 0, give the same bits but for signs. |F| is cut to mu N by a rounded corner, 1e-3 mu
+  N wide, 1.25e-4 mu N deep. Poisson's ratio changes C11, C22 and C23 above only, which is right for small creepages
+  without spin, and approximate else: make a table for yours.
 
   Friction that falls with the slip velocity: `friction` is its value at the rolling speed times petsam_creep_slip().
 */
