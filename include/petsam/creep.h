@@ -19,11 +19,11 @@
   log(a/b) and in a level of v that is finer around v = 0.4, and in two angles,
       (alpha + atan2(Y (kx/ky)^(sin(beta)^2), X))/2, (beta + atan2(Z, hypot(X/sqrt(kx), Y/sqrt(ky))))/2,
   with kx = 1/hypot(1, 0.7 a/b), ky = a/b/hypot(1.37, 0.7 a/b): nearly X/Z and Y/Z where the pole of the rigid slip is
-  at the edge of the contact. The table holds Fx/(mu N), Fy/(mu N), Mz/(mu N c) over v, in 16 bits. Between its nodes
-  are cubic splines: their value uses four coefficients along each axis, and is twice continuously differentiable.
-  Mirrored creepages, X < 0 or Z < 0, give the same bits but for signs. |F| is cut to mu N by a rounded corner, 1e-3 mu
-  N wide, 1.25e-4 mu N deep. Poisson's ratio changes C11, C22 and C23 above only, which is right for small creepages
-  without spin, and approximate else: make a table for yours.
+  at the edge of the contact. The table holds Fx/(mu N), Fy/(mu N), Mz/(mu N c) over v: linear theory times (1 - v)^2,
+  and a rest, in 16 bits. Between its nodes are cubic splines: their value uses four coefficients along each axis, and
+  is twice continuously differentiable. Mirrored creepages, X < 0 or Z < 0, give the same bits but for signs. |F| is
+  cut to mu N by a rounded corner, 1e-3 mu N wide, 1.25e-4 mu N deep. Poisson's ratio changes C11, C22 and C23 above
+  only, which is right for small creepages without spin, and approximate else: make a table for yours.
 
   Friction that falls with the slip velocity: `friction` is its value at the rolling speed times petsam_creep_slip().
 */
@@ -73,7 +73,8 @@ typedef struct {
   double  poisson;      /* Poisson's ratio */
   double  error[4];     /* error at the nodes by the cells, over mu N: median, 90 %, worst; number of cases */
   double *scales;       /* splines of log C11, C22, C23 at Poisson's ratios 0, that of the table, 0.5: n[0] x 3 x 3 */
-  double *coefficients; /* splines of the forces: n[0] x n[1] x (n[2] + 2) x (n[3] + 2) x 3 */
+  double *linear;       /* of the linear theory, forces by X, Y, Z: n[0] x 3 x 3 */
+  double *coefficients; /* of the rests: n[0] x n[1] x (n[2] + 2) x (n[3] + 2) x 3 */
 } petsam_creep_table;
 
 /* ---- parts of the functions below, not for use by others ---- */
@@ -297,7 +298,7 @@ static inline int samcreep_check(const unsigned char *data, size_t bytes, const 
   memcpy(head, data + 8, 32);
   if (head[0] != PETSAM_CREEP_VERSION || head[1] != 0x01020304u)
     return samcreep_failed(message, file, "a table of another version or byte order: make it again");
-  wanted = 48.0 + 56.0 + 72.0 * head[2] + 12.0 * head[2] * head[3] + samcreep_stored(head);
+  wanted = 48.0 + 56.0 + 144.0 * head[2] + 12.0 * head[2] * head[3] + samcreep_stored(head);
   for (k = 2; k < 6; k++) {
     if (head[k] < 4 || head[k] > 10000) wanted = -1.0;
   }
@@ -413,13 +414,26 @@ static inline void samcreep_angles(double ratio, const double vector[3], double 
   slopes[1][2] = low * h2 + high * g2;
 }
 
+/* The derivative of the forces of the linear theory by X, Y, Z */
+static inline void samcreep_linear(const petsam_creep_table *table, double place, double slopes[3][3])
+{
+  double w[4], d[4];
+  int    first = samcreep_basis(place, table->n[0], 0, w, d), i, j, k;
+  for (j = 0; j < 3; j++) {
+    for (k = 0; k < 3; k++) {
+      slopes[j][k] = 0.0;
+      for (i = 0; i < 4; i++) slopes[j][k] += w[i] * table->linear[9 * (first + i) + 3 * j + k];
+    }
+  }
+}
+
 /* Forces and slopes[i][j], derivative of force i by X, Y, Z, for X and Z of 0 or more */
 static inline void samcreep_curved(const petsam_creep_table *table, double ratio, const double vector[3],
                                    double force[3], double slopes[3][3])
 {
   const double x = vector[0], y = vector[1], z = vector[2], step = (table->last - table->first) / (table->n[0] - 1.0);
   double       at[3] = {x, y, z}, radius = sqrt(x * x + y * y + z * z), v, finer, place[4], found[4][3];
-  double       angle[2], turns[2][3];
+  double       angle[2], turns[2][3], linear[3][3], left;
   int          i, j;
   if (x * x + y * y < 1e-6 * radius * radius) { /* near spin alone: linear in X and Y */
     const double alpha = atan2(y, x);
@@ -434,27 +448,16 @@ static inline void samcreep_curved(const petsam_creep_table *table, double ratio
   place[2] = samcreep_within((angle[0] + 0.5 * samcreep_pi) * ((table->n[2] - 1.0) / samcreep_pi), table->n[2] - 1.0);
   place[3] = samcreep_within(angle[1] * ((table->n[3] - 1.0) / (0.5 * samcreep_pi)), table->n[3] - 1.0);
   samcreep_splines(table, place, found);
+  samcreep_linear(table, ratio, linear);
+  left = 1.0 / (1.0 + radius);
   for (i = 0; i < 3; i++) {
-    double along = (found[0][i] + v * finer * found[1][i]) / (radius * (1.0 + radius) * (1.0 + radius));
-    for (j = 0; j < 3; j++) slopes[i][j] = along * at[j] + v * (found[2][i] * turns[0][j] + found[3][i] * turns[1][j]);
-    force[i] = v * found[0][i] + slopes[i][0] * (x - at[0]) + slopes[i][1] * (y - at[1]);
+    double ahead = linear[i][0] * at[0] + linear[i][1] * at[1] + linear[i][2] * at[2];
+    double along = ((found[0][i] + v * finer * found[1][i]) - 3.0 * left * left * ahead) * left * left / radius;
+    for (j = 0; j < 3; j++)
+      slopes[i][j] =
+        along * at[j] + v * (found[2][i] * turns[0][j] + found[3][i] * turns[1][j]) + left * left * left * linear[i][j];
+    force[i] = v * found[0][i] + left * left * left * ahead + slopes[i][0] * (x - at[0]) + slopes[i][1] * (y - at[1]);
   }
-}
-
-/* The same near the origin, where the forces are linear */
-static inline void samcreep_linear(const petsam_creep_table *table, double ratio, const double vector[3],
-                                   double force[3], double slopes[3][3])
-{
-  const double middle       = 0.5 * (table->n[2] - 1.0);
-  const double places[3][2] = {{middle, 0.0}, {table->n[2] - 1.0, 0.0}, {middle, table->n[3] - 1.0}};
-  int          i, j;
-  for (j = 0; j < 3; j++) {
-    const double place[4] = {ratio, 0.0, places[j][0], places[j][1]};
-    double       found[4][3];
-    samcreep_splines(table, place, found);
-    for (i = 0; i < 3; i++) slopes[i][j] = found[0][i];
-  }
-  for (i = 0; i < 3; i++) force[i] = slopes[i][0] * vector[0] + slopes[i][1] * vector[1] + slopes[i][2] * vector[2];
 }
 
 /* Cuts |F| to mu N, with a rounded corner */
@@ -509,6 +512,7 @@ PETSAM_CREEP_API void petsam_creep_free(petsam_creep_table *table)
 {
   if (!table) return;
   free(table->scales);
+  free(table->linear);
   free(table->coefficients);
   free(table);
 }
@@ -545,11 +549,12 @@ PETSAM_CREEP_API petsam_creep_table *petsam_creep_load(const char *file, char *m
     for (k = 0; k < 4; k++) table->n[k] = (int)head[2 + k];
     count               = samcreep_row(table->n, table->n[0], 0, 0);
     table->scales       = (double *)malloc(72 * (size_t)head[2]);
+    table->linear       = (double *)malloc(72 * (size_t)head[2]);
     table->coefficients = (double *)malloc(count * sizeof(double));
   }
-  if (!table || !table->scales || !table->coefficients ||
-      samcreep_fill(table, data + 96 + 72 * (size_t)head[2],
-                    data + 96 + 72 * (size_t)head[2] + 12 * (size_t)head[2] * (size_t)head[3])) {
+  if (!table || !table->scales || !table->linear || !table->coefficients ||
+      samcreep_fill(table, data + 96 + 144 * (size_t)head[2],
+                    data + 96 + 144 * (size_t)head[2] + 12 * (size_t)head[2] * (size_t)head[3])) {
     (void)samcreep_failed(message, file, "not enough memory");
     petsam_creep_free(table);
     free(data);
@@ -562,6 +567,7 @@ PETSAM_CREEP_API petsam_creep_table *petsam_creep_load(const char *file, char *m
   table->poisson = numbers[2];
   memcpy(table->error, numbers + 3, 32);
   memcpy(table->scales, data + 96, 72 * (size_t)head[2]);
+  memcpy(table->linear, data + 96 + 72 * (size_t)head[2], 72 * (size_t)head[2]);
   free(data);
   return table;
 }
@@ -625,10 +631,12 @@ PETSAM_CREEP_API int petsam_creep_forces(const petsam_creep_table *table, const 
     size[i]   = traction * (i == 2 ? c : 1.0);
     vector[i] = signs[i] * unit[i] * creepage[i];
   }
-  if (vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2] > 1e-18)
+  if (vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2] > 1e-18) {
     samcreep_curved(table, place, vector, force, slopes);
-  else
-    samcreep_linear(table, place, vector, force, slopes);
+  } else {
+    samcreep_linear(table, place, slopes);
+    for (i = 0; i < 3; i++) force[i] = slopes[i][0] * vector[0] + slopes[i][1] * vector[1] + slopes[i][2] * vector[2];
+  }
   samcreep_cut(force, slopes);
   for (i = 0; i < 3; i++) {
     force[i] *= signs[i] * size[i];

@@ -16,15 +16,16 @@ with kx = 1/hypot(1, 0.7 a/b), ky = a/b/hypot(1.37, 0.7 a/b): nearly X/Z and Y/Z
 the edge of the contact, on the axis b or a. The forces of slender ellipses change on both scales, that of the creepages
 and that of the edge, and turn and rise resolve both; level is finer where the contact begins to slide fully.
 
-Between the nodes are cubic splines, whose value takes four coefficients along each axis, and whose first two
-derivatives are continuous. Across the ends of turn and rise they are continued by the symmetries; at the ends of a/b
-and v by the third derivative.
+The forces over v are those of linear theory times (1 - v)^2, and a rest. Between its nodes are cubic splines, whose
+value takes four coefficients along each axis, and whose first two derivatives are continuous. Across the ends of turn
+and rise they are continued by the symmetries; at the ends of a/b and v by the third derivative.
 
 File, little-endian: the bytes PETSAMCF; version, byte order mark, four numbers of nodes, cells, 0 (8 uint32); first and
 last log(a/b), Poisson's ratio, own error (median, 90 %, worst, over mu N) and the number of its cases (7 float64);
-splines of log C11, C22, C23 (nodes of a/b, 3 values of Poisson's ratio, 3; float64); steps of the forces (nodes of a/b,
-v, 3; float32), and the forces at the nodes over the steps (nodes of a/b, v, turn, rise, 3; int16, and zeros up to a
-multiple of 4 bytes); a checksum of all before (FNV-1a over words of 4 bytes, uint64).
+splines of log C11, C22, C23 (nodes of a/b, 3 values of Poisson's ratio, 3; float64); those of the linear theory, forces
+by X, Y, Z (nodes of a/b, 3, 3; float64); steps of the rests (nodes of a/b, v, 3; float32), and the rests at the nodes
+over the steps (nodes of a/b, v, turn, rise, 3; int16, and zeros up to a multiple of 4 bytes); a checksum of all before
+(FNV-1a over words of 4 bytes, uint64).
 """
 
 import os
@@ -345,8 +346,10 @@ class CreepTable:
         Poisson's ratio of the bodies.
     scales : ndarray
         Splines of log C11, C22, C23 at Poisson's ratios 0, `poisson` and 0.5, (nodes of a/b, 3, 3).
+    linear : ndarray
+        Splines of the linear theory, forces by X, Y, Z, (nodes of a/b, 3, 3).
     nodes : ndarray
-        Forces over v, over their steps, (nodes of a/b, v, turn, rise, 3), int16.
+        Rests of the forces over v, over their steps, (nodes of a/b, v, turn, rise, 3), int16.
     steps : ndarray
         (nodes of a/b, v, 3), float32.
     cells : int
@@ -358,6 +361,7 @@ class CreepTable:
     range: tuple[float, float]
     poisson: float
     scales: np.ndarray
+    linear: np.ndarray
     nodes: np.ndarray
     steps: np.ndarray
     cells: int = 0
@@ -407,6 +411,7 @@ class CreepTable:
         head = np.array([VERSION, MARK, *n, self.cells, 0], HEADER)
         numbers = np.array([*np.log(self.range), self.poisson, *self.error], NUMBERS)
         data = MAGIC + head.tobytes() + numbers.tobytes() + self.scales.astype(NUMBERS).tobytes()
+        data += self.linear.astype(NUMBERS).tobytes()
         data += self.steps.astype("<f4").tobytes() + self.nodes.astype("<i2").tobytes()
         data += bytes(-len(data) % 4)
         with open(path, "wb") as file:
@@ -561,9 +566,8 @@ class CreepTable:
 
     def _linear(self, place):
         """The derivative of the forces at the origin."""
-        ends = np.array([[0.0, 0.0], [0.5 * np.pi, 0.0], [0.0, 0.5 * np.pi]])
-        zero = np.zeros_like(place)
-        return np.stack([self._splines(place, zero, zero + x, zero + y)[0] for x, y in ends], -1)
+        first, w, _ = basis(place, len(self.linear), False)
+        return np.einsum("mi,mijk->mjk", w, self.linear[first[:, None] + np.arange(4)])
 
     def _curved(self, place, ratio, inside, radius):
         x, y, z = inside.T
@@ -580,7 +584,11 @@ class CreepTable:
         f, fv, *fab = self._splines(place, at, *both.T)
         along = (f + (v * finer)[:, None] * fv) / (radius * (1.0 + radius) ** 2)[:, None]
         slopes = along[:, :, None] * vector[:, None, :] + v[:, None, None] * np.einsum("amc,maj->mcj", fab, by)
-        force = v[:, None] * f
+        linear, left = self._linear(place), (1.0 - v)[:, None]
+        ahead = np.einsum("mij,mj->mi", linear, vector)
+        slopes += left[:, :, None] ** 3 * linear
+        slopes -= (3.0 * left**4 / radius[:, None] * ahead)[:, :, None] * vector[:, None, :]
+        force = v[:, None] * f + left**3 * ahead
         if polar.any():
             force = force + slopes[:, :, 0] * (x - px)[:, None] + slopes[:, :, 1] * (y - py)[:, None]
         return force, slopes
@@ -657,7 +665,7 @@ def _need_contacts(cases):
 
 
 def _parsed(path, data):
-    """Range, Poisson's ratio, scales, forces, steps, cells and error of a file's bytes."""
+    """Range, Poisson's ratio, scales, linear theory, rests, steps, cells and error of a file's bytes."""
     if data[:8] != MAGIC:
         raise Error(f"{path}: no table of creep forces: make one with make creep-table")
     if len(data) < 40:
@@ -666,14 +674,14 @@ def _parsed(path, data):
     if version != VERSION or mark != MARK:
         raise Error(f"{path}: a table of version {version}, expected {VERSION}: make it again with make creep-table")
     count = int(np.prod(n, dtype=object)) * 3
-    sizes = 7 * 8, n[0] * 72, n[0] * n[1] * 12, (count + 1) // 2 * 4
+    sizes = 7 * 8, n[0] * 144, n[0] * n[1] * 12, (count + 1) // 2 * 4
     if min(n) < LEAST or len(data) != 48 + sum(sizes):
         raise Error(f"{path}: {len(data)} bytes, expected {48 + sum(sizes)}: the file is cut off: make it again")
     if int.from_bytes(data[-8:], "little") != checksum(data[:-8]):
         raise Error(f"{path}: the checksum differs: the file is damaged: make it again with make creep-table")
     numbers = np.frombuffer(data, NUMBERS, 7, 40).tolist()
-    scales = np.frombuffer(data, NUMBERS, n[0] * 9, 40 + sizes[0]).reshape(n[0], 3, 3)
+    scales, linear = np.frombuffer(data, NUMBERS, n[0] * 18, 40 + sizes[0]).reshape(2, n[0], 3, 3)
     steps = np.frombuffer(data, "<f4", sizes[2] // 4, 40 + sum(sizes[:2])).reshape(n[0], n[1], 3)
     forces = np.frombuffer(data, "<i2", count, 40 + sum(sizes[:3])).reshape(*n, 3)
     ends = float(np.exp(numbers[0])), float(np.exp(numbers[1]))
-    return ends, numbers[2], scales, forces, steps, cells, tuple(numbers[3:])
+    return ends, numbers[2], scales, linear, forces, steps, cells, tuple(numbers[3:])

@@ -256,8 +256,34 @@ def make(
     own = [(f"E{k}-{fine}", own_error_job, plan, k, fine, coefficients[:, 1]) for k in range(count)]
     errors = np.array(_run(own, folder, jobs, Progress("finer case", say))).ravel()
     stored = (*statistics(errors), float(count)) if count else (0.0, 0.0, 0.0, 0.0)
-    scales = solved(np.log(coefficients[..., :3]), 0)
-    return CreepTable(plan.range, plan.poisson, scales, *rounded(nodes), plan.cells, stored)
+    scales, slopes = solved(np.log(coefficients[..., :3]), 0), linear_slopes(plan, coefficients[:, 1])
+    nodes -= _ahead(plan, slopes)
+    return CreepTable(plan.range, plan.poisson, scales, solved(slopes, 0), *rounded(nodes), plan.cells, stored)
+
+
+def linear_slopes(plan: Plan, coefficients: np.ndarray) -> np.ndarray:
+    """The forces of the linear theory by X, Y, Z.
+
+    Parameters
+    ----------
+    plan : Plan
+        The table.
+    coefficients : ndarray
+        At all nodes of a/b, (n, 4).
+
+    Returns
+    -------
+    ndarray
+        (n, 3, 3).
+    """
+    units = (np.diag(1.0 / factors(one, ratio)) for one, ratio in zip(coefficients, plan.ratios))
+    return np.array([linear(one, unit).T for one, unit in zip(coefficients, units)])
+
+
+def _ahead(plan, slopes):
+    """Linear theory times (1 - v)^2 at the nodes, (nodes of a/b, v, turn, rise, 3)."""
+    towards = np.array([np.moveaxis(direction(*plan.directions(i)), 0, -1) for i in range(plan.nodes[0])])
+    return np.einsum("v,nij,nkmj->nvkmi", (1.0 - plan.levels) ** 2, slopes, towards)
 
 
 def statistics(errors: np.ndarray) -> tuple[float, float, float]:
