@@ -186,6 +186,13 @@ def test_small_creepages_are_kalkers_linear_theory(table, poisson):
     assert force[0] == pytest.approx(c11 * G * area * small, rel=0.015)
 
 
+def test_small_creepages_have_the_slopes_of_none(table):
+    random = np.random.default_rng(6)
+    vectors, ratios = random.standard_normal((100, 3)), np.exp(random.uniform(*np.log(PLAN.range), 100))
+    small, none = (table.scaled(ratios, size * vectors)[1] for size in (1e-6, 0.0))
+    assert np.abs(small - none).max() < 2e-4 and np.abs(none[:, [0, 0, 1, 2], [1, 2, 0, 0]]).max() < 1e-12
+
+
 def test_full_sliding(table):
     force = by_python(table, case(xi=3.0, eta=-4.0)).force[0] / (MU * LOAD)
     assert force[:2] == pytest.approx([0.6, -0.8], abs=2e-3) and np.hypot(*force[:2]) <= 1.0
