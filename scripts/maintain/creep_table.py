@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the table of creep forces, or checks one on random cases.
 
-    build/venv/bin/python scripts/maintain/creep_table.py make [-o build/creep-forces.bin] [--cells 128] [--jobs 2]
+    build/venv/bin/python scripts/maintain/creep_table.py make [-o build/creep-forces.bin] [--cells 96] [--jobs 2]
     build/venv/bin/python scripts/maintain/creep_table.py check TABLE [--cases 1000] [--cells 128]
 
 An interrupted table is completed by the same command. The checks print median, 90 % and worst of the maximum error of
@@ -27,7 +27,7 @@ def parser():
     commands = made.add_subparsers(dest="command", required=True)
     make = commands.add_parser("make", help="make a table")
     make.add_argument("-o", "--output", default="build/creep-forces.bin", help="file of the table")
-    make.add_argument("--nodes", type=int, nargs=4, default=(11, 11, 11, 9), help="along a/b, v, alpha, beta")
+    make.add_argument("--nodes", type=int, nargs=4, default=creeptable.Plan.nodes, help="along a/b, v, turn, rise")
     make.add_argument("--range", type=float, nargs=2, default=(0.05, 20.0), help="first and last a/b")
     make.add_argument("--own-cases", type=int, default=creeptable.CASES, help="cases of the table's own error")
     check = commands.add_parser("check", help="check a table on random cases")
@@ -36,7 +36,8 @@ def parser():
     check.add_argument("--seed", type=int, default=1, help="of the random numbers")
     check.add_argument("--limits", type=float, nargs=3, help="of median, 90 %% and worst")
     for one in (make, check):
-        one.add_argument("--cells", type=int, default=128, help="cells of a grid along each axis")
+        cells = creeptable.Plan.cells if one is make else 128
+        one.add_argument("--cells", type=int, default=cells, help="cells of a grid along each axis")
         one.add_argument("--poisson", type=float, default=0.28 if one is make else None, help="Poisson's ratio")
         one.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes")
     return made

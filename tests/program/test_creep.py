@@ -186,6 +186,13 @@ def test_small_creepages_are_kalkers_linear_theory(table, poisson):
     assert force[0] == pytest.approx(c11 * G * area * small, rel=0.015)
 
 
+def test_small_creepages_have_the_slopes_of_none(table):
+    random = np.random.default_rng(6)
+    vectors, ratios = random.standard_normal((100, 3)), np.exp(random.uniform(*np.log(PLAN.range), 100))
+    small, none = (table.scaled(ratios, size * vectors)[1] for size in (1e-6, 0.0))
+    assert np.abs(small - none).max() < 2e-4 and np.abs(none[:, [0, 0, 1, 2], [1, 2, 0, 0]]).max() < 1e-12
+
+
 def test_full_sliding(table):
     force = by_python(table, case(xi=3.0, eta=-4.0)).force[0] / (MU * LOAD)
     assert force[:2] == pytest.approx([0.6, -0.8], abs=2e-3) and np.hypot(*force[:2]) <= 1.0
@@ -202,17 +209,67 @@ def test_force_never_exceeds_friction(table):
 
 def test_nodes_are_petsams_solutions(table):
     i, j, k, m = 2, 4, 5, 1
-    vector = creeptable.direction(PLAN.directions[0][k], PLAN.directions[1][m]) * (j / 6) / (1 - j / 6)
+    v, (alphas, betas) = PLAN.levels[j], PLAN.directions(i)
+    vector = creeptable.direction(alphas[k, m], betas[k, m]) * v / (1 - v)
     ratio = PLAN.ratios[i]
     rolling = creepcases.Rolling(ratio, PLAN.poisson, PLAN.cells)
     expected = rolling.forces(vector / table.factors(np.array([ratio]), np.array([PLAN.poisson]))[0])
     rolling.close()
-    assert table.scaled(np.array([ratio]), vector[None])[0][0] == pytest.approx(expected, abs=2e-6)
+    # the file's forces are whole numbers of steps, so off by half a step at most
+    error = np.abs(table.scaled(np.array([ratio]), vector[None])[0][0] - expected)
+    assert (error < 1e-9 + 0.5 * v * table.steps[i, j]).all() and table.steps.max() < 2e-4
 
 
 def test_random_cases_are_petsams_solutions(table):
     errors = creeptable.check(table, 60, PLAN.cells, seed=5, say=quiet).max(axis=1)
     assert np.median(errors) < 0.006 and errors.max() < 0.07
+
+
+def test_half_a_step_is_the_greatest_error_of_rounding():
+    nodes = np.random.default_rng(2).standard_normal((4, 5, 5, 5, 3)) * 10.0 ** np.arange(-3, 2)[:, None, None, None]
+    nodes[1, 2] = 0.0
+    whole, steps = creep.rounded(nodes)
+    error = np.abs(whole * steps.astype(float)[:, :, None, None] - nodes)
+    assert (error <= (0.5 + 1e-9) * steps[:, :, None, None]).all() and not whole[1, 2].any()
+    most = np.abs(whole.astype(int)).max(axis=(2, 3))
+    assert whole.dtype == np.int16 and ((most >= creep.STEPS - 2) | (steps == 0.0)).all() and most.max() <= creep.STEPS
+
+
+# ---- axes
+
+
+def test_nodes_are_equally_spaced_in_turn_and_rise():
+    plan = creeptable.Plan((5, 8, 9, 8), (0.05, 20.0))
+    for i, ratio in enumerate(plan.ratios):
+        alphas, betas = plan.directions(i)
+        turns, rises = np.linspace(-np.pi / 2, np.pi / 2, 9), np.linspace(0, np.pi / 2, 8)
+        for k, m in np.ndindex(9, 7):
+            vector = creeptable.direction(alphas[k, m], betas[k, m])
+            found = creep.angles(np.array([ratio]), vector[None]).value[0]
+            assert found == pytest.approx([turns[k], rises[m]], abs=1e-12)
+    assert creep.level(plan.levels)[0] == pytest.approx(np.linspace(0, 1, 8), abs=1e-12)
+
+
+def test_edge_is_where_the_pole_is(table):
+    """The pole of the slip (xi - phi y, eta + phi x) is at x = -eta/phi, y = xi/phi: at -a or b at the edge."""
+    ratios = PLAN.ratios
+    x, y, z = table.factors(ratios, np.full(len(ratios), PLAN.poisson)).T
+    kx, ky = creep.edge(ratios)
+    assert kx == pytest.approx(x / z / np.sqrt(ratios), rel=0.15) and ky == pytest.approx(
+        y / z * np.sqrt(ratios), rel=0.15
+    )
+
+
+def test_slopes_of_axes():
+    random = np.random.default_rng(8)
+    vectors, ratios = random.uniform(0.1, 2.0, (400, 3)), np.exp(random.uniform(-3, 3, 400))
+    vectors[::2, 1] *= -1.0
+    slopes = creep.angles(ratios, vectors).slopes
+    for j, width in enumerate(1e-5 * np.eye(3)):
+        up, down = (creep.angles(ratios, vectors + s * width).value for s in (1, -1))
+        assert np.abs((up - down) / 2e-5 - slopes[:, :, j]).max() < 1e-6
+    v = np.linspace(0.01, 0.99, 50)
+    assert creep.level(v)[1] == pytest.approx((creep.level(v + 1e-5)[0] - creep.level(v - 1e-5)[0]) / 2e-5, rel=1e-6)
 
 
 # ---- derivatives
@@ -239,17 +296,18 @@ def test_derivatives_are_those_of_the_forces(table):
 
 @pytest.mark.parametrize(
     "place",
-    ("node of v", "node of alpha", "node of beta", "no X", "no Z", "rounded corner begins", "rounded corner ends"),
+    ("node of v", "node of turn", "node of rise", "no X", "no Z", "rounded corner begins", "rounded corner ends"),
 )
 def test_derivative_is_continuous(table, place):
     """Values on both sides of a place differ by what the distance explains: ten times less at a tenth of it."""
     v, alpha, beta = 0.47, 0.3, 0.6
-    ratio = np.array([1.3])
+    ratio, (alphas, betas) = PLAN.ratios[[3]], PLAN.directions(3)
 
     def slopes(x):
         at = dict(v=v, alpha=alpha, beta=beta)
-        at |= {"node of v": dict(v=0.5 + x), "node of alpha": dict(alpha=np.pi / 6 + x), "no Z": dict(beta=x),
-               "node of beta": dict(beta=np.pi / 4 + x), "no X": dict(alpha=np.pi / 2 + x)}.get(place, {})  # fmt: skip
+        at |= {"node of v": dict(v=PLAN.levels[3] + x), "node of turn": dict(alpha=alphas[4, 2] + x, beta=betas[4, 2]),
+               "node of rise": dict(alpha=alphas[4, 2], beta=betas[4, 2] + x), "no Z": dict(beta=x),
+               "no X": dict(alpha=np.pi / 2 + x)}.get(place, {})  # fmt: skip
         if "corner" in place:
             at = dict(v=corner(table, ratio, 1.0 if "ends" in place else 1.0 - creep.ROUND) + x, alpha=0.3, beta=0.05)
         vector = at["v"] / (1 - at["v"]) * creeptable.direction(at["alpha"], at["beta"])

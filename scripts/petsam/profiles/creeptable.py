@@ -14,12 +14,13 @@ import numpy as np
 
 from ..core.errors import Error
 from ..core.progress import Progress, Say, to_stderr
-from .creep import LEAST, CreepTable
+from .creep import LEAST, VERSION, CreepTable, angles, level, rounded, solved
 from .creepcases import Rolling, linear, sliding
 
 CASES = 60  # of the table's own error
 FINE = 128  # least cells for Kalker's coefficients
 SEED = 11
+ROUNDS = 500  # of the search for the angles of nodes, at most
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class Plan:
     Parameters
     ----------
     nodes : tuple of int
-        Along log(a/b), v, alpha and beta; that along alpha is odd.
+        Along log(a/b), v, turn and rise; that along turn is odd.
     range : tuple of float
         First and last a/b.
     cells : int
@@ -43,9 +44,9 @@ class Plan:
         If a number is out of range.
     """
 
-    nodes: tuple[int, int, int, int] = (11, 11, 11, 9)
+    nodes: tuple[int, int, int, int] = (11, 14, 13, 15)
     range: tuple[float, float] = (0.05, 20.0)
-    cells: int = 128
+    cells: int = 96
     poisson: float = 0.28
 
     def __post_init__(self) -> None:
@@ -62,14 +63,61 @@ class Plan:
         return np.geomspace(*self.range, self.nodes[0])
 
     @property
-    def directions(self) -> tuple[np.ndarray, np.ndarray]:
-        """alpha and beta of the nodes."""
-        return np.linspace(-0.5, 0.5, self.nodes[2]) * np.pi, np.linspace(0.0, 0.5, self.nodes[3]) * np.pi
+    def levels(self) -> np.ndarray:
+        """v of the nodes."""
+        wanted = np.linspace(0.0, 1.0, self.nodes[1])
+        found = _risen(lambda v: level(v)[0], wanted, 0.0, 1.0)
+        found[[0, -1]] = 0.0, 1.0
+        return found
+
+    def directions(self, i: int) -> tuple[np.ndarray, np.ndarray]:
+        """alpha and beta of the nodes.
+
+        Parameters
+        ----------
+        i : int
+            Node of a/b.
+
+        Returns
+        -------
+        tuple of ndarray
+            (nodes of turn, rise).
+        """
+        turns, rises = np.linspace(-0.5, 0.5, self.nodes[2]) * np.pi, np.linspace(0.0, 0.5, self.nodes[3]) * np.pi
+        alpha, beta = np.meshgrid(turns, rises, indexing="ij")
+        ratio, mid, end = self.ratios[i], slice(1, -1), 0.5 * np.pi
+        for _ in range(ROUNDS):
+            old = alpha.copy(), beta.copy()
+            inner = beta[mid, mid]
+            alpha[mid, mid] = _risen(lambda a, b=inner: _angle(ratio, a, b, 0), turns[mid, None], -end, end)
+            inner = alpha[:, mid]
+            beta[:, mid] = _risen(lambda b, a=inner: _angle(ratio, a, b, 1), rises[mid], 0.0, end)
+            if max(np.abs(alpha - old[0]).max(), np.abs(beta - old[1]).max()) < 1e-13:
+                break
+        return alpha, beta
 
     @property
     def key(self) -> str:
         """Text that differs for tables of other cases."""
-        return hashlib.sha256(repr(self).encode()).hexdigest()[:12]
+        return hashlib.sha256(f"{VERSION} {self}".encode()).hexdigest()[:12]
+
+
+def _risen(function, wanted, low, high):
+    """Arguments at which a growing function has values, by bisection."""
+    shape = np.shape(function(wanted))
+    low, high = np.full(shape, low), np.full(shape, high)
+    for _ in range(54):
+        middle = 0.5 * (low + high)
+        less = function(middle) < wanted
+        low, high = np.where(less, middle, low), np.where(less, high, middle)
+    return 0.5 * (low + high)
+
+
+def _angle(ratio, alpha, beta, which):
+    """turn (0) or rise (1) of directions."""
+    alpha, beta = np.broadcast_arrays(alpha, beta)
+    vectors = np.stack([np.cos(beta) * np.cos(alpha), np.cos(beta) * np.sin(alpha), np.sin(beta)], -1).reshape(-1, 3)
+    return angles(np.full(len(vectors), ratio), vectors).value[:, which].reshape(alpha.shape)
 
 
 def direction(alpha: float, beta: float) -> np.ndarray:
@@ -131,30 +179,30 @@ def coefficients_job(plan: Plan, i: int) -> np.ndarray:
 
 
 def forces_job(plan: Plan, i: int, m: int, coefficients: np.ndarray) -> np.ndarray:
-    """The forces at the nodes of a/b and beta.
+    """The forces at the nodes of a/b and rise.
 
     Parameters
     ----------
     plan : Plan
         The table.
     i, m : int
-        Nodes of a/b and beta.
+        Nodes of a/b and rise.
     coefficients : ndarray
         C11, C22, C23, C33, (4,).
 
     Returns
     -------
     ndarray
-        Forces over v, (nodes of v, alpha, 3).
+        Forces over v, (nodes of v, turn, 3).
     """
-    ratio, (alphas, betas) = float(plan.ratios[i]), plan.directions
+    ratio, (alphas, betas) = float(plan.ratios[i]), plan.directions(i)
     count = len(alphas)
     found = np.empty((plan.nodes[1], count, 3))
     rolling = Rolling(ratio, plan.poisson, plan.cells)
-    pole = m == len(betas) - 1
+    pole = m == plan.nodes[3] - 1
     first = count // 2 if m == 0 or pole else 0
     for k in range(first, first + 1 if pole else count):
-        towards = direction(float(alphas[k]), float(betas[m])) / factors(coefficients, ratio)
+        towards = direction(float(alphas[k, m]), float(betas[k, m])) / factors(coefficients, ratio)
         found[:, k] = _along(plan, rolling, towards, coefficients, ratio)
     rolling.close()
     if pole:  # spin alone
@@ -169,8 +217,7 @@ def forces_job(plan: Plan, i: int, m: int, coefficients: np.ndarray) -> np.ndarr
 
 def _along(plan, rolling, towards, coefficients, ratio):
     """Forces over v in one direction, (nodes of v, 3)."""
-    levels = np.linspace(0.0, 1.0, plan.nodes[1])
-    inner = [rolling.forces(v / (1.0 - v) * towards) / v for v in levels[1:-1]]
+    inner = [rolling.forces(v / (1.0 - v) * towards) / v for v in plan.levels[1:-1]]
     return np.array([linear(coefficients, towards), *inner, sliding(ratio, towards)])
 
 
@@ -209,8 +256,34 @@ def make(
     own = [(f"E{k}-{fine}", own_error_job, plan, k, fine, coefficients[:, 1]) for k in range(count)]
     errors = np.array(_run(own, folder, jobs, Progress("finer case", say))).ravel()
     stored = (*statistics(errors), float(count)) if count else (0.0, 0.0, 0.0, 0.0)
-    scales = _solved(np.log(coefficients[..., :3]), 0)
-    return CreepTable(plan.range, plan.poisson, scales, spline(nodes).astype(np.float32), plan.cells, stored)
+    scales, slopes = solved(np.log(coefficients[..., :3]), 0), linear_slopes(plan, coefficients[:, 1])
+    nodes -= _ahead(plan, slopes)
+    return CreepTable(plan.range, plan.poisson, scales, solved(slopes, 0), *rounded(nodes), plan.cells, stored)
+
+
+def linear_slopes(plan: Plan, coefficients: np.ndarray) -> np.ndarray:
+    """The forces of the linear theory by X, Y, Z.
+
+    Parameters
+    ----------
+    plan : Plan
+        The table.
+    coefficients : ndarray
+        At all nodes of a/b, (n, 4).
+
+    Returns
+    -------
+    ndarray
+        (n, 3, 3).
+    """
+    units = (np.diag(1.0 / factors(one, ratio)) for one, ratio in zip(coefficients, plan.ratios))
+    return np.array([linear(one, unit).T for one, unit in zip(coefficients, units)])
+
+
+def _ahead(plan, slopes):
+    """Linear theory times (1 - v)^2 at the nodes, (nodes of a/b, v, turn, rise, 3)."""
+    towards = np.array([np.moveaxis(direction(*plan.directions(i)), 0, -1) for i in range(plan.nodes[0])])
+    return np.einsum("v,nij,nkmj->nvkmi", (1.0 - plan.levels) ** 2, slopes, towards)
 
 
 def statistics(errors: np.ndarray) -> tuple[float, float, float]:
@@ -249,8 +322,9 @@ def own_error_job(plan: Plan, k: int, fine: int, coefficients: np.ndarray) -> np
     """
     random = np.random.default_rng([SEED, k])
     i, j = random.integers(plan.nodes[0]), random.integers(1, plan.nodes[1] - 1)
-    alpha, beta = (random.choice(angles) for angles in plan.directions)
-    v = j / (plan.nodes[1] - 1.0)
+    at = random.integers(plan.nodes[2]), random.integers(plan.nodes[3])
+    alpha, beta = (float(one[at]) for one in plan.directions(int(i)))
+    v = plan.levels[j]
     creepages = v / (1.0 - v) * direction(alpha, beta) / factors(coefficients[i], plan.ratios[i])
     found = [_single(plan.ratios[i], plan.poisson, cells, creepages) for cells in (plan.cells, fine)]
     return np.abs(found[1] - found[0]).max()
@@ -345,42 +419,3 @@ def _results(work, folder, jobs):
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-
-
-# ---- splines
-
-
-def spline(nodes: np.ndarray) -> np.ndarray:
-    """Coefficients of the splines through values at nodes, with the symmetries of alpha and beta.
-
-    Parameters
-    ----------
-    nodes : ndarray
-        (nodes of a/b, v, alpha, beta, 3).
-
-    Returns
-    -------
-    ndarray
-        Of the same form.
-    """
-    found = _solved(_solved(nodes, 0), 1)
-    even = np.stack([_solved(found[..., k], 2, (s, s)) for k, s in enumerate((-1, 1, 1))], -1)
-    turned = even[:, :, ::-1]
-    out = np.zeros_like(even)
-    for half, s in ((0.5 * (even + turned), 1), (0.5 * (even - turned), -1)):
-        ends = ((s, -s), (-s, s), (-s, s))
-        out += np.stack([_solved(half[..., k], 3, ends[k]) for k in range(3)], -1)
-    return out
-
-
-def _solved(values, axis, signs=None):
-    """Coefficients of splines along an axis; signs: of the continuation beyond its ends; none: by third derivatives."""
-    n = values.shape[axis]
-    ghosts = np.zeros((n + 2, n))
-    ghosts[1:-1] = np.eye(n)
-    if signs:
-        ghosts[0, 1], ghosts[-1, -2] = signs
-    else:
-        ghosts[0, :4], ghosts[-1, -4:] = (4, -6, 4, -1), (-1, 4, -6, 4)
-    matrix = (ghosts[:-2] + 4.0 * ghosts[1:-1] + ghosts[2:]) / 6.0
-    return np.moveaxis(np.tensordot(np.linalg.inv(matrix), values, (1, axis)), 0, axis)
