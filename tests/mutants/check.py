@@ -106,6 +106,9 @@ def make_tree(folder):
     folder.mkdir(parents=True, exist_ok=True)
     for name in COPIED:
         copy_changed(ROOT / name, folder / name)
+        for path in (folder / name).rglob("*"):
+            if path.is_file() and not (ROOT / path.relative_to(folder)).exists():
+                path.unlink()  # moved, or gone
     return folder
 
 
