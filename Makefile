@@ -140,7 +140,7 @@ reference: all $(B)/venv/tests-done ## petsam's answers to the problems of examp
 	$(foreach peer,$(PEERS),$(B)/$(if $(filter tamaas aspher,$(peer)),peers,venv)/bin/python examples/reference/peers.py $(peer) $(ARGS) -o $(B)/run/$(peer).json && $(B)/venv/bin/python examples/reference/check.py $(B)/run/$(peer).json;)
 
 creep-table: all $(B)/venv/done ## the table of creep forces for include/petsam/creep.h, about 10 minutes of CPU: ARGS="--poisson 0.25 --jobs 4"
-	$(B)/venv/bin/python scripts/maintain/creep_table.py make -o $(B)/creep-forces.bin $(ARGS)
+	$(B)/venv/bin/python scripts/maintain/make_creep_table.py make -o $(B)/creep-forces.bin $(ARGS)
 
 # the programs that the benchmark compares with, built for this processor; the benchmark also runs without them
 peers: $(B)/peers/done ## install the programs that the benchmark compares with

@@ -216,3 +216,32 @@ def test_rejected_steps_leave_no_heat(fretting):
             one.try_step(time, load_n=50, load_tx=load)
             one.commit()
     np.testing.assert_array_equal(contact["temperature_1"], other["temperature_1"])
+
+
+def test_times_must_rise(fretting):
+    """The power is the work of a step over its time."""
+    case = {name: value for name, value in fretting.items() if name not in ("history", "steps")}
+    contact = package.Contact(**case)
+    contact.try_step(1.0, load_n=50, load_tx=10)
+    contact.commit()
+    for time in (1.0, 0.5, 0.0):
+        with pytest.raises(package.ContactError, match="give times that rise"):
+            contact.try_step(time, load_n=50, load_tx=-5)
+    assert contact.try_step(1.5, load_n=50, load_tx=-5).heat_power > 0
+
+
+def test_doubts_about_heat(petsam, fretting, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rows = history(tmp_path / "early.csv", "time,load_n,load_tx", (0, 50, 15), (1, 50, 0))
+    assert "the first step has no duration" in petsam({**fretting, **rows, "steps": 1}).stderr
+    rows = history(tmp_path / "low.csv", "time,load_n,friction_scale", (1, 50, 0.1))
+    warm = dict(fretting, **rows, body1_bulk_temperature=1, body2_bulk_temperature=1, steps=1)
+    assert "makes the coefficient of friction negative" in petsam(warm).stderr
+    assert "negative" not in petsam(dict(fretting, body1_bulk_temperature=1, body2_bulk_temperature=1)).stderr
+
+
+def test_a_step_without_slip_has_no_power(petsam, fretting, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    case = {name: value for name, value in fretting.items() if name not in ("history", "steps")}
+    assert "no frictional power, at most 0 K in contact" in petsam(case, "-load_n", "50").stdout
+    assert "none, as there is no contact" in petsam(case, "-load_n", "0").stdout

@@ -323,6 +323,7 @@ def test_help_is_grouped(petsam):
         "Bodies",
         "Elasticity",
         "Friction",
+        "Frictional heat",
         "Surfaces that slide past each other",
         "Wear",
     ]

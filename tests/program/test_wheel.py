@@ -453,3 +453,58 @@ def test_pictures_show_what_was_found(vehicle, axle):
         equivalent_conicity(shape.y, shape.radius_difference, [2e-3, 4e-3], 0.46)
     )
     assert isinstance(vehicle.wheel.profile, Profile)
+
+
+@pytest.mark.parametrize("fault, text", [
+    ("hole", "no points from y"), ("noise", "--smooth 4mm removes it"), ("inches", "check its unit of length"),
+])  # fmt: skip
+def test_doubtful_points_are_named(tmp_path, capsys, fault, text):
+    rail = profiles.uic60()
+    y, z = rail.y.copy(), rail.z.copy()
+    if fault == "hole":
+        keep = np.r_[0:300, 500 : len(y)]
+        y, z = y[keep], z[keep]
+    if fault == "noise":
+        z = z + 5e-6 * np.random.default_rng(3).normal(size=len(z))
+    if fault == "inches":
+        y, z = y / 25.4, z / 25.4
+    path = tmp_path / "rail.txt"
+    np.savetxt(path, np.column_stack([1e3 * y, 1e3 * z]), fmt="%.9f")
+    given = [
+        "--wheel",
+        "s1002",
+        "--rail",
+        str(path),
+        "--unit",
+        "mm",
+        "--z",
+        "down",
+        *ONE,
+        "--y",
+        "1mm",
+        "--cell",
+        "0.5mm",
+    ]
+    try:
+        wheel.carry_out(wheel.arguments([*given, "--cores", "1"]))
+    except Error as error:
+        assert text in str(error)
+    else:
+        assert text in capsys.readouterr().err
+
+
+def test_sound_points_raise_no_doubt():
+    assert not profiles.s1002().doubts() and not profiles.uic60().doubts()
+
+
+@pytest.mark.parametrize("head, words, text", [
+    ("y [mm],load [kN]", ["--speed", "20", "--load", "90kN"], "has the column load: omit --load"),
+    ("y [mm],lateral [kN],load [kN],speed [m/s]", [], "columns y and lateral"),
+])  # fmt: skip
+def test_positions_are_given_once(tmp_path, head, words, text):
+    (tmp_path / "positions.csv").write_text(head + "\n" + ",".join("1" * len(head.split(","))) + "\n")
+    given = dict(zip(words[::2], words[1::2], strict=True))
+    with pytest.raises(Error, match=text):
+        profiles.read_positions(
+            tmp_path / "positions.csv", 90e3 if "--load" in given else None, 20.0 if "--speed" in given else None
+        )

@@ -163,6 +163,15 @@ def _parser():
     return one
 
 
+def _check_profiles(parser, options):
+    """Ends the command for options of files where both profiles are made by their formulas."""
+    if not all(name.lower() in BUILT for name in (options.wheel, options.rail)):
+        return
+    for name in ("unit", "z"):
+        if getattr(options, name) is not None:
+            parser.error(f"--{name}: is of files of columns, and none is given: remove it")
+
+
 def _check_positions(parser, options):
     """Ends the command for options of positions that do not fit."""
     if options.table is not None:
@@ -181,6 +190,7 @@ def arguments(given):
     """Reads the command line."""
     parser = _parser()
     options = parser.parse_args(joined(given))
+    _check_profiles(parser, options)
     _check_positions(parser, options)
     if options.wear is None:
         for name in ("law", "distance"):
@@ -214,6 +224,8 @@ def _read(options, kind):
         found = getattr(profiles, name.lower())()
         if found.kind != kind:
             raise Unusable(f"--{kind} {name}: is the profile of a {found.kind}: give --{found.kind} {name}")
+        if options.mirror in (kind, "both"):
+            raise Unusable(f"--mirror {options.mirror}: {name} has y to the field side: remove it")
     else:
         simpack = name.lower().endswith((".prr", ".prw"))
         mirror = options.mirror in (kind, "both")
@@ -231,6 +243,7 @@ def _optioned(error):
         ("read(..., z='up') turns it over", "give --z up"), ("mirror=True to read() of the rail", "--mirror rail"),
         ("mirror=True to read()", "--mirror wheel"),
         (", or mirror.y = 1 in the file, or take mirrored()", ", or mirror.y = 1 in the file"),
+        ("smoothed(0.004)", "--smooth 4mm"), ("smoothed(0.008)", "--smooth 8mm"),
         ("unit='mm'", "--unit mm"), ("z='down' or z='up'", "--z down or --z up"),
         ("flange_position", "--flange-position"), ("flange_back", "--flange-back"),
     ):  # fmt: skip
@@ -285,7 +298,8 @@ def carry_out(options):
         except Error as error:
             raise type(error)(_optioned(error)) if type(error) in (Error, Unusable) else error from error
     for text in dict.fromkeys(str(one.message) for one in caught if issubclass(one.category, UserWarning)):
-        _warn(text)
+        if not (options.smooth and "from point to point" in text):
+            _warn(text)
     cores = options.cores or all_cores()
     if len(states) == 1:
         cores = 1

@@ -9,7 +9,12 @@ from ..core.errors import Error
 
 KINDS = ("rail", "wheel")
 FEWEST = 5  # points that a smoothing spline needs
-WIDTHS = (2e-3, 1.0)  # m: no profile is narrower or wider
+WIDTHS = (10e-3, 1.0)  # m: no profile is narrower or wider
+
+
+SPARSE = (10.0, 5e-3)  # distance of two points, over the median and in m, that may be a hole
+NOISY = 1e-7  # m: median distance to the profile without waves shorter than SHORT
+SHORT = 4e-3  # m
 
 
 class ProfileWarning(UserWarning):
@@ -62,6 +67,29 @@ class Profile:
         width = float(np.ptp(self.y))
         if not WIDTHS[0] <= width <= WIDTHS[1]:
             raise Error(f"{self.name}: is {width:g} m wide: check its unit of length")
+
+    def doubts(self) -> list[str]:
+        """Reasons for which the points may not be the profile: holes between them, and noise.
+
+        Returns
+        -------
+        list of str
+            A sentence for each; empty for points that raise no doubt.
+        """
+        found, steps = [], np.diff(self.lengths)
+        widest = int(np.argmax(steps))
+        if steps[widest] > max(SPARSE[0] * np.median(steps), SPARSE[1]):
+            found.append(
+                f"{self.name}: no points from y {1e3 * self.y[widest]:.4g} to {1e3 * self.y[widest + 1]:.4g} mm: the "
+                "profile is a smooth curve between them"
+            )
+        noise = float(np.median(abs(self.smoothed(SHORT).z - self.z)))
+        if noise > NOISY:
+            found.append(
+                f"{self.name}: its heights vary by {1e6 * noise:.2g} um from point to point, which makes pressures too "
+                f"high: smoothed({SHORT:g}) removes it, with 5 um of noise smoothed({2 * SHORT:g})"
+            )
+        return found
 
     @property
     def lengths(self) -> np.ndarray:

@@ -1,11 +1,12 @@
 """Reads a profile from a file of SIMPACK or of columns."""
 
 import os
+import warnings
 from typing import Optional, Union
 
 from ..core.errors import Error
 from . import columns, simpack
-from .profile import Profile
+from .profile import Profile, ProfileWarning
 
 SIMPACK = {".prr": "rail", ".prw": "wheel"}
 
@@ -42,8 +43,18 @@ def read(
         If something is not stated or states twice what differs, or the file cannot be read; with file and line.
     MissingFile
         If there is no such file.
+
+    Notes
+    -----
+    A ProfileWarning is issued of holes between the points, and of noise.
     """
-    name = os.fspath(path)
+    found = _read(os.fspath(path), kind, unit, z, mirror)
+    for text in found.doubts():
+        warnings.warn(text, ProfileWarning, stacklevel=2)
+    return found
+
+
+def _read(name, kind, unit, z, mirror):
     stated = SIMPACK.get(os.path.splitext(name)[1].lower())
     if stated is None:
         found = columns.read(name, kind or "", unit or "", z or "")

@@ -77,8 +77,20 @@ def read_positions(path: str, load: Optional[float] = None, speed: Optional[floa
         If there is no such file.
     """
     table = Table(path, KNOWN, "position", "positions")
+    _need_columns(table, load, speed)
+    lines, columns = table.rows()
+    columns = {name: _size(table, name) * values for name, values in columns.items()}
+    rows = [dict(zip(columns, map(float, values))) for values in zip(*columns.values())]
+    return [_state(path, line, row, load, speed) for line, row in zip(lines, rows)], table.others
+
+
+def _need_columns(table, load, speed):
+    """Raises an Error where a column lacks, or something is given twice."""
+    path = table.path
     sides = [name for name in ("load_right", "load_left") if name in table.columns]
-    table.need(["y"], "give the lateral displacement, y [mm]")
+    if "lateral" not in table.columns:
+        table.need(["y"], "give the lateral displacement, y [mm]")
+    _refuse_twice(table, load, speed)
     if speed is None:
         table.need(["speed"], "give it, speed [km/h], or --speed")
     if len(sides) == 1:
@@ -91,10 +103,15 @@ def read_positions(path: str, load: Optional[float] = None, speed: Optional[floa
                 raise Error(
                     f"{path}: line {table.head}: columns {first} and {other}: give the loads of the wheels alone"
                 )
-    lines, columns = table.rows()
-    columns = {name: _size(table, name) * values for name, values in columns.items()}
-    rows = [dict(zip(columns, map(float, values))) for values in zip(*columns.values())]
-    return [_state(path, line, row, load, speed) for line, row in zip(lines, rows)], table.others
+
+
+def _refuse_twice(table, load, speed):
+    """Raises an Error where a column and an argument, or two columns, give the same."""
+    for name, given in (("load", load), ("load_right", load), ("speed", speed)):
+        if given is not None and name in table.columns:
+            raise Error(f"{table.path}: line {table.head}: has the column {name}: omit --{name.partition('_')[0]}")
+    if "lateral" in table.columns and "y" in table.columns:
+        raise Error(f"{table.path}: line {table.head}: columns y and lateral: give one of them")
 
 
 def _size(table, name):

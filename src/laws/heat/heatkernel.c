@@ -77,15 +77,15 @@ static PetscErrorCode GetSource(const SamHeatBody *body, const PetscReal side[2]
 
   PetscFunctionBegin;
   PetscCheck(body->conductivity > 0 && isfinite(body->conductivity), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-             "Conductivity %g W/(m K): expected a number above 0", (double)body->conductivity);
+             "Conductivity %.6g W/(m K): expected a number above 0", (double)body->conductivity);
   PetscCheck(body->capacity > 0 && isfinite(body->capacity), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-             "Heat capacity %g J/(m3 K): expected a number above 0", (double)body->capacity);
-  PetscCheck(isfinite(p), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Speed %g m/s: expected a finite number",
+             "Heat capacity %.6g J/(m3 K): expected a number above 0", (double)body->capacity);
+  PetscCheck(isfinite(p), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Speed %.6g m/s: expected a finite number",
              (double)body->speed);
   PetscCheck(side[0] > 0 && isfinite(side[0]) && side[1] > 0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-             "Sides %g, %g m of a cell: expected numbers above 0", (double)side[0], (double)side[1]);
+             "Sides %.6g, %.6g m of a cell: expected numbers above 0", (double)side[0], (double)side[1]);
   PetscCheck(depth >= 0 && isfinite(depth), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-             "Depth %g m: expected a number from 0 on", (double)depth);
+             "Depth %.6g m: expected a number from 0 on", (double)depth);
   *source = (Source){.half         = {0.5 * side[0], 0.5 * side[1]},
                      .p            = p < LEAST_P ? 0 : p,
                      .toward       = body->speed > 0 ? -1 : 1,

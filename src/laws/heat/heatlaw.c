@@ -25,6 +25,9 @@
 #define RTOL 1e-8 /* of the partition */
 #define MOST 200  /* operator applications in it */
 
+#define MOST_RESISTANCE  1000   /* m2 K/W */
+#define MOST_TEMPERATURE 100000 /* K */
+
 enum { NONE, STEADY };
 enum { FROM, OVER, CHANGE, CHANGES };
 
@@ -37,6 +40,8 @@ typedef struct {
   SamHeatPair pair;        /* body[0] NULL: not created yet */
   PetscReal   duration;    /* of the step, s */
   char        failed[192]; /* why the last bound has no temperature; empty: it has one */
+  PetscBool   clipped;     /* the last bound would have had friction below 0 in a cell of this rank */
+  PetscBool   timeless;    /* there is frictional work in a step without duration */
 } Heat;
 
 #define NEEDED "heat steady"
@@ -96,9 +101,11 @@ static PetscErrorCode TakeMaterial(Heat *h, const SamOptions *from, int b)
 /* Reads how friction depends on temperature. */
 static PetscErrorCode ReadFriction(Heat *h, const SamOptions *from)
 {
-  static const SamOptionRow row = {"friction_temperature",
-                                   "T0,dT,dmu: friction changes linearly by dmu from T0 to T0 + dT (K)",
-                                   SAM_OPTION_REAL, .size = CHANGES, .range = SAM_RANGE_ANY};
+  static const SamOptionRow row      = {"friction_temperature",
+                                        "T0,dT,dmu: friction changes linearly by dmu from T0 to T0 + dT (K)",
+                                        SAM_OPTION_REAL, .size = CHANGES, .range = SAM_RANGE_ANY};
+  PetscReal                 friction = 0;
+  PetscBool                 given;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsReals(from, &row, h->change, &h->changes));
@@ -109,6 +116,10 @@ static PetscErrorCode ReadFriction(Heat *h, const SamOptions *from)
              "> 0",
              SamOptionsPrefix(from), row.name);
   if (h->change[CHANGE] == 0) h->changes = 0;
+  PetscCall(PetscOptionsGetReal(NULL, from->prefix, "-friction", &friction, &given));
+  PetscCheck(!given || friction + h->change[CHANGE] >= 0, from->comm, SAM_ERR_USER,
+             "-%s%s: the coefficient of friction, %.6g, falls below 0: expected a change of at least %.6g",
+             SamOptionsPrefix(from), row.name, (double)friction, (double)-friction);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -128,6 +139,13 @@ static PetscErrorCode CheckBodies(SamLaw law, const Heat *h, const SamOptions *f
              prefix, prefix, prefix);
   PetscCheck(SamPairIsUniform(SamElasticityGetPair(law->elasticity)), from->comm, SAM_ERR_USER,
              "-%sheat steady with layers: the temperature is that of bodies of one material: omit one of them", prefix);
+  PetscCheck(h->resistance <= MOST_RESISTANCE, from->comm, SAM_ERR_USER,
+             "-%sheat_resistance %.6g: expected at most %d m2 K/W, through which hardly any heat flows", prefix,
+             (double)h->resistance, MOST_RESISTANCE);
+  for (int b = 0; b < 2; b++)
+    PetscCheck(fabs((double)h->bulk[b]) <= MOST_TEMPERATURE, from->comm, SAM_ERR_USER,
+               "-%sbody%d_bulk_temperature %.6g: expected a temperature within +-%d K", prefix, b + 1,
+               (double)h->bulk[b], MOST_TEMPERATURE);
   for (int b = 0; b < 2; b++)
     PetscCheck(!traits.plane || h->speed[b] != 0, from->comm, SAM_ERR_USER,
                "-%sheat steady in plane strain: body %d stands, and has no steady state: give -%sbody%d_speed", prefix,
@@ -234,11 +252,17 @@ static PetscErrorCode Prepare(SamLaw law)
 static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
 {
   Heat *const h = (Heat *)law->data;
+  PetscBool   first;
 
   PetscFunctionBegin;
-  (void)state;
-  h->duration  = duration > 0 ? duration : control->time; /* the first step begins at time 0 */
+  first = SamStateGetField(state, SamStateFindField(state, surfaces[0]), SAM_COMMITTED) ? PETSC_FALSE : PETSC_TRUE;
+  PetscCheck(first || duration > 0 || SamMotionOf(law->elasticity)->streams, law->grid->comm, SAM_ERR_USER,
+             "-heat steady: a step at the time %.6g s, which is not later than the step before: the power is the work "
+             "of a step over its time: give times that rise",
+             (double)control->time);
+  h->duration  = first ? PetscMax(control->time, 0) : duration; /* the first step begins at time 0 */
   h->failed[0] = '\0';
+  h->clipped   = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -312,7 +336,7 @@ static PetscErrorCode FindTemperature(SamLaw law, const SamBoundAt *at, Vec boun
 /* Adds what the temperature changes to the bound and to its derivative by the pressure. */
 static PetscErrorCode AddChange(SamLaw law, const SamBoundAt *at, Vec temperature, const SamBound *bound)
 {
-  const Heat           *h        = (const Heat *)law->data;
+  Heat *const           h        = (Heat *)law->data;
   const SamHeatFriction friction = {h->change[FROM] - h->bulk[0], h->change[OVER], h->change[CHANGE]};
   const double         *p, *t;
   double               *value = NULL, *slope = NULL, ignored;
@@ -324,6 +348,8 @@ static PetscErrorCode AddChange(SamLaw law, const SamBoundAt *at, Vec temperatur
   if (bound->by_pressure) PetscCall(VecGetArray(bound->by_pressure, &slope));
   for (PetscInt k = 0; k < law->grid->cells; k++) {
     const double change = p[k] > 0 ? SamHeatFrictionAt(&friction, t[k], &ignored) : 0;
+
+    if (value && value[k] + change * p[k] < 0) h->clipped = PETSC_TRUE;
 
     if (value) value[k] = PetscMax(value[k] + change * p[k], 0);
     if (slope) slope[k] = PetscMax(slope[k] + change, 0);
@@ -395,6 +421,20 @@ static PetscErrorCode SumField(SamGrid grid, Vec field, double *sum)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Finds out whether the step has frictional work, but no duration. */
+static PetscErrorCode FindTimeless(SamLaw law, const SamLawStep *step)
+{
+  Heat *const h = (Heat *)law->data;
+  PetscReal   most;
+
+  PetscFunctionBegin;
+  h->timeless = PETSC_FALSE;
+  if (SamMotionOf(law->elasticity)->streams || h->duration > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecMax(step->field[SAM_USE_WORK], NULL, &most));
+  h->timeless = most > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Finds the maximum temperature of both surfaces in contact; NAN without contact. */
 static PetscErrorCode FindMaximum(const SamLawStep *step, const Vec surface[2], double *most)
 {
@@ -435,6 +475,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   if (h->failed[0] || failed[0])
     (void)snprintf(step->failed, sizeof(step->failed), "%s", h->failed[0] ? h->failed : failed);
   PetscCall(SumField(step->grid, heat, &power));
+  PetscCall(FindTimeless(law, step));
   PetscCall(SumField(step->grid, heat_2, &into));
   PetscCall(FindMaximum(step, surface, &numbers[MAXIMUM]));
   numbers[POWER] = power * area;
@@ -446,12 +487,40 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
 {
   const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "temperature_max"));
+  const char   *unit    = SamStateUnitOf(state, "heat_power");
 
   PetscFunctionBegin;
   (void)law;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g %s, %.4g %% of it into body 2, at most %.6g K\n", "heat",
-                                   numbers[POWER], SamStateUnitOf(state, "heat_power"), 100 * numbers[SHARE],
-                                   numbers[MAXIMUM]));
+  if (isnan(numbers[MAXIMUM]))
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  none, as there is no contact\n", "heat"));
+  else if (numbers[POWER] > 0)
+    PetscCall(
+      PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g %s, of which %.6g %s flow into body 2, at most %.6g K in contact\n",
+                             "heat", numbers[POWER], unit, numbers[SHARE] * numbers[POWER], unit, numbers[MAXIMUM]));
+  else
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  no frictional power, at most %.6g K in contact\n", "heat",
+                                     numbers[MAXIMUM]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t size)
+{
+  const Heat *h       = (const Heat *)law->data;
+  double      clipped = h->clipped ? 1 : 0;
+
+  PetscFunctionBegin;
+  (void)state;
+  text[0] = '\0';
+  PetscCall(SamMax(law->grid->comm, 1, &clipped));
+  if (clipped > 0)
+    (void)snprintf(text, size,
+                   "-friction_temperature makes the coefficient of friction negative, where it is taken for 0: check "
+                   "dmu, %g",
+                   (double)h->change[CHANGE]);
+  else if (h->timeless)
+    (void)snprintf(text, size,
+                   "the first step has no duration, so that its frictional work makes no heat: give the first row of "
+                   "the history a time above 0");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -486,6 +555,7 @@ PetscErrorCode SamLawCreate_Heat(SamLaw law)
   law->ops.bound                                                                  = Bound;
   law->ops.advance                                                                = Advance;
   law->ops.view                                                                   = View;
+  law->ops.advise                                                                 = Advise;
   law->ops.destroy                                                                = Destroy;
   law->uses[SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK] = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -272,12 +272,12 @@ static PetscErrorCode CheckPair(const SamHeatPair *pair, Vec contact, Vec heat, 
   PetscCheck(grid == pair->body[1]->grid, grid->comm, PETSC_ERR_ARG_WRONG,
              "Operators of heat on different grids: expected one grid");
   PetscCheck(pair->body[0]->depth == 0 && pair->body[1]->depth == 0, grid->comm, PETSC_ERR_ARG_WRONG,
-             "Operators of heat at the depths %g, %g m: expected 0", (double)pair->body[0]->depth,
+             "Operators of heat at the depths %.6g, %.6g m: expected 0", (double)pair->body[0]->depth,
              (double)pair->body[1]->depth);
   PetscCheck(pair->resistance >= 0 && isfinite(pair->resistance), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Resistance %g m2 K/W: expected a number from 0 on", (double)pair->resistance);
+             "Resistance %.6g m2 K/W: expected a number from 0 on", (double)pair->resistance);
   PetscCheck(pair->rtol > 0 && pair->most > 0, grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Tolerance %g, %" PetscInt_FMT " operator applications: expected numbers above 0", (double)pair->rtol,
+             "Tolerance %.6g, %" PetscInt_FMT " operator applications: expected numbers above 0", (double)pair->rtol,
              pair->most);
   PetscCall(SamGridCheckVec(grid, 1, contact, "Contact"));
   PetscCall(SamGridCheckVec(grid, 1, heat, "Heat"));

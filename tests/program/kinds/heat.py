@@ -129,7 +129,7 @@ def trial(seed, folder, given=None):
 
 def summary(found):
     """The largest difference."""
-    values = [one["temperature"] for one in found.values()]
+    values = [one["temperature"] for one in found.values()] or [0.0]
     return [
         f"temperatures within {max(values):.1e} of those by summation, over the largest rise; {len(values)} problems"
     ]

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the table of creep forces, or checks one on random cases.
 
-    build/venv/bin/python scripts/maintain/creep_table.py make [-o build/creep-forces.bin] [--cells 96] [--jobs 2]
-    build/venv/bin/python scripts/maintain/creep_table.py check TABLE [--cases 1000] [--cells 128]
+    build/venv/bin/python scripts/maintain/make_creep_table.py make [-o build/creep-forces.bin] [--cells 96] [--jobs 2]
+    build/venv/bin/python scripts/maintain/make_creep_table.py check TABLE [--cases 1000] [--cells 128]
 
 An interrupted table is completed by the same command. The checks print median, 90 % and worst of the maximum error of
 Fx/(mu N), Fy/(mu N), Mz/(mu N c), and end with code 1 if they are above --limits.
