@@ -65,7 +65,7 @@ def test_topics_say_something_in_lines_that_fit(ask):
         text = ask("-help", topic["name"]).stdout
         assert text.startswith(topic["text"]) and topic["text"].endswith("\n"), topic["name"]
         # petsam-stress names its fatigue parameters in one line
-        assert max(map(len, text.splitlines())) <= 120 or topic["name"] == "fatigue"
+        assert max(map(len, text.splitlines())) <= 120 or topic["name"] in ("fatigue", "materials")  # tables
         for group in topic["groups"]:
             assert f"\n{group}\n" in text
 
