@@ -3,9 +3,9 @@
 import h5py
 import numpy as np
 import pytest
-from scipy import integrate, special
 
 import petsam as package
+from kinds import heat
 from support import history
 
 # E. A. H. Vollebregt, CONTACT, example ertz_temperature: rail and wheel of steel, 30 m/s, 100 kN
@@ -113,25 +113,6 @@ def test_steep_friction_has_its_solution(tmp_path):
     assert np.allclose(shear[there], (friction * last["pressure"])[there], rtol=1e-4)
 
 
-def temperature_of(lam, peclet, side, x, y):
-    """Steady temperature (K m2/W) at x, y from the centre of a cell with unit flux: the integral over ages, by quad."""
-
-    def integrand(s):
-        ex = special.erf((x + peclet * s * s / 2 + side[0] / 2) / s) - special.erf(
-            (x + peclet * s * s / 2 - side[0] / 2) / s
-        )
-        ey = special.erf((y + side[1] / 2) / s) - special.erf((y - side[1] / 2) / s)
-        return ex * ey / 4
-
-    end = 100 * max(side[0], side[1], abs(x), abs(y))
-    parts = [0, *np.geomspace(1e-4, 1, 25) * end]
-    total = sum(
-        integrate.quad(integrand, a, b, epsabs=0, epsrel=1e-10)[0] for a, b in zip(parts, parts[1:], strict=False)
-    )
-    tail = side[0] * side[1] / (np.pi * end) if peclet == 0 else 0
-    return (total + tail) / (lam * np.sqrt(np.pi))
-
-
 def test_temperatures_are_sums_of_cells(tmp_path):
     """Unlike bodies that slide: one stands, the other moves; temperatures by direct summation of the stored heat."""
     case = dict(
@@ -145,14 +126,8 @@ def test_temperatures_are_sums_of_cells(tmp_path):
     assert last["heat_power"] == pytest.approx(last["dissipated_energy"], rel=1e-2)  # in a step of 1 s
     heat_2, there = last["heat_2"], last["pressure"] > 0
     ny, nx = heat_2.shape
-    side = (3e-4 / nx, 2.6e-4 / ny)
-    peclet = -0.3 / (2 * 7 / 2.3e6)
-    j, i = np.argwhere(there)[len(np.argwhere(there)) // 3]
-    total = 35 + sum(
-        heat_2[b, a] * temperature_of(7, -peclet, side, (i - a) * side[0], (j - b) * side[1])
-        for b, a in np.argwhere(heat_2 != 0)
-    )
-    assert last["temperature_2"][j, i] == pytest.approx(total, rel=1e-6)
+    total = 35 + heat.temperature((7, 2.3e6, -0.3), (3e-4 / nx, 2.6e-4 / ny), heat_2)
+    assert last["temperature_2"] == pytest.approx(total, rel=1e-6)
     difference = last["temperature_1"] - last["temperature_2"]
     assert np.allclose(difference[there], 1e-6 * heat_2[there], atol=1e-6 * abs(difference).max() + 1e-9)
 

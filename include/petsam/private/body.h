@@ -17,6 +17,8 @@ PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
   SamBodySubstrateTop - returns the depth (m) at which it begins.
   SamBodyIsRigid - returns true if the whole body is rigid.
   SamBodyNamed - returns what the options took from the table of materials, for a reader; empty: nothing. Borrowed.
+  SamBodyConstant - returns a constant of the table for the last material, by its name there ("conductivity"), in its
+  unit; NAN if the body has no named material, or its source states none.
   None is collective.
 */
 PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
@@ -27,6 +29,7 @@ PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
 PETSC_INTERN PetscReal          SamBodySubstrateTop(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
 PETSC_EXTERN const char        *SamBodyNamed(SamBody body);
+PETSC_INTERN double             SamBodyConstant(SamBody body, const char name[]);
 
 /*
   SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); at a jump, the

@@ -14,6 +14,8 @@ struct _n_SamBody {
   PetscInt    rows;                        /* of the stress before any load; 0: there is none */
   PetscReal   initial[SAM_STRESS_ROWS][3]; /* depth (m), stress xx and yy (Pa), see initialstress.c */
   char        named[512];                  /* SamBodyNamed() */
+
+  const SamNamedMaterial *own; /* of the last material, from the table; NULL: it is given by numbers */
 };
 
 /*

@@ -459,7 +459,10 @@ def _wear(args):
     preload = _judged(args)
     pair = _pair(args, preload)
     sensor = _sensor(args.sensor, pair)
-    tension = lambda structure: {f"{name} [{pair.unit}]": left for name, left in pair.left(structure).items()}  # noqa: E731
+
+    def tension(structure):
+        return {f"{name} [{pair.unit}]": left for name, left in pair.left(structure).items()}
+
     with _recorded(BackboneWarning) as found:
         given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension, report=_progress("vibration"))
         result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)

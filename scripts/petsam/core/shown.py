@@ -22,7 +22,7 @@ def provided(name: str) -> Callable[..., Any]:
 
 
 class Shown:
-    """What has a report as a page."""
+    """A result that has a report as a page."""
 
     def report(self, path: Union[str, os.PathLike]) -> None:
         """Writes a page of HTML with the inputs, numbers, errors and pictures of these results.

@@ -21,6 +21,7 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core import broyden
 from ..core.errors import Unusable
 from ..core.tables import Column
 from .arguments import integer, modal, positive
@@ -102,7 +103,7 @@ class Balance(Sweep):
                     force, change, found = np.zeros_like(guess), far(force, motion), None
                     continue
             if found is not None:
-                inverse = _updated(inverse, _real(change), wrong - found)
+                inverse = broyden.updated_inverse(inverse, _real(change), wrong - found)
             found = wrong
             change = _complex(-inverse @ wrong, force.shape)
         raise NoSolution(
@@ -371,9 +372,3 @@ def _real(values):
 def _complex(values, shape):
     real, imaginary = np.split(values, 2)
     return (real + 1j * imaginary).reshape(shape)
-
-
-def _updated(inverse, moved, changed):
-    """Broyden's inverse after a change of the error."""
-    turned = inverse @ changed
-    return inverse + np.outer(moved - turned, moved @ inverse) / (moved @ turned)

@@ -38,7 +38,7 @@ class Conductors(NamedTuple):
     gas : pair of floats or None
         Conductivity of what fills the gap, W/(m K), or S/m; length of the temperature jump, m.
     electrical : bool
-        Whether a current flows instead of heat.
+        True: a current flows instead of heat.
     """
 
     lam: tuple[float, float]
@@ -98,7 +98,7 @@ def conductors(
     conductivity : pair of floats or None
         Of both bodies.
     electrical : bool
-        Whether a current flows instead of heat.
+        True: a current flows instead of heat.
     film : float or None
         Resistance of a film on the spots.
     gas : pair of floats or None

@@ -96,7 +96,7 @@ class Interface(Tabled, Shown):
     bodies : dict
         Options of the bodies, as given.
     conductors : Conductors, optional
-        What conducts, if the conductance is computed.
+        The conducting bodies, if the conductance is computed.
 
     Attributes
     ----------
@@ -412,7 +412,7 @@ def of_interface(  # noqa: PLR0913  (as those of interface())
     estimate : callable, optional
         Called once, after the first pressure, with an estimate of the time that is left, s.
     conductors : Conductors, optional
-        What conducts: the conductance is computed, too.
+        The conducting bodies: the conductance is computed, too.
     **bodies
         Options of the two bodies, body1_young (Pa), body1_poisson, body2_young, ..., and of the solution.
 
@@ -645,7 +645,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
         Conductivities of both bodies, W/(m K), or S/m: the conductance is computed, too, with the columns h_contact,
         h_gap, h and resistance.
     electrical : bool
-        Whether it is that of a current, S/m2, instead of heat, W/(m2 K): changes units alone.
+        True: it is that of a current, S/m2, instead of heat, W/(m2 K): changes units alone.
     film : float, optional
         Resistance of a film on the spots, m2 K/W, or Ohm m2.
     gas : pair of floats, optional

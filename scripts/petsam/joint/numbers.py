@@ -18,7 +18,7 @@ class Numbers(Tabled, Shown):
     columns : dict
         {name: (unit, text)} of the kind of result.
     per_metre : bool
-        Whether loads, energies and masses are those of sections in plane strain, per metre.
+        True: loads, energies and masses are those of sections in plane strain, per metre.
     """
 
     columns = {}

@@ -32,6 +32,7 @@ from ..contact import (
     NotConverged,
     PrescribedError,
 )
+from ..core import broyden
 from ..core.errors import Unusable, short
 from .arguments import array, real
 
@@ -822,8 +823,7 @@ class Structure:
         for part, change in zip(self._split(moved), self._split(changed)):
             own = slice(at, at + part.size)
             at += part.size
-            if part @ part > 0.0:
-                response[own, own] += np.outer(change - response[own, own] @ part, part) / (part @ part)
+            response[own, own] = broyden.updated(response[own, own], part, change)
         return response
 
     def _size(self, error, response, state, scale):

@@ -16,7 +16,7 @@ from typing import Any, Optional
 import numpy as np
 from scipy.optimize import brentq
 
-from ..core import tables
+from ..core import broyden, tables
 from ..core.errors import Error
 from . import contacts
 from .placement import Track, Wheelset
@@ -451,8 +451,7 @@ class _Search:
         slopes = own if self.slopes is None else self.slopes
         if self.before is not None:
             step, change = now - self.before[0], values - self.before[1]
-            if step @ step > 0.0:
-                slopes = slopes + np.outer(change - slopes @ step, step) / (step @ step)
+            slopes = broyden.updated(slopes, step, change)
             if np.linalg.norm(state.rest) > 2.0 * np.linalg.norm(self.before[1][:2]):
                 self.limit, slopes = max(0.5 * self.limit, 0.05), own
         if np.linalg.cond(slopes[:2]) > 1e6:

@@ -151,7 +151,10 @@ def _height(y, difference, work, at):
 
 def _conicity(y, difference, work, amplitude, product):
     """The equivalent conicity at an amplitude: by the period of an oscillator with the potential `work`."""
-    unequal = lambda low: _height(y, difference, work, low + 2.0 * amplitude) - _height(y, difference, work, low)  # noqa: E731
+
+    def unequal(low):
+        return _height(y, difference, work, low + 2.0 * amplitude) - _height(y, difference, work, low)
+
     first, last = float(y[0]), float(y[-1]) - 2.0 * amplitude
     if not 0.0 < amplitude or not last > first or unequal(first) * unequal(last) > 0.0:
         return np.nan

@@ -135,6 +135,13 @@ const char *SamBodyNamed(SamBody body)
   return body->named;
 }
 
+double SamBodyConstant(SamBody body, const char name[])
+{
+  for (PetscInt k = 0; body->own && SamMaterialConstantAt(k); k++)
+    if (!strcmp(SamMaterialConstantAt(k)->name, name)) return body->own->value[k];
+  return NAN;
+}
+
 /* ---- advice ---- */
 
 PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,
@@ -356,6 +363,7 @@ static void DescribeAll(const Names *names, const char prefix[], SamBody body)
   char         layer[SAM_PREFIX + 16];
 
   (void)snprintf(layer, sizeof(layer), "%slayer_", prefix);
+  body->own = names->own;
   if (names->own) Describe(names->own, SamBodySubstrate(body), prefix, "", body->named, size);
   for (PetscInt n = 0; n < names->layers; n++)
     Describe(names->layer[n], &body->material[n], layer,

@@ -13,6 +13,7 @@
   Source: Bos and Moes 1995, J. Tribol. 117, 171-177; Ertz and Knothe 2002, Wear 253, 498-508.
 */
 #include "contactheat.h"
+#include <petsam/private/balance.h>
 #include <petsam/private/base.h>
 #include <petsam/private/body.h>
 #include <petsam/private/elasticity.h>
@@ -68,29 +69,19 @@ static const SamOptionRow rows[] = {
 
 /* ---- options ---- */
 
-/* Returns a constant of a named material, NAN if it has none. */
-static double ConstantOf(const SamNamedMaterial *m, const char name[])
-{
-  for (PetscInt k = 0; SamMaterialConstantAt(k); k++)
-    if (!strcmp(SamMaterialConstantAt(k)->name, name)) return m->value[k];
-  return NAN;
-}
-
 /* Takes the constants of a body from its named material where they are not given, and requires them. */
-static PetscErrorCode TakeMaterial(Heat *h, const SamOptions *from, int b)
+static PetscErrorCode TakeMaterial(SamLaw law, const SamOptions *from, PetscInt b)
 {
-  char                    option[16], name[64] = "", conductivity[32], capacity[32];
-  const SamNamedMaterial *m;
+  Heat *const   h    = (Heat *)law->data;
+  const SamBody body = SamPairBody(SamElasticityGetPair(law->elasticity), b);
+  char          conductivity[32], capacity[32];
 
   PetscFunctionBegin;
-  (void)snprintf(option, sizeof(option), "-body%d", b + 1);
-  (void)snprintf(conductivity, sizeof(conductivity), "body%d_conductivity", b + 1);
-  (void)snprintf(capacity, sizeof(capacity), "body%d_heat_capacity", b + 1);
-  PetscCall(PetscOptionsGetString(NULL, from->prefix, option, name, sizeof(name), NULL));
-  m = name[0] ? SamMaterialFind(name) : NULL;
-  if (m && isnan(h->conductivity[b])) h->conductivity[b] = (PetscReal)ConstantOf(m, "conductivity");
-  if (m && isnan(h->capacity[b]))
-    h->capacity[b] = (PetscReal)(ConstantOf(m, "density") * ConstantOf(m, "specific_heat"));
+  (void)snprintf(conductivity, sizeof(conductivity), "body%d_conductivity", (int)b + 1);
+  (void)snprintf(capacity, sizeof(capacity), "body%d_heat_capacity", (int)b + 1);
+  if (isnan(h->conductivity[b])) h->conductivity[b] = (PetscReal)SamBodyConstant(body, "conductivity");
+  if (isnan(h->capacity[b]))
+    h->capacity[b] = (PetscReal)(SamBodyConstant(body, "density") * SamBodyConstant(body, "specific_heat"));
   PetscCall(SamOptionsRequire(from, isfinite(h->conductivity[b]), conductivity,
                               "required by -heat steady: the thermal conductivity, W/(m K)"));
   PetscCall(SamOptionsRequire(from, isfinite(h->capacity[b]), capacity,
@@ -176,7 +167,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
     PetscCall(SamOptionsRead(from, NULL, 1, &rolling, h, NULL));
     for (int b = 0; b < 2; b++) h->speed[b] = -h->rolling;
   }
-  for (int b = 0; b < 2; b++) PetscCall(TakeMaterial(h, from, b));
+  for (int b = 0; b < 2; b++) PetscCall(TakeMaterial(law, from, b));
   PetscCall(CheckBodies(law, h, from));
   law->follows_slip = h->changes ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -403,24 +394,6 @@ static PetscErrorCode FillHeat(SamLaw law, const SamLawStep *step, Vec heat)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SumField(SamGrid grid, Vec field, double *sum)
-{
-  SamTotal      total = {0};
-  const double *values;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(field, &values));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    double row = 0;
-
-    for (PetscInt i = 0; i < grid->nx; i++) row += values[(ptrdiff_t)j * grid->nx + i];
-    SamAdd(&total, row);
-  }
-  PetscCall(VecRestoreArrayRead(field, &values));
-  PetscCall(SamSumTotals(grid->comm, 1, &total, sum));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Finds out whether the step has frictional work, but no duration. */
 static PetscErrorCode FindTimeless(SamLaw law, const SamLawStep *step)
 {
@@ -457,12 +430,11 @@ static PetscErrorCode FindMaximum(const SamLawStep *step, const Vec surface[2], 
 
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
-  Heat *const  h       = (Heat *)law->data;
-  const double area    = (double)(step->grid->dx * step->grid->dy);
-  double      *numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "temperature_max"), SAM_TRIED);
-  Vec          surface[2], heat, heat_2;
-  double       power, into;
-  char         failed[192];
+  Heat *const h       = (Heat *)law->data;
+  double     *numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "temperature_max"), SAM_TRIED);
+  Vec         surface[2], heat, heat_2;
+  PetscReal   power[3], into[3];
+  char        failed[192];
 
   PetscFunctionBegin;
   PetscCall(Prepare(law));
@@ -474,12 +446,12 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(SamHeatTemperatures(&h->pair, step->pressure, heat, h->bulk, heat_2, surface, failed, sizeof(failed)));
   if (h->failed[0] || failed[0])
     (void)snprintf(step->failed, sizeof(step->failed), "%s", h->failed[0] ? h->failed : failed);
-  PetscCall(SumField(step->grid, heat, &power));
+  PetscCall(SamBalanceGetLoads(step->grid, SAM_BALANCE_NORMAL, heat, power)); /* sums over the area, W */
   PetscCall(FindTimeless(law, step));
-  PetscCall(SumField(step->grid, heat_2, &into));
+  PetscCall(SamBalanceGetLoads(step->grid, SAM_BALANCE_NORMAL, heat_2, into));
   PetscCall(FindMaximum(step, surface, &numbers[MAXIMUM]));
-  numbers[POWER] = power * area;
-  numbers[SHARE] = power > 0 ? into / power : NAN;
+  numbers[POWER] = (double)power[0];
+  numbers[SHARE] = power[0] > 0 ? (double)(into[0] / power[0]) : NAN;
   PetscCall(VecDestroy(&heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -533,30 +505,31 @@ static PetscErrorCode Destroy(SamLaw law)
 
 PetscErrorCode SamLawCreate_Heat(SamLaw law)
 {
-  Heat *h;
+  const SamLawUse use = SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK;
+  Heat           *h;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
   for (int b = 0; b < 2; b++) h->conductivity[b] = h->capacity[b] = NAN;
-  h->rolling                                                                      = NAN;
-  law->data                                                                       = h;
-  law->option                                                                     = "heat";
-  law->heading                                                                    = "Frictional heat";
-  law->rows                                                                       = rows;
-  law->row_count                                                                  = sizeof(rows) / sizeof(rows[0]);
-  law->bytes                                                                      = 80;
-  law->needs_friction                                                             = PETSC_TRUE;
-  law->any_motion                                                                 = PETSC_TRUE;
-  law->forbids_jumps                                                              = PETSC_TRUE;
-  law->ops.setfromoptions                                                         = SetFromOptions;
-  law->ops.addparameters                                                          = AddParameters;
-  law->ops.declare                                                                = Declare;
-  law->ops.begin                                                                  = Begin;
-  law->ops.bound                                                                  = Bound;
-  law->ops.advance                                                                = Advance;
-  law->ops.view                                                                   = View;
-  law->ops.advise                                                                 = Advise;
-  law->ops.destroy                                                                = Destroy;
-  law->uses[SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK] = PETSC_TRUE;
+  h->rolling              = NAN;
+  law->data               = h;
+  law->option             = "heat";
+  law->heading            = "Frictional heat";
+  law->rows               = rows;
+  law->row_count          = sizeof(rows) / sizeof(rows[0]);
+  law->bytes              = 80;
+  law->needs_friction     = PETSC_TRUE;
+  law->any_motion         = PETSC_TRUE;
+  law->forbids_jumps      = PETSC_TRUE;
+  law->ops.setfromoptions = SetFromOptions;
+  law->ops.addparameters  = AddParameters;
+  law->ops.declare        = Declare;
+  law->ops.begin          = Begin;
+  law->ops.bound          = Bound;
+  law->ops.advance        = Advance;
+  law->ops.view           = View;
+  law->ops.advise         = Advise;
+  law->ops.destroy        = Destroy;
+  law->uses[use]          = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
