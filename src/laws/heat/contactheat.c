@@ -7,12 +7,13 @@
 
     (I - A D) d = -F(T),   D = Q'(T) = p dmu'(T) v,   T <- T + d,
 
-  the linear systems by generalised conjugate residuals without a preconditioner, to a tenth of the residual. Where
-  friction falls with temperature, -A D is positive and there is one solution; where it rises, A D may reach 1: the
-  temperature then runs away, and no solution is found. Plain passes T <- T1 + A Q(T) do not converge where friction
-  falls steeply. Source: Ertz and Knothe 2002, Wear 253, 498-508, for friction that falls with the temperature.
+  the linear systems by generalised conjugate residuals (heatsteps.c) without a preconditioner, to a tenth of the
+  residual. Where friction falls with temperature, -A D is positive and there is one solution; where it rises, A D may
+  reach 1: the temperature then runs away, and no solution is found. Plain passes T <- T1 + A Q(T) do not converge where
+  friction falls steeply. Source: Ertz and Knothe 2002, Wear 253, 498-508, for friction that falls with the temperature.
 */
 #include "contactheat.h"
+#include "heatimpl.h"
 #include <petsam/private/base.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/grid.h>
@@ -64,7 +65,10 @@ typedef struct {
   SamGrid                grid; /* of the fields; borrowed */
   PetscReal              bulk[2];
   PetscInt               products;
-  Vec                    heat, heat_2; /* work */
+  Vec                    heat, heat_2;       /* work */
+  SamHeatSystem          system;             /* of a pass */
+  Vec                    temperature;        /* of the pass; borrowed */
+  Vec                    direction, product; /* of the arrays that steps of the system use */
   char                  *failed;
   size_t                 size;
 } Solve;
@@ -128,75 +132,38 @@ static PetscErrorCode Residual(Solve *s, Vec temperature, Vec residual, PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes (I - A D) d. */
-static PetscErrorCode Multiply(Solve *s, Vec temperature, Vec d, Vec product)
+/* Computes (I - A D) d at the temperature; nothing more once the heat could not be divided. */
+static PetscErrorCode Multiply(void *context, const double d[], double product[])
 {
   static const PetscReal none[2] = {0, 0};
+  Solve *const           s       = (Solve *)context;
 
   PetscFunctionBegin;
-  PetscCall(FillHeat(s, temperature, d));
-  PetscCall(Respond(s, none, product));
-  PetscCall(VecAYPX(product, -1, d));
+  PetscCall(VecPlaceArray(s->direction, d));
+  PetscCall(VecPlaceArray(s->product, product));
+  PetscCall(FillHeat(s, s->temperature, s->direction));
+  PetscCall(Respond(s, none, s->product));
+  PetscCall(VecAYPX(s->product, -1, s->direction));
+  PetscCall(VecResetArray(s->product));
+  PetscCall(VecResetArray(s->direction));
+  if (s->failed[0]) s->system.most = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes dot products of n fields with one, the same on any number of ranks. */
-static PetscErrorCode Dots(SamGrid grid, PetscInt n, const Vec many[], Vec one, double dots[])
-{
-  SamTotal      totals[DIRECTIONS + 1] = {{0}};
-  const double *x, *y;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(one, &x));
-  for (PetscInt m = 0; m < n; m++) {
-    PetscCall(VecGetArrayRead(many[m], &y));
-    for (PetscInt j = 0; j < grid->rows; j++) {
-      double row = 0;
-
-      for (PetscInt i = 0; i < grid->nx; i++) row += x[(ptrdiff_t)j * grid->nx + i] * y[(ptrdiff_t)j * grid->nx + i];
-      SamAdd(&totals[m], row);
-    }
-    PetscCall(VecRestoreArrayRead(many[m], &y));
-  }
-  PetscCall(VecRestoreArrayRead(one, &x));
-  PetscCall(SamSumTotals(grid->comm, n, totals, dots));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Adds the solution of (I - A D) d = residual to `step`, by generalised conjugate residuals. */
+/* Adds the solution of (I - A D) d = residual to `step`. */
 static PetscErrorCode SolveLinear(Solve *s, Vec temperature, Vec residual, Vec step)
 {
-  Vec    d[DIRECTIONS], v[DIRECTIONS]; /* directions, and their products, of norm 1 */
-  double dots[DIRECTIONS + 1], first, last;
-  int    n = 0;
+  double *x, *r, left;
 
   PetscFunctionBegin;
-  PetscCall(Dots(s->grid, 1, &residual, residual, &first));
-  last = first;
-  while (n < DIRECTIONS && last > INNER * INNER * first && !s->failed[0]) {
-    PetscCall(VecDuplicate(residual, &d[n]));
-    PetscCall(VecDuplicate(residual, &v[n]));
-    PetscCall(VecCopy(residual, d[n]));
-    PetscCall(Multiply(s, temperature, d[n], v[n]));
-    PetscCall(Dots(s->grid, n, v, v[n], dots));
-    for (int k = 0; k < n; k++) {
-      PetscCall(VecAXPY(v[n], -dots[k], v[k]));
-      PetscCall(VecAXPY(d[n], -dots[k], d[k]));
-    }
-    PetscCall(Dots(s->grid, 1, &v[n], v[n], &dots[0]));
-    n++;
-    if (!(dots[0] > 0)) break;
-    PetscCall(VecScale(v[n - 1], 1 / sqrt(dots[0])));
-    PetscCall(VecScale(d[n - 1], 1 / sqrt(dots[0])));
-    PetscCall(Dots(s->grid, 1, &v[n - 1], residual, &dots[0]));
-    PetscCall(VecAXPY(step, dots[0], d[n - 1]));
-    PetscCall(VecAXPY(residual, -dots[0], v[n - 1]));
-    PetscCall(Dots(s->grid, 1, &residual, residual, &last));
-  }
-  for (int k = 0; k < n; k++) {
-    PetscCall(VecDestroy(&d[k]));
-    PetscCall(VecDestroy(&v[k]));
-  }
+  s->temperature = temperature;
+  s->system      = (SamHeatSystem){.grid = s->grid, .context = s, .multiply = Multiply, .most = DIRECTIONS};
+  PetscCall(VecGetArray(step, &x));
+  PetscCall(VecGetArray(residual, &r));
+  PetscCall(SamHeatNorm(s->grid, r, &left));
+  PetscCall(SamHeatReduce(&s->system, INNER * left, x, r, &left));
+  PetscCall(VecRestoreArray(residual, &r));
+  PetscCall(VecRestoreArray(step, &x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -236,6 +203,8 @@ PetscErrorCode SamHeatSolveFriction(const SamHeatPair *pair, const PetscReal bul
   failed[0] = '\0';
   PetscCall(VecDuplicate(temperature, &s.heat));
   PetscCall(VecDuplicate(temperature, &s.heat_2));
+  PetscCall(VecDuplicate(temperature, &s.direction));
+  PetscCall(VecDuplicate(temperature, &s.product));
   PetscCall(VecDuplicate(temperature, &residual));
   PetscCall(VecDuplicate(temperature, &step));
   PetscCall(Residual(&s, temperature, residual, &error));
@@ -252,6 +221,8 @@ PetscErrorCode SamHeatSolveFriction(const SamHeatPair *pair, const PetscReal bul
   *products = s.products;
   PetscCall(VecDestroy(&step));
   PetscCall(VecDestroy(&residual));
+  PetscCall(VecDestroy(&s.product));
+  PetscCall(VecDestroy(&s.direction));
   PetscCall(VecDestroy(&s.heat_2));
   PetscCall(VecDestroy(&s.heat));
   PetscFunctionReturn(PETSC_SUCCESS);

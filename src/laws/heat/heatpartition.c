@@ -4,25 +4,21 @@
   Problem: (K1 + K2 + r) q2 = T1_bulk - T2_bulk + K1 Q in cells in contact, q2 = 0 elsewhere (heat.h). The operator is
   positive, as Re 1/kappa > 0 below, but not symmetric if a body moves.
 
-  Algorithm: generalised conjugate residuals. A direction is the preconditioned residual, from which the part is
-  subtracted that is needed to make its product orthogonal to the earlier products; the step along it minimises the
-  residual. The preconditioner is the inverse of the symbol of K1 + K2 + r, cut off outside of contact: a wave of flux
-  with the wave numbers kx, ky has the temperature
+  Algorithm: generalised conjugate residuals (heatsteps.c). The preconditioner is the inverse of the symbol of K1 + K2 +
+  r, cut off outside of contact: a wave of flux with the wave numbers kx, ky has the temperature
       1/(conductivity kappa),   kappa^2 = k^2 + i kx speed/D,   Re kappa > 0,
   times itself; for the mean k is half the smallest wave number. It acts on the padded grid, as the trail of a fast body
-  is long: on the periodic one up to twice as many products are needed. The directions restart after RESTART. At the end
-  the true residual is computed; above the tolerance, the steps go on from it, as long as that halves it. Sums are the
-  same on any number of ranks.
+  is long: on the periodic one up to twice as many products are needed. At the end the
+  true residual is computed; above the tolerance, the steps go on from it, as long as that halves it.
 
-  References: Bos and Moes 1995, J. Tribol. 117, 171; Eisenstat, Elman and Schultz 1983, SIAM J. Numer. Anal. 20, 345.
+  Reference: Bos and Moes 1995, J. Tribol. 117, 171.
 */
 #include "heatimpl.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/grid.h>
 #include <math.h>
 
-#define RESTART 30
-#define GOAL    0.7 /* part of the tolerance at which the steps end, as the true residual is a little larger */
+#define GOAL 0.7 /* part of the tolerance at which the steps end, as the true residual is a little larger */
 
 /* The symbol of the preconditioner. Wave numbers are times the grid's length, of which symbols are multiples. */
 typedef struct {
@@ -33,11 +29,6 @@ typedef struct {
   double gain; /* of the transforms */
 } Symbol;
 
-/* A direction, and its product, which is a unit vector */
-typedef struct {
-  double *p, *v;
-} Direction;
-
 typedef struct {
   const SamHeatPair *pair;
   SamGrid            grid;
@@ -45,7 +36,6 @@ typedef struct {
   double             scale; /* of temperature over flux, which makes residuals dimensionless, K m2/W */
   Symbol             symbol;
   float             *work; /* a field */
-  PetscInt           products;
 } Split;
 
 /* ---- the preconditioner ---- */
@@ -112,8 +102,9 @@ static void Filter(const SamFourierBlock *block, const void *context)
 }
 
 /* Computes z = M r in cells in contact. */
-static PetscErrorCode Precondition(Split *s, const double r[], double size, double z[])
+static PetscErrorCode Precondition(void *context, const double r[], double size, double z[])
 {
+  const Split           *s      = (const Split *)context;
   const SamFourierFilter filter = {SAM_FOURIER_PADDED, 1, 1, Filter, &s->symbol};
   const float           *in     = s->work;
   float                 *out    = s->work;
@@ -125,11 +116,12 @@ static PetscErrorCode Precondition(Split *s, const double r[], double size, doub
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- products and sums ---- */
+/* ---- products ---- */
 
 /* Computes u = (K1 + K2 + r) q / scale in cells in contact, 0 elsewhere. */
-static PetscErrorCode Multiply(Split *s, const double q[], double u[])
+static PetscErrorCode Multiply(void *context, const double q[], double u[])
 {
+  const Split       *s    = (const Split *)context;
   const SamHeatPair *pair = s->pair;
   SamKernel          kernels[4];
   PetscInt           n = 0;
@@ -140,124 +132,48 @@ static PetscErrorCode Multiply(Split *s, const double q[], double u[])
   PetscCall(SamConvolveSum(pair->body[0]->fourier, n, kernels, q, u));
   for (PetscInt m = 0; m < s->grid->cells; m++)
     u[m] = s->contact[m] > 0 ? (u[m] + pair->resistance * q[m]) / s->scale : 0;
-  s->products++;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Computes the dot products of x with n vectors. */
-static PetscErrorCode Dots(const Split *s, PetscInt n, double *const v[], const double x[], double dots[])
-{
-  const PetscInt nx = s->grid->nx;
-  SamTotal       totals[RESTART];
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < n; k++) {
-    totals[k] = (SamTotal){0};
-    for (PetscInt j = 0; j < s->grid->rows; j++) {
-      double row = 0;
-
-      for (PetscInt i = 0; i < nx; i++) row += v[k][j * (ptrdiff_t)nx + i] * x[j * (ptrdiff_t)nx + i];
-      SamAdd(&totals[k], row);
-    }
-  }
-  if (n) PetscCall(SamSumTotals(s->grid->comm, n, totals, dots));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Norm(const Split *s, double x[], double *norm)
-{
-  PetscFunctionBegin;
-  PetscCall(Dots(s, 1, &x, x, norm));
-  *norm = sqrt(*norm);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the solve ---- */
 
-/* Computes direction k from the residual r; its product is orthogonal to the earlier ones. */
-static PetscErrorCode NewDirection(Split *s, PetscInt k, const double r[], double size, Direction d[], double *norm)
-{
-  const PetscInt n = s->grid->cells;
-  double        *v[RESTART], dots[RESTART];
-
-  PetscFunctionBegin;
-  if (!d[k].p) PetscCall(PetscMalloc2(n, &d[k].p, n, &d[k].v));
-  for (PetscInt i = 0; i <= k; i++) v[i] = d[i].v;
-  PetscCall(Precondition(s, r, size, d[k].p));
-  PetscCall(Multiply(s, d[k].p, v[k]));
-  for (PetscInt twice = 0; twice < 2; twice++) { /* repeated against rounding */
-    PetscCall(Dots(s, k, v, v[k], dots));
-    for (PetscInt i = 0; i < k; i++)
-      for (PetscInt m = 0; m < n; m++) {
-        v[k][m] -= dots[i] * v[i][m];
-        d[k].p[m] -= dots[i] * d[i].p[m];
-      }
-  }
-  PetscCall(Norm(s, v[k], norm));
-  for (PetscInt m = 0; *norm > 0 && m < n; m++) {
-    v[k][m] /= *norm;
-    d[k].p[m] /= *norm;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Takes steps until the residual r, of the size *left, is at most `goal`; x and r are updated. */
-static PetscErrorCode Iterate(Split *s, double goal, Direction d[], double x[], double r[], double *left)
-{
-  double size, step;
-
-  PetscFunctionBegin;
-  for (PetscInt it = 0; s->products<s->pair->most && * left> goal; it++) {
-    const PetscInt k = it % RESTART;
-
-    PetscCall(NewDirection(s, k, r, *left, d, &size));
-    if (!(size > 0)) break;
-    PetscCall(Dots(s, 1, &d[k].v, r, &step));
-    for (PetscInt m = 0; m < s->grid->cells; m++) {
-      x[m] += step * d[k].p[m];
-      r[m] -= step * d[k].v[m];
-    }
-    PetscCall(Norm(s, r, left));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Computes the true residual r = b - A x and its norm. */
-static PetscErrorCode FindResidual(Split *s, const double b[], const double x[], double r[], double *norm)
+static PetscErrorCode FindResidual(SamHeatSystem *system, const double b[], const double x[], double r[], double *norm)
 {
   PetscFunctionBegin;
-  PetscCall(Multiply(s, x, r));
-  for (PetscInt m = 0; m < s->grid->cells; m++) r[m] = b[m] - r[m];
-  PetscCall(Norm(s, r, norm));
+  PetscCall(Multiply(system->context, x, r));
+  system->products++;
+  for (PetscInt m = 0; m < system->grid->cells; m++) r[m] = b[m] - r[m];
+  PetscCall(SamHeatNorm(system->grid, r, norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Solves from x = 0 on. On entry r is the right side; it is scratch afterwards. */
 static PetscErrorCode Solve(Split *s, double x[], double r[], SamHeatReport *report)
 {
-  const PetscInt n          = s->grid->cells;
-  const double   rtol       = (double)s->pair->rtol;
-  Direction      d[RESTART] = {{NULL, NULL}};
-  double        *b, norm, left, last = PETSC_INFINITY;
+  const PetscInt n      = s->grid->cells;
+  const double   rtol   = (double)s->pair->rtol;
+  SamHeatSystem  system = {
+     .grid = s->grid, .context = s, .multiply = Multiply, .precondition = Precondition, .most = s->pair->most};
+  double *b, norm, left, last = PETSC_INFINITY;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &b));
   PetscCall(PetscArraycpy(b, r, n));
   PetscCall(PetscArrayzero(x, n));
-  PetscCall(Norm(s, b, &norm));
+  PetscCall(SamHeatNorm(s->grid, b, &norm));
   left = norm;
-  while (left > rtol * norm && left <= 0.5 * last && s->products < s->pair->most) {
+  while (left > rtol * norm && left <= 0.5 * last && system.products < system.most) {
     last = left;
-    PetscCall(Iterate(s, GOAL * rtol * norm, d, x, r, &left));
-    PetscCall(FindResidual(s, b, x, r, &left));
+    PetscCall(SamHeatReduce(&system, GOAL * rtol * norm, x, r, &left));
+    PetscCall(FindResidual(&system, b, x, r, &left));
   }
-  report->products = s->products;
+  report->products = system.products;
   report->residual = norm == 0 ? 0 : left / norm;
   if (report->residual <= rtol)
     report->reason = SAM_HEAT_CONVERGED;
   else
-    report->reason = s->products >= s->pair->most ? SAM_HEAT_LIMIT : SAM_HEAT_STAGNATES;
-  for (PetscInt k = 0; k < RESTART; k++) PetscCall(PetscFree2(d[k].p, d[k].v));
+    report->reason = system.products >= system.most ? SAM_HEAT_LIMIT : SAM_HEAT_STAGNATES;
   PetscCall(PetscFree(b));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
