@@ -225,7 +225,7 @@ check-format: $(B)/venv/tests-done ## check the format of C and Python, the type
 	@$(B)/venv/bin/clang-format --dry-run -Werror $(C_SOURCES)
 	@awk 'length > 120 {print FILENAME ":" FNR ": more than 120 columns"; n++} END {exit n > 0}' $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q --check $(PYTHON_SOURCES)
-	@$(B)/venv/bin/ruff check -q $(PYTHON_SOURCES)
+	@$(B)/venv/bin/ruff check -q --no-cache $(PYTHON_SOURCES)
 	@$(B)/venv/bin/python -m mypy --config-file scripts/pyproject.toml --cache-dir $(B)/mypy --no-error-summary
 	@$(PYTHON) scripts/maintain/check_words.py
 	@$(PYTHON) scripts/maintain/functions.py --check

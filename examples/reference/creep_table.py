@@ -15,11 +15,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-import creep
 import numpy as np
 from rolling_cells import steady
 from scipy.special import ellipe, ellipk
 
+import creep
 import petsam
 
 YOUNG, POISSON, FRICTION, LENGTH, PEAK = 210e9, 0.25, 0.3, 1e-3, 1e-3  # Pa, 1, 1, sqrt(a b) in m, p0/E*
