@@ -138,7 +138,7 @@ def test_errors_do_not_depend_on_rejected_tries():
 def test_given_fields_become_means_on_the_companions():
     """Heights of a paraboloid as a field: its means over cells differ from its values by a constant."""
     first, second, *_ = steps_of(1)
-    flat = dict(grid_n=48, gap_type="flat", gap_radius1=None, gap_radius2=None)
+    flat = dict(grid_n=48, gap_type="flat", gap_radius1=None, gap_radius2=None, friction=0.35)
     with contact_of(dict(grid_n=48)) as one, contact_of(flat) as other:
         x, y = np.meshgrid(other.x, other.y)
         radius = 1 / (1 / float(ALIKE["gap_radius1"]) + 1 / float(ALIKE["gap_radius2"]))
