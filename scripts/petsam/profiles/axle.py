@@ -283,7 +283,7 @@ class Axle:
 
     def _aside(self, position, load, start):
         """The equilibrium under a lateral force."""
-        solved: dict[float, Equilibrium] = {}
+        solved = {}  # by the displacement aside, m
 
         def excess(y):
             near = solved[min(solved, key=lambda other: abs(other - y))] if solved else start
