@@ -17,7 +17,7 @@ from ..contact import AdviceWarning, Contact
 from ..core.errors import Error
 from . import contacts, gap
 from .creepages import creepages
-from .locus import locus
+from .locus import locus, near
 from .patches import Place, Search, places, search
 from .placement import Roller, Track, Wheelset
 from .pose import Frame, Position
@@ -26,6 +26,7 @@ from .result import ConformalWarning, Patch, Pressed, Result
 
 CONFORMAL = 0.24  # rad: 3 % in the distance
 DEEPEST = 1e-3  # m: no elastic wheel overlaps a rail by more
+REACH = 1.5e-4  # m: overlaps up to it are searched where the gap is little above its least value
 PASSES = 60
 SIDES = ("right", "left")
 Friction = Union[float, Callable[[float], float]]
@@ -203,7 +204,7 @@ class Case:
         self.pair, self.position, self.passes = pair, position, 0
         self.rotation = position.rotation
         self.pitch = position.pitch(pair.wheel.radius)
-        found = search(pair.rail, pair.wheel.radius, locus(pair.rail, pair.wheel, self.rotation, position.y))
+        found = self._near() or self._whole()
         if found is None:
             raise Error(
                 f"y {position.y:g}: the wheel is beside the rail: check gauge, flange_back, flange_position and their "
@@ -212,6 +213,17 @@ class Case:
         self.search: Search = found
         self.advice: dict[str, str] = {}  # the last text of each kind
         self._warned: list[tuple[type, str]] = []
+
+    def _near(self):
+        """The search where the gap is little above its least value; None where that does not suffice."""
+        pair = self.pair
+        part = near(pair.rail, pair.wheel, self.rotation, self.position.y, REACH)
+        return part and search(pair.rail, pair.wheel.radius, *part)
+
+    def _whole(self):
+        """The search along the whole locus."""
+        pair = self.pair
+        return search(pair.rail, pair.wheel.radius, locus(pair.rail, pair.wheel, self.rotation, self.position.y))
 
     def at(self, z: float) -> Result:
         """The solution at a height.
@@ -275,6 +287,8 @@ class Case:
                 f"z {z:g}: the bodies overlap by {z - self.search.touch:.3g} m: z is 0 at the nominal height and "
                 f"positive down; they touch at {self.search.touch:.6g}"
             )
+        if z - self.search.touch > REACH and any(self.search.cut):
+            self.search = self._whole()
         frame = Frame(self.rotation, np.array([0.0, self.position.y, z - self.pair.wheel.radius]))
         settings = self.pair.settings
         found = places(self.search, self.search.regions(z), settings.separation, settings.combination)
