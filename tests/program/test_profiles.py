@@ -22,6 +22,7 @@ from petsam.profiles.gap import separation
 from petsam.profiles.locus import locus
 from petsam.profiles.patches import search
 from petsam.profiles.pose import Frame
+from petsam.profiles.positions import REACH, Case
 from petsam.profiles.section import visible
 
 pytestmark = pytest.mark.filterwarnings("ignore:patch at:petsam.contact.AdviceWarning")
@@ -875,3 +876,35 @@ def test_a_conformal_contact_is_a_warning():
 def test_cells_that_do_not_resolve_a_contact_are_a_warning(made):
     with pytest.warns(AdviceWarning, match="patch at y = .*: error by the cells: .*: try a smaller cell"):
         profiles.solve(*made, Position(speed=2.0), 10e3, settings=Settings(cell=2e-3))
+
+
+# ---------------------------------------------------------------- the part of the line that counts
+
+
+@pytest.mark.parametrize("roller", [False, True])
+def test_the_part_near_the_contact_has_the_regions_of_the_whole_line(made, roller):
+    rail = profiles.Roller(profiles.uic60(), 0.5) if roller else made[0]
+    rng = np.random.default_rng(5)
+    parts = 0
+    with profiles.Pair(rail, made[1]) as pair:
+        for y, roll, yaw in rng.uniform(-1, 1, (24, 3)) * (8e-3, 3e-3, 0.03):
+            case = Case(pair, Position(y=y, roll=roll, yaw=yaw, speed=20.0))
+            whole = case._whole()
+            assert case.search.touch == pytest.approx(whole.touch, abs=1e-12)
+            parts += any(case.search.cut)
+            for depth in (1e-5, REACH):
+                found, expected = (one.regions(one.touch + depth) for one in (case.search, whole))
+                assert [one.y for one in found] == [pytest.approx(one.y, abs=1e-10) for one in expected]
+                assert [one.at_end for one in found] == [one.at_end for one in expected]
+    assert parts > 12
+
+
+def test_a_deep_overlap_is_searched_along_the_whole_line(made):
+    with profiles.Pair(*made, settings=Settings(cell=1e-3)) as pair:
+        case = Case(pair, Position(y=2e-3, speed=20.0))
+        assert any(case.search.cut)
+        deep = case.at(case.search.touch + 4.0 * REACH)
+        assert not any(case.search.cut)
+        widest = max(len(one.grid_s) for one in deep.patches)
+    (region, *_) = case.search.regions(case.search.touch + 4.0 * REACH)
+    assert 1e-3 * widest >= region.y[-1] - region.y[0]
