@@ -165,7 +165,7 @@ def test_drafts_are_near_the_solution_and_those_of_equal_cells_are_it(axle, monk
 
 
 def test_an_equilibrium_needs_few_full_solutions(vehicle):
-    """From its neighbour; without drafts it takes 6 of them and more."""
+    """From its neighbour; without the correction of drafts it takes more than 3."""
     y = np.linspace(1e-3, 4e-3, 9)
     with vehicle.axle() as axle:
         found = [axle.solve(Position(y=float(y[0]), speed=20.0), LOAD)]
