@@ -220,3 +220,71 @@ def test_a_step_without_slip_has_no_power(petsam, fretting, tmp_path, monkeypatc
     case = {name: value for name, value in fretting.items() if name not in ("history", "steps")}
     assert "no frictional power, at most 0 K in contact" in petsam(case, "-load_n", "50").stdout
     assert "none, as there is no contact" in petsam(case, "-load_n", "0").stdout
+
+
+@pytest.mark.parametrize("law", ["coefficient", "energy"])
+@pytest.mark.parametrize("slide", [False, True])
+def test_wear_follows_the_temperature(petsam, fretting, tmp_path, monkeypatch, law, slide):
+    """Each step wears by its factor, which is that of its temperature in each cell; volumes are sums of the depths."""
+    monkeypatch.chdir(tmp_path)
+    factor = 3.5
+    case = {
+        **{name: value for name, value in fretting.items() if name not in ("friction_temperature", "history", "steps")},
+        **history(tmp_path / "once.csv", "time,load_n,disp_x", (0.5, 50, 2e-6)),
+        f"wear_{law}1": 1e-15, f"wear_{law}2": 2e-15, "slide": slide or None,
+    }  # fmt: skip
+    petsam(case, "-output", "cold.h5")
+    with h5py.File("cold.h5") as cold:
+        heights = cold["temperature_1"][0]
+        cells = cold["pressure"][0] > 0
+        depth = cold["wear_depth1"][0]
+        low, over = np.quantile(heights[cells], 0.3), np.ptp(heights[cells]) / 3
+    change = {"wear_temperature": (low, over, factor)}
+    petsam({**case, **change}, "-output", "hot.h5")
+    with h5py.File("hot.h5") as hot:
+        found = hot["wear_factor"][0]
+        expected = 1 + (factor - 1) * np.clip((heights - low) / over, 0, 1)
+        np.testing.assert_allclose(found, expected, rtol=1e-9)
+        assert found[cells].min() == 1 and found[cells].max() == pytest.approx(factor)
+        side = hot["x"][1] - hot["x"][0], hot["y"][1] - hot["y"][0]
+        for body, coefficient in ((1, 1), (2, 2)):
+            worn = hot[f"wear_depth{body}"][0]
+            volume = hot[f"history/wear_volume{body}"][0]
+            assert worn.sum() * side[0] * side[1] == pytest.approx(volume, rel=2e-3 if slide else 1e-9)
+            assert volume == pytest.approx(coefficient * np.sum(expected * depth) * side[0] * side[1], rel=1e-3)
+        if not slide:
+            np.testing.assert_allclose(hot["wear_depth1"][0], expected * depth, rtol=1e-9, atol=1e-25)
+        assert dict(hot.attrs)["wear_temperature"] == pytest.approx([low, over, factor])
+
+
+def test_wear_by_temperature_in_several_steps(petsam, fretting, tmp_path, monkeypatch):
+    """The limit of a step counts the factor; ranks and restarts have the same bits."""
+    monkeypatch.chdir(tmp_path)
+    case = {**fretting, "wear_coefficient1": 2e-12, "wear_temperature": (0, 1e-5, 500)}
+    assert "wear is" not in petsam({**case, "wear_temperature": None}, "-output", "mild.h5").stderr
+    assert "times the limit of a step" in petsam(case, "-output", "1.h5").stderr
+    for ranks in (2, 3):
+        petsam(case, "-output", f"{ranks}.h5", ranks=ranks)
+    petsam(case, "-checkpoint", "state.h5", "-checkpoint_every", "3", "-output", "other.h5")
+    petsam(case, "-restart", "state.h5.1", "-output", "rest.h5")
+    with h5py.File("1.h5") as one:
+        for name in ("2.h5", "3.h5", "rest.h5"):
+            with h5py.File(name) as other:
+                np.testing.assert_array_equal(one["wear_depth1"][-3:], other["wear_depth1"][-3:])
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (dict(wear_temperature=(0, 1, 2)), "wear_coefficient1"),
+        (dict(wear_temperature=(0, 1), wear_coefficient1=1e-14), "expected three numbers"),
+        (dict(wear_temperature=(0, 0, 2), wear_coefficient1=1e-14), "dT > 0"),
+        (dict(wear_temperature=(0, 1, -2), wear_coefficient1=1e-14), "a factor of -2"),
+        (
+            dict(wear_temperature=(0, 1, 2), wear_coefficient1=1e-14, heat=None, friction_temperature=None),
+            "heat steady",
+        ),
+    ],
+)
+def test_mistakes_in_wear_by_temperature(petsam, fretting, change, words):
+    assert words in petsam({**fretting, **change}, check=2).stderr

@@ -6,21 +6,17 @@
   (frictionwork.c): its sum is the power of the loads on the creepages. In other steps it is the work of the step over
   its time. The temperatures are those of a state that lasts (-heat steady): the bodies are half-spaces whose material
   moves along x relative to the contact, in rolling both at the rolling speed towards -x.
-
-  With -friction_temperature the bound of the shear is b + p dmu(T). It follows the slip of the step, as falling
-  friction does, and the temperature that belongs to a slip is found within the bound (contactheat.c). Its derivatives
-  are those at the same temperature.
   Source: Bos and Moes 1995, J. Tribol. 117, 171-177; Ertz and Knothe 2002, Wear 253, 498-508.
 */
-#include "contactheat.h"
+#include "heatlaw.h"
 #include <petsam/private/balance.h>
 #include <petsam/private/base.h>
 #include <petsam/private/body.h>
 #include <petsam/private/elasticity.h>
-#include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/parameters.h>
 #include <petsam/private/state.h>
+#include <petsam/private/wear.h>
 #include <math.h>
 
 #define RTOL 1e-8 /* of the partition */
@@ -30,25 +26,11 @@
 #define MOST_TEMPERATURE 100000 /* K */
 
 enum { NONE, STEADY };
-enum { FROM, OVER, CHANGE, CHANGES };
-
-typedef struct {
-  int         kind;
-  PetscReal   conductivity[2], capacity[2], bulk[2], speed[2], resistance;
-  PetscReal   change[CHANGES];
-  PetscInt    changes;     /* 0, or CHANGES: friction depends on the temperature */
-  PetscReal   rolling;     /* speed of rolling, m/s */
-  SamHeatPair pair;        /* body[0] NULL: not created yet */
-  PetscReal   duration;    /* of the step, s */
-  char        failed[192]; /* why the last bound has no temperature; empty: it has one */
-  PetscBool   clipped;     /* the last bound would have had friction below 0 in a cell of this rank */
-  PetscBool   timeless;    /* there is frictional work in a step without duration */
-} Heat;
 
 #define NEEDED "heat steady"
 #define ROW(name, member_, text_, ...) \
   { \
-    name, text_, SAM_OPTION_REAL, offsetof(Heat, member_), .needs = NEEDED, .recorded = PETSC_TRUE, __VA_ARGS__ \
+    name, text_, SAM_OPTION_REAL, offsetof(SamHeatLaw, member_), .needs = NEEDED, .recorded = PETSC_TRUE, __VA_ARGS__ \
   }
 #define BODY(k) \
   ROW("body" #k "_conductivity", conductivity[k - 1], "thermal conductivity () of body " #k, .unit = "W/(m K)", \
@@ -60,7 +42,7 @@ typedef struct {
     ROW("body" #k "_speed", speed[k - 1], "speed () of body " #k "'s material along x, as seen from the contact", \
         .unit = "m/s", .range = SAM_RANGE_ANY, .excludes = "rolling")
 static const SamOptionRow rows[] = {
-  {"heat", "temperatures by frictional heat: of a steady state, or none", SAM_OPTION_ENUM, offsetof(Heat, kind),
+  {"heat", "temperatures by frictional heat: of a steady state, or none", SAM_OPTION_ENUM, offsetof(SamHeatLaw, kind),
    .words = "none,steady", .recorded = PETSC_FALSE},
   BODY(1),
   BODY(2),
@@ -72,9 +54,9 @@ static const SamOptionRow rows[] = {
 /* Takes the constants of a body from its named material where they are not given, and requires them. */
 static PetscErrorCode TakeMaterial(SamLaw law, const SamOptions *from, PetscInt b)
 {
-  Heat *const   h    = (Heat *)law->data;
-  const SamBody body = SamPairBody(SamElasticityGetPair(law->elasticity), b);
-  char          conductivity[32], capacity[32];
+  SamHeatLaw *const h    = (SamHeatLaw *)law->data;
+  const SamBody     body = SamPairBody(SamElasticityGetPair(law->elasticity), b);
+  char              conductivity[32], capacity[32];
 
   PetscFunctionBegin;
   (void)snprintf(conductivity, sizeof(conductivity), "body%d_conductivity", (int)b + 1);
@@ -89,33 +71,68 @@ static PetscErrorCode TakeMaterial(SamLaw law, const SamOptions *from, PetscInt 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Reads a change by temperature: three numbers, or none; `what` names what they do. */
+static PetscErrorCode ReadChange(const SamOptions *from, const SamOptionRow *row, const char what[],
+                                 PetscReal change[SAM_HEAT_CHANGES], PetscInt *n)
+{
+  PetscFunctionBegin;
+  PetscCall(SamOptionsReals(from, row, change, n));
+  if (!*n) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOptionsNeed(from, PETSC_TRUE, row->name, NEEDED));
+  PetscCheck(*n == SAM_HEAT_CHANGES && change[SAM_HEAT_OVER] > 0, from->comm, SAM_ERR_USER,
+             "-%s%s: expected three numbers, %s from the temperature T0 to T0 + dT, dT > 0", SamOptionsPrefix(from),
+             row->name, what);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Reads how friction depends on temperature. */
-static PetscErrorCode ReadFriction(Heat *h, const SamOptions *from)
+static PetscErrorCode ReadFriction(SamHeatLaw *h, const SamOptions *from)
 {
   static const SamOptionRow row      = {"friction_temperature",
                                         "T0,dT,dmu: friction changes linearly by dmu from T0 to T0 + dT (K)",
-                                        SAM_OPTION_REAL, .size = CHANGES, .range = SAM_RANGE_ANY};
+                                        SAM_OPTION_REAL, .size = SAM_HEAT_CHANGES, .range = SAM_RANGE_ANY};
   PetscReal                 friction = 0;
   PetscBool                 given;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReals(from, &row, h->change, &h->changes));
-  if (!h->changes) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamOptionsNeed(from, PETSC_TRUE, row.name, NEEDED));
-  PetscCheck(h->changes == CHANGES && h->change[OVER] > 0, from->comm, SAM_ERR_USER,
-             "-%s%s: expected three numbers, T0,dT,dmu: friction changes by dmu from the temperature T0 to T0 + dT, dT "
-             "> 0",
-             SamOptionsPrefix(from), row.name);
-  if (h->change[CHANGE] == 0) h->changes = 0;
+  PetscCall(ReadChange(from, &row, "T0,dT,dmu: friction changes by dmu", h->change, &h->changes));
+  if (!h->changes || h->change[SAM_HEAT_CHANGE] == 0) {
+    h->changes = 0;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(PetscOptionsGetReal(NULL, from->prefix, "-friction", &friction, &given));
-  PetscCheck(!given || friction + h->change[CHANGE] >= 0, from->comm, SAM_ERR_USER,
+  PetscCheck(!given || friction + h->change[SAM_HEAT_CHANGE] >= 0, from->comm, SAM_ERR_USER,
              "-%s%s: the coefficient of friction, %.6g, falls below 0: expected a change of at least %.6g",
              SamOptionsPrefix(from), row.name, (double)friction, (double)-friction);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Reads how wear depends on temperature. */
+static PetscErrorCode ReadWear(SamHeatLaw *h, const SamOptions *from)
+{
+  static const char *const  coefficients[] = {"wear_coefficient1", "wear_coefficient2", "wear_energy1", "wear_energy2"};
+  static const SamOptionRow row   = {"wear_temperature", "T0,dT,f: coefficients of wear change linearly to f times (K)",
+                                     SAM_OPTION_REAL, .size = SAM_HEAT_CHANGES, .range = SAM_RANGE_ANY};
+  PetscBool                 wears = PETSC_FALSE, given;
+
+  PetscFunctionBegin;
+  PetscCall(ReadChange(from, &row, "T0,dT,f: coefficients of wear go to f times", h->wear, &h->wears));
+  if (!h->wears) PetscFunctionReturn(PETSC_SUCCESS);
+  for (int k = 0; k < 4; k++) {
+    PetscCall(SamOptionsHas(from, coefficients[k], &given));
+    wears = wears || given;
+  }
+  PetscCheck(wears, from->comm, SAM_ERR_USER,
+             "-%s%s is given without a coefficient of wear: give -wear_coefficient1, or another one, or omit it",
+             SamOptionsPrefix(from), row.name);
+  PetscCheck(h->wear[SAM_HEAT_CHANGE] >= 0, from->comm, SAM_ERR_USER,
+             "-%s%s: a factor of %.6g on the coefficients of wear: expected a number from 0 on", SamOptionsPrefix(from),
+             row.name, (double)h->wear[SAM_HEAT_CHANGE]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Refuses bodies whose temperatures are not those of half-spaces, or never become steady. */
-static PetscErrorCode CheckBodies(SamLaw law, const Heat *h, const SamOptions *from)
+static PetscErrorCode CheckBodies(SamLaw law, const SamHeatLaw *h, const SamOptions *from)
 {
   const SamElasticityTraits traits = SamElasticityGetTraits(law->elasticity);
   const char *const         prefix = SamOptionsPrefix(from);
@@ -146,11 +163,11 @@ static PetscErrorCode CheckBodies(SamLaw law, const Heat *h, const SamOptions *f
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
-  Heat *const               h       = (Heat *)law->data;
+  SamHeatLaw *const         h       = (SamHeatLaw *)law->data;
   static const SamOptionRow rolling = {"rolling_speed",
                                        "speed of rolling",
                                        SAM_OPTION_REAL,
-                                       offsetof(Heat, rolling),
+                                       offsetof(SamHeatLaw, rolling),
                                        .range   = SAM_RANGE_POSITIVE,
                                        .unit    = "m/s",
                                        .missing = "required by -heat steady with -rolling steady"};
@@ -159,6 +176,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
   PetscFunctionBegin;
   PetscCall(ReadFriction(h, from));
+  PetscCall(ReadWear(h, from));
   *asked = h->kind == STEADY ? PETSC_TRUE : PETSC_FALSE;
   if (!*asked || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOptionsHas(from, "rolling_speed", &given));
@@ -175,18 +193,19 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
 static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
 {
-  const Heat *h = (const Heat *)law->data;
+  const SamHeatLaw *h = (const SamHeatLaw *)law->data;
 
   PetscFunctionBegin;
   PetscCall(SamParametersAddText(p, "heat", PETSC_TRUE, "steady"));
-  if (h->changes) PetscCall(SamParametersAddReals(p, "friction_temperature", PETSC_TRUE, CHANGES, h->change));
+  if (h->changes) PetscCall(SamParametersAddReals(p, "friction_temperature", PETSC_TRUE, SAM_HEAT_CHANGES, h->change));
+  if (h->wears) PetscCall(SamParametersAddReals(p, "wear_temperature", PETSC_TRUE, SAM_HEAT_CHANGES, h->wear));
   if (h->rolling > 0) PetscCall(SamParametersAddReals(p, "rolling_speed", PETSC_TRUE, 1, &h->rolling));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- memory and results ---- */
 
-static const char *const surfaces[2] = {"temperature_1", "temperature_2"}, *const fluxes[2] = {"heat_1", "heat_2"};
+static const char *const surfaces[2] = {SAM_TEMPERATURE_1, "temperature_2"}, *const fluxes[2] = {"heat_1", "heat_2"};
 
 enum { MAXIMUM, POWER, SHARE, NUMBERS };
 
@@ -197,6 +216,13 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     .name = name_, .unit = unit_, .text = text_, .components = 1, .generations = 2, .kept = kept_, \
     .result = SAM_RESULT_USUAL, .motion = SAM_STAYS \
   }
+  static const SamStateField  factor   = {.name        = SAM_WEAR_FACTOR,
+                                          .unit        = "1",
+                                          .text        = "coefficients of wear over those without heat",
+                                          .components  = 1,
+                                          .generations = 2,
+                                          .result      = SAM_RESULT_USUAL,
+                                          .motion      = SAM_STAYS};
   static const SamStateField  fields[] = {FIELD("temperature_1", "K", "temperature of body 1's surface", PETSC_TRUE),
                                           FIELD("temperature_2", "K", "temperature of body 2's surface", PETSC_FALSE),
                                           FIELD("heat_1", "W/m2", "frictional heat into body 1", PETSC_FALSE),
@@ -212,6 +238,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscFunctionBegin;
   for (size_t k = 0; k < sizeof(fields) / sizeof(fields[0]); k++)
     PetscCall(SamStateDeclareField(state, &fields[k], &id));
+  if (((const SamHeatLaw *)law->data)->wears) PetscCall(SamStateDeclareField(state, &factor, &id));
   for (PetscInt k = 0; k < NUMBERS; k++) {
     SamStateNumber one = numbers[k];
 
@@ -225,9 +252,9 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 /* ---- a step ---- */
 
 /* Creates the operators at their first use. */
-static PetscErrorCode Prepare(SamLaw law)
+PetscErrorCode SamHeatLawPrepare(SamLaw law)
 {
-  Heat *const h = (Heat *)law->data;
+  SamHeatLaw *const h = (SamHeatLaw *)law->data;
 
   PetscFunctionBegin;
   for (int b = 0; b < 2 && !h->pair.body[b]; b++) {
@@ -243,8 +270,8 @@ static PetscErrorCode Prepare(SamLaw law)
 
 static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
 {
-  Heat *const h = (Heat *)law->data;
-  PetscBool   first;
+  SamHeatLaw *const h = (SamHeatLaw *)law->data;
+  PetscBool         first;
 
   PetscFunctionBegin;
   first = SamStateGetField(state, SamStateFindField(state, surfaces[0]), SAM_COMMITTED) ? PETSC_FALSE : PETSC_TRUE;
@@ -258,131 +285,14 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Computes the velocity of slip from the slip of the step. In steady rolling that is taken at the side of a cell that
-  the stream reaches first, so that the mean with the cell behind is that at the centre.
-*/
-static PetscErrorCode FillRate(SamLaw law, Vec slip, Vec rate)
-{
-  const Heat     *h       = (const Heat *)law->data;
-  const PetscBool streams = SamMotionOf(law->elasticity)->streams;
-  const double   *s;
-  double         *v;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(slip, &s));
-  PetscCall(VecGetArrayWrite(rate, &v));
-  for (PetscInt k = 0; k < law->grid->cells; k++) {
-    const PetscInt behind = k % law->grid->nx ? 1 : 0;
-
-    if (streams)
-      v[k] = (double)h->rolling * 0.5 * (s[k] + s[k - behind]);
-    else
-      v[k] = h->duration > 0 ? s[k] / (double)h->duration : 0;
-  }
-  PetscCall(VecRestoreArrayWrite(rate, &v));
-  PetscCall(VecRestoreArrayRead(slip, &s));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Sets the start of the temperature, relative to the bulk of body 1: that of the step before, 0 outside of contact. */
-static PetscErrorCode FillStart(SamLaw law, const SamBoundAt *at, Vec temperature)
-{
-  const Heat *h = (const Heat *)law->data;
-  const Vec   before =
-    at->state ? SamStateGetField(at->state, SamStateFindField(at->state, surfaces[0]), SAM_COMMITTED) : NULL;
-  const double *p, *was = NULL;
-  double       *t;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(at->pressure, &p));
-  if (before) PetscCall(VecGetArrayRead(before, &was));
-  PetscCall(VecGetArrayWrite(temperature, &t));
-  for (PetscInt k = 0; k < law->grid->cells; k++) t[k] = p[k] > 0 && was ? was[k] - (double)h->bulk[0] : 0;
-  PetscCall(VecRestoreArrayWrite(temperature, &t));
-  if (before) PetscCall(VecRestoreArrayRead(before, &was));
-  PetscCall(VecRestoreArrayRead(at->pressure, &p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Finds the temperature relative to the bulk of body 1 by the friction that it changes. */
-static PetscErrorCode FindTemperature(SamLaw law, const SamBoundAt *at, Vec bound, Vec temperature)
-{
-  Heat *const           h        = (Heat *)law->data;
-  const SamHeatFriction friction = {h->change[FROM] - h->bulk[0], h->change[OVER], h->change[CHANGE]};
-  const PetscReal       bulk[2]  = {0, h->bulk[1] - h->bulk[0]};
-  SamHeatRate           rate     = {.grid = law->grid, .pressure = at->pressure, .bound = bound};
-  PetscInt              products;
-
-  PetscFunctionBegin;
-  PetscCall(Prepare(law));
-  PetscCall(FillStart(law, at, temperature));
-  PetscCall(VecDuplicate(temperature, &rate.rate));
-  if (at->slip) PetscCall(FillRate(law, at->slip, rate.rate));
-  PetscCall(
-    SamHeatSolveFriction(&h->pair, bulk, &friction, &rate, temperature, &products, h->failed, sizeof(h->failed)));
-  PetscCall(VecDestroy(&rate.rate));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Adds what the temperature changes to the bound and to its derivative by the pressure. */
-static PetscErrorCode AddChange(SamLaw law, const SamBoundAt *at, Vec temperature, const SamBound *bound)
-{
-  Heat *const           h        = (Heat *)law->data;
-  const SamHeatFriction friction = {h->change[FROM] - h->bulk[0], h->change[OVER], h->change[CHANGE]};
-  const double         *p, *t;
-  double               *value = NULL, *slope = NULL, ignored;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(at->pressure, &p));
-  PetscCall(VecGetArrayRead(temperature, &t));
-  if (bound->value) PetscCall(VecGetArray(bound->value, &value));
-  if (bound->by_pressure) PetscCall(VecGetArray(bound->by_pressure, &slope));
-  for (PetscInt k = 0; k < law->grid->cells; k++) {
-    const double change = p[k] > 0 ? SamHeatFrictionAt(&friction, t[k], &ignored) : 0;
-
-    if (value && value[k] + change * p[k] < 0) h->clipped = PETSC_TRUE;
-
-    if (value) value[k] = PetscMax(value[k] + change * p[k], 0);
-    if (slope) slope[k] = PetscMax(slope[k] + change, 0);
-  }
-  if (bound->by_pressure) PetscCall(VecRestoreArray(bound->by_pressure, &slope));
-  if (bound->value) PetscCall(VecRestoreArray(bound->value, &value));
-  PetscCall(VecRestoreArrayRead(temperature, &t));
-  PetscCall(VecRestoreArrayRead(at->pressure, &p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound *bound)
-{
-  Heat *const h  = (Heat *)law->data;
-  SamBoundAt  at = *given;
-  Vec         before, temperature, pressure;
-
-  PetscFunctionBegin;
-  if (!h->changes) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(law->grid, 1, &before));
-  PetscCall(SamGridCreateVec(law->grid, 1, &temperature));
-  PetscCall(SamGridCreateVec(law->grid, 1, &pressure));
-  PetscCall(VecCopy(at.pressure, pressure)); /* the bound may be written over it */
-  at.pressure = pressure;
-  PetscCall(bound->value ? VecCopy(bound->value, before) : VecPointwiseMult(before, bound->by_pressure, pressure));
-  PetscCall(FindTemperature(law, &at, before, temperature));
-  PetscCall(AddChange(law, &at, temperature, bound));
-  PetscCall(VecDestroy(&pressure));
-  PetscCall(VecDestroy(&temperature));
-  PetscCall(VecDestroy(&before));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Computes the frictional power per area, W/m2, which is 0 without contact. */
 static PetscErrorCode FillHeat(SamLaw law, const SamLawStep *step, Vec heat)
 {
-  const Heat     *h       = (const Heat *)law->data;
-  const PetscBool streams = SamMotionOf(law->elasticity)->streams;
-  const double    per     = streams ? (double)h->rolling : h->duration > 0 ? 1 / (double)h->duration : 0;
-  const double   *p, *work;
-  double         *q;
+  const SamHeatLaw *h       = (const SamHeatLaw *)law->data;
+  const PetscBool   streams = SamMotionOf(law->elasticity)->streams;
+  const double      per     = streams ? (double)h->rolling : h->duration > 0 ? 1 / (double)h->duration : 0;
+  const double     *p, *work;
+  double           *q;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(step->pressure, &p));
@@ -398,8 +308,8 @@ static PetscErrorCode FillHeat(SamLaw law, const SamLawStep *step, Vec heat)
 /* Finds out whether the step has frictional work, but no duration. */
 static PetscErrorCode FindTimeless(SamLaw law, const SamLawStep *step)
 {
-  Heat *const h = (Heat *)law->data;
-  PetscReal   most;
+  SamHeatLaw *const h = (SamHeatLaw *)law->data;
+  PetscReal         most;
 
   PetscFunctionBegin;
   h->timeless = PETSC_FALSE;
@@ -429,16 +339,36 @@ static PetscErrorCode FindMaximum(const SamLawStep *step, const Vec surface[2], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+/* Sets the factor on the coefficients of wear by the temperature of body 1, which in contact is that of both. */
+static PetscErrorCode SetWearFactor(SamLaw law, SamState state, Vec temperature)
 {
-  Heat *const h       = (Heat *)law->data;
-  double     *numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "temperature_max"), SAM_TRIED);
-  Vec         surface[2], heat, into_body[2];
-  PetscReal   power[3], into[3];
-  char        failed[192];
+  const SamHeatLaw     *h      = (const SamHeatLaw *)law->data;
+  const SamHeatFriction change = {h->wear[SAM_HEAT_FROM], h->wear[SAM_HEAT_OVER], h->wear[SAM_HEAT_CHANGE] - 1};
+  const double         *t;
+  double               *f, ignored;
+  Vec                   factor;
 
   PetscFunctionBegin;
-  PetscCall(Prepare(law));
+  if (!h->wears) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamStateSetField(state, SamStateFindField(state, SAM_WEAR_FACTOR), &factor));
+  PetscCall(VecGetArrayRead(temperature, &t));
+  PetscCall(VecGetArrayWrite(factor, &f));
+  for (PetscInt k = 0; k < law->grid->cells; k++) f[k] = 1 + SamHeatFrictionAt(&change, t[k], &ignored);
+  PetscCall(VecRestoreArrayWrite(factor, &f));
+  PetscCall(VecRestoreArrayRead(temperature, &t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  SamHeatLaw *const h = (SamHeatLaw *)law->data;
+  double   *numbers   = SamStateNumbers(step->state, SamStateFindNumber(step->state, "temperature_max"), SAM_TRIED);
+  Vec       surface[2], heat, into_body[2];
+  PetscReal power[3], into[3];
+  char      failed[192];
+
+  PetscFunctionBegin;
+  PetscCall(SamHeatLawPrepare(law));
   for (int b = 0; b < 2; b++)
     PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, surfaces[b]), &surface[b]));
   for (int b = 0; b < 2; b++)
@@ -448,6 +378,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(
     SamHeatTemperatures(&h->pair, step->pressure, heat, h->bulk, into_body[1], surface, failed, sizeof(failed)));
   PetscCall(VecWAXPY(into_body[0], -1, into_body[1], heat));
+  PetscCall(SetWearFactor(law, step->state, surface[0]));
   if (h->failed[0] || failed[0])
     (void)snprintf(step->failed, sizeof(step->failed), "%s", h->failed[0] ? h->failed : failed);
   PetscCall(SamBalanceGetLoads(step->grid, SAM_BALANCE_NORMAL, heat, power)); /* sums over the area, W */
@@ -481,8 +412,8 @@ static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
 
 static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t size)
 {
-  const Heat *h       = (const Heat *)law->data;
-  double      clipped = h->clipped ? 1 : 0;
+  const SamHeatLaw *h       = (const SamHeatLaw *)law->data;
+  double            clipped = h->clipped ? 1 : 0;
 
   PetscFunctionBegin;
   (void)state;
@@ -492,7 +423,7 @@ static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t siz
     (void)snprintf(text, size,
                    "-friction_temperature makes the coefficient of friction negative, where it is taken for 0: check "
                    "dmu, %g",
-                   (double)h->change[CHANGE]);
+                   (double)h->change[SAM_HEAT_CHANGE]);
   else if (h->timeless)
     (void)snprintf(text, size,
                    "the first step has no duration, so that its frictional work makes no heat: give the first row of "
@@ -503,14 +434,14 @@ static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t siz
 static PetscErrorCode Destroy(SamLaw law)
 {
   PetscFunctionBegin;
-  for (int b = 0; b < 2; b++) PetscCall(SamConductorDestroy(&((Heat *)law->data)->pair.body[b]));
+  for (int b = 0; b < 2; b++) PetscCall(SamConductorDestroy(&((SamHeatLaw *)law->data)->pair.body[b]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamLawCreate_Heat(SamLaw law)
 {
   const SamLawUse use = SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK;
-  Heat           *h;
+  SamHeatLaw     *h;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
@@ -521,7 +452,7 @@ PetscErrorCode SamLawCreate_Heat(SamLaw law)
   law->heading            = "Frictional heat";
   law->rows               = rows;
   law->row_count          = sizeof(rows) / sizeof(rows[0]);
-  law->bytes              = 96;
+  law->bytes              = 112;
   law->needs_friction     = PETSC_TRUE;
   law->any_motion         = PETSC_TRUE;
   law->forbids_jumps      = PETSC_TRUE;
@@ -529,7 +460,7 @@ PetscErrorCode SamLawCreate_Heat(SamLaw law)
   law->ops.addparameters  = AddParameters;
   law->ops.declare        = Declare;
   law->ops.begin          = Begin;
-  law->ops.bound          = Bound;
+  law->ops.bound          = SamHeatLawBound;
   law->ops.advance        = Advance;
   law->ops.view           = View;
   law->ops.advise         = Advise;

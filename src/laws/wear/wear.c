@@ -213,6 +213,13 @@ PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, Vec load2, PetscReal volu
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+Vec SamWearGetFactor(SamState state)
+{
+  const PetscInt id = SamStateFindField(state, SAM_WEAR_FACTOR);
+
+  return id < 0 ? NULL : SamStateGetField(state, id, SAM_TRIED);
+}
+
 /* ---- a step ---- */
 
 /*
@@ -241,6 +248,16 @@ static PetscErrorCode FirstPart(SamLaw law, SamLawStep *step, Vec path, Vec load
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Multiplies by the factor of the step, if there is one. */
+static PetscErrorCode ScaleByFactor(SamState state, Vec load)
+{
+  const Vec factor = SamWearGetFactor(state);
+
+  PetscFunctionBegin;
+  if (factor) PetscCall(VecPointwiseMult(load, load, factor));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Writes a step's wear load to body 1's points, and to the points of body 2 under it before and after the step. */
 static PetscErrorCode WearOwn(SamLaw law, SamLawStep *step, Vec path, Vec load)
 {
@@ -250,11 +267,13 @@ static PetscErrorCode WearOwn(SamLaw law, SamLawStep *step, Vec path, Vec load)
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(law->grid, 1, &part));
   PetscCall(SamGridCreateVec(law->grid, 1, &written));
+  if (law->of_body[1]) PetscCall(FirstPart(law, step, path, load, part));
+  PetscCall(ScaleByFactor(step->state, part));
+  PetscCall(ScaleByFactor(step->state, load));
   (void)SamFramesGetOffset(step->state, SAM_TRIED, 0, offset);
   PetscCall(SamFramesWrite(law->elasticity, offset, load, written));
   PetscCall(SamLawAddToSum(step->state, SAM_WEAR_LOAD, written));
   if (law->of_body[1]) {
-    PetscCall(FirstPart(law, step, path, load, part));
     (void)SamFramesGetOffset(step->state, SAM_COMMITTED, 1, offset);
     PetscCall(SamFramesWrite(law->elasticity, offset, part, written));
     PetscCall(SamLawAddToSum(step->state, SAM_WEAR_LOAD2, written));
@@ -286,8 +305,10 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
   PetscCall(VecAbs(load));
   if (!w->jumps && SamFramesGetSlide(step->state, SAM_TRIED, slide))
     PetscCall(WearOwn(law, step, path, load));
-  else
+  else {
+    PetscCall(ScaleByFactor(step->state, load));
     PetscCall(SamLawAddToSum(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
+  }
   if (w->jumps) PetscCall(SamLawAddToSum(step->state, SAM_WEAR_PATH, path));
   PetscCall(VecDestroy(&load));
   PetscFunctionReturn(PETSC_SUCCESS);

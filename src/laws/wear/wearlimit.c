@@ -7,6 +7,7 @@
   cell to cell.
 */
 #include "wearimpl.h"
+#include <petsam/private/wear.h>
 #include <petsam/private/pressed.h>
 
 /* Computes the Rayleigh quotient of a checkerboard, which is slightly more than the smallest eigenvalue. */
@@ -45,18 +46,22 @@ PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscReal *times)
 PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess)
 {
   const PetscBool by_energy = ((const SamWear *)law->data)->by_energy;
-  const double   *p, *slip, *wears, *slope = NULL;
+  const double   *p, *slip, *wears, *slope = NULL, *times_more = NULL;
   double          most = 0;
   PetscReal       times;
-  const Vec       path = step->field[SAM_USE_PATH], worn = step->field[by_energy ? SAM_USE_WORK : SAM_USE_PRESSED];
+  const Vec       path = step->field[SAM_USE_PATH], worn = step->field[by_energy ? SAM_USE_WORK : SAM_USE_PRESSED],
+            factor = SamWearGetFactor(step->state);
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(step->pressure, &p));
   PetscCall(VecGetArrayRead(path, &slip));
   PetscCall(VecGetArrayRead(worn, &wears));
   if (by_energy) PetscCall(VecGetArrayRead(step->field[SAM_USE_SLOPE], &slope));
+  if (factor) PetscCall(VecGetArrayRead(factor, &times_more));
   for (PetscInt k = 0; k < law->grid->cells; k++)
-    if (SamIsPressed(p[k]) && fabs(wears[k]) > 0) most = PetscMax(most, (slope ? slope[k] : 1) * slip[k]);
+    if (SamIsPressed(p[k]) && fabs(wears[k]) > 0)
+      most = PetscMax(most, (slope ? slope[k] : 1) * (times_more ? times_more[k] : 1) * slip[k]);
+  if (factor) PetscCall(VecRestoreArrayRead(factor, &times_more));
   if (by_energy) PetscCall(VecRestoreArrayRead(step->field[SAM_USE_SLOPE], &slope));
   PetscCall(VecRestoreArrayRead(worn, &wears));
   PetscCall(VecRestoreArrayRead(path, &slip));
