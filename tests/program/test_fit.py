@@ -185,7 +185,7 @@ def test_friction_that_changes_is_a_table(fit, tmp_path):
     truth = np.linspace(0.4, 0.7, 12)
     loops = series_of(np.random.default_rng(11), truth)
     write(tmp_path / "lab.csv", loops, "Displacement (um);Friction force (N)", "{:.2f};{:.3f}", drift=4.0, offset=12.0)
-    said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "-o", "test", "--no-picture")
+    said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--shape-band", "0", "-o", "test", "--no-picture")
     assert "friction changes with the cycles, " in said and "gross slip" in said and "rig stiffness 20" in said
     found = json.loads((tmp_path / "test.json").read_text())
     assert found["state"] == "changes" and found["identifiable"] and len(found["cycles"]) == 12
@@ -231,7 +231,7 @@ def test_other_units_signs_and_courses(tmp_path):
     body[250][1] = ""
     (tmp_path / "lost.csv").write_text("\n".join([lines[0], *map(",".join, body)]))
     cycles = {name: calibration.cycles(calibration.read(f"{name}.csv"), N) for name in ("plain", "turned", "lost")}
-    found = {name: calibration.analyse([one], [PUSH]) for name, one in cycles.items()}
+    found = {name: calibration.analyse([one], [PUSH], scale=1.0) for name, one in cycles.items()}
     assert not cycles["plain"].notes and len(cycles["plain"].loops) == 4 and plain.time is None
     assert "its sign is turned" in cycles["turned"].notes[0] and "clockwise" in cycles["turned"].notes[1]
     assert cycles["turned"].turned and not cycles["plain"].turned
@@ -269,7 +269,7 @@ def test_a_loss_of_the_rig_is_in_the_band(tmp_path):
         chance = np.random.default_rng(seed)
         write(tmp_path / "lab.csv", [twin(chance, part, stroke, 3e7, 0.003, loss=0.005) for _ in range(6)])
         files = [calibration.cycles(calibration.read("lab.csv"), N)]
-        found, without = calibration.analyse(files, [PUSH]), calibration.analyse(files, [PUSH], loss=0.0)
+        found, without = (calibration.analyse(files, [PUSH], scale=1.0, **loss) for loss in ({}, {"loss": 0.0}))
         assert found.identifiable and abs(found.friction - MU) < 2.5 * found.friction_sd, (part, stroke)
         wrong = without.state == "rejected" or abs(without.friction - MU) > 4 * without.friction_sd
         assert wrong, (part, stroke)
