@@ -94,8 +94,13 @@ def test_nodal_forces_have_the_frame_of_the_compliance(compliance, tmp_path, mon
     assert np.allclose(axes[2], SPACE[2], atol=1e-12) and np.linalg.det(axes) == pytest.approx(1.0)
     local = np.array([(-0.5, -0.5, 0.0), (0.5, -0.5, 0.0), (0.5, 0.5, 0.0), (-0.5, 0.5, 0.0)])
     force = np.array([(1.0, 2.0, 9.0), (0.5, 1.0, 12.0), (0.0, 0.0, 20.0), (3.0, -1.0, 14.0)])  # in the frame
-    rows = [",".join(map("{:.17g}".format, (k, *p, *f, 1))) for k, p, f in zip(range(4), local @ axes + origin, force @ axes)]
-    (tmp_path / "nodes.csv").write_text("\n".join(["label,x [mm],y [mm],z [mm],fx [N],fy [N],fz [N],increment", *rows]) + "\n")
+    rows = [
+        ",".join(map("{:.17g}".format, (k, *p, *f, 1)))
+        for k, p, f in zip(range(4), local @ axes + origin, force @ axes)
+    ]
+    (tmp_path / "nodes.csv").write_text(
+        "\n".join(["label,x [mm],y [mm],z [mm],fx [N],fy [N],fz [N],increment", *rows]) + "\n"
+    )
     read = loads.read("nodes.csv")
     parts = [tuple(map(float, part.split(","))) for part in given.removeprefix("--frame=").split(":")]
     found = loads.history(read, frame=parts)

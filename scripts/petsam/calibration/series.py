@@ -24,7 +24,10 @@ MOST = 6000  # points of cycles that are fitted as one loop
 TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
 LEANS = 5.0  # standard deviations of a lean in gross slip beyond which loops without one are not the model's
 BEYOND = {"loss": 2.0, "scale": 3.0}  # pull of what is known beforehand from which on the loops alone settle it
-UNSETTLED, ALIGNED = 0.7, 0.7  # deviation of the loss over that known beforehand, and its correlation with the friction,
+UNSETTLED, ALIGNED = (
+    0.7,
+    0.7,
+)  # deviation of the loss over that known beforehand, and its correlation with the friction,
 UNSTATED = 2.0  # beyond which the loops do not separate both; a loss that nobody stated is then so many times less sure
 FEWEST = 12  # points of a cycle
 
@@ -390,8 +393,8 @@ def _contradicted(name, value, deviation, given):
         )
     if given:
         return (
-            f"the shape or the given rig does not fit: with --rig the shape's compliance is not that of the loops within "
-            f"{100 * deviation:g} %: look at radii, moduli and normal load, and leave out --rig"
+            f"the shape or the given rig does not fit: the shape's compliance is not that of the loops within "
+            f"{100 * deviation:g} %; look at radii, moduli and normal load, and leave out --rig"
         )
     return (
         f"the shape does not fit: its compliance is not that of the loops within {100 * deviation:g} %, so that it is "
