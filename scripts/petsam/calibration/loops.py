@@ -28,6 +28,11 @@ from .push import Push
 SHARED = ("friction", "compliance", "lean", "loss", "scale")  # parameters that all loops of a fit have in common
 OWN = ("offset", "top", "bottom")  # those of each: force, largest and smallest displacement
 STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from one it may end where all sticks or slides
+NEARBY = (
+    0.94,
+    1.06,
+    1.15,
+)  # of the friction, from which it begins again where the best loops just slide, or just do not
 PASSES = 3  # of a fit, each with the weights of the one before
 LEAST, MOST = 1e-4, 30.0  # coefficients of friction
 LOSING = 0.2  # the most loss that is looked for: more would be a loop of its own
@@ -416,6 +421,9 @@ def _solved(problem):
     """The best parameters, the mean square of the loops' residuals over that of the noise, and the variance of one."""
     count = sum(len(loop.force) for loop in problem.loops)
     best = problem.solve()
+    if problem.free[:1] == ["friction"] and problem.turning(best.x):  # each side of the kink has a least of its own
+        nearby = [np.concatenate([[factor * best.x[0]], best.x[1:]]) for factor in NEARBY]
+        best = min(best, problem.solve(nearby), key=lambda one: one.cost)
     if count < 3 * len(best.x):
         raise Error(f"{count} points: a fit of {len(best.x)} parameters needs {3 * len(best.x)}")
     for again in (bool(problem.known), False):

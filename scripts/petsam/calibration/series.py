@@ -24,10 +24,8 @@ MOST = 6000  # points of cycles that are fitted as one loop
 TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
 LEANS = 5.0  # standard deviations of a lean in gross slip beyond which loops without one are not the model's
 BEYOND = {"loss": 2.0, "scale": 3.0}  # pull of what is known beforehand from which on the loops alone settle it
-UNSETTLED, ALIGNED = (
-    0.7,
-    0.7,
-)  # deviation of the loss over that known beforehand, and its correlation with the friction,
+UNSETTLED = 0.3  # deviation of the loss over that known beforehand,
+ALIGNED = 0.7  # and its correlation with the friction, beyond which the loops do not separate both:
 UNSTATED = 2.0  # beyond which the loops do not separate both; a loss that nobody stated is then so many times less sure
 FEWEST = 12  # points of a cycle
 
