@@ -26,7 +26,7 @@ LEANS = 5.0  # standard deviations of a lean in gross slip beyond which loops wi
 BEYOND = {"loss": 2.0, "scale": 3.0}  # pull of what is known beforehand from which on the loops alone settle it
 UNSETTLED = 0.3  # deviation of the loss over that known beforehand,
 ALIGNED = 0.7  # and its correlation with the friction, beyond which the loops do not separate both:
-UNSTATED = 2.0  # beyond which the loops do not separate both; a loss that nobody stated is then so many times less sure
+UNSTATED = 2.0  # a loss that nobody stated is then so many times less sure
 FEWEST = 12  # points of a cycle
 
 
