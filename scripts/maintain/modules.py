@@ -44,6 +44,8 @@ MODULES = (
     "compliance.calls",
     "compliance.settings",
     "compliance.result",
+    "heat.friction",
+    "heat.partition",
     "loads.reading",
     "loads.resultants",
     "loads.forces",

@@ -180,7 +180,7 @@ def test_json_has_the_words_of_options(ask):
             "-grid_n": "",
         },
         "petsam-stress": {
-            "-quantities": "stress mises principal shear_max strain none",
+            "-quantities": "stress mises principal shear_max strain temperature none",
             "-fatigue": "crossland dang_van findley swt fatemi_socie ruiz",
             "-body": "",
         },

@@ -20,8 +20,9 @@ from petsam.core.errors import Error, MissingFile
 from petsam.profiles import Position, Profile, Settings, contacts
 from petsam.profiles.gap import separation
 from petsam.profiles.locus import locus
-from petsam.profiles.patches import search
+from petsam.profiles.patches import Place, search
 from petsam.profiles.pose import Frame
+from petsam.profiles.positions import REACH, Case
 from petsam.profiles.section import visible
 
 pytestmark = pytest.mark.filterwarnings("ignore:patch at:petsam.contact.AdviceWarning")
@@ -875,3 +876,68 @@ def test_a_conformal_contact_is_a_warning():
 def test_cells_that_do_not_resolve_a_contact_are_a_warning(made):
     with pytest.warns(AdviceWarning, match="patch at y = .*: error by the cells: .*: try a smaller cell"):
         profiles.solve(*made, Position(speed=2.0), 10e3, settings=Settings(cell=2e-3))
+
+
+# ---------------------------------------------------------------- the part of the line that counts
+
+
+def narrow():
+    """A wheel whose ends are over the rail."""
+    track = profiles.Track(arc("rail", 0.08, 0.03), 2 * (0.75 - 0.03), 0.014)
+    return track, profiles.Wheelset(arc("wheel", 0.3, 0.0203), 0.46, 1.5, 0.0)
+
+
+@pytest.mark.parametrize("case", ["track", "roller", "narrow"])
+def test_the_part_near_the_contact_has_the_regions_of_the_whole_line(made, case):
+    rail, wheel = narrow() if case == "narrow" else made
+    rail = profiles.Roller(profiles.uic60(), 0.5) if case == "roller" else rail
+    rng = np.random.default_rng(5)
+    parts = 0
+    with profiles.Pair(rail, wheel) as pair:
+        for y, roll, yaw in rng.uniform(-1, 1, (24, 3)) * (8e-3, 3e-3, 0.03):
+            case = Case(pair, Position(y=y, roll=roll, yaw=yaw, speed=20.0))
+            whole = case._whole()
+            assert case.search.touch == pytest.approx(whole.touch, abs=1e-12)
+            parts += any(case.search.cut)
+            for depth in (1e-5, REACH):
+                found, expected = (one.regions(one.touch + depth) for one in (case.search, whole))
+                assert [one.y for one in found] == [pytest.approx(one.y, abs=1e-10) for one in expected]
+                assert [one.at_end for one in found] == [one.at_end for one in expected]
+    assert parts > 12
+
+
+def test_the_gap_of_two_arcs_along_a_leaning_normal_is_closed():
+    """By the distances of a line from both centres, (0.75, 0.08) and (0.77, -0.3) m."""
+    track = profiles.Track(arc("rail", 0.08, 0.03), 2 * (0.75 - 0.03), 0.014)
+    wheelset = profiles.Wheelset(arc("wheel", 0.3, 0.06, 0.02), 0.46, 1.5, 0.0)
+    place = Place(np.array([0.0, 0.757, 1e-3]), 0.12, np.zeros(2), np.zeros(2), 1.0, False)
+    s = np.linspace(-8e-3, 8e-3, 41)
+    found, _ = separation(track, wheelset, Frame(np.eye(3), np.array([0.0, 0.0, -0.46])), place, np.zeros(1), s)
+    ways = []
+    for centre, radius, sign in (((0.75, 0.08), 0.08, -1.0), ((0.77, -0.3), 0.3, 1.0)):
+        across, along = (place.axes[k, 1:] @ (np.array(centre) - place.origin[1:]) for k in (1, 2))
+        ways.append(along + sign * np.sqrt(radius**2 - (across - s) ** 2))
+    assert found[:, 0] == pytest.approx(ways[0] - ways[1], abs=1e-11)
+
+
+def test_a_deep_overlap_is_searched_along_the_whole_line(made):
+    with profiles.Pair(*made, settings=Settings(cell=1e-3)) as pair:
+        case = Case(pair, Position(y=2e-3, speed=20.0))
+        assert any(case.search.cut)
+        deep = case.at(case.search.touch + 4.0 * REACH)
+        assert not any(case.search.cut)
+        widest = max(len(one.grid_s) for one in deep.patches)
+    (region, *_) = case.search.regions(case.search.touch + 4.0 * REACH)
+    assert 1e-3 * widest >= region.y[-1] - region.y[0]
+
+
+def test_a_grid_that_is_there_is_taken_where_it_covers_the_box():
+    made = contacts.Contacts(SETTINGS)
+    cell = SETTINGS.cell
+    wide = made.of(np.array([38.0, 30.0]) * cell)
+    assert wide.n == (40, 32)
+    assert made.of(np.array([34.0, 30.0]) * cell) is wide
+    assert made.of(np.array([38.0, 33.0]) * cell).n == (40, 36)
+    assert made.of(np.array([20.0, 30.0]) * cell).n == (24, 32)
+    assert made.of(np.array([38.0, 30.0]) * cell, draft=True) is not wide
+    made.close()

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from petsam import plot, profiles
 from petsam.commands import wheel
 from petsam.core.errors import Error
-from petsam.profiles import Load, Position, Profile, Settings, State, Vehicle, wearing
+from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, wearing
 from petsam.profiles import axle as axle_module
 from petsam.profiles.conicity import equivalent_conicity
 from petsam.profiles.positions import Case
@@ -150,13 +150,42 @@ def test_between_two_regions_the_message_names_no_lift(axle, monkeypatch):
         axle.solve(Position(y=6.3e-3, speed=20.0), LOAD)
 
 
-def test_pressures_alone_are_those_of_the_solution(axle):
-    """With the shares of a full solution the pressures of all patches have its forces and moments."""
-    found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
-    shares = [(p.centre[1], p.fx / p.n, p.fs / p.n) for p in found.right.patches]
-    again = Case(axle.pairs[0], found.position).pressed(found.position.z, shares)
-    assert again.force == pytest.approx(found.right.force, rel=1e-6)
-    assert again.patches[0].centre == pytest.approx(found.right.patches[0].centre, abs=1e-9)
+@pytest.mark.parametrize("y, yaw", [(3e-3, 2e-3), (5.4e-3, -4e-3)])
+def test_drafts_are_near_the_solution_and_those_of_equal_cells_are_it(axle, monkeypatch, y, yaw):
+    found = axle.solve(Position(y=y, yaw=yaw, speed=20.0), LOAD)
+    draft = Case(axle.pairs[0], found.position).draft(found.position.z)
+    assert draft.force == pytest.approx(found.right.force, abs=0.03 * np.linalg.norm(found.right.force))
+    assert draft.patches[0].centre == pytest.approx(found.right.patches[0].centre, abs=1e-4)
+    monkeypatch.setattr(contacts, "COARSER", 1)
+    right = axle.pairs[0]
+    with Pair(right.rail, right.wheel, right.friction, settings=axle.settings) as pair:
+        draft = Case(pair, found.position).draft(found.position.z)
+    assert draft.force == pytest.approx(found.right.force, rel=1e-4)
+    assert draft.patches[0].centre == pytest.approx(found.right.patches[0].centre, abs=1e-7)
+
+
+def test_an_equilibrium_needs_few_full_solutions(vehicle):
+    """From its neighbour; without the correction of drafts it takes more than 3."""
+    y = np.linspace(1e-3, 4e-3, 9)
+    with vehicle.axle() as axle:
+        found = [axle.solve(Position(y=float(y[0]), speed=20.0), LOAD)]
+        for one in y[1:]:
+            found.append(axle.solve(Position(y=float(one), speed=20.0), LOAD, found[-1]))
+    assert np.mean([one.passes for one in found[1:]]) <= 3.0
+    for one in found:
+        assert max(abs(one.force_error), abs(one.moment_error)) < 1e-5
+        rate = -2.0 * one.position.speed / sum(one.radii)
+        assert one.position.pitch_rate == pytest.approx(rate, rel=1e-8)
+
+
+def test_the_start_does_not_change_the_equilibrium(axle):
+    """From a far neighbour, whose correction and slopes do not fit."""
+    far = axle.solve(Position(y=-4.8e-3, yaw=-8e-3, speed=20.0), Load(60e3))
+    at = Position(y=3.5e-3, yaw=2e-3, speed=20.0)
+    one, other = axle.solve(at, LOAD), axle.solve(at, LOAD, far)
+    assert other.position.z == pytest.approx(one.position.z, abs=2e-9)
+    assert other.position.roll == pytest.approx(one.position.roll, abs=2e-9)
+    assert other.lateral == pytest.approx(one.lateral, rel=2e-4)
 
 
 def test_work_of_friction_is_that_of_forces_and_creepages(axle):

@@ -7,6 +7,7 @@
 #include <petsam/control.h>
 #include <petsam/elasticity.h>
 #include <petsam/private/fourier.h>
+#include <petsam/private/heat.h>
 #include <petsam/private/state.h>
 
 /*
@@ -29,7 +30,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *fro
 PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
 
 /*
-  SamStepField - the fields of a step that an evaluation reads: tractions (Pa), and for Ruiz's parameters the slip (m).
+  SamStepField - the fields of a step that an evaluation reads: tractions (Pa), for Ruiz's parameters the slip (m), and
+  for the temperature the frictional heat into the body (W/m2).
 */
 typedef enum {
   SAM_STEP_PRESSURE,
@@ -37,6 +39,7 @@ typedef enum {
   SAM_STEP_SHEAR_Y,
   SAM_STEP_SLIP_X,
   SAM_STEP_SLIP_Y,
+  SAM_STEP_HEAT,
   SAM_STEP_FIELDS
 } SamStepField;
 /*
@@ -69,6 +72,8 @@ typedef struct {
   PetscBool                 before;
   PetscBool                 slides; /* true: the surfaces slide past each other, so that points of body 2 move */
   PetscBool                 slips;  /* true: steps follow each other, and have slips, not slip velocities */
+  const SamHeatBody        *heat; /* constants of the body whose temperature is wanted, borrowed; NULL: no heat known */
+  double                    bulk; /* its temperature far from the contact, K */
   PetscInt                  groups; /* number of groups of layers with stresses besides those by tractions */
   const SamStateLayers     *group[SAM_LAYER_GROUPS]; /* borrowed; z is NULL if their stresses are not available */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
@@ -97,7 +102,8 @@ typedef struct {
 } SamStressDataset;
 enum { SAM_TIME, SAM_Z, SAM_Y, SAM_X, SAM_STRESS_AXES };
 #define SAM_STRESS_DATASETS 64 /* most results */
-/* SamStressLayout - the shape of the results, after SamEvaluationSetUp(). The arrays are borrowed. */
+/* SamStressLayout - the shape of the results, after SamEvaluationSetUp(); the body from its creation on. The arrays are
+   borrowed. */
 typedef struct {
   PetscInt         body;
   PetscBool        section, cycle; /* true: below one line of cells; true: there are parameters of a cycle */

@@ -17,6 +17,8 @@ typedef enum {
   SAM_RESULTS_SHEAR_Y,
   SAM_RESULTS_SLIP_X,
   SAM_RESULTS_SLIP_Y,
+  SAM_RESULTS_HEAT_1,
+  SAM_RESULTS_HEAT_2,
   SAM_RESULTS_FIELDS
 } SamResultsField;
 
@@ -49,9 +51,13 @@ PETSC_EXTERN PetscErrorCode       SamResultsGetSteps(SamResults results, PetscIn
 PETSC_EXTERN PetscErrorCode       SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
 /*
   SamResultsRead - reads this rank's rows of a field of the k-th saved step. Collective. Errors: SAM_ERR_FILE, also for
-  a field that the file does not have (only the slip may be missing), and for values that are not finite.
+  a field that the file does not have (slip and heat may be missing), and for values that are not finite.
 */
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
+/*
+  SamResultsHas - returns true if the k-th saved step has a field. Not collective.
+*/
+PETSC_EXTERN PetscBool SamResultsHas(SamResults results, PetscInt k, SamResultsField field);
 /*
   SamResultsGetLayers - returns the g-th group of layers whose stresses are added to those by tractions, borrowed; its
   z is NULL if they have not been saved. NULL: there are no more. Not collective.

@@ -2,8 +2,8 @@
 
 Unknowns are the overlaps of both wheels, in their logarithms; height and roll follow from them, as the height at which
 a wheel touches falls with the roll by the lateral arm of its contact. Broyden's iteration begins with Hertz's slope:
-vertical force and roll moment of a wheel grow with its overlap^1.5. It solves for the pressure alone, with tangential
-forces as shares of the normal ones, which come from the last full solution; two or three of these are enough. Where a
+vertical force and roll moment of a wheel grow with its overlap^1.5. It solves drafts on coarser cells, corrected by how
+the last full solution differed from its draft; two or three full solutions are enough. Where a
 lateral force is given, the lateral displacement is found around it. Inertia is left out: give the forces that remain at
 the wheelset.
 """
@@ -26,9 +26,9 @@ from .profile import ProfileWarning
 from .result import COLUMNS, Result
 
 PASSES, TURNS = 60, 25  # of the equilibrium, and of the roll of rigid bodies
-ROUNDS, PRESSED = 8, 20  # full solutions with shares of tangential forces, and pressures between two of them
-FIRST, NEXT = 0.02, 0.02  # residual of the first pressures, and of others relative to that of the last full solution
-DIRECT = 5e-4  # residual of a full solution from which one step leads to the next
+ROUNDS, DRAFTS = 8, 20  # full solutions with drafts, and drafts between two of them
+FIRST, NEXT = 2e-3, 5e-3  # residual of the first drafts, and of others relative to that of the last full solution
+ALMOST_DONE = 4.0  # residual of drafts over the wanted one, at least: a step from it leads to the wanted one
 MORE, ALMOST = 100, 0.05  # full solutions beyond PASSES, while no more than this is left
 ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
 STEADY = 1e-8  # relative change of the pitch rate of a wheelset that rolls freely
@@ -100,10 +100,12 @@ class Equilibrium(tables.Tabled):
     radii : tuple of float
         Rolling radii of the right and the left wheel, m: distances of their normal forces from the axle.
     passes : int
-        Solutions of both wheels that it took, without those of the pressure alone.
+        Solutions of both wheels that it took, without drafts.
     slopes : ndarray
         Derivative of what is left, and of the sum of both radii over the nominal diameter, by the logarithms of the
         overlaps of both wheels, (3, 2), approximate: a neighbour's iteration begins with it.
+    correction : ndarray
+        By how much these three numbers differ from those of a draft, (3,): a neighbour's iteration begins with it, too.
     """
 
     position: Position
@@ -116,6 +118,7 @@ class Equilibrium(tables.Tabled):
     radii: tuple[float, float]
     passes: int
     slopes: Optional[np.ndarray] = None
+    correction: Optional[np.ndarray] = None
 
     @property
     def radius_difference(self) -> float:
@@ -283,7 +286,7 @@ class Axle:
 
     def _aside(self, position, load, start):
         """The equilibrium under a lateral force."""
-        solved: dict[float, Equilibrium] = {}
+        solved = {}  # by the displacement aside, m
 
         def excess(y):
             near = solved[min(solved, key=lambda other: abs(other - y))] if solved else start
@@ -313,13 +316,13 @@ class Axle:
 
     def _upright(self, position, load, start):
         """The equilibrium at a lateral displacement."""
-        search = _Search(self, position, load, start.slopes if start else None)
+        search = _Search(self, position, load, start)
         overlaps = _hertz(self, 0.5 * load.vertical)
         if start is not None:
             overlaps = tuple(max(found.overlap, 0.1 * overlaps[0]) for found in start.wheels)
         search.begin(overlaps)
         rtol = self.settings.rtol
-        state = search.by_shares(rtol, _shares(start.wheels) if start else ((), ())) or search.iterate(rtol, PASSES)
+        state = search.by_drafts(rtol) or search.iterate(rtol, PASSES)
         if max(abs(state.rest)) <= rtol:
             return search.equilibrium(state)
         raise _no_equilibrium(position, load, state)
@@ -346,23 +349,31 @@ class Rigid:
 
 @dataclass(frozen=True, eq=False)
 class _State:
-    """Both wheels at a height and a roll: overlaps, solutions, what each gives to the balance, and what is left."""
+    """Both wheels at a height and a roll: overlaps, solutions, what each gives to the balance, what is left with the
+    sum of both rolling radii over the nominal diameter, and the arms of the points that touch."""
 
     overlaps: np.ndarray
     found: list
     parts: np.ndarray
-    rest: np.ndarray
+    values: np.ndarray
     arms: tuple
+
+    @property
+    def rest(self):
+        """What is left of the balance."""
+        return self.values[:2]
 
 
 class _Search:
     """The iteration for an equilibrium at a lateral displacement."""
 
-    def __init__(self, axle, position, load, slopes=None):
+    def __init__(self, axle, position, load, start=None):
         self.axle, self.load, self.passes = axle, load, 0
         self.free = position.pitch_rate is None  # rolls by the mean of its radii
         self.position = position
-        self.slopes, self.before, self.limit = slopes, None, FASTEST
+        self.slopes = start.slopes if start else None
+        self.correction = np.zeros(3) if start is None or start.correction is None else start.correction
+        self.before, self.limit = None, FASTEST
 
     def begin(self, overlaps):
         """Height and roll of these overlaps."""
@@ -375,62 +386,61 @@ class _Search:
         if self.free:
             self.position = replace(self.position, pitch_rate=-2.0 * self.position.speed / diameter)
 
-    def _radii(self, state):
+    def _radii(self, found):
         """Rolling radii of both wheels."""
-        return [_radius(one, self.position, self.axle.wheel.radius) for one in state.found]
+        return [_radius(one, self.position, self.axle.wheel.radius) for one in found]
 
-    def done(self, state, rtol):
-        """Whether a state is in equilibrium, and the wheelset rolls freely if it is to."""
-        if max(abs(state.rest)) > rtol:
+    def done(self, values, rtol):
+        """Whether values are those of an equilibrium in which the wheelset rolls freely if it is to."""
+        if max(abs(values[:2])) > rtol:
             return False
-        rate = -2.0 * self.position.speed / sum(self._radii(state))
+        rate = -self.position.speed / (self.axle.wheel.radius * values[2])
         return not self.free or abs(rate - self.position.pitch_rate) <= STEADY * abs(rate)
 
     def iterate(self, rtol, passes):
         """The equilibrium by full solutions alone; else the last state."""
+        self.correction = np.zeros(3)
         for k in range(passes + MORE):
             state = self.state()
-            if self.done(state, rtol) or (k >= passes and max(abs(state.rest)) > ALMOST):
+            if self.done(state.values, rtol) or (k >= passes and max(abs(state.rest)) > ALMOST):
                 break
             self.improve(state)
         return state
 
-    def press(self, least, shares):
-        """Moves to the equilibrium of pressures with shares of tangential forces; False where there is none."""
-        for _ in range(PRESSED):
-            state = self.state(shares)
-            self.improve(state)
-            if max(abs(state.rest)) <= least:
-                return True
-        return False
+    def settle(self, least, draft=None):
+        """The draft near an equilibrium, with the correction; begins beside a draft; None where there is none."""
+        for _ in range(DRAFTS):
+            if draft is not None:
+                self.improve(draft)
+            draft = self.state(True)
+            if max(abs(draft.rest + self.correction[:2])) <= least:
+                return draft
+        return None
 
-    def by_shares(self, rtol, shares):
-        """The equilibrium from pressures and few full solutions; None where the shares do not lead to it."""
-        begun, least = self.position, FIRST
-        for _ in range(ROUNDS):
-            if least < 1.0 and not self.press(least, shares):
+    def by_drafts(self, rtol):
+        """The equilibrium from drafts and few full solutions; None where drafts do not lead to it."""
+        begun, draft, least = self.position, None, FIRST
+        for k in range(ROUNDS):
+            draft = self.settle(least, draft)
+            if draft is None:
                 break
+            if k:
+                self.improve(draft)  # is better by a factor of ten, and needs no further draft
             state = self.state()
-            if self.done(state, rtol):
+            if self.done(state.values, rtol):
                 return state
-            shares = _shares(state.found)
-            rest = max(abs(state.rest))
-            least = 1.0 if rest <= DIRECT else max(rtol, NEXT * rest)
-            self.before = None  # the residual of other shares
-            self.improve(state)
+            self.correction = state.values - (self.state(True) if k else draft).values
+            least = max(ALMOST_DONE * rtol, NEXT * max(abs(state.rest)))
         self.position, self.slopes, self.before, self.limit = begun, None, None, FASTEST
         return None
 
-    def state(self, shares=None):
-        """The solutions at the present height and roll; with shares of tangential forces the pressures alone."""
-        self.passes += shares is None
+    def state(self, draft=False):
+        """The solutions at the present height and roll."""
+        self.passes += not draft
         p = self.position
         self.cases = self.axle._cases(p)
         touch = np.array([case.search.touch for case in self.cases])
-        if shares is None:
-            one, other = (case.at(p.z) for case in self.cases)
-        else:
-            one, other = (case.pressed(p.z, share) for case, share in zip(self.cases, shares))
+        one, other = (case.draft(p.z) if draft else case.at(p.z) for case in self.cases)
         found = [one, other.mirrored()]
         parts = np.array([_part(result, p, self.axle.wheel.radius, self.load) for result in found])
         given = np.array([self.load.vertical, self.load.offset * self.load.vertical])
@@ -439,28 +449,28 @@ class _Search:
             given[1] = self.scale * self.load.right
         scale = self.load.vertical * np.array([1.0, self.scale])
         rest = (parts.sum(axis=0) - given) / scale
-        return _State(p.z - touch, found, parts / scale, rest, _arms(self.cases, p.y))
+        values = np.append(rest, 0.5 * sum(self._radii(found)) / self.axle.wheel.radius)
+        return _State(p.z - touch, found, parts / scale, values, _arms(self.cases, p.y))
 
     def improve(self, state):
         """Moves height and roll."""
         if min(state.overlaps) <= 0.0 or min(state.parts[:, 0]) <= 0.0:
             return self._press(state)
-        now, nominal = np.log(state.overlaps), 2.0 * self.axle.wheel.radius
-        values = np.append(state.rest, sum(self._radii(state)) / nominal)
+        now, values = np.log(state.overlaps), state.values
         own = np.vstack([1.5 * state.parts.T, np.zeros(2)])
         slopes = own if self.slopes is None else self.slopes
+        left = values + self.correction
         if self.before is not None:
-            step, change = now - self.before[0], values - self.before[1]
-            slopes = broyden.updated(slopes, step, change)
-            if np.linalg.norm(state.rest) > 2.0 * np.linalg.norm(self.before[1][:2]):
+            slopes = broyden.updated(slopes, now - self.before[0], values - self.before[1])
+            if np.linalg.norm(left[:2]) > 2.0 * np.linalg.norm(self.before[1][:2] + self.correction[:2]):
                 self.limit, slopes = max(0.5 * self.limit, 0.05), own
         if np.linalg.cond(slopes[:2]) > 1e6:
             slopes = own
-        step = np.linalg.solve(slopes[:2], -state.rest)
+        step = np.linalg.solve(slopes[:2], -left[:2])
         step *= min(1.0, self.limit / max(np.abs(step).max(), 1e-300))
         self.slopes, self.before = slopes, (now, values)
         self._move(state, np.exp(now + step) - state.overlaps)
-        self._roll_freely(nominal * (values[2] + slopes[2] @ step))
+        self._roll_freely(2.0 * self.axle.wheel.radius * (left[2] + slopes[2] @ step))
 
     def _press(self, state):
         """Presses wheels that lift onto their rails again."""
@@ -481,10 +491,19 @@ class _Search:
         for case, found in zip(self.cases, state.found):
             case.warn(found)
         lateral = float(sum(one.force[1] for one in state.found))
-        radii = tuple(self._radii(state))
+        radii = tuple(self._radii(state.found))
         force, moment = map(float, state.rest)
         return Equilibrium(
-            self.position, self.load, *state.found, lateral, force, moment, radii, self.passes, self.slopes
+            self.position,
+            self.load,
+            *state.found,
+            lateral,
+            force,
+            moment,
+            radii,
+            self.passes,
+            self.slopes,
+            self.correction,
         )
 
 
@@ -521,13 +540,6 @@ def _no_equilibrium(position, load, state):
         f"{where}{left:.4g} N (left) at last: a wheel lifts or climbs: check offset, lateral, height and y, and the "
         "flange"
     )
-
-
-def _shares(wheels):
-    """Tangential over normal forces of the patches of both wheels, as right ones have them, with their y."""
-    right, left = wheels
-    both = right, left.mirrored()
-    return tuple([(p.centre[1], p.fx / p.n, p.fs / p.n) for p in one.patches if p.n > 0.0] for one in both)
 
 
 def _point(case, sign):

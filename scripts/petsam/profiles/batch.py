@@ -17,7 +17,7 @@ from .placement import Track, Wheelset
 from .positions import Friction
 from .spectrum import State
 
-CHUNK = 10  # positions that one process solves one after the other, each from its neighbour
+CHUNK = 20  # positions that one process solves one after the other, each from its neighbour
 
 
 @dataclass(frozen=True, eq=False)

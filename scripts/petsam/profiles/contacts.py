@@ -14,6 +14,9 @@ from ..core.errors import Error
 MULTIPLE = 4  # numbers of cells are multiples of it, so that few grids occur
 MOST = 1024  # cells along x or s
 KEPT = 64  # contacts
+SPARE = 8  # cells by which a grid that is there may be wider than a new one
+COARSER = 3  # cells of a draft
+DRAFTED = dict(tangential_rtol=1e-5, normal_rtol=1e-7)  # of a draft
 
 
 @dataclass(frozen=True)
@@ -106,15 +109,29 @@ class Contacts:
         self.settings = settings
         self._kept: OrderedDict[tuple, Contact] = OrderedDict()
 
-    def of(self, widths: np.ndarray, rolling: bool = True) -> Contact:
-        """The contact whose grid covers a box.
+    def cell(self, draft: bool) -> float:
+        """Width of a cell, m.
+
+        Parameters
+        ----------
+        draft : bool
+            True: that of a draft.
+
+        Returns
+        -------
+        float
+        """
+        return self.settings.cell * (COARSER if draft else 1)
+
+    def of(self, widths: np.ndarray, draft: bool = False) -> Contact:
+        """The contact whose grid covers a box: the last one of these that is little wider, or a new one.
 
         Parameters
         ----------
         widths : ndarray
             Along x and s, (2,), m.
-        rolling : bool
-            False: without friction, for the pressure alone.
+        draft : bool
+            True: of coarser cells, and solved less accurately.
 
         Returns
         -------
@@ -126,27 +143,35 @@ class Contacts:
         Error
             If the grid would be too large.
         """
-        cell = self.settings.cell
+        cell = self.cell(draft)
         nx, ns = (int(np.ceil((width / cell + 1.0) / MULTIPLE)) * MULTIPLE for width in widths)
         n = nx, ns
         if max(n) > MOST:
             x, s = widths
             raise Error(f"cell {cell:g}: the overlap of {x:g} x {s:g} m needs {n[0]} x {n[1]} cells: give wider ones")
-        key = n, rolling
+        key = self._fitting(n, draft) or (n, draft)
         if key not in self._kept:
             if len(self._kept) >= KEPT:
                 self._kept.popitem(last=False)[1].close()
-            self._kept[key] = self._made(n, rolling)
+            self._kept[key] = self._made(n, draft)
         self._kept.move_to_end(key)
         return self._kept[key]
 
-    def _made(self, n, rolling):
+    def _fitting(self, n, draft):
+        """The key of the last contact that is as wide or little wider; None: there is none."""
+        for key in reversed(self._kept):
+            (nx, ns), is_draft = key
+            if is_draft == draft and 0 <= nx - n[0] <= SPARE and 0 <= ns - n[1] <= SPARE:
+                return key
+        return None
+
+    def _made(self, n, draft):
         """A new contact of so many cells."""
         rail, wheel = self.settings.rail, self.settings.wheel
-        motion = dict(rolling="steady", friction=1.0) if rolling else dict(friction=0.0)
         return Contact(
-            grid_n=n, grid_size=tuple(k * self.settings.cell for k in n), gap_type="flat", **motion,
+            grid_n=n, grid_size=tuple(k * self.cell(draft) for k in n), gap_type="flat", rolling="steady", friction=1.0,
             body1_young=rail.young, body1_poisson=rail.poisson, body2_young=wheel.young, body2_poisson=wheel.poisson,
+            **(DRAFTED if draft else {}),
         )  # fmt: skip
 
     def close(self) -> None:
@@ -178,31 +203,6 @@ class Solution:
     moment: float
     numbers: dict[str, float]
     advice: list[str]
-
-
-def pressed(contact: Contact, gap: np.ndarray, approach: float) -> float:
-    """Solves for the pressure alone, under an approach, and keeps it as the next one's start.
-
-    Parameters
-    ----------
-    contact : Contact
-        Without friction, with a grid centred at 0.
-    gap : ndarray
-        Separation of the undeformed bodies, 0 where it is least, (ns, nx), m.
-    approach : float
-        m.
-
-    Returns
-    -------
-    float
-        Normal force, N.
-    """
-    contact.gap = gap
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        step = contact.try_step(disp_z=approach, rot_x=0.0, rot_y=0.0)
-        contact.commit()
-    return float(step.load_n)
 
 
 def solved(

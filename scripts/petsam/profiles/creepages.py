@@ -61,14 +61,19 @@ def creepages(
     point = place.origin + approach * place.axes[2]
     arm = point - frame.centre
     rates = frame.rotation @ np.array([position.roll_rate, pitch, position.yaw_rate])
-    wheel = np.array([position.speed, position.vy, position.vz]) + np.cross(rates, arm)
+    wheel = np.array([position.speed, position.vy, position.vz]) + _cross(rates, arm)
     ground, ground_rates = rail.velocity(point, position)
     if np.isfinite(rail.roller_radius):
         speed = 0.5 * abs(ground[0] + wheel[0])
     else:
-        rolled = np.cross(frame.rotation @ np.array([0.0, pitch, 0.0]), arm)[0]
+        rolled = _cross(frame.rotation @ np.array([0.0, pitch, 0.0]), arm)[0]
         speed = 0.5 * (abs(wheel[0] - ground[0] - rolled) + abs(rolled))
     if not speed > 0.0:
         raise Error("speed 0 and pitch_rate 0: creepages are relative to the rolling speed: give speed above 0")
     x, s, _ = place.axes @ (ground - wheel) / speed
     return Creepages(float(x), float(s), float((ground_rates - rates) @ place.axes[2] / speed), float(speed))
+
+
+def _cross(a, b):
+    """The cross product of two vectors; numpy's takes its time for any shape."""
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])

@@ -12,7 +12,9 @@ from .patches import Place
 from .placement import Roller, Track, Wheelset
 from .pose import Frame
 
-PASSES, ROUNDING = 12, 1e-13  # of Newton's iteration; m
+PASSES = 12  # of Newton's iteration
+LAST = 1e-9  # m: after a step up to it the next one is rounding, at curvatures up to 1e5/m
+FLAT = 0.05  # of the derivative along the normal, at least
 FAR = 1e-3  # m: the gap beyond the ends of the profiles, above that of all other cells
 
 
@@ -41,7 +43,7 @@ def separation(
     """
     axes = place.axes
     along, across = np.meshgrid(x, s)
-    points = np.stack([place.origin[k] + along * axes[0, k] + across * axes[1, k] for k in range(3)])
+    points = place.origin[:, None, None] + axes[0][:, None, None] * along + axes[1][:, None, None] * across
     inner = frame.inward(points)
     normal = frame.rotation.T @ axes[2]
     # a rail is the same at all x: one column of cells has its ways
@@ -64,8 +66,10 @@ def _way(body, points, normal):
     direction = normal.reshape(3, 1, 1)
     for _ in range(PASSES):
         level, derivative = body.level(points + way * direction, normal)
-        step = level / np.where(np.abs(derivative) < 0.05, np.copysign(0.05, derivative), derivative)
+        if np.abs(derivative).min() < FLAT:
+            derivative = np.where(np.abs(derivative) < FLAT, np.copysign(FLAT, derivative), derivative)
+        step = level / derivative
         way -= step
-        if np.abs(step).max() < ROUNDING:
+        if np.abs(step).max() < LAST:
             break
     return way

@@ -10,7 +10,7 @@ References: G. Wang (1984); Z. Li, thesis, Delft, 2002.
 """
 
 from dataclasses import dataclass
-from typing import Union
+from typing import Optional, Union
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -18,6 +18,8 @@ from scipy.interpolate import CubicSpline
 from .placement import Roller, Track, Wheelset
 
 STEEPEST = 0.5  # of the argument of asin: steep parts under large yaw are cut
+COARSE, BESIDE = 16, 3  # of the search for the part of the line: points from one to the next, and of these beside it
+BETWEEN = 5e-5  # m: the gap between two of these points may be less by this
 PASSES = 12  # of the relaxed iteration on rollers: 6 reach rounding
 
 
@@ -85,26 +87,64 @@ def locus(rail: Union[Track, Roller], wheel: Wheelset, rotation: np.ndarray, asi
     -------
     Locus
     """
-    y, height, slope = wheel.line
+    return Locus(_growing(_points(rail, wheel, rotation, aside, wheel.line)))
+
+
+def near(
+    rail: Union[Track, Roller], wheel: Wheelset, rotation: np.ndarray, aside: float, reach: float
+) -> Optional[tuple[Locus, tuple[float, float]]]:
+    """The part of the line on which the gap may be within a reach of its least value.
+
+    Parameters
+    ----------
+    rail, wheel, rotation, aside
+        See locus().
+    reach : float
+        m.
+
+    Returns
+    -------
+    Locus and (float, float), or None
+        The part, and the ends of the whole line, m; None where the whole line is needed.
+    """
+    whole = wheel.line
+    picked = np.append(np.arange(0, whole[0].size - 1, COARSE), whole[0].size - 1)
+    x, y, z = _points(rail, wheel, rotation, aside, tuple(values[picked] for values in whole))
+    seen = (y > rail.section.first) & (y < rail.section.last)
+    if not seen.any() or np.diff(y).min() <= 0.0:
+        return None
+    gap = np.where(seen, rail.surface(x, y) - z, np.inf)
+    close = np.flatnonzero(gap < gap.min() + reach + BETWEEN)
+    first, last = picked[max(close[0] - BESIDE, 0)], picked[min(close[-1] + BESIDE, picked.size - 1)]
+    part = tuple(values[first : last + 1] for values in whole)
+    return Locus(_growing(_points(rail, wheel, rotation, aside, part))), (float(y[0]), float(y[-1]))
+
+
+def _points(rail, wheel, rotation, aside, line):
+    """x, y, z in the track of points of a line of the wheel: y, height and slope."""
+    y, height, slope = line
     radius = wheel.radius + height
-    row = rotation[0][:, None] * np.ones_like(y)
 
     def points(angle):
         wheelset = np.stack([radius * np.sin(angle), y, radius * np.cos(angle)])
         return rotation @ wheelset + np.array([0.0, aside, -wheel.radius])[:, None]
 
-    line = points(_angles(row, slope))
+    found = points(_angles(rotation[0], slope))
     if np.isfinite(rail.roller_radius):
-        x = line[0]
+        x = found[0]
         for _ in range(PASSES):
-            rho = rail.roller_radius - rail.section.height(line[1])
-            line = points(_angles(row + x / np.sqrt(rho * rho - x * x) * rotation[2][:, None], slope))
-            x = (line[0] + radius / rho * x) / (1.0 + radius / rho)
-    return Locus(_growing(line))
+            rho = rail.roller_radius - rail.section.height(found[1])
+            row = rotation[0][:, None] + x / np.sqrt(rho * rho - x * x) * rotation[2][:, None]
+            found = points(_angles(row, slope))
+            x = (found[0] + radius / rho * x) / (1.0 + radius / rho)
+    return found
 
 
 def _growing(line):
     """The spline (x, z) over y of the points whose y grows."""
-    greatest = np.maximum.accumulate(line[1])
-    keep = np.concatenate([[True], line[1][1:] > greatest[:-1]])
-    return CubicSpline(line[1][keep], line[[0, 2]][:, keep].T)
+    x, y, z = line
+    if np.diff(y).min() <= 0.0:
+        greatest = np.maximum.accumulate(y)
+        keep = np.concatenate([[True], y[1:] > greatest[:-1]])
+        x, y, z = x[keep], y[keep], z[keep]
+    return CubicSpline(y, np.stack([x, z], axis=1))

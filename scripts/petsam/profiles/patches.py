@@ -138,6 +138,8 @@ class Search:
         Of the locus' x and of points on the rail above it, (n,), m.
     gap : ndarray
         (n,), m.
+    cut : tuple of bool
+        True at the end of the points that is none of a visible profile, first and last.
     """
 
     rail: Union[Track, Roller]
@@ -146,6 +148,7 @@ class Search:
     y: np.ndarray
     z: np.ndarray
     gap: np.ndarray
+    cut: tuple[bool, bool] = (False, False)
 
     @property
     def touch(self) -> float:
@@ -232,7 +235,9 @@ def _zero(one, other):
     return one + part * (other - one)
 
 
-def search(rail: Union[Track, Roller], radius: float, line: Locus) -> Optional[Search]:
+def search(
+    rail: Union[Track, Roller], radius: float, line: Locus, ends: Optional[tuple[float, float]] = None
+) -> Optional[Search]:
     """The gap along the locus where rail and wheel are both visible.
 
     Parameters
@@ -242,19 +247,25 @@ def search(rail: Union[Track, Roller], radius: float, line: Locus) -> Optional[S
     radius : float
         Nominal radius of the wheel, m.
     line : Locus
-        The locus.
+        The locus, or its part that counts.
+    ends : tuple of float, optional
+        Ends of the whole locus, m, where a part is given: its points are then some of those of the whole.
 
     Returns
     -------
     Search or None
         None where the wheel is beside the rail.
     """
-    first, last = max(rail.section.first, line.first), min(rail.section.last, line.last)
+    first, last = ends or (line.first, line.last)
+    first, last = max(rail.section.first, first), min(rail.section.last, last)
     if last - first < 4.0 * STEP:
         return None
     y = np.linspace(first, last, int(np.ceil((last - first) / STEP)) + 1)
+    if ends is not None:
+        y = y[(y >= line.first) & (y <= line.last)]
     x, z = line.at(y)
-    return Search(rail, radius, x, y, rail.section.height(y), rail.surface(x, y) - z)
+    cut = bool(y[0] > first), bool(y[-1] < last)
+    return Search(rail, radius, x, y, rail.section.height(y), rail.surface(x, y) - z, cut)
 
 
 def merged(regions: Sequence[Region], separation: float) -> list[Region]:

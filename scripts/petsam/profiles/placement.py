@@ -159,7 +159,8 @@ class Track:
             m, and 1.
         """
         _, y, z = points
-        return z - self.section.height(y), direction[2] - self.section.slope(y) * direction[1]
+        height, slope = self.section.height_and_slope(y)
+        return z - height, direction[2] - slope * direction[1]
 
     def velocity(self, point: np.ndarray, motion: Position) -> tuple[np.ndarray, np.ndarray]:
         """Velocity of the rail at a point in the frame that runs with the wheelset, and its rate of rotation.
@@ -264,8 +265,8 @@ class Roller:
         x, y, z = points[0], points[1], points[2] - self.radius
         distance = np.hypot(x, z)
         toward = (x * direction[0] + z * direction[2]) / distance
-        rho = self.radius - self.section.height(y)
-        return rho - distance, -self.section.slope(y) * direction[1] - toward
+        height, slope = self.section.height_and_slope(y)
+        return self.radius - height - distance, -slope * direction[1] - toward
 
     def velocity(self, point: np.ndarray, motion: Position) -> tuple[np.ndarray, np.ndarray]:
         """Velocity of the roller at a point, and its rate of rotation.
@@ -373,6 +374,7 @@ class Wheelset:
             m, and 1.
         """
         x, y, z = points
-        distance = np.hypot(x, z)
+        distance = np.sqrt(x * x + z * z)
         toward = (x * direction[0] + z * direction[2]) / distance
-        return distance - self.radius - self.section.height(y), toward - self.section.slope(y) * direction[1]
+        height, slope = self.section.height_and_slope(y)
+        return distance - self.radius - height, toward - slope * direction[1]

@@ -7,7 +7,7 @@ factor of 2, and by bisection where it leaves the bracket. Frames, boxes and cre
 import math
 import re
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Optional, Union
 
@@ -17,15 +17,16 @@ from ..contact import AdviceWarning, Contact
 from ..core.errors import Error
 from . import contacts, gap
 from .creepages import creepages
-from .locus import locus
+from .locus import locus, near
 from .patches import Place, Search, places, search
 from .placement import Roller, Track, Wheelset
 from .pose import Frame, Position
 from .profile import ProfileWarning
-from .result import ConformalWarning, Patch, Pressed, Result
+from .result import ConformalWarning, Drafted, Patch, Result
 
 CONFORMAL = 0.24  # rad: 3 % in the distance
 DEEPEST = 1e-3  # m: no elastic wheel overlaps a rail by more
+REACH = 1.5e-4  # m: overlaps up to it are searched where the gap is little above its least value
 PASSES = 60
 SIDES = ("right", "left")
 Friction = Union[float, Callable[[float], float]]
@@ -203,7 +204,7 @@ class Case:
         self.pair, self.position, self.passes = pair, position, 0
         self.rotation = position.rotation
         self.pitch = position.pitch(pair.wheel.radius)
-        found = search(pair.rail, pair.wheel.radius, locus(pair.rail, pair.wheel, self.rotation, position.y))
+        found = self._near() or self._whole()
         if found is None:
             raise Error(
                 f"y {position.y:g}: the wheel is beside the rail: check gauge, flange_back, flange_position and their "
@@ -212,6 +213,17 @@ class Case:
         self.search: Search = found
         self.advice: dict[str, str] = {}  # the last text of each kind
         self._warned: list[tuple[type, str]] = []
+
+    def _near(self):
+        """The search where the gap is little above its least value; None where that does not suffice."""
+        pair = self.pair
+        part = near(pair.rail, pair.wheel, self.rotation, self.position.y, REACH)
+        return part and search(pair.rail, pair.wheel.radius, *part)
+
+    def _whole(self):
+        """The search along the whole locus."""
+        pair = self.pair
+        return search(pair.rail, pair.wheel.radius, locus(pair.rail, pair.wheel, self.rotation, self.position.y))
 
     def at(self, z: float) -> Result:
         """The solution at a height.
@@ -235,20 +247,18 @@ class Case:
         self._warned = []
         return self._result(z, self._patch)
 
-    def pressed(self, z: float, shares: Sequence[tuple[float, float, float]]) -> Result:
-        """The pressure at a height, with given shares of tangential forces: a fraction of the work of at().
+    def draft(self, z: float) -> Result:
+        """A draft of the solution at a height, on coarser cells: a fraction of the work of at().
 
         Parameters
         ----------
         z : float
             Of the wheelset, m.
-        shares : sequence of tuple
-            y of patches (m) and their fx and fs over n: each patch takes those of the nearest one; none: 0.
 
         Returns
         -------
         Result
-            That of a right wheel; its patches are Pressed.
+            That of a right wheel; its patches are Drafted.
 
         Raises
         ------
@@ -257,14 +267,14 @@ class Case:
         """
 
         def patch(frame, place):
-            laid = self._laid(frame, place, False)
+            laid = self._laid(frame, place, True)
             if laid is None:
                 return None
-            n = contacts.pressed(laid.contact, laid.apart + laid.approach, laid.approach)
+            found = self._solved(frame, place, laid)[0]
             pressure = laid.contact["pressure"]
             x, s = (pressure.sum(axis=0) @ laid.x, pressure.sum(axis=1) @ laid.s) / pressure.sum()
-            _, fx, fs = min(shares, key=lambda one: abs(one[0] - place.origin[1]), default=(0.0, 0.0, 0.0))
-            return Pressed(place.origin + x * place.axes[0] + s * place.axes[1], place.angle, n, fx * n, fs * n)
+            fx, fs = map(float, -found.shear)
+            return Drafted(place.origin + x * place.axes[0] + s * place.axes[1], place.angle, found.n, fx, fs)
 
         return self._result(z, patch)
 
@@ -275,17 +285,19 @@ class Case:
                 f"z {z:g}: the bodies overlap by {z - self.search.touch:.3g} m: z is 0 at the nominal height and "
                 f"positive down; they touch at {self.search.touch:.6g}"
             )
+        if z - self.search.touch > REACH and any(self.search.cut):
+            self.search = self._whole()
         frame = Frame(self.rotation, np.array([0.0, self.position.y, z - self.pair.wheel.radius]))
         settings = self.pair.settings
         found = places(self.search, self.search.regions(z), settings.separation, settings.combination)
         patches = [patch(frame, place) for place in found]
         return Result(tuple(one for one in patches if one is not None), float(z), self.search.touch, self.passes)
 
-    def _laid(self, frame: Frame, place: Place, rolling: bool) -> Optional["_Laid"]:
+    def _laid(self, frame: Frame, place: Place, draft: bool) -> Optional["_Laid"]:
         """The undeformed bodies on the grid of a patch; None where no cell touches."""
         pair = self.pair
-        contact = pair._contacts.of(place.high - place.low, rolling)
-        cell = pair.settings.cell  # the origin is a cell's centre: results change little from grid to grid
+        contact = pair._contacts.of(place.high - place.low, draft)
+        cell = pair._contacts.cell(draft)  # the origin is a cell's centre: results change little from grid to grid
         middle = (np.round(0.5 * (place.low + place.high) / cell - 0.5) + 0.5) * cell
         x, s = middle[0] + contact.x, middle[1] + contact.y
         apart, y = gap.separation(pair.rail, pair.wheel, frame, place, x, s)
@@ -294,13 +306,11 @@ class Case:
 
     def _patch(self, frame: Frame, place: Place) -> Optional[Patch]:
         """The solution on a patch; None where no cell touches."""
-        pair, laid = self.pair, self._laid(frame, place, True)
+        pair, laid = self.pair, self._laid(frame, place, False)
         if laid is None:
             return None
         contact, x, y, approach, cell = laid.contact, laid.x, laid.y, laid.approach, pair.settings.cell
-        creeps = creepages(pair.rail, frame, self.pitch, self.position, place, approach)
-        friction = _coefficient(pair.friction, place.angle)
-        found = contacts.solved(contact, laid.apart + approach, approach, creeps[:3], friction, laid.middle)
+        found, creeps, friction = self._solved(frame, place, laid)
         for text in found.advice:
             text, use, _ = text.partition(": use ")
             kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", text)
@@ -319,6 +329,14 @@ class Case:
             slip=np.hypot(contact["slip_velocity_x"], contact["slip_velocity_y"]),
             wheel_y=self._along_wheel(frame, np.asarray(x), y),
         )  # fmt: skip
+
+    def _solved(self, frame, place, laid):
+        """The solution of a contact, its creepages and its friction."""
+        creeps = creepages(self.pair.rail, frame, self.pitch, self.position, place, laid.approach)
+        friction = _coefficient(self.pair.friction, place.angle)
+        gap_of_cells = laid.apart + laid.approach
+        found = contacts.solved(laid.contact, gap_of_cells, laid.approach, creeps[:3], friction, laid.middle)
+        return found, creeps, friction
 
     def _along_wheel(self, frame, x, y):
         """y of the wheel's profile at the middle of each row of cells."""

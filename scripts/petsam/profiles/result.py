@@ -36,8 +36,8 @@ class ConformalWarning(UserWarning):
 
 
 @dataclass(frozen=True, eq=False)
-class Pressed:
-    """A contact patch by its pressure alone: its tangential forces are given shares of the normal force.
+class Drafted:
+    """The forces of a contact patch, by a draft of its solution.
 
     Attributes
     ----------
@@ -60,14 +60,14 @@ class Pressed:
         """Force on the rail in the track, (3,), N."""
         return _in_track(self)
 
-    def mirrored(self) -> "Pressed":
+    def mirrored(self) -> "Drafted":
         """The patch as seen in a mirror in the plane y = 0.
 
         Returns
         -------
-        Pressed
+        Drafted
         """
-        return Pressed(self.centre * np.array([1.0, -1.0, 1.0]), -self.angle, self.n, self.fx, -self.fs)
+        return Drafted(self.centre * np.array([1.0, -1.0, 1.0]), -self.angle, self.n, self.fx, -self.fs)
 
 
 def _in_track(patch):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PPoly
 
 from ..core.errors import Error
 from .profile import Profile
@@ -43,6 +43,12 @@ class Section:
     @cached_property
     def _derivative(self):
         return self._spline.derivative()
+
+    @cached_property
+    def _both(self):
+        """Height and slope by one search for the interval."""
+        rising = np.concatenate([np.zeros((1, self._derivative.c.shape[1])), self._derivative.c])
+        return PPoly(np.stack([self._spline.c, rising], axis=2), self._spline.x)
 
     @property
     def first(self) -> float:
@@ -81,6 +87,22 @@ class Section:
         ndarray
         """
         return self._derivative(np.clip(y, self.first, self.last))
+
+    def height_and_slope(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """z and dz/dy at y, in less time than one after the other.
+
+        Parameters
+        ----------
+        y : ndarray
+            m.
+
+        Returns
+        -------
+        height, slope : ndarray
+            As height() and slope().
+        """
+        found = self._both(np.minimum(np.maximum(y, self.y[0]), self.y[-1]))
+        return found[..., 0], found[..., 1]
 
     def moved(self, dy: float, dz: float) -> "Section":
         """The section moved along y and z.

@@ -14,11 +14,13 @@
 enum { AXES = SAM_STRESS_AXES };
 
 /* A step whose stresses can be evaluated */
+enum { STORED = SAM_STEP_HEAT }; /* fields of a step that are stored: those before the heat */
+
 typedef struct {
   SamControl control;
   double     area;                     /* of contact, m2 */
   PetscReal  slide[4];                 /* m: slide, and rolled distance */
-  double    *fields;                   /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
+  double    *fields;                   /* (STORED, cells); NULL: there is no step */
   double    *layers[SAM_LAYER_GROUPS]; /* (SAM_STRESS_COMPONENTS, layers, cells): stresses in layers; NULL: none */
 } Step;
 
@@ -79,8 +81,8 @@ static PetscErrorCode TakeLayers(petsam_contact *c, Step *step)
 /* Takes the tried step, else the committed one. */
 static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 {
-  static const char *const names[SAM_STEP_FIELDS] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
-  static const char *const slides[4]              = {"slide_x", "slide_y", "rolled_x", "rolled_y"};
+  static const char *const names[STORED] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
+  static const char *const slides[4]     = {"slide_x", "slide_y", "rolled_x", "rolled_y"};
 
   const ptrdiff_t    n = c->setup->grid->cells;
   const SamSolution *s;
@@ -91,8 +93,8 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
   PetscCall(SamContactGetNumber(c->setup->contact, "contact_area", &step->area));
   for (int k = 0; k < 4 && SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE); k++)
     PetscCall(SamContactGetNumber(c->setup->contact, slides[k], &step->slide[k]));
-  PetscCall(SamAllocate(sizeof(double) * SAM_STEP_FIELDS * (size_t)n, &step->fields));
-  for (int f = 0; f < SAM_STEP_FIELDS; f++) {
+  PetscCall(SamAllocate(sizeof(double) * STORED * (size_t)n, &step->fields));
+  for (int f = 0; f < STORED; f++) {
     PetscBool has;
 
     PetscCall(SamContactHasField(c->setup->contact, names[f], &has));

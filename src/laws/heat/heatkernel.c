@@ -21,7 +21,7 @@
 
   Sources: Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203; Carslaw and Jaeger 1959, Conduction of Heat in Solids, ch. X.
 */
-#include "heat.h"
+#include <petsam/private/heat.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/halfspace.h>
 #include <petscdt.h>

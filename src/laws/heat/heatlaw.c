@@ -186,7 +186,7 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
 
 /* ---- memory and results ---- */
 
-static const char *const surfaces[2] = {"temperature_1", "temperature_2"};
+static const char *const surfaces[2] = {"temperature_1", "temperature_2"}, *const fluxes[2] = {"heat_1", "heat_2"};
 
 enum { MAXIMUM, POWER, SHARE, NUMBERS };
 
@@ -199,6 +199,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   }
   static const SamStateField  fields[] = {FIELD("temperature_1", "K", "temperature of body 1's surface", PETSC_TRUE),
                                           FIELD("temperature_2", "K", "temperature of body 2's surface", PETSC_FALSE),
+                                          FIELD("heat_1", "W/m2", "frictional heat into body 1", PETSC_FALSE),
                                           FIELD("heat_2", "W/m2", "frictional heat into body 2", PETSC_FALSE)};
   static const SamStateNumber numbers[NUMBERS] = {
     {"temperature_max", "K", "maximum temperature in contact", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
@@ -432,7 +433,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   Heat *const h       = (Heat *)law->data;
   double     *numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "temperature_max"), SAM_TRIED);
-  Vec         surface[2], heat, heat_2;
+  Vec         surface[2], heat, into_body[2];
   PetscReal   power[3], into[3];
   char        failed[192];
 
@@ -440,15 +441,18 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(Prepare(law));
   for (int b = 0; b < 2; b++)
     PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, surfaces[b]), &surface[b]));
-  PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, "heat_2"), &heat_2));
+  for (int b = 0; b < 2; b++)
+    PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, fluxes[b]), &into_body[b]));
   PetscCall(SamGridCreateVec(step->grid, 1, &heat));
   PetscCall(FillHeat(law, step, heat));
-  PetscCall(SamHeatTemperatures(&h->pair, step->pressure, heat, h->bulk, heat_2, surface, failed, sizeof(failed)));
+  PetscCall(
+    SamHeatTemperatures(&h->pair, step->pressure, heat, h->bulk, into_body[1], surface, failed, sizeof(failed)));
+  PetscCall(VecWAXPY(into_body[0], -1, into_body[1], heat));
   if (h->failed[0] || failed[0])
     (void)snprintf(step->failed, sizeof(step->failed), "%s", h->failed[0] ? h->failed : failed);
   PetscCall(SamBalanceGetLoads(step->grid, SAM_BALANCE_NORMAL, heat, power)); /* sums over the area, W */
   PetscCall(FindTimeless(law, step));
-  PetscCall(SamBalanceGetLoads(step->grid, SAM_BALANCE_NORMAL, heat_2, into));
+  PetscCall(SamBalanceGetLoads(step->grid, SAM_BALANCE_NORMAL, into_body[1], into));
   PetscCall(FindMaximum(step, surface, &numbers[MAXIMUM]));
   numbers[POWER] = (double)power[0];
   numbers[SHARE] = power[0] > 0 ? (double)(into[0] / power[0]) : NAN;
@@ -517,7 +521,7 @@ PetscErrorCode SamLawCreate_Heat(SamLaw law)
   law->heading            = "Frictional heat";
   law->rows               = rows;
   law->row_count          = sizeof(rows) / sizeof(rows[0]);
-  law->bytes              = 80;
+  law->bytes              = 96;
   law->needs_friction     = PETSC_TRUE;
   law->any_motion         = PETSC_TRUE;
   law->forbids_jumps      = PETSC_TRUE;

@@ -12,6 +12,7 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscFunctionBegin;
   *evaluation = NULL;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamTemperatureDestroy(&e->temperature));
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityDestroy(&e->source.bodies));
   PetscCall(PetscFree2(e->depth, e->side));
@@ -117,7 +118,6 @@ static PetscErrorCode SetLayout(SamEvaluation e)
   SamStressLayout *l = &e->layout;
 
   PetscFunctionBegin;
-  l->body        = e->body;
   l->section     = e->section;
   l->own         = e->slide ? PETSC_TRUE : PETSC_FALSE;
   l->cycle       = e->cycle;
@@ -127,7 +127,7 @@ static PetscErrorCode SetLayout(SamEvaluation e)
   l->n[SAM_X]    = column ? 1 : g->nx;
   l->row         = e->section ? 0 : g->row_start;
   l->rows        = e->section ? l->n[SAM_Y] : g->rows;
-  l->memory      = e->section ? SamLinesMemory(e) : SamMapsMemory(e);
+  l->memory      = (e->section ? SamLinesMemory(e) : SamMapsMemory(e)) + SamTemperatureBytes(e);
   for (int d = 0; d < SAM_STRESS_AXES; d++) {
     PetscCall(PetscMalloc1(l->n[d] + 1, &e->coordinate[d]));
     l->coordinate[d] = e->coordinate[d];
@@ -159,6 +159,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   for (PetscInt k = 0; k < e->source.steps; k++)
     PetscCall((*e->source.conditions)(e->source.context, k, SamProblemGetConditions(e->problem), &e->control[k]));
   PetscCall(SamPointsSetUp(e));
+  PetscCall(SamTemperatureSetUp(e));
   PetscCall(SetLayout(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -172,6 +173,7 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
   if (e->cycle && e->source.steps > 1) PetscCall(SamCycleCheckClosed(e)); /* one step: travelling points */
   e->write         = write;
   e->write_context = context;
+  if (e->section) PetscCall(SamTemperatureFind(e));
   PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));
   PetscCall(SamLargestAgree(e));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -35,6 +35,7 @@ typedef struct {
                function as the one before takes these arrays over.
     last       makes the component, in the place of the first array, from them; NULL: the arrays are the components
     of_cycle   instead: a parameter of the cycle; `more`: the other components
+    of_heat    instead: the temperature, which is no function of stresses (temperature.c)
     shown      its name where the largest value is printed
     with       the option that its constants need
 */
@@ -48,6 +49,7 @@ typedef struct {
   void (*of_step)(SamEvaluation e, const SamPoints *points, const double *const s[], double *const values[]);
   void (*last)(PetscInt n, double *const values[]);
   SamFatigueParameter *of_cycle;
+  PetscBool            of_heat;
   const char          *shown, *with;
   SamQuantityConstant  constant[2];
 } SamQuantity;
@@ -77,6 +79,9 @@ enum { SAM_OWN_MISES, SAM_OWN_PRINCIPAL, SAM_OWN_TENSION, SAM_OWN_SHEAR, SAM_OWN
 /* The remedy for a list of constants of a wrong length */
 #define SAM_ONE_EACH "give one number, or one for each layer and the substrate"
 
+/* SamTemperature - the temperatures of the body (temperature.c). */
+typedef struct _n_SamTemperature *SamTemperature;
+
 struct _n_SamEvaluation {
   MPI_Comm comm;
   /* what the user requests */
@@ -105,6 +110,7 @@ struct _n_SamEvaluation {
   int            *side;   /* side of an interface at that depth: -1 above, 1 below, 0: no side given, or no interface */
   PetscReal      *weight; /* weight of each depth in the average */
   PetscInt        index;  /* index of the section's line of cells */
+  SamTemperature  temperature; /* below the surface; NULL: not wanted */
   SamStressLayout layout;
   double         *coordinate[SAM_STRESS_AXES];
   /* results */
@@ -158,6 +164,19 @@ PETSC_INTERN PetscBool      SamLayersExist(SamEvaluation e);
 PETSC_INTERN PetscBool      SamLayersHaveInitial(SamEvaluation e);
 PETSC_INTERN PetscErrorCode SamStressAddLayers(SamEvaluation e, PetscInt step, const SamPoints *points,
                                                double stress[]);
+/*
+  The temperature below the surface by the frictional heat of a step (temperature.c).
+  SamTemperatureSetUp - checks the request, if there is one. Collective. Errors: SAM_ERR_USER.
+  SamTemperatureFind - finds the temperatures of all steps on a section, before the stresses. Collective.
+  SamTemperatureGet - computes, or gets, those of points in a step, K. Collective.
+  SamTemperatureDestroy - frees them. Collective.
+  SamTemperatureBytes - returns the memory of this rank, bytes. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamTemperatureSetUp(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamTemperatureFind(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamTemperatureGet(SamEvaluation e, PetscInt step, const SamPoints *points, double values[]);
+PETSC_INTERN PetscErrorCode SamTemperatureDestroy(SamTemperature *temperature);
+PETSC_INTERN double         SamTemperatureBytes(SamEvaluation e);
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
 

@@ -68,7 +68,7 @@ static PetscErrorCode ReadNames(const SamOptions *from, PetscBool of_cycle, cons
   SamQuantityNames(of_cycle, words, sizeof(words));
   (void)snprintf(list, sizeof(list), "%s%s%s", words, also[0] ? ", or " : "", also);
   (void)snprintf(known, sizeof(known), "%s%s%s", words, also[0] ? "," : "", also);
-  (void)snprintf(help, sizeof(help), "%ssome of %s", of_cycle ? "parameters over the steps as one closed cycle: " : "",
+  (void)snprintf(help, sizeof(help), "%s%s", of_cycle ? "parameters over the steps as one closed cycle: some of " : "",
                  list);
   PetscCall(SamOptionsRead(from, NULL, 1, &row, text, &set));
   if (!text[0] && !set) PetscFunctionReturn(PETSC_SUCCESS);
@@ -167,7 +167,7 @@ PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluat
   *evaluation = e;
   e->comm     = from->comm;
   PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(where), &set, NULL));
-  e->body = set.body;
+  e->body = e->layout.body = set.body;
   PetscCall(TakeDepths(e, set.depths));
   PetscCall(TakeSection(from, e, set.section));
   PetscCall(SamOptionsHeading(from, "Quantities"));

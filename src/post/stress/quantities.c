@@ -86,6 +86,10 @@ const SamQuantity SamQuantityTable[] = {
                {"strain_yz", "1", "strain yz, tensor shear strain"}},
    .arrays  = SAM_STRESS_COMPONENTS,
    .of_step = Strain},
+  {.name    = "temperature",
+   .part    = {{"temperature", "K", "temperature by frictional heat"}},
+   .arrays  = 1,
+   .of_heat = PETSC_TRUE},
   {.name     = "crossland",
    .part     = {{"crossland", "Pa", "Crossland's parameter of the cycle"}},
    .of_cycle = SamFatigueCrossland,
@@ -187,6 +191,12 @@ PetscErrorCode SamQuantitiesWrite(SamEvaluation e, PetscInt step, const SamPoint
     const SamQuantity *row = &SamQuantityTable[q];
 
     if (!e->wants[q] || row->of_cycle) continue;
+    if (row->of_heat) {
+      done = NULL;
+      PetscCall(SamTemperatureGet(e, step, p, more[0]));
+      PetscCall(SamEvaluationHandOver(e, q, 0, step, p, more[0]));
+      continue;
+    }
     if (row->of_step && row->of_step != done) (*row->of_step)(e, p, s, more);
     if (row->of_step) done = row->last ? NULL : row->of_step;
     if (row->last) (*row->last)(p->count, more);

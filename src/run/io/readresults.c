@@ -12,7 +12,8 @@
 
 static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle",   "status",   "contact_area", "slide_x",
                                                          "slide_y", "rolled_x", "rolled_y"};
-static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
+static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x",
+                                                         "/slip_y",   "/heat_1",  "/heat_2"};
 
 /* A group with stresses in layers below the cells */
 typedef struct {
@@ -585,6 +586,11 @@ PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, d
   PetscCall(SamFileEnd(part->file));
   PetscCall(CheckFinite(part, r->grid->cells, values, fields[field], r->saved[k].step));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamResultsHas(SamResults r, PetscInt k, SamResultsField field)
+{
+  return r->saved[k].part->facts.has[field] ? PETSC_TRUE : PETSC_FALSE;
 }
 
 const SamStateLayers *SamResultsGetLayers(SamResults r, PetscInt g)
