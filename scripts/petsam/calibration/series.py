@@ -357,9 +357,12 @@ def _fit_together(files, pushes, free, fixed):
     together = _fit_best(files, pushes, free, fixed)
     for name in [one for one in BEYOND if isinstance(fixed.get(one), tuple)]:
         if not together.state == "rejected" and together.pull(name, *fixed[name]) > BEYOND[name]:
+            rest = {other: value for other, value in fixed.items() if other != name}
+            alone = _fit_best(files, pushes, (*free, name), rest)
+            if not _contradict(alone, name, *fixed[name]):  # loops of much noise tell nothing of it by themselves
+                continue
             notes.append(_contradicted(name, *fixed[name], "compliance" in fixed))
-            free, fixed = (*free, name), {other: value for other, value in fixed.items() if other != name}
-            together = _fit_best(files, pushes, free, fixed)
+            together, free, fixed = alone, (*free, name), rest
             if name == "scale" and "compliance" in fixed:  # either may be wrong
                 together = _rejected(together)
     if isinstance(fixed.get("loss"), tuple) and _entangled(together, fixed["loss"][1]):
@@ -380,6 +383,14 @@ def _rejected(found):
     """A fit without its numbers."""
     numbers = ("friction", "friction_sd", "friction_at_least", "compliance", "compliance_sd")
     return replace(found, state="rejected", **dict.fromkeys(numbers, np.nan))
+
+
+def _contradict(alone, name, value, deviation):
+    """Whether a parameter that was found from the loops alone is not what was known of it."""
+    if alone.state == "rejected":
+        return True
+    found, sd = alone.more[name]
+    return abs(found - value) > BEYOND[name] * np.hypot(sd, deviation)
 
 
 def _contradicted(name, value, deviation, given):
