@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from petsam import loads
 from petsam.compliance import mesh, solve, stiffness
 from test_compliance_command import ALWAYS, bricks, compliance, written  # noqa: F401
 
@@ -76,6 +77,37 @@ def test_a_body_turned_over_is_body_1_in_the_turned_contact(compliance, straight
         assert np.max(np.abs(getattr(over, name)[::-1] - sign * getattr(below, name))) < 1e-6 * most
     for name, sign in (("disp_x", -1.0), ("disp_y", 1.0), ("disp_z", 1.0)):
         assert np.allclose(over[name], sign * below[name], rtol=1e-6)
+
+
+@pytest.mark.parametrize("directions", ["x and z", "neither"])
+def test_nodal_forces_have_the_frame_of_the_compliance(compliance, tmp_path, monkeypatch, directions):  # noqa: F811
+    """One patch of a turned block, one --frame in mm: its file of body 2 and its history. By hand: z into the body, and
+    x, y, z right-handed; a force beside the origin has its moments about these axes."""
+    monkeypatch.chdir(tmp_path)
+    body, origin = bricks(LOPSIDED, HELD), np.array((3.0, -4.0, 5.0))
+    body.nodes = body.nodes @ SPACE + origin
+    written(tmp_path / "block.inp", body)
+    given = frame(SPACE, origin) if directions == "x and z" else "--frame=3,-4,5"
+    compliance("--mesh", "block.inp", *WORDS, "--units", "mm", "--patch", "1.6mm", given, "-o", "block.h5")
+    with h5py.File("block.h5", "r") as file:
+        axes, at = file["frame/axes"][:], file["frame/origin"][:]
+    assert np.allclose(axes[2], SPACE[2], atol=1e-12) and np.linalg.det(axes) == pytest.approx(1.0)
+    local = np.array([(-0.5, -0.5, 0.0), (0.5, -0.5, 0.0), (0.5, 0.5, 0.0), (-0.5, 0.5, 0.0)])
+    force = np.array([(1.0, 2.0, 9.0), (0.5, 1.0, 12.0), (0.0, 0.0, 20.0), (3.0, -1.0, 14.0)])  # in the frame
+    rows = [
+        ",".join(map("{:.17g}".format, (k, *p, *f, 1)))
+        for k, p, f in zip(range(4), local @ axes + origin, force @ axes)
+    ]
+    (tmp_path / "nodes.csv").write_text(
+        "\n".join(["label,x [mm],y [mm],z [mm],fx [N],fy [N],fz [N],increment", *rows]) + "\n"
+    )
+    read = loads.read("nodes.csv")
+    parts = [tuple(map(float, part.split(","))) for part in given.removeprefix("--frame=").split(":")]
+    found = loads.history(read, frame=parts)
+    assert np.allclose(found.frame.axes, axes, atol=1e-9) and np.allclose(found.frame.origin, at, atol=1e-12)
+    x, y = 1e-3 * local[:, 0], 1e-3 * local[:, 1]
+    moments = -y @ force[:, 2], x @ force[:, 2], x @ force[:, 1] - y @ force[:, 0]
+    assert found.loads[0] == pytest.approx([55.0, 4.5, 2.0, *moments], abs=1e-9)
 
 
 # ---------------------------------------------------------------- planes of symmetry

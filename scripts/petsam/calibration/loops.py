@@ -28,18 +28,26 @@ from .push import Push
 SHARED = ("friction", "compliance", "lean", "loss", "scale")  # parameters that all loops of a fit have in common
 OWN = ("offset", "top", "bottom")  # those of each: force, largest and smallest displacement
 STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from one it may end where all sticks or slides
+NEARBY = (
+    0.94,
+    1.06,
+    1.15,
+)  # of the friction, from which it begins again where the best loops just slide, or just do not
 PASSES = 3  # of a fit, each with the weights of the one before
 LEAST, MOST = 1e-4, 30.0  # coefficients of friction
 LOSING = 0.2  # the most loss that is looked for: more would be a loop of its own
 TRIALS = 30  # steps of a pass at most: the next pass goes on, and a start that leads nowhere costs little
 FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
 LOSS = (0.0, 0.005)  # of a rig, if nothing is stated, and its standard deviation: clamped joints, load cells, lags
+SHAPE = 0.05  # standard deviation of the scale, if nothing is stated: 15 % of a ball's radius, or 8 % of its load
 CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold
 MISFIT = 1.2  # and root mean square of the residuals, in units of the noise, below which it does not matter
 LARGE = 3.0  # root mean square of the residuals, in units of the noise, beyond which the model does not hold
 DOUBTFUL = 0.03  # relative deviation of the friction above which its range is that of its profile
+TURNING = (0.9, 1.05)  # and so where loops just slide or just do not: shear over mu N, stroke over that of sliding
 VAGUE = 0.1  # and above which it is called not identifiable where no profile is made
 UNBOUNDED = 5.0  # friction beyond this multiple of the best one is not excluded by the loops: no upper bound
+DEAF = 0.3  # of what is known beforehand: the least deviation in which it is measured how far loops pull it
 WEAK = 0.5  # width of the range, relative to the friction, from which on it is weakly known
 
 
@@ -156,8 +164,12 @@ class Fit:
         Correlation of neighbouring residuals.
     more : dict
         {name: (value, standard deviation)} of the other parameters that were free: lean (N/m), loss, scale.
-    loops, values : list of Loop, ndarray
-        What was fitted, and its parameters.
+    correlation : dict
+        {name: correlation of its error with that of the friction}, of the compliance and of those in `more`.
+    loops : sequence of Loop
+        What was fitted.
+    curves : sequence
+        Displacement (m) and force (N) of the closed loop of the fit, of each.
     """
 
     friction: float
@@ -173,6 +185,7 @@ class Fit:
     noise: tuple
     neighbours: float
     more: dict = field(default_factory=dict)
+    correlation: dict = field(default_factory=dict)
     loops: Sequence = ()
     curves: Sequence = ()
 
@@ -191,6 +204,45 @@ class Fit:
         """Standard deviation of the rig's stiffness, N/m."""
         return self.compliance_sd * self.stiffness**2 if self.compliance > 0.0 else np.nan
 
+    def pull(self, name: str, value: float, deviation: float) -> float:
+        """How far the loops pull a parameter from what is known of it beforehand.
+
+        The difference of what the loops alone and what was known tell, in standard deviations of that difference: with
+        both normal, that of the value found from what was known, over sqrt(deviation^2 - sd^2).
+
+        Parameters
+        ----------
+        name : str
+            Of a parameter in `more`.
+        value, deviation : float
+            What was known of it, with which it was fitted.
+
+        Returns
+        -------
+        float
+            1; near 0 where the loops tell nothing of it.
+        """
+        found, sd = self.more[name]
+        return abs(found - value) / max(np.sqrt(max(deviation**2 - sd**2, 0.0)), DEAF * deviation)
+
+    def alone(self, name: str, value: float) -> tuple[float, float]:
+        """Friction and its standard deviation if a parameter of `more` had this value, by the covariance.
+
+        Parameters
+        ----------
+        name : str
+        value : float
+
+        Returns
+        -------
+        tuple of float
+        """
+        if name not in self.more:
+            return self.friction, self.friction_sd
+        (found, sd), correlation = self.more[name], self.correlation[name]
+        moved = correlation * self.friction_sd / sd * (value - found) if sd > 0.0 else 0.0
+        return self.friction + moved, self.friction_sd * float(np.sqrt(max(1.0 - correlation**2, 0.0)))
+
 
 class _Problem:
     """The least squares of several loops: parameters, scales and residuals."""
@@ -203,6 +255,17 @@ class _Problem:
         self.spread = 1.0  # of the residuals, in units of the noise, in which what is known beforehand is weighed
         self.noise = [loop.noise() for loop in loops]
         self.amplitudes = [(0.5 * np.ptp(one.displacement), 0.5 * np.ptp(one.force)) for one in loops]
+
+    def amplitude(self, values, k):
+        """Shear amplitude over mu N and stroke over that of sliding, of loop k."""
+        of, (_, top, bottom) = self.shared(values), values[len(self.free) + 3 * k :][:3]
+        backbone, half = Backbone(self.pushes[k], of["friction"], of["compliance"], of["scale"]), 0.5 * (top - bottom)
+        return float(backbone(half) / backbone.force[-1]), float(half / backbone.displacement[-1])
+
+    def turning(self, values):
+        """Whether the loops nearest to sliding are about at its beginning, where friction bends all else."""
+        sheared, stroke = map(max, zip(*(self.amplitude(values, k) for k in range(len(self.loops)))))
+        return sheared > TURNING[0] and stroke < TURNING[1]
 
     def scales(self):
         """What changes of the parameters are measured in."""
@@ -358,6 +421,9 @@ def _solved(problem):
     """The best parameters, the mean square of the loops' residuals over that of the noise, and the variance of one."""
     count = sum(len(loop.force) for loop in problem.loops)
     best = problem.solve()
+    if problem.free[:1] == ["friction"] and problem.turning(best.x):  # each side of the kink has a least of its own
+        nearby = [np.concatenate([[factor * best.x[0]], best.x[1:]]) for factor in NEARBY]
+        best = min(best, problem.solve(nearby), key=lambda one: one.cost)
     if count < 3 * len(best.x):
         raise Error(f"{count} points: a fit of {len(best.x)} parameters needs {3 * len(best.x)}")
     for again in (bool(problem.known), False):
@@ -407,12 +473,13 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
     covariance = variance * np.linalg.pinv(jacobian.T @ jacobian) * np.outer(scales, scales)
     deviation = np.sqrt(np.clip(np.diag(covariance), 0.0, None))
     of, sd = problem.shared(best.x), dict(zip(problem.free, deviation))
+    beside = covariance[0] / np.maximum(deviation[0] * deviation, 1e-300)
     neighbours = _neighbours(problem, best.fun)
     friction, friction_sd = of["friction"], float(sd["friction"])
     ends, state, at_least = (friction - 2 * friction_sd, friction + 2 * friction_sd), "known", np.nan
     if neighbours > CORRELATED and square > MISFIT**2 or square > LARGE**2:
         state = "rejected"
-    elif not friction_sd <= (DOUBTFUL if profile else VAGUE) * friction:
+    elif not friction_sd <= (DOUBTFUL if profile else VAGUE) * friction or profile and problem.turning(best.x):
         ends, far = _profile(problem, best, variance) if profile else ((problem.least(), np.inf), {})
         rest = np.sqrt(variance * np.diag(np.linalg.pinv(jacobian[:, 1:].T @ jacobian[:, 1:]))) * scales[1:]
         sd |= {name: max(sd[name], np.hypot(own, 0.5 * far[name])) for name, own in zip(far, rest)}
@@ -422,18 +489,18 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
             state = "weak" if ends[1] - ends[0] > WEAK * friction else "known"
             friction_sd = max(friction_sd, *(0.5 * abs(end - friction) for end in ends))
     verdict = dict(friction_sd=friction_sd, friction_at_least=at_least, friction_range=ends, state=state)
-    return _result(problem, best.x, sd, dict(verdict, neighbours=neighbours))
+    correlation = {name: float(beside[k]) for k, name in enumerate(problem.free) if k}
+    return _result(problem, best.x, sd, dict(verdict, neighbours=neighbours, correlation=correlation))
 
 
 def _result(problem, values, sd, verdict):
     of, state = problem.shared(values), verdict["state"]
     friction, held = of["friction"], state in ("known", "weak")
     amplitudes, gross, curves, squares = [], [], [], 0.0
-    for k, (loop, push) in enumerate(zip(problem.loops, problem.pushes)):
-        backbone = Backbone(push, friction, of["compliance"], of["scale"])
-        _, top, bottom = values[len(problem.free) + 3 * k :][:3]
-        amplitudes.append(float(backbone(0.5 * (top - bottom))) / (friction * push.normal))
-        gross.append(0.5 * (top - bottom) > backbone.displacement[-1])
+    for k, loop in enumerate(problem.loops):
+        sheared, stroke = problem.amplitude(values, k)
+        amplitudes.append(sheared)
+        gross.append(stroke > 1.0)
         force, _ = problem.curve(values, k)
         squares += float(np.sum((loop.force - force) ** 2))
         curves.append(_curve(problem, values, k))

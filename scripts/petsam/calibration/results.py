@@ -6,6 +6,7 @@ from typing import Optional
 import numpy as np
 
 from ..core.errors import Error, counted
+from .loops import CORRELATED
 from .push import Push, options_of
 from .series import Result
 
@@ -44,8 +45,9 @@ def lines(found: Result, push: Push) -> list[str]:
         out += [
             "no numbers: the loops are clockwise: in partial slip either a record backwards or a force that lags"
             if any(one.turned for one in found.files) and not fit.gross
-            else "no numbers: the loops are not those of this contact and a rig in series: neighbouring residuals "
-            f"correlate by {fit.neighbours:.2g}, their mean is {fit.misfit:.3g} N",
+            else "no numbers: the loops are not those of this contact and a rig in series: "
+            + (f"neighbouring residuals correlate by {fit.neighbours:.2g}, " if fit.neighbours > CORRELATED else "")
+            + f"their mean is {fit.misfit:.3g} N",
             "next: a loop in gross slip at the end of the test; --lean if the force grows while it slides; --rig left "
             "out; a --shape of the worn surface",
         ]
@@ -69,9 +71,10 @@ def lines(found: Result, push: Push) -> list[str]:
             f"{share:.2f}" + (f"; {push.datum}" if push.datum else "")
         )
     for name, (value, deviation) in fit.more.items():
-        unit = {"lean": " N/m", "loss": "", "scale": ""}[name]
         text = f"{100 * value:.3g} +- {100 * deviation:.2g} %" if name == "loss" else f"{value:.4g} +- {deviation:.2g}"
-        out.append(f"{name} {text}{unit}")
+        out.append(
+            {"lean": f"lean {text} N/m", "loss": f"loss {text}", "scale": f"shape's compliance times {text}"}[name]
+        )
     energy = found.energy
     out.append(f"energy {energy[0]:.4g} J in the first cycle, {energy[-1]:.4g} J in the last")
     return out
@@ -87,7 +90,7 @@ def _friction_line(found):
             f"friction: not identifiable from these loops; at least {found.friction_at_least:.3g} (95 %): take larger "
             "strokes, best one loop in gross slip at the end of the test"
         )
-    given = "" if found.fit.gross else ", if the rig has no lean and the contact is that of the shape"
+    given = "" if found.fit.gross else ", if the rig has no lean and the contact is that of the shape within its band"
     text = f"friction {found.friction:.4f} +- {found.friction_sd:.2g}{given}"
     if found.state == "weak":
         text = f"friction {found.friction:.3g}, weakly known: {low:.3g} to {high:.3g} (95 %)"

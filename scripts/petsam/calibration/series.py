@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import Error, counted, library
 from ..core.tables import Column, Tabled
-from .loops import LOSS, Fit, Loop, fit, noise_of
+from .loops import LOSS, SHAPE, Fit, Loop, fit, noise_of
 from .push import Push
 from .reading import Record
 
@@ -23,7 +23,10 @@ ALIKE = 2.0  # of the noise: the standard deviation of the ranges of cycles that
 MOST = 6000  # points of cycles that are fitted as one loop
 TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
 LEANS = 5.0  # standard deviations of a lean in gross slip beyond which loops without one are not the model's
-BEYOND = 2.0  # standard deviations of the loss known beforehand beyond which the loops alone settle it
+BEYOND = {"loss": 2.0, "scale": 3.0}  # pull of what is known beforehand from which on the loops alone settle it
+UNSETTLED = 0.3  # deviation of the loss over that known beforehand,
+ALIGNED = 0.7  # and its correlation with the friction, beyond which the loops do not separate both:
+UNSTATED = 2.0  # a loss that nobody stated is then so many times less sure
 FEWEST = 12  # points of a cycle
 
 
@@ -281,16 +284,18 @@ class Result(Tabled):
         ]
 
 
-def _mean(each):
+def _mean(each, scale):
     """Mean of the cycles' friction, its deviation (the larger one of theirs and of the scatter), and scatter over what
-    is expected."""
-    values, deviations = (np.array([getattr(one, name) for one in each]) for name in ("friction", "friction_sd"))
+    is expected. The scale is one of all cycles: its part of their deviations neither scatters nor averages out."""
+    values, deviations = np.array([one.alone("scale", scale) for one in each]).T
     weights = 1.0 / deviations**2
     mean = float(np.sum(weights * values) / np.sum(weights))
     expected = 1.0 / np.sqrt(np.sum(weights))
     scatter = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
     relative = float(np.sqrt(np.mean(((values - mean) / deviations) ** 2)))
-    return mean, max(expected, scatter / np.sqrt(len(values)) if relative > 1.5 else 0.0), relative
+    common = float(np.sqrt(np.mean([max(one.friction_sd**2 - sd**2, 0.0) for one, sd in zip(each, deviations)])))
+    own = max(expected, scatter / np.sqrt(len(values)) if relative > 1.5 else 0.0)
+    return mean, float(np.hypot(own, common)), relative
 
 
 def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str] = (), **fixed) -> Result:
@@ -304,15 +309,18 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     free : sequence of str
         Parameters that are found, too: "lean".
     **fixed
-        What is given: compliance (m/N), lean, loss; a value, or (value, standard deviation). Without a loss that is
-        LOSS: one of half a percent makes more of a difference than noise does, and in partial slip no residual shows
-        it. Where the loops contradict a loss with its deviation by more than two of it, they alone settle it.
+        What is given: compliance (m/N), lean, loss, scale (of the contact's compliance, 1); a value, or (value,
+        standard deviation). Without a loss that is LOSS: one of half a percent makes more of a difference than noise
+        does, and in partial slip no residual shows it; its deviation is doubled where the loops do not separate it from
+        the friction. Without a scale that is 1 with the deviation SHAPE: in partial slip no residual shows a wrong
+        shape, either. Where the loops pull the loss by more than two deviations from what is given, or the scale by
+        more than three, they alone settle it.
 
     Returns
     -------
     Result
     """
-    together, free, fixed, notes = _fit_together(files, pushes, free, {"loss": LOSS, **fixed})
+    together, free, fixed, notes = _fit_together(files, pushes, free, {"loss": None, "scale": (1.0, SHAPE), **fixed})
     each = []
     if sum(len(one.loops) for one in files) > 1:
         each = [
@@ -322,7 +330,7 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     state, found = together.state, (together.friction, together.friction_sd)
     known = [one for one in each if one.identifiable]
     if len(known) == len(each) > 1 and len(files) == 1:
-        mean, deviation, scatter = _mean(each)
+        mean, deviation, scatter = _mean(each, _value(fixed.get("scale", 1.0)))
         if scatter > (SCATTER if together.gross else SCATTER_PARTIAL):
             state, found = "changes", (mean, deviation)
             each = _within(each)
@@ -344,31 +352,94 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
 
 def _fit_together(files, pushes, free, fixed):
     """The fit of all files together; what was free in it besides friction and compliance, and given; notes."""
-    together, notes = _fit_best(files, pushes, free, fixed), []
-    if isinstance(fixed["loss"], tuple):
-        (value, deviation), found = fixed["loss"], together.more["loss"][0]
-        if abs(found - value) > BEYOND * deviation and together.identifiable:
-            free, fixed = (*free, "loss"), {name: one for name, one in fixed.items() if name != "loss"}
+    stated, notes = fixed["loss"] is not None, []
+    fixed = fixed if stated else {**fixed, "loss": LOSS}
+    together = _fit_best(files, pushes, free, fixed)
+    for name in [one for one in BEYOND if isinstance(fixed.get(one), tuple)]:
+        if not together.state == "rejected" and together.pull(name, *fixed[name]) > BEYOND[name]:
+            rest = {other: value for other, value in fixed.items() if other != name}
+            alone = _fit_best(files, pushes, (*free, name), rest)
+            if not _contradict(alone, name, *fixed[name]):  # loops of much noise tell nothing of it by themselves
+                continue
+            notes.append(_contradicted(name, *fixed[name], "compliance" in fixed))
+            together, free, fixed = alone, (*free, name), rest
+            if name == "scale" and "compliance" in fixed:  # either may be wrong
+                together = _rejected(together)
+    if isinstance(fixed.get("loss"), tuple) and _entangled(together, fixed["loss"][1]):
+        if not stated:
+            fixed = {**fixed, "loss": (LOSS[0], UNSTATED * LOSS[1])}
             together = _fit_best(files, pushes, free, fixed)
-            notes.append(
-                f"the loops do not fit to a loss of the rig of {100 * value:g} +- {100 * deviation:g} %: it is found "
-                "from them alone"
-            )
+        notes.append(_entangled_note(together, *fixed["loss"], stated))
     if together.gross and together.identifiable and "lean" not in (*free, *fixed):
         lean, deviation = _fit_best(files, pushes, (*free, "lean"), fixed).more["lean"]
         if abs(lean) > LEANS * deviation:  # which a loss may hide from the residuals
-            together = replace(together, state="rejected", friction=np.nan, compliance=np.nan, compliance_sd=np.nan)
+            together = _rejected(together)
     if any(one.turned for one in files) and not (together.gross and together.identifiable):
-        together = replace(together, state="rejected", friction=np.nan, friction_sd=np.nan, friction_at_least=np.nan)
+        together = _rejected(together)
     return together, free, fixed, notes
+
+
+def _rejected(found):
+    """A fit without its numbers."""
+    numbers = ("friction", "friction_sd", "friction_at_least", "compliance", "compliance_sd")
+    return replace(found, state="rejected", **dict.fromkeys(numbers, np.nan))
+
+
+def _contradict(alone, name, value, deviation):
+    """Whether a parameter that was found from the loops alone is not what was known of it."""
+    if alone.state == "rejected":
+        return True
+    found, sd = alone.more[name]
+    return abs(found - value) > BEYOND[name] * np.hypot(sd, deviation)
+
+
+def _contradicted(name, value, deviation, given):
+    """The note that the loops do not fit to what was known of a parameter."""
+    if name == "loss":
+        return (
+            f"the loops do not fit to a loss of the rig of {100 * value:g} +- {100 * deviation:g} %: it is found from "
+            "them alone"
+        )
+    if given:
+        return (
+            f"the shape or the given rig does not fit: the shape's compliance is not that of the loops within "
+            f"{100 * deviation:g} %; look at radii, moduli and normal load, and leave out --rig"
+        )
+    return (
+        f"the shape does not fit: its compliance is not that of the loops within {100 * deviation:g} %, so that it is "
+        "found from them alone; look at radii, moduli and normal load"
+    )
+
+
+def _entangled(together, deviation):
+    """Whether loops that do not slide leave the loss about as it was known beforehand, and the friction goes with
+    it."""
+    return (
+        together.state != "rejected"
+        and together.more["loss"][1] > UNSETTLED * deviation
+        and abs(together.correlation["loss"]) > ALIGNED
+    )
+
+
+def _entangled_note(together, value, deviation, stated):
+    """The note that loss and friction are not separated."""
+    return (
+        "the loops do not separate a loss of the rig from the friction (correlation of their errors "
+        f"{together.correlation['loss']:.2f}): the band holds for a loss of {100 * value:g} +- {100 * deviation:g} %"
+        + ("" if stated else "; give that of the rig, --loss V,BAND, or a loop in gross slip")
+    )
+
+
+def _value(given):
+    """The value of what is given as a value, or with its standard deviation."""
+    return given[0] if isinstance(given, tuple) else given
 
 
 def _loss(together, fixed):
     """The loss of the rig, to be subtracted from energies."""
     if "loss" in together.more and together.state in ("known", "weak", "changes"):
         return together.more["loss"][0]
-    given = fixed.get("loss", LOSS)
-    return given[0] if isinstance(given, tuple) else given
+    return _value(fixed.get("loss", LOSS))
 
 
 def _fit_best(files, pushes, free, fixed):

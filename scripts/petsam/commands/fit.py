@@ -118,6 +118,12 @@ def arguments(given):
         metavar="PART,BAND",
         help="force of the rig's own loop over the amplitude: 0.5%% or, with its deviation, 1%%,0.3%% (0,0.5%%)",
     )
+    need.add_argument(
+        "--shape-band",
+        type=word(part),
+        metavar="PART",
+        help="deviation of the contact's compliance from that of the shape, of a ball a third of the radius' (5%%)",
+    )
     wear = parser.add_argument_group("wear")
     wear.add_argument(
         "--volume", type=word(volume), metavar="V,BAND", help="worn volume and its deviation: 1.2e6um3,10%%"
@@ -222,6 +228,8 @@ def _measure(options, scar):
     fixed = {"compliance": 1.0 / options.rig} if options.rig else {}
     if options.loss is not None:
         fixed["loss"] = options.loss
+    if options.shape_band is not None:
+        fixed["scale"] = (1.0, options.shape_band) if options.shape_band else 1.0
     found = series.analyse(files, pushes, ("lean",) if options.lean else (), **fixed)
     for line in results.lines(found, pushes[0]):
         print(line)

@@ -9,11 +9,12 @@ Reads a table (label, x, y, z, fx, fy, fz, and time or increment; heads may have
 CalculiX, or a field output report of Abaqus (Node Label, CNORMF, CSHEARF). Coordinates that the file lacks, and sets,
 come from the deck. The table may have displacements ux, uy, uz, or other coordinates at each time.
 
-The frame is that of petsam-compliance: origin, x and z of the contact in the analysis's coordinates and units; z points
-into body 2, y is z x x. A force on body 2 along z is a positive N; forces on body 1 are reversed. Moments are about the
-origin: M_x = -sum(y F_z - z F_y), M_y = sum(x F_z - z F_x), M_z = sum(x F_y - y F_x). With --frame auto the origin is
-the mean place of the pressing forces at the largest N, z the direction of the normal forces (CNORMF) or normal to the
-nodes' plane, and x along their largest extent; the frame is printed.
+The frame of the contact is that of petsam-compliance for body 2: x, y and z are right-handed, with z into body 2 and y
+= z x x; origin, x and z are given in the analysis's coordinates and units. A force on body 2 along z is a positive N;
+forces on body 1 are reversed. Moments are about the origin: M_x = -sum(y F_z - z F_y), M_y = sum(x F_z - z F_x), M_z =
+sum(x F_y - y F_x). With --frame auto the origin is the mean place of the pressing forces at the largest N, z the
+direction of the normal forces (CNORMF) or normal to the nodes' plane, and x along their largest extent; the frame is
+printed.
 
 Writes the history, columns time, load_n, load_tx, load_ty, load_mx, load_my, load_mz in SI units, and a picture beside
 it. Prints ranges, reversals and the path of the contact's centre; warns of pull, of moments beyond the patch, and of
