@@ -44,6 +44,8 @@ MODULES = (
     "compliance.calls",
     "compliance.settings",
     "compliance.result",
+    "gradient.tape",
+    "gradient.backward",
     "heat.friction",
     "heat.partition",
     "loads.reading",

@@ -49,7 +49,7 @@ MANUAL_BOOST = 3
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 # the reference problems, in the order of their intervals
 CASES = dict.fromkeys(row["case"] for row in json.loads((ROOT / "examples/reference/cases.json").read_text("utf-8")))
-NOTEBOOKS = ("loop", "coating", "life", "joint", "lap", "blade-root")
+NOTEBOOKS = ("loop", "coating", "life", "joint", "lap", "blade-root", "measurements")
 # the parts of the site and their pages in the order of work
 PARTS = (
     ("petsam", ("README.md",)),
@@ -78,6 +78,7 @@ PARTS = (
             "examples/dovetail/README.md",
             "examples/rolling/README.md",
             "examples/heat/README.md",
+            "examples/gradient/README.md",
             "examples/wheel/README.md",
             "examples/creep/README.md",
         ),

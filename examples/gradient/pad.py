@@ -1,0 +1,101 @@
+"""The profile of a pad with the least frictional work, by gradients; a map of where a micrometre counts.
+
+build/venv/bin/python examples/gradient/pad.py [picture]
+"""
+
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+from scipy.optimize import minimize
+
+import petsam
+
+HALF, POWERS = 1e-3, np.arange(2, 22, 2)  # m; of x over HALF, whose heights at HALF are the parameters
+PAD = dict(
+    body1="steel", body2="steel", gap_type="flat", grid_n=48, grid_size=2.4e-3, friction=0.4, slip_direction="end",
+    allow_edge_contact=True, errors="none",
+)  # fmt: skip
+TURNS = np.array([0, 0.5, 1, 0.5, 0, -0.5, -1, -0.5, 0])
+HISTORY = {"time": np.arange(len(TURNS)), "load_n": np.full(len(TURNS), 1000.0), "load_tx": 180 * TURNS}
+MOST = 1.1  # norm of the pressure over that of the start, beyond which it is penalised
+START = np.append(5e-6, np.zeros(len(POWERS) - 1))  # m: a parabola
+
+
+def shapes():
+    """The gap by a unit of each parameter, and the crown along y that stays."""
+    contact = petsam.Contact(**PAD)
+    x, y = np.meshgrid(contact.x, contact.y)
+    return np.array([(x / HALF) ** power for power in POWERS]), y**2 / 0.2
+
+
+def solve(heights):
+    """The recorded loop of a pad."""
+    contact = petsam.Contact(**PAD)
+    contact.gap = np.tensordot(heights, UNITS, axes=1) + CROWN
+    return petsam.gradient.record(contact, HISTORY)
+
+
+def objective(parts, start):
+    """Energy over that of the start, and a penalty on the norm of the pressure, with their derivatives."""
+    tape = solve(parts * START[0])
+    energy, norm = (petsam.gradient.of(tape, name, rtol=1e-4) for name in ("energy", "pressure_norm"))
+    value, slope = energy.value / start[0], energy.gap / start[0]
+    over = max(norm.value / start[1] / MOST - 1, 0.0)
+    slope = slope + 2000 * over * norm.gap / (start[1] * MOST)
+    return value + 1000 * over**2, np.tensordot(UNITS, slope, axes=2) * START[0]
+
+
+def main():
+    tape = solve(START)
+    first = petsam.gradient.of(tape, "energy")
+    start = first.value, petsam.gradient.of(tape, "pressure_norm").value
+    bounds = [(0.05, None), *[(0, None)] * (len(POWERS) - 1)]
+    found = minimize(objective, START / START[0], args=(start,), jac=True, method="L-BFGS-B", bounds=bounds,
+                     options={"maxiter": 60, "ftol": 1e-6})  # fmt: skip
+    best = solve(found.x * START[0])
+    energy, norm = (petsam.gradient.backward.value_of(best, name) for name in ("energy", "pressure_norm"))
+    print(
+        f"runs {found.nfev}, with as many passes back for each number; by differences {found.nfev * len(POWERS)} more"
+    )
+    print(f"work of the loop {1e6 * start[0]:.2f} -> {1e6 * energy:.2f} uJ ({100 * (energy / start[0] - 1):.0f} %)")
+    print(f"norm of the pressure {100 * (norm / start[1] - 1):+.0f} %")
+    print("heights at the pad's edge by powers 2 ... 20, um:", np.round(1e6 * START[0] * found.x, 2).tolist())
+    if len(sys.argv) > 1:
+        draw(first, tape, best, found.x * START[0], sys.argv[1])
+
+
+def draw(first, tape, best, heights, name):
+    """Draws where a micrometre counts, and both profiles with their pressures."""
+    contact = petsam.Contact(**PAD)
+    x = 1e3 * contact.x
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.6), layout="constrained")
+    area = (PAD["grid_size"] / PAD["grid_n"]) ** 2
+    percent = 100 * first.gap / first.value / area * 1e-6 * 1e-10  # of the work by 1 um on (10 um)^2
+    limit = np.abs(percent).max()
+    image = left.pcolormesh(x, 1e3 * contact.y, percent, cmap="RdBu_r", vmin=-limit, vmax=limit)
+    figure.colorbar(image, ax=left, label="change of the work, %")
+    left.set_title("1 um removed on 10 um x 10 um", fontsize="medium")
+    left.set_xlabel("x, mm")
+    left.set_ylabel("y, mm")
+    left.set_aspect("equal")
+    middle = len(contact.y) // 2
+    for label, color, heights_of, recorded in (
+        ("parabola", "#0072b2", START, tape),
+        ("best", "#d55e00", heights, best),
+    ):
+        line = recorded.whole(recorded.records[0].pressure)[middle]
+        right.plot(x, 1e-6 * line, color=color, label=label)
+        print(
+            f"{label}: largest pressure {1e-6 * line.max():.0f} MPa, at the edge {heights_of.sum() * 1e6:.2f} um open"
+        )
+    right.set_xlabel("x, mm")
+    right.set_ylabel("pressure at y = 0, MPa")
+    right.legend(frameon=False)
+    figure.savefig(name, dpi=110)
+
+
+UNITS, CROWN = shapes()
+
+if __name__ == "__main__":
+    main()

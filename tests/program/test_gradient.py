@@ -1,0 +1,248 @@
+"""Gradients of a load history beside central differences, identities, closed-form solutions and published digits."""
+
+import numpy as np
+import pytest
+
+import petsam
+from petsam import gradient
+
+SIZE = 2.6e-3
+BODIES = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+UNLIKE = dict(BODIES, body2_young=70e9, body2_poisson=0.2)
+TIGHT = dict(slip_direction="end", normal_rtol=1e-12, tangential_rtol=1e-11, errors="none")
+TURNS = np.array([0.3, 0.6, 0.9, 1, 0.5, 0, -0.5, -1])
+
+
+@pytest.fixture(autouse=True)
+def quiet(tmp_path, monkeypatch):
+    """Tests run in their folder; advice is another test's."""
+    monkeypatch.chdir(tmp_path)
+
+
+def gap_of(x, y):
+    return x**2 / 0.2 + 0.7 * y**2 / 0.2 + 2e-8 * np.cos(9e3 * x + 4e3 * y)
+
+
+def contact_of(bodies, n=32, size=SIZE, friction=0.3, gap=gap_of, **more):
+    contact = petsam.Contact(
+        **{**bodies, **TIGHT, "gap_type": "flat", "grid_n": n, "grid_size": size, "friction": 0.3,
+           "allow_edge_contact": True, **more}
+    )  # fmt: skip
+    x, y = np.meshgrid(contact.x, contact.y)
+    contact.gap = gap(x, y) if callable(gap) else gap
+    contact.friction = np.broadcast_to(friction, x.shape)
+    return contact, x, y
+
+
+def history_of(normal, tx, ty):
+    count = len(normal)
+    return {"time": np.arange(float(count)), "load_n": normal, "load_tx": tx, "load_ty": ty}
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_published_digits_of_similar_bodies():
+    """The energy of a loop on 32 x 32 cells, and its derivatives; identities of scale."""
+    a = np.append(TURNS, [-0.4, 0.2, 0.7, 1])
+    history = history_of(np.full(13, 1000.0), np.append(0, 200 * a), np.append(0, 60 * a * (1 - a)))
+    contact, x, y = contact_of(BODIES)
+    tape = gradient.record(contact, history)
+    found = gradient.of(tape, "energy", rtol=1e-11)
+    wave = np.cos(7e3 * x + 1) * np.cos(5e3 * y + 0.5)
+    assert found.value == pytest.approx(1.0156654325e-4, rel=1e-9)
+    assert found.value == pytest.approx(tape.energies.sum(), rel=1e-12)
+    for value, digits in (
+        (np.sum(found["gap"] * wave), 19.128563251), (found["friction"].sum(), -7.00034305e-4),
+        (found["load_n"].sum(), -2.4086718393e-7), (found["load_tx"][8], -8.4234204098e-7),
+        (found["load_ty"][5], 1.3862131039e-9), (found["body1_poisson"], 1.5682937519e-5),
+    ):  # fmt: skip
+        assert value == pytest.approx(digits, rel=1e-7)
+    forces = sum(np.sum(history[name] * found[name]) for name in ("load_n", "load_tx", "load_ty"))
+    moduli = 210e9 * (found["body1_young"] + found["body2_young"])
+    assert moduli + forces == pytest.approx(found.value, rel=1e-9)
+    assert np.sum(gap_of(x, y) * found["gap"]) + forces == pytest.approx(2 * found.value, rel=1e-9)
+    assert abs(found["gap"].sum()) < 1e-9 * np.abs(found["gap"]).sum() and found.borders == 0
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_published_digits_of_dissimilar_bodies():
+    history = history_of(
+        np.append(400, np.full(9, 1000.0)), np.append([0, 0], 200 * TURNS), np.append([0, 0], 60 * TURNS * (1 - TURNS))
+    )
+    contact, x, y = contact_of(UNLIKE)
+    found = gradient.of(gradient.record(contact, history), "energy", rtol=1e-10)
+    wave = np.cos(7e3 * x + 1) * np.cos(5e3 * y + 0.5)
+    for value, digits in (
+        (found["load_n"][0], 4.3094611818e-8), (found["load_tx"][5], 1.170125375e-6),
+        (210e9 * found["body1_young"], 5.8826183104e-5), (np.sum(found["gap"] * wave), 5.2691068136),
+    ):  # fmt: skip
+        assert value == pytest.approx(digits, rel=2e-8)
+    rough = gradient.of(gradient.record(contact_of(UNLIKE)[0], history), "energy", rtol=1e-4)
+    assert np.linalg.norm(rough["gap"] - found["gap"]) < 1e-2 * np.linalg.norm(found["gap"])
+
+
+def random_case(seed):
+    """Bodies, a rough gap, a field of friction with a patch without any, and a history of random loads."""
+    chance = np.random.default_rng(seed)
+    bodies = dict(
+        body1_young=chance.uniform(60e9, 220e9), body1_poisson=chance.uniform(0.1, 0.4),
+        body2_young=chance.uniform(60e9, 220e9), body2_poisson=chance.uniform(0.1, 0.4),
+    )  # fmt: skip
+    if seed % 3 == 0:
+        bodies |= dict(body2_young=bodies["body1_young"], body2_poisson=bodies["body1_poisson"])
+    n, steps = (int(chance.integers(14, 22)), int(chance.integers(14, 22))), int(chance.integers(4, 7))
+    waves = [(chance.uniform(2e3, 9e3, 2), chance.uniform(0, 6), chance.uniform(1e-8, 6e-8)) for _ in range(3)]
+
+    def gap(x, y):
+        rough = sum(height * np.cos(k[0] * x + k[1] * y + phase) for k, phase, height in waves)
+        return x**2 / 0.2 + 0.8 * y**2 / 0.2 + rough
+
+    friction = chance.uniform(0.2, 0.6) * (1 + 0.3 * np.sin(np.arange(n[1])[:, None] + np.arange(n[0])[None]))
+    if seed % 4 == 1:
+        friction[: n[1] // 3, : n[0] // 3] = 0
+    history = {"time": np.arange(float(steps)), "load_n": np.full(steps, chance.uniform(200, 400))}
+    if seed % 2:
+        history["load_n"] = history["load_n"] * (1 + 0.2 * chance.random(steps).cumsum() / steps)
+    else:
+        history["disp_z"] = 2e-6 + 1e-7 * chance.random(steps)
+        del history["load_n"]
+    wild, mean = np.clip(chance.standard_normal((3, steps)), -1.5, 1.5), 300
+    wild[:, 0] = 0
+    if seed % 5 < 3:
+        history |= {"load_tx": 0.04 * mean * wild[0], "load_ty": 0.03 * mean * wild[1], "load_mz": 3e-3 * wild[2]}
+    else:
+        history |= {"disp_x": 3e-7 * wild[0], "load_ty": 0.02 * mean * wild[1], "rot_z": 3e-4 * wild[2]}
+    return dict(bodies=bodies, n=n, gap=gap, friction=friction), history
+
+
+def objectives(history):
+    """Numbers that have a derivative, with their steps."""
+    yield "energy", None
+    yield "pressure_norm", slice(1, 3)
+    yield ("load_n" if "disp_z" in history else "disp_z"), None
+    yield ("load_tx" if "disp_x" in history else "disp_x"), slice(2, None)
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("seed", range(8))
+def test_random_problems_beside_differences(seed):
+    """Each parameter by central differences of the contact's own history."""
+    deviations, borders = check_random(seed)
+    assert max(deviations.values()) < 3e-5 or borders, (seed, max(deviations, key=deviations.get))
+
+
+class Problem:
+    """A random problem, its number, and what becomes of it when a parameter changes."""
+
+    def __init__(self, seed):
+        self.case, self.history = random_case(seed)
+        contact, x, y = self.contact({})
+        self.gap, self.wave = self.case["gap"](x, y), 1e-9 * np.cos(5e3 * x + 1) * np.cos(4e3 * y + 0.5)
+        self.tape = gradient.record(contact, self.history)
+        self.columns = [name for name in self.history if name != "time"]
+
+    def contact(self, change):
+        every = {**self.case, **change}
+        return contact_of(every["bodies"], every["n"], 2.4e-3, every["friction"], every["gap"])
+
+    def changed(self, parameter, size):
+        """What to give instead if a parameter changes by a part of itself; of the gap by that times a wave of 1 nm."""
+        if parameter == "gap":
+            return dict(gap=self.gap + size * self.wave)
+        if parameter == "friction":
+            return dict(friction=self.case["friction"] * (1 + size))
+        if parameter in self.case["bodies"]:
+            return dict(bodies={**self.case["bodies"], parameter: self.case["bodies"][parameter] * (1 + size)})
+        values = np.array(self.history[parameter], dtype=float)
+        values[2] += size * np.abs(values).max()
+        return dict(history={**self.history, parameter: values})
+
+    def derivative(self, found, parameter):
+        """The derivative by that change."""
+        if parameter == "gap":
+            return np.sum(found.gap * self.wave)
+        if parameter == "friction":
+            return np.sum(found.friction * self.case["friction"])
+        if parameter in self.case["bodies"]:
+            return found[parameter] * self.case["bodies"][parameter]
+        return found[parameter][2] * np.abs(self.history[parameter]).max()
+
+    def difference(self, parameter, name, steps):
+        """The same by differences of the contact's own history."""
+        size = 1e-6 if parameter != "gap" else 1e-3
+        both = []
+        for sign in (1, -1):
+            change = self.changed(parameter, sign * size)
+            tape = gradient.record(self.contact(change)[0], change.get("history", self.history))
+            both.append(gradient.backward.value_of(tape, name, steps))
+        return (both[0] - both[1]) / (2 * size)
+
+
+def check_random(seed):
+    """Checks a random problem; returns the deviations relative to the larger one of derivative and number, and the
+    number of cells on borders."""
+    problem, deviations, borders = Problem(seed), {}, 0
+    for name, steps in objectives(problem.history):
+        found = gradient.of(problem.tape, name, steps, rtol=1e-11)
+        borders += found.borders
+        for parameter in ("gap", "friction", "body1_young", "body2_poisson", *problem.columns):
+            difference = problem.difference(parameter, name, steps)
+            scale = max(abs(difference), 0.1 * abs(found.value))
+            deviations[name, parameter] = abs(problem.derivative(found, parameter) - difference) / scale
+    return deviations, borders
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_sphere_beside_hertz():
+    """The approach by the load: two thirds of their ratio; by the radius of the sphere, with the gap's derivative."""
+    radius, load = 0.1, 1000.0
+    history = {"time": [0.0], "load_n": [load]}
+    bodies = dict(BODIES, body1_poisson=0.0, body2_poisson=0.0)
+    contact, x, y = contact_of(bodies, 65, SIZE, 0.0, lambda x, y: (x**2 + y**2) / (2 * radius))
+    found = gradient.of(gradient.record(contact, history), "disp_z")
+    assert found["load_n"][0] * load / found.value == pytest.approx(2 / 3, rel=2e-3)
+    by_radius = np.sum(found["gap"] * -(x**2 + y**2) / (2 * radius**2))
+    assert by_radius * radius / found.value == pytest.approx(-1 / 3, rel=5e-3)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_an_optimiser_finds_the_friction_of_a_loop():
+    """Gauss and Newton by the derivative of the work: three steps are enough."""
+    history = history_of(np.full(6, 1000.0), 150 * np.array([0, 0.5, 1, 0, -1, 0]), np.zeros(6))
+
+    def run(friction):
+        return gradient.of(gradient.record(contact_of(BODIES, 24, friction=friction)[0], history), "energy")
+
+    goal, friction = run(0.37).value, 0.3
+    for _ in range(4):
+        found = run(friction)
+        friction += (goal - found.value) / found["friction"].sum()
+    assert friction == pytest.approx(0.37, rel=1e-4)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_refusals():
+    """What has no derivative is named, with what to take instead."""
+    history = {"time": [0.0, 1.0], "load_n": [500.0, 500.0], "load_tx": [0.0, 50.0]}
+    for change, words in (
+        (dict(slip_direction="mid"), "slip_direction='end'"),
+        (dict(wear_coefficient1=1e-14), "wear"), (dict(pressure_limit=1e9), "hardness"),
+        (dict(tangential_rtol=1e-4), "tangential_rtol"), (dict(body2_layer_young=1e11, body2_layer_poisson=0.3,
+         body2_layer_thickness=1e-4), "layers"),
+    ):  # fmt: skip
+        with pytest.raises(petsam.Error, match=words):
+            gradient.record(contact_of(BODIES, 16, **change)[0], history)
+    with pytest.raises(petsam.Error, match="column bulk2_stress_xx"):
+        gradient.record(contact_of(BODIES, 16)[0], {**history, "bulk2_stress_xx": [0, 1e6]})
+    with pytest.raises(petsam.Error, match="no contact"):
+        gradient.record(contact_of(BODIES, 16)[0], {"time": [0.0], "disp_z": [-1e-6]})
+    tape = gradient.record(contact_of(BODIES, 16)[0], history)
+    for name, words in (
+        ("contact_area", "piecewise constant"), ("pressure_max", "take pressure_norm"), ("load_n", "take disp_z"),
+        ("disp_sideways", "expected energy"),
+    ):  # fmt: skip
+        with pytest.raises(petsam.Error, match=words):
+            gradient.of(tape, name)
+    with pytest.raises(petsam.Error, match="no such step"):
+        gradient.of(tape, "energy", slice(5, 7))
+    with pytest.raises(petsam.Error, match="no derivative by it"):
+        _ = gradient.of(tape, "energy")["disp_x"]
