@@ -9,7 +9,7 @@ F' being that of what lies below, so that further layers follow one by one. F is
 short ones. For half-spaces F is written as a sum of exponentials, exp(-k d)/k being the potential of a source at the
 distance R and the depth d: 1/(2 pi sqrt(R^2 + d^2)). Of one layer the depths are 2 t, 4 t, ... with weights that fall
 as powers, slowly where conductivities differ much; depths in a geometric row with fitted weights give the same function
-to 1e-6 by some dozens.
+to 1e-7 by some dozens.
 
 Source: H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids (1959), chapter 8 (images of a layer).
 """
@@ -21,11 +21,10 @@ import numpy as np
 
 from ..core.errors import Error
 
-RATE = 3  # depths of images per octave: two give 1e-5
+RATE = 3  # depths of images per octave: two give 2e-6 of F
 BELOW = 20.0  # depth of the deepest image over the depth at which the bodies differ no longer
 SHORTEST = 40.0  # exp(-SHORTEST) of a wave's amplitude passes the first layer and returns
-WAVES = 400  # to which weights are fitted
-MEAN = 1e3  # weight of the mean, which rules the potential far away
+WAVES = 10  # per image, to which weights are fitted
 CUT = 1e-13  # relative singular values below which the fit is cut
 
 
@@ -101,9 +100,7 @@ class Body(NamedTuple):
         depth = 2 * sum(thickness for thickness, _ in self.layers)
         highest = BELOW * depth * max(conductivities) / min(conductivities)
         depths = np.geomspace(lowest, highest, int(np.ceil(RATE * np.log2(highest / lowest))) + 1)
-        k = np.append(0.0, np.geomspace(1e-3 / highest, SHORTEST / lowest, WAVES))
-        own, fit = 1 / conductivities[0], np.ones_like(k)
-        fit[0] = MEAN
-        below = self.resistivity(k) - own
-        weights = np.linalg.lstsq(np.exp(-k[:, None] * depths) * fit[:, None], below * fit, rcond=CUT)[0]
+        k = np.append(0.0, np.geomspace(1e-3 / highest, SHORTEST / lowest, WAVES * len(depths)))
+        own = 1 / conductivities[0]
+        weights = np.linalg.lstsq(np.exp(-k[:, None] * depths), self.resistivity(k) - own, rcond=CUT)[0]
         return [(0.0, own), *((float(d), float(one)) for d, one in zip(depths, weights))]
