@@ -8,6 +8,7 @@ from petsam.conduction import Body, conduct, spots
 from petsam.core.errors import Error
 from support import SPHERE, bodies
 
+pytestmark = pytest.mark.filterwarnings("ignore::petsam.contact.AdviceWarning")
 # Conductance of a disc with a film r on it, over a/(rho1 + rho2), by rings
 FILMS = {0.0: 4.0, 0.01: 3.912718, 0.1: 3.434689, 0.5: 2.353464, 1.0: 1.706719, 10.0: 0.289605}
 
@@ -173,6 +174,48 @@ def test_limits_of_layers(periodic):
     assert flux((1e6, 30.0)) == pytest.approx(flux(lam=30.0), rel=1e-5)
     assert flux((0.4, 30.0), (0.6, 30.0), (2.0, 0.1)) == pytest.approx(flux((1.0, 30.0), (2.0, 0.1)), rel=2e-6)
     assert flux((0.4, 30.0)).sum() > flux((0.1, 30.0)).sum() > bare.sum() > flux((0.1, 0.3)).sum()
+
+
+def summed_factor(k, bodies):
+    """The sum of F(k) of bodies by the reflection of each interface."""
+    found = 0.0
+    for body in bodies:
+        factor = 1 / body.lam
+        for thickness, lam in reversed(body.layers):
+            back = (lam - 1 / factor) / (lam + 1 / factor) * np.exp(-2 * k * thickness)
+            factor = (1 + back) / (1 - back) / lam
+        found += factor
+    return found
+
+
+def random_period(rng):
+    """Cells, their widths, bodies and films of a small period, mirrored or not."""
+    shape, mirrored = rng.integers(2, 7, 2), rng.random() < 0.5
+    fold = lambda field: np.pad(field, [(0, n) for n in field.shape], mode="symmetric") if mirrored else field  # noqa: E731
+    cells, film = rng.random(shape) < rng.uniform(0.2, 1), 10 ** rng.uniform(-4, 3, shape)
+    cells[0, 0] = True
+    film[rng.random(shape) < 0.3] = 0.0
+    film[0, 0] = 1.0
+    layers = [10 ** rng.uniform(-2, 2, (rng.integers(0, 3), 2)) for _ in "12"]
+    bodies = [Body(10 ** rng.uniform(-1, 1), one.tolist()) for one in layers]
+    return fold(cells), tuple(10 ** rng.uniform(-1, 1, 2)), bodies, fold(film)
+
+
+def test_random_periods_against_dense_matrices():
+    """100 periods with layers, films that differ by orders and mirror planes or not."""
+    rng = np.random.default_rng(0)
+    for _ in range(100):
+        cells, cell, bodies, film = random_period(rng)
+        k = np.hypot(*np.meshgrid(*(2 * np.pi * np.fft.fftfreq(n, w) for n, w in zip(cells.shape[::-1], cell))))
+        k[0, 0] = np.inf
+        units = np.eye(cells.size).reshape(-1, *cells.shape)
+        spread = np.fft.ifft2(np.fft.fft2(units) * summed_factor(k, bodies) / k).real.reshape(cells.size, -1)
+        on = cells.ravel()
+        matrix = (spread + np.diag(film.ravel()))[np.ix_(on, on)]
+        expected = np.linalg.solve(matrix, np.ones(on.sum()))
+        found = conduct(cells, cell, bodies, film, periodic=True)
+        assert found[cells].sum() == pytest.approx(expected.sum(), rel=1e-9)
+        assert found[cells] == pytest.approx(expected, rel=1e-4, abs=1e-6 * expected.max())
 
 
 def potential_of_a_wave(k, body):

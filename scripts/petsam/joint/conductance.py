@@ -25,7 +25,7 @@ COLUMNS = {
 }
 ELECTRICAL = {"W/(m2 K)": "S/m2", "m2 K/W": "Ohm m2"}
 RTOL = 3e-4  # residual of the flux: the error of its sum, a quadratic form, is about the square, that of parts 3e-5
-FILM = "film"  # the dataset of a film in HDF5
+NAME = "film"  # of a field of a film in messages, and of its dataset in HDF5
 FIRST, POWER = 0.1, 0.95  # of the lowest pressure, for which a row of a card is extrapolated; in proportion to p^POWER
 
 
@@ -53,7 +53,7 @@ class Conductors(NamedTuple):
     gas: Optional[tuple[float, float]] = None
     electrical: bool = False
     layers: tuple = (None, None)
-    film_name: str = "film"
+    film_name: str = NAME
 
     def columns(self) -> dict[str, tuple[str, str]]:
         """Unit and meaning of each number, by its name.
@@ -90,7 +90,7 @@ class Conductors(NamedTuple):
         """
         own = np.shape(self.film)
         if own and own != tuple(shape):
-            raise Error(
+            raise (Unusable if self.film_name == NAME else Error)(
                 f"{self.film_name}: has {own[1]} x {own[0]} points along x and y, the surface {shape[1]} x {shape[0]}: "
                 "give the film at each point of the surface"
             )
@@ -195,18 +195,20 @@ def conductors(
 def _film(film):
     """The resistance of a film, a number or a field, and its name in messages."""
     if film is None:
-        return 0.0, "film"
+        return 0.0, NAME
     what = "a resistance >= 0, of the spots per area"
     if isinstance(film, (str, os.PathLike)):
         name = os.fspath(film)
-        values = read_values(name, FILM)
+        values = read_values(name, NAME)
     elif np.ndim(film) == 0:
-        return real("film", film, what, lambda one: 0.0 <= one < np.inf), "film"
+        return real("film", film, what, lambda one: 0.0 <= one < np.inf), NAME
     else:
-        name, values = "film", array("film", film, what)
+        name, values = NAME, array(NAME, film, what)
     wrong = int(np.count_nonzero(~((values >= 0.0) & (values < np.inf))))
     if values.ndim != 2 or wrong:
-        raise Error(f"{name}: {wrong} of {values.size} values are no resistance >= 0: expected one at each point")
+        raise (Unusable if name == NAME else Error)(
+            f"{name}: {wrong} of {values.size} values are no resistance >= 0: expected one at each point"
+        )
     return values, name
 
 
