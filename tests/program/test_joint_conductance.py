@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 
+import h5py
 import numpy as np
 import pytest
 
@@ -71,6 +72,62 @@ def test_gas_raises_the_conductance_and_a_film_lowers_it():
     assert np.array_equal(found(film=0.0).h, bare.h)
 
 
+def test_a_film_that_varies_is_cut_into_the_windows():
+    """As of five fields that repeat themselves; where it is the same everywhere, as of a number."""
+    separation, film = waves(48, 3), 1e-6 * np.random.default_rng(1).random((48, 48))
+    given = dict(spacing=1e-5, normal_only=True, conductivity=(50, 50), **PAIR)
+    one = joint.interface(separation, PRESSURES, film=film, **given)
+    parts = []
+    for j, i in ((0, 0), (0, 24), (24, 0), (24, 24), (12, 12)):
+        field, own = (np.pad(all[j : j + 24, i : i + 24], [(0, 24)] * 2, "symmetric") for all in (separation, film))
+        parts.append(joint.interface(field, PRESSURES, film=own, periodic=True, **given).h)
+    assert one.h == pytest.approx(np.mean(parts, axis=0), rel=1e-12)
+    assert np.array_equal(found(film=np.full((48, 48), 1e-6)).h, found(film=1e-6).h)
+    assert np.all(found().h > found(film=film).h) and np.all(found(film=film).h > found(film=1e-6).h)
+
+
+@pytest.mark.parametrize("kind", ["h5", "txt", "npy"])
+def test_a_film_from_a_file_has_its_first_row_at_the_smallest_y(tmp_path, command, kind):
+    film = 1e-6 * np.random.default_rng(1).random((48, 48)).round(6)
+    name = f"film.{kind}"
+    if kind == "h5":
+        with h5py.File(tmp_path / name, "w") as file:
+            file["film"] = film[::-1]
+            file["film"].attrs["units"] = "m2 K/W"
+            for letter, axis in (("x", np.arange(48.0)), ("y", -np.arange(48.0))):
+                file[letter] = axis
+                file[letter].attrs["units"] = "um"
+    else:
+        np.save(tmp_path / name, film) if kind == "npy" else np.savetxt(tmp_path / name, film)
+    write(tmp_path / "a.h5", "separation", waves(48, 3))
+    said = command("a.h5", "--pressure", "4MPa,12MPa", "--periodic", *STEEL, "--normal-only", "--conductivity", "50,20",
+                   "--film", name)  # fmt: skip
+    assert said == "\n".join(found(film=film).lines()) + "\n"
+    assert found(film=film).lines() != found(film=film[::-1]).lines()
+    np.savetxt(tmp_path / "film.txt", -film)
+    with pytest.raises(petsam.Error, match="film.txt: .* of 2304 values are no resistance >= 0"):
+        found(film=tmp_path / "film.txt")
+
+
+def test_layers_change_the_constriction_alone(command, tmp_path):
+    """One of the body's own conductivity nothing; a thick one is the body; gold raises h, and the card says so."""
+    bare, gold = found(), found(layers1=[(5e-6, 317.0)])
+    assert found(layers1=[(5e-6, 50.0)], layers2=[(1e-6, 20.0)]).h == pytest.approx(bare.h, rel=1e-9)
+    assert found(layers2=[(1.0, 50.0)]).h == pytest.approx(found(lam=(50.0, 50.0)).h, rel=1e-6)
+    assert np.all(gold.h > 1.05 * bare.h) and np.all(gold.h < found(lam=(317.0, 20.0)).h)
+    write(tmp_path / "a.h5", "separation", waves(48, 3))
+    words = ("a.h5", "--pressure", "4MPa,12MPa", "--periodic", *STEEL, "--normal-only", "--conductivity", "50,20")
+    two = found(layers1=[(5e-6, 317.0)], layers2=[(1e-6, 90.0), (2e-6, 0.2)])
+    said = command(*words, "--layer1", "5um,317", "--layer2", "1um,90", "--layer2", "2um,0.2", "-o", "i")
+    assert said == "\n".join(two.lines()) + "\n"
+    text = (tmp_path / "i.inp").read_text()
+    assert "5e-06 m of 317 W/(m K) on body 1, 1e-06 m of 90 W/(m K) on body 2, 2e-06 m of 0.2" in text
+    assert "thickness (1/lam of the layer" in text
+    elastic = dict(body1_layer_young=80e9, body1_layer_poisson=0.42, body1_layer_thickness=5e-6)
+    soft = found(layers1=[(5e-6, 317.0)], **elastic)
+    assert np.all(soft.h > 1.01 * gold.h) and np.all(found(layers1=(), **elastic).h < soft.h)
+
+
 def test_columns_have_the_scatter_of_windows_and_units():
     given = dict(spacing=1e-5, normal_only=True, gas=AIR, conductivity=(50, 50), **PAIR)
     heat, current = (joint.interface(waves(48, 3), PRESSURES, electrical=on, **given) for on in (False, True))
@@ -93,7 +150,12 @@ def test_columns_have_the_scatter_of_windows_and_units():
     (dict(conductivity=(50, 50), film=-1), "film -1: expected a resistance"),
     (dict(conductivity=(50, 50), gas=(0, 1e-6)), "gas .* expected a conductivity above 0"),
     (dict(conductivity=(50, np.inf)), "expected two numbers"),
-    (dict(conductivity=(50, 50), body1_layer_young=1e9), "body1_layer_young: the flux through layers"),
+    (dict(conductivity=(50, 50), body1_layer_young=1e9), "body1_layer_young: give also how the layers conduct"),
+    (dict(layers2=[(1e-6, 300)]), "layers2: is for the conductance"),
+    (dict(conductivity=(50, 50), layers2=[(1e-6, 0)]), "expected finite numbers > 0"),
+    (dict(conductivity=(50, 50), film=np.ones((24, 23))), "film: has 23 x 24 points .* the surface 24 x 24"),
+    (dict(conductivity=(50, 50), film=np.full((24, 24), np.nan)), "film: 576 of 576 values are no resistance"),
+    (dict(conductivity=(50, 50), film="no.h5"), "no.h5"),
 ], ids=str)  # fmt: skip
 def test_arguments_are_refused_before_the_computation(given, says, monkeypatch):
     monkeypatch.setattr(petsam.Contact, "try_step", None)
@@ -106,7 +168,10 @@ def test_arguments_are_refused_before_the_computation(given, says, monkeypatch):
     (("--film", "1e-6"), "--film: is for the conductance"), (("--electrical",), "--electrical: is for the conductance"),
     (("--conductivity", "50"), "--conductivity: 50: expected those of both bodies"),
     (("--conductivity", "50,-1"), "--conductivity: 50,-1: expected"),
-    (("--conductivity", "50,50", "--film=-1"), "--film: -1: expected a number, 0 or more"),
+    (("--conductivity", "50,50", "--film=-1"), "--film: -1: expected a number, 0 or more, or a file"),
+    (("--layer1", "1um,300"), "--layer1: is for the conductance"),
+    (("--conductivity", "50,50", "--layer2", "1um"), "--layer2: 1um: expected THICKNESS,CONDUCTIVITY"),
+    (("--conductivity", "50,50", "--layer2", "1um,-3"), "--layer2: 1um,-3: expected THICKNESS,CONDUCTIVITY"),
     (("--conductivity", "50,50", "--gas", "0.026"), "--gas: 0.026: expected LAM,M"),
     (("--conductivity", "50,50", "--gas", "0.026,1Pa"), "--gas: 0.026,1Pa: expected LAM,M"),
 ], ids=str)  # fmt: skip
@@ -114,6 +179,20 @@ def test_options_are_refused_in_one_line(command, tmp_path, words, says):
     write(tmp_path / "a.h5", "separation", waves(24, 5))
     said = command("a.h5", "--pressure", "10MPa", *STEEL, "--normal-only", *words, check=2)
     assert says in said and said.count("\n") == 1
+
+
+@pytest.mark.parametrize("name, says", [
+    ("b.txt", "b.txt: has 4 x 3 points along x and y, the surface 24 x 24: give the film at each point"),
+    ("a.h5", "a.h5: has no dataset /film"), ("none.h5", "none.h5: no such file"),
+])  # fmt: skip
+def test_a_file_of_a_film_that_does_not_fit_is_named(command, tmp_path, monkeypatch, name, says):
+    write(tmp_path / "a.h5", "separation", waves(24, 5))
+    (tmp_path / "b.txt").write_text("1 2 3 4\n" * 3)
+    monkeypatch.setattr(petsam.Contact, "try_step", None)
+    words = ("a.h5", "--pressure", "10MPa", *STEEL, "--normal-only", "--conductivity", "50,50", "--film", name)
+    for more in ((), ("--periodic",)):
+        said = command(*words, *more, check=3)
+        assert says in said and said.count("\n") == 1
 
 
 def rows(path, card):
@@ -145,19 +224,22 @@ def test_the_command_writes_columns_and_cards(command, tmp_path):
     for path in tmp_path.glob("i*.inp"):
         path.unlink()
     command(*words, "--friction", 0.3, "--steps", 1, "--electrical")
-    assert not (tmp_path / "i-calculix.inp").exists() and "*FRICTION, ELASTIC" in (tmp_path / "i.inp").read_text()
+    assert "*FRICTION, ELASTIC" in (tmp_path / "i.inp").read_text()
+    calculix = rows(tmp_path / "i-calculix.inp", "*GAP CONDUCTANCE")
+    assert calculix[2:, :2] == pytest.approx(np.array(expected[2:]) * [1e-3, 1], rel=1e-5)
+    assert "** CalculiX has no electrical contact" in (tmp_path / "i-calculix.inp").read_text()
     electrical = rows(tmp_path / "i.inp", "*GAP ELECTRICAL CONDUCTANCE, PRESSURE")
     assert electrical[2:] == pytest.approx(np.array(expected[2:]) * [1e-3, 1], rel=1e-5)
     assert rows(tmp_path / "i.inp", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR").shape == (3, 2)
 
 
-def test_a_card_without_gas_begins_at_0_and_needs_heat(tmp_path):
+def test_a_card_without_gas_begins_at_0_and_needs_a_conductance(tmp_path):
     one = found()
     one.to_abaqus(tmp_path / "a.inp")
     assert rows(tmp_path / "a.inp", "*GAP CONDUCTANCE, PRESSURE")[0].tolist() == [0.0, 0.0]
-    for other in (found(electrical=True), joint.of_interface(waves(24, 5), 1e-5, [1e7], normal_only=True, **PAIR)):
-        with pytest.raises(petsam.Error, match="to_calculix: needs a thermal conductance"):
-            other.to_calculix(tmp_path / "b.inp")
+    other = joint.of_interface(waves(24, 5), 1e-5, [1e7], normal_only=True, **PAIR)
+    with pytest.raises(petsam.Error, match="to_calculix: needs a conductance"):
+        other.to_calculix(tmp_path / "b.inp")
 
 
 def test_a_hardness_says_which_stiffness_is_measured_how(command, tmp_path):
@@ -193,6 +275,8 @@ BLOCKS = """*INCLUDE, INPUT=card.inp
 1, 2, 3, 4
 *NSET, NSET=HIGH
 15, 16, 17, 18
+*NSET, NSET=FACES
+5, 6, 7, 8, 11, 12, 13, 14
 *ELEMENT, TYPE=C3D8, ELSET=BLOCKS
 1, 1, 2, 3, 4, 5, 6, 7, 8
 2, 11, 12, 13, 14, 15, 16, 17, 18
@@ -204,7 +288,7 @@ BLOCKS = """*INCLUDE, INPUT=card.inp
 *ELASTIC
 210000., 0.3
 *CONDUCTIVITY
-50.
+{lam}
 *DENSITY
 7.8E-9
 *SPECIFIC HEAT
@@ -221,31 +305,39 @@ ALL, 0.
 ALL, 1, 2
 LOW, 3, 3
 HIGH, 3, 3, {push}
-LOW, 11, 11, 100.
+LOW, 11, 11, {high}
 HIGH, 11, 11, 0.
 *NODE PRINT, NSET=LOW, TOTALS=ONLY
 RFL, RF
+*NODE PRINT, NSET=FACES
+NT
 *END STEP
 """
 
 
 @needs_calculix
-@pytest.mark.parametrize("gas", [None, AIR], ids=["bare", "air"])
-def test_calculix_takes_the_conductance_from_the_card(tmp_path, gas):
-    """Two steel cubes of 1 mm between 100 K and 0 K, pushed together: the flux is that of three resistances in series,
-    of which the contact's is the card's at the pressure that CalculiX finds."""
-    one = found(lam=(50.0, 50.0), gas=gas)
+@pytest.mark.parametrize("given, lam, high", [
+    ({}, 50.0, 100.0), (dict(gas=AIR), 50.0, 100.0), (dict(electrical=True), 5.8e7, 1e-3)
+], ids=["bare", "air", "current"])  # fmt: skip
+def test_calculix_takes_the_conductance_from_the_card(tmp_path, given, lam, high):
+    """Two cubes of 1 mm between 100 K and 0 K, or 1 mV and 0 V, pushed together: the flux is that of three resistances
+    in series, of which the contact's is the card's at the pressure that CalculiX finds, and the step between the faces
+    that of this one."""
+    one = found(lam=(lam, lam), **given)
     one.to_calculix(tmp_path / "card.inp")
-    (tmp_path / "blocks.inp").write_text(BLOCKS.format(push=-1.9e-4))
+    lam = lam * 1e-3 if "electrical" in given else lam  # S/mm; mW/(mm K)
+    (tmp_path / "blocks.inp").write_text(BLOCKS.format(push=-1.9e-4, lam=lam, high=high))
     done = subprocess.run([CCX, "blocks"], cwd=tmp_path, capture_output=True, text=True, timeout=60)
-    totals = [line.split() for line in (tmp_path / "blocks.dat").read_text().splitlines() if line.strip()]
-    assert len(totals) == 4, done.stdout
-    numbers = {len(words): [float(word) for word in words] for words in (totals[1], totals[3])}
-    heat, pressure = numbers[1][0], numbers[3][2]
+    lines = [line.split() for line in (tmp_path / "blocks.dat").read_text().splitlines() if line.strip()]
+    assert len(lines) == 13, done.stdout
+    heat, pressure = float(lines[1][0]), float(lines[3][2])
+    faces = {int(node): float(value) for node, value in lines[5:]}
     assert 4.0 < pressure < 12.0
     card = rows(tmp_path / "card.inp", "*GAP CONDUCTANCE")
     h = np.interp(pressure, card[:, 1], card[:, 0])
-    assert heat == pytest.approx(100.0 / (2 / 50.0 + 1 / h), rel=1e-4)
+    assert heat == pytest.approx(high / (2 / lam + 1 / h), rel=1e-4)
+    step = np.mean([faces[node] for node in (5, 6, 7, 8)]) - np.mean([faces[node] for node in (11, 12, 13, 14)])
+    assert step == pytest.approx(heat / h, rel=1e-4)
 
 
 def test_a_picture_has_the_conductances_of_several_interfaces():

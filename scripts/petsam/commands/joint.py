@@ -12,10 +12,10 @@ the shear; with the standard deviation of five windows of the surface, and the e
 Iwan element. The loops follow from the approach over the pressure by a formula, and one window is computed to check it;
 --full computes the loops of all windows, which dissimilar bodies and a hardness always need. --normal-only leaves the
 shear out. --conductivity adds the thermal conductance per area of the interface alone, or with --electrical the
-electrical one, of films and gas, too. -o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and
-pyHarm, NAME.inp, the interaction for a deck of Abaqus, and NAME.png; with --normal-only NAME.csv and NAME.png. With
---conductivity NAME.inp has the conductance, too, also with --normal-only, and NAME-calculix.inp is the interaction for
-a deck of CalculiX (not with --electrical).
+electrical one, of layers, films and gas, too. -o NAME writes NAME.csv with all numbers, NAME.json, elements for
+tmdsimpy and pyHarm, NAME.inp, the interaction for a deck of Abaqus, and NAME.png; with --normal-only NAME.csv and
+NAME.png. With --conductivity NAME.inp has the conductance, too, also with --normal-only, and NAME-calculix.inp is the
+interaction for a deck of CalculiX (of a current as one of heat, since it has no electrical contact).
 
 backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written; each of its patches
 is a contact with the options of --contact, whose origin is the patch's centre. Tightens the bolts and prints frequency
@@ -38,6 +38,7 @@ of the material and of friction. -o NAME writes NAME.csv and NAME.png.
 
 import argparse
 import contextlib
+import os
 import sys
 import warnings
 
@@ -95,6 +96,29 @@ def gas(text):
     raise words.WordError(text, form)
 
 
+def layer(text):
+    """Thickness of --layer1 or --layer2, m, and conductivity."""
+    form = "THICKNESS,CONDUCTIVITY, a length and a number above 0, of gold 2um,317"
+    parts = text.split(",")
+    try:
+        if len(parts) == 2:
+            thickness = words.number(parts[0], form, "m", words.positive)
+            return thickness, words.number(parts[1], form, allowed=words.positive)
+    except words.WordError:
+        pass
+    raise words.WordError(text, form)
+
+
+def film(text):
+    """Resistance of --film, or the name of its file."""
+    try:
+        return words.number(text, "a number, 0 or more, or a file", "1", _not_below_0)
+    except words.WordError:
+        if os.path.exists(text) or os.path.splitext(text)[1].lower() in (".h5", ".hdf5", ".txt", ".csv", ".npy"):
+            return text
+        raise words.WordError(text, "a number, 0 or more, or a file with one at each point: 1e-6, film.h5") from None
+
+
 def _not_below_0(value):
     return 0.0 <= value < np.inf
 
@@ -147,9 +171,16 @@ def _stiffness_options(one):
         "--electrical", action="store_true", default=None, help="a current instead of heat: units S/m, S/m2, Ohm m2"
     )
     group.add_argument(
-        "--film", type=word(words.number, "a number, 0 or more: 1e-6", "1", _not_below_0), metavar="R",
-        help="resistance of a film on the spots per area, m2 K/W, or Ohm m2",
+        "--film", type=word(film), metavar="R",
+        help="resistance of a film on the spots per area, m2 K/W, or Ohm m2, or a file with one at each point of the "
+        "surface: a text, or HDF5 with a dataset film",
     )  # fmt: skip
+    for body in "12":
+        group.add_argument(
+            f"--layer{body}", type=word(layer), metavar="T,LAM", action="append",
+            help=f"thickness and conductivity of a conducting layer on body {body}, such as 2um,317; may be repeated "
+            "from the surface inwards",
+        )  # fmt: skip
     group.add_argument(
         "--gas", type=word(gas), metavar="LAM,M",
         help="conductivity of what fills the gap, W/(m K), and length of the temperature jump: air 0.026,0.37um",
@@ -291,20 +322,20 @@ def _stiffness(args):
 
 def _conducting(args):
     """The options of the conductance; ends with an error where they need --conductivity."""
-    names = ("electrical", "film", "gas")
+    names = ("electrical", "film", "gas", "layer1", "layer2")
     given = {name: getattr(args, name) for name in names if getattr(args, name) is not None}
     if args.conductivity is None:
         for name in given:
             raise Unusable(f"--{name}: is for the conductance: give --conductivity LAM1,LAM2, too")
         return {}
-    return {"conductivity": args.conductivity, **given}
+    return {"conductivity": args.conductivity, **{name.replace("layer", "layers"): one for name, one in given.items()}}
 
 
 def _stiffness_files(args):
     """Endings of the files that stiffness writes."""
     endings = [".csv", ".png", *([] if args.normal_only else [".json", ".inp"])]
     if args.conductivity is not None:
-        endings = [*dict.fromkeys([*endings, ".inp"]), *([] if args.electrical else ["-calculix.inp"])]
+        endings = [*dict.fromkeys([*endings, ".inp"]), "-calculix.inp"]
     return endings
 
 
@@ -533,6 +564,8 @@ ACTIONS = {
             electrical=None,
             film=None,
             gas=None,
+            layer1=None,
+            layer2=None,
         ),
         _stiffness,
     ),

@@ -1,6 +1,6 @@
-"""The conductance of a contact in process: constriction, films and gas in one problem."""
+"""The conductance of a contact in process: constriction, layers, films and gas in one problem."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Optional, Union
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.errors import Error
+from .layers import Body
 from .spots import conduct
 
 PERIODIC = ("periodic", "plane_periodic")
@@ -45,13 +46,18 @@ class Conductance:
         return self.per_area - self.contact
 
 
-def of(
+Layers = Sequence[tuple[float, float]]
+
+
+def of(  # noqa: PLR0913  (each body has a conductivity and layers)
     contact: Any,
     lam1: float,
     lam2: float,
     film: Union[float, ArrayLike, None] = None,
     gas: Optional[tuple[float, float]] = None,
     rtol: float = 1e-8,
+    layers1: Optional[Layers] = None,
+    layers2: Optional[Layers] = None,
 ) -> Conductance:
     """The thermal, or electrical, conductance of the committed step of a contact.
 
@@ -68,6 +74,8 @@ def of(
         Conductivity of what fills the gap (W/(m K)), and the length of the temperature jump (m): of air 0.026, 0.37e-6.
     rtol : float
         Relative residual at which the solution is accepted; the error of the conductance goes with its square.
+    layers1, layers2 : sequence of (thickness, conductivity), optional
+        Layers on each body from the surface inwards, m and W/(m K), or S/m; () says that there is none that matters.
 
     Returns
     -------
@@ -76,17 +84,19 @@ def of(
     Raises
     ------
     Error
-        If there is no contact, a number is not positive, or the bodies are layered, of finite elements, or in plane
-        strain, where a contact has no conductance of its own.
+        If there is no contact, a number is not positive, a body has elastic layers whose conductivity is not given, or
+        the bodies are of finite elements, or in plane strain, where a contact has no conductance of its own.
 
     Notes
     -----
+    Conducting layers are independent of elastic ones. Of a period the resistance of a layer to a uniform flux is left
+    out, as that of the bodies: thickness (1/conductivity - 1/lam) more than the body alone.
+
     Films lie on the area of contact, of which counted cells are too many: their resistance is raised by the counted
     over the reconstructed area (`contact_area`).
     """
-    if not (lam1 > 0 and lam2 > 0):
-        raise Error(f"conduction: conductivities {lam1:g} and {lam2:g}: expected numbers > 0")
-    periodic = _is_periodic(contact)
+    bodies = Body(lam1, layers1 or ()).checked(), Body(lam2, layers2 or ()).checked()
+    periodic = _is_periodic(contact, layers1, layers2)
     pressure = contact["pressure"]
     touches = pressure > 0
     cell = tuple(size / n for size, n in zip(contact.size, contact.n))
@@ -104,13 +114,13 @@ def of(
             raise Error(f"conduction: gas {lam:g}, {jump:g}: expected a conductivity > 0 and a length >= 0")
         resistance = np.where(touches, resistance, (np.maximum(contact["gap"], 0.0) + jump) / lam)
         conducts = np.ones_like(touches)
-    flux = conduct(conducts, cell, 1 / lam1 + 1 / lam2, resistance, periodic, rtol)
+    flux = conduct(conducts, cell, bodies, resistance, periodic, rtol)
     area = contact.size[0] * contact.size[1]
     total = float(flux.sum()) * cell[0] * cell[1]
     return Conductance(total, total / area, float(flux[touches].sum()) * cell[0] * cell[1] / area, flux)
 
 
-def _is_periodic(contact):
+def _is_periodic(contact, layers1, layers2):
     """Returns True for periodic bodies; Error where no conductance is known."""
     options = contact.options
     kind = str(options.get("elasticity", "halfspace"))
@@ -118,7 +128,7 @@ def _is_periodic(contact):
         raise Error(
             "conduction: in plane strain a contact's conductance has no limit far away: use a section of one period"
         )
-    need_half_spaces(options)
+    need_conducting(options, layers1, layers2)
     return kind in PERIODIC
 
 
@@ -133,3 +143,24 @@ def need_half_spaces(options: Iterable[str]) -> None:
     for name in options:
         if "_layer" in name or "_compliance" in name:
             raise Error(f"conduction: {name}: the flux through layers and finite bodies is not computed: omit it")
+
+
+def need_conducting(options: Iterable[str], layers1: Optional[Layers] = None, layers2: Optional[Layers] = None) -> None:
+    """Raises Error where options make finite bodies, or elastic layers of which it is not known how they conduct.
+
+    Parameters
+    ----------
+    options : iterable of str
+        Names of the options.
+    layers1, layers2 : sequence of (thickness, conductivity), optional
+        Conducting layers of each body; None: not given.
+    """
+    for name in options:
+        if "_compliance" in name:
+            raise Error(f"conduction: {name}: the flux through finite bodies is not computed: omit it")
+        for body, layers in (("1", layers1), ("2", layers2)):
+            if f"body{body}_layer" in name and layers is None:
+                raise Error(
+                    f"conduction: {name}: give also how the layers conduct: layers{body}=[(thickness, conductivity), "
+                    "...] from the surface inwards"
+                )

@@ -6,13 +6,15 @@ It has its own solution, since the normal stiffness of dissimilar bodies contain
 contact are those from which k_n is taken, all of them, as at an unloading: yielded summits conduct, too.
 """
 
-from typing import Any, NamedTuple, Optional
+import os
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..conduction import of
-from ..core.errors import Unusable
+from ..conduction import Body, of
+from ..core.errors import Error, Unusable
+from ..surface.reading import read_values
 from .arguments import array, real
 
 COLUMNS = {
@@ -23,28 +25,35 @@ COLUMNS = {
 }
 ELECTRICAL = {"W/(m2 K)": "S/m2", "m2 K/W": "Ohm m2"}
 RTOL = 3e-4  # residual of the flux: the error of its sum, a quadratic form, is about the square, that of parts 3e-5
+NAME = "film"  # of a field of a film in messages, and of its dataset in HDF5
 FIRST, POWER = 0.1, 0.95  # of the lowest pressure, for which a row of a card is extrapolated; in proportion to p^POWER
 
 
 class Conductors(NamedTuple):
-    """The conductors of an interface: bodies, films, gas.
+    """The conductors of an interface: bodies with layers, films, gas.
 
     Attributes
     ----------
     lam : pair of floats
         Conductivities of both bodies, W/(m K), or S/m.
-    film : float
-        Resistance of a film on the spots, m2 K/W, or Ohm m2.
+    film : float or ndarray
+        Resistance of a film on the spots, m2 K/W, or Ohm m2; (ny, nx) where it varies.
     gas : pair of floats or None
         Conductivity of what fills the gap, W/(m K), or S/m; length of the temperature jump, m.
     electrical : bool
         True: a current flows instead of heat.
+    layers : pair
+        Layers on each body, (thickness, conductivity) from the surface inwards, m and W/(m K), or S/m; None: not given.
+    film_name : str
+        The film's file, or its name in messages.
     """
 
     lam: tuple[float, float]
-    film: float = 0.0
+    film: Union[float, np.ndarray] = 0.0
     gas: Optional[tuple[float, float]] = None
     electrical: bool = False
+    layers: tuple = (None, None)
+    film_name: str = NAME
 
     def columns(self) -> dict[str, tuple[str, str]]:
         """Unit and meaning of each number, by its name.
@@ -56,6 +65,50 @@ class Conductors(NamedTuple):
         if not self.electrical:
             return COLUMNS
         return {name: (ELECTRICAL[unit], f"electrical {text}") for name, (unit, text) in COLUMNS.items()}
+
+    @property
+    def has_film(self) -> bool:
+        """True if a resistance of the film is above 0."""
+        return bool(np.any(self.film))
+
+    def fitted(self, shape: tuple[int, int]) -> "Conductors":
+        """The same; Error unless a film that varies has a value at each point of the surface.
+
+        Parameters
+        ----------
+        shape : pair of ints
+            Points of the surface, (ny, nx).
+
+        Returns
+        -------
+        Conductors
+
+        Raises
+        ------
+        Error
+            For other points.
+        """
+        own = np.shape(self.film)
+        if own and own != tuple(shape):
+            raise (Unusable if self.film_name == NAME else Error)(
+                f"{self.film_name}: has {own[1]} x {own[0]} points along x and y, the surface {shape[1]} x {shape[0]}: "
+                "give the film at each point of the surface"
+            )
+        return self
+
+    def mapped(self, change: Any) -> "Conductors":
+        """The conductors of a part of the surface.
+
+        Parameters
+        ----------
+        change : callable
+            Called with a film that varies, (ny, nx); returns that of the part.
+
+        Returns
+        -------
+        Conductors
+        """
+        return self._replace(film=change(self.film)) if np.ndim(self.film) else self
 
     def measure(self, contact: Any) -> dict[str, float]:
         """The conductances of the committed step of a contact of one period.
@@ -69,7 +122,9 @@ class Conductors(NamedTuple):
         -------
         dict
         """
-        found = of(contact, *self.lam, film=self.film or None, gas=self.gas, rtol=RTOL)
+        film = self.film if self.has_film else None
+        layers1, layers2 = self.layers
+        found = of(contact, *self.lam, film=film, gas=self.gas, rtol=RTOL, layers1=layers1, layers2=layers2)
         return {"h_contact": found.contact, "h_gap": found.gap if self.gas else 0.0, "h": found.per_area}
 
     def words(self) -> str:
@@ -81,15 +136,22 @@ class Conductors(NamedTuple):
         """
         kind = "S/m" if self.electrical else "W/(m K)"
         parts = [f"bodies of {self.lam[0]:g} and {self.lam[1]:g} {kind}"]
-        if self.film:
-            parts.append(f"a film of {self.film:g} {'Ohm m2' if self.electrical else 'm2 K/W'}")
+        for body, layers in enumerate(self.layers, 1):
+            parts += [f"{thickness:g} m of {lam:g} {kind} on body {body}" for thickness, lam in layers or ()]
+        if self.has_film:
+            between = f"{np.min(self.film):g} to {np.max(self.film):g}" if np.ndim(self.film) else f"{self.film:g}"
+            parts.append(f"a film of {between} {'Ohm m2' if self.electrical else 'm2 K/W'}")
         if self.gas:
             parts.append(f"{self.gas[0]:g} {kind} in the gap, temperature jump {self.gas[1]:g} m")
         return ", ".join(parts)
 
 
 def conductors(
-    conductivity: Optional[ArrayLike], electrical: bool, film: Optional[float], gas: Optional[ArrayLike]
+    conductivity: Optional[ArrayLike],
+    electrical: bool,
+    film: Union[float, ArrayLike, str, os.PathLike, None],
+    gas: Optional[ArrayLike],
+    layers: tuple = (None, None),
 ) -> Optional[Conductors]:
     """The Conductors of these options, or None without a conductivity.
 
@@ -99,10 +161,12 @@ def conductors(
         Of both bodies.
     electrical : bool
         True: a current flows instead of heat.
-    film : float or None
-        Resistance of a film on the spots.
+    film : float, array_like, path or None
+        Resistance of a film on the spots; (ny, nx), or a file of it, where it varies.
     gas : pair of floats or None
         Conductivity of what fills the gap, and the length of the temperature jump.
+    layers : pair
+        Layers on each body, (thickness, conductivity) from the surface inwards, or None.
 
     Returns
     -------
@@ -114,16 +178,38 @@ def conductors(
         For wrong values, and options without a conductivity.
     """
     if conductivity is None:
-        for name, given in (("electrical", electrical), ("film", film is not None), ("gas", gas is not None)):
-            if given:
+        given = dict(electrical=electrical, film=film is not None, gas=gas is not None)
+        given.update({f"layers{k}": one is not None for k, one in enumerate(layers, 1)})
+        for name, one in given.items():
+            if one:
                 raise Unusable(f"{name}: is for the conductance: give the conductivity of both bodies, too")
         return None
     lam = _pair("conductivity", conductivity, "two numbers above 0, those of both bodies", lambda a, b: a > 0 and b > 0)
-    if film is not None:
-        film = real("film", film, "a resistance >= 0, of the spots per area", lambda one: 0.0 <= one < np.inf)
+    layers = tuple(None if own is None else Body(one, own).checked().layers for one, own in zip(lam, layers))
     if gas is not None:
         gas = _pair("gas", gas, "a conductivity above 0 and a length >= 0, m", lambda a, b: a > 0 and b >= 0)
-    return Conductors(lam, film or 0.0, gas, bool(electrical))
+    film, name = _film(film)
+    return Conductors(lam, film, gas, bool(electrical), layers, name)
+
+
+def _film(film):
+    """The resistance of a film, a number or a field, and its name in messages."""
+    if film is None:
+        return 0.0, NAME
+    what = "a resistance >= 0, of the spots per area"
+    if isinstance(film, (str, os.PathLike)):
+        name = os.fspath(film)
+        values = read_values(name, NAME)
+    elif np.ndim(film) == 0:
+        return real("film", film, what, lambda one: 0.0 <= one < np.inf), NAME
+    else:
+        name, values = NAME, array(NAME, film, what)
+    wrong = int(np.count_nonzero(~((values >= 0.0) & (values < np.inf))))
+    if values.ndim != 2 or wrong:
+        raise (Unusable if name == NAME else Error)(
+            f"{name}: {wrong} of {values.size} values are no resistance >= 0: expected one at each point"
+        )
+    return values, name
 
 
 def _pair(name, values, what, good):

@@ -1,4 +1,4 @@
-"""Interactions of an interface in decks of Abaqus and CalculiX, in N, mm, s, K: abaqus(), calculix()."""
+"""Interactions of an interface in decks of Abaqus and CalculiX, in N, mm, s, K, V, A: abaqus(), calculix()."""
 
 from typing import Any
 
@@ -7,6 +7,10 @@ import numpy as np
 from .conductance import rows
 
 TEMPERATURE = 293.0  # K, of the rows for CalculiX: one temperature holds for all
+ANALOGY = (
+    "** CalculiX has no electrical contact: for a thermal step as that of a current, with conductivities in S/mm,",
+    "** potentials in V as temperatures, and currents in A as heat",
+)
 
 
 def _friction(found):
@@ -17,13 +21,20 @@ def _friction(found):
 
 def _left_out(found):
     """Comments of the conductance: what it is of, and what it does not contain."""
-    kind, unit, less = "thermal", "mW/(mm2 K)", "layers, radiation and heat of friction"
+    kind, unit, less = "thermal", "mW/(mm2 K)", "radiation and heat of friction"
     if found.conductors.electrical:
-        kind, unit, less = "electrical", "S/mm2", "layers and heat of the current"
+        kind, unit, less = "electrical", "S/mm2", "heat of the current"
+    layers = []
+    if any(found.conductors.layers):
+        layers = [
+            "** layers change the constriction; their resistance to a uniform flux beyond the body's is left out:",
+            "** thickness (1/lam of the layer - 1/lam of the body)",
+        ]
     return [
         f"** {kind} conductance in {unit} over the pressure in MPa, computed from the scanned surface by petsam:",
         f"** {found.conductors.words()}",
         "** constriction of the interface alone: the bodies' own resistance is that of their elements;",
+        *layers,
         f"** without {less}; conductivities do not change with temperature",
         "** at pressure 0 the gap alone, as at the lowest computed pressure; at a tenth of that pressure the contact's",
         "** part is extrapolated in proportion to the power 0.95",
@@ -78,12 +89,14 @@ def abaqus(found: Any, name: str) -> list[str]:
 
 
 def calculix(found: Any, name: str) -> list[str]:
-    """Lines of the interaction for CalculiX: a linear overclosure, friction, and the thermal conductance.
+    """Lines of the interaction for CalculiX: a linear overclosure, friction, and the conductance.
+
+    CalculiX has no electrical contact: that of a current is written as one of heat, whose equations are the same.
 
     Parameters
     ----------
     found : Interface
-        The interface, with a thermal conductance.
+        The interface, with a conductance.
     name : str
         Name of the interaction.
 
@@ -98,6 +111,7 @@ def calculix(found: Any, name: str) -> list[str]:
         "** linear overclosure, the median of pressure over closure, as CalculiX 2.20 finds the conductance's pressure",
         "** by a linear one alone, neither by a table nor of pairs NODE TO SURFACE",
         *_left_out(found),
+        *(ANALOGY if found.conductors.electrical else ()),
         f"*SURFACE INTERACTION, NAME={name}",
         "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
         f"{slope:.6g}",

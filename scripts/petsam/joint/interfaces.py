@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..conduction.shape import need_half_spaces
+from ..conduction.shape import Layers, need_conducting
 from ..contact import AdviceWarning
 from ..core import processes
 from ..core.environment import cores as all_cores
@@ -247,7 +247,8 @@ class Interface(Tabled, Shown):
         """Writes the interaction for a deck of CalculiX in N, mm, s, K: linear overclosure, friction, conductance.
 
         CalculiX finds the pressure of `*GAP CONDUCTANCE` by a linear overclosure alone, in pairs SURFACE TO
-        SURFACE; its slope is the median of pressure over closure.
+        SURFACE; its slope is the median of pressure over closure. It has no electrical contact: an electrical
+        conductance, S/mm2, is written as one of heat, for a model whose temperatures are potentials, V.
 
         Parameters
         ----------
@@ -259,12 +260,12 @@ class Interface(Tabled, Shown):
         Raises
         ------
         Error
-            Without a thermal conductance.
+            Without a conductance.
         OSError
             If the file cannot be written.
         """
-        if self.conductors is None or self.conductors.electrical:
-            raise Unusable("to_calculix: needs a thermal conductance: compute the interface with conductivity")
+        if self.conductors is None:
+            raise Unusable("to_calculix: needs a conductance: compute the interface with conductivity")
         _write(path, decks.calculix(self, name))
 
     def lines(self) -> list[str]:
@@ -429,7 +430,8 @@ def of_interface(  # noqa: PLR0913  (as those of interface())
     """
     separation = array("separation", separation)
     loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, None, estimate, conductors)
-    return _of_windows([separation], [""], spacing, pressures, loop, way, bodies)
+    cuts = [_Cut(separation, "", conductors and conductors.fitted(separation.shape))]
+    return _of_windows(cuts, spacing, pressures, loop, way, bodies)
 
 
 def of_windows(  # noqa: PLR0913  (as those of interface())
@@ -471,10 +473,18 @@ def of_windows(  # noqa: PLR0913  (as those of interface())
     ny, nx = (size // 2 for size in separation.shape)
     y, x = separation.shape[0] - ny, separation.shape[1] - nx
     places = [(0, 0), (0, x), (y, 0), (y, x), (y // 2, x // 2)]
-    fields = [mirrored(separation[j : j + ny, i : i + nx]) for j, i in places]
-    names = [f" in window {k} with its mirror images" for k in range(1, len(places) + 1)]
     loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, report, estimate, conductors)
-    return _of_windows(fields, names, spacing, pressures, loop, way, bodies)
+    if conductors:
+        conductors.fitted(separation.shape)
+    cuts = []
+    for k, (j, i) in enumerate(places, 1):
+
+        def window(field, j=j, i=i):
+            return mirrored(field[j : j + ny, i : i + nx])
+
+        name = f" in window {k} with its mirror images"
+        cuts.append(_Cut(window(separation), name, conductors and conductors.mapped(window)))
+    return _of_windows(cuts, spacing, pressures, loop, way, bodies)
 
 
 def _ways(  # noqa: PLR0913  (as those of interface())
@@ -484,7 +494,7 @@ def _ways(  # noqa: PLR0913  (as those of interface())
     if cores is not None:
         cores = integer("cores", cores)
     if conductors:
-        need_half_spaces(bodies)
+        need_conducting(bodies, *conductors.layers)
     if normal_only:
         for name, given in (("friction", friction is not None), ("full", full)):
             if given:
@@ -501,10 +511,18 @@ def _ways(  # noqa: PLR0913  (as those of interface())
     return Loop(friction, shear, steps), _Way(reason, False, cores, report, estimate, conductors)
 
 
-def _of_windows(fields, names, spacing, pressures, loop, way, bodies):
-    """The Interface of windows, from their fields and their names in warnings."""
+class _Cut(NamedTuple):
+    """A window's separation, its name in warnings, and what conducts there."""
+
+    field: np.ndarray
+    name: str
+    conductors: Optional[Conductors]
+
+
+def _of_windows(cuts, spacing, pressures, loop, way, bodies):
+    """The Interface of windows."""
     pressures = np.atleast_1d(array("pressures", pressures))
-    for field in fields:
+    for field, *_ in cuts:
         if field.ndim != 2 or not np.isfinite(field).all():
             raise Unusable(
                 "separation: expected a field (ny, nx) of finite numbers: fill missing points, .fill() of a map"
@@ -515,12 +533,12 @@ def _of_windows(fields, names, spacing, pressures, loop, way, bodies):
     if step.size > 2:
         raise Unusable(f"spacing {spacing!r}: expected the distance of points along x and y, or one for both")
     step = np.broadcast_to(step, 2)
-    for field in fields:
+    for field, *_ in cuts:
         need_fitting(field, step, pressures, loop and loop.friction, bodies)
     given = tuple(map(float, pressures))
     parts = [
-        Window(field, step, given, loop, bodies, name, not k, way.conductors)
-        for k, (field, name) in enumerate(zip(fields, names))
+        Window(field, step, given, loop, bodies, name, not k, conductors)
+        for k, (field, name, conductors) in enumerate(cuts)
     ]
     found = _computed(parts, way)
     _tell_warnings([one for each in found for one in each.warnings])
@@ -609,7 +627,8 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     periodic: bool = False, shear: float = 0.5, steps: Optional[int] = None, full: bool = False,
     normal_only: bool = False, cores: Optional[int] = 1, report: Optional[Callable[[int, int], object]] = None,
     estimate: Optional[Callable[[float], object]] = None, conductivity: Optional[ArrayLike] = None,
-    electrical: bool = False, film: Optional[float] = None, gas: Optional[ArrayLike] = None, **bodies: Any,
+    electrical: bool = False, film: Union[float, ArrayLike, str, os.PathLike, None] = None,
+    gas: Optional[ArrayLike] = None, layers1: Optional[Layers] = None, layers2: Optional[Layers] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a surface: a scan in a file, a map of petsam.surface, or an array.
 
@@ -646,11 +665,14 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
         h_gap, h and resistance.
     electrical : bool
         True: it is that of a current, S/m2, instead of heat, W/(m2 K): changes units alone.
-    film : float, optional
-        Resistance of a film on the spots, m2 K/W, or Ohm m2.
+    film : float, array_like or path, optional
+        Resistance of a film on the spots, m2 K/W, or Ohm m2; at each point of the surface, (ny, nx), where it varies,
+        or a file of that: a text, NumPy's .npy, or HDF5 with a dataset film.
     gas : pair of floats, optional
         Conductivity of what fills the gap, W/(m K), or S/m, and the length of the temperature jump, m: of air 0.026,
         0.37e-6; of liquids the length is 0.
+    layers1, layers2 : sequence of (thickness, conductivity), optional
+        Conducting layers on each body from the surface inwards, m and W/(m K), or S/m; independent of elastic ones.
     **bodies
         Options of the bodies, body1="steel" (petsam.materials), or body1_young (Pa, or "210GPa"), body1_poisson,
         body2_young, ..., and of the solution.
@@ -666,7 +688,7 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     ContactError
         Where petsam finds no solution.
     """
-    conducting = conductors(conductivity, electrical, film, gas)
+    conducting = conductors(conductivity, electrical, film, gas, (layers1, layers2))
     if isinstance(surface, (str, os.PathLike)):
         surface, own, doubts = read_separation(os.fspath(surface))
         for text in doubts:

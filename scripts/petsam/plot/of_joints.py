@@ -316,5 +316,9 @@ def conductance(*found: Interface) -> Figure:
 
 def _conducting(conductors):
     """What conducts, in a few words."""
-    film = "film on the spots" if conductors.film else ""
-    return " and ".join(word for word in (film, "gas in the gap" if conductors.gas else "") if word) or "spots alone"
+    words = (
+        ("layers on the bodies", any(conductors.layers)),
+        ("film on the spots", conductors.has_film),
+        ("gas in the gap", conductors.gas),
+    )
+    return " and ".join(word for word, there in words if there) or "spots alone"

@@ -70,6 +70,14 @@ def read_hdf5(path, dataset=None, bare=False):
     return _guarded(path, lambda: of_hdf5(path, dataset, bare))
 
 
+def read_values(path, dataset):
+    """Values of a map that are no lengths, (rows, columns), first row at the smallest y; in HDF5 of a dataset."""
+    source = _guarded(path, lambda: Source(path, How(dataset=dataset, lengths=False)))
+    stated = _guarded(path, lambda: reader_of(source).read(source))
+    values = np.asarray(stated.values, dtype=np.float64)
+    return values[::-1] if stated.top else values
+
+
 def _agreed(path, stated, given, option):
     """The value in the file or of the option; None without either, an Error if they contradict each other."""
     if stated is None or given is None:

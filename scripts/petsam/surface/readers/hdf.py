@@ -25,7 +25,7 @@ class Hdf5(Reader):
 
     def read(self, source):
         """The dataset and its attributes."""
-        stated = of_hdf5(source.path, source.how.dataset)
+        stated = of_hdf5(source.path, source.how.dataset, lengths=source.how.lengths)
         if stated.size is None:
             need_map(source.path, stated.values, text=False)
         return stated
@@ -78,7 +78,7 @@ def _axis(path, file, name, n, bare=False):
     return width, middle if abs(middle) > SAME * width else 0.0, steps.mean() < 0.0  # 0 but for rounding
 
 
-def of_hdf5(path, dataset, bare=False):
+def of_hdf5(path, dataset, bare=False, lengths=True):
     import h5py  # by core/hdf5.py in any case
 
     with opened(path) as file:
@@ -88,7 +88,8 @@ def of_hdf5(path, dataset, bare=False):
         if data is None and not dataset:
             raise Error(f"{path}: no dataset height or separation; petsam-surface --dataset chooses another")
         if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
-            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); petsam-surface --dataset chooses another")
+            cure = "petsam-surface --dataset chooses another" if lengths else "give it that name"
+            raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); {cure}")
         if "scale_factor" in data.attrs or "add_offset" in data.attrs:
             raise Error(
                 f"{path}: /{name}: its attributes scale_factor or add_offset show that it is packed; unpack it first"
@@ -98,7 +99,8 @@ def of_hdf5(path, dataset, bare=False):
         if quantity is not None and quantity not in QUANTITIES:
             known = ", ".join(QUANTITIES)
             raise Error(f"{path}: /{name}: its attribute quantity is {short(quantity)!r}; use one of {known}")
-        unit, group, size = _unit(path, data, "/" + name), data.parent, _size(path, data)
+        unit = _unit(path, data, "/" + name) if lengths else None
+        group, size = data.parent, _size(path, data)
         axes = [_axis(path, group, letter, n, bare) for letter, n in zip("xy", values.shape[::-1])]
         if len(values) == 1:
             axes[1] = (1.0, 0.0, False)  # of a profile, per metre along y

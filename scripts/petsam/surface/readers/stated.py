@@ -43,6 +43,7 @@ class How:
     dataset: str = None
     channel: str = None
     table: bool = False  # whether it is a text by the caller's word
+    lengths: bool = True  # whether the values are lengths, whose unit is read
 
 
 class Source:
