@@ -87,7 +87,7 @@ def draw(first, tape, best, heights, name):
         line = recorded.whole(recorded.records[0].pressure)[middle]
         right.plot(x, 1e-6 * line, color=color, label=label)
         print(
-            f"{label}: largest pressure {1e-6 * line.max():.0f} MPa, at the edge {heights_of.sum() * 1e6:.2f} um open"
+            f"{label}: maximum pressure {1e-6 * line.max():.0f} MPa, at the edge {heights_of.sum() * 1e6:.2f} um open"
         )
     right.set_xlabel("x, mm")
     right.set_ylabel("pressure at y = 0, MPa")

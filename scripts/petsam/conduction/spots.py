@@ -17,8 +17,8 @@ The preconditioner is, with c the potential of a cell by a flux of 1 through it,
 
     P = w S w + (1 - w^2)/(r + c),    S = 1/(F(k)/k + m - c),    w = sqrt(m/(r + c)):
 
-S couples the cells of small resistance, the spots, as bodies do; the others, of gas, conduct side by side. Products
-with K to a residual of 3e-4, of roughness on steel with 256 x 256 points in a quarter, at 5 to 80 MPa: bare 5 to 8, in
+S couples the cells of small resistance, the spots, as bodies do; the others, of gas, conduct side by side. Applications
+of K to a residual of 3e-4, of roughness on steel with 256 x 256 points in a quarter, at 5 to 80 MPa: bare 5 to 8, in
 air 7 to 9, in oil 6 to 9, oil between plastics up to 23; S alone, between weights of all cells, needs 12 to 38 in air.
 
 Sources: J. R. Barber, Proc. R. Soc. A 459 (2003) 53 (K and the contact stiffness); R. Holm, Electric Contacts (1967).

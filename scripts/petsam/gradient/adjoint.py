@@ -1,7 +1,7 @@
 """The adjoint of a step of the contact whose sets of cells are frozen.
 
 With gamma, tau and beta the cotangents of the gap, of the slip and of the bound of the shear, V what later steps leave
-for the slip, c_p, c_q and c_d the derivatives of the objective by pressure, shear and rigid displacements,
+for the slip, c_p, c_q and c_d the derivatives of the objective by pressure, shear and rigid-body displacements,
 e = q/|q|, n_e its normal and L = |ds|/b,
 
     tau = V - lambda,   r = c_q + C tau + X gamma - t nu_t dA,

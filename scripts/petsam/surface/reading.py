@@ -74,7 +74,7 @@ def read_values(path, dataset):
     """Values of a map that are no lengths, (rows, columns), first row at the smallest y; in HDF5 of a dataset."""
     source = _guarded(path, lambda: Source(path, How(dataset=dataset, lengths=False)))
     stated = _guarded(path, lambda: reader_of(source).read(source))
-    values = np.asarray(stated.values, dtype=np.float64)
+    values = np.array(stated.values, dtype=np.float64)
     return values[::-1] if stated.top else values
 
 
