@@ -25,13 +25,16 @@ from .positions import SIDES, Case, Friction, Pair
 from .profile import ProfileWarning
 from .result import COLUMNS, Result
 
-PASSES, TURNS = 60, 25  # of the equilibrium, and of the roll of rigid bodies
+PASSES, TURNS = 60, 40  # of the equilibrium, and of the roll of rigid bodies
 ROUNDS, DRAFTS = 8, 20  # full solutions with drafts, and drafts between two of them
 FIRST, NEXT = 2e-3, 5e-3  # residual of the first drafts, and of others relative to that of the last full solution
 ALMOST_DONE = 4.0  # residual of drafts over the wanted one, at least: a step from it leads to the wanted one
 MORE, ALMOST = 100, 0.05  # full solutions beyond PASSES, while no more than this is left
 ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
 STEADY = 1e-8  # relative change of the pitch rate of a wheelset that rolls freely
+TURN = 2e-3  # rad by which the roll of rigid bodies changes at once
+LEAST_ARM = 0.1  # m: of the distance of both contacts, which steep flanges shorten for the roll
+STEEP, LINE = 0.8, 2e-5  # part of the contacts' distance below which the height is no line over the roll; rad
 SHARE = 1e-9  # m: overlaps of rigid bodies agree to it
 FASTEST = math.log(2.0)  # change of the logarithm of an overlap in one pass
 STEP, WIDEST = 2e-3, 0.03  # m: of the search for a lateral force, and its end
@@ -227,15 +230,18 @@ class Axle:
         Error
             If a wheel is beside its rail.
         """
-        roll = position.roll
+        roll, low, high = position.roll, -math.inf, math.inf
         for _ in range(TURNS):
             now = replace(position, roll=roll)
             cases = self._cases(now)
-            arms = _arms(cases, position.y)
+            arms = self._arms(cases, now)
             apart = cases[0].search.touch + overlaps[0] - cases[1].search.touch - overlaps[1]
             if abs(apart) < share:
                 break
-            roll += apart / (arms[0] - arms[1])
+            low, high = (roll, high) if apart > 0.0 else (low, roll)
+            step = apart / max(arms[0] - arms[1], LEAST_ARM)
+            step = min(max(step, -TURN), TURN)
+            roll = roll + step if low < roll + step < high else 0.5 * (low + high)
         z = 0.5 * (cases[0].search.touch + overlaps[0] + cases[1].search.touch + overlaps[1])
         return Rigid(replace(now, z=z), (_point(cases[0], 1.0), _point(cases[1], -1.0)), self._radii(now, cases, z))
 
@@ -246,6 +252,16 @@ class Axle:
             k = int(np.argmin(case.search.gap))
             place = np.array([case.search.x[k], sign * case.search.y[k], case.search.z[k]])
             found.append(_distance(position.rotation, place - np.array([0.0, position.y, z - self.wheel.radius])))
+        return tuple(found)
+
+    def _arms(self, cases, position):
+        """By how much the heights at which both wheels touch fall with the roll, right and left, m: the lateral arm of
+        the contact, and its arm below the axle times the inclination, as a flange moves aside with the roll."""
+        found = []
+        for case, pair, sign in zip(cases, self.pairs, (1.0, -1.0)):
+            y = float(case.search.y[int(np.argmin(case.search.gap))])
+            below = self.wheel.radius + float(pair.rail.section.height(np.array(y))) - case.search.touch
+            found.append(sign * (y - sign * position.y + below * float(pair.rail.section.slope(np.array(y)))))
         return tuple(found)
 
     def _cases(self, position):
@@ -450,7 +466,7 @@ class _Search:
         scale = self.load.vertical * np.array([1.0, self.scale])
         rest = (parts.sum(axis=0) - given) / scale
         values = np.append(rest, 0.5 * sum(self._radii(found)) / self.axle.wheel.radius)
-        return _State(p.z - touch, found, parts / scale, values, _arms(self.cases, p.y))
+        return _State(p.z - touch, found, parts / scale, values, self.axle._arms(self.cases, p))
 
     def improve(self, state):
         """Moves height and roll."""
@@ -484,7 +500,10 @@ class _Search:
         right, left = state.arms
         roll = (more[0] - more[1]) / (right - left)
         p = self.position
-        self.position = replace(p, roll=float(p.roll + roll), z=float(p.z + more[0] - right * roll))
+        if right - left < STEEP * 2.0 * self.scale and abs(roll) > LINE:
+            self.position = self.axle.rigid(p, tuple(state.overlaps + more), ROUGH).position
+        else:
+            self.position = replace(p, roll=float(p.roll + roll), z=float(p.z + more[0] - right * roll))
 
     def equilibrium(self, state):
         """The result, with the warnings of its last pass."""
@@ -545,11 +564,6 @@ def _no_equilibrium(position, load, state):
 def _point(case, sign):
     """y of the point that touches, in the track."""
     return sign * float(case.search.y[int(np.argmin(case.search.gap))])
-
-
-def _arms(cases, y):
-    """Lateral distances of the points that touch from the wheelset's middle, right and left, m."""
-    return tuple(_point(case, sign) - y for case, sign in zip(cases, (1.0, -1.0)))
 
 
 def _part(result, position, radius, load):
