@@ -18,12 +18,12 @@ from scipy.optimize import brentq
 
 from ..core import broyden, tables
 from ..core.errors import Error
-from . import contacts
+from . import contacts, derailing
 from .placement import Track, Wheelset
 from .pose import Position
 from .positions import SIDES, Case, Friction, Pair
 from .profile import ProfileWarning
-from .result import COLUMNS, Result
+from .result import COLUMNS, DerailWarning, Result
 
 PASSES, TURNS = 60, 40  # of the equilibrium, and of the roll of rigid bodies
 ROUNDS, DRAFTS = 8, 20  # full solutions with drafts, and drafts between two of them
@@ -38,9 +38,18 @@ STEEP, LINE = 0.8, 2e-5  # part of the contacts' distance below which the height
 SHARE = 1e-9  # m: overlaps of rigid bodies agree to it
 FASTEST = math.log(2.0)  # change of the logarithm of an overlap in one pass
 STEP, WIDEST = 2e-3, 0.03  # m: of the search for a lateral force, and its end
+LIFTED = 0.1  # of the load: a wheel with less lifts
+LEAST_STEP = 4e-6  # m: of it towards displacements without an equilibrium
 FLANGE = 0.01  # m below the nominal radius, where the thickness of the flange is measured
 PLAY = (0.0, 0.02)  # m: usual distances of flange and rail
 CLOSE = 1e-8  # m: of the lateral displacement under a lateral force
+
+# columns of both wheels: name, attribute of Climb, unit, meaning
+CLIMBS = (
+    ("state", "state", "", "on rail, may climb, or derailed"),
+    ("y_over_q", "ratio", "1", "lateral over vertical force of the wheel, positive outwards"),
+    ("nadal", "limit", "1", "Nadal's limit of it at the flange's steepest place"),
+)
 
 
 @dataclass(frozen=True)
@@ -104,6 +113,8 @@ class Equilibrium(tables.Tabled):
         Rolling radii of the right and the left wheel, m: distances of their normal forces from the axle.
     passes : int
         Solutions of both wheels that it took, without drafts.
+    climbs : tuple of derailing.Climb
+        How near the right and the left wheel are to derailment.
     slopes : ndarray
         Derivative of what is left, and of the sum of both radii over the nominal diameter, by the logarithms of the
         overlaps of both wheels, (3, 2), approximate: a neighbour's iteration begins with it.
@@ -120,6 +131,7 @@ class Equilibrium(tables.Tabled):
     moment_error: float
     radii: tuple[float, float]
     passes: int
+    climbs: tuple[derailing.Climb, derailing.Climb]
     slopes: Optional[np.ndarray] = None
     correction: Optional[np.ndarray] = None
 
@@ -127,6 +139,11 @@ class Equilibrium(tables.Tabled):
     def radius_difference(self) -> float:
         """Rolling radius of the right wheel less that of the left one, m."""
         return self.radii[0] - self.radii[1]
+
+    @property
+    def derailed(self) -> bool:
+        """True where the contact of a wheel is beyond its flange's steepest place."""
+        return any(one.state == derailing.STATES[2] for one in self.climbs)
 
     @property
     def wheels(self) -> tuple[Result, Result]:
@@ -158,6 +175,11 @@ class Equilibrium(tables.Tabled):
         )  # fmt: skip
         columns = [tables.Column(name, unit, text, [value] * count) for name, unit, text, value in common]
         columns.append(tables.Column("side", "", "right or left", [found.side for found, _ in rows]))
+        near = {found.side: one for found, one in zip(self.wheels, self.climbs)}
+        columns += [
+            tables.Column(name, unit, text, [getattr(near[found.side], attribute) for found, _ in rows])
+            for name, attribute, unit, text in CLIMBS
+        ]
         columns += [
             tables.Column(name, unit, text, [getattr(patch, name) for _, patch in rows]) for name, unit, text in COLUMNS
         ]
@@ -309,8 +331,11 @@ class Axle:
             roll = near.position.roll if near else position.roll
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                solved[y] = self._upright(replace(position, y=y, roll=roll), load, near)
-            return solved[y].lateral - load.lateral
+                found = self._upright(replace(position, y=y, roll=roll), load, near)
+            if found.derailed:
+                raise _derails(load, solved)
+            solved[y] = found
+            return found.lateral - load.lateral
 
         low = high = position.y if start is None else start.position.y
         first = excess(low)
@@ -322,7 +347,7 @@ class Axle:
                     break
             except Error:  # beyond Nadal's limit, or beside the rail
                 high, step = low, 0.5 * step
-                if step < 0.01 * STEP:
+                if step < LEAST_STEP:
                     raise _derails(load, solved) from None
         else:
             if first:
@@ -341,7 +366,7 @@ class Axle:
         state = search.by_drafts(rtol) or search.iterate(rtol, PASSES)
         if max(abs(state.rest)) <= rtol:
             return search.equilibrium(state)
-        raise _no_equilibrium(position, load, state)
+        raise _no_equilibrium(self, position, load, state)
 
 
 @dataclass(frozen=True, eq=False)
@@ -366,13 +391,15 @@ class Rigid:
 @dataclass(frozen=True, eq=False)
 class _State:
     """Both wheels at a height and a roll: overlaps, solutions, what each gives to the balance, what is left with the
-    sum of both rolling radii over the nominal diameter, and the arms of the points that touch."""
+    sum of both rolling radii over the nominal diameter, the arms of the points that touch for the roll, and half their
+    lateral distance."""
 
     overlaps: np.ndarray
     found: list
     parts: np.ndarray
     values: np.ndarray
     arms: tuple
+    half: float
 
     @property
     def rest(self):
@@ -466,7 +493,7 @@ class _Search:
         scale = self.load.vertical * np.array([1.0, self.scale])
         rest = (parts.sum(axis=0) - given) / scale
         values = np.append(rest, 0.5 * sum(self._radii(found)) / self.axle.wheel.radius)
-        return _State(p.z - touch, found, parts / scale, values, self.axle._arms(self.cases, p))
+        return _State(p.z - touch, found, parts / scale, values, self.axle._arms(self.cases, p), self.scale)
 
     def improve(self, state):
         """Moves height and roll."""
@@ -510,6 +537,9 @@ class _Search:
         for case, found in zip(self.cases, state.found):
             case.warn(found)
         lateral = float(sum(one.force[1] for one in state.found))
+        climbs = tuple(derailing.climb(one, pair.wheel) for one, pair in zip(state.found, self.axle.pairs))
+        for text in filter(None, (one.text for one in climbs)):
+            warnings.warn(text, DerailWarning, stacklevel=5)
         radii = tuple(self._radii(state.found))
         force, moment = map(float, state.rest)
         return Equilibrium(
@@ -521,6 +551,7 @@ class _Search:
             moment,
             radii,
             self.passes,
+            climbs,
             self.slopes,
             self.correction,
         )
@@ -544,10 +575,13 @@ def _hertz(axle, force):
     return ((force / (4.0 / 3.0 * modulus * math.sqrt(0.5 * radius))) ** (2.0 / 3.0),) * 2
 
 
-def _no_equilibrium(position, load, state):
+def _no_equilibrium(axle, position, load, state):
     """The error of an iteration without an end."""
     right, left = (float(found.force[2]) for found in state.found)
     where = f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium: the rails carry {right:.4g} N (right) and "
+    tips = _tips(axle, load, state)
+    if tips:
+        return Error(f"{where}{left:.4g} N (left) at last: {tips}")
     rest = max(abs(state.rest))
     if rest <= ALMOST:
         return Error(
@@ -558,6 +592,28 @@ def _no_equilibrium(position, load, state):
     return Error(
         f"{where}{left:.4g} N (left) at last: a wheel lifts or climbs: check offset, lateral, height and y, and the "
         "flange"
+    )
+
+
+def _tips(axle, load, state):
+    """Why the wheelset tips over where a flange carries most of the load; empty where it does not tip.
+
+    On a face of the inclination d a wheel that carries the whole load needs a lateral force of load tan d; below the
+    line in which it is applied this turns the wheelset about x by more than the load on one wheel can hold.
+    """
+    loads = [float(found.force[2]) for found in state.found]
+    heavy = int(np.argmax(loads))
+    if not loads[1 - heavy] < LIFTED * load.vertical or not state.found[heavy].patches:
+        return ""
+    angle = max(abs(patch.angle) for patch in state.found[heavy].patches)
+    arm = axle.wheel.radius - load.height
+    lever = state.half + (load.offset if heavy else -load.offset)
+    if load.right is not None or arm * math.tan(angle) < lever:
+        return ""
+    return (
+        f"the {SIDES[heavy]} flange touches at an angle of {angle:.3g} rad, where the lateral force that holds the "
+        f"wheelset, {arm:.3g} m above the rails, tips it, and the {SIDES[1 - heavy]} wheel lifts: above "
+        f"{math.atan(lever / arm):.3g} rad there is no equilibrium: give height, where this force acts, or another y"
     )
 
 
