@@ -17,7 +17,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ..core import broyden, tables
-from ..core.errors import Error
+from ..core.errors import Error, Unusable
 from . import contacts, derailing
 from .placement import Track, Wheelset
 from .pose import Position
@@ -38,6 +38,9 @@ STEEP, LINE = 0.8, 2e-5  # part of the contacts' distance below which the height
 SHARE = 1e-9  # m: overlaps of rigid bodies agree to it
 FASTEST = math.log(2.0)  # change of the logarithm of an overlap in one pass
 STEP, WIDEST = 2e-3, 0.03  # m: of the search for a lateral force, and its end
+STARTS = 2  # neighbours from which an equilibrium under a lateral force is tried, before rigid bodies
+NEWTON, HALVINGS, DIFFERENCE = 15, 5, 1e-3  # steps, their halvings, and relative change of overlaps for a slope
+FACE = 0.5  # slope of a flange from which the equilibrium is tried by Newton's steps, too
 LIFTED = 0.1  # of the load: a wheel with less lifts
 LEAST_STEP = 4e-6  # m: of it towards displacements without an equilibrium
 FLANGE = 0.01  # m below the nominal radius, where the thickness of the flange is measured
@@ -83,13 +86,15 @@ class Load:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.vertical < math.inf:
-            raise Error(f"load {self.vertical:g}: expected an axle load above 0, N")
+            raise Unusable(f"load {self.vertical:g}: expected an axle load above 0, N")
         if not math.isfinite(self.lateral or 0.0):
-            raise Error(f"lateral {self.lateral:g}: expected a force, N")
-        if not (abs(self.offset) < 2.0 and abs(self.height) < 5.0):
-            raise Error(f"offset {self.offset:g}, height {self.height:g}: expected distances from the axle's middle, m")
+            raise Unusable(f"lateral {self.lateral:g}: expected a force, N")
+        for name, most in (("offset", 2.0), ("height", 5.0)):
+            value = getattr(self, name)
+            if not abs(value) < most:
+                raise Unusable(f"{name} {value:g}: expected a distance from the axle's middle, m, below {most:g}")
         if self.right is not None and not 0.0 < self.right < self.vertical:
-            raise Error(f"right {self.right:g}: expected a vertical force above 0 and below the axle load, N")
+            raise Unusable(f"right {self.right:g}: expected a vertical force above 0 and below the axle load, N")
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,6 +220,10 @@ class Axle:
         left: Optional[tuple[Track, Wheelset]] = None,
     ) -> None:
         both = (rail, wheel), left or (rail, wheel)
+        if left is not None and (left[1].radius != wheel.radius or left[0].curvature != rail.curvature):
+            raise Unusable(
+                "left: its nominal radius and the track's curvature are those of the right side: give equal ones"
+            )
         self.pairs = [Pair(*one, friction, side, settings) for one, side in zip(both, SIDES)]
         self.wheel, self.settings = wheel, self.pairs[0].settings
         for track, one in both:
@@ -281,7 +290,7 @@ class Axle:
         the contact, and its arm below the axle times the inclination, as a flange moves aside with the roll."""
         found = []
         for case, pair, sign in zip(cases, self.pairs, (1.0, -1.0)):
-            y = float(case.search.y[int(np.argmin(case.search.gap))])
+            y = _place(case)
             below = self.wheel.radius + float(pair.rail.section.height(np.array(y))) - case.search.touch
             found.append(sign * (y - sign * position.y + below * float(pair.rail.section.slope(np.array(y)))))
         return tuple(found)
@@ -327,11 +336,8 @@ class Axle:
         solved = {}  # by the displacement aside, m
 
         def excess(y):
-            near = solved[min(solved, key=lambda other: abs(other - y))] if solved else start
-            roll = near.position.roll if near else position.roll
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                found = self._upright(replace(position, y=y, roll=roll), load, near)
+            near = sorted(solved.values(), key=lambda one: abs(one.position.y - y))[:STARTS] or [start]
+            found = self._from_any(replace(position, y=y), load, [*near, *([None] if near[0] else [])])
             if found.derailed:
                 raise _derails(load, solved)
             solved[y] = found
@@ -355,6 +361,18 @@ class Axle:
         y = brentq(excess, low, high, xtol=CLOSE, rtol=1e-12) if first else low
         return self._upright(replace(position, y=float(y), roll=solved[float(y)].position.roll), load, solved[float(y)])
 
+    def _from_any(self, position, load, starts):
+        """The equilibrium from the first start that leads to it, without its warnings."""
+        for start in starts:
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    here = replace(position, roll=start.position.roll) if start else position
+                    return self._upright(here, load, start)
+            except Error as error:
+                failure = error
+        raise failure
+
     def _upright(self, position, load, start):
         """The equilibrium at a lateral displacement."""
         search = _Search(self, position, load, start)
@@ -363,10 +381,19 @@ class Axle:
             overlaps = tuple(max(found.overlap, 0.1 * overlaps[0]) for found in start.wheels)
         search.begin(overlaps)
         rtol = self.settings.rtol
+        begun = search.position
         state = search.by_drafts(rtol) or search.iterate(rtol, PASSES)
+        if max(abs(state.rest)) > rtol and self._steep(search.cases):
+            search.position = begun
+            state = search.newton(search.state(), rtol)
         if max(abs(state.rest)) <= rtol:
             return search.equilibrium(state)
         raise _no_equilibrium(self, position, load, state)
+
+    def _steep(self, cases):
+        """Whether a wheel touches on its flange."""
+        slopes = [abs(float(pair.rail.section.slope(_place(case)))) for case, pair in zip(cases, self.pairs)]
+        return max(slopes) > FACE
 
 
 @dataclass(frozen=True, eq=False)
@@ -449,6 +476,36 @@ class _Search:
                 break
             self.improve(state)
         return state
+
+    def newton(self, state, rtol):
+        """The equilibrium by Newton's steps with differences of full solutions, halved while what is left grows: where
+        the inclination of a flange changes the forces more than the overlaps do. Else the last state."""
+        for _ in range(NEWTON):
+            if self.done(state.values, rtol) or min(state.overlaps) <= 0.0:
+                break
+            here = self.position
+            slopes = np.empty((2, 2))
+            for k in range(2):
+                self.position = here
+                self._move(state, np.eye(2)[k] * DIFFERENCE * state.overlaps)
+                slopes[:, k] = (self.state().rest - state.rest) / math.log1p(DIFFERENCE)
+            if not np.linalg.cond(slopes) < 1e8:
+                break
+            step = np.linalg.solve(slopes, -state.rest)
+            step *= min(1.0, FASTEST / np.abs(step).max())
+            state = self._shortened(state, here, step)
+        return state
+
+    def _shortened(self, state, here, step):
+        """The state after a step of the logarithms of the overlaps, or part of it, so that less is left."""
+        for part in 0.5 ** np.arange(HALVINGS):
+            self.position = here
+            self._move(state, state.overlaps * np.expm1(part * step))
+            self._roll_freely(2.0 * self.axle.wheel.radius * state.values[2])
+            after = self.state()
+            if np.linalg.norm(after.rest) < np.linalg.norm(state.rest) or max(abs(after.rest)) < STEADY:
+                break
+        return after
 
     def settle(self, least, draft=None):
         """The draft near an equilibrium, with the correction; begins beside a draft; None where there is none."""
@@ -613,13 +670,18 @@ def _tips(axle, load, state):
     return (
         f"the {SIDES[heavy]} flange touches at an angle of {angle:.3g} rad, where the lateral force that holds the "
         f"wheelset, {arm:.3g} m above the rails, tips it, and the {SIDES[1 - heavy]} wheel lifts: above "
-        f"{math.atan(lever / arm):.3g} rad there is no equilibrium: give height, where this force acts, or another y"
+        f"about {math.atan(lever / arm):.3g} rad there is no equilibrium: give height, where this force acts, or another y"
     )
 
 
 def _point(case, sign):
     """y of the point that touches, in the track."""
-    return sign * float(case.search.y[int(np.argmin(case.search.gap))])
+    return sign * _place(case)
+
+
+def _place(case):
+    """y of the point that touches, of a right wheel."""
+    return float(case.search.y[int(np.argmin(case.search.gap))])
 
 
 def _part(result, position, radius, load):

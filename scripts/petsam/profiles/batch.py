@@ -10,7 +10,7 @@ import numpy as np
 
 from ..contact import ContactError
 from ..core import processes, tables
-from ..core.errors import Error
+from ..core.errors import Error, NoEquilibrium
 from .axle import Axle, Equilibrium
 from .contacts import Settings
 from .placement import Track, Wheelset
@@ -124,7 +124,7 @@ class Batch(tables.Tabled):
         """
         solved = next((one.value for one in self.found if one.value), None)
         if solved is None:
-            raise Error(f"no position has an equilibrium; of the first one: {self.found[0].failure}")
+            raise NoEquilibrium(f"no position has an equilibrium; of the first one: {self.found[0].failure}")
         numbers: list[int] = []
         notes: list[str] = []
         rows: list[list] = [[] for _ in solved]
