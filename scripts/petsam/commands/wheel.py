@@ -25,8 +25,8 @@ Y/Q, its lateral over its vertical force, is above Nadal's limit (tan d - mu)/(1
 wheelset that is held aside by a force at the axle's height tips over before its flange is steep: give --height.
 
 -o NAME writes NAME.csv: a row for each patch with contact point, angle, creepages, forces in the patch (n, fx, fs) and
-in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state; NAME.png, of one position
-the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference, equivalent
+in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state; NAME.png, of one
+position the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference, equivalent
 conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth per distance of each place of the profile by
 the mean of all positions, and with --distance the profile after it, its estimated error, and NAME-wear.png.
 """
@@ -58,8 +58,8 @@ BUILT = ("s1002", "uic60")
 # quantities of petsam.profiles, and their options
 OPTIONS = {
     **{name.replace("-", "_"): f"--{name}" for name in (
-        "gauge", "gauge-height", "cant", "radius", "friction", "cell", "y", "yaw", "load", "lateral", "offset", "height",
-        "distance", "jumps", "law", "speed",
+        "gauge", "gauge-height", "cant", "radius", "friction", "cell", "y", "yaw", "load", "lateral", "offset",
+        "height", "distance", "jumps", "law", "speed",
     )},
     "coefficient": "--wear",
 }  # fmt: skip
@@ -138,7 +138,7 @@ def _profiles(one):
     group = one.add_argument_group("profiles")
     for name, made, ending in (("wheel", "s1002", ".prw"), ("rail", "uic60", ".prr")):
         group.add_argument(f"--{name}", required=True, type=word(profile_names), metavar="PROFILE",
-                           help=f"{made}, a file {ending}, or columns y and z; LEFT,RIGHT where they differ")  # fmt: skip
+                           help=f"{made}, a file {ending}, or columns y and z; or LEFT,RIGHT")  # fmt: skip
     group.add_argument("--unit", metavar="UNIT", help="unit of length of columns: mm")
     group.add_argument("--z", choices=("down", "up"), help="direction of z in the files; of columns it must be given")
     group.add_argument("--mirror", choices=("wheel", "rail", "both"), help="profiles whose y is to the gauge side")
@@ -158,7 +158,7 @@ def _profiles(one):
                        help="y of the flange's back in the wheel's profile (-70mm)")  # fmt: skip
     for name in ("wheel", "rail"):
         group.add_argument(f"--{name}-material", type=word(material), metavar="MATERIAL",
-                           help="a name, as steel, or Young's modulus and Poisson's ratio, 210GPa,0.3 (steel)")  # fmt: skip
+                           help="steel or another name, or modulus and ratio, 210GPa,0.3 (steel)")  # fmt: skip
     coefficient = word(
         words.number, "a coefficient of friction from 0 to below 10", allowed=lambda mu: 0.0 <= mu < 10.0
     )
@@ -363,7 +363,7 @@ def _warn(text):
 
 
 def _need_ready(options, vehicle, states):
-    """Raises Unusable for wheels beside their rails, and for wear that cannot be followed, before anything is solved."""
+    """Raises Unusable for wheels beside their rails, and wear that cannot be followed, before anything is solved."""
     from ..profiles import Position, wearing
 
     with vehicle.axle() as axle:
@@ -451,7 +451,8 @@ def _print(options, found, table):
 def _print_patch(row):
     print(f"  {row['side']:5} y {1e3 * row['y']:9.3f} mm, angle {row['angle']:8.4f}, creepages {row['creep_x']:.3e} "
           f"{row['creep_s']:.3e} {row['creep_spin']:.3e}/m, N {row['n']:.5g} N, Fx {row['fx']:.4g} N, Fs "
-          f"{row['fs']:.4g} N, p_max {row['p_max'] / 1e6:.4g} MPa, T-gamma {row['t_gamma']:.4g} N{_climbing(row)}")  # fmt: skip
+          f"{row['fs']:.4g} N, p_max {row['p_max'] / 1e6:.4g} MPa, T-gamma {row['t_gamma']:.4g} N"
+          f"{_climbing(row)}")  # fmt: skip
 
 
 def _climbing(row):

@@ -335,9 +335,10 @@ class Axle:
         """The equilibrium under a lateral force."""
         solved = {}  # by the displacement aside, m
 
-        def excess(y):
-            near = sorted(solved.values(), key=lambda one: abs(one.position.y - y))[:STARTS] or [start]
-            found = self._from_any(replace(position, y=y), load, [*near, *([None] if near[0] else [])])
+        def excess(y, most=STARTS):
+            near = sorted(solved.values(), key=lambda one: abs(one.position.y - y))[:most] or [start]
+            more = [None] if near[0] and most > 1 else []
+            found = self._from_any(replace(position, y=y), load, [*near, *more])
             if found.derailed:
                 raise _derails(load, solved)
             solved[y] = found
@@ -349,7 +350,7 @@ class Axle:
         while first and abs(high) < WIDEST:
             low, high = high, high + sign * step
             try:
-                if excess(high) * sign >= 0.0:
+                if excess(high, 1) * sign >= 0.0:
                     break
             except Error:  # beyond Nadal's limit, or beside the rail
                 high, step = low, 0.5 * step
@@ -670,7 +671,7 @@ def _tips(axle, load, state):
     return (
         f"the {SIDES[heavy]} flange touches at an angle of {angle:.3g} rad, where the lateral force that holds the "
         f"wheelset, {arm:.3g} m above the rails, tips it, and the {SIDES[1 - heavy]} wheel lifts: above "
-        f"about {math.atan(lever / arm):.3g} rad there is no equilibrium: give height, where this force acts, or another y"
+        f"about {math.atan(lever / arm):.3g} rad there is no equilibrium: give height, where it acts, or another y"
     )
 
 
