@@ -13,7 +13,6 @@ from petsam import plot, profiles
 from petsam.commands import wheel
 from petsam.core.errors import Error
 from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, derailing, wearing
-from petsam.profiles import axle as axle_module
 from petsam.profiles.conicity import equivalent_conicity
 from petsam.profiles.positions import Case
 from petsam.profiles.wearing import Law, depth_rates, rows_of
@@ -159,6 +158,7 @@ def test_the_height_of_rigid_wheels_falls_with_the_roll_by_their_arms(axle, y):
     assert arms[0] < 0.6  # and not 0.72, the lateral arm
 
 
+@pytest.mark.filterwarnings("ignore:right wheel")
 def test_forces_go_on_over_the_flange_until_the_wheelset_tips(axle):
     """With a force at the height of the axle no flange steeper than its lever holds the wheelset."""
     lever = np.arctan(0.75 / 0.46)
@@ -264,8 +264,8 @@ def test_softer_materials_have_hertz_pressure(run):
 
 
 @pytest.mark.parametrize("weights, more, message, code", [
-    ("0", [], "weight: all are 0, and nothing wears", 2), ("-1", [], "line 2: weight -1: expected 0 or more", 3),
-    ("1", ["--distance", "1e9km"], "--distance", 2),
+    ("0", [], "vehicle.csv: column weight: all are 0, and nothing wears", 2), ("-1", [], "line 2: weight -1: expected 0 or more", 3),
+    ("1", ["--distance", "1e9km"], "--distance 1e+12: expected m above 0", 2),
     ("1", ["--distance", "100000km", "--wear", "1e-9"], "--jumps 10: each takes off some", 2),
 ])  # fmt: skip
 def test_wear_that_cannot_be_followed_is_refused_before_anything_is_solved(
@@ -280,6 +280,20 @@ def test_wear_that_cannot_be_followed_is_refused_before_anything_is_solved(
     table.write_text(f"y [mm],speed [m/s],load [kN],weight\n1,20,100,{weights}\n")
     text = run(*BASE, "--table", table, "--cores", 1, "--wear", "1e-14", *more, check=code)
     assert message in text and ("vehicle.csv" in text or more)
+
+
+def test_weights_of_states_are_shares(vehicle):
+    one = State(Position(speed=20.0), LOAD)
+    assert wearing.shares([one, replace(one, weight=3.0)]) == pytest.approx([0.25, 0.75])
+    with pytest.raises(Error, match="position 2: weight -1: expected a share of the distance"):
+        profiles.wear(vehicle, [one, replace(one, weight=-1.0)], 1e6, Law("energy", 1e-14), 2)
+
+
+def test_a_wheel_that_lifts_without_a_flange_does_not_tip_by_it(axle):
+    """The load's line outside the right rail lifts the left wheel; the contact is on the tread."""
+    with pytest.raises(Error) as caught:
+        axle.solve(Position(speed=20.0), Load(100e3, 0.9))
+    assert "tips" not in str(caught.value)
 
 
 @pytest.mark.parametrize("y, yaw", [(0.0, 0.0), (3e-3, 1e-3), (-4.8e-3, 1e-2)])
@@ -600,7 +614,7 @@ def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
         (["--offset", "3m"], "--offset 3: expected a distance", 2),
         (["--height", "9m"], "--height 9: expected a distance", 2),
         (["--wheel-material", "inf,0.3"], "argument --wheel-material: inf,0.3: expected an elastic material", 2),
-        (["--rail-material", "stell"], "argument --rail-material: stell: expected", 2),
+        (["--rail-material", "stell"], "argument --rail-material: stell is no material: is steel meant?", 2),
         (["--wheel", "s1002,"], "argument --wheel: s1002,: expected one profile, or two of LEFT,RIGHT", 2),
         (["--wheel", "none.prw"], "--wheel: none.prw: no such file", 3),
         (["--rail", "uic60,/"], "--rail: /: ", 3),

@@ -25,10 +25,10 @@ Y/Q, its lateral over its vertical force, is above Nadal's limit (tan d - mu)/(1
 wheelset that is held aside by a force at the axle's height tips over before its flange is steep: give --height.
 
 -o NAME writes NAME.csv: a row for each patch with contact point, angle, creepages, forces in the patch (n, fx, fs) and
-in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state; NAME.png, of one
-position the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference, equivalent
-conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth per distance of each place of the profile by
-the mean of all positions, and with --distance the profile after it, its estimated error, and NAME-wear.png.
+in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state; NAME.png,
+of one position the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference,
+equivalent conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth per distance of each place of the
+profile by the mean of all positions, and with --distance the profile after it, its estimated error, and NAME-wear.png.
 """
 
 import argparse
@@ -374,7 +374,7 @@ def _need_ready(options, vehicle, states):
     if options.wear is None:
         return
     law = wearing.Law(options.law or "energy", options.wear)
-    with _named("--table") if options.table else contextlib.nullcontext():
+    with _named(f"--table {options.table}") if options.table else contextlib.nullcontext():
         wearing.shares(states)
     if options.distance is not None:
         wearing.need_shallow(vehicle, states, options.distance, law, options.jumps or JUMPS)

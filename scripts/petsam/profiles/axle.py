@@ -666,7 +666,7 @@ def _tips(axle, load, state):
     angle = max(abs(patch.angle) for patch in state.found[heavy].patches)
     arm = axle.wheel.radius - load.height
     lever = state.half + (load.offset if heavy else -load.offset)
-    if load.right is not None or arm * math.tan(angle) < lever:
+    if load.right is not None or math.tan(angle) < FACE or not 0.0 < lever < arm * math.tan(angle):
         return ""
     return (
         f"the {SIDES[heavy]} flange touches at an angle of {angle:.3g} rad, where the lateral force that holds the "

@@ -9,6 +9,7 @@ The error is the difference to the depth by half the jumps, as the depth of expl
 """
 
 import functools
+import math
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -214,7 +215,7 @@ def shares(states: Sequence[State]) -> np.ndarray:
             where = f"line {state.line}" if state.line else f"position {k}"
             raise Unusable(f"{where}: weight {weight:g}: expected a share of the distance, 0 or more")
     if not weights.sum() > 0.0:
-        raise Unusable("weight: all are 0, and nothing wears: give at least one above 0")
+        raise Unusable("column weight: all are 0, and nothing wears: give at least one above 0")
     return weights / weights.sum()
 
 
@@ -268,13 +269,18 @@ def need_shallow(vehicle: batch.Vehicle, states: Sequence[State], distance: floa
     Raises
     ------
     Unusable
-        If half the estimated depth of a jump is more than a jump may take off.
+        If distance or jumps are none, or half the estimated depth of a jump is more than a jump may take off.
     """
+    if not 0.0 < distance < 1e10:
+        raise Unusable(f"distance {distance:g}: expected m above 0, such as 1e8 (100,000 km)")
+    if jumps < 2 or jumps % 2:
+        raise Unusable(f"jumps {jumps}: expected an even number, 2 or more: half of them give the error")
     depth = estimate(vehicle, states, law) * distance
     if depth / jumps > MARGIN * DEEPEST:
+        needed = 2 * math.ceil(0.5 * depth / DEEPEST)
         raise Unusable(
-            f"jumps {jumps}: each takes off some {depth / jumps:.1g} m, where {DEEPEST:g} m can be followed: check the "
-            f"coefficient of wear ({law.coefficient:g} m3/J) and the distance ({distance:g} m)"
+            f"jumps {jumps}: each takes off some {depth / jumps:.1g} m, where {DEEPEST:g} m can be followed: use at "
+            f"least {needed}, or check the coefficient of wear ({law.coefficient:g} m3/J) and distance ({distance:g} m)"
         )
 
 
@@ -316,10 +322,6 @@ def wear(
         If weights, distance or jumps are none, all positions fail, or a jump takes off too much.
     """
     weights = shares(states)
-    if not 0.0 < distance < 1e10:
-        raise Unusable(f"distance {distance:g}: expected m above 0, such as 1e8 (100,000 km)")
-    if jumps < 2 or jumps % 2:
-        raise Unusable(f"jumps {jumps}: expected an even number, 2 or more: half of them give the error")
     if vehicle.left is not None:
         raise Unusable("wear: both wheels have one profile: leave the left one out")
     need_shallow(vehicle, states, distance, law, jumps)
