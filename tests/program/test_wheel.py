@@ -264,7 +264,8 @@ def test_softer_materials_have_hertz_pressure(run):
 
 
 @pytest.mark.parametrize("weights, more, message, code", [
-    ("0", [], "vehicle.csv: column weight: all are 0, and nothing wears", 2), ("-1", [], "line 2: weight -1: expected 0 or more", 3),
+    ("0", [], "vehicle.csv: column weight: all are 0, and nothing wears", 2),
+    ("-1", [], "line 2: weight -1: expected 0 or more", 3),
     ("1", ["--distance", "1e9km"], "--distance 1e+12: expected m above 0", 2),
     ("1", ["--distance", "100000km", "--wear", "1e-9"], "--jumps 10: each takes off some", 2),
 ])  # fmt: skip
