@@ -142,7 +142,7 @@ def _profiles(one):
     group.add_argument("--unit", metavar="UNIT", help="unit of length of columns: mm")
     group.add_argument("--z", choices=("down", "up"), help="direction of z in the files; of columns it must be given")
     group.add_argument("--mirror", choices=("wheel", "rail", "both"), help="profiles whose y is to the gauge side")
-    group.add_argument("--smooth", type=_length("a length above 0: 4mm"), metavar="L",
+    group.add_argument("--smooth", type=word(words.number, "a length above 0: 4mm", "m", words.positive), metavar="L",
                        help="smooth measured profiles: 4mm for 1 um of noise, 8mm for 5 um")  # fmt: skip
     group = one.add_argument_group("track and wheelset")
     group.add_argument("--cant", type=word(cant), default=0.0, metavar="1:N", help="of the rails, to the middle (0)")
@@ -291,7 +291,10 @@ def _read(options, kind, side):
         mirror = options.mirror in (kind, "both")
         with _named(f"--{kind}"):
             found = profiles.read(name, kind, None if simpack else options.unit, options.z, mirror)
-    return found.smoothed(options.smooth) if options.smooth else found
+    if not options.smooth:
+        return found
+    with _named(f"--smooth {options.smooth:g}"):
+        return found.smoothed(options.smooth)
 
 
 def _optioned(error):
