@@ -368,6 +368,40 @@ def test_random_wheelsets_are_in_equilibrium_or_named(vehicle):
     assert len(found.failures) <= 1
 
 
+def wavy(profile, rng, height):
+    """The profile with seven smooth bumps and hollows, some of which make contacts of several patches."""
+    low, high = (-0.045, 0.05) if profile.kind == "wheel" else (-0.035, 0.035)
+    z = profile.z.copy()
+    for _ in range(7):
+        middle, width = rng.uniform(low, high), rng.uniform(2.5e-3, 6e-3)
+        z += rng.uniform(-height, height) * np.exp(-(((profile.y - middle) / width) ** 2))
+    return Profile(profile.y, z, profile.kind)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+def test_random_worn_wheelsets_are_in_equilibrium_and_mirror_images():
+    """Twelve pairs of wavy profiles, yaw to 0.05: balance, mirror images, small steps over 0.05 mm."""
+    rng, counts = np.random.default_rng(6), set()
+    for _ in range(12):
+        height = rng.uniform(3e-5, 2e-4)
+        wheelset = profiles.Wheelset(wavy(profiles.s1002(), rng, height), 0.46)
+        track = profiles.Track(wavy(profiles.uic60(), rng, height), cant=0.025)
+        y, yaw, load = rng.uniform(-5e-3, 5e-3), rng.uniform(-0.05, 0.05), Load(rng.uniform(5e4, 2e5))
+        with Vehicle(track, wheelset, 0.3, COARSE).axle() as axle:
+            here = Position(y=float(y), yaw=float(yaw), speed=20.0)
+            one = axle.solve(here, load)
+            other = axle.solve(replace(here, y=-here.y, yaw=-here.yaw), load)
+            beside = axle.solve(replace(here, y=here.y + 5e-5), load, one)
+        counts |= {len(result.patches) for result in one.wheels}
+        assert sum(result.force[2] for result in one.wheels) == pytest.approx(load.vertical, rel=2e-5)
+        assert max(abs(one.force_error), abs(one.moment_error)) < 1e-5
+        assert other.position.roll == pytest.approx(-one.position.roll, abs=5e-8)
+        assert other.lateral == pytest.approx(-one.lateral, abs=1e-3 * load.vertical)
+        assert abs(beside.position.z - one.position.z) < 3e-5 and abs(beside.position.roll - one.position.roll) < 5e-5
+    assert counts >= {1, 2}
+
+
 def test_a_batch_does_not_depend_on_its_processes(vehicle):
     states = [State(Position(y=1e-4 * k, speed=20.0), LOAD) for k in range(12)]
     one, two = (profiles.solve_all(vehicle, states, cores) for cores in (1, 2))
