@@ -789,7 +789,7 @@ TRAPS = {
     "cant as a ratio": (lambda: profiles.Track(profiles.uic60(), cant=40), "cant 40: expected rad: 1:40 is 0.025"),
     "radius in mm": (lambda: profiles.Wheelset(profiles.s1002(), 460), "radius 460: .*m, such as 0.46"),
     "yaw in degrees": (lambda: Position(yaw=1.4), "yaw 1.4: expected rad"),
-    "y in mm": (lambda: Position(y=2.0), "y 2, z 0: expected displacements in m"),
+    "y in mm": (lambda: Position(y=2.0), "y 2: expected a displacement in m"),
     "turning": (lambda: Position(speed=2.0, pitch_rate=4.3), "rolls forward has a negative one"),
     "rail as wheel": (
         lambda: profiles.Wheelset(profiles.uic60(), 0.46),

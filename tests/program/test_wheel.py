@@ -12,8 +12,7 @@ from scipy.integrate import solve_ivp
 from petsam import plot, profiles
 from petsam.commands import wheel
 from petsam.core.errors import Error
-from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, wearing
-from petsam.profiles import axle as axle_module
+from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, derailing, wearing
 from petsam.profiles.conicity import equivalent_conicity
 from petsam.profiles.positions import Case
 from petsam.profiles.wearing import Law, depth_rates, rows_of
@@ -140,14 +139,169 @@ def test_too_much_is_an_error_that_names_it(axle):
         axle.solve(Position(speed=20.0), Load(100e3, lateral=1e6))
 
 
-def test_between_two_regions_the_message_names_no_lift(axle, monkeypatch):
-    """At 6.3 mm the right contact is between root and flange: slow, but in equilibrium."""
+def test_on_a_steep_flange_an_equilibrium_needs_few_solutions(axle):
+    """At 6.3 mm the right contact is between root and flange, where the roll moves the flange aside, too."""
     found = axle.solve(Position(y=6.3e-3, speed=20.0), LOAD)
     assert max(abs(found.force_error), abs(found.moment_error)) < 1e-5
     assert min(one.force[2] for one in found.wheels) > 1e4
-    monkeypatch.setattr(axle_module, "MORE", 0)
-    with pytest.raises(Error, match="no wheel lifts, but a contact moves between two regions"):
-        axle.solve(Position(y=6.3e-3, speed=20.0), LOAD)
+    assert found.right.patches[0].angle < -0.8 and found.passes <= 12
+
+
+@pytest.mark.parametrize("y", [6.0e-3, 6.3e-3])
+def test_the_height_of_rigid_wheels_falls_with_the_roll_by_their_arms(axle, y):
+    """Of each wheel by itself, as differences have it."""
+    position = axle.rigid(Position(y=y, speed=20.0)).position
+    beside = [replace(position, roll=position.roll + step) for step in (-2e-6, 2e-6)]
+    arms = axle._arms(axle._cases(position), position)
+    touch = np.array([[case.search.touch for case in axle._cases(one)] for one in beside])
+    assert -np.diff(touch, axis=0)[0] / 4e-6 == pytest.approx(arms, rel=0.02)
+    assert arms[0] < 0.6  # and not 0.72, the lateral arm
+
+
+@pytest.mark.filterwarnings("ignore:right wheel")
+def test_forces_go_on_over_the_flange_until_the_wheelset_tips(axle):
+    """With a force at the height of the axle no flange steeper than its lever holds the wheelset."""
+    lever = np.arctan(0.75 / 0.46)
+    before, lateral = None, []
+    for y in np.linspace(6.25e-3, 6.37e-3, 7):
+        before = axle.solve(Position(y=float(y), speed=20.0), LOAD, before)
+        lateral.append(before.lateral)
+        assert not before.derailed
+    steps = np.diff(lateral)
+    assert steps.min() > 5e3 and steps.max() < 2.5 * steps.min()
+    with pytest.raises(Error, match=f"tips it, and the left wheel lifts: above about {lever:.1f}"):
+        axle.solve(Position(y=6.6e-3, speed=20.0), LOAD, before)
+    at_rails = axle.solve(Position(y=6.6e-3, speed=20.0), Load(100e3, height=0.46))
+    assert abs(at_rails.right.patches[0].angle) > lever
+
+
+def test_a_lateral_force_up_the_flange_is_found_before_the_derailed_one(axle):
+    """60 kN hold at 6.29 mm; beyond 7.5 mm the tip of the flange gives more, and is no equilibrium that lasts."""
+    found = axle.solve(Position(y=6.2e-3, speed=20.0), Load(100e3, lateral=60e3))
+    assert found.lateral == pytest.approx(60e3, rel=1e-3)
+    assert found.position.y == pytest.approx(6.287e-3, abs=5e-6) and not found.derailed
+
+
+def test_nadals_limit_is_that_of_a_wheel_that_slips_down():
+    """By the balance of normal force and friction on the inclined face."""
+    angle, mu, n = 1.2, 0.35, 1.0
+    lateral, vertical = n * np.sin(angle) - mu * n * np.cos(angle), n * np.cos(angle) + mu * n * np.sin(angle)
+    assert derailing.nadal(angle, mu) == pytest.approx(lateral / vertical)
+
+
+def test_the_steepest_place_is_that_of_the_standard(vehicle):
+    """Zone E of S1002 is a line of 70 degrees between y = -39.76 and -38.43 mm."""
+    face = derailing.flange(vehicle.wheel)
+    assert face.angle == pytest.approx(np.radians(70.0), abs=2e-3)
+    assert face.y == pytest.approx(-39.76e-3, abs=2e-4)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_wheel_on_its_tip_is_derailed(axle, sign):
+    with pytest.warns(profiles.DerailWarning, match="derailed: its contact is beyond the flange's steepest place"):
+        found = axle.solve(Position(y=sign * 7.8e-3, speed=20.0), LOAD)
+    climb = found.climbs[0 if sign > 0.0 else 1]
+    assert found.derailed and climb.state == "derailed" and climb.side == ("right" if sign > 0.0 else "left")
+    patch = found.wheels[0 if sign > 0.0 else 1].patches[0]
+    assert climb.angle == pytest.approx(abs(patch.angle)) and climb.angle < np.radians(69.0)
+    force = (found.right if sign > 0.0 else found.left).force
+    assert climb.ratio == pytest.approx(sign * force[1] / force[2])
+    states = {column.name: column.values for column in found.table()}["state"]
+    assert sorted(states) == ["derailed", "on rail"]
+
+
+def test_on_the_tread_nothing_climbs(axle):
+    found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
+    assert not found.derailed and [one.text for one in found.climbs] == ["", ""]
+
+
+def test_derailment_and_its_neighbours_are_printed(run):
+    text = run(*BASE, *ONE, "--y", "6.2mm:7.8mm:3", "--cores", "1")
+    assert "DERAILED: Y/Q 1." in text and "at this angle" in text
+    assert "nearest with an equilibrium: position 1, y 0.0062 m" in text and "and position 3, y 0.0078 m" in text
+
+
+def test_unlike_profiles_mirrored_give_mirrored_forces(vehicle):
+    """Left and right exchanged, and the position mirrored."""
+    y, z = profiles.s1002().y, profiles.s1002().z
+    worn = profiles.Wheelset(Profile(y, z - 2e-4 * np.exp(-((y / 0.01) ** 2)), "wheel"), 0.46)
+    rail = profiles.Track(profiles.uic60(), cant=0.05)
+    new = vehicle.rail, vehicle.wheel
+    with replace(vehicle, left=(rail, worn)).axle() as axle:
+        one = axle.solve(Position(y=2e-3, yaw=1e-3, speed=20.0), LOAD)
+    with replace(vehicle, rail=rail, wheel=worn, left=new).axle() as axle:
+        other = axle.solve(Position(y=-2e-3, yaw=-1e-3, speed=20.0), LOAD)
+    assert other.lateral == pytest.approx(-one.lateral, rel=1e-3)
+    assert other.right.force * [1, -1, 1] == pytest.approx(one.left.force, rel=1e-3)
+    with vehicle.axle() as axle:
+        alike = axle.solve(Position(y=2e-3, yaw=1e-3, speed=20.0), LOAD)
+    assert abs(alike.lateral - one.lateral) > 0.05 * abs(alike.lateral)
+
+
+def test_left_and_right_profiles_in_the_command(run, tmp_path):
+    """LEFT,RIGHT with a mirrored position gives the forces of RIGHT,LEFT."""
+    y, z = profiles.s1002().y, profiles.s1002().z
+    path = columns(tmp_path / "worn.txt", Profile(y, z - 2e-4 * np.exp(-((y / 0.01) ** 2)), "wheel"))
+    lateral = []
+    for names, place in ((f"s1002,{path}", "2mm"), (f"{path},s1002", "-2mm")):
+        text = run("--wheel", names, *BASE[2:], "--unit", "mm", "--z", "down", *ONE, f"--y={place}")
+        lateral.append(float(re.search(r"lateral force (\S+) N", text)[1]))
+    assert lateral[0] == pytest.approx(-lateral[1], rel=1e-3)
+    plain = run(*BASE, *ONE, "--y", "2mm")
+    assert abs(float(re.search(r"lateral force (\S+) N", plain)[1]) - lateral[0]) > 10.0
+
+
+def test_softer_materials_have_hertz_pressure(run):
+    """Pressure grows as E*^(2/3): the modulus of both by a factor of 8 divides it by 4."""
+    found = []
+    for modulus in ("200GPa,0.3", "25GPa,0.3"):
+        given = ["--wheel-material", modulus, "--rail-material", modulus, "--friction", "0", "--load", "10kN"]
+        text = run(*BASE, *given, "--speed", "20", "--y", "-4mm")
+        found.append(float(re.search(r"right.*p_max (\S+) MPa", text)[1]))
+    assert found[0] / found[1] == pytest.approx(4.0, rel=0.05)
+    one = run(*BASE, *ONE, "--y", "0", "--wheel-material", "steel")
+    assert one == run(*BASE, *ONE, "--y", "0")
+
+
+@pytest.mark.parametrize("weights, more, message, code", [
+    ("0", [], "vehicle.csv: column weight: all are 0, and nothing wears", 2),
+    ("-1", [], "line 2: weight -1: expected 0 or more", 3),
+    ("1", ["--distance", "1e9km"], "--distance 1e+12: expected m above 0", 2),
+    ("1", ["--distance", "100000km", "--wear", "1e-9"], "--jumps 10: each takes off some", 2),
+])  # fmt: skip
+def test_wear_that_cannot_be_followed_is_refused_before_anything_is_solved(
+    run, tmp_path, monkeypatch, weights, more, message, code
+):
+    def never(*_):
+        raise AssertionError("solved")
+
+    monkeypatch.setattr(Case, "at", never)
+    monkeypatch.setattr(Case, "draft", never)
+    table = tmp_path / "vehicle.csv"
+    table.write_text(f"y [mm],speed [m/s],load [kN],weight\n1,20,100,{weights}\n")
+    text = run(*BASE, "--table", table, "--cores", 1, "--wear", "1e-14", *more, check=code)
+    assert message in text and ("vehicle.csv" in text or more)
+
+
+def test_weights_of_states_are_shares(vehicle):
+    one = State(Position(speed=20.0), LOAD)
+    assert wearing.shares([one, replace(one, weight=3.0)]) == pytest.approx([0.25, 0.75])
+    with pytest.raises(Error, match="position 2: weight -1: expected a share of the distance"):
+        profiles.wear(vehicle, [one, replace(one, weight=-1.0)], 1e6, Law("energy", 1e-14), 2)
+
+
+def test_a_wheel_that_lifts_without_a_flange_does_not_tip_by_it(axle):
+    """The load's line outside the right rail lifts the left wheel; the contact is on the tread."""
+    with pytest.raises(Error) as caught:
+        axle.solve(Position(speed=20.0), Load(100e3, 0.9))
+    assert "tips" not in str(caught.value)
+
+
+@pytest.mark.parametrize("y, yaw", [(0.0, 0.0), (3e-3, 1e-3), (-4.8e-3, 1e-2)])
+def test_the_estimated_wear_is_below_the_solved_one_and_near_it(vehicle, y, yaw):
+    states, law = [State(Position(y=y, yaw=yaw, speed=20.0), LOAD)], Law("energy", 1e-14)
+    solved = wearing.rates(vehicle, states, law)[1].max()
+    assert 0.1 * solved < wearing.estimate(vehicle, states, law) < 1.2 * solved
 
 
 @pytest.mark.parametrize("y, yaw", [(3e-3, 2e-3), (5.4e-3, -4e-3)])
@@ -212,6 +366,40 @@ def test_random_wheelsets_are_in_equilibrium_or_named(vehicle):
         else:
             assert sum(table["track_fz"][k] for k in rows) == pytest.approx(state.load.vertical, rel=2e-5)
     assert len(found.failures) <= 1
+
+
+def wavy(profile, rng, height):
+    """The profile with seven smooth bumps and hollows, some of which make contacts of several patches."""
+    low, high = (-0.045, 0.05) if profile.kind == "wheel" else (-0.035, 0.035)
+    z = profile.z.copy()
+    for _ in range(7):
+        middle, width = rng.uniform(low, high), rng.uniform(2.5e-3, 6e-3)
+        z += rng.uniform(-height, height) * np.exp(-(((profile.y - middle) / width) ** 2))
+    return Profile(profile.y, z, profile.kind)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+def test_random_worn_wheelsets_are_in_equilibrium_and_mirror_images():
+    """Twelve pairs of wavy profiles, yaw to 0.05: balance, mirror images, small steps over 0.05 mm."""
+    rng, counts = np.random.default_rng(6), set()
+    for _ in range(12):
+        height = rng.uniform(3e-5, 2e-4)
+        wheelset = profiles.Wheelset(wavy(profiles.s1002(), rng, height), 0.46)
+        track = profiles.Track(wavy(profiles.uic60(), rng, height), cant=0.025)
+        y, yaw, load = rng.uniform(-5e-3, 5e-3), rng.uniform(-0.05, 0.05), Load(rng.uniform(5e4, 2e5))
+        with Vehicle(track, wheelset, 0.3, COARSE).axle() as axle:
+            here = Position(y=float(y), yaw=float(yaw), speed=20.0)
+            one = axle.solve(here, load)
+            other = axle.solve(replace(here, y=-here.y, yaw=-here.yaw), load)
+            beside = axle.solve(replace(here, y=here.y + 5e-5), load, one)
+        counts |= {len(result.patches) for result in one.wheels}
+        assert sum(result.force[2] for result in one.wheels) == pytest.approx(load.vertical, rel=2e-5)
+        assert max(abs(one.force_error), abs(one.moment_error)) < 1e-5
+        assert other.position.roll == pytest.approx(-one.position.roll, abs=5e-8)
+        assert other.lateral == pytest.approx(-one.lateral, abs=1e-3 * load.vertical)
+        assert abs(beside.position.z - one.position.z) < 3e-5 and abs(beside.position.roll - one.position.roll) < 5e-5
+    assert counts >= {1, 2}
 
 
 def test_a_batch_does_not_depend_on_its_processes(vehicle):
@@ -351,8 +539,8 @@ def test_a_roll_of_another_sign_is_a_warning(run, tmp_path):
     [
         ("y,speed [m/s],load [N]\n1,2,3\n", "line 1: column y: has no unit: write y [m]"),
         ("y [mm],yaw [furlong],speed [m/s],load [N]\n1,2,3,4\n", "furlong: is no unit of it"),
-        ("y [mm],yaw [rad],speed [m/s],load [kN]\n0,0,20,100\n0,2,20,100\n", "line 3: roll 0, yaw 2: expected rad"),
-        ("y [m],speed [m/s],load [kN]\n3,20,100\n", "line 2: y 3, z 0: expected displacements in m"),
+        ("y [mm],yaw [rad],speed [m/s],load [kN]\n0,0,20,100\n0,2,20,100\n", "line 3: yaw 2: expected rad"),
+        ("y [m],speed [m/s],load [kN]\n3,20,100\n", "line 2: y 3: expected a displacement in m"),
         ("y [mm],load [kN]\n3,100\n", "has no column speed: give it, speed [km/h], or --speed"),
         ("y [mm],speed [m/s]\n3,20\n", "has no column load: give the axle load"),
         ("y [mm],speed [m/s],load [kN]\n3,20,-1\n", "line 2: load -1000: expected an axle load above 0"),
@@ -373,6 +561,7 @@ def test_faults_of_a_table_have_their_line(run, tmp_path, text, message):
         ([*ONE, "--y", "1mm", "--lateral", "1kN"], "only one of them"),
         (["--table", "t.csv", "--y", "1mm"], "--y: --table has it as a column: remove it"),
         ([*ONE, "--y", "1mm", "--distance", "1km"], "--distance: needs --wear"),
+        ([*ONE, "--y", "1mm", "--rail", "uic60,x.prr", "--wear", "1e-14"], "both sides wear alike: give one profile"),
         ([*ONE, "--y", "1mm", "--wear", "1e-14", "--jumps", "4"], "--jumps: needs --distance"),
         ([*ONE, "--y", "1mm", "--wear", "1e-14", "--distance", "1km", "--jumps", "3"], "an even number"),
     ],
@@ -446,15 +635,34 @@ def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
     ("words", "message", "code"),
     [
         (["--cant", "-1:40"], "leans away from the middle: is 0.0249948 meant?", 0),
-        (["--gauge", "1435"], "expected the distance of the rails' inner faces, m, such as 1.435", 3),
-        (["--gauge", "1.0m"], "wheel is beside the rail: check gauge", 3),
-        (["--gauge", "1.5m"], "check gauge, --flange-back", 0),
-        (["--gauge", "1.42m"], "check gauge, --flange-back", 0),
-        (["--yaw", "2"], "expected rad", 3),
+        (["--gauge", "1435"], "expected the distance of the rails' inner faces, m, such as 1.435", 2),
+        (["--gauge", "1.0m"], "wheel is beside the rail: check --gauge", 2),
+        (["--gauge", "1.5m"], "check --gauge, --flange-back", 0),
+        (["--gauge", "1.42m"], "check --gauge, --flange-back", 0),
+        (["--yaw", "2"], "expected rad", 2),
         (["--yaw", "0.3"], "yaw 0.3 rad is 17.2 degrees", None),
-        (["--radius", "460"], "expected the wheel's nominal radius, m, such as 0.46", 3),
-        (["--flange-position", "70mm"], "check gauge, --flange-back", 3),
-        (["--y", "3"], "expected displacements in m", 3),
+        (["--radius", "460"], "expected the wheel's nominal radius, m, such as 0.46", 2),
+        (["--flange-position", "70mm"], "check --gauge, --flange-back", 2),
+        (["--y", "3"], "--y 3: expected a displacement in m", 2),
+        (["--smooth", "1m"], "--smooth 1: UIC60: wavelength 1: expected a length (m) above 0", 2),
+        (["--smooth=-1mm"], "argument --smooth: -1mm: expected a length above 0", 2),
+        (["--wheel", __file__], "columns have no unit of their own: give --unit mm", 2),
+        (["--wheel", __file__, "--unit", "mm"], "columns do not state the direction of z: give --z down or --z up", 2),
+        (["--wheel", "none.txt"], "--wheel: none.txt: no such file", 3),
+        (["--wheel", "/"], "--wheel: /: is a directory", 3),
+        (["--gauge-height", "1m"], "--gauge-height 1: expected a depth below the rail's top", 2),
+        (["--curve", "5m"], "--curve 5: expected the radius in m", 2),
+        (["--friction", "-1"], "argument --friction: -1: expected a coefficient", 2),
+        (["--cell", "1m"], "--cell 1: expected the width of a cell", 2),
+        (["--offset", "3m"], "--offset 3: expected a distance", 2),
+        (["--height", "9m"], "--height 9: expected a distance", 2),
+        (["--wheel-material", "inf,0.3"], "argument --wheel-material: inf,0.3: expected an elastic material", 2),
+        (["--rail-material", "stell"], "argument --rail-material: stell is no material: is steel meant?", 2),
+        (["--wheel", "s1002,"], "argument --wheel: s1002,: expected one profile, or two of LEFT,RIGHT", 2),
+        (["--wheel", "none.prw"], "--wheel: none.prw: no such file", 3),
+        (["--rail", "uic60,/"], "--rail: /: ", 3),
+        (["--wheel", "s1002,uic60"], "is the profile of a rail: give --rail uic60", 2),
+        (["--load", "1MN", "--offset", "0.9m"], "no position has an equilibrium", 11),
         (["--rail", "s1002"], "is the profile of a wheel: give --wheel s1002", 2),
     ],
 )  # fmt: skip

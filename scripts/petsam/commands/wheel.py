@@ -17,33 +17,52 @@ instead of the axle load), and roll, which is compared with the one that is foun
 
 The residual is what is left of the balance of forces or moments, relative to the axle load.
 
+Where left and right differ, --wheel and --rail take LEFT,RIGHT, each with y to its field side. Materials are names, as
+steel, or Young's modulus and Poisson's ratio, 210GPa,0.3.
+
+A wheel is derailed where its contact is beyond the steepest place of its flange, towards the tip, and may climb where
+Y/Q, its lateral over its vertical force, is above Nadal's limit (tan d - mu)/(1 + mu tan d) of the steepest place. A
+wheelset that is held aside by a force at the axle's height tips over before its flange is steep: give --height.
+
 -o NAME writes NAME.csv: a row for each patch with contact point, angle, creepages, forces in the patch (n, fx, fs) and
-in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, and T-gamma; NAME.png, of one position
-the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference, equivalent
-conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth per distance of each place of the profile by
-the mean of all positions, and with --distance the profile after it, its estimated error, and NAME-wear.png.
+in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state; NAME.png,
+of one position the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference,
+equivalent conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth per distance of each place of the
+profile by the mean of all positions, and with --distance the profile after it, its estimated error, and NAME-wear.png.
 """
 
 import argparse
+import contextlib
 import math
+import os
 import re
 import sys
 import warnings
 
 import numpy as np
 
-from ..core import tables, words
+from ..core import materials, tables, words
 from ..core.environment import cores as all_cores
-from ..core.errors import Error, Unusable, counted, short
+from ..core.errors import Error, Missing, MissingFile, Unusable, counted, short
 from ..core.files import need_replaceable, same
 from ..core.progress import Progress
+from ..profiles import derailing
 from .line import Parser, add_choice, guarded, joined, word
 
 ROLL = 1e-3  # rad by which the roll of a table may differ without a remark
 SHOWN = 12  # positions whose patches are printed, and failures
 EVERY = 2.0  # s between two lines of progress
 WIDE, POINTS = 8e-3, 81  # m and number of displacements of the rigid geometry
+JUMPS = 10  # of the profile over the distance
 BUILT = ("s1002", "uic60")
+# quantities of petsam.profiles, and their options
+OPTIONS = {
+    **{name.replace("-", "_"): f"--{name}" for name in (
+        "gauge", "gauge-height", "cant", "radius", "friction", "cell", "y", "yaw", "load", "lateral", "offset",
+        "height", "distance", "jumps", "law", "speed",
+    )},
+    "coefficient": "--wear",
+}  # fmt: skip
 
 
 def cant(text):
@@ -93,18 +112,37 @@ def sweep(text):
     return np.linspace(first, last, words.integer(parts[2], form, lambda k: 2 <= k <= words.MOST))
 
 
+def material(text):
+    """Young's modulus (Pa) and Poisson's ratio of an elastic material, by its name or numbers."""
+    young, poisson = materials.elastic(text)
+    if not (1e5 < young < math.inf and 0.0 <= poisson < 0.5):
+        raise words.WordError(text, "an elastic material: a modulus that is finite, and a ratio from 0 to below 0.5")
+    return young, poisson
+
+
+def profile_names(text):
+    """The names of the left and the right profile of LEFT,RIGHT, or of one name, which may contain a comma itself."""
+    left, comma, right = text.partition(",")
+    if not comma or os.path.lexists(text):
+        return text, text
+    if not left.strip() or not right.strip() or "," in right:
+        raise words.WordError(text, "one profile, or two of LEFT,RIGHT")
+    return left.strip(), right.strip()
+
+
 def _length(form):
     return word(words.number, form, "m")
 
 
 def _profiles(one):
     group = one.add_argument_group("profiles")
-    group.add_argument("--wheel", required=True, metavar="PROFILE", help="s1002, a file .prw, or columns y and z")
-    group.add_argument("--rail", required=True, metavar="PROFILE", help="uic60, a file .prr, or columns y and z")
+    for name, made, ending in (("wheel", "s1002", ".prw"), ("rail", "uic60", ".prr")):
+        group.add_argument(f"--{name}", required=True, type=word(profile_names), metavar="PROFILE",
+                           help=f"{made}, a file {ending}, or columns y and z; or LEFT,RIGHT")  # fmt: skip
     group.add_argument("--unit", metavar="UNIT", help="unit of length of columns: mm")
     group.add_argument("--z", choices=("down", "up"), help="direction of z in the files; of columns it must be given")
     group.add_argument("--mirror", choices=("wheel", "rail", "both"), help="profiles whose y is to the gauge side")
-    group.add_argument("--smooth", type=_length("a length above 0: 4mm"), metavar="L",
+    group.add_argument("--smooth", type=word(words.number, "a length above 0: 4mm", "m", words.positive), metavar="L",
                        help="smooth measured profiles: 4mm for 1 um of noise, 8mm for 5 um")  # fmt: skip
     group = one.add_argument_group("track and wheelset")
     group.add_argument("--cant", type=word(cant), default=0.0, metavar="1:N", help="of the rails, to the middle (0)")
@@ -118,7 +156,13 @@ def _profiles(one):
                        help="distance of the backs of both flanges (1360mm)")  # fmt: skip
     group.add_argument("--flange-position", type=_length("a length: -70mm"), default=-0.07, metavar="L",
                        help="y of the flange's back in the wheel's profile (-70mm)")  # fmt: skip
-    group.add_argument("--friction", type=word(words.number), default=0.3, metavar="MU", help="(0.3)")
+    for name in ("wheel", "rail"):
+        group.add_argument(f"--{name}-material", type=word(material), metavar="MATERIAL",
+                           help="steel or another name, or modulus and ratio, 210GPa,0.3 (steel)")  # fmt: skip
+    coefficient = word(
+        words.number, "a coefficient of friction from 0 to below 10", allowed=lambda mu: 0.0 <= mu < 10.0
+    )
+    group.add_argument("--friction", type=coefficient, default=0.3, metavar="MU", help="(0.3)")
     group.add_argument("--cell", type=_length("a length: 0.2mm"), default=2e-4, metavar="L", help="of a grid (0.2mm)")
 
 
@@ -165,7 +209,7 @@ def _parser():
 
 def _check_profiles(parser, options):
     """Ends the command for options of files where both profiles are made by their formulas."""
-    if not all(name.lower() in BUILT for name in (options.wheel, options.rail)):
+    if not all(name.lower() in BUILT for name in (*options.wheel, *options.rail)):
         return
     for name in ("unit", "z"):
         if getattr(options, name) is not None:
@@ -196,6 +240,8 @@ def arguments(given):
         for name in ("law", "distance"):
             if getattr(options, name) is not None:
                 parser.error(f"--{name}: needs --wear, the coefficient of wear")
+    elif options.wheel[0] != options.wheel[1] or options.rail[0] != options.rail[1]:
+        parser.error("--wear: both sides wear alike: give one profile to --wheel and to --rail")
     if options.jumps is not None and options.distance is None:
         parser.error("--jumps: needs --distance")
     return options
@@ -209,17 +255,31 @@ def _outputs(options):
     if options.wear is not None:
         endings += ["-wear.csv", *(["-wear.png"] if options.distance and not options.no_picture else [])]
     for name in (options.output + ending for ending in endings):
-        if any(same(name, path) for path in (options.wheel, options.rail, options.table) if path):
+        if any(same(name, path) for path in (*options.wheel, *options.rail, options.table) if path):
             raise Unusable(f"-o {short(options.output)}: {name} would replace a file that is read: choose another name")
         need_replaceable(name)
     return endings
 
 
-def _read(options, kind):
-    """A profile by its name or from its file."""
+@contextlib.contextmanager
+def _named(option):
+    """Errors of what an option names have the option before them; those of a file that cannot be read, too."""
+    try:
+        yield
+    except MissingFile as error:
+        raise Missing(f"{option}: {error}") from error
+    except OSError as error:
+        raise Error(f"{option}: {error.filename or 'file'}: {error.strerror or error}") from error
+    except Error as error:
+        text = f"{option}: {_optioned(error)}"
+        raise type(error)(text) if type(error) in (Error, Unusable) else error from error
+
+
+def _read(options, kind, side):
+    """A profile of the left (0) or right (1) side by its name or from its file."""
     from .. import profiles
 
-    name = getattr(options, kind)
+    name = getattr(options, kind)[side]
     if name.lower() in BUILT:
         found = getattr(profiles, name.lower())()
         if found.kind != kind:
@@ -229,11 +289,12 @@ def _read(options, kind):
     else:
         simpack = name.lower().endswith((".prr", ".prw"))
         mirror = options.mirror in (kind, "both")
-        try:
+        with _named(f"--{kind}"):
             found = profiles.read(name, kind, None if simpack else options.unit, options.z, mirror)
-        except Error as error:
-            raise type(error)(_optioned(error)) if type(error) is Error else error from error
-    return found.smoothed(options.smooth) if options.smooth else found
+    if not options.smooth:
+        return found
+    with _named(f"--smooth {options.smooth:g}"):
+        return found.smoothed(options.smooth)
 
 
 def _optioned(error):
@@ -245,23 +306,42 @@ def _optioned(error):
         (", or mirror.y = 1 in the file, or take mirrored()", ", or mirror.y = 1 in the file"),
         ("smoothed(0.004)", "--smooth 4mm"), ("smoothed(0.008)", "--smooth 8mm"),
         ("unit='mm'", "--unit mm"), ("z='down' or z='up'", "--z down or --z up"),
+        ("check gauge", "check --gauge"), ("give height,", "give --height,"),
         ("flange_position", "--flange-position"), ("flange_back", "--flange-back"),
     ):  # fmt: skip
         text = text.replace(old, new)
-    return text
+    return re.sub(rf"^(?:{'|'.join(OPTIONS)})(?= |:)", lambda found: OPTIONS[found[0]], text)
+
+
+def _reworded(error):
+    """The error with the command's options."""
+    return type(error)(_optioned(error)) if type(error) in (Error, Unusable) else error
 
 
 def _vehicle(options):
     """Rails and wheels."""
     from .. import profiles
 
-    wheel, rail = _read(options, "wheel"), _read(options, "rail")
+    sides = [(_read(options, "rail", k), _read(options, "wheel", k)) for k in ((1, 0) if _unlike(options) else (1,))]
     if options.curve is not None and not abs(options.curve) >= 10.0:
         raise Unusable(f"--curve {options.curve:g}: expected the radius in m, at least 10, positive to the right")
     curvature = 0.0 if options.curve is None else 1.0 / options.curve
-    track = profiles.Track(rail, options.gauge, options.gauge_height, options.cant, curvature)
-    one = profiles.Wheelset(wheel, options.radius, options.flange_back, options.flange_position)
-    return profiles.Vehicle(track, one, options.friction, profiles.Settings(cell=options.cell))
+    placed = [
+        (
+            profiles.Track(rail, options.gauge, options.gauge_height, options.cant, curvature),
+            profiles.Wheelset(wheel, options.radius, options.flange_back, options.flange_position),
+        )
+        for rail, wheel in sides
+    ]
+    given = {name: getattr(options, f"{name}_material") for name in ("rail", "wheel")}
+    bodies = {name: profiles.Material(*numbers) for name, numbers in given.items() if numbers}
+    settings = profiles.Settings(cell=options.cell, **bodies)
+    return profiles.Vehicle(*placed[0], options.friction, settings, placed[1] if len(placed) > 1 else None)
+
+
+def _unlike(options):
+    """Whether left and right differ."""
+    return any(left != right for left, right in (options.wheel, options.rail))
 
 
 def _states(options):
@@ -269,7 +349,8 @@ def _states(options):
     from .. import profiles
 
     if options.table is not None:
-        states, ignored = profiles.read_positions(options.table, options.load, options.speed)
+        with _named("--table"):
+            states, ignored = profiles.read_positions(options.table, options.load, options.speed)
         if ignored:
             _warn(f"{options.table}: columns that are not used: {', '.join(map(short, ignored))}")
         return states
@@ -284,6 +365,24 @@ def _warn(text):
     print(f"petsam-wheel: warning: {_optioned(text)}", file=sys.stderr)
 
 
+def _need_ready(options, vehicle, states):
+    """Raises Unusable for wheels beside their rails, and wear that cannot be followed, before anything is solved."""
+    from ..profiles import Position, wearing
+
+    with vehicle.axle() as axle:
+        try:
+            axle.rigid(Position())
+        except Error as error:
+            raise Unusable(str(error).partition(": ")[2]) from error
+    if options.wear is None:
+        return
+    law = wearing.Law(options.law or "energy", options.wear)
+    with _named(f"--table {options.table}") if options.table else contextlib.nullcontext():
+        wearing.shares(states)
+    if options.distance is not None:
+        wearing.need_shallow(vehicle, states, options.distance, law, options.jumps or JUMPS)
+
+
 def carry_out(options):
     """Reads, solves, prints and writes; exit code."""
     from .. import profiles
@@ -293,10 +392,9 @@ def carry_out(options):
         warnings.simplefilter("always")
         try:
             vehicle, states = _vehicle(options), _states(options)
-            with vehicle.axle():
-                pass
+            _need_ready(options, vehicle, states)
         except Error as error:
-            raise type(error)(_optioned(error)) if type(error) in (Error, Unusable) else error from error
+            raise _reworded(error) from error
     for text in dict.fromkeys(str(one.message) for one in caught if issubclass(one.category, UserWarning)):
         if not (options.smooth and "from point to point" in text):
             _warn(text)
@@ -316,7 +414,10 @@ def carry_out(options):
             _picture(options, vehicle, found)
             wrote.append(".png")
     if options.wear is not None:
-        wrote += _wear(options, vehicle, states, cores, endings)
+        try:
+            wrote += _wear(options, vehicle, states, cores, endings)
+        except Error as error:
+            raise _reworded(error) from error
     if wrote:
         print("wrote " + ", ".join(options.output + ending for ending in wrote))
     return 0
@@ -353,7 +454,19 @@ def _print(options, found, table):
 def _print_patch(row):
     print(f"  {row['side']:5} y {1e3 * row['y']:9.3f} mm, angle {row['angle']:8.4f}, creepages {row['creep_x']:.3e} "
           f"{row['creep_s']:.3e} {row['creep_spin']:.3e}/m, N {row['n']:.5g} N, Fx {row['fx']:.4g} N, Fs "
-          f"{row['fs']:.4g} N, p_max {row['p_max'] / 1e6:.4g} MPa, T-gamma {row['t_gamma']:.4g} N")  # fmt: skip
+          f"{row['fs']:.4g} N, p_max {row['p_max'] / 1e6:.4g} MPa, T-gamma {row['t_gamma']:.4g} N"
+          f"{_climbing(row)}")  # fmt: skip
+
+
+def _climbing(row):
+    """The state of a wheel that may climb or is derailed, for its line."""
+    if row["state"] == derailing.STATES[0]:
+        return ""
+    here = derailing.nadal(abs(row["angle"]), row["friction"])
+    return (
+        f"; {row['state'].upper()}: Y/Q {row['y_over_q']:.3f}, Nadal's limit {row['nadal']:.3f} at the flange's "
+        f"steepest place, {here:.3f} at this angle"
+    )
 
 
 def _compare_roll(options, found):
@@ -400,7 +513,7 @@ def _wear(options, vehicle, states, cores, endings):
         ]  # fmt: skip
     else:
         report = Progress("jump", every=EVERY)
-        worn = profiles.wear(vehicle, states, options.distance, law, options.jumps or 10, cores, report)
+        worn = profiles.wear(vehicle, states, options.distance, law, options.jumps or JUMPS, cores, report)
         deepest, error = worn.deepest
         print(f"wear: {1e6 * deepest:.4g} +- {1e6 * error:.2g} um at most after {options.distance / 1e3:g} km; "
               f"worn area {1e6 * worn.area[-1]:.4g} mm2")  # fmt: skip
@@ -416,5 +529,5 @@ def _wear(options, vehicle, states, cores, endings):
 
 
 def main():
-    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or without any equilibrium."""
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, 11 without any equilibrium."""
     return guarded("petsam-wheel", lambda: carry_out(arguments(sys.argv[1:])))

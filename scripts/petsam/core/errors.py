@@ -6,7 +6,7 @@ import importlib
 import os
 import sys
 
-USAGE, FILE = 2, 3  # exit codes, as in petsam
+USAGE, FILE, UNBALANCED = 2, 3, 11  # exit codes, as in petsam
 LINE = 4000  # maximum characters of a message
 
 
@@ -24,6 +24,12 @@ class Unusable(Error):
     """An option or a value that cannot be used, has no effect, or leaves nothing: bad usage."""
 
     code = USAGE
+
+
+class NoEquilibrium(Error):
+    """Loads under which there is no equilibrium."""
+
+    code = UNBALANCED
 
 
 class Missing(Error):

@@ -29,6 +29,7 @@ contacts    contacts in process, kept by their grids
 positions   the solution at a position
 result      what solve() returns
 axle        equilibrium of a wheelset on both rails
+derailing   wheels that climb: Y/Q beside Nadal's limit
 spectrum    table of positions
 batch       many positions in processes
 conicity    geometry of rigid wheels, equivalent conicity
@@ -54,6 +55,7 @@ _HOMES = {
     "solve_all": "batch",
     "wear": "wearing",
     "ConformalWarning": "result",
+    "DerailWarning": "result",
     "CreepTable": "creep",
     "FallingFriction": "creep",
     "Material": "contacts",

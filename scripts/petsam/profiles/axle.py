@@ -17,27 +17,42 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ..core import broyden, tables
-from ..core.errors import Error
-from . import contacts
+from ..core.errors import Error, Unusable
+from . import contacts, derailing
 from .placement import Track, Wheelset
 from .pose import Position
 from .positions import SIDES, Case, Friction, Pair
 from .profile import ProfileWarning
-from .result import COLUMNS, Result
+from .result import COLUMNS, DerailWarning, Result
 
-PASSES, TURNS = 60, 25  # of the equilibrium, and of the roll of rigid bodies
+PASSES, TURNS = 60, 40  # of the equilibrium, and of the roll of rigid bodies
 ROUNDS, DRAFTS = 8, 20  # full solutions with drafts, and drafts between two of them
 FIRST, NEXT = 2e-3, 5e-3  # residual of the first drafts, and of others relative to that of the last full solution
 ALMOST_DONE = 4.0  # residual of drafts over the wanted one, at least: a step from it leads to the wanted one
 MORE, ALMOST = 100, 0.05  # full solutions beyond PASSES, while no more than this is left
 ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
 STEADY = 1e-8  # relative change of the pitch rate of a wheelset that rolls freely
+TURN = 2e-3  # rad by which the roll of rigid bodies changes at once
+LEAST_ARM = 0.1  # m: of the distance of both contacts, which steep flanges shorten for the roll
+STEEP, LINE = 0.8, 2e-5  # part of the contacts' distance below which the height is no line over the roll; rad
 SHARE = 1e-9  # m: overlaps of rigid bodies agree to it
 FASTEST = math.log(2.0)  # change of the logarithm of an overlap in one pass
 STEP, WIDEST = 2e-3, 0.03  # m: of the search for a lateral force, and its end
+STARTS = 2  # neighbours from which an equilibrium under a lateral force is tried, before rigid bodies
+NEWTON, HALVINGS, DIFFERENCE = 15, 5, 1e-3  # steps, their halvings, and relative change of overlaps for a slope
+FACE = 0.5  # slope of a flange from which the equilibrium is tried by Newton's steps, too
+LIFTED = 0.1  # of the load: a wheel with less lifts
+LEAST_STEP = 4e-6  # m: of it towards displacements without an equilibrium
 FLANGE = 0.01  # m below the nominal radius, where the thickness of the flange is measured
 PLAY = (0.0, 0.02)  # m: usual distances of flange and rail
 CLOSE = 1e-8  # m: of the lateral displacement under a lateral force
+
+# columns of both wheels: name, attribute of Climb, unit, meaning
+CLIMBS = (
+    ("state", "state", "", "on rail, may climb, or derailed"),
+    ("y_over_q", "ratio", "1", "lateral over vertical force of the wheel, positive outwards"),
+    ("nadal", "limit", "1", "Nadal's limit of it at the flange's steepest place"),
+)
 
 
 @dataclass(frozen=True)
@@ -71,13 +86,15 @@ class Load:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.vertical < math.inf:
-            raise Error(f"load {self.vertical:g}: expected an axle load above 0, N")
+            raise Unusable(f"load {self.vertical:g}: expected an axle load above 0, N")
         if not math.isfinite(self.lateral or 0.0):
-            raise Error(f"lateral {self.lateral:g}: expected a force, N")
-        if not (abs(self.offset) < 2.0 and abs(self.height) < 5.0):
-            raise Error(f"offset {self.offset:g}, height {self.height:g}: expected distances from the axle's middle, m")
+            raise Unusable(f"lateral {self.lateral:g}: expected a force, N")
+        for name, most in (("offset", 2.0), ("height", 5.0)):
+            value = getattr(self, name)
+            if not abs(value) < most:
+                raise Unusable(f"{name} {value:g}: expected a distance from the axle's middle, m, below {most:g}")
         if self.right is not None and not 0.0 < self.right < self.vertical:
-            raise Error(f"right {self.right:g}: expected a vertical force above 0 and below the axle load, N")
+            raise Unusable(f"right {self.right:g}: expected a vertical force above 0 and below the axle load, N")
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +118,8 @@ class Equilibrium(tables.Tabled):
         Rolling radii of the right and the left wheel, m: distances of their normal forces from the axle.
     passes : int
         Solutions of both wheels that it took, without drafts.
+    climbs : tuple of derailing.Climb
+        How near the right and the left wheel are to derailment.
     slopes : ndarray
         Derivative of what is left, and of the sum of both radii over the nominal diameter, by the logarithms of the
         overlaps of both wheels, (3, 2), approximate: a neighbour's iteration begins with it.
@@ -117,6 +136,7 @@ class Equilibrium(tables.Tabled):
     moment_error: float
     radii: tuple[float, float]
     passes: int
+    climbs: tuple[derailing.Climb, derailing.Climb]
     slopes: Optional[np.ndarray] = None
     correction: Optional[np.ndarray] = None
 
@@ -124,6 +144,11 @@ class Equilibrium(tables.Tabled):
     def radius_difference(self) -> float:
         """Rolling radius of the right wheel less that of the left one, m."""
         return self.radii[0] - self.radii[1]
+
+    @property
+    def derailed(self) -> bool:
+        """True where the contact of a wheel is beyond its flange's steepest place."""
+        return any(one.state == derailing.STATES[2] for one in self.climbs)
 
     @property
     def wheels(self) -> tuple[Result, Result]:
@@ -155,6 +180,11 @@ class Equilibrium(tables.Tabled):
         )  # fmt: skip
         columns = [tables.Column(name, unit, text, [value] * count) for name, unit, text, value in common]
         columns.append(tables.Column("side", "", "right or left", [found.side for found, _ in rows]))
+        near = {found.side: one for found, one in zip(self.wheels, self.climbs)}
+        columns += [
+            tables.Column(name, unit, text, [getattr(near[found.side], attribute) for found, _ in rows])
+            for name, attribute, unit, text in CLIMBS
+        ]
         columns += [
             tables.Column(name, unit, text, [getattr(patch, name) for _, patch in rows]) for name, unit, text in COLUMNS
         ]
@@ -190,6 +220,10 @@ class Axle:
         left: Optional[tuple[Track, Wheelset]] = None,
     ) -> None:
         both = (rail, wheel), left or (rail, wheel)
+        if left is not None and (left[1].radius != wheel.radius or left[0].curvature != rail.curvature):
+            raise Unusable(
+                "left: its nominal radius and the track's curvature are those of the right side: give equal ones"
+            )
         self.pairs = [Pair(*one, friction, side, settings) for one, side in zip(both, SIDES)]
         self.wheel, self.settings = wheel, self.pairs[0].settings
         for track, one in both:
@@ -227,15 +261,18 @@ class Axle:
         Error
             If a wheel is beside its rail.
         """
-        roll = position.roll
+        roll, low, high = position.roll, -math.inf, math.inf
         for _ in range(TURNS):
             now = replace(position, roll=roll)
             cases = self._cases(now)
-            arms = _arms(cases, position.y)
+            arms = self._arms(cases, now)
             apart = cases[0].search.touch + overlaps[0] - cases[1].search.touch - overlaps[1]
             if abs(apart) < share:
                 break
-            roll += apart / (arms[0] - arms[1])
+            low, high = (roll, high) if apart > 0.0 else (low, roll)
+            step = apart / max(arms[0] - arms[1], LEAST_ARM)
+            step = min(max(step, -TURN), TURN)
+            roll = roll + step if low < roll + step < high else 0.5 * (low + high)
         z = 0.5 * (cases[0].search.touch + overlaps[0] + cases[1].search.touch + overlaps[1])
         return Rigid(replace(now, z=z), (_point(cases[0], 1.0), _point(cases[1], -1.0)), self._radii(now, cases, z))
 
@@ -246,6 +283,16 @@ class Axle:
             k = int(np.argmin(case.search.gap))
             place = np.array([case.search.x[k], sign * case.search.y[k], case.search.z[k]])
             found.append(_distance(position.rotation, place - np.array([0.0, position.y, z - self.wheel.radius])))
+        return tuple(found)
+
+    def _arms(self, cases, position):
+        """By how much the heights at which both wheels touch fall with the roll, right and left, m: the lateral arm of
+        the contact, and its arm below the axle times the inclination, as a flange moves aside with the roll."""
+        found = []
+        for case, pair, sign in zip(cases, self.pairs, (1.0, -1.0)):
+            y = _place(case)
+            below = self.wheel.radius + float(pair.rail.section.height(np.array(y))) - case.search.touch
+            found.append(sign * (y - sign * position.y + below * float(pair.rail.section.slope(np.array(y)))))
         return tuple(found)
 
     def _cases(self, position):
@@ -288,13 +335,14 @@ class Axle:
         """The equilibrium under a lateral force."""
         solved = {}  # by the displacement aside, m
 
-        def excess(y):
-            near = solved[min(solved, key=lambda other: abs(other - y))] if solved else start
-            roll = near.position.roll if near else position.roll
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                solved[y] = self._upright(replace(position, y=y, roll=roll), load, near)
-            return solved[y].lateral - load.lateral
+        def excess(y, most=STARTS):
+            near = sorted(solved.values(), key=lambda one: abs(one.position.y - y))[:most] or [start]
+            more = [None] if near[0] and most > 1 else []
+            found = self._from_any(replace(position, y=y), load, [*near, *more])
+            if found.derailed:
+                raise _derails(load, solved)
+            solved[y] = found
+            return found.lateral - load.lateral
 
         low = high = position.y if start is None else start.position.y
         first = excess(low)
@@ -302,17 +350,29 @@ class Axle:
         while first and abs(high) < WIDEST:
             low, high = high, high + sign * step
             try:
-                if excess(high) * sign >= 0.0:
+                if excess(high, 1) * sign >= 0.0:
                     break
             except Error:  # beyond Nadal's limit, or beside the rail
                 high, step = low, 0.5 * step
-                if step < 0.01 * STEP:
+                if step < LEAST_STEP:
                     raise _derails(load, solved) from None
         else:
             if first:
                 raise _derails(load, solved)
         y = brentq(excess, low, high, xtol=CLOSE, rtol=1e-12) if first else low
         return self._upright(replace(position, y=float(y), roll=solved[float(y)].position.roll), load, solved[float(y)])
+
+    def _from_any(self, position, load, starts):
+        """The equilibrium from the first start that leads to it, without its warnings."""
+        for start in starts:
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    here = replace(position, roll=start.position.roll) if start else position
+                    return self._upright(here, load, start)
+            except Error as error:
+                failure = error
+        raise failure
 
     def _upright(self, position, load, start):
         """The equilibrium at a lateral displacement."""
@@ -322,10 +382,19 @@ class Axle:
             overlaps = tuple(max(found.overlap, 0.1 * overlaps[0]) for found in start.wheels)
         search.begin(overlaps)
         rtol = self.settings.rtol
+        begun = search.position
         state = search.by_drafts(rtol) or search.iterate(rtol, PASSES)
+        if max(abs(state.rest)) > rtol and self._steep(search.cases):
+            search.position = begun
+            state = search.newton(search.state(), rtol)
         if max(abs(state.rest)) <= rtol:
             return search.equilibrium(state)
-        raise _no_equilibrium(position, load, state)
+        raise _no_equilibrium(self, position, load, state)
+
+    def _steep(self, cases):
+        """Whether a wheel touches on its flange."""
+        slopes = [abs(float(pair.rail.section.slope(_place(case)))) for case, pair in zip(cases, self.pairs)]
+        return max(slopes) > FACE
 
 
 @dataclass(frozen=True, eq=False)
@@ -350,13 +419,15 @@ class Rigid:
 @dataclass(frozen=True, eq=False)
 class _State:
     """Both wheels at a height and a roll: overlaps, solutions, what each gives to the balance, what is left with the
-    sum of both rolling radii over the nominal diameter, and the arms of the points that touch."""
+    sum of both rolling radii over the nominal diameter, the arms of the points that touch for the roll, and half their
+    lateral distance."""
 
     overlaps: np.ndarray
     found: list
     parts: np.ndarray
     values: np.ndarray
     arms: tuple
+    half: float
 
     @property
     def rest(self):
@@ -407,6 +478,36 @@ class _Search:
             self.improve(state)
         return state
 
+    def newton(self, state, rtol):
+        """The equilibrium by Newton's steps with differences of full solutions, halved while what is left grows: where
+        the inclination of a flange changes the forces more than the overlaps do. Else the last state."""
+        for _ in range(NEWTON):
+            if self.done(state.values, rtol) or min(state.overlaps) <= 0.0:
+                break
+            here = self.position
+            slopes = np.empty((2, 2))
+            for k in range(2):
+                self.position = here
+                self._move(state, np.eye(2)[k] * DIFFERENCE * state.overlaps)
+                slopes[:, k] = (self.state().rest - state.rest) / math.log1p(DIFFERENCE)
+            if not np.linalg.cond(slopes) < 1e8:
+                break
+            step = np.linalg.solve(slopes, -state.rest)
+            step *= min(1.0, FASTEST / np.abs(step).max())
+            state = self._shortened(state, here, step)
+        return state
+
+    def _shortened(self, state, here, step):
+        """The state after a step of the logarithms of the overlaps, or part of it, so that less is left."""
+        for part in 0.5 ** np.arange(HALVINGS):
+            self.position = here
+            self._move(state, state.overlaps * np.expm1(part * step))
+            self._roll_freely(2.0 * self.axle.wheel.radius * state.values[2])
+            after = self.state()
+            if np.linalg.norm(after.rest) < np.linalg.norm(state.rest) or max(abs(after.rest)) < STEADY:
+                break
+        return after
+
     def settle(self, least, draft=None):
         """The draft near an equilibrium, with the correction; begins beside a draft; None where there is none."""
         for _ in range(DRAFTS):
@@ -450,7 +551,7 @@ class _Search:
         scale = self.load.vertical * np.array([1.0, self.scale])
         rest = (parts.sum(axis=0) - given) / scale
         values = np.append(rest, 0.5 * sum(self._radii(found)) / self.axle.wheel.radius)
-        return _State(p.z - touch, found, parts / scale, values, _arms(self.cases, p.y))
+        return _State(p.z - touch, found, parts / scale, values, self.axle._arms(self.cases, p), self.scale)
 
     def improve(self, state):
         """Moves height and roll."""
@@ -484,13 +585,19 @@ class _Search:
         right, left = state.arms
         roll = (more[0] - more[1]) / (right - left)
         p = self.position
-        self.position = replace(p, roll=float(p.roll + roll), z=float(p.z + more[0] - right * roll))
+        if right - left < STEEP * 2.0 * self.scale and abs(roll) > LINE:
+            self.position = self.axle.rigid(p, tuple(state.overlaps + more), ROUGH).position
+        else:
+            self.position = replace(p, roll=float(p.roll + roll), z=float(p.z + more[0] - right * roll))
 
     def equilibrium(self, state):
         """The result, with the warnings of its last pass."""
         for case, found in zip(self.cases, state.found):
             case.warn(found)
         lateral = float(sum(one.force[1] for one in state.found))
+        climbs = tuple(derailing.climb(one, pair.wheel) for one, pair in zip(state.found, self.axle.pairs))
+        for text in filter(None, (one.text for one in climbs)):
+            warnings.warn(text, DerailWarning, stacklevel=5)
         radii = tuple(self._radii(state.found))
         force, moment = map(float, state.rest)
         return Equilibrium(
@@ -502,6 +609,7 @@ class _Search:
             moment,
             radii,
             self.passes,
+            climbs,
             self.slopes,
             self.correction,
         )
@@ -525,10 +633,13 @@ def _hertz(axle, force):
     return ((force / (4.0 / 3.0 * modulus * math.sqrt(0.5 * radius))) ** (2.0 / 3.0),) * 2
 
 
-def _no_equilibrium(position, load, state):
+def _no_equilibrium(axle, position, load, state):
     """The error of an iteration without an end."""
     right, left = (float(found.force[2]) for found in state.found)
     where = f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium: the rails carry {right:.4g} N (right) and "
+    tips = _tips(axle, load, state)
+    if tips:
+        return Error(f"{where}{left:.4g} N (left) at last: {tips}")
     rest = max(abs(state.rest))
     if rest <= ALMOST:
         return Error(
@@ -542,14 +653,36 @@ def _no_equilibrium(position, load, state):
     )
 
 
+def _tips(axle, load, state):
+    """Why the wheelset tips over where a flange carries most of the load; empty where it does not tip.
+
+    On a face of the inclination d a wheel that carries the whole load needs a lateral force of load tan d; below the
+    line in which it is applied this turns the wheelset about x by more than the load on one wheel can hold.
+    """
+    loads = [float(found.force[2]) for found in state.found]
+    heavy = int(np.argmax(loads))
+    if not loads[1 - heavy] < LIFTED * load.vertical or not state.found[heavy].patches:
+        return ""
+    angle = max(abs(patch.angle) for patch in state.found[heavy].patches)
+    arm = axle.wheel.radius - load.height
+    lever = state.half + (load.offset if heavy else -load.offset)
+    if load.right is not None or math.tan(angle) < FACE or not 0.0 < lever < arm * math.tan(angle):
+        return ""
+    return (
+        f"the {SIDES[heavy]} flange touches at an angle of {angle:.3g} rad, where the lateral force that holds the "
+        f"wheelset, {arm:.3g} m above the rails, tips it, and the {SIDES[1 - heavy]} wheel lifts: above "
+        f"about {math.atan(lever / arm):.3g} rad there is no equilibrium: give height, where it acts, or another y"
+    )
+
+
 def _point(case, sign):
     """y of the point that touches, in the track."""
-    return sign * float(case.search.y[int(np.argmin(case.search.gap))])
+    return sign * _place(case)
 
 
-def _arms(cases, y):
-    """Lateral distances of the points that touch from the wheelset's middle, right and left, m."""
-    return tuple(_point(case, sign) - y for case, sign in zip(cases, (1.0, -1.0)))
+def _place(case):
+    """y of the point that touches, of a right wheel."""
+    return float(case.search.y[int(np.argmin(case.search.gap))])
 
 
 def _part(result, position, radius, load):

@@ -3,20 +3,21 @@
 import functools
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Optional
 
 import numpy as np
 
 from ..contact import ContactError
 from ..core import processes, tables
-from ..core.errors import Error
+from ..core.errors import Error, NoEquilibrium
 from .axle import Axle, Equilibrium
 from .contacts import Settings
 from .placement import Track, Wheelset
 from .positions import Friction
 from .spectrum import State
 
+BESIDE = 3e-4  # m between positions of a fine sweep
 CHUNK = 20  # positions that one process solves one after the other, each from its neighbour
 
 
@@ -89,7 +90,29 @@ class Batch(tables.Tabled):
     @property
     def failures(self) -> list[tuple[int, str]]:
         """Number of each position without an equilibrium, from 1 on, and its error."""
-        return [(k, one.failure) for k, one in enumerate(self.found, 1) if one.failure]
+        return [(k, self._named(k - 1)) for k, one in enumerate(self.found, 1) if one.failure]
+
+    def _named(self, k):
+        """The error of a position; with the two nearest ones that have an equilibrium, in a sweep over y."""
+        here, failure = self.states[k], self.found[k].failure
+        alike = [
+            j for j, other in enumerate(self.states)
+            if self.found[j].value and other.load == here.load and replace(other.position, y=here.position.y) ==
+            here.position and here.load.lateral is None
+        ]  # fmt: skip
+        below = max((j for j in alike if self.states[j].position.y < here.position.y), key=self._y, default=None)
+        above = min((j for j in alike if self.states[j].position.y > here.position.y), key=self._y, default=None)
+        near = [self._shown(j) for j in (below, above) if j is not None]
+        return failure + ("; nearest with an equilibrium: " + ", and ".join(near) if near else "")
+
+    def _y(self, k):
+        return self.states[k].position.y
+
+    def _shown(self, k):
+        """A position with an equilibrium, for a message."""
+        numbers = {column.name: column.values[0] for column in self.found[k].value}
+        lateral = f" (lateral force {numbers['ws_lateral']:.4g} N)" if "ws_lateral" in numbers else ""
+        return f"position {k + 1}, y {self._y(k):.6g} m{lateral}"
 
     def table(self) -> list[tables.Column]:
         """A row for each patch, and one with empty cells for a position without an equilibrium.
@@ -101,14 +124,15 @@ class Batch(tables.Tabled):
         """
         solved = next((one.value for one in self.found if one.value), None)
         if solved is None:
-            raise Error(f"no position has an equilibrium; of the first one: {self.found[0].failure}")
+            raise NoEquilibrium(f"no position has an equilibrium; of the first one: {self.found[0].failure}")
         numbers: list[int] = []
         notes: list[str] = []
         rows: list[list] = [[] for _ in solved]
+        named = dict(self.failures)
         for k, one in enumerate(self.found, 1):
             count = len(one.value[0].values) if one.value else 1
             numbers += [k] * count
-            notes += ["; ".join(filter(None, (one.failure, *one.notes)))] * count
+            notes += ["; ".join(filter(None, (named.get(k), *one.notes)))] * count
             for row, column in zip(rows, one.value or [None] * len(solved)):
                 row += list(column.values) if column else [None] * count
         first = tables.Column("position", "1", "number of the position", numbers)
@@ -197,13 +221,28 @@ def _solved(vehicle, keep, states, _told):
 
 
 def _near(axle, state, before):
-    """The equilibrium from that of the position before, or from rigid bodies where that leads to none."""
-    if before is not None:
+    """The equilibrium from that of the position before, from rigid bodies where that leads to none, or at last from one
+    halfway."""
+    starts = [before, None] if before is not None else [None]
+    for start in starts:
         try:
-            return axle.solve(state.position, state.load, before)
-        except (Error, ContactError):
-            pass
-    return axle.solve(state.position, state.load)
+            return axle.solve(state.position, state.load, start)
+        except (Error, ContactError) as error:
+            failure = error
+    if before is None or state.load.lateral is not None or not _differ_little(before, state):
+        raise failure
+    here, there = before.position, state.position
+    middle = replace(there, y=0.5 * (here.y + there.y), yaw=0.5 * (here.yaw + there.yaw))
+    try:
+        return axle.solve(there, state.load, axle.solve(middle, state.load, before))
+    except (Error, ContactError):
+        raise failure from None
+
+
+def _differ_little(before, state):
+    """Whether a position is that of a sweep, beside the one before, under the same load."""
+    apart = abs(before.position.y - state.position.y)
+    return before.load == state.load and 0.0 < apart <= BESIDE and before.position.yaw == state.position.yaw
 
 
 def solve_all(

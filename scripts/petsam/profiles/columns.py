@@ -5,8 +5,8 @@ import re
 import numpy as np
 
 from ..core import units
-from ..core.errors import Error, short
-from ..core.files import lines_of, text_of
+from ..core.errors import Error, Unusable, short
+from ..core.files import lines_of, need_regular, text_of
 from .profile import KINDS, Profile
 
 DIRECTIONS = {"down": 1.0, "up": -1.0}
@@ -37,14 +37,15 @@ def read(path: str, kind: str, unit: str, z: str) -> Profile:
     MissingFile
         If there is no such file.
     """
+    need_regular(path)
     if kind not in KINDS:
-        raise Error(f"{path}: a file of columns does not state what it is: give kind='rail' or kind='wheel'")
+        raise Unusable(f"{path}: a file of columns does not state what it is: give kind='rail' or kind='wheel'")
     scale = units.size(unit) if unit else None
     if scale is None:
         what = f"{short(str(unit))} is no unit of length" if unit else "columns have no unit of their own"
-        raise Error(f"{path}: {what}: give unit='mm' or another of {units.names()}")
+        raise Unusable(f"{path}: {what}: give unit='mm' or another of {units.names()}")
     if z not in DIRECTIONS:
-        raise Error(f"{path}: columns do not state the direction of z: give z='down' or z='up'")
+        raise Unusable(f"{path}: columns do not state the direction of z: give z='down' or z='up'")
     table = _table(path)
     weights = table[:, 2] if table.shape[1] > 2 else None
     return Profile(scale * table[:, 0], DIRECTIONS[z] * scale * table[:, 1], kind, weights, name=str(path))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..contact import AdviceWarning, Contact, EdgeContactWarning
 from ..core import materials
-from ..core.errors import Error
+from ..core.errors import Error, Unusable
 
 MULTIPLE = 4  # numbers of cells are multiples of it, so that few grids occur
 MOST = 1024  # cells along x or s
@@ -41,7 +41,9 @@ class Material:
 
     def __post_init__(self) -> None:
         if not (1e5 < self.young < np.inf and 0.0 <= self.poisson < 0.5):
-            raise Error(f"Material {self.young:g}, {self.poisson:g}: expected Young's modulus (Pa) and Poisson's ratio")
+            raise Unusable(
+                f"Material {self.young:g}, {self.poisson:g}: expected Young's modulus (Pa) and Poisson's ratio"
+            )
 
     @property
     def compliance(self) -> float:
@@ -81,14 +83,14 @@ class Settings:
 
     def __post_init__(self) -> None:
         if not 1e-6 <= self.cell <= 5e-3:
-            raise Error(f"cell {self.cell:g}: expected the width of a cell in m, such as 2e-4")
+            raise Unusable(f"cell {self.cell:g}: expected the width of a cell in m, such as 2e-4")
         if not 0.0 <= self.combination < self.separation < 0.2:
-            raise Error(
+            raise Unusable(
                 f"combination {self.combination:g}, separation {self.separation:g}: expected two lengths in m, the "
                 "first one below the second"
             )
         if not 1e-10 <= self.rtol <= 0.1:
-            raise Error(f"rtol {self.rtol:g}: expected a relative error from 1e-10 to 0.1")
+            raise Unusable(f"rtol {self.rtol:g}: expected a relative error from 1e-10 to 0.1")
 
     @property
     def modulus(self) -> float:

@@ -11,7 +11,7 @@ from typing import Optional
 
 import numpy as np
 
-from ..core.errors import Error
+from ..core.errors import Error, Unusable
 from .pose import Position
 from .profile import Profile, ProfileWarning
 from .section import STEP, Section, fine, path, visible
@@ -22,9 +22,9 @@ STRONGEST = 0.2  # rad: cant, 1:5
 
 
 def _need(value, what, low, high, cure):
-    """Raises Error unless a number lies within a range."""
+    """Raises Unusable unless a number lies within a range."""
     if not low <= value <= high:
-        raise Error(f"{what} {value:g}: {cure}")
+        raise Unusable(f"{what} {value:g}: {cure}")
 
 
 def _need_kind(profile, kind, name):

@@ -10,7 +10,7 @@ from typing import Optional
 
 import numpy as np
 
-from ..core.errors import Error
+from ..core.errors import Unusable
 from .profile import ProfileWarning
 
 YAW = (0.1, 0.6)  # rad: yaws above the first are doubtful, above the second refused
@@ -68,18 +68,22 @@ class Position:
     def __post_init__(self) -> None:
         given = [value for value in vars(self).values() if value is not None]
         if not np.isfinite(np.array(given, dtype=float)).all():
-            raise Error("Position: expected finite numbers")
-        if abs(self.yaw) > YAW[1] or abs(self.roll) > ROLL:
-            raise Error(f"roll {self.roll:g}, yaw {self.yaw:g}: expected rad, up to {ROLL:g} and {YAW[1]:g}")
+            raise Unusable("Position: expected finite numbers")
+        for name, most in (("roll", ROLL), ("yaw", YAW[1])):
+            if abs(getattr(self, name)) > most:
+                raise Unusable(f"{name} {getattr(self, name):g}: expected rad, up to {most:g}")
         if abs(self.yaw) > YAW[0]:
             degrees = np.degrees(self.yaw)
             warnings.warn(f"yaw {self.yaw:g} rad is {degrees:.3g} degrees", ProfileWarning, stacklevel=3)
-        if abs(self.y) > ASIDE or abs(self.z or 0.0) > ASIDE:
-            raise Error(f"y {self.y:g}, z {self.z or 0.0:g}: expected displacements in m, up to {ASIDE:g}")
+        for name, value in (("y", self.y), ("z", self.z or 0.0)):
+            if abs(value) > ASIDE:
+                raise Unusable(f"{name} {value:g}: expected a displacement in m, up to {ASIDE:g}")
         if self.speed < 0.0 or self.roller_rate < 0.0:
-            raise Error("speed, roller_rate: below 0: only rolling towards +x is solved; turn the track by 180 degrees")
+            raise Unusable(
+                "speed, roller_rate: below 0: only rolling towards +x is solved; turn the track by 180 degrees"
+            )
         if (self.pitch_rate or 0.0) > 0.0:
-            raise Error(f"pitch_rate {self.pitch_rate:g}: a wheel that rolls forward has a negative one")
+            raise Unusable(f"pitch_rate {self.pitch_rate:g}: a wheel that rolls forward has a negative one")
 
     def mirrored(self) -> "Position":
         """The position as seen in a mirror in the plane y = 0.

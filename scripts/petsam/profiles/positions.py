@@ -14,7 +14,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from ..contact import AdviceWarning, Contact
-from ..core.errors import Error
+from ..core.errors import Error, Unusable
 from . import contacts, gap
 from .creepages import creepages
 from .locus import locus, near
@@ -160,7 +160,7 @@ def _coefficient(friction, angle):
     """The coefficient of friction at an angle."""
     value = float(friction(angle) if callable(friction) else friction)
     if not 0.0 <= value < 10.0:
-        raise Error(f"friction {value:g} at the angle {angle:g} rad: expected a coefficient from 0 on")
+        raise Unusable(f"friction {value:g} at the angle {angle:g} rad: expected a coefficient from 0 on")
     return value
 
 

@@ -5,7 +5,7 @@ from typing import Optional
 
 import numpy as np
 
-from ..core.errors import Error
+from ..core.errors import Error, Unusable
 
 KINDS = ("rail", "wheel")
 FEWEST = 5  # points that a smoothing spline needs
@@ -124,7 +124,9 @@ class Profile:
 
         s = self.lengths
         if not 0.0 < wavelength <= s[-1]:
-            raise Error(f"{self.name}: wavelength {wavelength:g}: expected a length (m) above 0 and within {s[-1]:g}")
+            raise Unusable(
+                f"{self.name}: wavelength {wavelength:g}: expected a length (m) above 0 and within {s[-1]:g}"
+            )
         t = s / wavelength
         steps = np.diff(t)
         weights = np.asarray(self.weights) * 0.5 * np.concatenate([[steps[0]], steps[1:] + steps[:-1], [steps[-1]]])

@@ -35,6 +35,10 @@ class ConformalWarning(UserWarning):
     """The inclination of a contact varies so much that bodies are no half-spaces: results are approximate."""
 
 
+class DerailWarning(UserWarning):
+    """A wheel of an equilibrium is derailed, or may climb its rail by Nadal's limit."""
+
+
 @dataclass(frozen=True, eq=False)
 class Drafted:
     """The forces of a contact patch, by a draft of its solution.

@@ -6,7 +6,7 @@ from typing import Optional
 import numpy as np
 
 from ..core import units
-from ..core.errors import Error, short, there_are
+from ..core.errors import Error, Unusable, short, there_are
 from ..loads.texts import Table
 from .axle import Load
 from .pose import Position
@@ -109,7 +109,7 @@ def _refuse_twice(table, load, speed):
     """Raises an Error where a column and an argument, or two columns, give the same."""
     for name, given in (("load", load), ("load_right", load), ("speed", speed)):
         if given is not None and name in table.columns:
-            raise Error(f"{table.path}: line {table.head}: has the column {name}: omit --{name.partition('_')[0]}")
+            raise Unusable(f"{table.path}: line {table.head}: has the column {name}: omit --{name.partition('_')[0]}")
     if "lateral" in table.columns and "y" in table.columns:
         raise Error(f"{table.path}: line {table.head}: columns y and lateral: give one of them")
 

@@ -9,6 +9,8 @@ The error is the difference to the depth by half the jumps, as the depth of expl
 """
 
 import functools
+import math
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Optional
@@ -17,7 +19,7 @@ import numpy as np
 from scipy.interpolate import make_smoothing_spline
 
 from ..core import tables
-from ..core.errors import Error
+from ..core.errors import Error, NoEquilibrium, Unusable
 from . import batch
 from .axle import Equilibrium
 from .profile import Profile
@@ -25,9 +27,13 @@ from .section import path
 from .spectrum import State
 
 LAWS = ("energy", "archard")
+CONE = 0.05  # rad: inclination of the tread
+LINEAR = 3.0  # about G C11/E*: slope of the creep force of a round patch over E* a^2
 POINT = 2e-4  # m: distance of the points of the worn profile
 DEEPEST = 1e-4  # m that one jump may take off: deeper ones leave grooves that change the contact too much
 
+MARGIN = 2.0  # of the estimate of the depth before anything is solved, which is 0.2 to 1 times the solved one
+SAMPLE = 40  # positions of it, those of the greatest weights
 LONGER = 4.0  # times as deep may the jumps be that only give the error
 
 
@@ -56,11 +62,11 @@ class Law:
 
     def __post_init__(self) -> None:
         if self.name not in LAWS:
-            raise Error(f"law {self.name!r}: expected {' or '.join(LAWS)}")
+            raise Unusable(f"law {self.name!r}: expected {' or '.join(LAWS)}")
         if not 0.0 < self.coefficient < 1e-6:
-            raise Error(f"coefficient {self.coefficient:g}: expected m3/J or 1/Pa, such as 1e-14")
+            raise Unusable(f"coefficient {self.coefficient:g}: expected m3/J or 1/Pa, such as 1e-14")
         if not 0.0 < self.wavelength < 0.05:
-            raise Error(f"wavelength {self.wavelength:g}: expected m, such as 3e-3")
+            raise Unusable(f"wavelength {self.wavelength:g}: expected m, such as 3e-3")
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,6 +191,99 @@ def _smoothed(depth, s, wavelength):
     return np.maximum(found(s / wavelength), 0.0)
 
 
+def shares(states: Sequence[State]) -> np.ndarray:
+    """Shares of the distance.
+
+    Parameters
+    ----------
+    states : sequence of State
+        The spectrum, with its weights.
+
+    Returns
+    -------
+    ndarray
+        (n,), whose sum is 1.
+
+    Raises
+    ------
+    Unusable
+        If a weight is below 0 or not finite, or none is above 0; with the position, or its line.
+    """
+    weights = np.array([state.weight for state in states], dtype=float)
+    for k, (weight, state) in enumerate(zip(weights, states), 1):
+        if not 0.0 <= weight < np.inf:
+            where = f"line {state.line}" if state.line else f"position {k}"
+            raise Unusable(f"{where}: weight {weight:g}: expected a share of the distance, 0 or more")
+    if not weights.sum() > 0.0:
+        raise Unusable("column weight: all are 0, and nothing wears: give at least one above 0")
+    return weights / weights.sum()
+
+
+def estimate(vehicle: batch.Vehicle, states: Sequence[State], law: Law) -> float:
+    """Worn depth per distance of the new profile, roughly, without a solution of a contact.
+
+    Parameters
+    ----------
+    vehicle, states, law
+        See wear().
+
+    Returns
+    -------
+    float
+        Of a round patch by Hertz under half the axle load, which creeps by yaw, half the rolling radius difference of
+        rigid wheels over the mean radius, and the spin on a cone of 1:20: linear in it, and sliding beyond.
+    """
+    weights = shares(states)
+    picked = np.argsort(-weights, kind="stable")[:SAMPLE]
+    rate, radius = 0.0, vehicle.wheel.radius
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of the vehicle: the solution issues them
+        axle = vehicle.axle()
+    with axle:
+        for k in picked:
+            position, force = states[k].position, 0.5 * states[k].load.vertical
+            try:
+                right, left = axle.rigid(position, share=1e-6).radii
+            except Error:  # beside the rail: wears nothing
+                continue
+            half = (0.75 * force * radius / axle.settings.modulus) ** (1.0 / 3.0)
+            creep = float(np.hypot((right - left) / (right + left), position.yaw)) + CONE / radius * half
+            pull = min(LINEAR * axle.settings.modulus * half**2 * creep, _most_friction(vehicle) * force)
+            rate += weights[k] * 0.5 * law.coefficient * pull * creep / (2.0 * half * 2.0 * np.pi * radius)
+    return rate / float(weights[picked].sum())
+
+
+def _most_friction(vehicle):
+    """The coefficient of friction on the tread."""
+    return float(vehicle.friction(0.0) if callable(vehicle.friction) else vehicle.friction)
+
+
+def need_shallow(vehicle: batch.Vehicle, states: Sequence[State], distance: float, law: Law, jumps: int) -> None:
+    """Raises Unusable where each jump would take off too much, before anything is solved.
+
+    Parameters
+    ----------
+    vehicle, states, distance, law, jumps
+        See wear().
+
+    Raises
+    ------
+    Unusable
+        If distance or jumps are none, or half the estimated depth of a jump is more than a jump may take off.
+    """
+    if not 0.0 < distance < 1e10:
+        raise Unusable(f"distance {distance:g}: expected m above 0, such as 1e8 (100,000 km)")
+    if jumps < 2 or jumps % 2:
+        raise Unusable(f"jumps {jumps}: expected an even number, 2 or more: half of them give the error")
+    depth = estimate(vehicle, states, law) * distance
+    if depth / jumps > MARGIN * DEEPEST:
+        needed = 2 * math.ceil(0.5 * depth / DEEPEST)
+        raise Unusable(
+            f"jumps {jumps}: each takes off some {depth / jumps:.1g} m, where {DEEPEST:g} m can be followed: use at "
+            f"least {needed}, or check the coefficient of wear ({law.coefficient:g} m3/J) and distance ({distance:g} m)"
+        )
+
+
 def wear(
     vehicle: batch.Vehicle,
     states: Sequence[State],
@@ -222,18 +321,13 @@ def wear(
     Error
         If weights, distance or jumps are none, all positions fail, or a jump takes off too much.
     """
-    weights = np.array([state.weight for state in states], dtype=float)
-    if not weights.sum() > 0.0:
-        raise Error("weight: expected at least one above 0")
-    if not 0.0 < distance < 1e10:
-        raise Error(f"distance {distance:g}: expected m above 0, such as 1e8 (100,000 km)")
-    if jumps < 2 or jumps % 2:
-        raise Error(f"jumps {jumps}: expected an even number, 2 or more: half of them give the error")
+    weights = shares(states)
     if vehicle.left is not None:
-        raise Error("wear: both wheels have one profile: leave the left one out")
+        raise Unusable("wear: both wheels have one profile: leave the left one out")
+    need_shallow(vehicle, states, distance, law, jumps)
     new, total = _dense(vehicle.wheel.profile), jumps + jumps // 2
     vehicle = replace(vehicle, wheel=replace(vehicle.wheel, profile=new))
-    one = _Wear(vehicle, list(states), weights / weights.sum(), law, cores)
+    one = _Wear(vehicle, list(states), weights, law, cores)
     depth, area = one.run(distance, jumps, lambda k: report and report(k, total))
     half, _ = one.run(distance, jumps // 2, lambda k: report and report(jumps + k, total), LONGER * DEEPEST)
     return Worn(new, _off(new, depth), depth, np.abs(depth - half), distance, jumps, area, one.failures)
@@ -258,11 +352,9 @@ def rates(
     failures : list of str
         Positions without an equilibrium, which wear nothing.
     """
-    weights = np.array([state.weight for state in states], dtype=float)
-    if not weights.sum() > 0.0:
-        raise Error("weight: expected at least one above 0")
+    weights = shares(states)
     new = _dense(vehicle.wheel.profile)
-    one = _Wear(vehicle, list(states), weights / weights.sum(), law, cores)
+    one = _Wear(vehicle, list(states), weights, law, cores)
     return new, one.rates(new), one.failures
 
 
@@ -287,7 +379,7 @@ class _Wear:
             rates = _smoothed(self.rates(profile), new.lengths, self.law.wavelength)
             if rates.max() * distance / jumps > most:
                 needed = 2 * int(np.ceil(rates.max() * distance / DEEPEST / 2.0))
-                raise Error(
+                raise Unusable(
                     f"jumps {jumps}: jump {k} takes off {rates.max() * distance / jumps:.3g} m: use at least {needed}, "
                     "or check the coefficient of wear and the distance"
                 )
@@ -302,7 +394,7 @@ class _Wear:
         vehicle = replace(self.vehicle, wheel=replace(self.vehicle.wheel, profile=profile))
         found = batch.run(vehicle, self.states, self.cores, functools.partial(rows_of, law=self.law.name))
         if all(one.failure for one in found):
-            raise Error(f"no position of the spectrum has an equilibrium; of the first one: {found[0].failure}")
+            raise NoEquilibrium(f"no position of the spectrum has an equilibrium; of the first one: {found[0].failure}")
         self.failures += [f"position {k}: {one.failure}" for k, one in enumerate(found, 1) if one.failure]
         rates = np.zeros(len(profile.y))
         for one, share in zip(found, self.shares):
