@@ -35,7 +35,9 @@ def part_in_disc(x, y, cell):
 
 
 @pytest.mark.parametrize("kappa", [1 + 1j, 0.05 + 0.05j, 6 + 6j])
-@pytest.mark.parametrize("lag", [(0, 0), (2, 0.6), (-3.9, 1.8), (4, 0), (0, -2.4), (9, 3), (12, 0), (13, 7.2)])
+@pytest.mark.parametrize(
+    "lag", [(0, 0), (1, 0), (0, -0.6), (2, 0.6), (-3.9, 1.8), (4, 0), (0, -2.4), (9, 3), (12, 0), (13, 7.2)]
+)
 def test_a_cell_beside_quadrature(kappa, lag):
     """The integral over a cell of 1 x 0.6, halved until its parts are short beside their distance from the point."""
     points, weights = np.polynomial.legendre.leggauss(24)
