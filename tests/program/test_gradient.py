@@ -235,7 +235,12 @@ def test_refusals():
         gradient.record(contact_of(BODIES, 16)[0], {**history, "bulk2_stress_xx": [0, 1e6]})
     with pytest.raises(petsam.Error, match="no contact"):
         gradient.record(contact_of(BODIES, 16)[0], {"time": [0.0], "disp_z": [-1e-6]})
-    tape = gradient.record(contact_of(BODIES, 16)[0], history)
+    contact = contact_of(BODIES, 16)[0]
+    tape = gradient.record(contact, history)
+    with pytest.raises(petsam.Error, match="has steps already"):
+        gradient.record(contact, history)
+    contact.reset()
+    assert gradient.record(contact, history).energies == pytest.approx(tape.energies, rel=1e-12)
     for name, words in (
         ("contact_area", "piecewise constant"), ("pressure_max", "take pressure_norm"), ("load_n", "take disp_z"),
         ("disp_sideways", "expected energy"),

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..contact import Contact
+from ..contact import Contact, ContactError
+from ..core import materials
 from ..core.errors import Error
 from .halfspace import Influence
 
@@ -123,6 +124,14 @@ def _refuse(options):
         )
 
 
+def _has_steps(contact):
+    try:
+        contact.field("pressure")
+    except ContactError:
+        return False
+    return True
+
+
 def _bodies(options):
     from ..core import materials
 
@@ -167,6 +176,8 @@ def record(contact: Contact, history: Mapping[str, ArrayLike]) -> Tape:
     _refuse(options)
     if contact.rows != contact.n[1]:
         raise Error("gradient: the contact has several ranks: expected one")
+    if _has_steps(contact):
+        raise Error("gradient: the contact has steps already: give a new one, or call its reset()")
     unknown = sorted(set(history) - {"time", *LOADS, *WAYS})
     if unknown:
         raise Error(f"gradient: column {unknown[0]}: expected loads and displacements, {', '.join(LOADS + WAYS)}")
