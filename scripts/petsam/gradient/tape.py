@@ -133,8 +133,6 @@ def _has_steps(contact):
 
 
 def _bodies(options):
-    from ..core import materials
-
     found = []
     for body in (1, 2):
         named = options.get(f"body{body}")
