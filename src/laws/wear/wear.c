@@ -267,8 +267,10 @@ static PetscErrorCode WearOwn(SamLaw law, SamLawStep *step, Vec path, Vec load)
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(law->grid, 1, &part));
   PetscCall(SamGridCreateVec(law->grid, 1, &written));
-  if (law->of_body[1]) PetscCall(FirstPart(law, step, path, load, part));
-  PetscCall(ScaleByFactor(step->state, part));
+  if (law->of_body[1]) {
+    PetscCall(FirstPart(law, step, path, load, part));
+    PetscCall(ScaleByFactor(step->state, part));
+  }
   PetscCall(ScaleByFactor(step->state, load));
   (void)SamFramesGetOffset(step->state, SAM_TRIED, 0, offset);
   PetscCall(SamFramesWrite(law->elasticity, offset, load, written));

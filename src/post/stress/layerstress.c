@@ -125,16 +125,7 @@ static PetscErrorCode ReadPlane(SamEvaluation e, PetscInt step, PetscInt group, 
   PetscCall(PetscMalloc1(g->cells, &rows));
   PetscCall((*e->source.layer)(e->source.context, step, group, c, PlaceOf(e, group, l), rows));
   for (PetscInt k = 0; k < g->cells && turns; k++) rows[k] = -rows[k];
-  if (!e->section) PetscCall(PetscArraycpy(at, rows, plane));
-  if (e->section) {
-    PetscCall(PetscArrayzero(at, plane));
-    for (PetscInt k = 0; k < g->cells; k++) {
-      const PetscInt i = k % g->nx, j = g->row_start + k / g->nx;
-
-      if (e->index == (e->axis == SAM_SECTION_X ? j : i)) at[e->axis == SAM_SECTION_X ? i : j] = rows[k];
-    }
-    PetscCall(SamSum(g->comm, plane, at));
-  }
+  PetscCall(e->section ? SamLinesTake(e, rows, plane, at) : PetscArraycpy(at, rows, plane));
   PetscCall(PetscFree(rows));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

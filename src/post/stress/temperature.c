@@ -83,29 +83,10 @@ static PetscErrorCode ComputePlane(SamEvaluation e, PetscInt step, PetscInt dept
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes the section's line out of the field, for all ranks. */
-static PetscErrorCode TakeLine(SamEvaluation e, double line[])
-{
-  const SamGrid        g = e->grid;
-  const SamTemperature t = e->temperature;
-  const double        *a;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(line, t->length));
-  PetscCall(VecGetArrayRead(t->field, &a));
-  for (PetscInt k = 0; k < g->cells; k++) {
-    const PetscInt i = k % g->nx, j = g->row_start + k / g->nx;
-
-    if (e->index == (e->axis == SAM_SECTION_X ? j : i)) line[e->axis == SAM_SECTION_X ? i : j] = a[k];
-  }
-  PetscCall(VecRestoreArrayRead(t->field, &a));
-  PetscCall(SamSum(g->comm, t->length, line));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamTemperatureFind(SamEvaluation e)
 {
   const SamTemperature t = e->temperature;
+  const double        *a;
 
   PetscFunctionBegin;
   if (!t) PetscFunctionReturn(PETSC_SUCCESS);
@@ -114,7 +95,9 @@ PetscErrorCode SamTemperatureFind(SamEvaluation e)
   for (PetscInt depth = 0; depth < e->depths; depth++)
     for (PetscInt step = 0; step < e->source.steps; step++) {
       PetscCall(ComputePlane(e, step, depth));
-      PetscCall(TakeLine(e, t->line + (step * e->depths + depth) * (ptrdiff_t)t->length));
+      PetscCall(VecGetArrayRead(t->field, &a));
+      PetscCall(SamLinesTake(e, a, t->length, t->line + (step * e->depths + depth) * (ptrdiff_t)t->length));
+      PetscCall(VecRestoreArrayRead(t->field, &a));
       PetscCall(SamEvaluationTell(e, "temperature", (double)(depth + 1) / e->depths, 0));
     }
   PetscFunctionReturn(PETSC_SUCCESS);
