@@ -125,8 +125,6 @@ struct _n_SamEvaluation {
 PETSC_INTERN PetscErrorCode SamMapsCompute(SamEvaluation e);
 /* SamLinesCompute - computes everything on a section, some steps at a time (lines.c). Collective. */
 PETSC_INTERN PetscErrorCode SamLinesCompute(SamEvaluation e);
-/* SamLinesTake - takes the section's line of n points out of this rank's rows of a field, for all ranks. Collective. */
-PETSC_INTERN PetscErrorCode SamLinesTake(SamEvaluation e, const double rows[], PetscInt n, double line[]);
 /* SamMapsMemory, SamLinesMemory - return the memory of this rank, bytes. Not collective. */
 PETSC_INTERN double SamMapsMemory(SamEvaluation e);
 PETSC_INTERN double SamLinesMemory(SamEvaluation e);
@@ -137,6 +135,9 @@ PETSC_INTERN double SamLinesMemory(SamEvaluation e);
 */
 PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscBool own,
                                                        double *const to[SAM_STRESS_TRACTIONS]);
+/* SamPointsTakeLine - takes the section's line of n points out of this rank's rows of a field, for all ranks.
+   Collective. */
+PETSC_INTERN PetscErrorCode SamPointsTakeLine(SamEvaluation e, const double rows[], PetscInt n, double line[]);
 /*
   The body's own points where surfaces slide (points.c).
   SamPointsSetUp - reads the slides of the surfaces, if the body's points do not stay with the grid. Collective.

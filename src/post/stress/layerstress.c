@@ -125,7 +125,7 @@ static PetscErrorCode ReadPlane(SamEvaluation e, PetscInt step, PetscInt group, 
   PetscCall(PetscMalloc1(g->cells, &rows));
   PetscCall((*e->source.layer)(e->source.context, step, group, c, PlaceOf(e, group, l), rows));
   for (PetscInt k = 0; k < g->cells && turns; k++) rows[k] = -rows[k];
-  PetscCall(e->section ? SamLinesTake(e, rows, plane, at) : PetscArraycpy(at, rows, plane));
+  PetscCall(e->section ? SamPointsTakeLine(e, rows, plane, at) : PetscArraycpy(at, rows, plane));
   PetscCall(PetscFree(rows));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

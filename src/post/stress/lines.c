@@ -27,21 +27,6 @@ double SamLinesMemory(SamEvaluation e)
          48 * (double)steps * (double)length * (double)e->depths;
 }
 
-PetscErrorCode SamLinesTake(SamEvaluation e, const double rows[], PetscInt n, double line[])
-{
-  const SamGrid g = e->grid;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(line, n));
-  for (PetscInt k = 0; k < g->cells; k++) {
-    const PetscInt i = k % g->nx, j = g->row_start + k / g->nx;
-
-    if (e->index == (e->axis == SAM_SECTION_X ? j : i)) line[e->axis == SAM_SECTION_X ? i : j] = rows[k];
-  }
-  PetscCall(SamSum(g->comm, n, line));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode AddStep(SamEvaluation e, SamSection section, PetscInt step, Vec tractions)
 {
   const PetscInt cells = e->grid->cells;

@@ -96,7 +96,7 @@ PetscErrorCode SamTemperatureFind(SamEvaluation e)
     for (PetscInt step = 0; step < e->source.steps; step++) {
       PetscCall(ComputePlane(e, step, depth));
       PetscCall(VecGetArrayRead(t->field, &a));
-      PetscCall(SamLinesTake(e, a, t->length, t->line + (step * e->depths + depth) * (ptrdiff_t)t->length));
+      PetscCall(SamPointsTakeLine(e, a, t->length, t->line + (step * e->depths + depth) * (ptrdiff_t)t->length));
       PetscCall(VecRestoreArrayRead(t->field, &a));
       PetscCall(SamEvaluationTell(e, "temperature", (double)(depth + 1) / e->depths, 0));
     }
