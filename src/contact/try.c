@@ -152,6 +152,12 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns the option that selects a law, or its first one. */
+static const char *NameOf(SamLaw law)
+{
+  return law->option ? law->option : law->row_count ? law->rows[0].name : law->type;
+}
+
 PetscErrorCode SamContactSetUp(SamContact c)
 {
   const SamLaw *laws;
@@ -173,8 +179,8 @@ PetscErrorCode SamContactSetUp(SamContact c)
              c->traits.upwind ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);
   for (PetscInt k = 0; k < count; k++)
     for (PetscInt j = 0; laws[k]->ops.follow && j < count; j++)
-      PetscCheck(!laws[j]->ops.separation || !laws[j]->ops.limit, c->grid->comm, SAM_ERR_USER,
-                 "-%s: not supported with -%s", laws[k]->option, laws[j]->option);
+      PetscCheck((!laws[j]->ops.separation || !laws[j]->ops.limit) && (!laws[j]->ops.follow || j == k), c->grid->comm,
+                 SAM_ERR_USER, "-%s: not supported with -%s", NameOf(laws[k]), NameOf(laws[j]));
   PetscCheck(isinf(limit) || SamNormalLimitsPressure(c->normal), c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
   PetscCall(SamNormalSetPressureLimit(c->normal, limit));

@@ -39,6 +39,9 @@ enum { NONE, STEADY };
         .range = SAM_RANGE_POSITIVE), \
     ROW("body" #k "_bulk_temperature", bulk[k - 1], "temperature () of body " #k " far from the contact", .unit = "K", \
         .range = SAM_RANGE_ANY), \
+    ROW("body" #k "_expansion", expansion[k - 1], \
+        "coefficient of thermal expansion () of body " #k ": heat displaces its surface", .unit = "1/K", \
+        .range = SAM_RANGE_ANY), \
     ROW("body" #k "_speed", speed[k - 1], "speed () of body " #k "'s material along x, as seen from the contact", \
         .unit = "m/s", .range = SAM_RANGE_ANY, .excludes = "rolling")
 static const SamOptionRow rows[] = {
@@ -187,6 +190,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   }
   for (int b = 0; b < 2; b++) PetscCall(TakeMaterial(law, from, b));
   PetscCall(CheckBodies(law, h, from));
+  PetscCall(SamHeatLawExpand(law, from));
   law->follows_slip = h->changes ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -246,6 +250,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
       one.order = 0; /* the power is that of a step: others have another one */
     PetscCall(SamStateDeclareNumber(state, &one, &id));
   }
+  PetscCall(SamHeatLawDeclareExpansion(law, state));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -282,11 +287,11 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   h->duration  = first ? PetscMax(control->time, 0) : duration; /* the first step begins at time 0 */
   h->failed[0] = '\0';
   h->clipped   = PETSC_FALSE;
+  PetscCall(SamHeatLawBeginExpansion(law));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the frictional power per area, W/m2, which is 0 without contact. */
-static PetscErrorCode FillHeat(SamLaw law, const SamLawStep *step, Vec heat)
+PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec of_step, Vec heat)
 {
   const SamHeatLaw *h       = (const SamHeatLaw *)law->data;
   const PetscBool   streams = SamMotionOf(law->elasticity)->streams;
@@ -295,13 +300,13 @@ static PetscErrorCode FillHeat(SamLaw law, const SamLawStep *step, Vec heat)
   double           *q;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(step->pressure, &p));
-  PetscCall(VecGetArrayRead(step->field[streams ? SAM_USE_POWER : SAM_USE_WORK], &work));
+  PetscCall(VecGetArrayRead(pressure, &p));
+  PetscCall(VecGetArrayRead(of_step, &work));
   PetscCall(VecGetArrayWrite(heat, &q));
-  for (PetscInt k = 0; k < step->grid->cells; k++) q[k] = p[k] > 0 ? per * PetscMax(work[k], 0) : 0;
+  for (PetscInt k = 0; k < law->grid->cells; k++) q[k] = p[k] > 0 ? per * PetscMax(work[k], 0) : 0;
   PetscCall(VecRestoreArrayWrite(heat, &q));
-  PetscCall(VecRestoreArrayRead(step->field[streams ? SAM_USE_POWER : SAM_USE_WORK], &work));
-  PetscCall(VecRestoreArrayRead(step->pressure, &p));
+  PetscCall(VecRestoreArrayRead(of_step, &work));
+  PetscCall(VecRestoreArrayRead(pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -374,7 +379,8 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   for (int b = 0; b < 2; b++)
     PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, fluxes[b]), &into_body[b]));
   PetscCall(SamGridCreateVec(step->grid, 1, &heat));
-  PetscCall(FillHeat(law, step, heat));
+  PetscCall(SamHeatLawFill(law, step->pressure,
+                           step->field[SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK], heat));
   PetscCall(
     SamHeatTemperatures(&h->pair, step->pressure, heat, h->bulk, into_body[1], surface, failed, sizeof(failed)));
   PetscCall(VecWAXPY(into_body[0], -1, into_body[1], heat));
@@ -387,6 +393,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(FindMaximum(step, surface, &numbers[MAXIMUM]));
   numbers[POWER] = (double)power[0];
   numbers[SHARE] = power[0] > 0 ? (double)(into[0] / power[0]) : NAN;
+  PetscCall(SamHeatLawKeepExpansion(law, step));
   PetscCall(VecDestroy(&heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -407,6 +414,7 @@ static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
   else
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  no frictional power, at most %.6g K in contact\n", "heat",
                                      numbers[MAXIMUM]));
+  PetscCall(SamHeatLawViewExpansion(law, state, viewer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -435,6 +443,7 @@ static PetscErrorCode Destroy(SamLaw law)
 {
   PetscFunctionBegin;
   for (int b = 0; b < 2; b++) PetscCall(SamConductorDestroy(&((SamHeatLaw *)law->data)->pair.body[b]));
+  PetscCall(SamHeatLawDestroyExpansion(law));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

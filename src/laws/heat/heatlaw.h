@@ -3,7 +3,9 @@
 #define PETSAM_HEATLAW_H
 
 #include "contactheat.h"
+#include "expansion.h"
 #include <petsam/private/lawimpl.h>
+#include <petsam/private/mixing.h>
 
 /* A change of friction or wear by temperature, as the user gives it: T0, dT, and the change, or the factor. */
 enum { SAM_HEAT_FROM, SAM_HEAT_OVER, SAM_HEAT_CHANGE, SAM_HEAT_CHANGES };
@@ -13,15 +15,40 @@ typedef struct {
   PetscReal   conductivity[2], capacity[2], bulk[2], speed[2], resistance;
   PetscReal   change[SAM_HEAT_CHANGES], wear[SAM_HEAT_CHANGES];
   PetscInt    changes, wears; /* 0, or SAM_HEAT_CHANGES: friction, or wear, depends on the temperature */
+  PetscReal   expansion[2];   /* coefficients of thermal expansion, 1/K; 0: none */
   PetscReal   rolling;        /* speed of rolling, m/s */
   SamHeatPair pair;           /* body[0] NULL: not created yet */
   PetscReal   duration;       /* of the step, s */
   char        failed[192];    /* why the last bound has no temperature; empty: it has one */
   PetscBool   clipped;        /* the last bound would have had friction below 0 in a cell of this rank */
   PetscBool   timeless;       /* there is frictional work in a step without duration */
+  SamExpander expander[2];    /* NULL: not created yet, or no expansion; [1] may be [0], for equal conduction */
+  SamMixing   mixing;         /* of the thermal displacements; NULL: not created yet */
+  PetscInt    passes;         /* in which they have been found in this step */
 } SamHeatLaw;
 
 #define SAM_TEMPERATURE_1 "temperature_1"
+/*
+  SamHeatLawFill - computes the frictional power per area, W/m2, which is 0 without contact, by the work of the step (or
+  where material streams its power over the speed), as in SamLawContact. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec work, Vec heat);
+/*
+  The thermal displacement (heatexpand.c). SamHeatLawExpands - true if there is any.
+  SamHeatLawExpand - gives the law the methods for it, and refuses bodies without. SamHeatLawDeclare - declares its
+  fields and numbers. SamHeatLawBeginExpansion - prepares a step. SamHeatLawKeepExpansion - sets its numbers in a solved
+  step. Collective.
+*/
+static inline PetscBool SamHeatLawExpands(const SamHeatLaw *h)
+{
+  return h->expansion[0] != 0 || h->expansion[1] != 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+PETSC_INTERN PetscErrorCode SamHeatLawExpand(SamLaw law, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamHeatLawDeclareExpansion(SamLaw law, SamState state);
+PETSC_INTERN PetscErrorCode SamHeatLawBeginExpansion(SamLaw law);
+PETSC_INTERN PetscErrorCode SamHeatLawKeepExpansion(SamLaw law, const SamLawStep *step);
+PETSC_INTERN PetscErrorCode SamHeatLawViewExpansion(SamLaw law, SamState state, PetscViewer viewer);
+PETSC_INTERN PetscErrorCode SamHeatLawDestroyExpansion(SamLaw law);
 /* SamHeatLawPrepare - creates the operators at their first use. Collective. */
 PETSC_INTERN PetscErrorCode SamHeatLawPrepare(SamLaw law);
 /* SamHeatLawBound - the law's method `bound`: the change of friction by temperature (heatbound.c). Collective. */
