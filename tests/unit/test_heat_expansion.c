@@ -17,10 +17,9 @@ static SamHeatBody Moving(double p)
 /* Computes the displacements at the lag (i, j), |i| < LAGS, of cells with these sides. */
 static void AtLag(const SamHeatBody *body, const PetscReal side[2], PetscInt i, PetscInt j, double u[3])
 {
-  static const PetscInt n[2] = {LAGS, LAGS};
-  double                even[3][LAGS], odd[3][LAGS];
+  const PetscInt k = PetscAbs(i), n[2] = {body->speed == 0 ? LAGS : k + 1, LAGS}; /* the datum depends on them */
+  double         even[3][LAGS], odd[3][LAGS];
   double *const e[3] = {even[0], even[1], even[2]}, *const o[3] = {odd[0], odd[1], odd[2]};
-  const PetscInt    k = PetscAbs(i);
   SamExpansionTable table;
 
   sam_call(SamExpansionTableCreate(body, side, n, &table));
@@ -128,8 +127,8 @@ static void test_moving_cells_are_plain_sums(void **state)
 static void test_displacements_are_those_of_the_parts(void **state)
 {
   static const PetscReal whole[2] = {3, 2.4}, part[2] = {1, 0.8};
-  static const PetscInt  lags[][2] = {{0, 0}, {1, 0}, {-2, 1}, {3, 2}, {-7, 0}, {-7, 2}, {0, 7}, {7, 3}, {-7, 7}};
-  static const double    speeds[]  = {1e-3, 0.4, 9, 200};
+  static const PetscInt  lags[][2] = {{0, 0}, {-2, 1}, {3, 2}, {-7, 0}, {0, 7}, {-7, 7}};
+  static const double    speeds[]  = {0.4, 40};
 
   (void)state;
   for (size_t v = 0; v < sizeof(speeds) / sizeof(*speeds); v++)
@@ -172,8 +171,8 @@ static void test_slow_bodies_approach_the_one_at_rest(void **state)
   (void)state;
   AtLag(&rest, square, 0, 0, near[0]);
   AtLag(&slow, square, 0, 0, near[1]);
-  for (PetscInt i = -20; i <= 20; i += 5)
-    for (PetscInt j = 0; j <= 10; j += 5) {
+  for (PetscInt i = -8; i <= 8; i += 8)
+    for (PetscInt j = 0; j <= 4; j += 4) {
       AtLag(&rest, square, i, j, far[0]);
       AtLag(&slow, square, i, j, far[1]);
       sam_assert_close(far[1][0] - near[1][0], far[0][0] - near[0][0], 2e-6);
@@ -186,13 +185,15 @@ static void test_products_are_sums_over_cells(void **state)
 {
   static const double speeds[] = {0, 0.6, -30};
   enum { NX = 9, NY = 7 };
+  static const PetscInt n[2] = {NX, NY};
 
   (void)state;
   for (int v = 0; v < 3; v++) {
     const SamHeatBody body    = Moving(speeds[v]);
     const PetscReal   cell[2] = {2. / NX, 1.5 / NY};
     SamGrid           grid[2] = {NewGrid(NX, NY, 2, 1.5), NewGridOn(PETSC_COMM_SELF, NX, NY, 2, 1.5, 0, 0)};
-    double           *q       = NULL, *found[2][2];
+    double           *q       = NULL, *found[2][2], even[NY][3][NX], odd[NY][3][NX];
+    SamExpansionTable table;
 
     for (int g = 0; g < 2; g++) {
       Vec         flux = NewRandom(grid[g], 1, 3), out = NewField(grid[g], 1), along = NewField(grid[g], 2);
@@ -208,21 +209,22 @@ static void test_products_are_sums_over_cells(void **state)
     }
     for (PetscInt k = 0; k < NX * NY; k++) sam_assert(found[0][0][k] == found[1][0][k]);
     for (PetscInt k = 0; k < 2 * NX * NY; k++) sam_assert(found[0][1][k] == found[1][1][k]);
-    for (PetscInt k = 0; k < NX * NY; k += 13) {
-      static const PetscInt n[2] = {NX, NY};
-      double                even[3][NX], odd[3][NX], sum[3] = {0};
-      double *const ev[3] = {even[0], even[1], even[2]}, *const od[3] = {odd[0], odd[1], odd[2]};
-      SamExpansionTable table;
+    sam_call(SamExpansionTableCreate(&body, cell, n, &table));
+    for (PetscInt j = 0; j < NY; j++) {
+      double *const ev[3] = {even[j][0], even[j][1], even[j][2]}, *const od[3] = {odd[j][0], odd[j][1], odd[j][2]};
 
-      sam_call(SamExpansionTableCreate(&body, cell, n, &table));
+      SamExpansionTableRow(table, j, ev, od);
+    }
+    sam_call(SamExpansionTableDestroy(&table));
+    for (PetscInt k = 0; k < NX * NY; k++) {
+      double sum[3] = {0};
+
       for (PetscInt l = 0; l < NX * NY; l++) {
-        const PetscInt i = k % NX - l % NX, j = k / NX - l / NX, a = PetscAbs(i);
+        const PetscInt i = k % NX - l % NX, j = k / NX - l / NX, a = PetscAbs(i), b = PetscAbs(j);
 
-        SamExpansionTableRow(table, PetscAbs(j), ev, od);
         for (int m = 0; m < 3; m++)
-          sum[m] += q[l] * (m == 2 && j < 0 ? -1 : 1) * (even[m][a] + (i < 0 ? -1 : 1) * odd[m][a]);
+          sum[m] += q[l] * (m == 2 && j < 0 ? -1 : 1) * (even[b][m][a] + (i < 0 ? -1 : 1) * odd[b][m][a]);
       }
-      sam_call(SamExpansionTableDestroy(&table));
       sam_assert_close(found[0][0][k], 3 * sum[0], 1e-13);
       sam_assert_close(found[0][1][k], -2 * sum[1], 1e-13);
       sam_assert_close(found[0][1][NX * NY + k], -2 * sum[2], 1e-13);
