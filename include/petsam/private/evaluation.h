@@ -74,7 +74,8 @@ typedef struct {
   PetscBool                 slips;  /* true: steps follow each other, and have slips, not slip velocities */
   const SamHeatBody        *heat; /* constants of the body whose temperature is wanted, borrowed; NULL: no heat known */
   double                    bulk; /* its temperature far from the contact, K */
-  PetscInt                  groups; /* number of groups of layers with stresses besides those by tractions */
+  double                    expansion; /* its coefficient of thermal expansion, 1/K; 0: none */
+  PetscInt                  groups;    /* number of groups of layers with stresses besides those by tractions */
   const SamStateLayers     *group[SAM_LAYER_GROUPS]; /* borrowed; z is NULL if their stresses are not available */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);

@@ -86,6 +86,40 @@ PETSC_INTERN PetscErrorCode SamConductorApply(SamConductor conductor, Vec flux, 
 /* SamConductorDestroy - frees the operator; sets the handle to NULL. Collective. */
 PETSC_INTERN PetscErrorCode SamConductorDestroy(SamConductor *conductor);
 
+/*
+  SamThermalStress - the operator from a flux on the surface of a half-space to the steady thermal stress at a depth,
+  the surface being free of tractions (thermalstress.c).
+
+  SamThermalStressCreate - creates the operator on a grid in three dimensions, which it references; the rest is copied.
+  SamThermalStressAdd    - adds the stress by a flux (one component, W/m2) at a depth (m, at least 0), times `factor`,
+                           to `stress` (SAM_STRESS_COMPONENTS components), for expansion times Young's modulus = 1
+                           Pa/K. z points into the body. Depths in turn cost the kernels of a body that stands each
+                           time.
+  SamThermalStressBytes  - returns the memory that it takes on this rank, bytes. Not collective.
+  SAM_THERMAL_LEAST      - speed times the longer side of the grid over twice the diffusivity, below which bodies that
+                           move are too slow: their heat reaches beyond the grid.
+  All others are collective. Errors: those of SamHeatRow(); PETSC_ERR_ARG_SIZ for a field of another grid; PETSC_ERR_SUP
+  for a body that is too slow.
+  Source: Barber 1984, J. Appl. Mech. 51, 636; Liu and Wang 2001, J. Tribol. 123, 17.
+*/
+#define SAM_THERMAL_LEAST 20
+typedef struct _n_SamThermalStress *SamThermalStress;
+PETSC_INTERN PetscErrorCode         SamThermalStressCreate(SamGrid grid, const SamFourierSettings *settings,
+                                                           const SamHeatBody *body, PetscReal poisson,
+                                                           SamThermalStress *thermal);
+PETSC_INTERN PetscErrorCode SamThermalStressAdd(SamThermalStress thermal, PetscReal depth, Vec flux, PetscReal factor,
+                                                Vec stress);
+PETSC_INTERN PetscErrorCode SamThermalStressDestroy(SamThermalStress *thermal);
+PETSC_INTERN double         SamThermalStressBytes(SamThermalStress thermal);
+/*
+  SamThermalStressWave - computes the stresses by a wave exp(i k.x) of the temperature 1 of the surface, over E
+  alpha/(1 - nu): n along the wave, t across; `kappa`: its decay with depth (1/m, real and imaginary part), `k` its wave
+  number (1/m). `stress`: nn, tt, zz, and nz over i, each real and imaginary part. Not collective.
+*/
+enum { SAM_THERMAL_NN, SAM_THERMAL_TT, SAM_THERMAL_ZZ, SAM_THERMAL_NZ, SAM_THERMAL_PARTS };
+PETSC_INTERN void SamThermalStressWave(double k, const double kappa[2], double poisson, double depth,
+                                       double stress[SAM_THERMAL_PARTS][2]);
+
 /* SamHeatPair - two bodies in contact, and how accurately heat is divided between them. */
 typedef struct {
   SamConductor body[2];    /* on one grid, at the surface (depth 0) */

@@ -57,9 +57,9 @@ typedef struct {
   SamState          state;
   const SamBalance *normal, *tangential;
   Vec               pressure, shear, bound; /* Pa: the last solution */
-  Vec               work;        /* by cell: SAM_USE_WORK or SAM_USE_POWER, if the law uses one of them; else NULL */
-  PetscBool         solved;      /* false: there is no solution with the offset of the tried state */
-  char              failed[192]; /* set by a law that finds no solution: the reason */
+  Vec               slip;                   /* SAM_USE_PATH or SAM_USE_POWER, if the law uses one of them; else NULL */
+  PetscBool         solved;                 /* false: there is no solution with the offset of the tried state */
+  char              failed[192];            /* set by a law that finds no solution: the reason */
 } SamLawContact;
 
 /*

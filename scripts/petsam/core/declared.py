@@ -4,6 +4,7 @@
 OPTIONS = {
     "body1_bulk_temperature": "K",
     "body1_conductivity": "W/(m K)",
+    "body1_expansion": "1/K",
     "body1_hardening_modulus": "Pa",
     "body1_heat_capacity": "J/(m3 K)",
     "body1_layer_thickness": "m",
@@ -14,6 +15,7 @@ OPTIONS = {
     "body1_young": "Pa",
     "body2_bulk_temperature": "K",
     "body2_conductivity": "W/(m K)",
+    "body2_expansion": "1/K",
     "body2_hardening_modulus": "Pa",
     "body2_heat_capacity": "J/(m3 K)",
     "body2_layer_thickness": "m",

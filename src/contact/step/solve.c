@@ -154,19 +154,19 @@ static PetscErrorCode SolveAgain(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the frictional work, or power, of the solution, for a law that uses it. */
-static PetscErrorCode FindWork(SamSolve *w, SamLaw law, SamLawContact *contact)
+/* Computes the slip, or the frictional power, of the solution, for a law that uses it. */
+static PetscErrorCode FindSlip(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
   const SamStepTask *task = w->task;
 
   PetscFunctionBegin;
-  if (!contact->solved || !(law->uses[SAM_USE_WORK] || law->uses[SAM_USE_POWER])) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!contact->work) PetscCall(SamGridCreateVec(task->grid, 1, &contact->work));
+  if (!contact->solved || !(law->uses[SAM_USE_PATH] || law->uses[SAM_USE_POWER])) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!contact->slip) PetscCall(SamGridCreateVec(task->grid, 1, &contact->slip));
   PetscCall(SamSolveDisplace(w));
   if (law->uses[SAM_USE_POWER])
-    PetscCall(SamSolutionComputeRolling(task->problem, w->s, PETSC_FALSE, contact->work));
+    PetscCall(SamSolutionComputeRolling(task->problem, w->s, PETSC_FALSE, contact->slip));
   else
-    PetscCall(SamSolutionComputeFriction(task->problem, task->before, w->s, NULL, NULL, contact->work));
+    PetscCall(SamSolutionComputeFriction(task->problem, task->before, w->s, contact->slip, NULL, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -176,7 +176,7 @@ static PetscErrorCode AskLaw(SamSolve *w, SamLaw law, SamLawContact *contact, Pe
   PetscFunctionBegin;
   *again          = PETSC_FALSE;
   contact->solved = w->step->status == SAM_STATUS_CONVERGED ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(FindWork(w, law, contact));
+  PetscCall(FindSlip(w, law, contact));
   PetscCall(law->ops.follow(law, contact, again));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -235,7 +235,7 @@ static PetscErrorCode FollowTractions(SamSolve *w)
   PetscCall(SamProblemGetLaws(w->task->problem, &count, &laws));
   for (PetscInt k = 0; k < count && w->step->status != SAM_STATUS_NO_EQUILIBRIUM; k++)
     if (laws[k]->ops.follow) PetscCall(Follow(w, laws[k], &contact));
-  PetscCall(VecDestroy(&contact.work));
+  PetscCall(VecDestroy(&contact.slip));
   if (contact.failed[0]) PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, contact.failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

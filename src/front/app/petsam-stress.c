@@ -202,6 +202,8 @@ static void SetHeat(SamStressRun *run, PetscInt body, SamStressSource *source)
   const SamResultsField field = body == 1 ? SAM_RESULTS_HEAT_1 : SAM_RESULTS_HEAT_2;
   PetscBool             has   = heat ? PETSC_TRUE : PETSC_FALSE;
 
+  source->expansion = (double)ParameterOf(run, body, "expansion");
+
   for (PetscInt k = 0; k < run->steps && has; k++) has = SamResultsHas(run->results, run->saved[k], field);
   if (!has) return;
   run->heat.conductivity = ParameterOf(run, body, "conductivity");

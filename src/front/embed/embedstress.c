@@ -302,6 +302,7 @@ static PetscErrorCode Warn(void *context, const char text[])
 static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation *e)
 {
   SamState        state;
+  PetscBool       expands;
   SamStressSource source = {.bodies     = c->setup->elasticity,
                             .name       = "-elasticity",
                             .steps      = n,
@@ -317,6 +318,8 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
 
   PetscFunctionBegin;
   PetscCall(SamContactGetState(c->setup->contact, &state));
+  PetscCall(SamContactHasField(c->setup->contact, "thermal_displacement_z", &expands));
+  if (expands) source.expansion = 1; /* of one of the bodies; without the heat it is refused */
   for (const SamStateLayers *group; (group = SamStateGetLayers(state, source.groups)); source.groups++)
     source.group[source.groups] = group;
   PetscCall(ReadOptions(c, options, e));

@@ -2,8 +2,8 @@
   The operator from a flux into a half-space to the displacement of its surface by thermal expansion.
 
   The flux is constant on each cell, kernels are those of a cell (expansionkernel.c), and products are convolutions
-  without periodic images (fourier/kernel.c). A kernel is even or odd along y. Along x that of a body that stands has one
-  part, that of one that moves an even and an odd one, which share the transforms of the flux.
+  without periodic images (fourier/kernel.c). A kernel is even or odd along y. Along x that of a body that stands has
+  one part, that of one that moves an even and an odd one, which share the transforms of the flux.
 
   Source: Liu and Wang 2001, J. Tribol. 123, 17-26.
 */

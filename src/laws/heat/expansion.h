@@ -27,8 +27,8 @@ PETSC_INTERN void                    SamExpansionTableRow(SamExpansionTable tabl
   SamExpander - the operator from a flux into a half-space to the displacement of its surface.
 
   SamExpanderCreate - creates it on a grid in three dimensions, which it references; the rest is copied.
-  SamExpanderAdd    - adds the displacement by a flux (one component, W/m2), for (1 + nu) alpha/conductivity = 1 m/W: that
-                      out of the body, times `out`, to u_out (one component, m), and that along the surface, times
+  SamExpanderAdd    - adds the displacement by a flux (one component, W/m2), for (1 + nu) alpha/conductivity = 1 m/W:
+                      that out of the body, times `out`, to u_out (one component, m), and that along the surface, times
                       `along`, to u_t (two components, m). The same to the last bit on any number of ranks.
   All are collective. Errors: PETSC_ERR_ARG_SIZ for a field of another grid.
 */

@@ -218,7 +218,7 @@ static int Ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Finds the borders of the panels for edges at the distances x and y, of which there are n each; returns their number. */
+/* Finds the borders of the panels for n edges at the distances x, and n at the distances y; returns their number. */
 static PetscInt FindBorders(const Source *h, PetscInt n, const double x[], const double y[], double least, double end,
                             double borders[BORDERS])
 {

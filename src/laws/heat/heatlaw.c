@@ -291,20 +291,29 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec of_step, Vec heat)
+SamLawUse SamHeatLawUses(SamLaw law)
 {
-  const SamHeatLaw *h       = (const SamHeatLaw *)law->data;
-  const PetscBool   streams = SamMotionOf(law->elasticity)->streams;
-  const double      per     = streams ? (double)h->rolling : h->duration > 0 ? 1 / (double)h->duration : 0;
-  const double     *p, *work;
+  if (SamMotionOf(law->elasticity)->streams) return SAM_USE_POWER;
+  return SamHeatLawExpands((const SamHeatLaw *)law->data) ? SAM_USE_PATH : SAM_USE_WORK;
+}
+
+PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec of_step, Vec bound, Vec heat)
+{
+  const SamHeatLaw *h   = (const SamHeatLaw *)law->data;
+  const SamLawUse   use = SamHeatLawUses(law);
+  const double      per = use == SAM_USE_POWER ? (double)h->rolling : h->duration > 0 ? 1 / (double)h->duration : 0;
+  const double     *p, *work, *b;
   double           *q;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(pressure, &p));
   PetscCall(VecGetArrayRead(of_step, &work));
+  PetscCall(VecGetArrayRead(bound, &b));
   PetscCall(VecGetArrayWrite(heat, &q));
-  for (PetscInt k = 0; k < law->grid->cells; k++) q[k] = p[k] > 0 ? per * PetscMax(work[k], 0) : 0;
+  for (PetscInt k = 0; k < law->grid->cells; k++)
+    q[k] = p[k] > 0 ? per * PetscMax(work[k], 0) * (use == SAM_USE_PATH ? b[k] : 1) : 0;
   PetscCall(VecRestoreArrayWrite(heat, &q));
+  PetscCall(VecRestoreArrayRead(bound, &b));
   PetscCall(VecRestoreArrayRead(of_step, &work));
   PetscCall(VecRestoreArrayRead(pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -319,7 +328,7 @@ static PetscErrorCode FindTimeless(SamLaw law, const SamLawStep *step)
   PetscFunctionBegin;
   h->timeless = PETSC_FALSE;
   if (SamMotionOf(law->elasticity)->streams || h->duration > 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecMax(step->field[SAM_USE_WORK], NULL, &most));
+  PetscCall(VecMax(step->field[SamHeatLawUses(law)], NULL, &most));
   h->timeless = most > 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -379,8 +388,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   for (int b = 0; b < 2; b++)
     PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, fluxes[b]), &into_body[b]));
   PetscCall(SamGridCreateVec(step->grid, 1, &heat));
-  PetscCall(SamHeatLawFill(law, step->pressure,
-                           step->field[SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK], heat));
+  PetscCall(SamHeatLawFill(law, step->pressure, step->field[SamHeatLawUses(law)], step->bound, heat));
   PetscCall(
     SamHeatTemperatures(&h->pair, step->pressure, heat, h->bulk, into_body[1], surface, failed, sizeof(failed)));
   PetscCall(VecWAXPY(into_body[0], -1, into_body[1], heat));
@@ -393,7 +401,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(FindMaximum(step, surface, &numbers[MAXIMUM]));
   numbers[POWER] = (double)power[0];
   numbers[SHARE] = power[0] > 0 ? (double)(into[0] / power[0]) : NAN;
-  PetscCall(SamHeatLawKeepExpansion(law, step));
+  PetscCall(SamHeatLawKeepExpansion(law, step, into_body));
   PetscCall(VecDestroy(&heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -449,31 +457,30 @@ static PetscErrorCode Destroy(SamLaw law)
 
 PetscErrorCode SamLawCreate_Heat(SamLaw law)
 {
-  const SamLawUse use = SamMotionOf(law->elasticity)->streams ? SAM_USE_POWER : SAM_USE_WORK;
-  SamHeatLaw     *h;
+  SamHeatLaw *h;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
   for (int b = 0; b < 2; b++) h->conductivity[b] = h->capacity[b] = NAN;
-  h->rolling              = NAN;
-  law->data               = h;
-  law->option             = "heat";
-  law->heading            = "Frictional heat";
-  law->rows               = rows;
-  law->row_count          = sizeof(rows) / sizeof(rows[0]);
-  law->bytes              = 112;
-  law->needs_friction     = PETSC_TRUE;
-  law->any_motion         = PETSC_TRUE;
-  law->forbids_jumps      = PETSC_TRUE;
-  law->ops.setfromoptions = SetFromOptions;
-  law->ops.addparameters  = AddParameters;
-  law->ops.declare        = Declare;
-  law->ops.begin          = Begin;
-  law->ops.bound          = SamHeatLawBound;
-  law->ops.advance        = Advance;
-  law->ops.view           = View;
-  law->ops.advise         = Advise;
-  law->ops.destroy        = Destroy;
-  law->uses[use]          = PETSC_TRUE;
+  h->rolling                     = NAN;
+  law->data                      = h;
+  law->option                    = "heat";
+  law->heading                   = "Frictional heat";
+  law->rows                      = rows;
+  law->row_count                 = sizeof(rows) / sizeof(rows[0]);
+  law->bytes                     = 112;
+  law->needs_friction            = PETSC_TRUE;
+  law->any_motion                = PETSC_TRUE;
+  law->forbids_jumps             = PETSC_TRUE;
+  law->ops.setfromoptions        = SetFromOptions;
+  law->ops.addparameters         = AddParameters;
+  law->ops.declare               = Declare;
+  law->ops.begin                 = Begin;
+  law->ops.bound                 = SamHeatLawBound;
+  law->ops.advance               = Advance;
+  law->ops.view                  = View;
+  law->ops.advise                = Advise;
+  law->ops.destroy               = Destroy;
+  law->uses[SamHeatLawUses(law)] = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -25,14 +25,19 @@ typedef struct {
   SamExpander expander[2];    /* NULL: not created yet, or no expansion; [1] may be [0], for equal conduction */
   SamMixing   mixing;         /* of the thermal displacements; NULL: not created yet */
   PetscInt    passes;         /* in which they have been found in this step */
+  PetscInt    held;           /* how often cells in contact have been held in it */
+  Vec         contact;        /* those cells: positive; NULL: cells are not held */
 } SamHeatLaw;
 
 #define SAM_TEMPERATURE_1 "temperature_1"
 /*
-  SamHeatLawFill - computes the frictional power per area, W/m2, which is 0 without contact, by the work of the step (or
-  where material streams its power over the speed), as in SamLawContact. Not collective.
+  SamHeatLawFill - computes the frictional power per area, W/m2, which is 0 without contact: by the work of the step,
+  where material streams by its power over the speed, and with thermal expansion by the slip of the step, `of_step`, and
+  the shear at its end, `bound`. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec work, Vec heat);
+PETSC_INTERN PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec of_step, Vec bound, Vec heat);
+/* SamHeatLawUses - returns which of these fields the law uses. Not collective. */
+PETSC_INTERN SamLawUse SamHeatLawUses(SamLaw law);
 /*
   The thermal displacement (heatexpand.c). SamHeatLawExpands - true if there is any.
   SamHeatLawExpand - gives the law the methods for it, and refuses bodies without. SamHeatLawDeclare - declares its
@@ -46,7 +51,7 @@ static inline PetscBool SamHeatLawExpands(const SamHeatLaw *h)
 PETSC_INTERN PetscErrorCode SamHeatLawExpand(SamLaw law, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamHeatLawDeclareExpansion(SamLaw law, SamState state);
 PETSC_INTERN PetscErrorCode SamHeatLawBeginExpansion(SamLaw law);
-PETSC_INTERN PetscErrorCode SamHeatLawKeepExpansion(SamLaw law, const SamLawStep *step);
+PETSC_INTERN PetscErrorCode SamHeatLawKeepExpansion(SamLaw law, SamLawStep *step, const Vec into[2]);
 PETSC_INTERN PetscErrorCode SamHeatLawViewExpansion(SamLaw law, SamState state, PetscViewer viewer);
 PETSC_INTERN PetscErrorCode SamHeatLawDestroyExpansion(SamLaw law);
 /* SamHeatLawPrepare - creates the operators at their first use. Collective. */

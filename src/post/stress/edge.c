@@ -36,7 +36,7 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
   double                *stress;
 
   PetscFunctionBegin;
-  if (SamLayersExist(e)) PetscFunctionReturn(PETSC_SUCCESS); /* their stresses are not known at the edge */
+  if (SamLayersExist(e) || e->thermal) PetscFunctionReturn(PETSC_SUCCESS); /* their stresses are not known there */
   SamStressAddUniform(e, step, &(SamPoints){.count = 1, .depths = 1, .plane = 1}, far);
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));

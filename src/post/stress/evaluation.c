@@ -13,6 +13,7 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   *evaluation = NULL;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamTemperatureDestroy(&e->temperature));
+  PetscCall(SamThermalDestroy(&e->thermal));
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityDestroy(&e->source.bodies));
   PetscCall(PetscFree2(e->depth, e->side));
@@ -127,7 +128,7 @@ static PetscErrorCode SetLayout(SamEvaluation e)
   l->n[SAM_X]    = column ? 1 : g->nx;
   l->row         = e->section ? 0 : g->row_start;
   l->rows        = e->section ? l->n[SAM_Y] : g->rows;
-  l->memory      = (e->section ? SamLinesMemory(e) : SamMapsMemory(e)) + SamTemperatureBytes(e);
+  l->memory      = (e->section ? SamLinesMemory(e) : SamMapsMemory(e)) + SamTemperatureBytes(e) + SamThermalBytes(e);
   for (int d = 0; d < SAM_STRESS_AXES; d++) {
     PetscCall(PetscMalloc1(l->n[d] + 1, &e->coordinate[d]));
     l->coordinate[d] = e->coordinate[d];
@@ -160,6 +161,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
     PetscCall((*e->source.conditions)(e->source.context, k, SamProblemGetConditions(e->problem), &e->control[k]));
   PetscCall(SamPointsSetUp(e));
   PetscCall(SamTemperatureSetUp(e));
+  PetscCall(SamThermalSetUp(e));
   PetscCall(SetLayout(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -174,6 +176,7 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
   e->write         = write;
   e->write_context = context;
   if (e->section) PetscCall(SamTemperatureFind(e));
+  if (e->section) PetscCall(SamThermalFind(e));
   PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));
   PetscCall(SamLargestAgree(e));
   PetscFunctionReturn(PETSC_SUCCESS);

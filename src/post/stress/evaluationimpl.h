@@ -79,8 +79,9 @@ enum { SAM_OWN_MISES, SAM_OWN_PRINCIPAL, SAM_OWN_TENSION, SAM_OWN_SHEAR, SAM_OWN
 /* The remedy for a list of constants of a wrong length */
 #define SAM_ONE_EACH "give one number, or one for each layer and the substrate"
 
-/* SamTemperature - the temperatures of the body (temperature.c). */
+/* SamTemperature - the temperatures of the body (temperature.c). SamThermal - its thermal stress (thermal.c). */
 typedef struct _n_SamTemperature *SamTemperature;
+typedef struct _n_SamThermal     *SamThermal;
 
 struct _n_SamEvaluation {
   MPI_Comm comm;
@@ -111,6 +112,7 @@ struct _n_SamEvaluation {
   PetscReal      *weight; /* weight of each depth in the average */
   PetscInt        index;  /* index of the section's line of cells */
   SamTemperature  temperature; /* below the surface; NULL: not wanted */
+  SamThermal      thermal;     /* NULL: the body does not expand */
   SamStressLayout layout;
   double         *coordinate[SAM_STRESS_AXES];
   /* results */
@@ -180,6 +182,20 @@ PETSC_INTERN PetscErrorCode SamTemperatureFind(SamEvaluation e);
 PETSC_INTERN PetscErrorCode SamTemperatureGet(SamEvaluation e, PetscInt step, const SamPoints *points, double values[]);
 PETSC_INTERN PetscErrorCode SamTemperatureDestroy(SamTemperature *temperature);
 PETSC_INTERN double         SamTemperatureBytes(SamEvaluation e);
+/*
+  The thermal stress of a body that expands by heat (thermal.c).
+  SamThermalSetUp - checks the request. Collective. Errors: SAM_ERR_USER.
+  SamThermalFind - finds the stresses of all steps on a section. Collective.
+  SamStressAddThermal - adds them to the stresses (Pa) of points. Collective.
+  SamThermalDestroy - frees them. Collective.
+  SamThermalBytes - returns the memory of this rank, bytes. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamThermalSetUp(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamThermalFind(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamStressAddThermal(SamEvaluation e, PetscInt step, const SamPoints *points,
+                                                double stress[]);
+PETSC_INTERN PetscErrorCode SamThermalDestroy(SamThermal *thermal);
+PETSC_INTERN double         SamThermalBytes(SamEvaluation e);
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
 

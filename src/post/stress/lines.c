@@ -53,6 +53,7 @@ static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt
   for (PetscInt k = 0; k < count; k++) {
     SamStressAddUniform(e, first + k, p, stress + k * size);
     PetscCall(SamStressAddLayers(e, first + k, p, stress + k * size));
+    PetscCall(SamStressAddThermal(e, first + k, p, stress + k * size));
     PetscCall(SamQuantitiesWrite(e, first + k, p, stress + k * size));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
