@@ -257,6 +257,24 @@ def test_wear_follows_the_temperature(petsam, fretting, tmp_path, monkeypatch, l
         assert dict(hot.attrs)["wear_temperature"] == pytest.approx([low, over, factor])
 
 
+def test_points_that_slide_wear_by_the_factor_of_their_cells(petsam, fretting, tmp_path, monkeypatch):
+    """Cells too warm to wear take nothing from the points under them, before and after a long step."""
+    monkeypatch.chdir(tmp_path)
+    case = {
+        **{name: value for name, value in fretting.items() if name not in ("friction_temperature", "history", "steps")},
+        **history(tmp_path / "once.csv", "time,load_n,disp_x", (0.25, 50, 0), (0.5, 50, 1e-4)), "wear_coefficient1": 2e-15, "wear_coefficient2": 2e-15,
+        "slide": True, "grid_n": (40, 18), "grid_size": (1e-3, 6e-4),
+    }  # fmt: skip
+    petsam(case, "-output", "cold.h5")
+    with h5py.File("cold.h5") as cold:
+        heights, most = cold["temperature_1"][-1], cold["wear_depth2"][-1].max()
+        warm = np.quantile(heights[cold["pressure"][-1] > 0], 0.5)
+    petsam({**case, "wear_temperature": (warm, 1e-9, 0)}, "-output", "hot.h5")
+    with h5py.File("hot.h5") as hot:
+        worn = [hot[f"wear_depth{body}"][-1] for body in (1, 2)]
+        assert worn[1].sum() == pytest.approx(worn[0].sum(), rel=2e-2) and worn[1].max() > 0.3 * most
+
+
 def test_wear_by_temperature_in_several_steps(petsam, fretting, tmp_path, monkeypatch):
     """The limit of a step counts the factor; ranks and restarts have the same bits."""
     monkeypatch.chdir(tmp_path)

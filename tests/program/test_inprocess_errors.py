@@ -79,14 +79,16 @@ def test_errors_are_those_of_the_program_also_after_tries(petsam, tmp_path, name
 def test_a_history_and_single_steps_continue_each_other():
     first, second, third, fourth = steps_of(1)
     with contact_of(dict(grid_n=48)) as one, contact_of(dict(grid_n=48)) as other:
-        for step in (first, second, third):
-            by_one = one.try_step(**step)
-            one.commit()
-        other.try_step(**first)
-        other.commit()
-        together = {name: [second[name], third[name]] for name in COLUMNS}
-        by_history = other.run(dict(together, time=[1, 2]))[-1]
-        assert by_history.errors == pytest.approx(by_one.errors, rel=1e-9, abs=1e-15, nan_ok=True)
+        for contact in (one, other):
+            contact.try_step(**first)
+            contact.commit()
+        for time, steps in enumerate(((second, third), (first, second))):  # two histories, one after the other
+            together = {name: [step[name] for step in steps] for name in COLUMNS}
+            by_history = other.run(dict(together, time=[1 + 2 * time, 2 + 2 * time]))
+            for step, found in zip(steps, by_history, strict=True):
+                by_one = one.try_step(**step)
+                one.commit()
+                assert found.errors == pytest.approx(by_one.errors, rel=2e-2, abs=1e-15, nan_ok=True)
         ends = [contact.try_step(**fourth).errors for contact in (one, other)]
         assert ends[0] == pytest.approx(ends[1], rel=1e-9, abs=1e-15) and ends[0]["slip_max"] > 0
 
