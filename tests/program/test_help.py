@@ -127,7 +127,13 @@ def test_beginning_of_two_topics_is_refused(petsam):
             ["-body1", "-body1_young", "-body1_poisson", "-body1_layer_file", "-body1_layers"]
             + [f"-body1_layer_{name}" for name in ("young", "poisson", "thickness")]
             + ["-body1_initial_stress", "-body1_compliance", "-body1_conductivity", "-body1_heat_capacity"]
-            + ["-body1_bulk_temperature", "-body1_speed", "-body1_surface_file", "-body1_surface_dataset"]
+            + [
+                "-body1_bulk_temperature",
+                "-body1_expansion",
+                "-body1_speed",
+                "-body1_surface_file",
+                "-body1_surface_dataset",
+            ]
             + [f"-body1_{name}" for name in ("yield", "hardening", "hardening_modulus", "voce_stress", "voce_rate")]
             + [f"-body1_{name}" for name in ("swift_strain", "swift_exponent", "backstress")],
         ),

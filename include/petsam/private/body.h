@@ -19,8 +19,15 @@ PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
   SamBodyNamed - returns what the options took from the table of materials, for a reader; empty: nothing. Borrowed.
   SamBodyConstant - returns a constant of the table for the last material, by its name there ("conductivity"), in its
   unit; NAN if the body has no named material, or its source states none.
+  SamBodyExpansion - returns what a coefficient of thermal expansion alpha (1/K) means in a body of one material.
   None is collective.
 */
+typedef struct {
+  double displacement; /* (1 + nu) alpha, 1/K: of a surface that heat displaces */
+  double stress;       /* E alpha, Pa/K: of thermal stress */
+  double poisson;
+} SamExpansion;
+PETSC_INTERN SamExpansion       SamBodyExpansion(SamBody body, double alpha);
 PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
 PETSC_INTERN PetscInt           SamBodyAt(SamBody body, PetscReal depth);
 PETSC_EXTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);

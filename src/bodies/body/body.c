@@ -142,6 +142,13 @@ double SamBodyConstant(SamBody body, const char name[])
   return NAN;
 }
 
+SamExpansion SamBodyExpansion(SamBody body, double alpha)
+{
+  const SamMaterial *m = body->material;
+
+  return (SamExpansion){(1 + (double)m->poisson) * alpha, (double)m->young * alpha, (double)m->poisson};
+}
+
 /* ---- advice ---- */
 
 PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,

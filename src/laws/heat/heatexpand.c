@@ -114,8 +114,8 @@ static PetscErrorCode DisplaceBy(SamLaw law, const Vec into[2], Vec z, Vec t)
   PetscCall(VecSet(z, 0));
   PetscCall(VecSet(t, 0));
   for (int b = 0; b < 2; b++) {
-    const SamMaterial *m = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), b));
-    const PetscReal    c = (1 + m->poisson) * h->expansion[b] / h->conductivity[b];
+    const SamBody   body = SamPairBody(SamElasticityGetPair(law->elasticity), b);
+    const PetscReal c    = SamBodyExpansion(body, h->expansion[b]).displacement / h->conductivity[b];
 
     if (h->expander[b]) PetscCall(SamExpanderAdd(h->expander[b], into[b], -c, b ? c : -c, z, t));
   }
@@ -319,12 +319,12 @@ PetscErrorCode SamHeatLawExpand(SamLaw law, const SamOptions *from)
   PetscFunctionBegin;
   if (!SamHeatLawExpands(h)) PetscFunctionReturn(PETSC_SUCCESS);
   for (int b = 0; b < 2; b++) {
-    const SamMaterial *m = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), b));
+    const SamBody body = SamPairBody(SamElasticityGetPair(law->elasticity), b);
 
     PetscCheck(fabs((double)h->expansion[b]) <= MOST_STRAIN, from->comm, SAM_ERR_USER,
-               "-%sbody%d_expansion %.6g: expected at most %g 1/K; steel has 12e-6", prefix, b + 1,
+               "-%sbody%d_expansion %.6g: expected at most %.6g 1/K; steel has 12e-6", prefix, b + 1,
                (double)h->expansion[b], MOST_STRAIN);
-    PetscCheck(h->expansion[b] == 0 || isfinite(m->young), from->comm, SAM_ERR_USER,
+    PetscCheck(h->expansion[b] == 0 || !SamBodyIsRigid(body), from->comm, SAM_ERR_USER,
                "-%sbody%d_expansion: body %d is rigid and does not expand: omit it", prefix, b + 1, b + 1);
   }
   PetscCheck(!SamElasticityGetTraits(law->elasticity).plane, from->comm, SAM_ERR_USER,

@@ -39,9 +39,8 @@ enum { NONE, STEADY };
         .range = SAM_RANGE_POSITIVE), \
     ROW("body" #k "_bulk_temperature", bulk[k - 1], "temperature () of body " #k " far from the contact", .unit = "K", \
         .range = SAM_RANGE_ANY), \
-    ROW("body" #k "_expansion", expansion[k - 1], \
-        "coefficient of thermal expansion () of body " #k ": heat displaces its surface", .unit = "1/K", \
-        .range = SAM_RANGE_ANY), \
+    ROW("body" #k "_expansion", expansion[k - 1], "thermal expansion () of body " #k ": heat displaces its surface", \
+        .unit = "1/K", .range = SAM_RANGE_ANY), \
     ROW("body" #k "_speed", speed[k - 1], "speed () of body " #k "'s material along x, as seen from the contact", \
         .unit = "m/s", .range = SAM_RANGE_ANY, .excludes = "rolling")
 static const SamOptionRow rows[] = {

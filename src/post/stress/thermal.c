@@ -15,8 +15,8 @@ struct _n_SamThermal {
 
 PetscErrorCode SamThermalSetUp(SamEvaluation e)
 {
-  const SamMaterial *m    = SamBodySubstrate(SamEvaluationBody(e));
-  const SamHeatBody *body = e->source.heat;
+  const SamExpansion expansion = SamBodyExpansion(SamEvaluationBody(e), e->source.expansion);
+  const SamHeatBody *body      = e->source.heat;
   double             p, longest;
 
   PetscFunctionBegin;
@@ -37,9 +37,9 @@ PetscErrorCode SamThermalSetUp(SamEvaluation e)
              e->source.name, e->body, (double)PetscAbsReal(body->speed),
              (double)PetscAbsReal(body->speed) * SAM_THERMAL_LEAST / (p * longest));
   PetscCall(PetscNew(&e->thermal));
-  e->thermal->factor = e->source.expansion * m->young;
+  e->thermal->factor = expansion.stress;
   e->thermal->length = e->axis == SAM_SECTION_X ? e->grid->nx : e->grid->ny;
-  PetscCall(SamThermalStressCreate(e->grid, e->source.settings, body, m->poisson, &e->thermal->operator));
+  PetscCall(SamThermalStressCreate(e->grid, e->source.settings, body, expansion.poisson, &e->thermal->operator));
   PetscCall(SamGridCreateVec(e->grid, 1, &e->thermal->flux));
   PetscCall(SamGridCreateVec(e->grid, SAM_STRESS_COMPONENTS, &e->thermal->field));
   PetscFunctionReturn(PETSC_SUCCESS);
