@@ -262,7 +262,8 @@ def test_points_that_slide_wear_by_the_factor_of_their_cells(petsam, fretting, t
     monkeypatch.chdir(tmp_path)
     case = {
         **{name: value for name, value in fretting.items() if name not in ("friction_temperature", "history", "steps")},
-        **history(tmp_path / "once.csv", "time,load_n,disp_x", (0.25, 50, 0), (0.5, 50, 1e-4)), "wear_coefficient1": 2e-15, "wear_coefficient2": 2e-15,
+        **history(tmp_path / "once.csv", "time,load_n,disp_x", (0.25, 50, 0), (0.5, 50, 1e-4)),
+        "wear_coefficient1": 2e-15, "wear_coefficient2": 2e-15,
         "slide": True, "grid_n": (40, 18), "grid_size": (1e-3, 6e-4),
     }  # fmt: skip
     petsam(case, "-output", "cold.h5")
