@@ -10,9 +10,12 @@ import numpy as np
 from ..core.errors import Error, there_are
 from .adjoint import Sets, System, borders, sets_of
 from .halfspace import MODULI, by_moduli
-from .tape import LOADS, WAYS, Tape
+from .tape import ABSENT, BULK, LOADS, WAYS, WEAR, Tape
 
 NORM = 8.0  # power of the norm of the pressure
+# shares of the pressure before a step where slip begins in it, and where it ends with the contact; from which ratio of
+# the shortest slip to the longest on a contact slides as a whole (src/contact/solution/gapandslip.c)
+BEGUN, LEAVES, ALIKE = 0.25, 0.125, 0.8
 BORDER = 1e-7  # of the pressure, or the bound, within which a cell is on the border of its set
 
 
@@ -38,6 +41,10 @@ class Gradient:
         {name: derivatives by this load, or displacement, of each step, (steps,)} of the given ones.
     moduli : dict
         {name: derivative} by body1_young (per Pa), body1_poisson, body2_young, body2_poisson.
+    bulk : dict
+        {name: derivatives by this bulk stress of each step, (steps,)}.
+    wear : dict
+        {name: derivative} by the coefficients of wear, of both bodies alike; empty without wear.
     borders : int
         Cells on the border of their set in some step; the gradient is one-sided if there are any.
     residual : float
@@ -53,10 +60,15 @@ class Gradient:
     moduli: dict
     borders: int
     residual: float
+    bulk: dict
+    wear: dict
 
     def __getitem__(self, name: str) -> Union[float, np.ndarray]:
         """A derivative by the name of its parameter: gap, friction, load_tx, disp_x, body1_young, ..."""
-        every = {"gap": self.gap, "friction": self.friction, **self.loads, **self.displacements, **self.moduli}
+        every = {
+            "gap": self.gap, "friction": self.friction, **self.loads, **self.displacements, **self.moduli,
+            **self.bulk, **self.wear,
+        }  # fmt: skip
         if name not in every:
             raise Error(f"gradient: {name}: there is no derivative by it{there_are(name, list(every))}")
         return every[name]
@@ -74,23 +86,136 @@ class _Objective:
         self.by_ds = np.zeros((count, 2, *shape))
         self.by_way = np.zeros((count, 6))
         self.by_friction = np.zeros(shape)
+        self.by_worn = np.zeros((count, *shape))  # by the depth worn off both bodies after a step
         self.value = 0.0
+        self._rubbings: dict = {}
+
+    def rubbing(self, k: int) -> "Rubbing":
+        """How cells slide in step k."""
+        if k not in self._rubbings:
+            self._rubbings[k] = rubbing_of(self.tape, k, self.sets[k])
+        return self._rubbings[k]
+
+    def rubbed(self, k: int) -> np.ndarray:
+        """The pressure against which cells slip in step k times the slip, Pa m."""
+        rubbing, now = self.rubbing(k), self.tape.records[k].pressure
+        before = self.tape.records[max(k - 1, 0)].pressure
+        return (rubbing.before * before + (1 - rubbing.before) * now) * rubbing.length
+
+    def add_rubbed(self, k: int, factor: np.ndarray) -> None:
+        """Adds the derivatives of the sum over cells of a factor times rubbed()."""
+        r, now, last = self.rubbing(k), self.tape.records[k].pressure, max(k - 1, 0)
+        before = self.tape.records[last].pressure
+        unit = np.divide(r.ds, r.length, out=np.zeros_like(r.ds), where=r.length > 0)
+        self.by_ds[k] += factor * (r.before * before + (1 - r.before) * now) * unit
+        self.by_pressure[k] += factor * (1 - r.before) * r.length
+        self.by_pressure[last] += factor * r.before * r.length
+        shift = factor * (before - now) * r.length  # by the weight
+        for cell, part in r.alike:
+            self.by_ds[k][(slice(None), *cell)] += np.sum(shift * r.by_alike) * part * unit[(slice(None), *cell)]
+        turning = shift * r.turns  # by the part by which the slip turns round
+        if not turning.any():
+            return
+        towards = np.divide(self.tape.records[last].shear, self.tape.friction * before, where=turning != 0,
+                            out=np.zeros_like(r.ds))  # fmt: skip
+        size = np.where(r.length > 0, r.length, 1.0)
+        self.by_ds[k] += turning * (towards - r.back * unit) / size
+        self.by_shear[last] += np.divide(turning * unit, self.tape.friction * before, where=turning != 0,
+                                         out=np.zeros_like(r.ds))  # fmt: skip
+        self.by_pressure[last] -= np.divide(turning * r.back, before, where=turning != 0, out=np.zeros_like(before))
+        self.by_friction -= np.divide(turning * r.back, self.tape.friction, where=turning != 0,
+                                      out=np.zeros_like(before))  # fmt: skip
+
+
+@dataclass
+class Rubbing:
+    """How cells slide in a step: see rubbing_of(); (ny, nx), vectors (2, ny, nx).
+
+    Attributes
+    ----------
+    ds, length : ndarray
+        Slip of the step, m; 0 where no friction works.
+    before : ndarray
+        Weight of the pressure before the step; that after it has the rest.
+    back : ndarray
+        The part of its slip by which a cell turns round, from 0 to 1.
+    turns, by_alike : ndarray
+        Derivatives of that weight by `back`, and by the ratio of the shortest slip to the longest.
+    alike : tuple
+        ((row, column), derivative of that ratio by the length of the cell's slip, 1/m).
+    """
+
+    ds: np.ndarray
+    length: np.ndarray
+    before: np.ndarray
+    back: np.ndarray
+    turns: np.ndarray
+    by_alike: np.ndarray
+    alike: tuple = ()
+
+
+def rubbing_of(tape: Tape, k: int, sets: Sets) -> Rubbing:
+    """The slip of a step and its weights, as the contact has them for its work and its wear.
+
+    Parameters
+    ----------
+    tape : Tape
+    k : int
+        The step.
+    sets : Sets
+        Its frozen cells.
+
+    Returns
+    -------
+    Rubbing
+    """
+    none, now = np.zeros_like(tape.friction), tape.records[k]
+    smooth = (now.state == 2) & (tape.friction == 0)  # there pressure wears without work
+    if not k:
+        rubs = sets.slip | smooth
+        return Rubbing(np.where(rubs, now.slip, 0.0), np.where(rubs, np.hypot(*now.slip), 0.0), none, none, none, none)
+    last = tape.records[k - 1]
+    ds, bound = now.slip - last.slip, tape.friction * last.pressure
+    length = np.hypot(*ds)
+    leaves = (now.state == 0) & (last.state == 2) & (now.pressure.max() > 0)
+    rubs = sets.slip | leaves | smooth
+    size = bound * length
+    back = np.clip(np.divide(np.sum(last.shear * ds, axis=0), size, out=none.copy(), where=size > 0), 0, 1)
+    both = (now.pressure > 0) & (last.pressure > 0)
+    slips = np.where(both, np.where(now.state == 1, 0.0, length), np.nan)
+    ratio, cells = 0.0, ()
+    if both.any() and np.nanmax(slips) > 0:
+        ends = [tuple(np.unravel_index(find(slips), slips.shape)) for find in (np.nanargmin, np.nanargmax)]
+        ratio = float(slips[ends[0]] / (ALIKE * slips[ends[1]]))
+        if 0 < ratio < 1:
+            cells = (ends[0], ratio / slips[ends[0]]), (ends[1], -ratio / slips[ends[1]])
+    least = np.where(leaves, LEAVES, BEGUN)
+    late = np.maximum(least, 0.5 * min(ratio, 1.0)) - 0.5
+    begun = np.where(last.state == 1, 1.0, back)
+    before = np.where(rubs, 0.5 + np.where(last.state == 0, 0.0, begun * late), 0.0)
+    turns = np.where(rubs & (last.state == 2) & (back > 0) & (back < 1), late, 0.0)
+    by_alike = np.where(rubs & (last.state != 0) & (0.5 * ratio > least), 0.5 * begun, 0.0)
+    return Rubbing(np.where(rubs, ds, 0.0), np.where(rubs, length, 0.0), before, back, turns, by_alike, cells)
 
 
 def _energy(o, _):
-    """Frictional work: the mean of the bounds before and after the step times the slip, where cells slip."""
+    """Frictional work: a mean of the bounds before and after the step times the slip, where cells slip."""
     tape = o.tape
     for k in o.steps:
-        sets, now, mu = o.sets[k], tape.records[k].pressure, tape.friction
-        before, share = (tape.records[k - 1].pressure, 0.5) if k else (now, 0.0)
-        mean = share * before + (1 - share) * now
-        o.value += float(np.sum(mu * mean * sets.length)) * tape.area
-        unit = np.divide(sets.ds, sets.length, out=np.zeros_like(sets.ds), where=sets.length > 0)
-        o.by_ds[k] += tape.area * mu * mean * unit
-        o.by_pressure[k] += tape.area * mu * (1 - share) * sets.length
-        if k:
-            o.by_pressure[k - 1] += tape.area * mu * share * sets.length
-        o.by_friction += tape.area * mean * sets.length
+        rubbed = o.rubbed(k)
+        o.value += float(np.sum(tape.friction * rubbed)) * tape.area
+        o.add_rubbed(k, tape.area * tape.friction)
+        o.by_friction += tape.area * rubbed
+
+
+def _volume(o, _):
+    """Worn volume of both bodies after the last of the steps."""
+    tape, last = o.tape, o.steps[-1]
+    if not tape.wear.any():
+        raise Error("gradient: wear_volume: the contact has no coefficient of wear: give wear_coefficient1 or another")
+    rate = tape.wear[0] + tape.wear[1] * tape.friction
+    o.value = float(sum(np.sum(rate * o.rubbed(k)) for k in range(last + 1))) * tape.area
+    o.by_worn[last] += tape.area
 
 
 def _load(o, name):
@@ -121,7 +246,8 @@ def _norm(o, _):
 
 
 OBJECTIVES = {
-    "energy": _energy, "pressure_norm": _norm, **dict.fromkeys(LOADS, _load), **dict.fromkeys(WAYS, _way),
+    "energy": _energy, "wear_volume": _volume, "pressure_norm": _norm,
+    **dict.fromkeys(LOADS, _load), **dict.fromkeys(WAYS, _way),
 }  # fmt: skip
 
 
@@ -133,7 +259,8 @@ def of(tape: Tape, name: str, steps: Optional[slice] = None, rtol: float = 1e-6)
     tape : Tape
         The recorded history, see record().
     name : str
-        "energy", the frictional work of the steps (J); a load that is given by its displacement, or a displacement that
+        "energy", the frictional work of the steps (J); "wear_volume", that of both bodies after the last of the steps
+        (m3); a load that is given by its displacement, or a displacement that
         is given by its load, summed over the steps; "pressure_norm", (sum p^8 dA)^(1/8) of the last of the steps, a
         smooth maximum.
     steps : slice, optional
@@ -211,15 +338,18 @@ class _Backward:
     def __init__(self, tape: Tape, objective: _Objective, rtol: float) -> None:
         self.tape, self.objective, self.rtol = tape, objective, rtol
         shape, count = tape.friction.shape, len(tape.records)
-        self.gap, self.friction = np.zeros(shape), objective.by_friction.copy()
+        self.gap, self.friction = np.zeros(shape), np.zeros(shape)
         self.by_load, self.by_way = np.zeros((count, 6)), np.zeros((count, 6))
-        self.constants, self.borders, self.residual = np.zeros(3), 0, 0.0
+        self.by_bulk, self.by_wear, self.worn = np.zeros((count, 6)), np.zeros(2), np.zeros(shape)
+        self.constants, self.by_stretch = np.zeros(3), np.zeros(4)
+        self.borders, self.residual = 0, 0.0
 
     def run(self, name: str) -> Gradient:
         """The gradient."""
         left = np.zeros((2, *self.gap.shape))
         for k in range(len(self.tape.records) - 1, -1, -1):
             left = self._step(k, left)
+        self.friction += self.objective.by_friction
         tape, loads = self.tape, self.tape.records[0].loads
         if self.borders:
             warnings.warn(
@@ -227,17 +357,21 @@ class _Backward:
                 OneSidedWarning,
                 stacklevel=3,
             )
-        moduli = dict(zip(MODULI, (self.constants @ by_moduli(tape.bodies)).tolist()))
+        moduli = dict(zip(MODULI, (self.constants @ by_moduli(tape.bodies) + self.by_stretch).tolist()))
+        wears = tape.wear.any()
         return Gradient(
             name, self.objective.value, tape.whole(self.gap), tape.whole(self.friction),
             {LOADS[i]: self.by_load[:, i] for i in range(6) if loads[i]},
-            {WAYS[i]: self.by_way[:, i] for i in range(6) if not loads[i]}, moduli, self.borders, self.residual,
+            {WAYS[i]: self.by_way[:, i] for i in range(6) if not loads[i] and i not in ABSENT[tape.kind]}, moduli,
+            self.borders, self.residual, {name: self.by_bulk[:, i] for i, name in enumerate(BULK)},
+            {name: float(self.by_wear[i // 2]) for i, name in enumerate(WEAR) if wears},
         )  # fmt: skip
 
     def _step(self, k, left):
         """Adds what step k gives to the derivatives; returns what it leaves for the slip of the step before."""
         tape, o = self.tape, self.objective
         record, sets = tape.records[k], o.sets[k]
+        self._wear(k)
         later = left + o.by_ds[k]  # V
         system = System(tape, record, sets, self.rtol)
         u_z, u_t = tape.influence(np.zeros_like(later[0]), later)
@@ -258,9 +392,22 @@ class _Backward:
         self.borders += borders(tape, k, sets, BORDER)
         return x[1:] - o.by_ds[k]
 
+    def _wear(self, k):
+        """Adds to the derivatives of step k what it wears, whose depth is in the gap of all later steps."""
+        tape, o = self.tape, self.objective
+        self.worn += o.by_worn[k]
+        if not tape.wear.any():
+            return
+        rubbed = o.rubbed(k)
+        o.add_rubbed(k, self.worn * (tape.wear[0] + tape.wear[1] * tape.friction))
+        self.by_wear += np.sum(self.worn * rubbed), np.sum(self.worn * tape.friction * rubbed)
+        self.friction += self.worn * tape.wear[1] * rubbed
+
     def _read(self, k, gamma, tau, beta, forces):
         tape, record = self.tape, self.tape.records[k]
         self.gap += gamma
+        self.worn += gamma
+        self._stretch(k, tau)
         self.friction += record.pressure * beta
         self.by_load[k] = forces
         for i in range(3):
@@ -268,3 +415,20 @@ class _Backward:
             self.by_way[k, i + 3] = -np.sum(tape.motions[1][i] * tau)
         u_z, u_t = tape.influence.parts(record.pressure, record.shear)
         self.constants += np.tensordot(u_z, gamma, axes=2) + np.tensordot(u_t, tau, axes=3)
+
+    def _stretch(self, k, tau):
+        """Adds the derivatives by the bulk stresses of step k, which stretch the surfaces about the origin."""
+        tape, stress = self.tape, self.tape.records[k].bulk.reshape(2, 3)
+        x, y = tape.motions[0][2], -tape.motions[0][1]
+        by_strain = np.array([np.sum(tau[0] * x), np.sum(tau[1] * y), np.sum(tau[0] * y + tau[1] * x)])
+        for body, sign in ((0, -1.0), (1, 1.0)):
+            young, nu = tape.bodies[2 * body : 2 * body + 2]
+            if tape.kind == "plane":
+                strain, by_nu = np.diag([1 - nu**2, 0, 0]), np.diag([-2 * nu, 0, 0])
+            else:
+                strain = np.array([[1, -nu, 0], [-nu, 1, 0], [0, 0, 1 + nu]])  # by the stress, times E
+                by_nu = np.array([[0, -1, 0], [-1, 0, 0], [0, 0, 1]])
+            of_body = sign * by_strain / young
+            self.by_bulk[k, 3 * body : 3 * body + 3] = of_body @ strain
+            self.by_stretch[2 * body] -= of_body @ strain @ stress[body] / young
+            self.by_stretch[2 * body + 1] += of_body @ by_nu @ stress[body]

@@ -1,10 +1,12 @@
-"""Displacements of two half-spaces by tractions on cells, as convolutions: S, C and X of the contact's equations.
+"""Displacements of two bodies by tractions on cells, as convolutions: S, C and X of the contact's equations.
 
     u_z = S p + X' q,   u_t = X p + C q,
     S = A Ir,   C = A Ir + B (Ixx, Ixy; Ixy, Iyy),   X = D (Ix, Iy),
 
 with the integrals over a cell of 1/r, x^2/r^3, x y/r^3, x/r^2 and so on. Displacements are of body 2 relative to body
-1, tractions act on body 2. Sources: Love 1929; Johnson 1985, Contact Mechanics, 3.2 and 3.6.
+1, tractions act on body 2. In plane strain the integrals are those of strips, relative to the datum; of periodic
+bodies they are the symbols of waves, whose mean displaces nothing. Sources: Love 1929; Johnson 1985, Contact
+Mechanics, 2.3, 3.2 and 3.6; Stanley and Kato 1997.
 """
 
 from collections.abc import Callable
@@ -68,29 +70,87 @@ def by_moduli(bodies: np.ndarray) -> np.ndarray:
 
 
 class Influence:
-    """Products with S, C, X and X' on a grid of (ny, nx) cells; fields are (ny, nx), shears (2, ny, nx)."""
+    """Products with S, C, X and X' on a grid of (ny, nx) cells; fields are (ny, nx), shears (2, ny, nx).
 
-    def __init__(self, shape: tuple[int, int], cell: tuple[float, float], bodies: np.ndarray) -> None:
+    Parameters
+    ----------
+    shape : tuple of int
+        (ny, nx).
+    cell : tuple of float
+        Sides of a cell along x and y, m; in plane strain the latter is 1 m.
+    bodies : ndarray
+        E1 (Pa), nu1, E2, nu2.
+    kind : str
+        "halfspace", "plane" or "periodic", whose grid is one period.
+    datum : float
+        Distance of the datum of plane strain, m.
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        cell: tuple[float, float],
+        bodies: np.ndarray,
+        kind: str = "halfspace",
+        datum: float = 1.0,
+    ) -> None:
         self.shape, self.cell, self.constants = shape, cell, constants(np.asarray(bodies, dtype=float))
-        self.padded = tuple(scipy.fft.next_fast_len(2 * n, real=True) for n in shape)
-        y, x = (np.rint(np.fft.fftfreq(n) * n) * width for n, width in zip(self.padded, cell[::-1]))
-        x, y = np.meshgrid(x, y)
-        a, b = 0.5 * cell[0], 0.5 * cell[1]
-        self._spectra = {}
+        periods = [n if kind == "periodic" or n == 1 else 2 * n for n in shape]
+        self.padded = tuple(n if kind == "periodic" else scipy.fft.next_fast_len(n, real=True) for n in periods)
+        self._set_waves()
+        self._spectra = (
+            self._symbols() if kind == "periodic" else self._strips(datum) if kind == "plane" else self._cells()
+        )
+        of = [float(self.back(self._spectra[name])[0, 0]) for name in ("r", "xx")]
+        a, b, _ = self.constants
+        self.own = a * of[0], a * of[0] + b * of[1]  # of a cell on itself
+
+    def _lags(self):
+        """Distances along x and y on the padded grid, m."""
+        y, x = (np.rint(np.fft.fftfreq(n) * n) * width for n, width in zip(self.padded, self.cell[::-1]))
+        return np.meshgrid(x, y)
+
+    def _cells(self):
+        """The transforms of the integrals over a cell."""
+        x, y = self._lags()
+        a, b = 0.5 * self.cell[0], 0.5 * self.cell[1]
+        spectra = {}
         for name, corner in _CORNERS.items():
             kernel = corner(x + a, y + b) - corner(x - a, y + b) - corner(x + a, y - b) + corner(x - a, y - b)
-            self._spectra[name] = scipy.fft.rfft2(kernel)
-        a, b, _ = self.constants
-        self.own = tuple(
-            float(of @ [corner(0.5 * cell[0], 0.5 * cell[1]) * 4 for corner in (_CORNERS["r"], _CORNERS["xx"])])
-            for of in (np.array([a, 0.0]), np.array([a, b]))
-        )  # of a cell on itself
+            spectra[name] = scipy.fft.rfft2(kernel)
+        return spectra
+
+    def _strips(self, datum):
+        """The same of strips: integrals along y, where those of 1/r and y^2/r^3 are relative to the datum."""
+        x, h = self._lags()[0], self.cell[0]
+        right, left = x + 0.5 * h, x - 0.5 * h
+        logarithm = right * np.log(np.abs(right) / datum) - left * np.log(np.abs(left) / datum) - h
+        along, none = scipy.fft.rfft2(-2.0 * logarithm), np.zeros((self.padded[0], self.padded[1] // 2 + 1))
+        turn = scipy.fft.rfft2(np.pi * (np.abs(right) - np.abs(left)))
+        return {"r": along, "xx": none, "yy": along, "xy": none, "x": turn, "y": none}
+
+    def _symbols(self):
+        """The same of waves: 2 pi/k and so on; nothing of the mean, nor of phases of the shortest waves."""
+        k, n_x, n_y = self._waves
+        flat = np.where(self._mean, 0.0, 2 * np.pi / k)
+        n_x, n_y = np.where(self._shortest[0], 0.0, n_x), np.where(self._shortest[1], 0.0, n_y)
+        return {
+            "r": flat, "xx": flat * self._waves[2] ** 2, "yy": flat * self._waves[1] ** 2, "xy": -flat * n_x * n_y,
+            "x": -1j * flat * n_x, "y": -1j * flat * n_y,
+        }  # fmt: skip
+
+    def _set_waves(self):
+        """The waves of the padded grid: k (1/m), its direction, and which are the mean and the shortest."""
         wave_y, wave_x = np.meshgrid(
-            2 * np.pi * np.fft.fftfreq(self.padded[0], cell[1]), 2 * np.pi * np.fft.rfftfreq(self.padded[1], cell[0]),
+            2 * np.pi * np.fft.fftfreq(self.padded[0], self.cell[1]),
+            2 * np.pi * np.fft.rfftfreq(self.padded[1], self.cell[0]),
             indexing="ij",
         )  # fmt: skip
         k = np.hypot(wave_x, wave_y)
-        k[0, 0] = np.pi / max(n * d for n, d in zip(self.padded, cell[::-1]))
+        self._mean = k == 0
+        self._shortest = tuple(np.isclose(np.abs(wave), np.pi / d) for wave, d in zip((wave_x, wave_y), self.cell))
+        k[0, 0] = np.pi / max(n * d for n, d in zip(self.padded, self.cell[::-1]) if n > 1)
+        self._waves = k, wave_x / k, wave_y / k
         self._wave = k / (2 * np.pi), wave_x / k, wave_y / k
 
     def transform(self, field: np.ndarray) -> np.ndarray:

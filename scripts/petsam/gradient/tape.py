@@ -16,8 +16,10 @@ LOADS = tuple("load_" + name for name in COMPONENTS)
 WAYS = ("disp_z", "rot_x", "rot_y", "disp_x", "disp_y", "rot_z")  # conjugate to them
 STILL = 1e-5  # of the displacement of a cell by the largest bound: shorter slip in a step is the solver's error
 LEAST_RTOL = 1e-5  # tolerance of the tangential problem from which on sets of cells are not those of the solution
+WEAR = ("wear_coefficient1", "wear_coefficient2", "wear_energy1", "wear_energy2")
+BULK = tuple(f"bulk{body}_stress_{name}" for body in (1, 2) for name in ("xx", "yy", "xy"))
+ABSENT = {"halfspace": (), "plane": (1, 5), "periodic": (1, 2, 5)}  # components that such bodies do not have
 REFUSED = {
-    "wear_coefficient1": "wear", "wear_coefficient2": "wear", "wear_energy1": "wear", "wear_energy2": "wear",
     "pressure_limit": "hardness", "body1_yield": "yielding", "body2_yield": "yielding", "rolling": "rolling",
     "friction_law": "friction that changes", "heat": "heat", "slide": "surfaces that slide", "film_shear": "a film",
     "body1_compliance": "finite bodies", "body2_compliance": "finite bodies",
@@ -38,6 +40,8 @@ class Record:
         0 open, 1 stick, 2 slip.
     loads : ndarray of bool
         Components that are given by loads, (6,), in the order of LOADS.
+    bulk : ndarray
+        Bulk stresses, Pa, in the order of BULK.
     """
 
     pressure: np.ndarray
@@ -45,6 +49,7 @@ class Record:
     slip: np.ndarray
     state: np.ndarray
     loads: np.ndarray
+    bulk: np.ndarray = field(default_factory=lambda: np.zeros(6))
 
 
 @dataclass
@@ -70,6 +75,10 @@ class Tape:
         Dissipated energy of each step, as the contact has it, J.
     ways : ndarray
         Displacements of the six components in each step, (steps, 6), m and rad.
+    wear : ndarray
+        Coefficients of wear of both bodies together, by pressure and by energy, 1/Pa.
+    kind : str
+        "halfspace", "plane" or "periodic".
     """
 
     influence: Influence
@@ -81,6 +90,8 @@ class Tape:
     records: list = field(default_factory=list)
     energies: np.ndarray = field(default_factory=lambda: np.zeros(0))
     ways: np.ndarray = field(default_factory=lambda: np.zeros((0, 6)))
+    wear: np.ndarray = field(default_factory=lambda: np.zeros(2))
+    kind: str = "halfspace"
 
     @property
     def area(self) -> float:
@@ -110,9 +121,9 @@ def _refuse(options):
         value = options.get(name)
         if value not in (None, "none", False, 0, ""):
             raise Error(f"gradient: {name}: the derivative of {what} is not computed: omit it")
-    kind = str(options.get("elasticity", "halfspace"))
-    if kind != "halfspace":
-        raise Error(f"gradient: elasticity {kind}: the derivative is that of half-spaces in three dimensions")
+    kind = _kind(options)
+    if kind not in ABSENT:
+        raise Error(f"gradient: elasticity {kind}: expected {', '.join(ABSENT)}")
     if str(options.get("slip_direction", "mid")) != "end":
         raise Error("gradient: slip is taken opposite to the shear at the end of a step: give slip_direction='end'")
     if str(options.get("coupling", "full")) != "full":
@@ -122,6 +133,11 @@ def _refuse(options):
         raise Error(
             f"gradient: tangential_rtol {rtol:g}: cells that stick are not certain: expected at most {LEAST_RTOL:g}"
         )
+
+
+def _kind(options):
+    """The kind of bodies."""
+    return str(options.get("elasticity", "halfspace"))
 
 
 def _has_steps(contact):
@@ -153,10 +169,11 @@ def record(contact: Contact, history: Mapping[str, ArrayLike]) -> Tape:
     Parameters
     ----------
     contact : Contact
-        A contact of half-spaces without a committed step, with slip_direction="end"; for derivatives of many digits
-        with tight tolerances, normal_rtol=1e-12, tangential_rtol=1e-12: the default ones leave about 1e-5.
+        A contact of half-spaces, in plane strain or of periodic bodies, without a committed step, with
+        slip_direction="end"; it may wear in its steps. For derivatives of many digits with tight tolerances,
+        normal_rtol=1e-12, tangential_rtol=1e-12: the default ones leave about 1e-5.
     history : mapping
-        {column: values}: time, loads and displacements, each (rows,); other columns are refused.
+        {column: values}: time, loads, displacements and bulk stresses, each (rows,); other columns are refused.
 
     Returns
     -------
@@ -176,10 +193,12 @@ def record(contact: Contact, history: Mapping[str, ArrayLike]) -> Tape:
         raise Error("gradient: the contact has several ranks: expected one")
     if _has_steps(contact):
         raise Error("gradient: the contact has steps already: give a new one, or call its reset()")
-    unknown = sorted(set(history) - {"time", *LOADS, *WAYS})
+    unknown = sorted(set(history) - {"time", *LOADS, *WAYS, *BULK})
     if unknown:
-        raise Error(f"gradient: column {unknown[0]}: expected loads and displacements, {', '.join(LOADS + WAYS)}")
-    loads = np.array([way not in history for way in WAYS])
+        raise Error(f"gradient: column {unknown[0]}: expected loads and displacements, {', '.join(LOADS + WAYS)}, or "
+                    f"bulk stresses, {BULK[0]} and so on")  # fmt: skip
+    kind = _kind(options)
+    loads = np.array([way not in history and i not in ABSENT[kind] for i, way in enumerate(WAYS)])
     found, energies, ways = [], [], []
 
     def keep(one, step):
@@ -192,6 +211,7 @@ def record(contact: Contact, history: Mapping[str, ArrayLike]) -> Tape:
     touched = np.any([one["pressure"] > 0 for one in found], axis=0)
     if not touched.any():
         raise Error("gradient: there is no contact in the history")
+    touched |= kind == "periodic"  # the window is the period
     rows, columns = (np.flatnonzero(touched.any(axis=axis)) for axis in (1, 0))
     window = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
     x, y = np.meshgrid(contact.x[window[1]], contact.y[window[0]])
@@ -200,12 +220,17 @@ def record(contact: Contact, history: Mapping[str, ArrayLike]) -> Tape:
     bodies = _bodies(options)
     cell = tuple(size / n for size, n in zip(contact.size, contact.n))
     friction = np.broadcast_to(contact._given.get("friction", float(options.get("friction", 0.0))), touched.shape)
-    tape = Tape(Influence(x.shape, cell, bodies), window, touched.shape, motions, friction[window], bodies)
-    for fields in found:
+    influence = Influence(x.shape, cell, bodies, kind, float(options.get("plane_datum", contact.size[0])))
+    tape = Tape(influence, window, touched.shape, motions, friction[window], bodies, kind=kind)
+    tape.wear = np.add(
+        *(np.array([float(options.get(name, 0.0)) for name in pair]) for pair in (WEAR[::2], WEAR[1::2]))
+    )
+    bulk = [np.broadcast_to(history.get(name, float(options.get(name, 0.0))), len(found)) for name in BULK]
+    for fields, stresses in zip(found, np.transpose(bulk)):
         of = {name: values[window].astype(float) for name, values in fields.items()}
         tape.records.append(Record(
             of["pressure"], np.stack([of["shear_x"], of["shear_y"]]), np.stack([of["slip_x"], of["slip_y"]]),
-            of["state"], loads,
+            of["state"], loads, stresses,
         ))  # fmt: skip
     tape.energies, tape.ways = np.array(energies), np.array(ways)
     return tape
