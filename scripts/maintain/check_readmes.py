@@ -161,13 +161,17 @@ def nearest(line, output):
 # ---------------------------------------------------------------- running
 
 
+# variables of the environment that commands of pages do not get: those of make are of the make that checks the pages
+NOT_OF_PAGES = {"PYTHON", "PETSAM", "ARGS", "MAKEFLAGS", "MAKEOVERRIDES", "MFLAGS", "MAKELEVEL"}
+
+
 class Checker:
     def __init__(self, build, every, folder):
         self.every, self.failures, self.folder = every, 0, folder
         self.tree, self.home = self.folder / "petsam", self.folder / "home"
         self.home.mkdir(parents=True)
         self.copy(build.resolve())
-        self.environment = {key: value for key, value in os.environ.items() if key not in ("PYTHON", "PETSAM")}
+        self.environment = {key: value for key, value in os.environ.items() if key not in NOT_OF_PAGES}
         self.environment.update(
             HOME=str(self.home), OMP_NUM_THREADS="1", OMPI_MCA_rmaps_base_oversubscribe="1",
             OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",

@@ -119,6 +119,14 @@ def test_figures_agree_to_the_last_digit_that_is_written():
         assert not check_readmes.agree(word, value), word
 
 
+def test_commands_of_pages_do_not_get_the_arguments_of_the_check(monkeypatch, tmp_path):
+    """`make check-readmes ARGS=--all` runs pages that call make."""
+    monkeypatch.setenv("ARGS", "--all")
+    monkeypatch.setenv("MAKEFLAGS", " -- ARGS=--all")
+    environment = check_readmes.Checker(PROGRAM.parents[1], False, tmp_path).environment
+    assert "ARGS" not in environment and "MAKEFLAGS" not in environment and "PATH" in environment
+
+
 def test_a_line_of_text_is_one_printed_line():
     output = "stick 1.23456 m2, N 10\nstick 2.5 m2, N 20\n"
     assert check_readmes.differences_of_text("stick 1.2346 m2, N 10\nstick ... 20\n", output) == []
