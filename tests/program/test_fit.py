@@ -100,6 +100,21 @@ def test_the_push_of_petsam_is_that_of_the_closed_form(tmp_path):
     assert found.friction == pytest.approx(MU, rel=0.02) and found.compliance == pytest.approx(5e-9, rel=0.02)
 
 
+def test_derivatives_are_those_of_the_residuals():
+    """Central differences, at a part and at a multiple of sliding, of all parameters, also what is known of them."""
+    chance = np.random.default_rng(1)
+    loops = [twin(chance, part, stroke, noise=0.01) for part, stroke in ((0.8, None), (None, 1.5))]
+    problem = model._Problem(loops, [PUSH] * 2, model.SHARED, dict(loss=(0.0, 0.01), scale=(1.0, 0.05)))
+    at, scales = problem.start(0.98), problem.scales()
+    at[:5] = 0.59, 5.1e-8, 2e5, 0.01, 1.03
+    problem.spread, weights = 1.2, problem.weights(at)
+    for k, slope in enumerate(problem.jacobian(at, weights).T):
+        step = 1e-6 * scales[k] * (np.arange(len(at)) == k)
+        change = problem.residuals(at + step, weights) - problem.residuals(at - step, weights)
+        close = np.abs(slope - change / (2 * step[k])) < 1e-6 * np.abs(slope).max()
+        assert np.mean(close) > 0.99 and np.all(close[-2:]), k  # but for points at a joint of the table
+
+
 @pytest.mark.parametrize("part, stroke, rig", [(0.3, None, 2e8), (0.7, None, 2e7), (None, 1.5, 2e7), (None, 3.0, 2e8)])
 def test_bands_hold_the_truth(part, stroke, rig):
     """Of 24 twins at least 20 within two standard deviations, which are the scatter of the numbers."""
