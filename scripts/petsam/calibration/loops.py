@@ -246,8 +246,8 @@ class Fit:
 
     @property
     def stiffness(self) -> float:
-        """Of the rig, N/m; infinite without compliance."""
-        return 1.0 / self.compliance if self.compliance > 0.0 else np.inf
+        """Of the rig, N/m; infinite without compliance, NaN of an unknown one."""
+        return np.inf if self.compliance <= 0.0 else 1.0 / self.compliance
 
     @property
     def stiffness_sd(self) -> float:
@@ -411,6 +411,21 @@ class _Problem:
         known = [self.spread * (of[name] - value) / deviation for name, (value, deviation) in self.known.items()]
         return np.concatenate([*parts, known])
 
+    def deviance(self, residuals, weights):
+        """Sum of squares that is comparable between fits whose weights differ.
+
+        Steep slopes have small weights, since the noise of the displacement counts for the bands. Where the values of
+        the displacement are smooth the residuals have none of it, and the plain sum favours loops that do not slide,
+        right or wrong: the least it can be in the mean, with noise of the force alone, is the sum of y = sd_q^2 w^2 of
+        the weights w. That is subtracted, as far as the displacement is smooth. Of noisy displacements the plain sum is
+        taken: the likelihood, sum - log(y), held the friction just below sliding less often.
+        """
+        less = 0.0
+        for loop, weight, (sd_d, sd_q) in zip(self.loops, weights, self.noise):
+            smooth = 1.0 - (loop.given[2] / sd_d) ** 2 if loop.given else 0.0
+            less += smooth * float(np.sum((sd_q * weight) ** 2))
+        return float(np.sum(residuals**2)) - self.spread**2 * less
+
     def jacobian(self, values, weights):
         """Derivatives of the residuals by the parameters."""
         shared, ends = len(self.free), np.cumsum([0, *(len(loop.force) for loop in self.loops)])
@@ -427,7 +442,7 @@ class _Problem:
         return found
 
     def solve(self, starts=None):
-        """The best parameters, their residuals' sum of squares, and the Jacobian there."""
+        """The best parameters, their residuals' sum of squares, deviance, and the Jacobian there."""
         scales = self.scales()
         low, high = (bound / scales for bound in self.bounds())
         optimize, best = library("scipy.optimize"), None
@@ -441,10 +456,12 @@ class _Problem:
         for start in starts if starts is not None else [self.start(part) for part in STARTS]:
             for _ in range(PASSES):
                 first = np.clip(start / scales, low + 1e-9, high)
-                given = dict(bounds=(low, high), args=(self.weights(scales * first),))
+                weights = self.weights(scales * first)
+                given = dict(bounds=(low, high), args=(weights,))
                 found = optimize.least_squares(scaled, first, slopes, max_nfev=TRIALS, **given)
                 start = scales * found.x
-            if best is None or found.cost < best.cost:
+            found.deviance = self.deviance(found.fun, weights)
+            if best is None or found.deviance < best.deviance:
                 best = found
         best.x, best.jac = scales * best.x, best.jac / scales
         return best
@@ -460,7 +477,7 @@ def _neighbours(problem, residuals):
 def _profile(problem, best, variance):
     """The range of the friction, 95 %: where the sum of squares, all else free, grows by 4 times the variance; and how
     far the other shared parameters are within it from the best ones."""
-    limit = 2.0 * best.cost + 4.0 * variance
+    limit = best.deviance + 4.0 * variance
     friction = best.x[0]
     free = [name for name in problem.free if name != "friction"]
 
@@ -468,7 +485,7 @@ def _profile(problem, best, variance):
         one = _Problem(problem.loops, problem.pushes, free, {**problem.fixed, "friction": value})
         one.spread = problem.spread
         found = one.solve([start, one.start(min(0.999, problem.least() / value))])
-        return 2.0 * found.cost, found.x
+        return found.deviance, found.x
 
     ends, others = [], [best.x[1:]]
     for factor in (0.8, 1.25):
@@ -499,7 +516,7 @@ def _solved(problem):
     best = problem.solve()
     if problem.free[:1] == ["friction"] and problem.turning(best.x):  # each side of the kink has a least of its own
         nearby = [np.concatenate([[factor * best.x[0]], best.x[1:]]) for factor in NEARBY]
-        best = min(best, problem.solve(nearby), key=lambda one: one.cost)
+        best = min(best, problem.solve(nearby), key=lambda one: one.deviance)
     if count < 3 * len(best.x):
         raise Error(f"{count} points: a fit of {len(best.x)} parameters needs {3 * len(best.x)}")
     for again in (bool(problem.known), False):
