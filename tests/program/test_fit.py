@@ -100,6 +100,21 @@ def test_the_push_of_petsam_is_that_of_the_closed_form(tmp_path):
     assert found.friction == pytest.approx(MU, rel=0.02) and found.compliance == pytest.approx(5e-9, rel=0.02)
 
 
+def test_derivatives_are_those_of_the_residuals():
+    """Central differences, at a part and at a multiple of sliding, of all parameters, also what is known of them."""
+    chance = np.random.default_rng(1)
+    loops = [twin(chance, part, stroke, noise=0.01) for part, stroke in ((0.8, None), (None, 1.5))]
+    problem = model._Problem(loops, [PUSH] * 2, model.SHARED, dict(loss=(0.0, 0.01), scale=(1.0, 0.05)))
+    at, scales = problem.start(0.98), problem.scales()
+    at[:5] = 0.59, 5.1e-8, 2e5, 0.01, 1.03
+    problem.spread, weights = 1.2, problem.weights(at)
+    for k, slope in enumerate(problem.jacobian(at, weights).T):
+        step = 1e-6 * scales[k] * (np.arange(len(at)) == k)
+        change = problem.residuals(at + step, weights) - problem.residuals(at - step, weights)
+        close = np.abs(slope - change / (2 * step[k])) < 1e-6 * np.abs(slope).max()
+        assert np.mean(close) > 0.99 and np.all(close[-2:]), k  # but for points at a joint of the table
+
+
 @pytest.mark.parametrize("part, stroke, rig", [(0.3, None, 2e8), (0.7, None, 2e7), (None, 1.5, 2e7), (None, 3.0, 2e8)])
 def test_bands_hold_the_truth(part, stroke, rig):
     """Of 24 twins at least 20 within two standard deviations, which are the scatter of the numbers."""
@@ -251,6 +266,16 @@ def test_noise_of_the_displacement_bends_no_loop(tmp_path):
     assert np.abs(found).max() < 2.5 and np.abs(np.mean(found)) < 1.3
 
 
+def test_noise_of_the_displacement_makes_no_loop_stick(tmp_path):
+    """Just above sliding, on a soft rig: weights of points on steep slopes are small, so sticking at any friction and a
+    loss of the rig would seem likelier than the truth."""
+    for seed in (2, 5, 7, 8):
+        chance = np.random.default_rng(seed)
+        write(tmp_path / "lab.csv", [twin(chance, None, 1.02, 2e7, noise=0.03) for _ in range(12)])
+        found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+        assert found.state == "known" and abs(found.friction - MU) < 3 * found.friction_sd < 0.02 * MU, seed
+
+
 def test_spikes_are_left_out(tmp_path):
     chance = np.random.default_rng(5)
     write(tmp_path / "lab.csv", [twin(chance, None, 1.5, 2e7) for _ in range(5)])
@@ -371,6 +396,73 @@ def test_a_wrong_radius_is_in_the_bands(tmp_path, kind):
         wrong += certain.state == "rejected" or max(beside(certain, rig)) > 4.0
         numbers += found.identifiable
     assert wrong == 4 and numbers >= 3
+
+
+def of_power(exponent, normal):
+    """The push of a contact whose stiffness goes like the normal load to this power; at N it is the ball's."""
+    part = normal / N
+    return calibration.Push(normal, part * PUSH.force, part ** (1.0 - exponent) * PUSH.displacement)
+
+
+def at_three_loads(path, chance, exponent, rig, low, high):
+    """Loops at three normal loads, each of a part of sliding or a multiple of its stroke between two numbers."""
+    files = []
+    for normal in (0.4 * N, N, 2.5 * N):
+        push, part = of_power(exponent, normal), chance.uniform(low, high)
+        curve = model.Backbone(push, MU, 1.0 / rig)
+        half = np.interp(part * MU * normal, curve.force, curve.displacement)
+        half = half if part < 1.0 else part * curve.displacement[-1]
+        files.append(recorded(path, chance, push, half, rig, 0.005))
+    return files
+
+
+def pushes_of(exponent):
+    return [of_power(exponent, normal) for normal in (0.4 * N, N, 2.5 * N)]
+
+
+@pytest.mark.parametrize("low, high", [(0.6, 0.95), (1.2, 2.0)])
+@pytest.mark.parametrize("exponent", [1 / 3, 0.9])
+def test_several_loads_hold_friction_and_rig(tmp_path, exponent, low, high):
+    """Stiffness over the load like that of a ball, and nearly proportional, as of rough bodies: the bands are those of
+    ten twins."""
+    asides = []
+    for seed in range(10):
+        chance = np.random.default_rng(300 + seed)
+        rig = 10 ** chance.uniform(7.5, 8.3)
+        files = at_three_loads(tmp_path / "lab.csv", chance, exponent, rig, low, high)
+        found = calibration.analyse(files, pushes_of(exponent))
+        assert found.state == "known" and not any("shape" in note for note in found.notes)
+        asides.append(beside(found, rig))
+    assert np.max(asides) < 3.0 and np.all(np.sum(np.array(asides) < 2.0, axis=0) >= 8)
+
+
+@pytest.mark.parametrize("truth, given", [(0.45, 1 / 3), (0.6, 1 / 3), (1 / 3, 0.9)])
+def test_a_wrong_exponent_over_loads_gives_no_number(tmp_path, truth, given):
+    """In partial slip, where a free factor of the compliance would bend friction and rig by up to 100 deviations."""
+    for seed in range(4):
+        chance = np.random.default_rng(300 + seed)
+        rig = 10 ** chance.uniform(7.5, 8.3)
+        files = at_three_loads(tmp_path / "lab.csv", chance, truth, rig, 0.6, 0.95)
+        found = calibration.analyse(files, pushes_of(given))
+        assert found.state == "rejected" and np.isnan(found.friction) and np.isnan(found.rig_stiffness), seed
+
+
+def test_each_file_has_the_push_of_its_load(fit, tmp_path):
+    """A ball's stiffness goes like the load to the power 1/3, by the command."""
+    chance, rig = np.random.default_rng(4), 1e8
+    names = ["small.csv", "middle.csv", "large.csv"]
+    for name, normal in zip(names, (0.4 * N, N, 2.5 * N)):
+        push = ball_of(normal, R)
+        assert push.stiffness == pytest.approx(of_power(1 / 3, normal).stiffness, rel=1e-6)
+        curve = model.Backbone(push, MU, 1.0 / rig)
+        half = np.interp(0.85 * MU * normal, curve.force, curve.displacement)
+        recorded(tmp_path / name, chance, push, half, rig)
+    words = ("--shape", "ball.opts", "-o", "test", "--no-picture", "--normal")
+    fit(*names, *words, "400N,1kN,2.5kN")
+    found = json.loads((tmp_path / "test.json").read_text())
+    assert abs(found["friction"] - MU) < 3 * found["friction_sd"] < 0.05
+    assert abs(found["rig_stiffness"] - rig) < 3 * found["rig_stiffness_sd"] < 0.2 * rig
+    assert "no numbers" in fit(*names, *words, "1kN")
 
 
 def test_a_shape_that_does_not_fit_is_said(fit, tmp_path):

@@ -18,6 +18,7 @@ Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Optional
 
 import numpy as np
@@ -107,7 +108,12 @@ class Backbone:
     def __init__(self, push: Push, friction: float, compliance: float, scale: float = 1.0) -> None:
         self.force = friction * push.force
         self.displacement = friction * scale * push.displacement + compliance * self.force
-        self.slope = np.gradient(self.force, self.displacement)
+        self.friction, self.compliance, self.scale = friction, compliance, scale
+
+    @cached_property
+    def slope(self) -> np.ndarray:
+        """dQ/dD at the points of the table, N/m."""
+        return np.gradient(self.force, self.displacement)
 
     def __call__(self, displacement):
         """Force (N) at a displacement (m) from the unloaded state."""
@@ -117,23 +123,67 @@ class Backbone:
         """dQ/dD there, N/m; 0 where it slides."""
         return np.interp(np.abs(displacement), self.displacement, self.slope, right=0.0)
 
+    def derivatives(self, displacement) -> dict:
+        """Of the force by displacement, friction, compliance, and scale, at displacements (m); those of the straight
+        lines between the points of the table.
+
+        With D = friction (scale f + compliance q) and Q = friction q, at given D: dQ/dp = Q_p - dQ/dD D_p.
+        """
+        force, length = self(displacement), np.abs(displacement)
+        before = np.clip(np.searchsorted(self.displacement, length) - 1, 0, len(self.force) - 2)
+        slope = (np.diff(self.force) / np.diff(self.displacement))[before]
+        slope = np.where(length < self.displacement[-1], slope, 0.0)
+        return {
+            "displacement": slope,
+            "friction": (force - slope * displacement) / self.friction,
+            "compliance": -slope * force,
+            "scale": -slope * (displacement - self.compliance * force) / self.scale,
+        }
+
 
 def force_of(
     backbone: Backbone, displacement, rising, own=(0.0, 1.0, -1.0), lean=0.0, loss=0.0
 ) -> tuple[np.ndarray, np.ndarray]:
     """Force and its slope over the displacement of a closed loop, N and N/m; `own` are its offset of the force, largest
     and smallest displacement."""
+    force = _force_of(backbone, displacement, rising, own, lean, loss)
+    _, top, bottom = own
+    return force, backbone.slope_at(np.where(rising, displacement - bottom, top - displacement) / 2.0) + lean
+
+
+def _force_of(backbone, displacement, rising, own, lean, loss):
+    """Force of a closed loop, N."""
     offset, top, bottom = own
     half, middle = 0.5 * (top - bottom), 0.5 * (top + bottom)
     most = backbone(half)
     way = np.where(rising, displacement - bottom, top - displacement) / 2.0
     sign = np.where(rising, 1.0, -1.0)
-    # over the range of the given points: by top and bottom it would hold these, by its ends' infinite slopes
+    force = offset - sign * most + 2.0 * sign * backbone(way) + lean * (displacement - middle)
+    return force + sign * loss * most * _ellipse(displacement) if loss else force
+
+
+def _ellipse(displacement):
+    """Height of the ellipse of a loss, 1. It spans the given points: by top and bottom it would hold these, by its
+    ends' infinite slopes."""
     ends = displacement.max(), displacement.min()
     phase = (displacement - 0.5 * sum(ends)) / max(0.5 * (ends[0] - ends[1]), 1e-300)
-    ellipse = np.sqrt(np.clip(1.0 - phase**2, 0.0, None))
-    force = offset - sign * most + 2.0 * sign * backbone(way) + lean * (displacement - middle)
-    return force + sign * loss * most * ellipse, backbone.slope_at(way) + lean
+    return np.sqrt(np.clip(1.0 - phase**2, 0.0, None))
+
+
+def _derivatives(backbone, displacement, rising, own, lean, loss):
+    """Derivatives of the force of a closed loop: {name: (n,)} by shared parameters, and (n, 3) by its own."""
+    _, top, bottom = own
+    way = np.where(rising, displacement - bottom, top - displacement) / 2.0
+    sign, ellipse = np.where(rising, 1.0, -1.0), _ellipse(displacement)
+    most, along = backbone.derivatives(0.5 * (top - bottom)), backbone.derivatives(way)
+    lag = sign * (loss * ellipse - 1.0)  # by the force of the reversal
+    shared = {name: lag * most[name] + 2.0 * sign * along[name] for name in ("friction", "compliance", "scale")}
+    shared["lean"] = displacement - 0.5 * (top + bottom)
+    shared["loss"] = sign * ellipse * backbone(0.5 * (top - bottom))
+    by_half, by_way = 0.5 * lag * most["displacement"], along["displacement"]
+    by_top = by_half - np.where(rising, 0.0, by_way) - 0.5 * lean
+    by_bottom = -by_half - np.where(rising, by_way, 0.0) - 0.5 * lean
+    return shared, np.array([np.ones(len(way)), by_top, by_bottom]).T
 
 
 @dataclass(frozen=True)
@@ -196,8 +246,8 @@ class Fit:
 
     @property
     def stiffness(self) -> float:
-        """Of the rig, N/m; infinite without compliance."""
-        return 1.0 / self.compliance if self.compliance > 0.0 else np.inf
+        """Of the rig, N/m; infinite without compliance, NaN of an unknown one."""
+        return np.inf if self.compliance <= 0.0 else 1.0 / self.compliance
 
     @property
     def stiffness_sd(self) -> float:
@@ -322,12 +372,18 @@ class _Problem:
 
     def curve(self, values, k, displacement=None, rising=None):
         """Force and slope of loop k."""
-        of, own = self.shared(values), values[len(self.free) + 3 * k :][:3]
-        backbone = Backbone(self.pushes[k], of["friction"], of["compliance"], of["scale"])
-        loop = self.loops[k]
-        d = loop.displacement if displacement is None else displacement
-        up = loop.rising if rising is None else rising
-        return force_of(backbone, d, up, own, of["lean"], of["loss"])
+        d = self.loops[k].displacement if displacement is None else displacement
+        up = self.loops[k].rising if rising is None else rising
+        return force_of(self._backbone(values, k), d, up, *self._beside(values, k))
+
+    def _backbone(self, values, k):
+        of = self.shared(values)
+        return Backbone(self.pushes[k], of["friction"], of["compliance"], of["scale"])
+
+    def _beside(self, values, k):
+        """Parameters of loop k beside its backbone: its own, lean, loss."""
+        of = self.shared(values)
+        return values[len(self.free) + 3 * k :][:3], of["lean"], of["loss"]
 
     def weights(self, values):
         """One over the noise of each point's force, with that of its displacement. They stay as they are while a fit
@@ -348,13 +404,45 @@ class _Problem:
 
     def residuals(self, values, weights):
         """Residuals of all loops in units of the noise, and behind them those of what is known beforehand."""
-        parts = [w * (loop.force - self.curve(values, k)[0]) for k, (loop, w) in enumerate(zip(self.loops, weights))]
-        of = self.shared(values)
+        parts, of = [], self.shared(values)
+        for k, (loop, weight) in enumerate(zip(self.loops, weights)):
+            force = _force_of(self._backbone(values, k), loop.displacement, loop.rising, *self._beside(values, k))
+            parts.append(weight * (loop.force - force))
         known = [self.spread * (of[name] - value) / deviation for name, (value, deviation) in self.known.items()]
         return np.concatenate([*parts, known])
 
+    def deviance(self, residuals, weights):
+        """Sum of squares that is comparable between fits whose weights differ.
+
+        Steep slopes have small weights, since the noise of the displacement counts for the bands. Where the values of
+        the displacement are smooth the residuals have none of it, and the plain sum favours loops that do not slide,
+        right or wrong: the least it can be in the mean, with noise of the force alone, is the sum of y = sd_q^2 w^2 of
+        the weights w. That is subtracted, as far as the displacement is smooth. Of noisy displacements the plain sum is
+        taken: the likelihood, sum - log(y), held the friction just below sliding less often.
+        """
+        less = 0.0
+        for loop, weight, (sd_d, sd_q) in zip(self.loops, weights, self.noise):
+            smooth = 1.0 - (loop.given[2] / sd_d) ** 2 if loop.given else 0.0
+            less += smooth * float(np.sum((sd_q * weight) ** 2))
+        return float(np.sum(residuals**2)) - self.spread**2 * less
+
+    def jacobian(self, values, weights):
+        """Derivatives of the residuals by the parameters."""
+        shared, ends = len(self.free), np.cumsum([0, *(len(loop.force) for loop in self.loops)])
+        found = np.zeros((ends[-1] + len(self.known), len(values)))
+        for k, (loop, weight) in enumerate(zip(self.loops, weights)):
+            rows = slice(ends[k], ends[k + 1])
+            backbone, beside = self._backbone(values, k), self._beside(values, k)
+            by, own = _derivatives(backbone, loop.displacement, loop.rising, *beside)
+            for column, name in enumerate(self.free):
+                found[rows, column] = -weight * by[name]
+            found[rows, shared + 3 * k : shared + 3 * k + 3] = -weight[:, None] * own
+        for row, (name, (_, deviation)) in enumerate(self.known.items(), ends[-1]):
+            found[row, self.free.index(name)] = self.spread / deviation
+        return found
+
     def solve(self, starts=None):
-        """The best parameters, their residuals' sum of squares, and the Jacobian there."""
+        """The best parameters, their residuals' sum of squares, deviance, and the Jacobian there."""
         scales = self.scales()
         low, high = (bound / scales for bound in self.bounds())
         optimize, best = library("scipy.optimize"), None
@@ -362,13 +450,18 @@ class _Problem:
         def scaled(values, weights):
             return self.residuals(scales * values, weights)
 
+        def slopes(values, weights):
+            return self.jacobian(scales * values, weights) * scales
+
         for start in starts if starts is not None else [self.start(part) for part in STARTS]:
             for _ in range(PASSES):
                 first = np.clip(start / scales, low + 1e-9, high)
-                given = dict(bounds=(low, high), args=(self.weights(scales * first),))
-                found = optimize.least_squares(scaled, first, max_nfev=TRIALS, **given)
+                weights = self.weights(scales * first)
+                given = dict(bounds=(low, high), args=(weights,))
+                found = optimize.least_squares(scaled, first, slopes, max_nfev=TRIALS, **given)
                 start = scales * found.x
-            if best is None or found.cost < best.cost:
+            found.deviance = self.deviance(found.fun, weights)
+            if best is None or found.deviance < best.deviance:
                 best = found
         best.x, best.jac = scales * best.x, best.jac / scales
         return best
@@ -384,7 +477,7 @@ def _neighbours(problem, residuals):
 def _profile(problem, best, variance):
     """The range of the friction, 95 %: where the sum of squares, all else free, grows by 4 times the variance; and how
     far the other shared parameters are within it from the best ones."""
-    limit = 2.0 * best.cost + 4.0 * variance
+    limit = best.deviance + 4.0 * variance
     friction = best.x[0]
     free = [name for name in problem.free if name != "friction"]
 
@@ -392,7 +485,7 @@ def _profile(problem, best, variance):
         one = _Problem(problem.loops, problem.pushes, free, {**problem.fixed, "friction": value})
         one.spread = problem.spread
         found = one.solve([start, one.start(min(0.999, problem.least() / value))])
-        return 2.0 * found.cost, found.x
+        return found.deviance, found.x
 
     ends, others = [], [best.x[1:]]
     for factor in (0.8, 1.25):
@@ -423,7 +516,7 @@ def _solved(problem):
     best = problem.solve()
     if problem.free[:1] == ["friction"] and problem.turning(best.x):  # each side of the kink has a least of its own
         nearby = [np.concatenate([[factor * best.x[0]], best.x[1:]]) for factor in NEARBY]
-        best = min(best, problem.solve(nearby), key=lambda one: one.cost)
+        best = min(best, problem.solve(nearby), key=lambda one: one.deviance)
     if count < 3 * len(best.x):
         raise Error(f"{count} points: a fit of {len(best.x)} parameters needs {3 * len(best.x)}")
     for again in (bool(problem.known), False):

@@ -314,7 +314,8 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
         does, and in partial slip no residual shows it; its deviation is doubled where the loops do not separate it from
         the friction. Without a scale that is 1 with the deviation SHAPE: in partial slip no residual shows a wrong
         shape, either. Where the loops pull the loss by more than two deviations from what is given, or the scale by
-        more than three, they alone settle it.
+        more than three, they alone settle it; with several normal loads such a scale leaves no numbers, since the
+        shape's compliance may depend otherwise on the load.
 
     Returns
     -------
@@ -361,9 +362,11 @@ def _fit_together(files, pushes, free, fixed):
             alone = _fit_best(files, pushes, (*free, name), rest)
             if not _contradict(alone, name, *fixed[name]):  # loops of much noise tell nothing of it by themselves
                 continue
-            notes.append(_contradicted(name, *fixed[name], "compliance" in fixed))
+            loads = len({push.normal for push in pushes}) > 1
+            notes.append(_contradicted(name, *fixed[name], "compliance" in fixed, loads))
             together, free, fixed = alone, (*free, name), rest
-            if name == "scale" and "compliance" in fixed:  # either may be wrong
+            # either may be wrong; and by one factor for all loads rig and friction take what the loads differ in
+            if name == "scale" and ("compliance" in fixed or loads):
                 together = _rejected(together)
     if isinstance(fixed.get("loss"), tuple) and _entangled(together, fixed["loss"][1]):
         if not stated:
@@ -393,7 +396,7 @@ def _contradict(alone, name, value, deviation):
     return abs(found - value) > BEYOND[name] * np.hypot(sd, deviation)
 
 
-def _contradicted(name, value, deviation, given):
+def _contradicted(name, value, deviation, given, loads):
     """The note that the loops do not fit to what was known of a parameter."""
     if name == "loss":
         return (
@@ -404,6 +407,12 @@ def _contradicted(name, value, deviation, given):
         return (
             f"the shape or the given rig does not fit: the shape's compliance is not that of the loops within "
             f"{100 * deviation:g} %; look at radii, moduli and normal load, and leave out --rig"
+        )
+    if loads:
+        return (
+            f"the shape does not fit: its compliance is not that of the loops within {100 * deviation:g} %, and with "
+            "several normal loads one factor need not correct it; look at radii, moduli, roughness, and normal loads, "
+            "or fit the loops of each load by themselves"
         )
     return (
         f"the shape does not fit: its compliance is not that of the loops within {100 * deviation:g} %, so that it is "
