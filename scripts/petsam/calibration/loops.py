@@ -18,22 +18,19 @@ Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Optional
 
 import numpy as np
 
 from ..core.errors import Error, library
+from .backbone import Backbone, derivatives, force_of, plain_force
 from .push import Push
 
 SHARED = ("friction", "compliance", "lean", "loss", "scale")  # parameters that all loops of a fit have in common
 OWN = ("offset", "top", "bottom")  # those of each: force, largest and smallest displacement
 STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from one it may end where all sticks or slides
-NEARBY = (
-    0.94,
-    1.06,
-    1.15,
-)  # of the friction, from which it begins again where the best loops just slide, or just do not
+# of the friction, from which it begins again where the best loops just slide, or just do not
+NEARBY = (0.94, 1.06, 1.15)
 PASSES = 3  # of a fit, each with the weights of the one before
 LEAST, MOST = 1e-4, 30.0  # coefficients of friction
 LOSING = 0.2  # the most loss that is looked for: more would be a loop of its own
@@ -91,99 +88,6 @@ def noise_of(values: np.ndarray) -> float:
     range."""
     second = np.abs(values[:-2] - 2.0 * values[1:-1] + values[2:])
     return float(max(np.median(second) / (0.6745 * np.sqrt(6.0)), FLOOR * np.ptp(values)))
-
-
-class Backbone:
-    """The monotonic curve Q = F(D) of contact and rig, odd in D.
-
-    Parameters
-    ----------
-    push : Push
-    friction, compliance : float
-        1 and m/N.
-    scale : float
-        Factor of the contact's compliance.
-    """
-
-    def __init__(self, push: Push, friction: float, compliance: float, scale: float = 1.0) -> None:
-        self.force = friction * push.force
-        self.displacement = friction * scale * push.displacement + compliance * self.force
-        self.friction, self.compliance, self.scale = friction, compliance, scale
-
-    @cached_property
-    def slope(self) -> np.ndarray:
-        """dQ/dD at the points of the table, N/m."""
-        return np.gradient(self.force, self.displacement)
-
-    def __call__(self, displacement):
-        """Force (N) at a displacement (m) from the unloaded state."""
-        return np.sign(displacement) * np.interp(np.abs(displacement), self.displacement, self.force)
-
-    def slope_at(self, displacement):
-        """dQ/dD there, N/m; 0 where it slides."""
-        return np.interp(np.abs(displacement), self.displacement, self.slope, right=0.0)
-
-    def derivatives(self, displacement) -> dict:
-        """Of the force by displacement, friction, compliance, and scale, at displacements (m); those of the straight
-        lines between the points of the table.
-
-        With D = friction (scale f + compliance q) and Q = friction q, at given D: dQ/dp = Q_p - dQ/dD D_p.
-        """
-        force, length = self(displacement), np.abs(displacement)
-        before = np.clip(np.searchsorted(self.displacement, length) - 1, 0, len(self.force) - 2)
-        slope = (np.diff(self.force) / np.diff(self.displacement))[before]
-        slope = np.where(length < self.displacement[-1], slope, 0.0)
-        return {
-            "displacement": slope,
-            "friction": (force - slope * displacement) / self.friction,
-            "compliance": -slope * force,
-            "scale": -slope * (displacement - self.compliance * force) / self.scale,
-        }
-
-
-def force_of(
-    backbone: Backbone, displacement, rising, own=(0.0, 1.0, -1.0), lean=0.0, loss=0.0
-) -> tuple[np.ndarray, np.ndarray]:
-    """Force and its slope over the displacement of a closed loop, N and N/m; `own` are its offset of the force, largest
-    and smallest displacement."""
-    force = _force_of(backbone, displacement, rising, own, lean, loss)
-    _, top, bottom = own
-    return force, backbone.slope_at(np.where(rising, displacement - bottom, top - displacement) / 2.0) + lean
-
-
-def _force_of(backbone, displacement, rising, own, lean, loss):
-    """Force of a closed loop, N."""
-    offset, top, bottom = own
-    half, middle = 0.5 * (top - bottom), 0.5 * (top + bottom)
-    most = backbone(half)
-    way = np.where(rising, displacement - bottom, top - displacement) / 2.0
-    sign = np.where(rising, 1.0, -1.0)
-    force = offset - sign * most + 2.0 * sign * backbone(way) + lean * (displacement - middle)
-    return force + sign * loss * most * _ellipse(displacement) if loss else force
-
-
-def _ellipse(displacement):
-    """Height of the ellipse of a loss, 1. It spans the given points: by top and bottom it would hold these, by its
-    ends' infinite slopes."""
-    ends = displacement.max(), displacement.min()
-    phase = (displacement - 0.5 * sum(ends)) / max(0.5 * (ends[0] - ends[1]), 1e-300)
-    return np.sqrt(np.clip(1.0 - phase**2, 0.0, None))
-
-
-def _derivatives(backbone, displacement, rising, own, lean, loss):
-    """Derivatives of the force of a closed loop: {name: (n,)} by shared parameters, and (n, 3) by its own."""
-    _, top, bottom = own
-    way = np.where(rising, displacement - bottom, top - displacement) / 2.0
-    sign, ellipse = np.where(rising, 1.0, -1.0), _ellipse(displacement)
-    most, along = backbone.derivatives(0.5 * (top - bottom)), backbone.derivatives(way)
-    lag = sign * (loss * ellipse - 1.0)  # by the force of the reversal
-    shared = {name: lag * most[name] + 2.0 * sign * along[name] for name in ("friction", "compliance", "scale")}
-    shared["lean"] = displacement - 0.5 * (top + bottom)
-    shared["loss"] = sign * ellipse * backbone(0.5 * (top - bottom))
-    by_half, by_way = 0.5 * lag * most["displacement"], along["displacement"]
-    by_top = by_half - np.where(rising, 0.0, by_way) - 0.5 * lean
-    by_bottom = -by_half - np.where(rising, by_way, 0.0) - 0.5 * lean
-    return shared, np.array([np.ones(len(way)), by_top, by_bottom]).T
 
 
 @dataclass(frozen=True)
@@ -406,7 +310,7 @@ class _Problem:
         """Residuals of all loops in units of the noise, and behind them those of what is known beforehand."""
         parts, of = [], self.shared(values)
         for k, (loop, weight) in enumerate(zip(self.loops, weights)):
-            force = _force_of(self._backbone(values, k), loop.displacement, loop.rising, *self._beside(values, k))
+            force = plain_force(self._backbone(values, k), loop.displacement, loop.rising, *self._beside(values, k))
             parts.append(weight * (loop.force - force))
         known = [self.spread * (of[name] - value) / deviation for name, (value, deviation) in self.known.items()]
         return np.concatenate([*parts, known])
@@ -433,7 +337,7 @@ class _Problem:
         for k, (loop, weight) in enumerate(zip(self.loops, weights)):
             rows = slice(ends[k], ends[k + 1])
             backbone, beside = self._backbone(values, k), self._beside(values, k)
-            by, own = _derivatives(backbone, loop.displacement, loop.rising, *beside)
+            by, own = derivatives(backbone, loop.displacement, loop.rising, *beside)
             for column, name in enumerate(self.free):
                 found[rows, column] = -weight * by[name]
             found[rows, shared + 3 * k : shared + 3 * k + 3] = -weight[:, None] * own

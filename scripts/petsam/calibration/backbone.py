@@ -1,0 +1,100 @@
+"""The curve Q = F(D) of contact and rig, and the closed loop that follows from it: see loops.py."""
+
+from functools import cached_property
+
+import numpy as np
+
+from .push import Push
+
+
+class Backbone:
+    """The monotonic curve Q = F(D) of contact and rig, odd in D.
+
+    Parameters
+    ----------
+    push : Push
+    friction, compliance : float
+        1 and m/N.
+    scale : float
+        Factor of the contact's compliance.
+    """
+
+    def __init__(self, push: Push, friction: float, compliance: float, scale: float = 1.0) -> None:
+        self.force = friction * push.force
+        self.displacement = friction * scale * push.displacement + compliance * self.force
+        self.friction, self.compliance, self.scale = friction, compliance, scale
+
+    @cached_property
+    def slope(self) -> np.ndarray:
+        """dQ/dD at the points of the table, N/m."""
+        return np.gradient(self.force, self.displacement)
+
+    def __call__(self, displacement):
+        """Force (N) at a displacement (m) from the unloaded state."""
+        return np.sign(displacement) * np.interp(np.abs(displacement), self.displacement, self.force)
+
+    def slope_at(self, displacement):
+        """dQ/dD there, N/m; 0 where it slides."""
+        return np.interp(np.abs(displacement), self.displacement, self.slope, right=0.0)
+
+    def derivatives(self, displacement) -> dict:
+        """Of the force by displacement, friction, compliance, and scale, at displacements (m); those of the straight
+        lines between the points of the table.
+
+        With D = friction (scale f + compliance q) and Q = friction q, at given D: dQ/dp = Q_p - dQ/dD D_p.
+        """
+        force, length = self(displacement), np.abs(displacement)
+        before = np.clip(np.searchsorted(self.displacement, length) - 1, 0, len(self.force) - 2)
+        slope = (np.diff(self.force) / np.diff(self.displacement))[before]
+        slope = np.where(length < self.displacement[-1], slope, 0.0)
+        return {
+            "displacement": slope,
+            "friction": (force - slope * displacement) / self.friction,
+            "compliance": -slope * force,
+            "scale": -slope * (displacement - self.compliance * force) / self.scale,
+        }
+
+
+def force_of(
+    backbone: Backbone, displacement, rising, own=(0.0, 1.0, -1.0), lean=0.0, loss=0.0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Force and its slope over the displacement of a closed loop, N and N/m; `own` are its offset of the force, largest
+    and smallest displacement."""
+    force = plain_force(backbone, displacement, rising, own, lean, loss)
+    _, top, bottom = own
+    return force, backbone.slope_at(np.where(rising, displacement - bottom, top - displacement) / 2.0) + lean
+
+
+def plain_force(backbone, displacement, rising, own, lean, loss):
+    """Force of a closed loop, N."""
+    offset, top, bottom = own
+    half, middle = 0.5 * (top - bottom), 0.5 * (top + bottom)
+    most = backbone(half)
+    way = np.where(rising, displacement - bottom, top - displacement) / 2.0
+    sign = np.where(rising, 1.0, -1.0)
+    force = offset - sign * most + 2.0 * sign * backbone(way) + lean * (displacement - middle)
+    return force + sign * loss * most * _ellipse(displacement) if loss else force
+
+
+def _ellipse(displacement):
+    """Height of the ellipse of a loss, 1. It spans the given points: by top and bottom it would hold these, by its
+    ends' infinite slopes."""
+    ends = displacement.max(), displacement.min()
+    phase = (displacement - 0.5 * sum(ends)) / max(0.5 * (ends[0] - ends[1]), 1e-300)
+    return np.sqrt(np.clip(1.0 - phase**2, 0.0, None))
+
+
+def derivatives(backbone, displacement, rising, own, lean, loss):
+    """Derivatives of the force of a closed loop: {name: (n,)} by shared parameters, and (n, 3) by its own."""
+    _, top, bottom = own
+    way = np.where(rising, displacement - bottom, top - displacement) / 2.0
+    sign, ellipse = np.where(rising, 1.0, -1.0), _ellipse(displacement)
+    most, along = backbone.derivatives(0.5 * (top - bottom)), backbone.derivatives(way)
+    lag = sign * (loss * ellipse - 1.0)  # by the force of the reversal
+    shared = {name: lag * most[name] + 2.0 * sign * along[name] for name in ("friction", "compliance", "scale")}
+    shared["lean"] = displacement - 0.5 * (top + bottom)
+    shared["loss"] = sign * ellipse * backbone(0.5 * (top - bottom))
+    by_half, by_way = 0.5 * lag * most["displacement"], along["displacement"]
+    by_top = by_half - np.where(rising, 0.0, by_way) - 0.5 * lean
+    by_bottom = -by_half - np.where(rising, by_way, 0.0) - 0.5 * lean
+    return shared, np.array([np.ones(len(way)), by_top, by_bottom]).T
