@@ -91,6 +91,38 @@ def test_rejected_steps_leave_no_displacement(fretting):
     np.testing.assert_array_equal(contact["thermal_displacement_z"], other["thermal_displacement_z"])
 
 
+def test_no_contact_has_no_displacement(fretting, tmp_path):
+    """Bodies that part take no heat: the displacement of the step before is gone, and is not in the next contact."""
+    rows = [(1e-4, 50, 15), (2e-4, 0, 0), (3e-4, 50, 15)]
+    case = {**fretting, **history(tmp_path / "parts.csv", "time,load_n,load_tx", *rows), "steps": 1}
+    results = package.run(**case, output=tmp_path / "parts.h5")
+    found = results["thermal_displacement_z"]
+    assert results["thermal_displacement_max"][0] > 1e-9
+    assert (found[1] == 0).all() and results["thermal_displacement_max"][1] == 0
+    np.testing.assert_allclose(found[2], found[0], atol=1e-5 * abs(found[0]).max())
+
+
+COOLING = dict(
+    SLIDING, body2_conductivity=1, grid_n=48, body1_bulk_temperature=100, heat_resistance=1e-4, body1_expansion=1e-4,
+    disp_x=0, errors="none",
+)  # fmt: skip
+
+
+def test_a_body_that_cools_moves_away(petsam, tmp_path):
+    """Body 1 loses its heat to body 2, so that its surface sinks where it touches: the number is that displacement."""
+    done = petsam(COOLING, "-tangential_rtol", 1e-9, "-output", tmp_path / "cool.h5")
+    assert "m away from each other" in done.stdout
+    results = package.open(tmp_path / "cool.h5")
+    sinks = results["thermal_displacement_z"][-1]
+    assert results["pressure"][-1].flat[np.argmax(sinks)] > 0.99 * results["pressure_max"][-1]
+    assert results["thermal_displacement_max"][-1] == -sinks.max() < 0
+
+
+def test_inaccurate_slip_is_named(petsam):
+    """No load but the thermal displacement moves the surfaces, so that its accuracy is that of the slip."""
+    assert "reduce -tangential_rtol" in petsam(COOLING, check=10).stderr
+
+
 # ---- stresses ----
 
 

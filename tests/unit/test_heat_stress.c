@@ -202,11 +202,14 @@ static void test_fast_bodies_are_held(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
-/* The same bits as on one rank; a body that moves to the other side has the mirrored stress. */
+/*
+  The same bits as on one rank; a body that moves to the other side has the mirrored stress, which is symmetric along y.
+  Both sides of the grid are odd, so that a margin to one side only would show.
+*/
 static void test_ranks_and_directions(void **state)
 {
-  SamGrid grids[] = {NewGrid(30, 21, 4, 3), NewGridOn(PETSC_COMM_SELF, 30, 21, 4, 3, 0, 0)};
-  enum { ALL = 30 * 21 };
+  SamGrid grids[] = {NewGrid(31, 21, 4, 3), NewGridOn(PETSC_COMM_SELF, 31, 21, 4, 3, 0, 0)};
+  enum { ALL = 31 * 21 };
 
   (void)state;
   for (int k = 0; k < 2; k++) {
@@ -216,11 +219,13 @@ static void test_ranks_and_directions(void **state)
 
     for (PetscInt m = 0; m < SAM_STRESS_COMPONENTS * ALL; m++) sam_assert(a[m] == b[m]);
     for (PetscInt m = 0; m < ALL; m++) {
-      const PetscInt other = m / 30 * 30 + 29 - m % 30;
+      const PetscInt other = m / 31 * 31 + 30 - m % 31, across = (20 - m / 31) * 31 + m % 31;
 
       sam_assert_close(a[SAM_STRESS_XX * ALL + m], c[SAM_STRESS_XX * ALL + other], 1e-12);
       sam_assert_close(a[SAM_STRESS_XY * ALL + m], -c[SAM_STRESS_XY * ALL + other], 1e-12);
       sam_assert_close(a[SAM_STRESS_XZ * ALL + m], -c[SAM_STRESS_XZ * ALL + other], 1e-12);
+      sam_assert_close(a[SAM_STRESS_XX * ALL + m], a[SAM_STRESS_XX * ALL + across], 1e-12);
+      sam_assert_close(a[SAM_STRESS_YZ * ALL + m], -a[SAM_STRESS_YZ * ALL + across], 1e-12);
     }
     free(a);
     free(b);

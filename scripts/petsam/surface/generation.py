@@ -19,7 +19,7 @@ from ..core.errors import Error
 from ..core.units import shown
 from .tables import Text
 
-RESOLVED = 2.0  # cells in the shortest wavelength at least
+RESOLVED = 2.0  # cells in the shortest wavelength, more than
 MOST = 1 << 13  # waves along a side
 FOLD = 2.0  # within so many rms heights, 95 % of the points, higher Gaussian heights become higher ones
 
@@ -87,7 +87,7 @@ def heights(spectrum, n, size, shortest, seed=0, rms=None):
         if cells < RESOLVED * count + 1:
             raise Error(
                 f"the shortest wavelength {shown(shortest)} has {cells / side * shortest:.3g} cells of the grid; "
-                f"use at least {RESOLVED:g}: a finer --grid-n, or longer --wavelengths"
+                f"use more than {RESOLVED:g}: a finer --grid-n, or longer --wavelengths"
             )
         if count > MOST:
             raise Error(f"{count} waves along a side of {shown(side)}; use at most {MOST}: longer --wavelengths")

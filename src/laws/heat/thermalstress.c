@@ -291,12 +291,13 @@ static PetscErrorCode AddStanding(SamThermalStress t, PetscReal depth, Vec flux,
 
 /* ---- the operator ---- */
 
-/* Creates the wide grid, with the other in its middle. */
+/* Creates the wide grid, with the other in its middle: the margins on both sides are equal. */
 static PetscErrorCode CreateWide(SamThermalStress t)
 {
-  const SamGrid   g    = t->grid;
-  const PetscInt  n[2] = {2 * g->nx, 2 * g->ny}, first[2] = {g->nx / 2, g->ny / 2}, part[2] = {g->nx, g->ny};
-  const PetscReal size[2]   = {2 * (PetscReal)g->nx * g->dx, 2 * (PetscReal)g->ny * g->dy};
+  const SamGrid   g       = t->grid;
+  const PetscInt  part[2] = {g->nx, g->ny}, first[2] = {(g->nx + 1) / 2, (g->ny + 1) / 2};
+  const PetscInt  n[2]      = {g->nx + 2 * first[0], g->ny + 2 * first[1]};
+  const PetscReal size[2]   = {(PetscReal)n[0] * g->dx, (PetscReal)n[1] * g->dy};
   const PetscReal centre[2] = {0, 0};
 
   PetscFunctionBegin;
