@@ -1,5 +1,7 @@
 """Frictional heat: temperatures beside published ones, their partition, friction that depends on them, and refusals."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -213,6 +215,13 @@ def test_doubts_about_heat(petsam, fretting, tmp_path, monkeypatch):
     warm = dict(fretting, **rows, body1_bulk_temperature=1, body2_bulk_temperature=1, steps=1)
     assert "makes the coefficient of friction negative" in petsam(warm).stderr
     assert "negative" not in petsam(dict(fretting, body1_bulk_temperature=1, body2_bulk_temperature=1)).stderr
+
+
+def test_heat_from_body_to_body_is_no_part_of_friction(petsam, fretting):
+    """With bodies of different temperatures more heat crosses than friction makes."""
+    case = {name: value for name, value in fretting.items() if name not in ("history", "steps")}
+    warm = petsam({**case, "load_n": 50, "load_tx": 15, "body1_bulk_temperature": 50}).stdout
+    assert re.search(r"heat +[\d.e+-]+ W of friction; [\d.]+ W flow into body 2, at most", warm)
 
 
 def test_a_step_without_slip_has_no_power(petsam, fretting, tmp_path, monkeypatch):

@@ -414,6 +414,10 @@ static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
   (void)law;
   if (isnan(numbers[MAXIMUM]))
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  none, as there is no contact\n", "heat"));
+  else if (numbers[POWER] > 0 && !(numbers[SHARE] >= 0 && numbers[SHARE] <= 1)) /* by different bulk temperatures */
+    PetscCall(PetscViewerASCIIPrintf(
+      viewer, "  %-10s  %.6g %s of friction; %.6g %s flow into body 2, at most %.6g K in contact\n", "heat",
+      numbers[POWER], unit, numbers[SHARE] * numbers[POWER], unit, numbers[MAXIMUM]));
   else if (numbers[POWER] > 0)
     PetscCall(
       PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g %s, of which %.6g %s flow into body 2, at most %.6g K in contact\n",
