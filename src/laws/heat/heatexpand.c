@@ -414,7 +414,7 @@ PetscErrorCode SamHeatLawKeepExpansion(SamLaw law, SamLawStep *step, const Vec i
   numbers[MAXIMUM] = 0 - (double)(least + most > 0 ? most : least); /* bodies that cool move away from each other */
   numbers[PASSES]  = (double)h->passes;
   numbers[ERRORS]  = change;
-  if (numbers[ERRORS] > ERROR && !step->failed[0])
+  if (!(numbers[ERRORS] <= ERROR) && !step->failed[0])
     (void)snprintf(step->failed, sizeof(step->failed),
                    "the check of the thermal displacement: it differs by %.2g of its maximum from that by the heat of "
                    "the step: use a finer grid, or give -heat_resistance",
