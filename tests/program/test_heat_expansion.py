@@ -41,6 +41,15 @@ def test_both_bodies_share_the_expansion(tmp_path):
         assert file.attrs["body1_expansion"] == 2 * expansion
 
 
+def test_a_step_that_begins_to_slide_has_another_pressure(tmp_path):
+    """The load stays, and the heat changes the gap of similar bodies."""
+    case = {name: value for name, value in SLIDING.items() if name not in ("load_n", "disp_x")}
+    history = {"time": [1, 2], "load_n": [4e9 / 3] * 2, "disp_x": [0, 1e3]}
+    results = package.run(**case, grid_n=33, body1_expansion=1e-8, history=history, output=tmp_path / "two.h5")
+    still, slides = results["pressure_max"]
+    assert slides > 1.1 * still and results["thermal_passes"][0] == 0
+
+
 def test_no_expansion_is_none(tmp_path):
     cold = package.run(**SLIDING, grid_n=21, output=tmp_path / "cold.h5")
     none = package.run(**SLIDING, grid_n=21, body1_expansion=0, output=tmp_path / "none.h5")
@@ -89,6 +98,18 @@ def test_rejected_steps_leave_no_displacement(fretting):
             one.try_step(time, load_n=50, load_tx=load)
             one.commit()
     np.testing.assert_array_equal(contact["thermal_displacement_z"], other["thermal_displacement_z"])
+
+
+def test_cells_at_the_edge_are_held(tmp_path):
+    """A pin on a moving disc: heat crosses at the edge, where cells come and leave from pass to pass."""
+    history = {"time": [1e-4, 2e-4], "load_n": [200, 200], "disp_x": [-1e-4, -2e-4]}
+    results = package.run(
+        body1="steel", body2="steel", gap_type="sphere", gap_radius1=0.2, gap_radius2="inf", friction=0.3, grid_n=32,
+        grid_size=2.4e-3, heat="steady", errors="none", body1_expansion=12e-6, body2_expansion=12e-6, body2_speed=1,
+        history=history, output=tmp_path / "pin.h5",
+    )  # fmt: skip
+    assert (results["thermal_passes"] < 35).all() and (results["thermal_error"] < 0.01).all()
+    assert results["pressure_max"][-1] == pytest.approx(350e6, rel=0.01)
 
 
 def test_no_contact_has_no_displacement(fretting, tmp_path):

@@ -25,8 +25,6 @@
 #define RTOL          1e-7 /* change of the displacement in a pass, over the largest displacement */
 #define FREE          8    /* passes after which cells are held */
 #define NEAR          0.05 /* change below which they are */
-#define GOOD          5e-3 /* error below which they are not held anew */
-#define HOLDS         4    /* how often they are held */
 #define ERROR         2e-2 /* largest difference from the displacement by the heat of the step, over the largest one */
 #define MOST          80   /* passes */
 #define LONG          40   /* passes after which */
@@ -210,52 +208,22 @@ static PetscErrorCode TakeTried(SamState state, Vec *z, Vec *t)
 static PetscErrorCode Hold(SamHeatLaw *h, Vec pressure)
 {
   PetscFunctionBegin;
-  h->held++;
-  if (!h->contact) PetscCall(VecDuplicate(pressure, &h->contact));
+  PetscCall(VecDuplicate(pressure, &h->contact));
   PetscCall(VecCopy(pressure, h->contact));
   SamMixingRestart(h->mixing); /* its results are those of other cells */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the change of the displacement if the heat were divided in the cells that are in contact now. */
-static PetscErrorCode FindError(SamLaw law, SamLawContact *contact, Vec argument, double *error)
-{
-  SamHeatLaw *const h    = (SamHeatLaw *)law->data;
-  const Vec         held = h->contact;
-  Vec               u[2], all;
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2; k++) PetscCall(SamGridCreateVec(law->grid, k + 1, &u[k]));
-  PetscCall(SamGridCreateVec(law->grid, 3, &all));
-  h->contact = NULL;
-  PetscCall(ComputeDisplacement(law, contact, u[0], u[1]));
-  h->contact = held;
-  PetscCall(Pack(law->grid, u[0], u[1], all, PETSC_FALSE));
-  PetscCall(Compare(law->grid, contact->pressure, argument, all, error, NULL));
-  PetscCall(VecDestroy(&all));
-  for (int k = 0; k < 2; k++) PetscCall(VecDestroy(&u[k]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   Decides whether passes go on after a relative change. Cells are held once some passes have not been enough and the
-  changes are small; they are held anew if those that are in contact at the end have another displacement. Where the
-  displacement alone makes the slip, changes do not fall below the tolerance of the slip.
+  changes are small. Where the displacement alone makes the slip, changes do not fall below the tolerance of the slip.
 */
-static PetscErrorCode Decide(SamLaw law, SamLawContact *contact, Vec argument, double change, PetscBool *again)
+static PetscErrorCode Decide(SamHeatLaw *h, Vec pressure, double change, PetscBool *again)
 {
-  SamHeatLaw *const h     = (SamHeatLaw *)law->data;
-  double            error = 0;
-
   PetscFunctionBegin;
   *again = change > (h->passes < LONG ? RTOL : SMALL) ? PETSC_TRUE : PETSC_FALSE;
   if (*again) h->passes++;
-  if (*again && !h->contact && h->passes > FREE && change < NEAR) PetscCall(Hold(h, contact->pressure));
-  if (*again || !h->contact || h->held == HOLDS) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(FindError(law, contact, argument, &error));
-  if (error <= GOOD) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Hold(h, contact->pressure));
-  *again = PETSC_TRUE;
+  if (*again && !h->contact && h->passes > FREE && change < NEAR) PetscCall(Hold(h, pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -274,7 +242,7 @@ static PetscErrorCode Proceed(SamLaw law, SamLawContact *contact, Vec tried[2], 
   PetscCall(Pack(g, tried[0], tried[1], argument, PETSC_FALSE));
   PetscCall(Pack(g, next[0], next[1], result, PETSC_FALSE));
   PetscCall(Compare(g, contact->pressure, argument, result, &change, &touches));
-  PetscCall(Decide(law, contact, argument, change, again));
+  PetscCall(Decide(h, contact->pressure, change, again));
   if (*again && h->passes > MOST) {
     *again = PETSC_FALSE;
     (void)snprintf(contact->failed, sizeof(contact->failed),
@@ -299,7 +267,6 @@ static PetscErrorCode Forget(SamHeatLaw *h)
   PetscFunctionBegin;
   if (h->mixing) SamMixingRestart(h->mixing);
   PetscCall(VecDestroy(&h->contact));
-  h->held = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,7 +25,6 @@ typedef struct {
   SamExpander expander[2];    /* NULL: not created yet, or no expansion; [1] may be [0], for equal conduction */
   SamMixing   mixing;         /* of the thermal displacements; NULL: not created yet */
   PetscInt    passes;         /* in which they have been found in this step */
-  PetscInt    held;           /* how often cells in contact have been held in it */
   Vec         contact;        /* those cells: positive; NULL: cells are not held */
 } SamHeatLaw;
 
