@@ -96,13 +96,13 @@ PETSC_INTERN PetscErrorCode SamConductorDestroy(SamConductor *conductor);
                            Pa/K. z points into the body. Depths in turn cost the kernels of a body that stands each
                            time.
   SamThermalStressBytes  - returns the memory that it takes on this rank, bytes. Not collective.
-  SAM_THERMAL_LEAST      - speed times the longer side of the grid over twice the diffusivity, below which bodies that
-                           move are too slow: their heat reaches beyond the grid.
+  SamThermalStressLeast  - returns the speed (m/s) below which bodies that move are too slow: their heat reaches beyond
+                           the grid. It is that whose product with the longer side is 40 times the diffusivity. Not
+                           collective.
   All others are collective. Errors: those of SamHeatRow(); PETSC_ERR_ARG_SIZ for a field of another grid; PETSC_ERR_SUP
   for a body that is too slow.
   Source: Barber 1984, J. Appl. Mech. 51, 636; Liu and Wang 2001, J. Tribol. 123, 17.
 */
-#define SAM_THERMAL_LEAST 20
 typedef struct _n_SamThermalStress *SamThermalStress;
 PETSC_INTERN PetscErrorCode         SamThermalStressCreate(SamGrid grid, const SamFourierSettings *settings,
                                                            const SamHeatBody *body, PetscReal poisson,
@@ -111,6 +111,7 @@ PETSC_INTERN PetscErrorCode SamThermalStressAdd(SamThermalStress thermal, PetscR
                                                 Vec stress);
 PETSC_INTERN PetscErrorCode SamThermalStressDestroy(SamThermalStress *thermal);
 PETSC_INTERN double         SamThermalStressBytes(SamThermalStress thermal);
+PETSC_INTERN PetscReal      SamThermalStressLeast(SamGrid grid, const SamHeatBody *body);
 /*
   SamThermalStressWave - computes the stresses by a wave exp(i k.x) of the temperature 1 of the surface, over E
   alpha/(1 - nu): n along the wave, t across; `kappa`: its decay with depth (1/m, real and imaginary part), `k` its wave

@@ -21,6 +21,7 @@
   Sources: Barber 1984, J. Appl. Mech. 51, 636; Liu and Wang 2001, J. Tribol. 123, 17; Carslaw and Jaeger 1959, ch. X.
 */
 #include "expansion.h"
+#include "heatimpl.h"
 #include <petsam/private/baseimpl.h>
 #include <petscdt.h>
 #include <math.h>
@@ -200,24 +201,6 @@ static void AddCell(const Rule *rule, const Source *h, double x, double y, doubl
 
 /* ---- all ages ---- */
 
-/* Adds the real, positive roots s of edge + P s^2/2 = m s below `end`. */
-static void AddRoots(double p, double edge, double m, double end, PetscInt *n, double borders[])
-{
-  const double square = m * m - 2 * p * edge, q = square < 0 ? 0 : m + copysign(sqrt(square), m);
-  const double roots[] = {p > 0 ? q / p : 0, 2 * edge / q};
-
-  if (q == 0) return;
-  for (int k = 0; k < 2; k++)
-    if (roots[k] > 0 && roots[k] < end && *n < BORDERS - 1) borders[(*n)++] = roots[k];
-}
-
-static int Ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-
-  return (x > y) - (x < y);
-}
-
 /* Finds the borders of the panels for n edges at the distances x, and n at the distances y; returns their number. */
 static PetscInt FindBorders(const Source *h, PetscInt n, const double x[], const double y[], double least, double end,
                             double borders[BORDERS])
@@ -229,15 +212,15 @@ static PetscInt FindBorders(const Source *h, PetscInt n, const double x[], const
   for (PetscInt k = 0; k < n; k++)
     for (size_t v = 0; v < sizeof(values) / sizeof(*values); v++)
       for (int sign = -1; sign <= 1; sign += 2) {
-        AddRoots(h->p, x[k], sign * values[v], end, &count, borders);
-        AddRoots(0, y[k], sign * values[v], end, &count, borders);
+        SamHeatAddRoots(h->p, x[k], sign * values[v], end, &count, borders);
+        SamHeatAddRoots(0, y[k], sign * values[v], end, &count, borders);
       }
   for (PetscInt k = 0; k < n; k++)
     for (double m = 13; m < FAR && m * m < 4 * h->p * fabs(x[k]); m *= 2)
-      for (int sign = -1; sign <= 1; sign += 2) AddRoots(h->p, x[k], sign * m, end, &count, borders);
+      for (int sign = -1; sign <= 1; sign += 2) SamHeatAddRoots(h->p, x[k], sign * m, end, &count, borders);
   for (double s = least; s < end && count < BORDERS - 1; s *= 2) borders[count++] = s;
   borders[count++] = end;
-  qsort(borders, (size_t)count, sizeof(*borders), Ascending);
+  SamHeatSort(count, borders);
   return count;
 }
 

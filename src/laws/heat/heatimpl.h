@@ -31,4 +31,12 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamHeatReduce(SamHeatSystem *system, double goal, double x[], double r[], double *left);
 PETSC_INTERN PetscErrorCode SamHeatNorm(SamGrid grid, double x[], double *norm);
 
+/*
+  Borders of panels, of an integral over the age of heat (heatkernel.c). Neither is collective.
+  SamHeatAddRoots - adds the real, positive roots s of edge + p s^2/2 = m s below `end`, two at most.
+  SamHeatSort - puts n borders in their order.
+*/
+PETSC_INTERN void SamHeatAddRoots(double p, double edge, double m, double end, PetscInt *n, double borders[]);
+PETSC_INTERN void SamHeatSort(PetscInt n, double borders[]);
+
 #endif

@@ -21,7 +21,7 @@
 
   Sources: Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203; Carslaw and Jaeger 1959, Conduction of Heat in Solids, ch. X.
 */
-#include <petsam/private/heat.h>
+#include "heatimpl.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/halfspace.h>
 #include <petscdt.h>
@@ -114,11 +114,10 @@ static double Between(double low, double high)
   return 0.5 * (erf(high) - erf(low));
 }
 
-/* Adds the real, positive roots s of edge + P s^2/2 = m s below `end`. */
-static void AddRoots(double p, double edge, double m, double end, PetscInt *n, double borders[])
+void SamHeatAddRoots(double p, double edge, double m, double end, PetscInt *n, double borders[])
 {
   const double square = m * m - 2 * p * edge, q = square < 0 ? 0 : m + copysign(sqrt(square), m);
-  const double roots[] = {q / p, 2 * edge / q};
+  const double roots[] = {p > 0 ? q / p : 0, 2 * edge / q};
 
   if (q == 0) return;
   for (int k = 0; k < 2; k++)
@@ -146,6 +145,11 @@ static int Ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
+void SamHeatSort(PetscInt n, double borders[])
+{
+  qsort(borders, (size_t)n, sizeof(*borders), Ascending);
+}
+
 /* Finds the borders of the panels in their order; returns their number. */
 static PetscInt FindBorders(const Source *h, double x, double end, double borders[BORDERS])
 {
@@ -155,12 +159,12 @@ static PetscInt FindBorders(const Source *h, double x, double end, double border
   borders[n++] = h->depth / REACH < end ? h->depth / REACH : end; /* exp(-z^2/s^2) is 0 before */
   for (int side = -1; side <= 1; side += 2)
     for (size_t k = 0; k < sizeof(values) / sizeof(*values); k++)
-      AddRoots(h->p, x + side * h->half[0], values[k], end, &n, borders);
+      SamHeatAddRoots(h->p, x + side * h->half[0], values[k], end, &n, borders);
   for (size_t k = 1; k < sizeof(parts) / sizeof(*parts); k++)
     if (h->depth > 0 && h->depth / parts[k] < end) borders[n++] = h->depth / parts[k];
   for (double s = SHORT * PetscMin(h->half[0], h->half[1]); s < end && n < BORDERS - 1; s *= 2) borders[n++] = s;
   borders[n++] = end;
-  qsort(borders, (size_t)n, sizeof(*borders), Ascending);
+  SamHeatSort(n, borders);
   return n;
 }
 

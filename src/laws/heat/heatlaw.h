@@ -25,7 +25,7 @@ typedef struct {
   SamExpander expander[2];    /* NULL: not created yet, or no expansion; [1] may be [0], for equal conduction */
   SamMixing   mixing;         /* of the thermal displacements; NULL: not created yet */
   PetscInt    passes;         /* in which they have been found in this step */
-  Vec         contact;        /* those cells: positive; NULL: cells are not held */
+  Vec         contact;        /* cells in which heat is divided while it is held: positive; NULL: it is not */
 } SamHeatLaw;
 
 #define SAM_TEMPERATURE_1 "temperature_1"
@@ -38,10 +38,11 @@ PETSC_INTERN PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec of_step
 /* SamHeatLawUses - returns which of these fields the law uses. Not collective. */
 PETSC_INTERN SamLawUse SamHeatLawUses(SamLaw law);
 /*
-  The thermal displacement (heatexpand.c). SamHeatLawExpands - true if there is any.
-  SamHeatLawExpand - gives the law the methods for it, and refuses bodies without. SamHeatLawDeclare - declares its
-  fields and numbers. SamHeatLawBeginExpansion - prepares a step. SamHeatLawKeepExpansion - sets its numbers in a solved
-  step. Collective.
+  The thermal displacement (heatexpand.c). Collective, but for SamHeatLawExpands().
+  SamHeatLawExpands - true if there is any. SamHeatLawExpand - gives the law the methods for it, and refuses bodies
+  that have none. SamHeatLawDeclareExpansion - declares its fields and numbers. SamHeatLawBeginExpansion - prepares a
+  step. SamHeatLawKeepExpansion - sets its numbers in a solved step; into: heat into both bodies, W/m2.
+  SamHeatLawViewExpansion - prints them. SamHeatLawDestroyExpansion - frees the operators.
 */
 static inline PetscBool SamHeatLawExpands(const SamHeatLaw *h)
 {

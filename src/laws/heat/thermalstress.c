@@ -25,6 +25,7 @@
 #include <math.h>
 
 enum { XX, YY, XY, KERNELS };
+#define LEAST 40   /* speed times the longer side of the grid over the diffusivity, of bodies that move */
 #define WAVES 6    /* along x, the longest, whose stresses are means */
 #define SMALL 0.05 /* times depth: shorter differences kappa - k are expanded in series */
 
@@ -74,7 +75,7 @@ void SamThermalStressWave(double k, const double kappa[2], double poisson, doubl
   }
 }
 
-/* What a pass of the filter uses: wave numbers of the first waves (1/m), and which stresses it makes. */
+/* The input of a pass of the filter: wave numbers of the first waves (1/m), and which stresses it makes. */
 typedef struct {
   double step[2], drift, poisson, depth, gain;
   int    pass; /* 0: xx, yy, xy; 1: zz, xz, yz */
@@ -306,26 +307,32 @@ static PetscErrorCode CreateWide(SamThermalStress t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscReal SamThermalStressLeast(SamGrid grid, const SamHeatBody *body)
+{
+  const PetscReal longest = PetscMax((PetscReal)grid->nx * grid->dx, (PetscReal)grid->ny * grid->dy);
+
+  return LEAST * body->conductivity / body->capacity / longest;
+}
+
 PetscErrorCode SamThermalStressCreate(SamGrid grid, const SamFourierSettings *settings, const SamHeatBody *body,
                                       PetscReal poisson, SamThermalStress *thermal)
 {
-  const PetscReal  longest = PetscMax((PetscReal)grid->nx * grid->dx, (PetscReal)grid->ny * grid->dy);
-  const double     p       = fabs(body->speed) / 2 / body->conductivity * body->capacity;
+  const PetscBool  moves = body->speed != 0 ? PETSC_TRUE : PETSC_FALSE;
   SamThermalStress t;
 
   PetscFunctionBegin;
-  PetscCheck(p == 0 || p * longest >= SAM_THERMAL_LEAST, grid->comm, PETSC_ERR_SUP,
+  PetscCheck(!moves || PetscAbsReal(body->speed) >= SamThermalStressLeast(grid, body), grid->comm, PETSC_ERR_SUP,
              "The body moves at %.3g m/s: expected 0, or at least %.3g m/s on this grid", fabs((double)body->speed),
-             fabs((double)body->speed) * SAM_THERMAL_LEAST / (p * (double)longest));
+             (double)SamThermalStressLeast(grid, body));
   PetscCall(PetscNew(&t));
   *t       = (struct _n_SamThermalStress){.grid = grid, .body = *body, .poisson = (double)poisson, .depth = -1};
   *thermal = t;
   PetscCall(SamGridReference(grid));
-  if (p > 0) {
+  if (moves) {
     PetscCall(CreateWide(t));
     PetscCall(SamConductorCreate(t->wide, settings, body, 0, &t->conductor));
   }
-  PetscCall(SamFourierCreate(p > 0 ? t->wide : grid, SAM_FOURIER_FAST, settings, &t->fourier));
+  PetscCall(SamFourierCreate(moves ? t->wide : grid, SAM_FOURIER_FAST, settings, &t->fourier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

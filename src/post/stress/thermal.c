@@ -17,7 +17,6 @@ PetscErrorCode SamThermalSetUp(SamEvaluation e)
 {
   const SamExpansion expansion = SamBodyExpansion(SamEvaluationBody(e), e->source.expansion);
   const SamHeatBody *body      = e->source.heat;
-  double             p, longest;
 
   PetscFunctionBegin;
   if (e->source.expansion == 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -29,13 +28,11 @@ PetscErrorCode SamThermalSetUp(SamEvaluation e)
              "-body %" PetscInt_FMT ": its points slide under the contact, where the thermal stress is not known: give "
              "the other body",
              e->body);
-  p       = PetscAbsReal(body->speed) / 2 / body->conductivity * body->capacity;
-  longest = (double)PetscMax((PetscReal)e->grid->nx * e->grid->dx, (PetscReal)e->grid->ny * e->grid->dy);
-  PetscCheck(p == 0 || p * longest >= SAM_THERMAL_LEAST, e->comm, SAM_ERR_USER,
+  PetscCheck(body->speed == 0 || PetscAbsReal(body->speed) >= SamThermalStressLeast(e->grid, body), e->comm,
+             SAM_ERR_USER,
              "%s: body %" PetscInt_FMT " moves at %.3g m/s, so slowly that its heat reaches beyond the grid: its "
              "thermal stress is computed at 0, and from %.3g m/s on",
-             e->source.name, e->body, (double)PetscAbsReal(body->speed),
-             (double)PetscAbsReal(body->speed) * SAM_THERMAL_LEAST / (p * longest));
+             e->source.name, e->body, (double)PetscAbsReal(body->speed), (double)SamThermalStressLeast(e->grid, body));
   PetscCall(PetscNew(&e->thermal));
   e->thermal->factor = expansion.stress;
   e->thermal->length = e->axis == SAM_SECTION_X ? e->grid->nx : e->grid->ny;
