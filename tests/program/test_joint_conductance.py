@@ -109,6 +109,13 @@ def test_a_film_from_a_file_has_its_first_row_at_the_smallest_y(tmp_path, comman
         found(film=tmp_path / "film.txt")
 
 
+def test_materials_have_their_conductivities(command, tmp_path):
+    assert found(lam=("steel", "Ti 6Al 4V")).lines() == found(lam=(53.3, 6.7)).lines()
+    write(tmp_path / "a.h5", "separation", waves(48, 3))
+    words = ("a.h5", "--pressure", "4MPa,12MPa", "--periodic", *STEEL, "--normal-only", "--conductivity")
+    assert command(*words, "steel,20") == "\n".join(found(lam=(53.3, 20.0)).lines()) + "\n"
+
+
 def test_layers_change_the_constriction_alone(command, tmp_path):
     """One of the body's own conductivity nothing; a thick one is the body; gold raises h, and the card says so."""
     bare, gold = found(), found(layers1=[(5e-6, 317.0)])
@@ -118,7 +125,7 @@ def test_layers_change_the_constriction_alone(command, tmp_path):
     write(tmp_path / "a.h5", "separation", waves(48, 3))
     words = ("a.h5", "--pressure", "4MPa,12MPa", "--periodic", *STEEL, "--normal-only", "--conductivity", "50,20")
     two = found(layers1=[(5e-6, 317.0)], layers2=[(1e-6, 90.0), (2e-6, 0.2)])
-    said = command(*words, "--layer1", "5um,317", "--layer2", "1um,90", "--layer2", "2um,0.2", "-o", "i")
+    said = command(*words, "--layer1", "5um,gold", "--layer2", "1um,90", "--layer2", "2um,0.2", "-o", "i")
     assert said == "\n".join(two.lines()) + "\n"
     text = (tmp_path / "i.inp").read_text()
     assert "5e-06 m of 317 W/(m K) on body 1, 1e-06 m of 90 W/(m K) on body 2, 2e-06 m of 0.2" in text
@@ -150,6 +157,11 @@ def test_columns_have_the_scatter_of_windows_and_units():
     (dict(conductivity=(50, 50), film=-1), "film -1: expected a resistance"),
     (dict(conductivity=(50, 50), gas=(0, 1e-6)), "gas .* expected a conductivity above 0"),
     (dict(conductivity=(50, np.inf)), "expected two numbers"),
+    (dict(conductivity=("steel", "steal")), "steal is no material: is steel meant"),
+    (dict(conductivity=(50, "alumnia")), "alumnia is no material"),
+    (dict(conductivity=(50, "Si3N4")), "Si3N4: its conductivity is not known: .* it is of steel, 304"),
+    (dict(conductivity=(1e7, "steel"), electrical=True), "conductivity steel: give the conductivity for a current"),
+    (dict(conductivity=(1e7, 1e7), layers1=[(1e-6, "gold")], electrical=True), "layers1 gold: give the conductivity"),
     (dict(conductivity=(50, 50), body1_layer_young=1e9), "body1_layer_young: give also how the layers conduct"),
     (dict(layers2=[(1e-6, 300)]), "layers2: is for the conductance"),
     (dict(conductivity=(50, 50), layers2=[(1e-6, 0)]), "expected finite numbers > 0"),
@@ -168,6 +180,10 @@ def test_arguments_are_refused_before_the_computation(given, says, monkeypatch):
     (("--film", "1e-6"), "--film: is for the conductance"), (("--electrical",), "--electrical: is for the conductance"),
     (("--conductivity", "50"), "--conductivity: 50: expected those of both bodies"),
     (("--conductivity", "50,-1"), "--conductivity: 50,-1: expected"),
+    (("--conductivity", "steel,steal"), "--conductivity: steel,steal: expected those of both bodies, two numbers above"),
+    (("--conductivity", "steel,100Cr6"), "--conductivity: 100Cr6: its conductivity is not known: give it"),
+    (("--conductivity", "steel,steel", "--electrical"), "conductivity steel: give the conductivity for a current"),
+    (("--conductivity", "50,50", "--layer2", "1um,god"), "--layer2: 1um,god: expected THICKNESS,CONDUCTIVITY"),
     (("--conductivity", "50,50", "--film=-1"), "--film: -1: expected a number, 0 or more, or a file"),
     (("--layer1", "1um,300"), "--layer1: is for the conductance"),
     (("--conductivity", "50,50", "--layer2", "1um"), "--layer2: 1um: expected THICKNESS,CONDUCTIVITY"),

@@ -96,14 +96,33 @@ def gas(text):
     raise words.WordError(text, form)
 
 
-def layer(text):
-    """Thickness of --layer1 or --layer2, m, and conductivity."""
-    form = "THICKNESS,CONDUCTIVITY, a length and a number above 0, of gold 2um,317"
+def conductivity(text, form):
+    """A conductivity, or the name of a material that has one."""
+    if not materials.has(text):
+        return words.number(text, form, "1", words.positive)
+    materials.conductivity(text)
+    return text
+
+
+def conductivities(text):
+    """Those of --conductivity, numbers or names of materials."""
+    form = "those of both bodies, two numbers above 0, or materials: 50,50 or steel,copper"
     parts = text.split(",")
     try:
         if len(parts) == 2:
-            thickness = words.number(parts[0], form, "m", words.positive)
-            return thickness, words.number(parts[1], form, allowed=words.positive)
+            return tuple(conductivity(part, form) for part in parts)
+    except words.WordError:
+        pass
+    raise words.WordError(text, form)
+
+
+def layer(text):
+    """Thickness of --layer1 or --layer2, m, and conductivity."""
+    form = "THICKNESS,CONDUCTIVITY, a length and a number above 0, or a material: 2um,317 or 2um,gold"
+    parts = text.split(",")
+    try:
+        if len(parts) == 2:
+            return words.number(parts[0], form, "m", words.positive), conductivity(parts[1], form)
     except words.WordError:
         pass
     raise words.WordError(text, form)
@@ -164,8 +183,8 @@ def _stiffness_options(one):
     )  # fmt: skip
     group.add_argument(
         "--conductivity", metavar="LAM1,LAM2",
-        type=word(words.numbers, "those of both bodies, two numbers above 0: 50,50", "1", words.positive, count=2),
-        help="conductivities of both bodies, W/(m K), for the conductance; with --electrical S/m",
+        type=word(conductivities),
+        help="conductivities of both bodies, W/(m K), or materials, for the conductance; with --electrical numbers, S/m",
     )  # fmt: skip
     group.add_argument(
         "--electrical", action="store_true", default=None, help="a current instead of heat: units S/m, S/m2, Ohm m2"
@@ -178,8 +197,8 @@ def _stiffness_options(one):
     for body in "12":
         group.add_argument(
             f"--layer{body}", type=word(layer), metavar="T,LAM", action="append",
-            help=f"thickness and conductivity of a conducting layer on body {body}, such as 2um,317; may be repeated "
-            "from the surface inwards",
+            help=f"thickness and conductivity, or material, of a conducting layer on body {body}, such as 2um,gold; may "
+            "be repeated from the surface inwards",
         )  # fmt: skip
     group.add_argument(
         "--gas", type=word(gas), metavar="LAM,M",

@@ -15,10 +15,11 @@ Source: H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids (1959), chapte
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Union
 
 import numpy as np
 
+from ..core import materials
 from ..core.errors import Error
 
 RATE = 3  # depths of images per octave: two give 2e-6 of F
@@ -33,14 +34,14 @@ class Body(NamedTuple):
 
     Attributes
     ----------
-    lam : float
-        Conductivity, W/(m K), or S/m.
+    lam : float or str
+        Conductivity, W/(m K), or S/m; or a material's name (petsam.materials), as in the layers.
     layers : sequence of (thickness, conductivity)
         Layers on it, m and W/(m K), or S/m, from the surface inwards.
     """
 
-    lam: float
-    layers: Sequence[tuple[float, float]] = ()
+    lam: Union[float, str]
+    layers: Sequence[tuple[float, Union[float, str]]] = ()
 
     def checked(self) -> "Body":
         """The body with numbers as floats.
@@ -52,19 +53,20 @@ class Body(NamedTuple):
         Raises
         ------
         Error
-            If a number is not finite and above 0.
+            If a number is not finite and above 0, or the conductivity of a material is not known.
         """
         try:
-            layers = tuple((float(thickness), float(lam)) for thickness, lam in self.layers)
+            layers = tuple((float(thickness), materials.conductivity(lam)) for thickness, lam in self.layers)
         except (TypeError, ValueError):
             raise Error(
                 f"conduction: layers {self.layers!r}: expected pairs (thickness, conductivity) from the surface inwards"
             ) from None
-        numbers = [float(self.lam), *(one for layer in layers for one in layer)]
+        own = materials.conductivity(self.lam)
+        numbers = [own, *(one for layer in layers for one in layer)]
         if not (np.isfinite(numbers).all() and min(numbers) > 0):
             text = f", layers {layers}" if layers else ""
-            raise Error(f"conduction: conductivity {self.lam:g}{text}: expected finite numbers > 0")
-        return Body(float(self.lam), layers)
+            raise Error(f"conduction: conductivity {own:g}{text}: expected finite numbers > 0")
+        return Body(own, layers)
 
     def resistivity(self, k: np.ndarray) -> np.ndarray:
         """F of waves.

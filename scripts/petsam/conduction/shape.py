@@ -46,13 +46,14 @@ class Conductance:
         return self.per_area - self.contact
 
 
-Layers = Sequence[tuple[float, float]]
+Conductivity = Union[float, str]  # a number, or the name of a material
+Layers = Sequence[tuple[float, Conductivity]]
 
 
 def of(  # noqa: PLR0913  (each body has a conductivity and layers)
     contact: Any,
-    lam1: float,
-    lam2: float,
+    lam1: Conductivity,
+    lam2: Conductivity,
     film: Union[float, ArrayLike, None] = None,
     gas: Optional[tuple[float, float]] = None,
     rtol: float = 1e-8,
@@ -66,8 +67,8 @@ def of(  # noqa: PLR0913  (each body has a conductivity and layers)
     contact : petsam.Contact
         The contact, with a step. Of bodies of type periodic it is one period of an interface; else the spreading of the
         flux into both half-spaces is included, which a finite element model around it must not have again.
-    lam1, lam2 : float
-        Conductivities of both bodies, W/(m K), or S/m.
+    lam1, lam2 : float or str
+        Conductivities of both bodies, W/(m K), or S/m; or materials' names (petsam.materials), as in the layers.
     film : float or array_like, optional
         Resistance of a film on the cells in contact, K m2/W, or Ohm m2; (ny, nx) where it varies.
     gas : pair of floats, optional

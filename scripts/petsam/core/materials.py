@@ -6,7 +6,7 @@ petsam.materials.TABLE["steel"].source
 """
 
 import re
-from typing import NamedTuple, Optional
+from typing import NamedTuple, Optional, Union
 
 from . import declared, words
 from .errors import Error, short, there_are
@@ -159,6 +159,33 @@ def elastic(text: str) -> tuple[float, float]:
         )
     except words.WordError as error:
         raise words.WordError(text, form) from error
+
+
+def conductivity(value: Union[float, str]) -> float:
+    """A thermal conductivity, given as a number or as the name of a material.
+
+    Parameters
+    ----------
+    value : float or str
+        W/(m K), or a name of the table.
+
+    Returns
+    -------
+    float
+        W/(m K).
+
+    Raises
+    ------
+    Error
+        If there is no such material, or its conductivity is not known.
+    """
+    if not isinstance(value, str):
+        return float(value)
+    found = find(value).conductivity
+    if found is None:
+        known = ", ".join(name for name, one in TABLE.items() if one.conductivity)
+        raise Error(f"{short(value)}: its conductivity is not known: give it as a number; it is of {known}")
+    return found
 
 
 def resolved(options: dict) -> dict:

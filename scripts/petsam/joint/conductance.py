@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..conduction import Body, of
-from ..core.errors import Error, Unusable
+from ..core import materials
+from ..core.errors import Error, Unusable, short
 from ..surface.reading import read_values
 from .arguments import array, real
 
@@ -157,8 +158,8 @@ def conductors(
 
     Parameters
     ----------
-    conductivity : pair of floats or None
-        Of both bodies.
+    conductivity : pair of floats or str, or None
+        Of both bodies: numbers, or names of materials (petsam.materials), for heat alone.
     electrical : bool
         True: a current flows instead of heat.
     film : float, array_like, path or None
@@ -184,12 +185,33 @@ def conductors(
             if one:
                 raise Unusable(f"{name}: is for the conductance: give the conductivity of both bodies, too")
         return None
-    lam = _pair("conductivity", conductivity, "two numbers above 0, those of both bodies", lambda a, b: a > 0 and b > 0)
+    lam = _conductivities(conductivity, electrical)
+    for one, own in enumerate(layers, 1):
+        for _, named in own or ():
+            _not_of_a_current(f"layers{one}", named, electrical)
     layers = tuple(None if own is None else Body(one, own).checked().layers for one, own in zip(lam, layers))
     if gas is not None:
         gas = _pair("gas", gas, "a conductivity above 0 and a length >= 0, m", lambda a, b: a > 0 and b >= 0)
     film, name = _film(film)
     return Conductors(lam, film, gas, bool(electrical), layers, name)
+
+
+def _conductivities(given, electrical):
+    """The conductivities of both bodies as numbers."""
+    what = "two numbers above 0, or materials, those of both bodies"
+    if np.ndim(given) != 1 or len(given) != 2:
+        raise Unusable(f"conductivity {given!r}: expected {what}")
+    for one in given:
+        _not_of_a_current("conductivity", one, electrical)
+    return _pair("conductivity", [materials.conductivity(one) for one in given], what, lambda a, b: a > 0 and b > 0)
+
+
+def _not_of_a_current(name, value, electrical):
+    """Ends with an error where a material is named and a current flows."""
+    if electrical and isinstance(value, str):
+        raise Unusable(
+            f"{name} {short(value)}: give the conductivity for a current as a number, S/m: materials have that for heat"
+        )
 
 
 def _film(film):
