@@ -180,7 +180,7 @@ def test_arguments_are_refused_before_the_computation(given, says, monkeypatch):
     (("--film", "1e-6"), "--film: is for the conductance"), (("--electrical",), "--electrical: is for the conductance"),
     (("--conductivity", "50"), "--conductivity: 50: expected those of both bodies"),
     (("--conductivity", "50,-1"), "--conductivity: 50,-1: expected"),
-    (("--conductivity", "steel,steal"), "--conductivity: steel,steal: expected those of both bodies, two numbers above"),
+    (("--conductivity", "steel,steal"), "--conductivity: steel,steal: expected those of both bodies, two numbers"),
     (("--conductivity", "steel,100Cr6"), "--conductivity: 100Cr6: its conductivity is not known: give it"),
     (("--conductivity", "steel,steel", "--electrical"), "conductivity steel: give the conductivity for a current"),
     (("--conductivity", "50,50", "--layer2", "1um,god"), "--layer2: 1um,god: expected THICKNESS,CONDUCTIVITY"),
