@@ -184,7 +184,7 @@ def _stiffness_options(one):
     group.add_argument(
         "--conductivity", metavar="LAM1,LAM2",
         type=word(conductivities),
-        help="conductivities of both bodies, W/(m K), or materials, for the conductance; with --electrical numbers, S/m",
+        help="conductivities of both bodies, W/(m K), or materials, for the conductance; with --electrical S/m",
     )  # fmt: skip
     group.add_argument(
         "--electrical", action="store_true", default=None, help="a current instead of heat: units S/m, S/m2, Ohm m2"
@@ -197,7 +197,7 @@ def _stiffness_options(one):
     for body in "12":
         group.add_argument(
             f"--layer{body}", type=word(layer), metavar="T,LAM", action="append",
-            help=f"thickness and conductivity, or material, of a conducting layer on body {body}, such as 2um,gold; may "
+            help=f"thickness and conductivity, or material, of a conducting layer on body {body}: 2um,gold; may "
             "be repeated from the surface inwards",
         )  # fmt: skip
     group.add_argument(
