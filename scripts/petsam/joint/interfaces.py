@@ -661,8 +661,8 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     estimate : callable, optional
         Called once, after the first pressure of the first window, with an estimate of the time that is left, s.
     conductivity : pair of floats or str, optional
-        Conductivities of both bodies, W/(m K), or S/m, or names of materials (petsam.materials): the conductance is computed, too, with the columns h_contact,
-        h_gap, h and resistance.
+        Conductivities of both bodies, W/(m K), or S/m, or names of materials (petsam.materials): the conductance is
+        computed, too, with the columns h_contact, h_gap, h and resistance.
     electrical : bool
         True: it is that of a current, S/m2, instead of heat, W/(m2 K): changes units alone.
     film : float, array_like or path, optional
