@@ -34,13 +34,17 @@ static const double margin_least[] = {-0.15, -0.03, -0.03}, margin_most[] = {0.2
 #define OUT_LEAST (-0.2) /* a reconstruction relative to the slope, of a cell of the zone */
 #define IN_MOST   0.25   /* the same of a cell outside */
 
-/* The zone, and the reconstruction of the cells of its band and beside it. */
+/* What is known of the reconstruction of a cell of the band by itself */
+typedef enum { UNKNOWN, ROUGH, SMOOTH } Look;
+
+/* The zone, and the reconstruction of the cells of its band and beside it, which are found when they are needed. */
 typedef struct {
-  SamZone   zone;
-  PetscInt *slot;   /* of each cell: its place among the cells of the band, -1 for the others */
-  PetscInt  band;   /* number of cells in the band */
-  char     *smooth; /* of each cell of the band: 1 if its own reconstruction looks like a smooth edge */
-  double   *fit;    /* of each cell of the band: its function */
+  SamZone      zone;
+  SamFitWindow core;
+  PetscInt    *slot; /* of each cell: its place among the cells of the band, -1 for the others */
+  PetscInt     band; /* number of cells in the band */
+  char        *look; /* of each cell of the band: a Look */
+  double      *fit;  /* of each cell of the band: its function, once it has a look */
 } Band;
 
 /*
@@ -86,17 +90,29 @@ static PetscBool Reconstruct(const SamZone *z, const SamFitWindow *core, PetscIn
   return fit[0] > OUT_LEAST * slope && over >= margin_least[margin] && over <= margin_most[margin];
 }
 
-/* True if a cell of the band and all its neighbours are marked as part of a smooth edge. */
-static PetscBool IsSmoothAbout(const Band *band, PetscInt i, PetscInt j)
+static Look LookAt(Band *band, PetscInt i, PetscInt j, PetscInt k)
+{
+  if (band->look[k] == UNKNOWN)
+    band->look[k] =
+      (char)(Reconstruct(&band->zone, &band->core, i, j, band->fit + SAM_FIT_TERMS * (ptrdiff_t)k) ? SMOOTH : ROUGH);
+  return (Look)band->look[k];
+}
+
+/*
+  True if a cell of the band and all its neighbours look like parts of a smooth edge. Those that are known come first,
+  then those behind it: on rough surfaces one reconstruction decides on nine cells.
+*/
+static PetscBool IsSmoothAbout(Band *band, PetscInt i, PetscInt j)
 {
   const SamZone *z = &band->zone;
 
-  for (PetscInt b = j - 1; b <= j + 1; b++)
-    for (PetscInt a = i - 1; a <= i + 1; a++) {
-      const PetscInt k = SamZoneHas(z, a, b) ? band->slot[SamZoneAt(z, a, b)] : -1;
+  for (int pass = 0; pass < 2; pass++)
+    for (PetscInt b = j + 1; b >= j - 1; b--)
+      for (PetscInt a = i + 1; a >= i - 1; a--) {
+        const PetscInt k = SamZoneHas(z, a, b) ? band->slot[SamZoneAt(z, a, b)] : -1;
 
-      if (k >= 0 && !band->smooth[k]) return PETSC_FALSE;
-    }
+        if (k >= 0 && (pass ? LookAt(band, a, b, k) : (Look)band->look[k]) == ROUGH) return PETSC_FALSE;
+      }
   return PETSC_TRUE;
 }
 
@@ -139,7 +155,7 @@ static PetscBool IsBlunt(const SamZone *z, PetscInt i, PetscInt j)
 }
 
 /* Adds a cell to the sums and to the edge, and writes its value. */
-static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS], double *point, SamEdge *edge)
+static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], double *point, SamEdge *edge)
 {
   static const PetscInt x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
 
@@ -180,27 +196,25 @@ PetscErrorCode SamEdgeDestroy(SamEdge *edge)
 
 /* ---- all cells ---- */
 
-static PetscErrorCode Examine(Band *band)
+/* Finds the cells of the band in the rows that are needed: this rank's, and one on each side. */
+static PetscErrorCode FindBand(Band *band)
 {
   const SamZone  *z     = &band->zone;
   const ptrdiff_t cells = (ptrdiff_t)z->count * z->width;
-  const PetscInt  begin = PetscMax(z->grid->row_start - 1, z->first), /* first of the rows whose cells are needed */
-    end                 = PetscMin(z->grid->row_start + z->grid->rows + 1, z->first + z->count);
-  SamFitWindow core;
+  const PetscInt  begin = PetscMax(z->grid->row_start - 1, z->first),
+                 end    = PetscMin(z->grid->row_start + z->grid->rows + 1, z->first + z->count);
 
   PetscFunctionBegin;
-  SamFitWindowInitialize(WINDOW, LAST + 1, &core);
+  SamFitWindowInitialize(WINDOW, LAST + 1, &band->core);
   PetscCall(PetscMalloc1(cells, &band->slot));
-  for (PetscInt j = z->first; j < z->first + z->count; j++)
-    for (ptrdiff_t k = SamZoneAt(z, z->left, j), last = k + z->width; k < last; k++)
-      band->slot[k] = j >= begin && j < end && z->distance[k] >= NEXT && z->distance[k] <= LAST ? band->band++ : -1;
-  PetscCall(PetscMalloc2(band->band, &band->smooth, SAM_FIT_TERMS * band->band, &band->fit));
-  for (PetscInt j = begin; j < end; j++)
-    for (PetscInt i = PetscMax(z->left, -1); i < PetscMin(z->left + z->width, z->grid->nx + 1); i++) {
-      const PetscInt k = band->slot[SamZoneAt(z, i, j)];
+  for (PetscInt j = z->first; j < z->first + z->count; j++) {
+    const PetscBool without = j < begin || j >= end || SamZoneIsBare(z, j);
 
-      if (k >= 0) band->smooth[k] = (char)Reconstruct(z, &core, i, j, band->fit + SAM_FIT_TERMS * (ptrdiff_t)k);
-    }
+    for (ptrdiff_t k = SamZoneAt(z, z->left, j), last = k + z->width; k < last; k++)
+      band->slot[k] = !without && z->distance[k] >= NEXT && z->distance[k] <= LAST ? band->band++ : -1;
+  }
+  PetscCall(PetscCalloc1(band->band, &band->look)); /* UNKNOWN */
+  PetscCall(PetscMalloc1(SAM_FIT_TERMS * band->band, &band->fit));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -208,7 +222,8 @@ static PetscErrorCode Destroy(Band *band)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(band->slot));
-  PetscCall(PetscFree2(band->smooth, band->fit));
+  PetscCall(PetscFree(band->look));
+  PetscCall(PetscFree(band->fit));
   PetscCall(SamZoneDestroy(&band->zone));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -221,15 +236,21 @@ PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, Vec p
 
   PetscFunctionBegin;
   PetscCall(SamZoneCreate(grid, periodic, w, HALO, BAND, &band.zone));
-  PetscCall(Examine(&band));
+  PetscCall(FindBand(&band));
   edge->count = 0;
   PetscCall(PetscMalloc4(band.band, &edge->x, band.band, &edge->y, band.band, &edge->cell, band.band, &edge->fit));
   if (point) PetscCall(VecGetArray(point, &points));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    double row[SUMS] = {0};
+    double          row[SUMS] = {0};
+    double *const   values    = points ? points + (ptrdiff_t)j * grid->nx : NULL;
+    const ptrdiff_t first     = SamZoneAt(&band.zone, 0, grid->row_start + j);
 
+    if (SamZoneIsBare(&band.zone, grid->row_start + j)) {
+      if (values) PetscCall(PetscArraycpy(values, band.zone.w + first, grid->nx));
+      continue;
+    }
     for (PetscInt i = 0; i < grid->nx; i++)
-      AddCell(&band, i, grid->row_start + j, row, points ? points + (ptrdiff_t)j * grid->nx + i : NULL, edge);
+      AddCell(&band, i, grid->row_start + j, row, values ? values + i : NULL, edge);
     SamAddAll(SUMS, totals, row);
   }
   if (point) PetscCall(VecRestoreArray(point, &points));

@@ -20,6 +20,7 @@ typedef struct {
   PetscInt     left, width;  /* columns of the window */
   double      *w;
   signed char *distance;
+  char        *bare; /* of each row: 1 if no cell of the zone is within reach of its cells */
 } SamZone;
 /*
   SamZoneCreate - creates a zone. `halo`: number of rows before and after this rank's rows in the window, and of columns
@@ -37,6 +38,12 @@ static inline PetscBool SamZoneHas(const SamZone *z, PetscInt i, PetscInt j)
 static inline ptrdiff_t SamZoneAt(const SamZone *z, PetscInt i, PetscInt j)
 {
   return (ptrdiff_t)(j - z->first) * z->width + i - z->left;
+}
+
+/* True if no cell of the zone is within reach of the cells of a row. */
+static inline PetscBool SamZoneIsBare(const SamZone *z, PetscInt j)
+{
+  return (PetscBool)z->bare[j - z->first];
 }
 
 /* A quadratic function about a cell's centre, of the place in cells from it; its terms are 1, x, y, x^2, x y, y^2. */

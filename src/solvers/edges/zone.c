@@ -1,5 +1,6 @@
 /* Zones: distances from the edge, found from the cells outside that touch the zone. */
 #include "edgesimpl.h"
+#include <string.h>
 
 /* Marks each cell of a row that is marked in `in`, or whose neighbour in the row is. */
 static void Widen(PetscInt n, const char in[], char out[])
@@ -11,20 +12,23 @@ static void Widen(PetscInt n, const char in[], char out[])
 
 /* Offsets within the reach, and their squared lengths */
 typedef struct {
-  PetscInt    count, x[512], y[512];
+  PetscInt    reach, count, x[512], y[512];
+  ptrdiff_t   at[512]; /* from the cell in the middle, in the zone's arrays */
   signed char square[512];
 } Disc;
 
-static void FillDisc(PetscReal reach, Disc *disc)
+static void FillDisc(PetscInt width, PetscReal reach, Disc *disc)
 {
   const PetscInt most = (PetscInt)reach;
 
+  disc->reach = most;
   disc->count = 0;
   for (PetscInt b = -most; b <= most; b++)
     for (PetscInt a = -most; a <= most; a++)
       if (a * a + b * b <= reach * reach) {
         disc->x[disc->count]        = a;
         disc->y[disc->count]        = b;
+        disc->at[disc->count]       = (ptrdiff_t)b * width + a;
         disc->square[disc->count++] = (signed char)(a * a + b * b);
       }
 }
@@ -32,15 +36,14 @@ static void FillDisc(PetscReal reach, Disc *disc)
 /* For cells of the other kind in the disc about an edge cell, lowers the distances to the distance from this cell. */
 static void Mark(SamZone *z, const Disc *disc, const char in[], PetscInt i, PetscInt j)
 {
-  const char inside = in[SamZoneAt(z, i, j)];
+  const PetscInt  reach  = disc->reach;
+  const PetscBool whole  = (PetscBool)(SamZoneHas(z, i - reach, j - reach) && SamZoneHas(z, i + reach, j + reach));
+  const char      inside = in[SamZoneAt(z, i, j)];
 
   for (PetscInt k = 0; k < disc->count; k++) {
-    const PetscInt a = i + disc->x[k], b = j + disc->y[k];
-    ptrdiff_t      at;
+    const ptrdiff_t at = SamZoneAt(z, i, j) + disc->at[k];
 
-    if (!SamZoneHas(z, a, b)) continue;
-    at = SamZoneAt(z, a, b);
-    if (in[at] == inside) continue;
+    if ((!whole && !SamZoneHas(z, i + disc->x[k], j + disc->y[k])) || in[at] == inside) continue;
     z->distance[at] =
       (signed char)(inside ? PetscMax(z->distance[at], -disc->square[k]) : PetscMin(z->distance[at], disc->square[k]));
   }
@@ -57,18 +60,25 @@ static PetscErrorCode FindDistances(SamZone *z, PetscReal reach)
   Disc           disc;
 
   PetscFunctionBegin;
-  FillDisc(reach, &disc);
+  FillDisc(n, reach, &disc);
   PetscCall(PetscMalloc4(z->count * n, &in, z->count * n, &wide[0], z->count * n, &wide[1], n, &any));
+  (void)memset(z->bare, 1, (size_t)z->count);
   for (PetscInt j = 0; j < z->count; j++) {
+    PetscInt cells = 0;
+
     for (PetscInt i = 0, k = j * n; i < n; i++, k++) {
       in[k]          = z->w[k] > 0 ? 1 : 0;
       any[i]         = 1 - in[k]; /* cells outside */
       z->distance[k] = in[k] ? SAM_FAR : -SAM_FAR;
+      cells += in[k];
     }
     Widen(n, any, wide[0] + j * n);
     Widen(n, in + j * n, wide[1] + j * n);
+    for (PetscInt b = PetscMax(j - disc.reach, 0); cells && b <= PetscMin(j + disc.reach, z->count - 1); b++)
+      z->bare[b] = 0;
   }
   for (PetscInt j = 0; j < z->count; j++) {
+    if (z->bare[j]) continue;
     const PetscInt before = PetscMax(j - 1, 0) * n, here = j * n, after = PetscMin(j + 1, z->count - 1) * n;
 
     for (PetscInt i = 0; i < n; i++)
@@ -129,7 +139,7 @@ PetscErrorCode SamZoneCreate(SamGrid grid, PetscBool periodic, Vec field, PetscI
   *z       = (SamZone){.grid = grid, .left = -columns, .width = grid->nx + 2 * columns};
   z->first = wraps ? begin : PetscMax(begin, 0);
   z->count = grid->rows ? (wraps ? end : PetscMin(end, grid->ny)) - z->first : 0;
-  PetscCall(PetscMalloc2(z->count * z->width, &z->w, z->count * z->width, &z->distance));
+  PetscCall(PetscMalloc3(z->count * z->width, &z->w, z->count * z->width, &z->distance, z->count, &z->bare));
   PetscCall(Fetch(z, field));
   PetscCall(FindDistances(z, reach));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -138,6 +148,6 @@ PetscErrorCode SamZoneCreate(SamGrid grid, PetscBool periodic, Vec field, PetscI
 PetscErrorCode SamZoneDestroy(SamZone *z)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(z->w, z->distance));
+  PetscCall(PetscFree3(z->w, z->distance, z->bare));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
