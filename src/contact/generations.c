@@ -206,13 +206,13 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactFindEdge(SamContact c, SamEdgeOf which, Vec point, SamEdge *edge)
+PetscErrorCode SamContactFindEdge(SamContact c, SamEdgeOf which, const SamEdge **edge)
 {
   const SamSolution *s;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(SamSolutionFindEdge(c->problem, s, which, point, edge));
+  PetscCall(SamSolutionFindEdge(c->problem, s, which, edge));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

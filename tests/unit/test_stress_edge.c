@@ -36,7 +36,7 @@ static Sliding NewSliding(PetscInt n, double mu)
   s.field = NewField(grid, SAM_STRESS_COMPONENTS);
   square  = NewField(grid, 1);
   sam_call(VecPointwiseMult(square, SolutionOf(&s.c)->pressure, SolutionOf(&s.c)->pressure));
-  sam_call(SamEdgeReconstruct(grid, PETSC_FALSE, square, NULL, &s.edge));
+  sam_call(SamEdgeReconstruct(grid, PETSC_FALSE, square, &s.edge));
   sam_call(VecGetArrayRead(SolutionOf(&s.c)->pressure, &p));
   sam_call(VecGetArray(s.field, &a));
   for (PetscInt k = 0; k < grid->cells; k++) {
@@ -118,7 +118,7 @@ static void test_edge_at_the_border_is_left(void **state)
   (void)state;
   (void)Solve(&c, &(SamControl[]){Loads(&c, 1, 0, 0, 0)}[0]);
   sam_call(VecPointwiseMult(square, SolutionOf(&c)->pressure, SolutionOf(&c)->pressure));
-  sam_call(SamEdgeReconstruct(c.s.grid, PETSC_FALSE, square, NULL, &edge));
+  sam_call(SamEdgeReconstruct(c.s.grid, PETSC_FALSE, square, &edge));
   sam_call(PetscMalloc1(3 * edge.count, &stress));
   sam_call(SamStressAtEdge(body, field, &edge, stress));
   for (PetscInt k = 0; k < edge.count; k++)

@@ -163,11 +163,10 @@ PETSC_EXTERN PetscErrorCode SamContactPrintLaws(SamContact contact, PetscViewer 
 PETSC_INTERN PetscErrorCode SamContactAdvise(SamContact contact, PetscInt *k, char text[], size_t size);
 
 /*
-  SamContactFindEdge - reconstructs the contact edge or the stick-slip boundary of the solution (edges.h), with its
-  points. `point` (one component, Pa2; NULL: not wanted) becomes the square of the traction that vanishes at the edge,
-  at the centres of the cells: p^2 for the contact, (p - |q|/mu)^2 for the stick zone. Collective.
+  SamContactFindEdge - reconstructs the contact edge or the stick-slip boundary of the solution (edges.h), which is
+  borrowed until the next step. Collective.
 */
-PETSC_INTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf which, Vec point, SamEdge *edge);
+PETSC_INTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf which, const SamEdge **edge);
 
 /*
   SamContactSetState - copies the committed state of another contact of the same problem, or one that was read from a

@@ -22,6 +22,10 @@ typedef struct _n_SamEdge {
   PetscInt  *cell;  /* index of the cell in this rank's part of the grid */
   /* coefficients of w around the cell of each point: terms 1, x, y, x^2, x y, y^2, in cells from its centre */
   PetscReal (*fit)[6];
+  /* this rank's cells beside the edge whose reconstruction is accepted, and their w at the centre, negative beyond */
+  PetscInt   corrected;
+  PetscInt  *corrected_cell;
+  PetscReal *corrected_w;
 } SamEdge;
 
 /*
@@ -34,14 +38,15 @@ typedef enum { SAM_EDGE_CONTACT, SAM_EDGE_STICK } SamEdgeOf;
 /*
   SamEdgeReconstruct - reconstructs the edge of the zone where w > 0. `w` (one component): the square of the traction
   that vanishes at the edge, in any unit; 0 outside of the zone. `periodic`: the edge continues over the border of the
-  grid. `point` (one component), if not NULL, becomes w at the centres of the cells: the reconstruction where it is
-  accepted, negative beyond the edge, else w. Collective.
+  grid. Collective.
   The reconstruction in a cell is accepted if there are enough cells behind it, their w lie on a quadratic function, and
   the difference from w is that of the margin of a smooth edge, in the cell and in its eight neighbours. Rough surfaces
   and zones of a few cells fail these tests, and their cells are counted.
 */
-PETSC_INTERN PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, Vec point, SamEdge *edge);
-/* SamEdgeDestroy - frees the points. Not collective. */
+PETSC_INTERN PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, SamEdge *edge);
+/* SamEdgeCorrect - replaces w of cells beside the edge by that at their centres. Not collective. */
+PETSC_INTERN PetscErrorCode SamEdgeCorrect(const SamEdge *edge, Vec w);
+/* SamEdgeDestroy - frees its arrays. Not collective. */
 PETSC_INTERN PetscErrorCode SamEdgeDestroy(SamEdge *edge);
 
 #endif

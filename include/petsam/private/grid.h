@@ -16,6 +16,12 @@ PETSC_INTERN PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse);
 PETSC_INTERN PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, Vec field, const char words[]);
 /* SamGridIsFinite - sets `is` to true if all values of a field are finite. Collective. */
 PETSC_INTERN PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is);
+/*
+  SamVecOwn - gives data to a field under a name; when the field is destroyed, free(data) is called.
+  SamVecGetOwned - gets them, or NULL; they stay the field's. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamVecOwn(Vec field, const char name[], void *data, PetscErrorCode (*free)(void *data));
+PETSC_INTERN PetscErrorCode SamVecGetOwned(Vec field, const char name[], void **data);
 /* SamVecZero - sets a field to zero; it does not write where the field is already zero. Collective. */
 PETSC_INTERN PetscErrorCode SamVecZero(Vec field);
 /* SamVecCopyNonzero - copies a field; does not write where both are zero, so that untouched pages take no memory. */

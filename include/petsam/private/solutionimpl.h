@@ -195,15 +195,15 @@ PETSC_INTERN PetscErrorCode SamSolutionDeclareSpots(SamState state);
 PETSC_INTERN PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *now);
 
 /*
-  SamSolutionFindEdge - reconstructs the contact edge or the stick-slip boundary, with its points. `point` (one
-  component, Pa2; NULL: not wanted) becomes the square of the traction that vanishes at the edge, at the centres of the
-  cells: p^2 for the contact, (p - |q|/mu)^2 for the stick zone. Collective.
+  SamSolutionFindEdge - reconstructs the contact edge or the stick-slip boundary, by the square (Pa2) of the traction
+  that vanishes there: p^2 for the contact, (p - |q|/mu)^2 for the stick zone. The edge is kept with the solution's
+  shear until one of its tractions changes; it is borrowed. Collective.
   SamSolutionComputePressureCenter, SamSolutionComputeShearCenter - compute the tractions (Pa) at the centres of the
   cells, with these edges, from the means over cells in the solution. If an edge is not smooth the means stay.
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *solution, SamEdgeOf which,
-                                                Vec point, SamEdge *edge);
+                                                const SamEdge **edge);
 PETSC_INTERN PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, const SamSolution *solution,
                                                              Vec pressure);
 PETSC_INTERN PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, const SamSolution *solution,

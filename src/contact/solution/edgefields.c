@@ -1,6 +1,9 @@
 /* The edges of contact and stick of a solution, and tractions at the centres of cells. */
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/grid.h>
 #include <petsam/private/problem.h>
+#include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
+#include <string.h>
 
 /*
   Fills in an edge function of this rank's cells, linear in the distance from the edge: p^2 for the contact,
@@ -26,16 +29,77 @@ static PetscErrorCode FillSquares(const SamSolution *s, SamEdgeOf which, Vec w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *s, SamEdgeOf which, Vec point, SamEdge *edge)
+/* ---- the edges that are kept ---- */
+
+/* The edges of a solution and what they were found from; they are kept with its shear */
+enum { FROM = 3 };
+typedef struct {
+  PetscObjectId    field[FROM];
+  PetscObjectState state[FROM];
+  SamEdge          edge[2];
+  PetscBool        known[2];
+} Kept;
+
+static PetscErrorCode Forget(Kept *kept)
+{
+  PetscFunctionBegin;
+  for (int k = 0; k < 2; k++) PetscCall(SamEdgeDestroy(&kept->edge[k]));
+  *kept = (Kept){.known = {PETSC_FALSE}};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FreeKept(void *pointer)
+{
+  Kept *const kept = (Kept *)pointer;
+
+  PetscFunctionBegin;
+  PetscCall(Forget(kept));
+  PetscCall(PetscFree(pointer));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Gets the edges kept with a solution's shear, without those of fields that have changed since. */
+static PetscErrorCode GetKept(const SamSolution *s, Kept **kept)
+{
+  const Vec fields[FROM] = {s->pressure, s->bound, s->shear};
+  Kept      now          = {.known = {PETSC_FALSE}};
+
+  PetscFunctionBegin;
+  for (int k = 0; k < FROM; k++) {
+    PetscCall(PetscObjectGetId((PetscObject)fields[k], &now.field[k]));
+    PetscCall(PetscObjectStateGet((PetscObject)fields[k], &now.state[k]));
+  }
+  PetscCall(SamVecGetOwned(s->shear, "sam_edges", (void **)kept));
+  if (!*kept) {
+    PetscCall(PetscNew(kept));
+    PetscCall(SamVecOwn(s->shear, "sam_edges", *kept, FreeKept));
+  }
+  if (memcmp((*kept)->field, now.field, sizeof(now.field)) || memcmp((*kept)->state, now.state, sizeof(now.state))) {
+    PetscCall(Forget(*kept));
+    **kept = now;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *s, SamEdgeOf which, const SamEdge **edge)
 {
   const SamGrid   grid     = SamProblemGetGrid(problem);
   const PetscBool periodic = SamElasticityGetTraits(SamProblemGetElasticity(problem)).periodic;
+  Kept           *kept;
+  double          unknown;
   Vec             w;
 
   PetscFunctionBegin;
+  PetscCall(GetKept(s, &kept));
+  unknown = kept->known[which] ? 0 : 1;
+  PetscCall(SamMax(grid->comm, 1, &unknown)); /* states of fields may differ between ranks */
+  *edge = &kept->edge[which];
+  if (unknown == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamEdgeDestroy(&kept->edge[which]));
   PetscCall(SamGridCreateVec(grid, 1, &w));
   PetscCall(FillSquares(s, which, w));
-  PetscCall(SamEdgeReconstruct(grid, periodic, w, point, edge));
+  PetscCall(SamEdgeReconstruct(grid, periodic, w, &kept->edge[which]));
+  kept->known[which] = PETSC_TRUE;
   PetscCall(VecDestroy(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -45,13 +109,14 @@ PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *s, Sam
 /* Computes the square root of the edge function, which vanishes at the edge, at the cells' centres. */
 static PetscErrorCode ComputeRoots(SamProblem problem, const SamSolution *s, SamEdgeOf which, Vec root)
 {
-  SamEdge  edge;
-  double  *value;
-  PetscInt cells;
+  const SamEdge *edge;
+  double        *value;
+  PetscInt       cells;
 
   PetscFunctionBegin;
-  PetscCall(SamSolutionFindEdge(problem, s, which, root, &edge));
-  PetscCall(SamEdgeDestroy(&edge));
+  PetscCall(SamSolutionFindEdge(problem, s, which, &edge));
+  PetscCall(FillSquares(s, which, root));
+  PetscCall(SamEdgeCorrect(edge, root));
   PetscCall(VecGetLocalSize(root, &cells));
   PetscCall(VecGetArray(root, &value));
   for (PetscInt k = 0; k < cells; k++) value[k] = value[k] > 0 ? sqrt(value[k]) : 0;

@@ -250,28 +250,26 @@ static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSol
                                 double numbers[NUMBERS])
 {
   const PetscBool both = numbers[STICK_CELLS] > 0 && numbers[STICK_CELLS] < numbers[CONTACT_CELLS];
-  SamEdge         edge;
+  const SamEdge  *edge;
   const SamGrid   grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
   if (contact[KNOWN] == 0) {
-    PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_CONTACT, NULL, &edge));
+    PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_CONTACT, &edge));
     contact[KNOWN] = 1;
-    contact[AREA]  = edge.area;
-    contact[FACES] = edge.faces;
-    contact[GOOD]  = edge.good;
-    PetscCall(SamEdgeDestroy(&edge));
+    contact[AREA]  = edge->area;
+    contact[FACES] = edge->faces;
+    contact[GOOD]  = edge->good;
   }
-  PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, NULL, &edge));
-  PetscCall(SamSolutionFindShear(problem, state, s, both ? &edge : NULL, &numbers[SHEAR_MAX]));
+  PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, &edge));
+  PetscCall(SamSolutionFindShear(problem, state, s, both ? edge : NULL, &numbers[SHEAR_MAX]));
   numbers[CONTACT_AREA] = contact[AREA];
-  numbers[STICK_AREA]   = edge.area;
+  numbers[STICK_AREA]   = edge->area;
   numbers[SLIP_WIDTH]   = NAN; /* flat periodic bodies have no edge */
   if (contact[FACES] > 0)
-    numbers[SLIP_WIDTH] = PetscMax(contact[AREA] - (double)edge.area, 0) / SamContactEdgeLength(grid, contact[FACES]);
+    numbers[SLIP_WIDTH] = PetscMax(contact[AREA] - (double)edge->area, 0) / SamContactEdgeLength(grid, contact[FACES]);
   numbers[EDGE_ACCEPTED] =
-    contact[FACES] + edge.faces > 0 ? (contact[GOOD] + edge.good) / (contact[FACES] + edge.faces) : 1;
-  PetscCall(SamEdgeDestroy(&edge));
+    contact[FACES] + edge->faces > 0 ? (contact[GOOD] + edge->good) / (contact[FACES] + edge->faces) : 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -200,31 +200,78 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* PETSc passes the array; from 3.23 on, the address of the pointer to it; since 3.25 that as a pointer to void. */
+/* What belongs to a field */
+typedef struct {
+  void *data;
+  PetscErrorCode (*free)(void *data);
+} Owned;
+
+static PetscErrorCode FreeOwned(Owned *owned)
+{
+  PetscFunctionBegin;
+  PetscCall((*owned->free)(owned->data));
+  PetscCall(PetscFree(owned));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* PETSc passes the pointer; from 3.23 on, the address of the pointer to it; since 3.25 that as a pointer to void. */
 #if PETSC_VERSION_LT(3, 23, 0)
   #define PetscContainerSetCtxDestroy PetscContainerSetUserDestroy
-static PetscErrorCode FreeArray(void *array)
+static PetscErrorCode Free(void *owned)
 {
-  SamFree(array);
-  return PETSC_SUCCESS;
+  return FreeOwned((Owned *)owned);
 }
 #else
   #if PETSC_VERSION_LT(3, 25, 0)
 typedef void        **PetscCtxRt;
   #endif
-static PetscErrorCode FreeArray(PetscCtxRt address)
+static PetscErrorCode Free(PetscCtxRt address)
 {
-  SamFree(*(void **)address);
-  return PETSC_SUCCESS;
+  return FreeOwned(*(Owned **)address);
 }
 #endif
 
+PetscErrorCode SamVecOwn(Vec field, const char name[], void *data, PetscErrorCode (*free)(void *))
+{
+  PetscContainer container;
+  Owned         *owned;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&owned));
+  *owned = (Owned){data, free};
+  PetscCall(PetscContainerCreate(PETSC_COMM_SELF, &container));
+  PetscCall(PetscContainerSetPointer(container, owned));
+  PetscCall(PetscContainerSetCtxDestroy(container, Free));
+  PetscCall(PetscObjectCompose((PetscObject)field, name, (PetscObject)container));
+  PetscCall(PetscContainerDestroy(&container));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamVecGetOwned(Vec field, const char name[], void **data)
+{
+  PetscContainer container;
+  Owned         *owned;
+
+  PetscFunctionBegin;
+  *data = NULL;
+  PetscCall(PetscObjectQuery((PetscObject)field, name, (PetscObject *)&container));
+  if (!container) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscContainerGetPointer(container, (void **)&owned));
+  *data = owned->data;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FreeArray(void *array)
+{
+  SamFree(array);
+  return PETSC_SUCCESS;
+}
+
 PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
 {
-  PetscInt       n, all;
-  PetscContainer owner;
-  PetscScalar   *array;
-  PetscMPIInt    ranks;
+  PetscInt     n, all;
+  PetscScalar *array;
+  PetscMPIInt  ranks;
 
   PetscFunctionBegin;
   SamValidHandle(grid, SamGrid, 1);
@@ -237,11 +284,7 @@ PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
     PetscCall(VecCreateMPIWithArray(grid->comm, 1, n, all, array, field));
   else
     PetscCall(VecCreateSeqWithArray(grid->comm, 1, n, array, field));
-  PetscCall(PetscContainerCreate(PETSC_COMM_SELF, &owner));
-  PetscCall(PetscContainerSetPointer(owner, array));
-  PetscCall(PetscContainerSetCtxDestroy(owner, FreeArray));
-  PetscCall(PetscObjectCompose((PetscObject)*field, "sam_array", (PetscObject)owner));
-  PetscCall(PetscContainerDestroy(&owner));
+  PetscCall(SamVecOwn(*field, "sam_array", array, FreeArray));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

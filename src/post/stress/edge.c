@@ -40,7 +40,7 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
   SamStressAddUniform(e, step, &(SamPoints){.count = 1, .depths = 1, .plane = 1}, far);
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));
-  PetscCall(SamEdgeReconstruct(g, SamElasticityGetTraits(e->source.bodies).periodic, square, NULL, &edge));
+  PetscCall(SamEdgeReconstruct(g, SamElasticityGetTraits(e->source.bodies).periodic, square, &edge));
   e->edge_lost += edge.faces > 0 && edge.good < FOUND * edge.faces;
   PetscCall(PetscMalloc1(PLANE * edge.count, &stress));
   PetscCall(SamStressAtEdge(e->stress, field, &edge, stress));

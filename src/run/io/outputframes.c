@@ -95,12 +95,11 @@ static PetscErrorCode Convert(SamOutput o, PetscInt f, PetscInt count, const dou
 
 static PetscErrorCode GetPoints(SamOutput o, PetscInt f, Frame *frame)
 {
-  SamEdge edge;
+  const SamEdge *edge;
 
   PetscFunctionBegin;
-  PetscCall(SamContactFindEdge(o->set.contact, (SamEdgeOf)SamOutputResult(o, f)->component, NULL, &edge));
-  PetscCall(SamOutputGatherPoints(o, &edge, &frame->points));
-  PetscCall(SamEdgeDestroy(&edge));
+  PetscCall(SamContactFindEdge(o->set.contact, (SamEdgeOf)SamOutputResult(o, f)->component, &edge));
+  PetscCall(SamOutputGatherPoints(o, edge, &frame->points));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

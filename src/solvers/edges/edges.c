@@ -154,12 +154,13 @@ static PetscBool IsBlunt(const SamZone *z, PetscInt i, PetscInt j)
   return farthest > 2 && z->w[SamZoneAt(z, i, j)] > BLUNT * behind;
 }
 
-/* Adds a cell to the sums and to the edge, and writes its value. */
-static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], double *point, SamEdge *edge)
+/* Adds a cell to the sums and to the edge. */
+static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], SamEdge *edge)
 {
   static const PetscInt x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
 
   const SamZone  *z      = &band->zone;
+  const SamGrid   grid   = z->grid;
   const ptrdiff_t k      = SamZoneAt(z, i, j);
   const PetscInt  slot   = band->slot[k];
   const PetscBool inside = z->distance[k] > 0;
@@ -170,7 +171,6 @@ static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], doubl
   sums[CELLS] += inside ? 1 : 0;
   if (slot < 0) {
     sums[AREA] += inside ? 1 : 0;
-    if (point) *point = z->w[k];
     return;
   }
   good = IsSmoothAbout(band, i, j);
@@ -182,15 +182,46 @@ static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], doubl
   sums[AREA] += good     ? SamFitPart(fit)
                 : inside ? 1 - (faces && !IsBlunt(z, i, j) ? SAM_EDGE_FACE * (double)faces : 0)
                          : 0;
-  if (point) *point = good ? fit[0] : z->w[k];
-  if (good) AddPoint(z->grid, fit, i, j, edge);
+  if (!good) return;
+  edge->corrected_cell[edge->corrected] = (j - grid->row_start) * grid->nx + i;
+  edge->corrected_w[edge->corrected++]  = fit[0];
+  AddPoint(grid, fit, i, j, edge);
+}
+
+/* Creates the arrays of an edge, or gives back what they have beyond their numbers of points and of cells. */
+static PetscErrorCode Allocate(SamEdge *edge, PetscInt points, PetscInt corrected)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc(sizeof(*edge->x) * (size_t)points, &edge->x));
+  PetscCall(PetscRealloc(sizeof(*edge->y) * (size_t)points, &edge->y));
+  PetscCall(PetscRealloc(sizeof(*edge->cell) * (size_t)points, &edge->cell));
+  PetscCall(PetscRealloc(sizeof(*edge->fit) * (size_t)points, &edge->fit));
+  PetscCall(PetscRealloc(sizeof(*edge->corrected_cell) * (size_t)corrected, &edge->corrected_cell));
+  PetscCall(PetscRealloc(sizeof(*edge->corrected_w) * (size_t)corrected, &edge->corrected_w));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamEdgeDestroy(SamEdge *edge)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree4(edge->x, edge->y, edge->cell, edge->fit));
-  edge->count = 0;
+  PetscCall(PetscFree(edge->x));
+  PetscCall(PetscFree(edge->y));
+  PetscCall(PetscFree(edge->cell));
+  PetscCall(PetscFree(edge->fit));
+  PetscCall(PetscFree(edge->corrected_cell));
+  PetscCall(PetscFree(edge->corrected_w));
+  edge->count = edge->corrected = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEdgeCorrect(const SamEdge *edge, Vec w)
+{
+  double *values;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(w, &values));
+  for (PetscInt k = 0; k < edge->corrected; k++) values[edge->corrected_cell[k]] = (double)edge->corrected_w[k];
+  PetscCall(VecRestoreArray(w, &values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -228,33 +259,26 @@ static PetscErrorCode Destroy(Band *band)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, Vec point, SamEdge *edge)
+PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, SamEdge *edge)
 {
   SamTotal totals[SUMS] = {{0}};
   Band     band         = {.band = 0};
-  double  *points       = NULL, sums[SUMS];
+  double   sums[SUMS];
 
   PetscFunctionBegin;
   PetscCall(SamZoneCreate(grid, periodic, w, HALO, BAND, &band.zone));
   PetscCall(FindBand(&band));
-  edge->count = 0;
-  PetscCall(PetscMalloc4(band.band, &edge->x, band.band, &edge->y, band.band, &edge->cell, band.band, &edge->fit));
-  if (point) PetscCall(VecGetArray(point, &points));
+  *edge = (SamEdge){.count = 0};
+  PetscCall(Allocate(edge, band.band, band.band));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    double          row[SUMS] = {0};
-    double *const   values    = points ? points + (ptrdiff_t)j * grid->nx : NULL;
-    const ptrdiff_t first     = SamZoneAt(&band.zone, 0, grid->row_start + j);
+    double row[SUMS] = {0};
 
-    if (SamZoneIsBare(&band.zone, grid->row_start + j)) {
-      if (values) PetscCall(PetscArraycpy(values, band.zone.w + first, grid->nx));
-      continue;
-    }
-    for (PetscInt i = 0; i < grid->nx; i++)
-      AddCell(&band, i, grid->row_start + j, row, values ? values + i : NULL, edge);
+    if (SamZoneIsBare(&band.zone, grid->row_start + j)) continue;
+    for (PetscInt i = 0; i < grid->nx; i++) AddCell(&band, i, grid->row_start + j, row, edge);
     SamAddAll(SUMS, totals, row);
   }
-  if (point) PetscCall(VecRestoreArray(point, &points));
   PetscCall(Destroy(&band));
+  PetscCall(Allocate(edge, edge->count, edge->corrected));
   PetscCall(SamSumTotals(grid->comm, SUMS, totals, sums));
   edge->area  = sums[AREA] * grid->dx * grid->dy;
   edge->cells = (PetscInt)sums[CELLS];
