@@ -1,12 +1,13 @@
 """Periodic bodies: -elasticity periodic against closed solutions and against Tamaas, stick and slip, ranks."""
 
+import math
 import sys
 
 import h5py
 import numpy as np
 import pytest
 
-from support import ROOT, assert_close, assert_same
+from support import ROOT, assert_close, assert_same, history
 
 sys.path.insert(0, str(ROOT / "tests" / "bench"))
 import problem  # noqa: E402
@@ -136,6 +137,27 @@ def test_maxima_between_cells_are_found_across_the_border(solve, tmp_path, by):
                 (("middle", ball), ("moved", np.roll(ball, by, (0, 1)))))  # fmt: skip
     for name in ("slip_max", "shear_max"):
         assert one[name] == pytest.approx(two[name], rel=1e-6), name
+
+
+def test_spots_far_apart_are_copies_of_one(solve, tmp_path):
+    """Three hills in a row beside one: loops pass over the cells between spots, of which one in a row has none."""
+    n = 48
+    x, y = np.meshgrid(centres(n), centres(n))
+    hill = 5 * HEIGHT * (2 - np.cos(2 * np.pi * (x / WIDTH - 0.5)) - np.cos(2 * np.pi * (y / WIDTH - 0.5)))
+    found = []
+    for copies in (1, 3):
+        rows = [(k, copies * 100 * (1 + 0.3 * math.sin(2 * k)), copies * 15 * math.sin(0.9 * k)) for k in range(9)]
+        case = dict(BODIES, friction=0.3, elasticity="periodic", grid_n=(copies * n, n),
+                    **history(tmp_path / f"{copies}.csv", "time,load_n,load_tx", *rows))  # fmt: skip
+        gap = write_gap(tmp_path / f"{copies}.h5", np.tile(hill, (1, copies)))
+        found.append(solve(case, dict(gap, grid_size=(copies * WIDTH, WIDTH), errors="none")))
+    one, three = found
+    touches = one.pressure.max(axis=0) > 0
+    assert np.ptp(np.flatnonzero(touches)) < n - 17  # so spots are apart by more than what loops pass over
+    for name in ("pressure", "shear_x", "shear_y", "slip_x"):
+        most = np.max(one.pressure) if name != "slip_x" else np.max(np.abs(one.slip_x))
+        assert_close(getattr(three, name), np.tile(getattr(one, name), (1, 3)), 1e-5, name, most)
+    assert three["dissipated_energy"] == pytest.approx(3 * one["dissipated_energy"], rel=1e-5)
 
 
 def test_ranks_do_not_matter(hills, solve):

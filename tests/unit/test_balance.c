@@ -99,7 +99,7 @@ static PetscBool Project(SamGrid grid, const SamBalance *b, Vec bound, Vec tract
     sam_call(SamFrameProjectNormal(&f, NULL, t, &found));
   else {
     sam_call(VecGetArrayRead(bound, &a));
-    sam_call(SamFrameProjectTangential(&f, a, NULL, PETSC_FALSE, t, NULL, &found));
+    sam_call(SamFrameProjectTangential(&f, NULL, a, NULL, PETSC_FALSE, t, NULL, &found));
     sam_call(VecRestoreArrayRead(bound, &a));
   }
   sam_call(VecRestoreArray(traction, &t));
@@ -215,7 +215,7 @@ static void test_weighted_projection_is_the_nearest_shear_in_its_metric(void **s
     sam_call(SamFrameSet(&f, grid, &b));
     sam_call(VecGetArray(x, &a));
     sam_call(VecGetArrayRead(bound, &radius));
-    sam_call(SamFrameProjectTangential(&f, radius, weight, PETSC_TRUE, a, NULL, &found));
+    sam_call(SamFrameProjectTangential(&f, NULL, radius, weight, PETSC_TRUE, a, NULL, &found));
     sam_call(VecRestoreArrayRead(bound, &radius));
     sam_call(VecRestoreArray(x, &a));
     sam_assert(found);
@@ -553,6 +553,57 @@ static void test_loads_are_conjugate_to_displacements(void **state)
   }
 }
 
+/*
+  Runs contain all cells with a bound or with shear, lie apart in order, and begin and end with such a cell but for whole
+  blocks; with a wide gap there is one, from the first cell to the last.
+*/
+static void test_runs_contain_the_contact(void **state)
+{
+  const PetscInt n[2] = {203, 7}, some[] = {SAM_RUN_GAP, 203};
+  SamGrid        grid  = NewGridOn(PETSC_COMM_WORLD, (int)n[0], (int)n[1], 1, 1, 0, 0);
+  Vec            field = NewField(grid, 1), shear = NewField(grid, 2);
+  double        *b, *q;
+  SamRuns        runs;
+
+  (void)state;
+  sam_call(VecGetArray(field, &b));
+  sam_call(VecGetArray(shear, &q));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const PetscInt row = grid->row_start + j;
+
+    for (PetscInt i = 0; i < n[0] && row > 0; i++) b[j * n[0] + i] = (i * i + 31 * row) % 97 < row ? 1 : 0;
+  }
+  if (grid->rows) q[grid->cells + 150] = -1; /* along y alone */
+  for (int with = 0; with < 2; with++)
+    for (int k = 0; k < 2; k++) {
+      int apart = 1, within = 1, all = 1, narrow = 1;
+
+      sam_call(SamRunsCreate(grid, b, with ? q : NULL, some[k], &runs));
+      for (PetscInt j = 0; j < grid->rows; j++) {
+        PetscInt count = 0, inside = 0;
+
+        for (PetscInt i = 0; i < n[0]; i++) count += b[j * n[0] + i] > 0 || (with && j == 0 && i == 150);
+        for (PetscInt r = runs.start[j]; r < runs.start[j + 1]; r++) {
+          const PetscInt *span = runs.span[r];
+
+          apart &= r == runs.start[j] || span[0] > runs.span[r - 1][1];
+          within &= span[0] >= 0 && span[0] < span[1] && span[1] <= n[0];
+          for (PetscInt i = span[0]; i < span[1]; i++) inside += b[j * n[0] + i] > 0 || (with && j == 0 && i == 150);
+          if (runs.start[j + 1] - runs.start[j] > 1)
+            narrow &= span[0] % SAM_RUN_GAP == 0 && (span[1] % SAM_RUN_GAP == 0 || span[1] == n[0]);
+        }
+        all &= inside == count;
+        narrow &= k == 0 || runs.start[j + 1] - runs.start[j] == (count > 0);
+      }
+      sam_assert(apart && within && all && narrow);
+      sam_call(SamRunsDestroy(&runs));
+    }
+  sam_call(VecRestoreArray(field, &b));
+  sam_call(VecRestoreArray(shear, &q));
+  sam_destroy(&field, &shear);
+  sam_call(SamGridDestroy(&grid));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -569,6 +620,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_sliding_shear_carries_the_limit_of_the_loads),
     cmocka_unit_test(test_lever_must_lie_among_the_cell_centres),
     cmocka_unit_test(test_loads_are_conjugate_to_displacements),
+    cmocka_unit_test(test_runs_contain_the_contact),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

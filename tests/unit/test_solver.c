@@ -144,11 +144,11 @@ static PetscErrorCode SamTangentialSolve_Toy(SamSolver s, SamLevel *level)
   SamStickSlip w;
 
   PetscFunctionBegin;
-  PetscCall(SamStickSlipCreate(s, level, &w));
+  PetscCall(SamStickSlipCreate(s, level, SAM_RUN_GAP, &w));
   PetscCall(SamStickSlipStart(&w));
   for (s->reason = SAM_SOLVER_ITERATING; !s->reason;) {
     for (PetscInt k = 0; k < 2 * w.cells; k++) w.q[k] -= w.s[k] / Largest(level, w.self);
-    PetscCall(SamFrameProjectTangential(&level->frame, w.bound, NULL, PETSC_TRUE, w.q, NULL, &found));
+    PetscCall(SamFrameProjectTangential(&level->frame, &w.runs, w.bound, NULL, PETSC_TRUE, w.q, NULL, &found));
     PetscCall(SamStickSlipComputeSlip(&w));
     PetscCall(SamStickSlipMeasure(&w));
     PetscCall(SamLevelIterated(s, level, w.error));

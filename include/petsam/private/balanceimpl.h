@@ -134,6 +134,29 @@ static inline void SamBoundRangeOfBoth(PetscInt n, const double one[], const dou
 }
 
 /*
+  SamRuns - the parts of this rank's rows that have contact: the runs n = start[j] ... start[j + 1] - 1 of row j are the
+  columns span[n][0] ... span[n][1] - 1. Loops over runs pass over the cells between the spots of a rough contact.
+
+  SamRunsCreate - finds the runs of the cells with a bound above 0, or with `shear` (two components; NULL: none). Runs
+  with fewer than `gap` cells between them are one: SAM_RUN_GAP, below which it costs more to begin a loop than to pass
+  over the cells, or the grid's nx: each row has one run, from its first contact to its last. Not collective.
+*/
+#define SAM_RUN_GAP 16
+typedef struct {
+  PetscInt *start;
+  PetscInt (*span)[2];
+} SamRuns;
+PETSC_EXTERN PetscErrorCode SamRunsCreate(SamGrid grid, const double bound[], const double shear[], PetscInt gap,
+                                          SamRuns *runs);
+PETSC_EXTERN PetscErrorCode SamRunsDestroy(SamRuns *runs);
+
+/* SamRunRow - returns the cells of run n, of this rank's row j. */
+static inline SamRow SamRunRow(const SamFrame *f, const SamRuns *runs, PetscInt j, PetscInt n)
+{
+  return SamFrameRow(f, j, runs->span[n][0], runs->span[n][1]);
+}
+
+/*
   SAM_CHUNK - number of cells of a row that are processed together: if all of them lie within their discs, no root or
   division is needed.
 */
@@ -276,13 +299,14 @@ PETSC_INTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double fi
 /*
   SamFrameProjectTangential - replaces q by the nearest admissible shear: D(q + weight phi a), where D projects the
   shear of each cell onto the disc of radius `bound`, with the a for which the force-controlled loads are exact. The
-  squared distance of a cell counts 1/weight (weight NULL: 1). `motion`, if not NULL, becomes a. `found` is false if
+  squared distance of a cell counts 1/weight (weight NULL: 1). `runs` have all cells with a bound above 0; NULL: they are
+  found. `motion`, if not NULL, becomes a. `found` is false if
   there is no such shear; q is then undefined.
   The result is admissible to rounding in any case. With `nearest` it is the nearest admissible shear; without, which is
   faster, it may differ from that by 1e-6 of the change. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const double bound[], const float weight[],
-                                                      PetscBool nearest, double q[], double motion[3],
-                                                      PetscBool *found);
+PETSC_EXTERN PetscErrorCode SamFrameProjectTangential(const SamFrame *frame, const SamRuns *runs, const double bound[],
+                                                      const float weight[], PetscBool nearest, double q[],
+                                                      double motion[3], PetscBool *found);
 
 #endif

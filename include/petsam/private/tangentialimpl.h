@@ -27,7 +27,7 @@ typedef struct {
   SamLevel       *level;
   const SamFrame *frame;
   PetscInt        nx, rows, cells;
-  const PetscInt *first, *last;   /* contact cells of row j lie in the columns first[j] ... last[j] - 1 */
+  SamRuns         runs;           /* the contact, and a start that is not admissible */
   const double   *bound, *offset; /* offset: NULL for zero */
   double         *q, *s;          /* shear, Pa; slip increment, m, with `motion` in it */
   Vec             vs;             /* the field of s */
@@ -72,14 +72,27 @@ static inline void SamSumSquares(double squares[SAM_SQUARES], double residual, d
   squares[3] += least;
 }
 
-PETSC_EXTERN PetscErrorCode SamStickSlipCreate(SamSolver solver, SamLevel *level, SamStickSlip *state);
+/* SamStickSlipCreate - creates a state, with runs that are `gap` cells apart or more (SamRunsCreate()). Collective. */
+PETSC_EXTERN PetscErrorCode SamStickSlipCreate(SamSolver solver, SamLevel *level, PetscInt gap, SamStickSlip *state);
 PETSC_EXTERN PetscErrorCode SamStickSlipDestroy(SamStickSlip *state);
-/* SamStickSlipRow - returns the contact's part of row j. Not collective. */
+/* SamStickSlipNext - finds the next run of row j, the *n-th at first, and raises *n; false: there is no more. */
+static inline PetscBool SamStickSlipNext(const SamStickSlip *state, PetscInt j, PetscInt *n, SamRow *row)
+{
+  const PetscInt run = state->runs.start[j] + (*n)++;
+
+  if (run >= state->runs.start[j + 1]) return PETSC_FALSE;
+  *row = SamRunRow(state->frame, &state->runs, j, run);
+  return PETSC_TRUE;
+}
+/* SamStickSlipRow - returns the only run of row j, or no cells, of a state whose rows have one run. Not collective. */
 static inline SamRow SamStickSlipRow(const SamStickSlip *state, PetscInt j)
 {
-  return SamFrameRow(state->frame, j, state->first[j], state->last[j]);
+  const PetscInt run = state->runs.start[j];
+
+  return run < state->runs.start[j + 1] ? SamRunRow(state->frame, &state->runs, j, run)
+                                        : SamFrameRow(state->frame, j, state->nx, state->nx);
 }
-/* SamStickSlipClearMargins - sets z (two components) to 0 outside of the contact's part of each row. Not collective. */
+/* SamStickSlipClearMargins - sets z (two components) to 0 outside of the runs. Not collective. */
 PETSC_INTERN void SamStickSlipClearMargins(const SamStickSlip *state, float z[]);
 /* SamStickSlipComputeSlip - computes s = C q + offset - motion in double precision. Collective. */
 PETSC_EXTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *state);

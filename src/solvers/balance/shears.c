@@ -12,9 +12,10 @@
 
 /* The input of a pass over the cells. */
 typedef struct {
-  const double *field; /* the field to be projected */
-  const double *bound;
-  const float  *weight; /* NULL: 1 */
+  const SamRuns *runs;
+  const double  *field; /* the field to be projected */
+  const double  *bound;
+  const float   *weight; /* NULL: 1 */
 } Cells;
 
 /* Returns weights 1 for the cells of a chunk. */
@@ -84,17 +85,16 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
   const Cells *c = (const Cells *)context;
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    PetscInt first, last;
-    SamDual  sums = {0};
+    SamDual sums = {0};
 
-    SamBoundRange(f->grid->nx, c->bound + (ptrdiff_t)j * f->grid->nx, &first, &last);
-    for (PetscInt i = first; i < last; i += SAM_CHUNK) {
-      const SamRow  row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
-      const double *qx  = c->field + row.first;
+    for (PetscInt n = c->runs->start[j]; n < c->runs->start[j + 1]; n++)
+      for (PetscInt i = c->runs->span[n][0], last = c->runs->span[n][1]; i < last; i += SAM_CHUNK) {
+        const SamRow  row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
+        const double *qx  = c->field + row.first;
 
-      AddShears(row, qx, qx + f->grid->cells, c->bound + row.first, c->weight ? c->weight + row.first : Ones(), a,
-                &sums);
-    }
+        AddShears(row, qx, qx + f->grid->cells, c->bound + row.first, c->weight ? c->weight + row.first : Ones(), a,
+                  &sums);
+      }
     SamAddAll(SAM_DUAL, dual, (const double *)&sums);
   }
 }
@@ -128,28 +128,30 @@ SAM_VECTORIZED static void ApplyShears(SamRow row, double *restrict qx, double *
 }
 
 /* Replaces q by the projection for this a, and computes its moments. */
-static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const float weight[], const double a[3],
-                                      double q[], SamTotal dual[])
+static PetscErrorCode ApplyTangential(const SamFrame *f, const Cells *c, const double a[3], double q[], SamTotal dual[])
 {
   const PetscInt nx = f->grid->nx;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < f->grid->rows; j++) {
-    const double *b  = bound + (ptrdiff_t)j * nx;
-    double       *qx = q + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells;
-    PetscInt      first, last;
-    SamDual       sums = {0};
+    double  *qx = q + (ptrdiff_t)j * nx, *qy = qx + f->grid->cells;
+    PetscInt end  = 0; /* of the columns that are done */
+    SamDual  sums = {0};
 
-    SamBoundRange(nx, b, &first, &last);
-    PetscCall(PetscArrayzero(qx, first));
-    PetscCall(PetscArrayzero(qy, first));
-    for (PetscInt i = first; i < last; i += SAM_CHUNK) {
-      const SamRow row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
+    for (PetscInt n = c->runs->start[j]; n < c->runs->start[j + 1]; n++) {
+      const PetscInt first = c->runs->span[n][0], last = c->runs->span[n][1];
 
-      ApplyShears(row, qx + i, qy + i, b + i, weight ? weight + row.first : Ones(), a, &sums);
+      PetscCall(PetscArrayzero(qx + end, first - end));
+      PetscCall(PetscArrayzero(qy + end, first - end));
+      for (PetscInt i = first; i < last; i += SAM_CHUNK) {
+        const SamRow row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
+
+        ApplyShears(row, qx + i, qy + i, c->bound + row.first, c->weight ? c->weight + row.first : Ones(), a, &sums);
+      }
+      end = last;
     }
-    PetscCall(PetscArrayzero(qx + last, nx - last));
-    PetscCall(PetscArrayzero(qy + last, nx - last));
+    PetscCall(PetscArrayzero(qx + end, nx - end));
+    PetscCall(PetscArrayzero(qy + end, nx - end));
     SamAddAll(SAM_DUAL, dual, (const double *)&sums);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -159,11 +161,10 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
   If one step of Newton's method is likely to suffice, it is applied first, without a further pass over the cells. If it
   did not suffice, the result is the nearest shear to it.
 */
-static PetscErrorCode Project(const SamFrame *f, const double bound[], const float weight[], PetscBool nearest,
-                              double q[], double motion[3], PetscBool *found)
+static PetscErrorCode Project(const SamFrame *f, const Cells *cells, PetscBool nearest, double q[], double motion[3],
+                              PetscBool *found)
 {
-  const Cells cells = {.field = q, .bound = bound, .weight = weight};
-  PetscBool   near  = PETSC_TRUE;
+  PetscBool near = PETSC_TRUE;
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
@@ -172,11 +173,11 @@ static PetscErrorCode Project(const SamFrame *f, const double bound[], const flo
     double   a[3]             = {0, 0, 0};
 
     if (f->count)
-      PetscCall(SamDualMinimize(f, PassTangential, &cells, time == 0 ? SMOOTH : 0, a, found, &near));
+      PetscCall(SamDualMinimize(f, PassTangential, cells, time == 0 ? SMOOTH : 0, a, found, &near));
     else
       *found = PETSC_TRUE;
     if (!*found && (!near || time > 0)) break;
-    PetscCall(ApplyTangential(f, bound, weight, a, q, totals));
+    PetscCall(ApplyTangential(f, cells, a, q, totals));
     for (PetscInt i = 0; motion && i < 3; i++) motion[i] += a[i];
     if (!*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_EXACT, found));
   }
@@ -206,18 +207,23 @@ static PetscErrorCode AreRounding(const SamFrame *f, const double q[], PetscBool
   If all shear has to vanish, as in a contact of few cells whose load goes through zero, the remaining shear is rounding
   and balances no load. Then the nearest shear to zero is sought.
 */
-PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], const float weight[],
-                                         PetscBool nearest, double q[], double motion[3], PetscBool *found)
+PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const SamRuns *runs, const double bound[],
+                                         const float weight[], PetscBool nearest, double q[], double motion[3],
+                                         PetscBool *found)
 {
   PetscBool rounding = PETSC_FALSE;
+  SamRuns   own      = {NULL, NULL};
+  Cells     cells    = {.runs = runs ? runs : &own, .field = q, .bound = bound, .weight = weight};
 
   PetscFunctionBegin;
+  if (!runs) PetscCall(SamRunsCreate(f->grid, bound, NULL, SAM_RUN_GAP, &own));
   for (PetscInt i = 0; motion && i < 3; i++) motion[i] = 0;
-  PetscCall(Project(f, bound, weight, nearest, q, motion, found));
-  if (*found) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(AreRounding(f, q, &rounding));
-  if (!rounding) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscArrayzero(q, 2 * f->grid->cells));
-  PetscCall(Project(f, bound, weight, nearest, q, motion, found));
+  PetscCall(Project(f, &cells, nearest, q, motion, found));
+  if (!*found) PetscCall(AreRounding(f, q, &rounding));
+  if (rounding) {
+    PetscCall(PetscArrayzero(q, 2 * f->grid->cells));
+    PetscCall(Project(f, &cells, nearest, q, motion, found));
+  }
+  PetscCall(SamRunsDestroy(&own));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

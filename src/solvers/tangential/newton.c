@@ -89,9 +89,7 @@ static PetscErrorCode FindReach(Work *w)
 
   PetscFunctionBegin;
   w->reach = 0;
-  for (PetscInt j = 0; j < u->rows; j++)
-    for (ptrdiff_t k = (ptrdiff_t)j * u->nx + u->first[j]; k < (ptrdiff_t)j * u->nx + u->last[j]; k++)
-      w->reach += u->bound[k] > 0;
+  for (PetscInt k = 0; k < u->cells; k++) w->reach += u->bound[k] > 0;
   PetscCall(SamSum(u->level->grid->comm, 1, &w->reach));
   w->reach = sqrt(w->reach);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -103,7 +101,7 @@ static PetscErrorCode Create(SamSolver solver, SamLevel *level, Work *w)
   PetscInt        cells;
 
   PetscFunctionBegin;
-  PetscCall(SamStickSlipCreate(solver, level, &w->base));
+  PetscCall(SamStickSlipCreate(solver, level, SAM_RUN_GAP, &w->base));
   cells = w->base.cells;
   PetscCall(SamAllocateZeros(sizeof(*w->trial) * 2 * (size_t)cells, &w->trial));
   PetscCall(SamAllocateZeros(sizeof(*w->weight) * 11 * (size_t)cells, &w->weight));
@@ -137,12 +135,13 @@ static PetscErrorCode SumRows(const Work *w, RowSums add, PetscInt n, double sum
 {
   const SamStickSlip *u                = &w->base;
   SamTotal            totals[PRODUCTS] = {{0}};
+  SamRow              run;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[PRODUCTS] = {0};
 
-    add(w, SamStickSlipRow(u, j), row);
+    for (PetscInt k = 0; SamStickSlipNext(u, j, &k, &run);) add(w, run, row);
     SamAddAll(n, totals, row);
   }
   PetscCall(SamSumTotals(u->level->grid->comm, n, totals, sums));
@@ -154,14 +153,18 @@ static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewton
 {
   SamStickSlip *u             = &w->base;
   SamTotal      totals[SPACE] = {{0}};
+  SamRow        run;
 
   PetscFunctionBegin;
   *most = 0;
   for (PetscInt j = 0; j < u->rows; j++) {
-    SamNewtonSpace row     = {0};
-    const double   largest = SamNewtonAdvanceRow(w, SamStickSlipRow(u, j), t, t * w->unit, a, &row);
+    SamNewtonSpace row = {0};
 
-    *most = PetscMax(*most, largest);
+    for (PetscInt n = 0; SamStickSlipNext(u, j, &n, &run);) {
+      const double largest = SamNewtonAdvanceRow(w, run, t, t * w->unit, a, &row);
+
+      *most = PetscMax(*most, largest);
+    }
     SamAddAll(SPACE, totals, (const double *)&row);
   }
   PetscCall(SamSumTotals(u->level->grid->comm, SPACE, totals, (double *)space));
@@ -180,6 +183,7 @@ static PetscErrorCode Advance(Work *w, double t)
   SamTotal       squares[SAM_SQUARES] = {{0}};
   SamNewtonSpace space;
   double         most = 0, a[3] = {0, 0, 0};
+  SamRow         run;
 
   PetscFunctionBegin;
   for (PetscInt sweep = 0; sweep < SWEEPS; sweep++) {
@@ -196,7 +200,7 @@ static PetscErrorCode Advance(Work *w, double t)
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[SAM_SQUARES] = {0};
 
-    SamNewtonResidualRow(w, SamStickSlipRow(u, j), 1 / w->unit, a, row);
+    for (PetscInt n = 0; SamStickSlipNext(u, j, &n, &run);) SamNewtonResidualRow(w, run, 1 / w->unit, a, row);
     SamAddAll(SAM_SQUARES, squares, row);
   }
   PetscCall(SamStickSlipSetError(u, squares));
@@ -209,6 +213,7 @@ static PetscErrorCode NewDirection(Work *w)
   SamStickSlip     *u = &w->base;
   SamNewtonProducts sums;
   double            a[3], a_step[3], zv, ev, beta = 0;
+  SamRow            run;
 
   PetscFunctionBegin;
   PetscCall(SamLevelPreconditionSingle(u->solver, u->level, u->self, w->z, w->z));
@@ -221,7 +226,8 @@ static PetscErrorCode NewDirection(Work *w)
   if (ev > 0) beta = -zv / ev;
   if (!(beta > 0) || sums.zr + beta * sums.er < DESCENT * sums.zr) beta = 0;
   for (PetscInt c = 0; c < 3; c++) a[c] += beta * a_step[c];
-  for (PetscInt j = 0; j < u->rows; j++) SamNewtonDirectionRow(w, SamStickSlipRow(u, j), a, (float)beta);
+  for (PetscInt j = 0; j < u->rows; j++)
+    for (PetscInt n = 0; SamStickSlipNext(u, j, &n, &run);) SamNewtonDirectionRow(w, run, a, (float)beta);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -235,7 +241,7 @@ static PetscErrorCode Project(Work *w, const float weight[], double motion[3], P
   double        sums[4];
 
   PetscFunctionBegin;
-  PetscCall(SamFrameProjectTangential(u->frame, u->bound, weight, weight != NULL, w->trial, motion, found));
+  PetscCall(SamFrameProjectTangential(u->frame, &u->runs, u->bound, weight, weight != NULL, w->trial, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SumRows(w, SamNewtonChangeRow, 4, sums));
   w->slope = sums[0] / w->unit;
@@ -253,9 +259,11 @@ static PetscErrorCode Project(Work *w, const float weight[], double motion[3], P
 static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
 {
   SamStickSlip *u = &w->base;
+  SamRow        run;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) SamNewtonGradientRow(w, SamStickSlipRow(u, j));
+  for (PetscInt j = 0; j < u->rows; j++)
+    for (PetscInt n = 0; SamStickSlipNext(u, j, &n, &run);) SamNewtonGradientRow(w, run);
   PetscCall(Project(w, w->z, motion, found));
   for (PetscInt c = 0; c < 3; c++) motion[c] *= u->self;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -274,20 +282,27 @@ static PetscBool IsDownhill(const Work *w)
   return IsRounding(w) ? w->along > 0 : w->slope < 0;
 }
 
+static void SetTrial(Work *w, double alpha)
+{
+  SamRow run;
+
+  for (PetscInt j = 0; j < w->base.rows; j++)
+    for (PetscInt n = 0; SamStickSlipNext(&w->base, j, &n, &run);) SamNewtonTrialRow(w, run, alpha);
+}
+
 /*
   Step 3. A trial that is uphill may be too long, and shorter ones cost no product. `downhill`: a trial is downhill.
   `found`: there is an admissible shear near it.
 */
 static PetscErrorCode Try(Work *w, PetscBool *downhill, PetscBool *found)
 {
-  SamStickSlip *u     = &w->base;
-  double        alpha = w->alpha;
+  double alpha = w->alpha;
 
   PetscFunctionBegin;
   *downhill = PETSC_FALSE;
   *found    = PETSC_TRUE;
   for (PetscInt halving = 0; halving <= HALVINGS && *found && !*downhill; halving++, alpha *= 0.5) {
-    for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), alpha);
+    SetTrial(w, alpha);
     PetscCall(Project(w, NULL, NULL, found));
     *downhill = *found && IsDownhill(w);
     if (*downhill) w->alpha = alpha;
@@ -427,7 +442,7 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), 0);
+  SetTrial(w, 0);
   PetscCall(Project(w, NULL, NULL, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   /* The slip is still that of the shear before: the step changes s/c by no more than this. */

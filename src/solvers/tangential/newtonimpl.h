@@ -42,7 +42,7 @@ typedef struct {
 */
 PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
                                         SamNewtonSpace *space);
-/* Adds by u to s in the cells of row j beside the contact, where s is C q alone; for products that are stored. */
+/* Adds by u to s in the cells of row j outside of the runs, where s is C q alone; for products that are stored. */
 PETSC_INTERN void SamNewtonOutsideRow(const SamNewton *w, PetscInt j, double by);
 /* Subtracts the motion a from s; sets r = -P s, in units, and z = w r; adds to the squares of the error. */
 PETSC_INTERN void SamNewtonResidualRow(const SamNewton *w, SamRow row, double inverse_unit, const double a[3],

@@ -65,9 +65,12 @@ void SamNewtonOutsideRow(const SamNewton *w, PetscInt j, double by)
 
   for (PetscInt c = 0; c < 2; c++) {
     const ptrdiff_t row = c * (ptrdiff_t)u->cells + (ptrdiff_t)j * u->nx;
+    PetscInt        i   = 0;
+    SamRow          run;
 
-    for (PetscInt i = 0; i < u->nx; i++)
-      if (i < u->first[j] || i >= u->last[j]) u->s[row + i] += by * (double)w->u[row + i];
+    for (PetscInt n = 0; SamStickSlipNext(u, j, &n, &run); i = run.column + run.count)
+      for (; i < run.column; i++) u->s[row + i] += by * (double)w->u[row + i];
+    for (; i < u->nx; i++) u->s[row + i] += by * (double)w->u[row + i];
   }
 }
 
@@ -143,13 +146,13 @@ SAM_VECTORIZED void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, d
     ev += ex * vx + ey * vy;
     er += ex * rx[i] + ey * ry[i];
   }
-  *(SamNewtonProducts *)sums = (SamNewtonProducts){{(double)z_x, (double)z_y, (double)z_turn - row.eta * (double)z_x},
-                                                   {(double)e_x, (double)e_y, (double)e_turn - row.eta * (double)e_x},
-                                                   {(double)v_x, (double)v_y, (double)v_turn - row.eta * (double)v_x},
-                                                   (double)zr,
-                                                   (double)zv,
-                                                   (double)ev,
-                                                   (double)er};
+  const double run[] = {(double)z_x, (double)z_y, (double)z_turn - row.eta * (double)z_x,
+                        (double)e_x, (double)e_y, (double)e_turn - row.eta * (double)e_x,
+                        (double)v_x, (double)v_y, (double)v_turn - row.eta * (double)v_x,
+                        (double)zr,  (double)zv,  (double)ev,
+                        (double)er}; /* in the order of SamNewtonProducts */
+
+  for (size_t k = 0; k < sizeof(run) / sizeof(run[0]); k++) sums[k] += run[k];
 }
 
 SAM_VECTORIZED void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const double a[3], float beta)

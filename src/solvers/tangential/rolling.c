@@ -63,7 +63,7 @@ static PetscErrorCode Create(SamSolver solver, SamLevel *level, Work *w)
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(w, sizeof(*w)));
-  PetscCall(SamStickSlipCreate(solver, level, u));
+  PetscCall(SamStickSlipCreate(solver, level, level->grid->nx, u));
   PetscCall(VecMax(level->given[SAM_TANGENTIAL_BOUND], NULL, &most));
   w->unit_q = most > 0 ? (double)most : 1;
   w->unit_s = u->self * w->unit_q;
@@ -296,7 +296,7 @@ static PetscErrorCode TakeTrial(Work *w, double motion[3], PetscBool *found)
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  PetscCall(SamFrameProjectTangential(u->frame, u->bound, NULL, PETSC_FALSE, w->trial, motion, found));
+  PetscCall(SamFrameProjectTangential(u->frame, &u->runs, u->bound, NULL, PETSC_FALSE, w->trial, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
   if (motion) SamFrameMove(u->frame, 1, motion);

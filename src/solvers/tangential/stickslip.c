@@ -7,36 +7,7 @@
 /* Error of a start above which another fit of the motion is tried */
 #define POOR_START 0.1
 
-/* Widens a row's columns by those in which it has shear. */
-static void IncludeShear(const SamStickSlip *w, PetscInt j, PetscInt *first, PetscInt *last)
-{
-  for (PetscInt c = 0; c < 2; c++) {
-    const double *q = w->q + c * (ptrdiff_t)w->cells + (ptrdiff_t)j * w->nx;
-
-    for (PetscInt i = 0; i < *first; i++)
-      if (q[i] != 0) *first = i;
-    for (PetscInt i = w->nx - 1; i >= *last; i--)
-      if (q[i] != 0) *last = i + 1;
-  }
-}
-
-/* Finds the columns between which each row has contact, or a start that is not admissible has shear. */
-static PetscErrorCode FindRows(SamStickSlip *w)
-{
-  PetscInt *first, *last;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc2(w->rows, &first, w->rows, &last));
-  for (PetscInt j = 0; j < w->rows; j++) {
-    SamBoundRange(w->nx, w->bound + (ptrdiff_t)j * w->nx, &first[j], &last[j]);
-    if (SamLevelHasProduct(w->level)) IncludeShear(w, j, &first[j], &last[j]);
-  }
-  w->first = first;
-  w->last  = last;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamStickSlipCreate(SamSolver solver, SamLevel *level, SamStickSlip *w)
+PetscErrorCode SamStickSlipCreate(SamSolver solver, SamLevel *level, PetscInt gap, SamStickSlip *w)
 {
   const Vec offset = level->given[SAM_TANGENTIAL_OFFSET];
 
@@ -55,7 +26,7 @@ PetscErrorCode SamStickSlipCreate(SamSolver solver, SamLevel *level, SamStickSli
   if (offset) PetscCall(VecGetArrayRead(offset, &w->offset));
   PetscCall(VecGetArray(level->traction, &w->q));
   PetscCall(VecGetArray(w->vs, &w->s));
-  PetscCall(FindRows(w));
+  PetscCall(SamRunsCreate(level->grid, w->bound, SamLevelHasProduct(level) ? w->q : NULL, gap, &w->runs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -69,7 +40,7 @@ PetscErrorCode SamStickSlipDestroy(SamStickSlip *w)
   PetscCall(VecRestoreArray(w->level->traction, &w->q));
   PetscCall(VecRestoreArray(w->vs, &w->s));
   PetscCall(VecDestroy(&w->vs));
-  PetscCall(PetscFree2(w->first, w->last));
+  PetscCall(SamRunsDestroy(&w->runs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -78,27 +49,28 @@ void SamStickSlipClearMargins(const SamStickSlip *w, float z[])
   for (PetscInt c = 0; c < 2; c++)
     for (PetscInt j = 0; j < w->rows; j++) {
       float *const row = z + c * (ptrdiff_t)w->cells + (ptrdiff_t)j * w->nx;
+      PetscInt     end = 0;
+      SamRow       run;
 
-      (void)memset(row, 0, sizeof(*row) * (size_t)w->first[j]);
-      (void)memset(row + w->last[j], 0, sizeof(*row) * (size_t)(w->nx - w->last[j]));
+      for (PetscInt n = 0; SamStickSlipNext(w, j, &n, &run); end = run.column + run.count)
+        (void)memset(row + end, 0, sizeof(*row) * (size_t)(run.column - end));
+      (void)memset(row + end, 0, sizeof(*row) * (size_t)(w->nx - end));
     }
 }
 
-/* Adds `times` (offset minus motion) where there is contact. */
+/* Adds `times` (offset minus motion) in the runs. */
 static void AddGiven(const SamStickSlip *w, double s[], double times)
 {
-  const SamFrame *f = w->frame;
+  SamRow row;
 
-  for (PetscInt j = 0; j < w->rows; j++) {
-    const double eta = SamFrameEta(f, j);
+  for (PetscInt j = 0; j < w->rows; j++)
+    for (PetscInt n = 0; SamStickSlipNext(w, j, &n, &row);)
+      for (PetscInt i = 0; i < row.count; i++) {
+        const ptrdiff_t k = row.first + i, l = k + w->cells;
 
-    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
-      const PetscInt k = j * w->nx + i, l = k + w->cells;
-
-      s[k] += times * ((w->offset ? w->offset[k] : 0) - SamFrameX(w->motion, eta));
-      s[l] += times * ((w->offset ? w->offset[l] : 0) - SamFrameY(w->motion, f->xi0 + (double)i * f->dxi));
-    }
-  }
+        s[k] += times * ((w->offset ? w->offset[k] : 0) - SamFrameX(w->motion, row.eta));
+        s[l] += times * ((w->offset ? w->offset[l] : 0) - SamFrameY(w->motion, row.xi0 + (double)i * row.dxi));
+      }
 }
 
 PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *w)
@@ -187,12 +159,12 @@ SAM_VECTORIZED static void SubtractRow(SamRow row, double *restrict sx, double *
 /* Adds a to the motion. */
 static void AddMotion(SamStickSlip *w, const double a[3])
 {
-  for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
-  for (PetscInt j = 0; j < w->rows; j++) {
-    const SamRow row = SamStickSlipRow(w, j);
+  SamRow row;
 
-    SubtractRow(row, w->s + row.first, w->s + row.first + w->cells, a);
-  }
+  for (PetscInt c = 0; c < 3; c++) w->motion[c] += a[c];
+  for (PetscInt j = 0; j < w->rows; j++)
+    for (PetscInt n = 0; SamStickSlipNext(w, j, &n, &row);)
+      SubtractRow(row, w->s + row.first, w->s + row.first + w->cells, a);
 }
 
 /* Fits the motion: least squares of s over the tangent space of q - inverse s. */
@@ -201,13 +173,15 @@ static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
   SamFrame moves                = *w->frame; /* its basis is that of motions */
   SamTotal totals[3 + SAM_GRAM] = {{0}};
   double   sums[3 + SAM_GRAM], a[3];
+  SamRow   run;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) {
     double row[3 + SAM_GRAM] = {0};
 
-    for (PetscInt i = w->first[j]; i < w->last[j]; i += SAM_CHUNK)
-      FitCells(w, SamFrameRow(w->frame, j, i, PetscMin(i + SAM_CHUNK, w->last[j])), inverse, row);
+    for (PetscInt n = 0; SamStickSlipNext(w, j, &n, &run);)
+      for (PetscInt i = run.column, last = i + run.count; i < last; i += SAM_CHUNK)
+        FitCells(w, SamFrameRow(w->frame, j, i, PetscMin(i + SAM_CHUNK, last)), inverse, row);
     SamAddAll(3 + SAM_GRAM, totals, row);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 3 + SAM_GRAM, totals, sums));
@@ -292,13 +266,14 @@ PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_
 PetscErrorCode SamStickSlipMeasure(SamStickSlip *w)
 {
   SamTotal squares[SAM_SQUARES] = {{0}};
+  SamRow   run;
 
   PetscFunctionBegin;
   if (w->frame->count) PetscCall(FitMotion(w, 1 / w->self));
   for (PetscInt j = 0; j < w->rows; j++) {
     double row[SAM_SQUARES] = {0};
 
-    MeasureRow(w, SamStickSlipRow(w, j), row);
+    for (PetscInt n = 0; SamStickSlipNext(w, j, &n, &run);) MeasureRow(w, run, row);
     SamAddAll(SAM_SQUARES, squares, row);
   }
   PetscCall(SamStickSlipSetError(w, squares));

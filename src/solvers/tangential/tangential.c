@@ -103,7 +103,7 @@ static PetscErrorCode MakeAdmissible(SamLevel *level, PetscBool *found)
   PetscCall(SamFrameSet(&level->frame, level->grid, level->balance));
   PetscCall(VecGetArrayRead(level->given[SAM_TANGENTIAL_BOUND], &bound));
   PetscCall(VecGetArray(level->traction, &q));
-  PetscCall(SamFrameProjectTangential(&level->frame, bound, NULL, PETSC_FALSE, q, NULL, found));
+  PetscCall(SamFrameProjectTangential(&level->frame, NULL, bound, NULL, PETSC_FALSE, q, NULL, found));
   PetscCall(VecRestoreArray(level->traction, &q));
   PetscCall(VecRestoreArrayRead(level->given[SAM_TANGENTIAL_BOUND], &bound));
   PetscFunctionReturn(PETSC_SUCCESS);

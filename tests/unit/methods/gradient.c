@@ -33,7 +33,7 @@ static PetscErrorCode ComputeEnergy(const SamStickSlip *w, double *energy)
     const double eta = SamFrameEta(f, j);
     double       row = 0;
 
-    for (PetscInt i = w->first[j]; i < w->last[j]; i++) {
+    for (PetscInt i = 0; i < w->nx; i++) {
       const PetscInt k = j * w->nx + i, l = k + w->cells;
 
       row += 0.5 * w->q[k] * (w->s[k] + (w->offset ? w->offset[k] : 0) + SamFrameX(a, eta));
@@ -54,7 +54,7 @@ static PetscErrorCode ComputeBend(const SamStickSlip *w, const double y[], const
   for (PetscInt j = 0; j < w->rows; j++) {
     double row[2] = {0, 0};
 
-    for (PetscInt k = j * w->nx + w->first[j]; k < j * w->nx + w->last[j]; k++)
+    for (PetscInt k = j * w->nx; k < (j + 1) * w->nx; k++)
       for (PetscInt l = k; w->bound[k] > 0 && l <= k + w->cells; l += w->cells) {
         const double delta = w->q[l] - y[l];
 
@@ -79,7 +79,7 @@ static PetscErrorCode GradientStep(SamStickSlip *w, double *L, double y[], doubl
   PetscCall(PetscArraycpy(sy, w->s, 2 * w->cells));
   for (;;) {
     for (PetscInt k = 0; k < 2 * w->cells; k++) w->q[k] = y[k] - sy[k] / *L;
-    PetscCall(SamFrameProjectTangential(w->frame, w->bound, NULL, PETSC_TRUE, w->q, NULL, found));
+    PetscCall(SamFrameProjectTangential(w->frame, &w->runs, w->bound, NULL, PETSC_TRUE, w->q, NULL, found));
     if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(SamStickSlipComputeSlip(w));
     PetscCall(ComputeBend(w, y, sy, sums));
@@ -99,7 +99,7 @@ static PetscErrorCode SamTangentialSolve_Gradient(SamSolver solver, SamLevel *le
   PetscBool       found;
 
   PetscFunctionBegin;
-  PetscCall(SamStickSlipCreate(solver, level, &w));
+  PetscCall(SamStickSlipCreate(solver, level, SAM_RUN_GAP, &w));
   PetscCall(PetscMalloc4(2 * w.cells, &y, 2 * w.cells, &sy, 2 * w.cells, &last, 2 * w.cells, &slast));
   L = w.self;
   PetscCall(SamStickSlipStart(&w));
