@@ -154,7 +154,7 @@ static PetscBool IsBlunt(const SamZone *z, PetscInt i, PetscInt j)
   return farthest > 2 && z->w[SamZoneAt(z, i, j)] > BLUNT * behind;
 }
 
-/* Adds a cell to the sums and to the edge. */
+/* Adds a cell of the band to the sums and to the edge. */
 static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], SamEdge *edge)
 {
   static const PetscInt x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
@@ -162,19 +162,11 @@ static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], SamEd
   const SamZone  *z      = &band->zone;
   const SamGrid   grid   = z->grid;
   const ptrdiff_t k      = SamZoneAt(z, i, j);
-  const PetscInt  slot   = band->slot[k];
-  const PetscBool inside = z->distance[k] > 0;
-  PetscBool       good;
-  const double   *fit;
+  const PetscBool inside = z->distance[k] > 0, good = IsSmoothAbout(band, i, j);
+  const double   *fit   = good ? band->fit + SAM_FIT_TERMS * (ptrdiff_t)band->slot[k] : NULL;
   PetscInt        faces = 0;
 
   sums[CELLS] += inside ? 1 : 0;
-  if (slot < 0) {
-    sums[AREA] += inside ? 1 : 0;
-    return;
-  }
-  good = IsSmoothAbout(band, i, j);
-  fit  = good ? band->fit + SAM_FIT_TERMS * (ptrdiff_t)slot : NULL;
   for (int n = 0; n < 4 && inside; n++)
     if (SamZoneHas(z, i + x[n], j + y[n]) && z->distance[SamZoneAt(z, i + x[n], j + y[n])] < 0) faces++;
   sums[FACES] += (double)faces;
@@ -186,6 +178,21 @@ static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], SamEd
   edge->corrected_cell[edge->corrected] = (j - grid->row_start) * grid->nx + i;
   edge->corrected_w[edge->corrected++]  = fit[0];
   AddPoint(grid, fit, i, j, edge);
+}
+
+/* Adds this rank's row j to the sums and to the edge. */
+static void AddRow(Band *band, PetscInt j, double sums[SUMS], SamEdge *edge)
+{
+  const ptrdiff_t first = SamZoneAt(&band->zone, 0, j);
+  PetscInt        whole = 0; /* cells of the zone beyond the band */
+
+  for (PetscInt i = 0; i < band->zone.grid->nx; i++)
+    if (band->slot[first + i] < 0)
+      whole += band->zone.distance[first + i] > 0;
+    else
+      AddCell(band, i, j, sums, edge);
+  sums[CELLS] += (double)whole;
+  sums[AREA] += (double)whole;
 }
 
 /* Creates the arrays of an edge, or gives back what they have beyond their numbers of points and of cells. */
@@ -274,7 +281,7 @@ PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, SamEd
     double row[SUMS] = {0};
 
     if (SamZoneIsBare(&band.zone, grid->row_start + j)) continue;
-    for (PetscInt i = 0; i < grid->nx; i++) AddCell(&band, i, grid->row_start + j, row, edge);
+    AddRow(&band, grid->row_start + j, row, edge);
     SamAddAll(SUMS, totals, row);
   }
   PetscCall(Destroy(&band));

@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* Marks each cell of a row that is marked in `in`, or whose neighbour in the row is. */
-static void Widen(PetscInt n, const char in[], char out[])
+SAM_VECTORIZED static void Widen(PetscInt n, const char *restrict in, char *restrict out)
 {
   out[0]     = in[0] | in[1];
   out[n - 1] = in[n - 2] | in[n - 1];
@@ -49,6 +49,35 @@ static void Mark(SamZone *z, const Disc *disc, const char in[], PetscInt i, Pets
   }
 }
 
+/* Marks the cells of a row in the zone and outside, and sets their distances to the largest; returns 1 if any is in. */
+SAM_VECTORIZED static char FillRow(PetscInt n, const double *restrict w, char *restrict in, char *restrict out,
+                                   signed char *restrict distance)
+{
+  char any = 0;
+
+  for (PetscInt i = 0; i < n; i++) {
+    in[i]       = w[i] > 0;
+    out[i]      = !in[i];
+    distance[i] = (signed char)(in[i] ? SAM_FAR : -SAM_FAR);
+    any |= in[i];
+  }
+  return any;
+}
+
+/* Marks the cells of a row that have a neighbour of the other kind, from the rows before and after it, both widened. */
+SAM_VECTORIZED static void FindEdgeCells(PetscInt n, const char *restrict in, const char *const out_near[3],
+                                         const char *const in_near[3], char *restrict edge)
+{
+  const char *restrict o[3] = {out_near[0], out_near[1], out_near[2]};
+  const char *restrict z[3] = {in_near[0], in_near[1], in_near[2]};
+
+  for (PetscInt i = 0; i < n; i++) {
+    const char outside = o[0][i] | o[1][i] | o[2][i], inside = z[0][i] | z[1][i] | z[2][i];
+
+    edge[i] = in[i] ? outside : inside;
+  }
+}
+
 /*
   The nearest cell of the other kind has a neighbour of this kind: the cell one step nearer. So only cells with a
   neighbour of the other kind mark distances; they are found in whole rows.
@@ -56,38 +85,33 @@ static void Mark(SamZone *z, const Disc *disc, const char in[], PetscInt i, Pets
 static PetscErrorCode FindDistances(SamZone *z, PetscReal reach)
 {
   const PetscInt n = z->width;
-  char          *in, *wide[2], *any;
+  char          *in, *out_near, *in_near, *row;
   Disc           disc;
 
   PetscFunctionBegin;
   FillDisc(n, reach, &disc);
-  PetscCall(PetscMalloc4(z->count * n, &in, z->count * n, &wide[0], z->count * n, &wide[1], n, &any));
+  PetscCall(PetscMalloc4(z->count * n, &in, z->count * n, &out_near, z->count * n, &in_near, n, &row));
   (void)memset(z->bare, 1, (size_t)z->count);
   for (PetscInt j = 0; j < z->count; j++) {
-    PetscInt cells = 0;
+    const ptrdiff_t k   = (ptrdiff_t)j * n;
+    const char      any = FillRow(n, z->w + k, in + k, row, z->distance + k);
 
-    for (PetscInt i = 0, k = j * n; i < n; i++, k++) {
-      in[k]          = z->w[k] > 0 ? 1 : 0;
-      any[i]         = 1 - in[k]; /* cells outside */
-      z->distance[k] = in[k] ? SAM_FAR : -SAM_FAR;
-      cells += in[k];
-    }
-    Widen(n, any, wide[0] + j * n);
-    Widen(n, in + j * n, wide[1] + j * n);
-    for (PetscInt b = PetscMax(j - disc.reach, 0); cells && b <= PetscMin(j + disc.reach, z->count - 1); b++)
+    Widen(n, row, out_near + k);
+    Widen(n, in + k, in_near + k);
+    for (PetscInt b = PetscMax(j - disc.reach, 0); any && b <= PetscMin(j + disc.reach, z->count - 1); b++)
       z->bare[b] = 0;
   }
   for (PetscInt j = 0; j < z->count; j++) {
-    if (z->bare[j]) continue;
-    const PetscInt before = PetscMax(j - 1, 0) * n, here = j * n, after = PetscMin(j + 1, z->count - 1) * n;
+    const ptrdiff_t before = (ptrdiff_t)PetscMax(j - 1, 0) * n, here = (ptrdiff_t)j * n,
+                    after = (ptrdiff_t)PetscMin(j + 1, z->count - 1) * n;
 
+    if (z->bare[j]) continue;
+    FindEdgeCells(n, in + here, (const char *[]){out_near + before, out_near + here, out_near + after},
+                  (const char *[]){in_near + before, in_near + here, in_near + after}, row);
     for (PetscInt i = 0; i < n; i++)
-      any[i] = in[here + i] ? wide[0][before + i] | wide[0][here + i] | wide[0][after + i]
-                            : wide[1][before + i] | wide[1][here + i] | wide[1][after + i];
-    for (PetscInt i = 0; i < n; i++)
-      if (any[i]) Mark(z, &disc, in, z->left + i, z->first + j);
+      if (row[i]) Mark(z, &disc, in, z->left + i, z->first + j);
   }
-  PetscCall(PetscFree4(in, wide[0], wide[1], any));
+  PetscCall(PetscFree4(in, out_near, in_near, row));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
