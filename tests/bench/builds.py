@@ -114,11 +114,13 @@ def sliding(folder):
 CASES = {
     "hertz": problem("hertz", 1024),
     "cold": problem("slip_tx", 512),
+    "cold-1024": problem("slip_tx", 1024),
     "virgin": virgin,
     "repeated": lambda folder: dict(sphere()(folder), load_n=None, history=turning(folder, 5, 32, 0.25)),
     "life": life,
     "sliding": sliding,
     "rough": rough,
+    "rough-cold": problem("rough_8", 1024),
     "periodic": problem("periodic_8", 1024),
     "rolling": sphere(rolling="steady", creep_x=2e-3),
     "layered": sphere(body1_layer_young=400e9, body1_layer_poisson=0.25, body1_layer_thickness=50e-6, load_tx=40),

@@ -16,6 +16,7 @@
 #include <petsam/private/rows.h>
 #include <petsam/private/gap.h>
 #include <math.h>
+#include <string.h>
 
 /* Largest rms slope for which half-space theory is taken to hold */
 #define STEEPEST 0.5
@@ -50,26 +51,72 @@ static double StepAt(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt 
   return beside < BESIDE * fabs(step) ? step : 0;
 }
 
+/* Fills in the differences across the faces before the cells of row j along an axis; 0 beyond the grid. */
+static void FillDifferences(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt j, double difference[])
+{
+  const double *row, *before;
+
+  (void)memset(difference, 0, sizeof(*difference) * (size_t)grid->nx);
+  if (axis && (j < 1 || j >= grid->ny)) return;
+  row    = seen->at[0] + (ptrdiff_t)(j - seen->rows.first) * grid->nx;
+  before = axis ? row - grid->nx : row - 1;
+  for (PetscInt i = axis ? 0 : 1; i < grid->nx; i++) difference[i] = row[i] - before[i];
+}
+
+/* Adds the squares of a row's n differences, and of those that are steps: see StepAt(). */
+SAM_VECTORIZED static void AddDifferences(PetscInt n, const double *step, const double *one, const double *other,
+                                          double squares[2])
+{
+  double all = 0, steps = 0;
+
+#pragma omp simd reduction(+ : all, steps)
+  for (PetscInt i = 0; i < n; i++) {
+    const double beside = fabs(one[i]) > fabs(other[i]) ? fabs(one[i]) : fabs(other[i]), square = step[i] * step[i];
+
+    all += square;
+    steps += beside < BESIDE * fabs(step[i]) ? square : 0;
+  }
+  squares[0] += all;
+  squares[1] += steps;
+}
+
+/* Adds the squares of a row's heights; adds the heights to the sums of columns, and returns their sum. */
+SAM_VECTORIZED static double AddHeights(PetscInt n, const double *restrict h, double *restrict columns, double *square)
+{
+  double sum = 0, squares = 0;
+
+#pragma omp simd reduction(+ : sum, squares)
+  for (PetscInt i = 0; i < n; i++) {
+    sum += h[i];
+    squares += h[i] * h[i];
+    columns[i] += h[i];
+  }
+  *square += squares;
+  return sum;
+}
+
 /* Adds up the squares of the heights, of their gradient and of its part by steps; sums the heights of columns and
    rows. */
-static void AddUp(const SamHalo *seen, SamGrid grid, double square[3], double sums[])
+static PetscErrorCode AddUp(const SamHalo *seen, SamGrid grid, double square[3], double sums[])
 {
   const PetscReal cell[2] = {grid->dx, grid->dy};
-  const double   *h       = seen->own;
+  const PetscInt  nx      = grid->nx;
+  double         *rows[3];
 
-  for (PetscInt c = 0; c < grid->cells; c++) {
-    const PetscInt i = c % grid->nx, j = grid->row_start + c / grid->nx;
-
-    square[0] += h[c] * h[c];
+  PetscFunctionBegin;
+  for (int k = 0; k < 3; k++) PetscCall(PetscCalloc1(nx + 4, &rows[k])); /* two zeros on each side */
+  for (PetscInt j = grid->row_start; j < grid->row_start + grid->rows; j++) {
+    sums[nx + j] += AddHeights(nx, seen->own + (ptrdiff_t)(j - grid->row_start) * nx, sums, &square[0]);
     for (PetscInt d = 0; d < grid->axes; d++) {
-      const double slope = DifferenceAt(seen, grid, d, i, j) / cell[d], step = StepAt(seen, grid, d, i, j) / cell[d];
+      double squares[2] = {0, 0};
 
-      square[1] += slope * slope;
-      square[2] += step * step;
+      for (PetscInt k = d ? -1 : 0; k <= d; k++) FillDifferences(seen, grid, d, j + 2 * k, rows[k + 1] + 2);
+      AddDifferences(nx, rows[1] + 2, d ? rows[0] + 2 : rows[1], d ? rows[2] + 2 : rows[1] + 4, squares);
+      for (int k = 0; k < 2; k++) square[k + 1] += squares[k] / (cell[d] * cell[d]);
     }
-    sums[i] += h[c];
-    sums[grid->nx + j] += h[c];
   }
+  for (int k = 0; k < 3; k++) PetscCall(PetscFree(rows[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Returns the rise over n lines with these means. */
@@ -104,7 +151,7 @@ static PetscErrorCode Measure(SamGrid grid, Vec heights, Heights *found)
   PetscCall(VecShift(heights, -mean));
   PetscCall(PetscCalloc1(n[0] + n[1], &sums));
   PetscCall(SamHaloBegin(grid, heights, 1, 3, PETSC_FALSE, &seen));
-  AddUp(&seen, grid, square, sums);
+  PetscCall(AddUp(&seen, grid, square, sums));
   PetscCall(SamHaloEnd(&seen));
   PetscCall(SamSum(grid->comm, 3, square));
   PetscCall(SamSum(grid->comm, n[0] + n[1], sums));
