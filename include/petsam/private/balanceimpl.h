@@ -139,7 +139,8 @@ static inline void SamBoundRangeOfBoth(PetscInt n, const double one[], const dou
 
   SamRunsCreate - finds the runs of the cells with a bound above 0, or with `shear` (two components; NULL: none). Runs
   with fewer than `gap` cells between them are one: SAM_RUN_GAP, below which it costs more to begin a loop than to pass
-  over the cells, or the grid's nx: each row has one run, from its first contact to its last. Not collective.
+  over the cells, or the grid's nx: each row has one run, from its first contact to its last. A row in which runs gain
+  little has one, too. Not collective.
 */
 #define SAM_RUN_GAP 16
 typedef struct {

@@ -15,10 +15,17 @@ static PetscInt FindRuns(PetscInt nx, const double bound[], const double x[], co
   return count;
 }
 
-/* Widens the runs of a row to whole blocks of SAM_RUN_GAP cells, and joins those that then meet; returns their number. */
+/* Runs that cover a larger part of the cells from the first to the last gain less than they cost: they become one. */
+#define MOST 0.5
+
+/*
+  Widens the runs of a row, in place, to whole blocks of SAM_RUN_GAP cells, and joins those that then meet, or all;
+  returns their number.
+*/
 static PetscInt Widen(PetscInt nx, PetscInt count, PetscInt (*span)[2])
 {
-  PetscInt joined = 0;
+  const PetscInt begin = span[0][0], end = span[count - 1][1];
+  PetscInt       joined = 0, cells = 0;
 
   for (PetscInt n = 0; n < count; n++) {
     const PetscInt first = span[n][0] / SAM_RUN_GAP * SAM_RUN_GAP,
@@ -27,7 +34,11 @@ static PetscInt Widen(PetscInt nx, PetscInt count, PetscInt (*span)[2])
     if (!joined || first > span[joined - 1][1]) span[joined++][0] = first;
     span[joined - 1][1] = last;
   }
-  return joined;
+  for (PetscInt n = 0; n < joined; n++) cells += span[n][1] - span[n][0];
+  if ((double)cells <= MOST * (double)(end - begin)) return joined;
+  span[0][0] = begin;
+  span[0][1] = end;
+  return 1;
 }
 
 PetscErrorCode SamRunsCreate(SamGrid grid, const double bound[], const double shear[], PetscInt gap, SamRuns *runs)
