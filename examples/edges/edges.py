@@ -109,7 +109,7 @@ def measure(petsam, folder, shape, n, place, way):
     words = (
         f"-gap_type file -gap_file {folder}/gap.h5 -grid_n {n} -grid_size {shape.width} -load_n {shape.load!r} "
         f"-load_mx {mx!r} -load_my {my!r} -edges {way} -output {folder}/edges.h5 "
-        f"-output_fields {field}"
+        f"-output_fields {field} -profile"
     )
     done = subprocess.run([petsam, *MATERIAL, *words.split()], capture_output=True, text=True)
     if done.returncode:

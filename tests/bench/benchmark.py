@@ -297,6 +297,7 @@ class Bench:
         command = launch(ranks, PATIENCE) + [
             self.build / "bin" / "petsam",
             *json.loads((folder / "problem.json").read_text())["options"],
+            "-profile",
         ]
         shares = []
 

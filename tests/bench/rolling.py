@@ -45,11 +45,13 @@ def options(cells):
 
 def run(program, cells):
     """What a run prints of itself."""
-    done = subprocess.run([program, *options(cells)], capture_output=True, text=True, env=environment())
+    done = subprocess.run([program, *options(cells), "-profile"], capture_output=True, text=True, env=environment())
     if done.returncode:
         sys.exit(f"rolling.py: {cells} cells: exit code {done.returncode}: {done.stderr[-500:]}")
     found = {name: re.search(pattern, done.stdout, re.M) for name, pattern in PATTERNS.items()}
-    return {name: float(match[1]) if match else math.nan for name, match in found.items()}
+    if lost := [name for name, match in found.items() if not match]:
+        sys.exit(f"rolling.py: {cells} cells: petsam has not printed {', '.join(lost)}")
+    return {name: float(match[1]) for name, match in found.items()}
 
 
 def row(program, cells, repeats):
