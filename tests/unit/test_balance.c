@@ -554,8 +554,8 @@ static void test_loads_are_conjugate_to_displacements(void **state)
 }
 
 /*
-  Runs contain all cells with a bound or with shear, lie apart in order, and begin and end with such a cell but for whole
-  blocks; with a wide gap there is one, from the first cell to the last.
+  Runs contain all cells with a bound or with shear, lie apart in order, and begin and end with such a cell but for
+  whole blocks; with a wide gap there is one, from the first cell to the last.
 */
 static void test_runs_contain_the_contact(void **state)
 {

@@ -366,8 +366,8 @@ static void test_start_from_shear_beyond_the_bound_and_its_product(void **state)
 }
 
 /*
-  Two strips of the contact, far apart: a product is kept in the cells between them, too, into which contact may grow, and
-  what the preconditioner leaves there does not count.
+  Two strips of the contact, far apart: a product is kept in the cells between them, too, into which contact may grow,
+  and what the preconditioner leaves there does not count.
 */
 static void test_strips_far_apart(void **state)
 {

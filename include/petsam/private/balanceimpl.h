@@ -300,9 +300,8 @@ PETSC_INTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double fi
 /*
   SamFrameProjectTangential - replaces q by the nearest admissible shear: D(q + weight phi a), where D projects the
   shear of each cell onto the disc of radius `bound`, with the a for which the force-controlled loads are exact. The
-  squared distance of a cell counts 1/weight (weight NULL: 1). `runs` have all cells with a bound above 0; NULL: they are
-  found. `motion`, if not NULL, becomes a. `found` is false if
-  there is no such shear; q is then undefined.
+  squared distance of a cell counts 1/weight (weight NULL: 1). `runs` have all cells with a bound above 0; NULL: they
+  are found. `motion`, if not NULL, becomes a. `found` is false if there is no such shear; q is then undefined.
   The result is admissible to rounding in any case. With `nearest` it is the nearest admissible shear; without, which is
   faster, it may differ from that by 1e-6 of the change. Collective.
 */

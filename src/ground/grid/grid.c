@@ -200,7 +200,7 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What belongs to a field */
+/* Data of a field, and the function that frees them */
 typedef struct {
   void *data;
   PetscErrorCode (*free)(void *data);

@@ -99,8 +99,9 @@ static Look LookAt(Band *band, PetscInt i, PetscInt j, PetscInt k)
 }
 
 /*
-  True if a cell of the band and all its neighbours look like parts of a smooth edge. Those that are known come first,
-  then those behind it: on rough surfaces one reconstruction decides on nine cells.
+  True if a cell of the band and all its neighbours look like parts of a smooth edge. Those that are known come first;
+  of the others the last one does, whose look also decides on the cells that follow: on rough surfaces one
+  reconstruction decides on nine cells.
 */
 static PetscBool IsSmoothAbout(Band *band, PetscInt i, PetscInt j)
 {
