@@ -8,7 +8,7 @@
     (I - A D) d = -F(T),   D = Q'(T) = p dmu'(T) v,   T <- T + d,
 
   the linear systems by generalised conjugate residuals (heatsteps.c) without a preconditioner, to a tenth of the
-  residual. Where friction falls with temperature, -A D is positive and there is one solution; where it rises, A D may
+  residual, for which A D d is needed to a part of ROUGH only. Where friction falls with temperature, -A D is positive and there is one solution; where it rises, A D may
   reach 1: the temperature then runs away, and no solution is found. Plain passes T <- T1 + A Q(T) do not converge where
   friction falls steeply. Source: Ertz and Knothe 2002, Wear 253, 498-508, for friction that falls with the temperature.
 */
@@ -22,6 +22,7 @@
 #define PASSES     30   /* most of Newton's method */
 #define DIRECTIONS 40   /* most of GCR in a pass */
 #define INNER      0.1  /* residual of a linear system relative to that of the pass */
+#define ROUGH      1e-3 /* residual of the heat's partition in its operator applications */
 #define RTOL       1e-8 /* largest residual relative to the largest rise of temperature */
 #define SHORTEST   1e-3 /* shortest part of a step of Newton's method */
 
@@ -60,6 +61,7 @@ PetscErrorCode SamHeatTemperatures(const SamHeatPair *pair, Vec contact, Vec hea
 /* A solve: the fields on the grid, and the bodies. */
 typedef struct {
   const SamHeatPair     *pair;
+  SamHeatPair            rough; /* the same with the tolerance ROUGH */
   const SamHeatFriction *friction;
   const SamHeatRate     *rate;
   SamGrid                grid; /* of the fields; borrowed */
@@ -74,7 +76,7 @@ typedef struct {
 } Solve;
 
 /* Computes T1_bulk + K1 (heat - q2) in contact, and 0 elsewhere; `bulk`: of both bodies. */
-static PetscErrorCode Respond(Solve *s, const PetscReal bulk[2], Vec temperature)
+static PetscErrorCode Respond(Solve *s, const SamHeatPair *pair, const PetscReal bulk[2], Vec temperature)
 {
   const double *p;
   double       *t;
@@ -82,7 +84,7 @@ static PetscErrorCode Respond(Solve *s, const PetscReal bulk[2], Vec temperature
 
   PetscFunctionBegin;
   s->products++;
-  PetscCall(SamHeatTemperatures(s->pair, s->rate->pressure, s->heat, bulk, s->heat_2, surface, s->failed, s->size));
+  PetscCall(SamHeatTemperatures(pair, s->rate->pressure, s->heat, bulk, s->heat_2, surface, s->failed, s->size));
   PetscCall(VecGetArrayRead(s->rate->pressure, &p));
   PetscCall(VecGetArray(temperature, &t));
   for (PetscInt k = 0; k < s->grid->cells; k++)
@@ -124,7 +126,7 @@ static PetscErrorCode Residual(Solve *s, Vec temperature, Vec residual, PetscRea
 
   PetscFunctionBegin;
   PetscCall(FillHeat(s, temperature, NULL));
-  PetscCall(Respond(s, s->bulk, residual));
+  PetscCall(Respond(s, s->pair, s->bulk, residual));
   PetscCall(VecNorm(residual, NORM_INFINITY, &rise));
   PetscCall(VecAXPY(residual, -1, temperature));
   PetscCall(VecNorm(residual, NORM_INFINITY, &most));
@@ -142,7 +144,7 @@ static PetscErrorCode Multiply(void *context, const double d[], double product[]
   PetscCall(VecPlaceArray(s->direction, d));
   PetscCall(VecPlaceArray(s->product, product));
   PetscCall(FillHeat(s, s->temperature, s->direction));
-  PetscCall(Respond(s, none, s->product));
+  PetscCall(Respond(s, &s->rough, none, s->product));
   PetscCall(VecAYPX(s->product, -1, s->direction));
   PetscCall(VecResetArray(s->product));
   PetscCall(VecResetArray(s->direction));
@@ -189,6 +191,7 @@ PetscErrorCode SamHeatSolveFriction(const SamHeatPair *pair, const PetscReal bul
                                     size_t size)
 {
   Solve     s = {.pair     = pair,
+                 .rough    = *pair,
                  .friction = friction,
                  .rate     = rate,
                  .grid     = rate->grid,
@@ -200,7 +203,8 @@ PetscErrorCode SamHeatSolveFriction(const SamHeatPair *pair, const PetscReal bul
   Vec       residual, step;
 
   PetscFunctionBegin;
-  failed[0] = '\0';
+  failed[0]    = '\0';
+  s.rough.rtol = PetscMax(pair->rtol, ROUGH);
   PetscCall(VecDuplicate(temperature, &s.heat));
   PetscCall(VecDuplicate(temperature, &s.heat_2));
   PetscCall(VecDuplicate(temperature, &s.direction));

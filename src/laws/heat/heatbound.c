@@ -38,7 +38,10 @@ static PetscErrorCode FillRate(SamLaw law, Vec slip, Vec rate)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets the start of the temperature, relative to the bulk of body 1: that of the step before, 0 outside of contact. */
+/*
+  Sets the start of the temperature, relative to the bulk of body 1: that of the last bound in the step that is being
+  solved, or that of the step before; 0 outside of contact. So a step does not depend on tries before it.
+*/
 static PetscErrorCode FillStart(SamLaw law, const SamBoundAt *at, Vec temperature)
 {
   const SamHeatLaw *h = (const SamHeatLaw *)law->data;
@@ -48,6 +51,10 @@ static PetscErrorCode FillStart(SamLaw law, const SamBoundAt *at, Vec temperatur
   double       *t;
 
   PetscFunctionBegin;
+  if (h->solving && h->start) {
+    PetscCall(VecCopy(h->start, temperature));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(VecGetArrayRead(at->pressure, &p));
   if (before) PetscCall(VecGetArrayRead(before, &was));
   PetscCall(VecGetArrayWrite(temperature, &t));
@@ -76,6 +83,9 @@ static PetscErrorCode FindTemperature(SamLaw law, const SamBoundAt *at, Vec boun
   PetscCall(
     SamHeatSolveFriction(&h->pair, bulk, &friction, &rate, temperature, &products, h->failed, sizeof(h->failed)));
   PetscCall(VecDestroy(&rate.rate));
+  if (!h->solving || h->failed[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!h->start) PetscCall(VecDuplicate(temperature, &h->start));
+  PetscCall(VecCopy(temperature, h->start));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

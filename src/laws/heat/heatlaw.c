@@ -286,6 +286,8 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   h->duration  = first ? PetscMax(control->time, 0) : duration; /* the first step begins at time 0 */
   h->failed[0] = '\0';
   h->clipped   = PETSC_FALSE;
+  h->solving   = PETSC_TRUE;
+  PetscCall(VecDestroy(&h->start));
   PetscCall(SamHeatLawBeginExpansion(law));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -401,6 +403,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   numbers[POWER] = (double)power[0];
   numbers[SHARE] = power[0] > 0 ? (double)(into[0] / power[0]) : NAN;
   PetscCall(SamHeatLawKeepExpansion(law, step, into_body));
+  h->solving = PETSC_FALSE;
   PetscCall(VecDestroy(&heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -454,6 +457,7 @@ static PetscErrorCode Destroy(SamLaw law)
 {
   PetscFunctionBegin;
   for (int b = 0; b < 2; b++) PetscCall(SamConductorDestroy(&((SamHeatLaw *)law->data)->pair.body[b]));
+  PetscCall(VecDestroy(&((SamHeatLaw *)law->data)->start));
   PetscCall(SamHeatLawDestroyExpansion(law));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -20,6 +20,8 @@ typedef struct {
   SamHeatPair pair;           /* body[0] NULL: not created yet */
   PetscReal   duration;       /* of the step, s */
   char        failed[192];    /* why the last bound has no temperature; empty: it has one */
+  Vec         start;          /* temperature of the last bound in a step; NULL: there is none */
+  PetscBool   solving;        /* between the beginning of a step and its end */
   PetscBool   clipped;        /* the last bound would have had friction below 0 in a cell of this rank */
   PetscBool   timeless;       /* there is frictional work in a step without duration */
   SamExpander expander[2];    /* NULL: not created yet, or no expansion; [1] may be [0], for equal conduction */

@@ -13,11 +13,29 @@
 #include <math.h>
 
 #define RESTART 30
+/* Orthogonalisation is repeated, against rounding, if less than this part of a product is left. */
+#define CANCELLED 0.5
 
 /* A direction, and its product, which is a unit vector */
 typedef struct {
   double *p, *v;
 } Direction;
+
+/* Adds a x to y. */
+SAM_VECTORIZED static void AddTimes(PetscInt n, double a, const double *restrict x, double *restrict y)
+{
+#pragma omp simd
+  for (PetscInt m = 0; m < n; m++) y[m] += a * x[m];
+}
+
+SAM_VECTORIZED static double DotOfRow(PetscInt n, const double *x, const double *y)
+{
+  double sum = 0;
+
+#pragma omp simd reduction(+ : sum)
+  for (PetscInt m = 0; m < n; m++) sum += x[m] * y[m];
+  return sum;
+}
 
 /* Computes the dot products of x with n vectors. */
 static PetscErrorCode Dots(SamGrid grid, PetscInt n, double *const v[], const double x[], double dots[])
@@ -28,12 +46,8 @@ static PetscErrorCode Dots(SamGrid grid, PetscInt n, double *const v[], const do
   PetscFunctionBegin;
   for (PetscInt k = 0; k < n; k++) {
     totals[k] = (SamTotal){0};
-    for (PetscInt j = 0; j < grid->rows; j++) {
-      double row = 0;
-
-      for (PetscInt i = 0; i < nx; i++) row += v[k][j * (ptrdiff_t)nx + i] * x[j * (ptrdiff_t)nx + i];
-      SamAdd(&totals[k], row);
-    }
+    for (PetscInt j = 0; j < grid->rows; j++)
+      SamAdd(&totals[k], DotOfRow(nx, v[k] + j * (ptrdiff_t)nx, x + j * (ptrdiff_t)nx));
   }
   if (n) PetscCall(SamSumTotals(grid->comm, n, totals, dots));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -59,15 +73,16 @@ static PetscErrorCode NewDirection(SamHeatSystem *s, PetscInt k, const double r[
   for (PetscInt i = 0; i <= k; i++) v[i] = d[i].v;
   PetscCall(s->precondition ? (*s->precondition)(s->context, r, size, d[k].p) : PetscArraycpy(d[k].p, r, n));
   PetscCall((*s->multiply)(s->context, d[k].p, v[k]));
-  for (PetscInt twice = 0; twice < 2; twice++) { /* repeated against rounding */
-    PetscCall(Dots(s->grid, k, v, v[k], dots));
-    for (PetscInt i = 0; i < k; i++)
-      for (PetscInt m = 0; m < n; m++) {
-        v[k][m] -= dots[i] * v[i][m];
-        d[k].p[m] -= dots[i] * d[i].p[m];
-      }
-  }
   PetscCall(SamHeatNorm(s->grid, v[k], norm));
+  for (double before = PETSC_INFINITY; k > 0 && *norm > 0 && *norm < CANCELLED * before;) {
+    before = *norm;
+    PetscCall(Dots(s->grid, k, v, v[k], dots));
+    for (PetscInt i = 0; i < k; i++) {
+      AddTimes(n, -dots[i], v[i], v[k]);
+      AddTimes(n, -dots[i], d[i].p, d[k].p);
+    }
+    PetscCall(SamHeatNorm(s->grid, v[k], norm));
+  }
   for (PetscInt m = 0; *norm > 0 && m < n; m++) {
     v[k][m] /= *norm;
     d[k].p[m] /= *norm;
@@ -89,10 +104,8 @@ PetscErrorCode SamHeatReduce(SamHeatSystem *s, double goal, double x[], double r
     if (!(size > 0)) break;
     v = d[k].v;
     PetscCall(Dots(s->grid, 1, &v, r, &step));
-    for (PetscInt m = 0; m < s->grid->cells; m++) {
-      x[m] += step * d[k].p[m];
-      r[m] -= step * v[m];
-    }
+    AddTimes(s->grid->cells, step, d[k].p, x);
+    AddTimes(s->grid->cells, -step, v, r);
     PetscCall(SamHeatNorm(s->grid, r, left));
   }
   for (PetscInt k = 0; k < RESTART; k++) PetscCall(PetscFree2(d[k].p, d[k].v));
