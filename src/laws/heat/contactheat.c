@@ -8,9 +8,10 @@
     (I - A D) d = -F(T),   D = Q'(T) = p dmu'(T) v,   T <- T + d,
 
   the linear systems by generalised conjugate residuals (heatsteps.c) without a preconditioner, to a tenth of the
-  residual, for which A D d is needed to a part of ROUGH only. Where friction falls with temperature, -A D is positive and there is one solution; where it rises, A D may
-  reach 1: the temperature then runs away, and no solution is found. Plain passes T <- T1 + A Q(T) do not converge where
-  friction falls steeply. Source: Ertz and Knothe 2002, Wear 253, 498-508, for friction that falls with the temperature.
+  residual, for which A D d is needed to a part of ROUGH only. Where friction falls with temperature, -A D is positive
+  and there is one solution; where it rises, A D may reach 1: the temperature then runs away, and no solution is found.
+  Plain passes T <- T1 + A Q(T) do not converge where friction falls steeply. Source: Ertz and Knothe 2002, Wear 253,
+  498-508, for friction that falls with the temperature.
 */
 #include "contactheat.h"
 #include "heatimpl.h"
