@@ -387,6 +387,43 @@ static void test_edge_does_not_depend_on_the_ranks(void **state)
   }
 }
 
+/* A ridge on a grid of a few rows that repeats: the same bits on any number of ranks, and as on several periods. */
+static void test_edge_of_few_periodic_rows(void **state)
+{
+  (void)state;
+  for (PetscInt ny = 2; ny <= 8; ny += 3) {
+    const PetscInt rows[] = {ny, ny, 4 * ny};
+    SamEdge        edge[3];
+    double        *values[3];
+
+    for (int k = 0; k < 3; k++) {
+      SamGrid grid = NewGridOn(k == 1 ? PETSC_COMM_SELF : PETSC_COMM_WORLD, 40, (int)rows[k], 40, rows[k], 0, 0);
+      Vec     w    = NewField(grid, 1);
+      double *array;
+
+      sam_call(VecGetArray(w, &array));
+      for (PetscInt c = 0; c < grid->cells; c++) {
+        const double wave = 1 + 2e-4 * cos(2 * PETSC_PI * (double)(grid->row_start + c / 40) / (double)ny),
+                     x    = SamGridX(grid, c % 40) / (12.3 * wave);
+
+        array[c] = fmax(0, 1 - x * x); /* the square of a traction */
+      }
+      sam_call(VecRestoreArray(w, &array));
+      sam_call(SamEdgeReconstruct(grid, PETSC_TRUE, w, &edge[k]));
+      sam_call(SamEdgeCorrect(&edge[k], w));
+      sam_call(SamEdgeDestroy(&edge[k]));
+      values[k] = Whole(grid, 1, w);
+      sam_call(VecDestroy(&w));
+      sam_call(SamGridDestroy(&grid));
+    }
+    sam_assert(!memcmp(values[0], values[1], sizeof(double) * (size_t)(40 * ny)));
+    sam_assert(SameNumbers(1, &edge[0].area, &edge[1].area) && edge[0].good == edge[1].good);
+    sam_assert(edge[0].good > 0 && 4 * edge[0].good == edge[2].good && 4 * edge[0].faces == edge[2].faces);
+    sam_assert_close(4 * edge[0].area, edge[2].area, 1e-10 * edge[2].area);
+    for (int k = 0; k < 3; k++) free(values[k]);
+  }
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -403,6 +440,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_blunt_edge_is_counted_in_whole_cells),
     cmocka_unit_test(test_zone_without_an_edge),
     cmocka_unit_test(test_edge_does_not_depend_on_the_ranks),
+    cmocka_unit_test(test_edge_of_few_periodic_rows),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -133,17 +133,18 @@ static PetscErrorCode CopyRows(SamZone *z, const double own[], PetscInt first, P
 }
 
 /* Fetches the field's rows in the window; on a periodic grid, rows and columns from the other side, too. Collective. */
-static PetscErrorCode Fetch(SamZone *z, Vec field)
+static PetscErrorCode Fetch(SamZone *z, PetscInt periods, Vec field)
 {
   const PetscInt nx = z->grid->nx, ny = z->grid->ny, end = z->first + z->count;
-  const PetscInt begin = PetscMax(z->first, 0), stop = PetscMin(end, ny);
   const double  *own;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(field, &own));
-  PetscCall(CopyRows(z, own, z->first + ny, begin - z->first, z->first));
-  PetscCall(CopyRows(z, own, begin, stop - begin, begin));
-  PetscCall(CopyRows(z, own, 0, end - stop, stop));
+  for (PetscInt k = -periods; k <= periods; k++) { /* rows of the grid, and of its periods before and after it */
+    const PetscInt begin = PetscMax(z->first, k * ny), stop = PetscMin(end, (k + 1) * ny);
+
+    PetscCall(CopyRows(z, own, begin - k * ny, stop - begin, begin));
+  }
   PetscCall(VecRestoreArrayRead(field, &own));
   for (PetscInt j = z->first; j < end; j++)
     for (PetscInt i = z->left; i < 0; i++) {
@@ -155,16 +156,16 @@ static PetscErrorCode Fetch(SamZone *z, Vec field)
 
 PetscErrorCode SamZoneCreate(SamGrid grid, PetscBool periodic, Vec field, PetscInt halo, PetscReal reach, SamZone *z)
 {
-  const PetscInt  columns = periodic ? PetscMin(halo, grid->nx) : 0, rows = PetscMin(halo, grid->ny);
+  const PetscBool wraps   = periodic && grid->ny > 1;
+  const PetscInt  columns = periodic ? PetscMin(halo, grid->nx) : 0, rows = wraps ? halo : PetscMin(halo, grid->ny);
   const PetscInt  begin = grid->row_start - rows, end = grid->row_start + grid->rows + rows;
-  const PetscBool wraps = periodic && grid->ny > 1;
 
   PetscFunctionBegin;
   *z       = (SamZone){.grid = grid, .left = -columns, .width = grid->nx + 2 * columns};
   z->first = wraps ? begin : PetscMax(begin, 0);
   z->count = grid->rows ? (wraps ? end : PetscMin(end, grid->ny)) - z->first : 0;
   PetscCall(PetscMalloc3(z->count * z->width, &z->w, z->count * z->width, &z->distance, z->count, &z->bare));
-  PetscCall(Fetch(z, field));
+  PetscCall(Fetch(z, wraps ? (halo + grid->ny - 1) / grid->ny : 0, field));
   PetscCall(FindDistances(z, reach));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
