@@ -157,6 +157,8 @@ def test_columns_have_the_scatter_of_windows_and_units():
     (dict(conductivity=(50, 50), film=-1), "film -1: expected a resistance"),
     (dict(conductivity=(50, 50), gas=(0, 1e-6)), "gas .* expected a conductivity above 0"),
     (dict(conductivity=(50, np.inf)), "expected two numbers"),
+    (dict(conductivity=(None, 50)), "conductivity .None, 50.: expected two numbers"),
+    (dict(conductivity=(50, 50), layers1=[(1e-6,)]), "expected pairs"), (dict(conductivity="steel"), "expected two"),
     (dict(conductivity=("steel", "steal")), "steal is no material: is steel meant"),
     (dict(conductivity=(50, "alumnia")), "alumnia is no material"),
     (dict(conductivity=(50, "Si3N4")), "Si3N4: its conductivity is not known: .* it is of steel, 304"),

@@ -41,6 +41,7 @@ import contextlib
 import os
 import sys
 import warnings
+from functools import partial
 
 import numpy as np
 
@@ -84,48 +85,42 @@ def cycle_counts(text):
     return found
 
 
-def gas(text):
-    """Conductivity of --gas, and the length of the temperature jump, m."""
-    form = "LAM,M, a conductivity above 0 and a length, 0 or more: 0.026,0.37um"
+def _both(text, form, first, second):
+    """Both words of FIRST,SECOND, each by its reader."""
     parts = text.split(",")
     try:
         if len(parts) == 2:
-            return words.number(parts[0], form, allowed=words.positive), words.number(parts[1], form, "m", _not_below_0)
+            return first(parts[0]), second(parts[1])
     except words.WordError:
         pass
     raise words.WordError(text, form)
 
 
-def conductivity(text, form):
+def _conductivity(text):
     """A conductivity, or the name of a material that has one."""
     if not materials.has(text):
-        return words.number(text, form, "1", words.positive)
+        return words.number(text, allowed=words.positive)
     materials.conductivity(text)
     return text
+
+
+def gas(text):
+    """Conductivity of --gas, and the length of the temperature jump, m."""
+    form = "LAM,M, a conductivity above 0 and a length, 0 or more: 0.026,0.37um"
+    return _both(text, form, partial(words.number, allowed=words.positive),
+                 partial(words.number, unit="m", allowed=_not_below_0))  # fmt: skip
 
 
 def conductivities(text):
     """Those of --conductivity, numbers or names of materials."""
     form = "those of both bodies, two numbers above 0, or materials: 50,50 or steel,copper"
-    parts = text.split(",")
-    try:
-        if len(parts) == 2:
-            return tuple(conductivity(part, form) for part in parts)
-    except words.WordError:
-        pass
-    raise words.WordError(text, form)
+    return _both(text, form, _conductivity, _conductivity)
 
 
 def layer(text):
     """Thickness of --layer1 or --layer2, m, and conductivity."""
     form = "THICKNESS,CONDUCTIVITY, a length and a number above 0, or a material: 2um,317 or 2um,gold"
-    parts = text.split(",")
-    try:
-        if len(parts) == 2:
-            return words.number(parts[0], form, "m", words.positive), conductivity(parts[1], form)
-    except words.WordError:
-        pass
-    raise words.WordError(text, form)
+    return _both(text, form, partial(words.number, unit="m", allowed=words.positive), _conductivity)
 
 
 def film(text):

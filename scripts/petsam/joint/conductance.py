@@ -186,32 +186,32 @@ def conductors(
                 raise Unusable(f"{name}: is for the conductance: give the conductivity of both bodies, too")
         return None
     lam = _conductivities(conductivity, electrical)
+    checked = tuple(None if own is None else Body(one, own).checked().layers for one, own in zip(lam, layers))
     for one, own in enumerate(layers, 1):
-        for _, named in own or ():
-            _not_of_a_current(f"layers{one}", named, electrical)
-    layers = tuple(None if own is None else Body(one, own).checked().layers for one, own in zip(lam, layers))
+        _not_of_a_current(f"layers{one}", [of for _, of in own or ()], electrical)
     if gas is not None:
         gas = _pair("gas", gas, "a conductivity above 0 and a length >= 0, m", lambda a, b: a > 0 and b >= 0)
     film, name = _film(film)
-    return Conductors(lam, film, gas, bool(electrical), layers, name)
+    return Conductors(lam, film, gas, bool(electrical), checked, name)
 
 
 def _conductivities(given, electrical):
     """The conductivities of both bodies as numbers."""
     what = "two numbers above 0, or materials, those of both bodies"
-    if np.ndim(given) != 1 or len(given) != 2:
-        raise Unusable(f"conductivity {given!r}: expected {what}")
-    for one in given:
-        _not_of_a_current("conductivity", one, electrical)
-    return _pair("conductivity", [materials.conductivity(one) for one in given], what, lambda a, b: a > 0 and b > 0)
+    if np.iterable(given) and not isinstance(given, str):
+        _not_of_a_current("conductivity", given, electrical)
+        given = [materials.conductivity(one) if isinstance(one, str) else one for one in given]
+    return _pair("conductivity", given, what, lambda a, b: a > 0 and b > 0)
 
 
-def _not_of_a_current(name, value, electrical):
+def _not_of_a_current(name, values, electrical):
     """Ends with an error where a material is named and a current flows."""
-    if electrical and isinstance(value, str):
-        raise Unusable(
-            f"{name} {short(value)}: give the conductivity for a current as a number, S/m: materials have that for heat"
-        )
+    for named in values:
+        if electrical and isinstance(named, str):
+            raise Unusable(
+                f"{name} {short(named)}: give the conductivity for a current as a number, S/m: "
+                "materials have that for heat"
+            )
 
 
 def _film(film):

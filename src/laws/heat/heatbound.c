@@ -44,21 +44,20 @@ static PetscErrorCode FillRate(SamLaw law, Vec slip, Vec rate)
 */
 static PetscErrorCode FillStart(SamLaw law, const SamBoundAt *at, Vec temperature)
 {
-  const SamHeatLaw *h = (const SamHeatLaw *)law->data;
-  const Vec         before =
-    at->state ? SamStateGetField(at->state, SamStateFindField(at->state, SAM_TEMPERATURE_1), SAM_COMMITTED) : NULL;
-  const double *p, *was = NULL;
-  double       *t;
+  const SamHeatLaw *h      = (const SamHeatLaw *)law->data;
+  Vec               before = h->solving ? h->start : NULL;
+  double            bulk   = 0, *t;
+  const double     *p, *was = NULL;
 
   PetscFunctionBegin;
-  if (h->solving && h->start) {
-    PetscCall(VecCopy(h->start, temperature));
-    PetscFunctionReturn(PETSC_SUCCESS);
+  if (!before && at->state) {
+    before = SamStateGetField(at->state, SamStateFindField(at->state, SAM_TEMPERATURE_1), SAM_COMMITTED);
+    bulk   = (double)h->bulk[0];
   }
   PetscCall(VecGetArrayRead(at->pressure, &p));
   if (before) PetscCall(VecGetArrayRead(before, &was));
   PetscCall(VecGetArrayWrite(temperature, &t));
-  for (PetscInt k = 0; k < law->grid->cells; k++) t[k] = p[k] > 0 && was ? was[k] - (double)h->bulk[0] : 0;
+  for (PetscInt k = 0; k < law->grid->cells; k++) t[k] = p[k] > 0 && was ? was[k] - bulk : 0;
   PetscCall(VecRestoreArrayWrite(temperature, &t));
   if (before) PetscCall(VecRestoreArrayRead(before, &was));
   PetscCall(VecRestoreArrayRead(at->pressure, &p));

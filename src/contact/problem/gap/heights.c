@@ -40,15 +40,21 @@ static double DifferenceAt(const SamHalo *seen, SamGrid grid, PetscInt axis, Pet
   return at < 1 || at >= n ? 0 : SamHaloAt(seen, 0, i, j) - SamHaloAt(seen, 0, i - !axis, j - axis);
 }
 
-/* Returns the same difference if it is a step, else 0. */
+/* Returns a difference if it is a step beside those of two cells before and after it, else 0. */
+static inline double StepOf(double difference, double before, double after)
+{
+  const double beside = fabs(before) > fabs(after) ? fabs(before) : fabs(after);
+
+  return beside < BESIDE * fabs(difference) ? difference : 0;
+}
+
+/* Returns the same difference across a face if it is a step, else 0. */
 static double StepAt(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt i, PetscInt j)
 {
   const PetscInt along = axis ? 0 : 2, across = axis ? 2 : 0;
-  const double   step = DifferenceAt(seen, grid, axis, i, j),
-               beside = PetscMax(fabs(DifferenceAt(seen, grid, axis, i - along, j - across)),
-                                 fabs(DifferenceAt(seen, grid, axis, i + along, j + across)));
 
-  return beside < BESIDE * fabs(step) ? step : 0;
+  return StepOf(DifferenceAt(seen, grid, axis, i, j), DifferenceAt(seen, grid, axis, i - along, j - across),
+                DifferenceAt(seen, grid, axis, i + along, j + across));
 }
 
 /* Fills in the differences across the faces before the cells of row j along an axis; 0 beyond the grid. */
@@ -63,7 +69,7 @@ static void FillDifferences(const SamHalo *seen, SamGrid grid, PetscInt axis, Pe
   for (PetscInt i = axis ? 0 : 1; i < grid->nx; i++) difference[i] = row[i] - before[i];
 }
 
-/* Adds the squares of a row's n differences, and of those that are steps: see StepAt(). */
+/* Adds the squares of a row's n differences, and of those that are steps. */
 SAM_VECTORIZED static void AddDifferences(PetscInt n, const double *step, const double *one, const double *other,
                                           double squares[2])
 {
@@ -71,10 +77,10 @@ SAM_VECTORIZED static void AddDifferences(PetscInt n, const double *step, const 
 
 #pragma omp simd reduction(+ : all, steps)
   for (PetscInt i = 0; i < n; i++) {
-    const double beside = fabs(one[i]) > fabs(other[i]) ? fabs(one[i]) : fabs(other[i]), square = step[i] * step[i];
+    const double of = StepOf(step[i], one[i], other[i]);
 
-    all += square;
-    steps += beside < BESIDE * fabs(step[i]) ? square : 0;
+    all += step[i] * step[i];
+    steps += of * of;
   }
   squares[0] += all;
   squares[1] += steps;
