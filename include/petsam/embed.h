@@ -119,7 +119,8 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   body 1. With -rolling steady each try is a steady state of rolling.
 
   With the option -errors companion the step is solved on other cells and in two halves, too, and each of its numbers
-  NAME has an estimated error, the number NAME_error in the same unit: NaN if unknown, as of a state from petsam_load().
+  NAME has an estimated error, the number NAME_error in the same unit: NaN if unknown. Files of petsam_save() have the
+  states of these runs, unless a step is tried at that moment; of a file without them, petsam_load() leaves NaN.
 */
 int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                double rigid[6]);

@@ -1065,6 +1065,8 @@ class Contact:
     def save(self, file: Union[str, os.PathLike]) -> None:
         """Writes the committed state to a file.
 
+        Of a contact with errors=True the states of its companions go along, unless a step is tried at that moment.
+
         Parameters
         ----------
         file : path

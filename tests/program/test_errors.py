@@ -148,16 +148,22 @@ def test_errors_are_the_same_on_any_ranks_and_after_a_restart(petsam, tmp_path, 
     for ranks in (2, 3):
         petsam(loop, on, "-output", f"{ranks}.h5", ranks=ranks)
         np.testing.assert_equal(table(f"{ranks}.h5"), table("own.h5"))
-    head = {**loop, **history(tmp_path / "loop.csv", *LOOP[:3])}
-    petsam(head, "-checkpoint", "state.h5", "-checkpoint_every", "5", "-output", "head.h5")
-    history(tmp_path / "loop.csv", *LOOP)
-    petsam(loop, on, "-restart", "state.h5", "-output", "rest.h5")
-    with h5py.File("own.h5") as own, h5py.File("rest.h5") as rest:
-        count = rest["history/time"].size
-        assert 0 < count < own["history/time"].size
-        for name in own["history"]:
-            if name.endswith("_error"):
-                assert np.array_equal(own["history"][name][-count:], rest["history"][name][:], equal_nan=True), name
+    solved = {}
+    for name, more in dict(without={}, state=on).items():
+        head = {**loop, **history(tmp_path / "loop.csv", *LOOP[:3]), **more}
+        petsam(head, "-checkpoint", f"{name}.h5", "-checkpoint_every", "5", "-output", f"head_{name}.h5")
+        history(tmp_path / "loop.csv", *LOOP)
+        done = petsam(loop, on, "-restart", f"{name}.h5", "-output", f"rest_{name}.h5", "-log_view")
+        solved[name] = int(re.search(r"^SamApplyT\s+(\d+)", done.stdout, re.M)[1])
+        with h5py.File("own.h5") as own, h5py.File(f"rest_{name}.h5") as rest:
+            count = rest["history/time"].size
+            assert 0 < count < own["history/time"].size
+            for column in own["history"]:
+                if column.endswith("_error"):
+                    found = rest["history"][column][:]
+                    assert np.array_equal(own["history"][column][-count:], found, equal_nan=True), (name, column)
+    np.testing.assert_equal(table("rest_state.h5"), table("rest_without.h5"))
+    assert solved["state"] < 0.8 * solved["without"]  # the companions do not solve the earlier steps once more
 
 
 def test_a_run_that_stops_has_the_errors_as_far_as_it_has_come(petsam, tmp_path, loop):

@@ -93,16 +93,41 @@ def test_a_history_and_single_steps_continue_each_other():
         assert ends[0] == pytest.approx(ends[1], rel=1e-9, abs=1e-15) and ends[0]["slip_max"] > 0
 
 
-def test_states_from_elsewhere(tmp_path):
-    """A copy has the companions' states; a file and another contact do not; a reset needs none."""
-    first, second, third, _ = steps_of(1)
+def test_states_go_along_with_copies_and_files(tmp_path):
+    """They replace those of a contact that is lost, or has a tried step, and are those of the committed step."""
+    first, second, third, fourth = steps_of(1)
     with contact_of(dict(grid_n=48)) as one, contact_of(dict(grid_n=48)) as other:
-        found = one.try_step(**first).errors
-        one.commit()
-        one.try_step(**second)
-        one.commit()
+        for step in (first, second):
+            one.try_step(**step)
+            one.commit()
+        one.save("state.h5")
         with one.copy() as copied:
-            assert copied.try_step(**third).errors == one.try_step(**third).errors
+            found = copied.try_step(**third).errors
+        expected = one.try_step(**third).errors
+        assert found == expected and expected["slip_max"] > 0 and expected["dissipated_energy"] > 0
+        one.save("tried.h5")
+        one.commit()
+        last = one.try_step(**fourth).errors
+        other.try_step(load_n=2000, load_tx=100)
+        other.load("tried.h5")
+        assert np.isnan(other.try_step(**third).errors["slip_max"])
+        other.load("state.h5")
+        assert other.try_step(**third).errors == expected
+        other.commit()
+        assert other.try_step(**fourth).errors == last
+
+
+def test_states_from_elsewhere(tmp_path):
+    """A file and another contact without companions have none; a reset needs none."""
+    first, second, third, _ = steps_of(1)
+    plain = {**ALIKE, "grid_n": 48}
+    with package.Contact(**plain) as one, contact_of(dict(grid_n=48)) as other:
+        other.try_step(**first)
+        other.reject()
+        found = other.try_step(**first).errors
+        for step in (first, second):
+            one.try_step(**step)
+            one.commit()
         one.save("state.h5")
         other.load("state.h5")
         with warnings.catch_warnings(record=True) as said:
@@ -114,7 +139,7 @@ def test_states_from_elsewhere(tmp_path):
         assert np.isnan(other.try_step(**first).errors["slip_max"])
         other.reset()
         assert other.try_step(**first).errors == pytest.approx(found, rel=1e-12, abs=0)
-        with package.Contact(**{**ALIKE, "grid_n": 48}) as without:
+        with package.Contact(**plain) as without:
             without.try_step(**first)
             without.commit()
             other.take(without)

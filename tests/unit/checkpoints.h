@@ -16,7 +16,7 @@ static inline void Write(const Case *c, const SamParameters *parameters, PetscIn
   SamCheckpoint files;
 
   sam_call(SamCheckpointCreate(c->s.grid, filename, &files));
-  sam_call(SamCheckpointWrite(files, c->contact, parameters, n, notes));
+  sam_call(SamCheckpointWrite(files, c->contact, &(SamCheckpointRest){parameters, n, notes, 0, NULL}));
   sam_call(SamCheckpointDestroy(&files));
 }
 

@@ -56,7 +56,8 @@ static void test_contact_that_is_read_goes_on_as_the_one_that_was_written(void *
     for (int k = 0; k < solved; k++) SolveStep(&one, k, &a);
     SolveStep(&other, 3, &b); /* is forgotten */
     Write(&one, &parameters, 2, to);
-    sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 2, from));
+    sam_call(
+      SamCheckpointRead(filename, other.contact, PETSC_TRUE, &(SamCheckpointRest){&parameters, 2, from, 0, NULL}));
     sam_assert(!memcmp(read, written, sizeof(read)));
     if (solved) AssertSameFields(&one, &other);
     for (int k = solved; k < 5; k++) {
@@ -145,7 +146,7 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   (void)Solve(&one, &second);
   (void)Try(&one, &control);
   Write(&one, &parameters, 0, NULL);
-  sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &(SamCheckpointRest){.parameters = &parameters}));
   sam_call(SamContactReject(one.contact));
   AssertSameFields(&one, &other);
   sam_assert(AssertSameStates(&one, &other) == 9);
@@ -187,7 +188,7 @@ static void test_gap_that_has_changed_is_told(void **state)
     gap = SamProblemGetGap(other.problem);
     if (which & 2) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
     Write(&one, &parameters, 0, NULL);
-    sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL));
+    sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &(SamCheckpointRest){.parameters = &parameters}));
     sam_assert(IsGapCurrent(&other) == (which ? 0 : 1));
     DestroyCase(&one);
     DestroyCase(&other);
@@ -225,7 +226,7 @@ static PetscErrorCode Read(const Case *c)
   PetscErrorCode      ierr;
 
   BeginCatching();
-  ierr = SamCheckpointRead(filename, c->contact, PETSC_TRUE, &parameters, 0, NULL);
+  ierr = SamCheckpointRead(filename, c->contact, PETSC_TRUE, &(SamCheckpointRest){.parameters = &parameters});
   EndCatching();
   return ierr;
 }
@@ -359,13 +360,13 @@ static void test_conditions_that_only_one_has_must_be_as_usual(void **state)
     (void)Solve(&one, &control);
     Write(&one, &parameters, 0, NULL);
     BeginCatching();
-    ierr = SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL);
+    ierr = SamCheckpointRead(filename, other.contact, PETSC_TRUE, &(SamCheckpointRest){.parameters = &parameters});
     EndCatching();
     sam_assert(given ? ierr == SAM_ERR_USER && strstr(CaughtMessage(), "heat") : !ierr);
     control = Loads(&other, 1, 0, 0, 0);
     (void)Solve(&other, &control);
     Write(&other, &parameters, 0, NULL);
-    sam_call(SamCheckpointRead(filename, one.contact, PETSC_TRUE, &parameters, 0, NULL));
+    sam_call(SamCheckpointRead(filename, one.contact, PETSC_TRUE, &(SamCheckpointRest){.parameters = &parameters}));
     sam_assert(Prescribed(one.problem, &SolutionOf(&one)->control, "heat") == 3);
     DestroyCase(&one);
     DestroyCase(&other);

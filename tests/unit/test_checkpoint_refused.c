@@ -18,7 +18,8 @@ static void AssertUnreadable(const Case *c, const SamParameters *parameters, Pet
   int            good;
 
   BeginCatching();
-  ierr = SamCheckpointRead(filename, c->contact, PETSC_TRUE, parameters, 1, &(SamNote){"note", 1, &note});
+  ierr = SamCheckpointRead(filename, c->contact, PETSC_TRUE,
+                           &(SamCheckpointRest){parameters, 1, &(SamNote){"note", 1, &note}, 0, NULL});
   EndCatching();
   good = ierr == code;
   for (int k = 0; k < 2; k++) good = good && (!words[k] || strstr(CaughtMessage(), words[k]));
@@ -166,7 +167,7 @@ static void test_one_changed_byte_anywhere_is_found(void **state)
                      (const char *const[2]){says[k < 2 ? k : 2], "-restart test_checkpoint.h5.1"});
     for (int back = 0; back < 255; back++) ChangeByte(filename, places[k]);
   }
-  sam_call(SamCheckpointRead(filename, c.contact, PETSC_TRUE, &parameters, 0, NULL));
+  sam_call(SamCheckpointRead(filename, c.contact, PETSC_TRUE, &(SamCheckpointRest){.parameters = &parameters}));
   sam_assert(Rank() || !truncate(filename, 100000));
   AssertUnreadable(&c, &parameters, SAM_ERR_FILE, (const char *const[2]){"checksum", NULL});
   DestroyCase(&c);
@@ -201,7 +202,7 @@ static void test_second_run_is_kept_from_the_files(void **state)
     ierr = SamCheckpointCreate(c.s.grid, filename, &second);
     EndCatching();
     sam_assert(ierr == SAM_ERR_FILE && !second && strstr(CaughtMessage(), "another run"));
-    sam_call(SamCheckpointWrite(first, c.contact, &parameters, 0, NULL));
+    sam_call(SamCheckpointWrite(first, c.contact, &(SamCheckpointRest){.parameters = &parameters}));
   }
   sam_call(SamCheckpointCreate(c.s.grid, "test_checkpoint_other.h5", &second));
   sam_call(SamCheckpointDestroy(&second));
@@ -290,10 +291,12 @@ static void test_other_fixed_parameter_is_named(void **state)
   AssertUnreadable(&c, &parameters, SAM_ERR_USER,
                    (const char *const[2]){"-gap_type is given there, and not here", NULL});
   parameters.count = 2;
-  sam_call(SamCheckpointRead(filename, c.contact, PETSC_TRUE, &parameters, 1, &(SamNote){"note", 1, &note}));
+  sam_call(SamCheckpointRead(filename, c.contact, PETSC_TRUE,
+                             &(SamCheckpointRest){&parameters, 1, &(SamNote){"note", 1, &note}, 0, NULL}));
   parameters                  = NewParameters(friction);
   parameters.list[2].value[0] = 5;
-  sam_call(SamCheckpointRead(filename, c.contact, PETSC_TRUE, &parameters, 1, &(SamNote){"note", 1, &note}));
+  sam_call(SamCheckpointRead(filename, c.contact, PETSC_TRUE,
+                             &(SamCheckpointRest){&parameters, 1, &(SamNote){"note", 1, &note}, 0, NULL}));
   sam_assert(note == 7);
   DestroyCase(&c);
   Remove();

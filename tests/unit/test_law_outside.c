@@ -206,7 +206,7 @@ static void StopRun(void)
 
   WriteRun(&c, CreateOutput(&c, filename), 0, STOP);
   sam_call(SamCheckpointCreate(c.s.grid, checkpoint_name, &files));
-  sam_call(SamCheckpointWrite(files, c.contact, &parameters, 0, NULL));
+  sam_call(SamCheckpointWrite(files, c.contact, &(SamCheckpointRest){.parameters = &parameters}));
   sam_call(SamCheckpointDestroy(&files));
   DestroyCase(&c);
 }
@@ -217,7 +217,7 @@ static PetscErrorCode Restart(const Case *c)
   PetscErrorCode      ierr;
 
   BeginCatching();
-  ierr = SamCheckpointRead(checkpoint_name, c->contact, PETSC_TRUE, &parameters, 0, NULL);
+  ierr = SamCheckpointRead(checkpoint_name, c->contact, PETSC_TRUE, &(SamCheckpointRest){.parameters = &parameters});
   EndCatching();
   return ierr;
 }

@@ -341,9 +341,9 @@ static void test_restart_keeps_the_stretch(void **state)
   (void)state;
   (void)Solve(&one, &first);
   sam_call(SamCheckpointCreate(one.s.grid, filename, &files));
-  sam_call(SamCheckpointWrite(files, one.contact, &none, 0, NULL));
+  sam_call(SamCheckpointWrite(files, one.contact, &(SamCheckpointRest){.parameters = &none}));
   sam_call(SamCheckpointDestroy(&files));
-  sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &none, 0, NULL));
+  sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &(SamCheckpointRest){.parameters = &none}));
   AssertSameFields(&one, &other);
   a = Solve(&one, &next);
   b = Solve(&other, &next);

@@ -3,6 +3,7 @@
 #define PETSAM_SIMULATION_H
 
 #include <petsam/private/advice.h>
+#include <petsam/private/checkpoint.h>
 #include <petsam/private/errors.h>
 #include <petsam/private/history.h>
 #include <petsam/private/life.h>
@@ -109,7 +110,8 @@ PETSC_EXTERN PetscErrorCode SamSimulationRun(SamSimulation simulation);
     Reset                  the bodies have never touched
     TakeOver               takes over the committed state of another simulation on the same grid, with that of its
                            companion runs
-    ForgetErrors           the state of the contact is a new one, of which companion runs know nothing, for this reason
+    Save, Load             writes the committed state to a checkpoint, with those of companion runs and a program's n
+                           notes; takes over that of a file, which a program like this one has saved
   SamSimulationStop - ends the run after this step; to be called by a monitor. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation simulation, const SamOptions *from);
@@ -118,7 +120,10 @@ PETSC_INTERN PetscErrorCode SamSimulationSetGap(SamSimulation simulation, Vec ga
 PETSC_INTERN PetscErrorCode SamSimulationSetFriction(SamSimulation simulation, Vec friction);
 PETSC_INTERN PetscErrorCode SamSimulationReset(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationTakeOver(SamSimulation simulation, SamSimulation from);
-PETSC_INTERN PetscErrorCode SamSimulationForgetErrors(SamSimulation simulation, const char why[]);
+PETSC_INTERN PetscErrorCode SamSimulationSave(SamSimulation simulation, SamCheckpoint checkpoint,
+                                              const SamParameters *parameters, PetscInt n, const SamNote notes[]);
+PETSC_INTERN PetscErrorCode SamSimulationLoad(SamSimulation simulation, const char filename[],
+                                              const SamParameters *parameters);
 PETSC_INTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
 
 /*

@@ -43,7 +43,7 @@ static PetscErrorCode Save(petsam_contact *c, const char file[])
   PetscCheck(committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been committed yet", file);
   PetscCall(CollectParameters(c, &parameters));
   PetscCall(SamCheckpointCreate(c->setup->grid, file, &checkpoint));
-  code = SamCheckpointWrite(checkpoint, c->setup->contact, &parameters, 0, NULL);
+  code = SamSimulationSave(c->simulation, checkpoint, &parameters, 0, NULL);
   PetscCall(SamCheckpointDestroy(&checkpoint));
   PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -62,8 +62,7 @@ static PetscErrorCode Load(petsam_contact *c, const char file[])
   PetscFunctionBegin;
   PetscCall(SamEmbedForget(c));
   PetscCall(CollectParameters(c, &parameters));
-  PetscCall(SamCheckpointRead(file, c->setup->contact, PETSC_FALSE, &parameters, 0, NULL));
-  PetscCall(SamSimulationForgetErrors(c->simulation, "the state is that of a file"));
+  PetscCall(SamSimulationLoad(c->simulation, file, &parameters));
   PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

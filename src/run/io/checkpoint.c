@@ -4,7 +4,7 @@
 
   The fields are datasets (components, ny, nx), all else are attributes of the root group; the file is sealed (seal.c).
   Names of values from one step before begin with `before_`. Kept steps of a load cycle are in separate datasets
-  (kept.c).
+  (kept.c). Other contacts that belong to it are groups with the same contents.
 */
 #include "ioimpl.h"
 #include <petsam/private/checkpoint.h>
@@ -34,14 +34,6 @@ static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 }
 
 /* ---- contents of a file: each function writes its part if the file is being written, and else reads it ---- */
-
-/* Parameters and notes, which are stored in addition to the state */
-typedef struct {
-  const SamParameters *parameters;
-  PetscInt             n;
-  const SamNote       *notes;
-  PetscBool            sums; /* reading: true if sums that only the file has are read */
-} Rest;
 
 /* Writes the name in the file of values that are committed or one step back. */
 static void NameOf(const char committed[], const char name[], PetscInt generation, char text[96])
@@ -148,6 +140,30 @@ static PetscErrorCode MoveNotes(SamFile f, PetscInt n, const SamNote notes[])
     "gap_is_current", 1, &(values)[1] \
   }
 
+/* ---- groups ---- */
+
+/* The root of a file while the file stands for a group with a contact on another grid */
+typedef struct {
+  hid_t   id;
+  SamGrid grid;
+} Place;
+
+static Place Enter(SamFile f, hid_t group, SamContact contact)
+{
+  const Place root = {f->id, f->grid};
+
+  f->id   = SamFileNote(f, group);
+  f->grid = SamContactGetGrid(contact);
+  return root;
+}
+
+static void Leave(SamFile f, Place root)
+{
+  if (f->id >= 0) (void)SamFileNote(f, H5Gclose(f->id));
+  f->id   = root.id;
+  f->grid = root.grid;
+}
+
 /* ---- writing ---- */
 
 /* Lists the names of the fields that a state keeps, separated by commas. */
@@ -186,7 +202,8 @@ static off_t CountBytes(SamGrid grid, SamState state)
   return values * (off_t)sizeof(double) * grid->nx * grid->ny;
 }
 
-static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
+/* Writes the state of a contact. */
+static PetscErrorCode WriteState(SamFile f, SamContact contact)
 {
   SamState       state;
   PetscBool      is;
@@ -200,14 +217,9 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
   PetscCall(SamContactIsGapCurrent(contact, &is));
   PetscCall(GapChecksum(contact, &gap[0]));
   gap[1] = is;
-  ListFields(state, list, sizeof(list));
-  PetscCall(SamFileReserve(f, CountBytes(f->grid, state) + SamKeptBytes(SamContactGetCache(contact))));
-  PetscCall(SamFileBegin(f));
-  SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
-  SamParametersWrite(f, rest->parameters);
   PetscCall(MoveNotes(f, 2, notes));
-  PetscCall(MoveNotes(f, rest->n, rest->notes));
   MoveNumbers(f, state, NULL, 0);
+  ListFields(state, list, sizeof(list));
   SamFileWriteTextAttribute(f, f->id, "fields", list);
   ListConditions(state, list, sizeof(list));
   if (list[0]) SamFileWriteTextAttribute(f, f->id, "conditions", list);
@@ -216,13 +228,55 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
   SamStateSwapTried(state);
   PetscCall(ierr);
   PetscCall(SamKeptWrite(f, SamContactGetCache(contact)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes a part into its group. */
+static PetscErrorCode WritePart(SamFile f, const SamCheckpointPart *part)
+{
+  const Place    root = Enter(f, H5Gcreate2(f->id, part->name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), part->contact);
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  ierr = MoveNotes(f, part->n, part->notes);
+  if (!ierr) ierr = WriteState(f, part->contact);
+  Leave(f, root);
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Counts the bytes of the fields of a contact, and of its kept steps. */
+static PetscErrorCode AddBytes(SamContact contact, off_t *bytes)
+{
+  SamState state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(contact, &state));
+  *bytes += CountBytes(SamContactGetGrid(contact), state) + SamKeptBytes(SamContactGetCache(contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode WriteAll(SamFile f, SamContact contact, const SamCheckpointRest *rest)
+{
+  off_t bytes = 0;
+
+  PetscFunctionBegin;
+  PetscCall(AddBytes(contact, &bytes));
+  for (PetscInt k = 0; k < rest->parts; k++) PetscCall(AddBytes(rest->part[k].contact, &bytes));
+  PetscCall(SamFileReserve(f, bytes));
+  PetscCall(SamFileBegin(f));
+  SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
+  SamParametersWrite(f, rest->parameters);
+  PetscCall(MoveNotes(f, rest->n, rest->notes));
+  PetscCall(WriteState(f, contact));
+  for (PetscInt k = 0; k < rest->parts; k++) PetscCall(WritePart(f, &rest->part[k]));
   (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Writes and seals the file, which does not have its final name yet. */
-static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const Rest *rest)
+static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const SamCheckpointRest *rest)
 {
   SamFile        f;
   PetscErrorCode ierr;
@@ -247,15 +301,13 @@ static PetscErrorCode CheckNames(SamCheckpoint cp)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const SamParameters *parameters, PetscInt n,
-                                  const SamNote notes[])
+PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const SamCheckpointRest *rest)
 {
-  const Rest     rest = {parameters, n, notes, PETSC_FALSE};
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(CheckNames(cp));
-  ierr = WriteFile(cp, contact, &rest);
+  ierr = WriteFile(cp, contact, rest);
   if (ierr && cp->hold.file >= 0) (void)!ftruncate(cp->hold.file, 0); /* releases the disk space */
   PetscCall(ierr);
   PetscCall(SamFileReplace(cp->grid, OPTION, cp->temporary, cp->filename, cp->before));
@@ -320,18 +372,27 @@ PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **t
 
 /* ---- reading ---- */
 
-/* Contents of a checkpoint besides the notes; the caller destroys them, also after an error */
+/* The state of a contact, as it is in the file */
 typedef struct {
-  SamState     state;
+  SamState     state; /* NULL: the file has none */
   SamStepCache cache;
   uint64_t     gap[2];
+} Stored;
+
+/* Contents of a checkpoint besides the notes; the caller destroys them, also after an error */
+typedef struct {
+  Stored contact, part[SAM_CHECKPOINT_PARTS];
 } Content;
 
 static PetscErrorCode DestroyContent(Content *c)
 {
   PetscFunctionBegin;
-  PetscCall(SamStateDestroy(&c->state));
-  SamStepCacheDestroy(&c->cache);
+  for (PetscInt k = -1; k < SAM_CHECKPOINT_PARTS; k++) {
+    Stored *one = k < 0 ? &c->contact : &c->part[k];
+
+    PetscCall(SamStateDestroy(&one->state));
+    SamStepCacheDestroy(&one->cache);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -399,7 +460,7 @@ static PetscErrorCode CheckConditions(SamState state, const char list[], char me
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadState(SamFile f, SamContact contact, PetscBool sums, Content *c, char message[], size_t size)
+static PetscErrorCode ReadState(SamFile f, SamContact contact, PetscBool sums, Stored *c, char message[], size_t size)
 {
   const SamNote notes[] = {GAP(c->gap)};
   char         *list    = NULL;
@@ -421,7 +482,24 @@ static PetscErrorCode ReadState(SamFile f, SamContact contact, PetscBool sums, C
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, Content *c)
+/* Reads a part from its group, if the file has that. */
+static PetscErrorCode ReadPart(SamFile f, SamCheckpointPart *part, Stored *c, char message[], size_t size)
+{
+  Place          root;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  part->there = SamFileNote(f, H5Lexists(f->id, part->name, H5P_DEFAULT)) > 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (!part->there) PetscFunctionReturn(PETSC_SUCCESS);
+  root = Enter(f, H5Gopen2(f->id, part->name, H5P_DEFAULT), part->contact);
+  ierr = MoveNotes(f, part->n, part->notes);
+  if (!ierr) ierr = ReadState(f, part->contact, PETSC_FALSE, c, message, size);
+  Leave(f, root);
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadAll(SamFile f, SamContact contact, const SamCheckpointRest *rest, PetscBool sums, Content *c)
 {
   char  message[256] = "";
   char *version      = NULL;
@@ -437,7 +515,9 @@ static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, C
     (void)snprintf(message, sizeof(message), "a contact in process has saved it: load it in such a contact");
   else if (!SamParametersDiffer(f, rest->parameters, message, sizeof(message)) && !f->failed) {
     PetscCall(MoveNotes(f, rest->n, rest->notes));
-    PetscCall(ReadState(f, contact, rest->sums, c, message, sizeof(message)));
+    PetscCall(ReadState(f, contact, sums, &c->contact, message, sizeof(message)));
+    for (PetscInt k = 0; k < rest->parts && !message[0]; k++)
+      PetscCall(ReadPart(f, &rest->part[k], &c->part[k], message, sizeof(message)));
   }
   PetscCall(PetscFree(version));
   PetscCall(SamFileEnd(f));
@@ -446,7 +526,8 @@ static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, C
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadFile(SamContact contact, const char filename[], const Rest *rest, Content *c)
+static PetscErrorCode ReadFile(SamContact contact, const char filename[], const SamCheckpointRest *rest, PetscBool sums,
+                               Content *c)
 {
   SamFile        f;
   PetscErrorCode ierr;
@@ -456,7 +537,7 @@ static PetscErrorCode ReadFile(SamContact contact, const char filename[], const 
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscCall(SamSealCheck(grid, "restart", filename));
   PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, &f));
-  ierr = ReadAll(f, contact, rest, c);
+  ierr = ReadAll(f, contact, rest, sums, c);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);
   PetscCall(SamFileDestroy(&f, PETSC_TRUE));
@@ -464,7 +545,8 @@ static PetscErrorCode ReadFile(SamContact contact, const char filename[], const 
 }
 
 /* Adds advice on a checkpoint that cannot be read: names the previous one, if that can be read. */
-static PetscErrorCode Advise(SamContact contact, const char filename[], const Rest *rest, char advice[], size_t size)
+static PetscErrorCode Advise(SamContact contact, const char filename[], const SamCheckpointRest *rest, char advice[],
+                             size_t size)
 {
   Content c;
   char    ignored[SAM_MESSAGE], *before, *temporary;
@@ -472,7 +554,7 @@ static PetscErrorCode Advise(SamContact contact, const char filename[], const Re
   PetscFunctionBegin;
   PetscCall(SamCheckpointNames(filename, &before, &temporary));
   PetscCall(PetscPushErrorHandler(SamKeepMessage, ignored));
-  if (!ReadFile(contact, before, rest, &c))
+  if (!ReadFile(contact, before, rest, PETSC_TRUE, &c))
     (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
   PetscCall(PetscPopErrorHandler());
   PetscCall(DestroyContent(&c));
@@ -493,28 +575,38 @@ static PetscErrorCode AddSums(SamContact contact, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, PetscBool sums,
-                                 const SamParameters *parameters, PetscInt n, const SamNote notes[])
+/* Gives a contact the state that was read. */
+static PetscErrorCode Set(SamContact contact, const Stored *c)
 {
-  const Rest     rest = {parameters, n, notes, sums};
+  uint64_t gap;
+
+  PetscFunctionBegin;
+  PetscCall(GapChecksum(contact, &gap));
+  PetscCall(SamContactSetState(contact, c->state, c->gap[1] && gap == c->gap[0]));
+  PetscCall(SamStepCacheCopy(c->cache, SamContactGetCache(contact)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, PetscBool sums,
+                                 const SamCheckpointRest *rest)
+{
   Content        c;
-  uint64_t       gap;
   char           message[SAM_MESSAGE] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(SamBaseInitialize());
   PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
-  ierr = ReadFile(contact, filename, &rest, &c);
+  ierr = ReadFile(contact, filename, rest, sums, &c);
   PetscCall(PetscPopErrorHandler());
   if (!ierr) {
-    PetscCall(AddSums(contact, c.state));
-    PetscCall(GapChecksum(contact, &gap));
-    PetscCall(SamContactSetState(contact, c.state, c.gap[1] && gap == c.gap[0]));
-    PetscCall(SamStepCacheCopy(c.cache, SamContactGetCache(contact)));
+    PetscCall(AddSums(contact, c.contact.state));
+    PetscCall(Set(contact, &c.contact));
+    for (PetscInt k = 0; k < rest->parts; k++)
+      if (rest->part[k].there) PetscCall(Set(rest->part[k].contact, &c.part[k]));
   }
   PetscCall(DestroyContent(&c));
-  if (ierr == SAM_ERR_FILE) PetscCall(Advise(contact, filename, &rest, advice, sizeof(advice)));
+  if (ierr == SAM_ERR_FILE) PetscCall(Advise(contact, filename, rest, advice, sizeof(advice)));
   PetscCheck(!ierr, SamContactGetGrid(contact)->comm, ierr, "%s%s", message, advice);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

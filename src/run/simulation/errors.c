@@ -172,8 +172,8 @@ PetscErrorCode SamErrorsPrepare(SamSimulation s)
     for (int c = 0; c < SAM_RUNS; c++) n->mark[c] = n->base[c] = 0;
   }
   PetscCall(PetscArrayzero(e->sums, SAM_STATE_NUMBERS));
-  e->began = PETSC_FALSE;
-  e->table = (SamErrorTable){.count = 0};
+  e->began = e->restored = PETSC_FALSE;
+  e->table               = (SamErrorTable){.count = 0};
   Describe(e, run[SAM_RUN_OTHER].increments);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -241,14 +241,15 @@ static PetscErrorCode Follow(SamSimulation s, PetscInt k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lets the companions solve the steps before the first one of this run, after a restart. */
+/* Lets the companions solve the steps before the first one of this run, after a restart that has not restored them. */
 static PetscErrorCode CatchUp(SamSimulation s, PetscInt k)
 {
   SamErrors e = s->errors;
 
   PetscFunctionBegin;
-  for (PetscInt n = 0; n < e->count; n++) e->number[n].steps = e->companion[SAM_RUN_OTHER].run ? NAN : 0;
-  for (PetscInt j = 0; j < k; j++) PetscCall(Follow(s, j));
+  for (PetscInt n = 0; n < e->count && !e->restored; n++)
+    e->number[n].steps = e->companion[SAM_RUN_OTHER].run ? NAN : 0;
+  for (PetscInt j = 0; j < k && !e->restored; j++) PetscCall(Follow(s, j));
   for (PetscInt n = 0; n < e->count; n++) {
     SamErrorsGetRuns(e, &e->number[n], PETSC_TRUE, e->number[n].base);
     e->number[n].apart = 0;

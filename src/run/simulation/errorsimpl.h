@@ -32,6 +32,7 @@ struct _n_SamErrors {
   SamErrorLargest  committed;               /* those of the committed steps, of steps given one by one, */
   PetscBool        driven[SAM_COMPONENTS];  /* and the components that these drive */
   PetscBool        began;                   /* the first step has been recorded */
+  PetscBool        restored;                /* the companions continue from a checkpoint */
   char             unknown[SAM_MESSAGE];    /* why nothing is known of steps given one by one; empty: it is */
   const SamDoubts *closed;                  /* the errors in closed form; borrowed */
   SamErrorTable    table;

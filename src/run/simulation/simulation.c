@@ -490,14 +490,6 @@ PetscErrorCode SamSimulationTakeOver(SamSimulation s, SamSimulation from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationForgetErrors(SamSimulation s, const char why[])
-{
-  PetscFunctionBegin;
-  PetscCall(SamErrorsLose(s, why));
-  SamSimulationForgetAdvice(s);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationStop(SamSimulation s)
 {
   PetscFunctionBegin;

@@ -3,7 +3,6 @@
 #define PETSAM_SIMULATIONIMPL_H
 
 #include <petsam.h>
-#include <petsam/private/checkpoint.h>
 #include <petsam/private/output.h>
 #include <petsam/private/simulation.h>
 #include <petsam/private/motionimpl.h>
@@ -166,6 +165,7 @@ PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, Petsc
     Share        returns the time that companion runs take, relative to that of the run: by cells and steps; 0: there
                  can be none, or errors are not wanted
     Describe     returns the companion runs in words, NULL without; borrowed
+    Read         reads a checkpoint (SamCheckpointRead()) with the companions' states, if it has these
     Record       after the try of step k of the history: lets the companions follow, and sets the errors of its numbers
     End          after the last step, with these loads: runs the companions of a life, stores and reports the errors of
                  the last numbers, and warns of large ones; after SamAdviceEnd()
@@ -173,6 +173,8 @@ PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, Petsc
 PETSC_INTERN PetscErrorCode SamErrorsReadOptions(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamErrorsCreate(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamErrorsPrepare(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamErrorsRead(SamSimulation simulation, const char filename[], PetscBool sums,
+                                          const SamParameters *parameters, PetscInt n, const SamNote notes[]);
 PETSC_INTERN PetscErrorCode SamErrorsRecord(SamSimulation simulation, PetscInt k, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamErrorsEnd(SamSimulation simulation, const SamControl *last);
 PETSC_INTERN PetscErrorCode SamErrorsDestroy(SamErrors *errors);

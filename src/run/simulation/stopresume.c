@@ -195,7 +195,7 @@ static PetscErrorCode Write(SamSimulation s)
   n.part[1] = p->identity;
   PetscCall(ChecksumColumns(s, s->life ? s->needs.steps : p->steps, n.loads, n.condition));
   ListNotes(s->conditions, &n);
-  PetscCall(SamCheckpointWrite(cp->files, s->setup.contact, &s->parameters, n.count, n.note));
+  PetscCall(SamSimulationSave(s, cp->files, &s->parameters, n.count, n.note));
   cp->writing = PetscMax(cp->writing, MPI_Wtime() - begin);
   cp->last    = p->steps;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -241,7 +241,7 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
 
   PetscFunctionBegin;
   ListNotes(s->conditions, &n);
-  PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, PETSC_TRUE, &s->parameters, n.count, n.note));
+  PetscCall(SamErrorsRead(s, s->checkpoints.restart, PETSC_TRUE, &s->parameters, n.count, n.note));
   p->steps     = (PetscInt)n.progress.at.steps;
   p->worst     = (SamStatus)n.progress.at.worst;
   p->rows      = (PetscInt)n.progress.at.rows;
