@@ -3,6 +3,7 @@
 #define PETSAM_ERRORS_H
 
 #include <petsam/private/baseimpl.h>
+#include <petsam/state.h>
 
 /* SamCause - what causes an error: the width of the cells, the length of the load steps, or the thickness of the layers
    of a body that yields. */
@@ -63,6 +64,7 @@ typedef struct {
   char        name[SAM_ERROR_NAME];
   const char *unit;
   double      value, error, of[SAM_CAUSES];
+  double      cells;         /* that by the cells as companion runs tell it */
   double      scale;         /* what errors are relative to: the absolute value, or a least value if that is more */
   double      run[SAM_RUNS]; /* the number in the companion runs; NaN: none */
   SamCause    cause;         /* the larger one */
@@ -84,7 +86,7 @@ typedef struct {
   SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER. Both
   are NaN if unknown. None is collective (estimates.c).
 */
-PETSC_INTERN double SamErrorByCells(double own, const double run[SAM_RUNS]);
+PETSC_INTERN double SamErrorByCells(const SamStateNumber *number, double own, const double run[SAM_RUNS]);
 PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same);
 
 #endif

@@ -471,13 +471,13 @@ static double ErrorBySteps(const SamErrorRow *row, PetscInt steps)
 */
 static double Narrower(const SamErrorRow *row, double wanted)
 {
-  const double near = fabs(row->value - row->run[SAM_RUN_HALF]),
-               far  = fabs(row->run[SAM_RUN_HALF] - row->run[SAM_RUN_QUARTER]);
-  const double told = SamErrorByCells(row->value, row->run) / row->scale, error = row->of[SAM_CAUSE_CELLS];
+  const double near  = fabs(row->value - row->run[SAM_RUN_HALF]),
+               far   = fabs(row->run[SAM_RUN_HALF] - row->run[SAM_RUN_QUARTER]);
+  const double error = row->of[SAM_CAUSE_CELLS];
   double       order = 1;
 
-  if (!(error >= 0)) return AT_ONCE;                 /* unknown: a companion has ended early */
-  if (fabs(error - told) <= 1e-9 * told && near > 0) /* no closed form */
+  if (!(error >= 0)) return AT_ONCE;   /* unknown: a companion has ended early */
+  if (error == row->cells && near > 0) /* no closed form */
     order = PetscMax(1, PetscMin((double)row->order, log2(far / near)));
   return pow(error / wanted, 1 / order);
 }

@@ -137,7 +137,8 @@ void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char u
     if (!strcmp(t->row[k].name, number->name)) return; /* the number of a cycle precedes that of its last step */
   if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least || (least > 0 && most > 0))) return;
   *row                     = (SamErrorRow){.unit = unit, .value = value, .scale = scale};
-  row->of[SAM_CAUSE_CELLS] = SamErrorByCells(value, run) / scale;
+  row->cells               = SamErrorByCells(number, value, run) / scale;
+  row->of[SAM_CAUSE_CELLS] = row->cells;
   row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run, e->same) / scale : 0;
   for (int c = 0; c < SAM_CAUSES; c++) row->of[c] = known[c] ? closed[c] : PetscMax(row->of[c], closed[c]);
   (void)snprintf(row->name, sizeof(row->name), "%s", number->name);

@@ -274,7 +274,9 @@ PetscErrorCode SamErrorsSet(SamSimulation s, const SamControl *control)
     if (n->error < 0) continue;
     SamErrorsGetRuns(e, n, PETSC_FALSE, run);
     *SamStateNumbers(state, n->error, SAM_TRIED) =
-      SamErrorsPrescribes(control, n->of->name) ? 0 : SamErrorByCells(own, run) + n->steps * PetscMax(fabs(own), least);
+      SamErrorsPrescribes(control, n->of->name)
+        ? 0
+        : SamErrorByCells(n->of, own, run) + n->steps * PetscMax(fabs(own), least);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
