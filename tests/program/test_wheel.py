@@ -13,6 +13,7 @@ from petsam import plot, profiles
 from petsam.commands import wheel
 from petsam.core.errors import Error
 from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, derailing, wearing
+from petsam.profiles import batch as batches
 from petsam.profiles.conicity import equivalent_conicity
 from petsam.profiles.positions import Case
 from petsam.profiles.wearing import Law, depth_rates, rows_of
@@ -330,6 +331,38 @@ def test_an_equilibrium_needs_few_full_solutions(vehicle):
         assert max(abs(one.force_error), abs(one.moment_error)) < 1e-5
         rate = -2.0 * one.position.speed / sum(one.radii)
         assert one.position.pitch_rate == pytest.approx(rate, rel=1e-8)
+
+
+def test_a_start_under_another_load_is_near(axle, monkeypatch):
+    """By Hertz: 10 drafts of a wheel; from the neighbour's own overlaps 16."""
+    at, count = Position(y=2e-3, speed=20.0), []
+    found = axle.solve(at, Load(60e3))
+    draft = Case.draft
+    monkeypatch.setattr(Case, "draft", lambda case, z: count.append(z) or draft(case, z))
+    other = axle.solve(at, Load(150e3, offset=0.1), found)
+    assert len(count) <= 12 and max(abs(other.force_error), abs(other.moment_error)) < 1e-5
+
+
+def test_a_batch_goes_from_neighbour_to_neighbour():
+    rng = np.random.default_rng(3)
+    states = [
+        State(Position(y=float(y), yaw=float(a), speed=20.0), LOAD) for y, a in rng.uniform(-5e-3, 5e-3, (400, 2))
+    ]
+    path = batches._path(states)
+    assert sorted(path) == list(range(400))
+    y, yaw = np.array([(states[k].position.y, states[k].position.yaw) for k in path]).T
+    assert np.mean(abs(np.diff(y))) < 3e-4 and np.mean(abs(np.diff(yaw))) < 8e-4  # without order 3.3e-3 each
+    sweep = [State(Position(y=float(y), yaw=1e-3, speed=20.0), LOAD) for y in np.linspace(-5e-3, 5e-3, 31)]
+    assert batches._path(sweep) == list(range(31))
+
+
+def test_numbers_of_a_batch_are_in_the_order_of_its_positions(vehicle):
+    states = [State(Position(y=y, speed=20.0), LOAD) for y in (2e-3, -1e-3, 1e-3)]
+    assert [one.value.position.y for one in batches.run(vehicle, states, keep=_itself)] == [2e-3, -1e-3, 1e-3]
+
+
+def _itself(found):
+    return found
 
 
 def test_the_start_does_not_change_the_equilibrium(axle):
