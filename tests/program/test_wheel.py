@@ -319,6 +319,24 @@ def test_drafts_are_near_the_solution_and_those_of_equal_cells_are_it(axle, monk
     assert draft.patches[0].centre == pytest.approx(found.right.patches[0].centre, abs=1e-7)
 
 
+@pytest.mark.parametrize("side", ["x", "s"])
+def test_a_grid_for_the_contact_of_a_draft_gives_the_same_solution(axle, side):
+    """On fewer cells; where the contact of the draft is too small, on those for the whole overlap."""
+    found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
+    right, z = axle.pairs[0], found.position.z
+    with Pair(right.rail, right.wheel, right.friction, settings=Settings()) as pair:
+        case = Case(pair, found.position)
+        draft = case.draft(z)
+        patch = draft.patches[0]
+        shift = 0.4 * (patch.high - patch.low) * (np.array(["x", "s"]) == side)
+        wrong = replace(draft, patches=(replace(patch, low=patch.low + shift, high=patch.high + shift),))
+        small, other, whole = (case.at(z, near).patches[0] for near in (draft, wrong, None))
+    assert np.prod(small.grid) < 0.85 * np.prod(whole.grid)
+    for one in small, other:
+        assert one.force == pytest.approx(whole.force, abs=1e-5 * LOAD.vertical)
+        assert one.cells == whole.cells and one.p_max == pytest.approx(whole.p_max, rel=1e-6)
+
+
 def test_an_equilibrium_needs_few_full_solutions(vehicle):
     """From its neighbour; without the correction of drafts it takes more than 3."""
     y = np.linspace(1e-3, 4e-3, 9)

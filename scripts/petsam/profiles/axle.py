@@ -447,6 +447,7 @@ class _Search:
         self.correction = np.zeros(3) if start is None or start.correction is None else start.correction
         self.kept = self.correction  # for a neighbour
         self.before, self.limit = None, FASTEST
+        self.drafts = None, None  # the last ones, of right wheels
 
     def begin(self, overlaps):
         """Height and roll of these overlaps."""
@@ -554,7 +555,10 @@ class _Search:
         p = self.position
         self.cases = self.axle._cases(p)
         touch = np.array([case.search.touch for case in self.cases])
-        one, other = (case.draft(p.z) if draft else case.at(p.z) for case in self.cases)
+        if draft:
+            self.drafts = one, other = [case.draft(p.z) for case in self.cases]
+        else:
+            one, other = (case.at(p.z, near) for case, near in zip(self.cases, self.drafts))
         found = [one, other.mirrored()]
         parts = np.array([_part(result, p, self.axle.wheel.radius, self.load) for result in found])
         given = np.array([self.load.vertical, self.load.offset * self.load.vertical])
