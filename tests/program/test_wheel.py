@@ -337,6 +337,25 @@ def test_a_grid_for_the_contact_of_a_draft_gives_the_same_solution(axle, side):
         assert one.cells == whole.cells and one.p_max == pytest.approx(whole.p_max, rel=1e-6)
 
 
+def test_a_part_of_the_contact_that_a_draft_does_not_have_is_found(vehicle):
+    """A wheel with waves touches at two crests; the draft has one of them, and the edge of its grid is free."""
+    y = np.linspace(-0.06, 0.06, 1201)
+    waves = Profile(y, 6e-5 * np.cos(2.0 * np.pi * y / 6e-3), "wheel")
+    with Pair(vehicle.rail, profiles.Wheelset(waves, 0.46), 0.3, settings=Settings()) as pair:
+        case = Case(pair, Position(speed=20.0))
+        z = case.search.touch + 7e-5
+        whole, draft = case.at(z), case.draft(z)
+        in_contact = whole.patches[0].pressure.any(axis=1)
+        first, last = np.flatnonzero(in_contact)[[0, -1]]
+        empty = first + np.flatnonzero(~in_contact[first:last])
+        patch = draft.patches[0]
+        middle = whole.patches[0].grid_s[empty[len(empty) // 2]]
+        cut = replace(patch, high=np.array([patch.high[0], middle]))
+        found = case.at(z, replace(draft, patches=(cut,)))
+    assert len(whole.patches) == 1 and found.patches[0].cells == whole.patches[0].cells
+    assert found.force == pytest.approx(whole.force, rel=1e-6, abs=1e-2)
+
+
 def test_an_equilibrium_needs_few_full_solutions(vehicle):
     """From its neighbour; without the correction of drafts it takes more than 3."""
     y = np.linspace(1e-3, 4e-3, 9)

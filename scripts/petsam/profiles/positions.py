@@ -317,7 +317,7 @@ class Case:
             return None
         contact, x, y, approach, cell = laid.contact, laid.x, laid.y, laid.approach, pair.settings.cell
         found, creeps, friction = self._solved(frame, place, laid)
-        if drafted is not None and _at_edge(contact["pressure"]):
+        if drafted is not None and (_at_edge(contact["pressure"]) or self._beyond(place, laid)):
             return self._patch(frame, place)
         for text in found.advice:
             text, use, _ = text.partition(": use ")
@@ -345,6 +345,18 @@ class Case:
         gap_of_cells = laid.apart + laid.approach
         found = contacts.solved(laid.contact, gap_of_cells, laid.approach, creeps[:3], friction, laid.middle)
         return found, creeps, friction
+
+    def _beyond(self, place, laid):
+        """Whether bodies that the pressure deforms overlap beyond the grid, where another part of the contact is."""
+        x, s, overlap = place.line
+        out = (overlap > 0.0) & ((s < laid.s[0]) | (s > laid.s[-1]) | (x < laid.x[0]) | (x > laid.x[-1]))
+        if not out.any():
+            return False
+        pressure = laid.contact["pressure"]
+        rows, columns = np.nonzero(pressure)
+        force = pressure[rows, columns] * self.pair.settings.cell**2
+        apart = np.hypot(x[out, None] - laid.x[columns], s[out, None] - laid.s[rows])
+        return bool((overlap[out] > (1.0 / apart) @ force / (np.pi * self.pair.settings.modulus)).any())
 
     def _along_wheel(self, frame, x, y):
         """y of the wheel's profile at the middle of each row of cells."""
