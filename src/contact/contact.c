@@ -22,6 +22,7 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
                                        .coupling_rtol   = 1e-6,
                                        .coupling_max_it = 100,
                                        .warm_start      = PETSC_TRUE,
+                                       .extrapolate     = PETSC_TRUE,
                                        .edges           = PETSC_TRUE,
                                        .cycle_memory    = NAN};
   c->elasticity = SamProblemGetElasticity(problem);
@@ -124,6 +125,8 @@ static const SamOptionRow rows[] = {
    .member = MEMBER(allow_edge)},
   {"edges", "reconstruct, none (count cells)", SAM_OPTION_BOOL, MEMBER(edges), .words = "none,reconstruct"},
   {"contact_spots", "number of contact spots and mean gap of each step", SAM_OPTION_BOOL, .member = MEMBER(spots)},
+  {"extrapolate", "solve each step of steady rolling on half the cells, too, for extrapolated loads", SAM_OPTION_BOOL,
+   .member = MEMBER(extrapolate)},
   {"contact_check", "print the check of each step", SAM_OPTION_BOOL, .member = MEMBER(print_check)}};
 
 PetscErrorCode SamContactSetFromOptions(SamContact c)

@@ -172,6 +172,15 @@ def test_extrapolated_loads(solve, ratio, creep, expected):
         assert fine(s, case, name, arm) == pytest.approx(value, abs=tolerance), name
 
 
+def test_without_extrapolation_the_loads_are_the_same(solve):
+    """The solution on half the cells is left out, and nothing is said about it."""
+    case = dict(ellipse(n=27), creep_x=0.5 * U, creep_y=0.4 * U)
+    both, alone = solve(case), solve(case, dict(extrapolate="false"))
+    assert np.isnan(alone["load_tx_extrapolated"]) and np.isfinite(both["load_tx_extrapolated"])
+    assert alone["load_tx"] == both["load_tx"]
+    assert "_extrapolated = " in both.run.stderr and "_extrapolated = " not in alone.run.stderr
+
+
 def test_small_grids_are_extrapolated(solve):
     """A spin that is found for M_z = 0, on a contact of twenty cells: 10 % off, and told so."""
     creep = dict(creep_x=0.5 * U, creep_y=0.4 * U)

@@ -13,6 +13,7 @@ from petsam import plot, profiles
 from petsam.commands import wheel
 from petsam.core.errors import Error
 from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, derailing, wearing
+from petsam.profiles import batch as batches
 from petsam.profiles.conicity import equivalent_conicity
 from petsam.profiles.positions import Case
 from petsam.profiles.wearing import Law, depth_rates, rows_of
@@ -318,6 +319,43 @@ def test_drafts_are_near_the_solution_and_those_of_equal_cells_are_it(axle, monk
     assert draft.patches[0].centre == pytest.approx(found.right.patches[0].centre, abs=1e-7)
 
 
+@pytest.mark.parametrize("side", ["x", "s"])
+def test_a_grid_for_the_contact_of_a_draft_gives_the_same_solution(axle, side):
+    """On fewer cells; where the contact of the draft is too small, on those for the whole overlap."""
+    found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
+    right, z = axle.pairs[0], found.position.z
+    with Pair(right.rail, right.wheel, right.friction, settings=Settings()) as pair:
+        case = Case(pair, found.position)
+        draft = case.draft(z)
+        patch = draft.patches[0]
+        shift = 0.4 * (patch.high - patch.low) * (np.array(["x", "s"]) == side)
+        wrong = replace(draft, patches=(replace(patch, low=patch.low + shift, high=patch.high + shift),))
+        small, other, whole = (case.at(z, near).patches[0] for near in (draft, wrong, None))
+    assert np.prod(small.grid) < 0.85 * np.prod(whole.grid)
+    for one in small, other:
+        assert one.force == pytest.approx(whole.force, abs=1e-5 * LOAD.vertical)
+        assert one.cells == whole.cells and one.p_max == pytest.approx(whole.p_max, rel=1e-6)
+
+
+def test_a_part_of_the_contact_that_a_draft_does_not_have_is_found(vehicle):
+    """A wheel with waves touches at two crests; the draft has one of them, and the edge of its grid is free."""
+    y = np.linspace(-0.06, 0.06, 1201)
+    waves = Profile(y, 6e-5 * np.cos(2.0 * np.pi * y / 6e-3), "wheel")
+    with Pair(vehicle.rail, profiles.Wheelset(waves, 0.46), 0.3, settings=Settings()) as pair:
+        case = Case(pair, Position(speed=20.0))
+        z = case.search.touch + 7e-5
+        whole, draft = case.at(z), case.draft(z)
+        in_contact = whole.patches[0].pressure.any(axis=1)
+        first, last = np.flatnonzero(in_contact)[[0, -1]]
+        empty = first + np.flatnonzero(~in_contact[first:last])
+        patch = draft.patches[0]
+        middle = whole.patches[0].grid_s[empty[len(empty) // 2]]
+        cut = replace(patch, high=np.array([patch.high[0], middle]))
+        found = case.at(z, replace(draft, patches=(cut,)))
+    assert len(whole.patches) == 1 and found.patches[0].cells == whole.patches[0].cells
+    assert found.force == pytest.approx(whole.force, rel=1e-6, abs=1e-2)
+
+
 def test_an_equilibrium_needs_few_full_solutions(vehicle):
     """From its neighbour; without the correction of drafts it takes more than 3."""
     y = np.linspace(1e-3, 4e-3, 9)
@@ -330,6 +368,38 @@ def test_an_equilibrium_needs_few_full_solutions(vehicle):
         assert max(abs(one.force_error), abs(one.moment_error)) < 1e-5
         rate = -2.0 * one.position.speed / sum(one.radii)
         assert one.position.pitch_rate == pytest.approx(rate, rel=1e-8)
+
+
+def test_a_start_under_another_load_is_near(axle, monkeypatch):
+    """By Hertz: 10 drafts of a wheel; from the neighbour's own overlaps 16."""
+    at, count = Position(y=2e-3, speed=20.0), []
+    found = axle.solve(at, Load(60e3))
+    draft = Case.draft
+    monkeypatch.setattr(Case, "draft", lambda case, z: count.append(z) or draft(case, z))
+    other = axle.solve(at, Load(150e3, offset=0.1), found)
+    assert len(count) <= 12 and max(abs(other.force_error), abs(other.moment_error)) < 1e-5
+
+
+def test_a_batch_goes_from_neighbour_to_neighbour():
+    rng = np.random.default_rng(3)
+    states = [
+        State(Position(y=float(y), yaw=float(a), speed=20.0), LOAD) for y, a in rng.uniform(-5e-3, 5e-3, (400, 2))
+    ]
+    path = batches._path(states)
+    assert sorted(path) == list(range(400))
+    y, yaw = np.array([(states[k].position.y, states[k].position.yaw) for k in path]).T
+    assert np.mean(abs(np.diff(y))) < 3e-4 and np.mean(abs(np.diff(yaw))) < 8e-4  # without order 3.3e-3 each
+    sweep = [State(Position(y=float(y), yaw=1e-3, speed=20.0), LOAD) for y in np.linspace(-5e-3, 5e-3, 31)]
+    assert batches._path(sweep) == list(range(31))
+
+
+def test_numbers_of_a_batch_are_in_the_order_of_its_positions(vehicle):
+    states = [State(Position(y=y, speed=20.0), LOAD) for y in (2e-3, -1e-3, 1e-3)]
+    assert [one.value.position.y for one in batches.run(vehicle, states, keep=_itself)] == [2e-3, -1e-3, 1e-3]
+
+
+def _itself(found):
+    return found
 
 
 def test_the_start_does_not_change_the_equilibrium(axle):

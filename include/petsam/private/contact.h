@@ -42,6 +42,8 @@ typedef struct {
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges
                                  reconstruct or none) */
   PetscBool spots;        /* count the contact spots and compute the mean gap (false; -contact_spots) */
+  PetscBool extrapolate;  /* steps of steady rolling are solved on half the cells, too, and their loads and creepages
+                                 extrapolated; else these numbers are NaN (true; -extrapolate) */
   PetscBool print_check;  /* print the errors of each step (false; -contact_check) */
 } SamContactSettings;
 

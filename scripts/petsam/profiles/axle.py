@@ -3,9 +3,9 @@
 Unknowns are the overlaps of both wheels, in their logarithms; height and roll follow from them, as the height at which
 a wheel touches falls with the roll by the lateral arm of its contact. Broyden's iteration begins with Hertz's slope:
 vertical force and roll moment of a wheel grow with its overlap^1.5. It solves drafts on coarser cells, corrected by how
-the last full solution differed from its draft; two or three full solutions are enough. Where a
-lateral force is given, the lateral displacement is found around it. Inertia is left out: give the forces that remain at
-the wheelset.
+a full solution differs from its draft, and ends with the slopes of the drafts: two or three full solutions are enough.
+Where a lateral force is given, the lateral displacement is found around it. Inertia is left out: give the forces that
+remain at the wheelset.
 """
 
 import math
@@ -26,9 +26,9 @@ from .profile import ProfileWarning
 from .result import COLUMNS, DerailWarning, Result
 
 PASSES, TURNS = 60, 40  # of the equilibrium, and of the roll of rigid bodies
-ROUNDS, DRAFTS = 8, 20  # full solutions with drafts, and drafts between two of them
-FIRST, NEXT = 2e-3, 5e-3  # residual of the first drafts, and of others relative to that of the last full solution
-ALMOST_DONE = 4.0  # residual of drafts over the wanted one, at least: a step from it leads to the wanted one
+ROUNDS, DRAFTS = 8, 20  # full solutions with the slopes of drafts, and drafts before a full solution
+FIRST, NEXT = 2e-3, 5e-3  # residual of the first drafts, and of others relative to that of the first full solution
+ALMOST_DONE = 15.0  # residual of drafts over the wanted one, at least: a step from it leads to the wanted one
 MORE, ALMOST = 100, 0.05  # full solutions beyond PASSES, while no more than this is left
 ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
 STEADY = 1e-8  # relative change of the pitch rate of a wheelset that rolls freely
@@ -40,6 +40,7 @@ FASTEST = math.log(2.0)  # change of the logarithm of an overlap in one pass
 STEP, WIDEST = 2e-3, 0.03  # m: of the search for a lateral force, and its end
 STARTS = 2  # neighbours from which an equilibrium under a lateral force is tried, before rigid bodies
 NEWTON, HALVINGS, DIFFERENCE = 15, 5, 1e-3  # steps, their halvings, and relative change of overlaps for a slope
+MOST = 0.9  # of the load: difference of both wheels' loads with which an iteration begins
 FACE = 0.5  # slope of a flange from which the equilibrium is tried by Newton's steps, too
 LIFTED = 0.1  # of the load: a wheel with less lifts
 LEAST_STEP = 4e-6  # m: of it towards displacements without an equilibrium
@@ -379,7 +380,7 @@ class Axle:
         search = _Search(self, position, load, start)
         overlaps = _hertz(self, 0.5 * load.vertical)
         if start is not None:
-            overlaps = tuple(max(found.overlap, 0.1 * overlaps[0]) for found in start.wheels)
+            overlaps = tuple(max(overlap, 0.1 * overlaps[0]) for overlap in _scaled(start, load))
         search.begin(overlaps)
         rtol = self.settings.rtol
         begun = search.position
@@ -444,7 +445,9 @@ class _Search:
         self.position = position
         self.slopes = start.slopes if start else None
         self.correction = np.zeros(3) if start is None or start.correction is None else start.correction
+        self.kept = self.correction  # for a neighbour
         self.before, self.limit = None, FASTEST
+        self.drafts = None, None  # the last ones, of right wheels
 
     def begin(self, overlaps):
         """Height and roll of these overlaps."""
@@ -520,19 +523,30 @@ class _Search:
 
     def by_drafts(self, rtol):
         """The equilibrium from drafts and few full solutions; None where drafts do not lead to it."""
-        begun, draft, least = self.position, None, FIRST
-        for k in range(ROUNDS):
-            draft = self.settle(least, draft)
-            if draft is None:
-                break
-            if k:
-                self.improve(draft)  # is better by a factor of ten, and needs no further draft
+        begun = self.position
+        draft = self.settle(FIRST)
+        if draft is not None:
             state = self.state()
             if self.done(state.values, rtol):
                 return state
-            self.correction = state.values - (self.state(True) if k else draft).values
-            least = max(ALMOST_DONE * rtol, NEXT * max(abs(state.rest)))
+            self.correction = self.kept = state.values - draft.values
+            draft = self.settle(max(ALMOST_DONE * rtol, NEXT * max(abs(state.rest))), draft)
+        if draft is not None:
+            self.improve(draft)
+            state = self.finish(rtol)
+            if state is not None:
+                return state
         self.position, self.slopes, self.before, self.limit = begun, None, None, FASTEST
+        return None
+
+    def finish(self, rtol):
+        """The equilibrium by full solutions with the slopes of the drafts; None where they do not lead to it."""
+        self.before, self.correction = None, np.zeros(3)
+        for _ in range(ROUNDS):
+            state = self.state()
+            if self.done(state.values, rtol):
+                return state
+            self.improve(state)
         return None
 
     def state(self, draft=False):
@@ -541,7 +555,10 @@ class _Search:
         p = self.position
         self.cases = self.axle._cases(p)
         touch = np.array([case.search.touch for case in self.cases])
-        one, other = (case.draft(p.z) if draft else case.at(p.z) for case in self.cases)
+        if draft:
+            self.drafts = one, other = [case.draft(p.z) for case in self.cases]
+        else:
+            one, other = (case.at(p.z, near) for case, near in zip(self.cases, self.drafts))
         found = [one, other.mirrored()]
         parts = np.array([_part(result, p, self.axle.wheel.radius, self.load) for result in found])
         given = np.array([self.load.vertical, self.load.offset * self.load.vertical])
@@ -611,7 +628,7 @@ class _Search:
             self.passes,
             climbs,
             self.slopes,
-            self.correction,
+            self.kept,
         )
 
 
@@ -631,6 +648,21 @@ def _hertz(axle, force):
     """Overlaps by Hertz under a vertical force, m."""
     modulus, radius = axle.settings.modulus, axle.wheel.radius
     return ((force / (4.0 / 3.0 * modulus * math.sqrt(0.5 * radius))) ** (2.0 / 3.0),) * 2
+
+
+def _scaled(start, load):
+    """Overlaps of a neighbour under other loads, by Hertz: the lateral forces' moment is in proportion to the load."""
+    if not all(found.patches for found in start.wheels):
+        return [found.overlap for found in start.wheels]
+    before = np.array([found.force[2] for found in start.wheels])
+    half = 0.5 * (start.right.patches[0].y - start.left.patches[0].y)
+    share = (before[0] - before[1]) / start.load.vertical + (load.offset - start.load.offset) / half
+    if load.right is not None:
+        share = 2.0 * load.right / load.vertical - 1.0
+    share = min(max(share, -MOST), MOST)
+    wanted = 0.5 * load.vertical * np.array([1.0 + share, 1.0 - share])
+    ratio = wanted / np.maximum(before, (1.0 - MOST) * start.load.vertical)
+    return [found.overlap * part ** (2.0 / 3.0) for found, part in zip(start.wheels, ratio)]
 
 
 def _no_equilibrium(axle, position, load, state):

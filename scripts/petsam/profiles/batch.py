@@ -1,6 +1,7 @@
 """Many positions of a wheelset side by side, in processes; results do not depend on how many."""
 
 import functools
+import math
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +19,7 @@ from .positions import Friction
 from .spectrum import State
 
 BESIDE = 3e-4  # m between positions of a fine sweep
-CHUNK = 20  # positions that one process solves one after the other, each from its neighbour
+CHUNK, PARTS = 20, 50  # positions that one process solves one after the other, at least, and parts, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,7 +185,9 @@ def run(
         In the order of the positions.
     """
     vehicle.axle().close()  # fails and warns early, and once
-    parts = [states[k : k + CHUNK] for k in range(0, len(states), CHUNK)]
+    order = _path(states)
+    size = max(CHUNK, -(-len(states) // PARTS))
+    parts = [[states[k] for k in order[first : first + size]] for first in range(0, len(states), size)]
     ended = [0]
 
     def done(k):
@@ -193,7 +196,23 @@ def run(
             report(ended[0], len(states))
 
     found = processes.run([(functools.partial(_solved, vehicle, keep), part) for part in parts], cores, _quiet, done)
-    return [one for part in found for one in part]
+    solved = dict(zip(order, (one for part in found for one in part)))
+    return [solved[k] for k in range(len(states))]
+
+
+def _path(states):
+    """Numbers of all positions in an order in which neighbours are near: bands of lateral displacement or force, and
+    in each the angle at which the wheelset runs, which grows and falls in turn."""
+    aside = [one.position.y if one.load.lateral is None else one.load.lateral / one.load.vertical for one in states]
+    along = sorted(range(len(states)), key=aside.__getitem__)
+    width = math.isqrt(max(len(states) - 1, 0)) + 1
+    band = {k: place // width for place, k in enumerate(along)}
+    return sorted(along, key=lambda k: (band[k], (-1.0) ** band[k] * _angle(states[k].position)))
+
+
+def _angle(position):
+    """Angle between the wheelset's heading and its motion, rad; on rollers the yaw."""
+    return position.yaw - (position.vy / position.speed if position.speed > 0.0 else 0.0)
 
 
 def _quiet(*_):

@@ -16,7 +16,7 @@ MOST = 1024  # cells along x or s
 KEPT = 64  # contacts
 SPARE = 8  # cells by which a grid that is there may be wider than a new one
 COARSER = 3  # cells of a draft
-DRAFTED = dict(tangential_rtol=1e-5, normal_rtol=1e-7)  # of a draft
+DRAFTED = dict(tangential_rtol=1e-5, normal_rtol=1e-7, extrapolate=False, edges="none")  # of a draft
 
 
 @dataclass(frozen=True)

@@ -108,6 +108,8 @@ class Place:
         Of the patch in means over patches.
     at_end : bool
         True where the overlap reaches the end of a profile.
+    line : ndarray, optional
+        x and s in the patch of the points of its region, and the overlap there along the normal, (3, n), m.
     """
 
     origin: np.ndarray
@@ -116,6 +118,7 @@ class Place:
     high: np.ndarray
     weight: float
     at_end: bool
+    line: Optional[np.ndarray] = None
 
     @property
     def axes(self) -> np.ndarray:
@@ -226,7 +229,8 @@ class Search:
         s = (region.y - place.origin[1]) * place.axes[1, 1] + (region.z - place.origin[2]) * place.axes[1, 2]
         low = np.array([(region.x - half).min() - place.origin[0], s.min()])
         high = np.array([(region.x + half).max() - place.origin[0], s.max()])
-        return replace(place, low=low, high=high)
+        line = np.stack([region.x - place.origin[0], s, region.overlap * place.axes[1, 1]])
+        return replace(place, low=low, high=high, line=line)
 
 
 def _zero(one, other):

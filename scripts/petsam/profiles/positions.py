@@ -8,7 +8,7 @@ import math
 import re
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -225,13 +225,16 @@ class Case:
         pair = self.pair
         return search(pair.rail, pair.wheel.radius, locus(pair.rail, pair.wheel, self.rotation, self.position.y))
 
-    def at(self, z: float) -> Result:
+    def at(self, z: float, draft: Optional[Result] = None) -> Result:
         """The solution at a height.
 
         Parameters
         ----------
         z : float
             Of the wheelset, m.
+        draft : Result, optional
+            A draft of a right wheel near it: grids need not be larger than its contacts. The solution does not depend
+            on it.
 
         Returns
         -------
@@ -245,7 +248,7 @@ class Case:
         """
         self.passes += 1
         self._warned = []
-        return self._result(z, self._patch)
+        return self._result(z, self._patch, draft)
 
     def draft(self, z: float) -> Result:
         """A draft of the solution at a height, on coarser cells: a fraction of the work of at().
@@ -266,7 +269,7 @@ class Case:
             If the bodies overlap too much.
         """
 
-        def patch(frame, place):
+        def patch(frame, place, _):
             laid = self._laid(frame, place, True)
             if laid is None:
                 return None
@@ -274,12 +277,13 @@ class Case:
             pressure = laid.contact["pressure"]
             x, s = (pressure.sum(axis=0) @ laid.x, pressure.sum(axis=1) @ laid.s) / pressure.sum()
             fx, fs = map(float, -found.shear)
-            return Drafted(place.origin + x * place.axes[0] + s * place.axes[1], place.angle, found.n, fx, fs)
+            box = _around(laid, pressure, self.pair._contacts.cell(True))
+            return Drafted(place.origin + x * place.axes[0] + s * place.axes[1], place.angle, found.n, fx, fs, *box)
 
         return self._result(z, patch)
 
-    def _result(self, z, patch):
-        """The patches at a height, by a function of the wheelset's frame and a place."""
+    def _result(self, z, patch, draft=None):
+        """The patches at a height, by a function of the wheelset's frame, a place, and its patch in a draft or None."""
         if z - self.search.touch > DEEPEST:
             raise Error(
                 f"z {z:g}: the bodies overlap by {z - self.search.touch:.3g} m: z is 0 at the nominal height and "
@@ -290,7 +294,8 @@ class Case:
         frame = Frame(self.rotation, np.array([0.0, self.position.y, z - self.pair.wheel.radius]))
         settings = self.pair.settings
         found = places(self.search, self.search.regions(z), settings.separation, settings.combination)
-        patches = [patch(frame, place) for place in found]
+        drafted = draft.patches if draft is not None and len(draft.patches) == len(found) else [None] * len(found)
+        patches = [patch(frame, place, one) for place, one in zip(found, drafted)]
         return Result(tuple(one for one in patches if one is not None), float(z), self.search.touch, self.passes)
 
     def _laid(self, frame: Frame, place: Place, draft: bool) -> Optional["_Laid"]:
@@ -304,13 +309,16 @@ class Case:
         approach = -float(apart.min())
         return _Laid(contact, middle, x, s, apart, y, approach) if approach > 0.0 else None
 
-    def _patch(self, frame: Frame, place: Place) -> Optional[Patch]:
-        """The solution on a patch; None where no cell touches."""
-        pair, laid = self.pair, self._laid(frame, place, False)
+    def _patch(self, frame: Frame, place: Place, drafted: Optional[Drafted] = None) -> Optional[Patch]:
+        """The solution on a patch, on a grid for the contact of a draft where it suffices; None where no cell
+        touches."""
+        pair, laid = self.pair, self._laid(frame, _within(place, drafted), False)
         if laid is None:
             return None
         contact, x, y, approach, cell = laid.contact, laid.x, laid.y, laid.approach, pair.settings.cell
         found, creeps, friction = self._solved(frame, place, laid)
+        if drafted is not None and (_at_edge(contact["pressure"]) or self._beyond(place, laid)):
+            return self._patch(frame, place)
         for text in found.advice:
             text, use, _ = text.partition(": use ")
             kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", text)
@@ -338,6 +346,18 @@ class Case:
         found = contacts.solved(laid.contact, gap_of_cells, laid.approach, creeps[:3], friction, laid.middle)
         return found, creeps, friction
 
+    def _beyond(self, place, laid):
+        """Whether bodies that the pressure deforms overlap beyond the grid, where another part of the contact is."""
+        x, s, overlap = place.line
+        out = (overlap > 0.0) & ((s < laid.s[0]) | (s > laid.s[-1]) | (x < laid.x[0]) | (x > laid.x[-1]))
+        if not out.any():
+            return False
+        pressure = laid.contact["pressure"]
+        rows, columns = np.nonzero(pressure)
+        force = pressure[rows, columns] * self.pair.settings.cell**2
+        apart = np.hypot(x[out, None] - laid.x[columns], s[out, None] - laid.s[rows])
+        return bool((overlap[out] > (1.0 / apart) @ force / (np.pi * self.pair.settings.modulus)).any())
+
     def _along_wheel(self, frame, x, y):
         """y of the wheel's profile at the middle of each row of cells."""
         y = y[:, int(np.argmin(np.abs(x)))]
@@ -360,6 +380,25 @@ class Case:
             warnings.warn(text, kind, stacklevel=3)
         for text in self.advice.values():
             warnings.warn(text, AdviceWarning, stacklevel=3)
+
+
+def _around(laid, pressure, cell):
+    """Corners of the box of the cells in contact and one around them, in the patch, m."""
+    ends = [at[np.flatnonzero(pressure.any(axis=k))[[0, -1]]] for k, at in enumerate((laid.x, laid.s))]
+    return np.array([[low - 1.5 * cell, high + 1.5 * cell] for low, high in ends]).T
+
+
+def _within(place, drafted):
+    """A patch with its box cut to that of a draft."""
+    if drafted is None:
+        return place
+    low, high = np.maximum(place.low, drafted.low), np.minimum(place.high, drafted.high)
+    return replace(place, low=low, high=high) if (low < high).all() else place
+
+
+def _at_edge(pressure):
+    """Whether cells at the edge of a grid are in contact."""
+    return bool(pressure[[0, -1]].any() or pressure[:, [0, -1]].any())
 
 
 def _under(case: Case, force: float) -> Result:

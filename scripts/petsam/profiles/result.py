@@ -51,6 +51,8 @@ class Drafted:
         Inclination of the patch, rad.
     n, fx, fs : float
         Normal force, and forces on the rail along x and s, N.
+    low, high : ndarray
+        Corners of a box in the patch's x and s, of a right wheel, which has the contact and a cell around it, (2,), m.
     """
 
     centre: np.ndarray
@@ -58,6 +60,8 @@ class Drafted:
     n: float
     fx: float
     fs: float
+    low: np.ndarray
+    high: np.ndarray
 
     @property
     def force(self) -> np.ndarray:
@@ -71,7 +75,7 @@ class Drafted:
         -------
         Drafted
         """
-        return Drafted(self.centre * np.array([1.0, -1.0, 1.0]), -self.angle, self.n, self.fx, -self.fs)
+        return replace(self, centre=self.centre * np.array([1.0, -1.0, 1.0]), angle=-self.angle, fs=-self.fs)
 
 
 def _in_track(patch):

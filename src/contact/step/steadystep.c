@@ -162,7 +162,7 @@ PetscErrorCode SamSolveRolling(SamSolve *w)
     numbers[LOADS + n] = numbers[CREEPS + n] = NAN;
   }
   if (w->step->status != SAM_STATUS_CONVERGED || w->s->load[SAM_COMPONENT_N] <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  if (w->task->traits.plane) PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->task->traits.plane || !w->task->set->extrapolate) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamElasticityGetCoarse(w->task->elasticity, &k.elasticity, &k.transfer));
   if (!k.elasticity) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CreateCoarse(w, &k));
