@@ -2,6 +2,7 @@
 
 import json
 import sys
+from dataclasses import replace
 
 import h5py
 import numpy as np
@@ -264,6 +265,23 @@ def test_noise_of_the_displacement_bends_no_loop(tmp_path):
         one = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
         found.append((one.friction - MU) / one.friction_sd)
     assert np.abs(found).max() < 2.5 and np.abs(np.mean(found)) < 1.3
+
+
+@pytest.mark.parametrize("kind", ["sine", "triangle", "skew triangle", "distorted sine"])
+def test_the_displacement_of_a_cycle_is_smoothed_without_its_corners(tmp_path, kind):
+    """Noise of 3 %: what is left of it is a fraction, whatever the drive. Five harmonics are 1.2 % beside a triangle,
+    by which twins of a triangular drive had 0.9 deviations less friction in the mean, and up to 5."""
+    phase, chance = np.arange(2000) / 200 % 1.0, np.random.default_rng(8)
+    up = 0.45 if kind == "skew triangle" else 0.5
+    d = np.where(phase < up, 2.0 * phase / up - 1.0, 1.0 - 2.0 * (phase - up) / (1.0 - up))
+    if "sine" in kind:
+        d = -np.cos(2.0 * np.pi * phase) + (0.05 * np.cos(6.0 * np.pi * phase) if kind == "distorted sine" else 0.0)
+    noisy = model.Loop(d + 0.03 * chance.standard_normal(2000), d, phase < up, N)
+    write(tmp_path / "lab.csv", [replace(noisy, displacement=1e-6 * noisy.displacement)], form="{:.7f},{:.7f}")
+    loops = calibration.cycles(calibration.read("lab.csv"), N).loops
+    assert len(loops) >= 8
+    left = [1e6 * one.displacement - one.force for one in loops]  # the force is the displacement without noise
+    assert np.std(np.concatenate([part - part.mean() for part in left])) < 0.03 / 3
 
 
 def test_noise_of_the_displacement_makes_no_loop_stick(tmp_path):

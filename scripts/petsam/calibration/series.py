@@ -16,7 +16,8 @@ SMOOTH = 40  # parts of a period over which the displacement is smoothed, to fin
 APART = 0.6  # of a period: least distance of two minima
 SCATTER = 5.0  # scatter of the friction over what is expected, from which on it changes, where the contact slides,
 SCATTER_PARTIAL = 2.0  # and where it does not, whose cycles hold less
-HARMONICS, SMOOTHER = 5, 1.15  # of the displacement of a cycle, and the most of its noise that they leave
+DEGREE, HARMONICS = 5, 5  # of polynomials of strokes, and harmonics of the displacement of a cycle
+NOTABLY, SMOOTHER = 0.95, 1.15  # harmonics are taken if they leave less by this; the most of the noise that is left
 SPIKE = 8.0  # of the noise: points farther from the median of their neighbours are left out
 TOGETHER = 3  # cycles of each file that are fitted together, where their amplitudes differ
 ALIKE = 2.0  # of the noise: the standard deviation of the ranges of cycles that are alike; noise makes it about 1
@@ -196,23 +197,64 @@ def _spikes(values):
     return far if far.sum() < 0.05 * len(values) else np.zeros(len(values), dtype=bool)
 
 
-def _harmonic(d, good):
-    """The displacement of a cycle by few harmonics, if they leave no more than its noise: (values, noise, what is left
-    of it in these). Else the points themselves: noise of a displacement bends the loop where it is curved."""
-    count = min(HARMONICS, len(d) // 8)
-    noise, phase = noise_of(d[good]), 2.0 * np.pi * np.arange(len(d)) / len(d)
+def _smooth(d, top, good):
+    """The displacement of a cycle by few functions, if they leave no more than its noise: (values, noise, what is left
+    of it in these). Else the points themselves: noise of a displacement bends the loop where it is curved.
+
+    Polynomials of both strokes, which meet at the turns, hold a sine as well as a triangle. Harmonics round the
+    corners of a triangle, by 6 % of its amplitude, and noise hides it: the loop of the wrong stroke has less friction.
+    They are taken where they leave notably less.
+    """
+    noise = noise_of(d[good])
+    (found, count), (other, others) = _by_strokes(d, top, good), _by_harmonics(d, good)
+    left, rest = (np.std(d[good] - one[good]) for one in (found, other))
+    if rest < NOTABLY * left:
+        found, count, left = other, others, rest
+    if left > SMOOTHER * noise:
+        return d, noise, noise
+    return found, noise, noise * float(np.sqrt(count / good.sum()))
+
+
+def _by_harmonics(d, good):
+    """The best displacement of few harmonics, and how many functions they are."""
+    count, phase = min(HARMONICS, len(d) // 8), 2.0 * np.pi * np.arange(len(d)) / len(d)
     waves = [np.ones(len(d)), *(f(k * phase) for k in range(1, count + 1) for f in (np.cos, np.sin))]
     waves = np.array(waves).T
+    return waves @ np.linalg.lstsq(waves[good], d[good], rcond=None)[0], 2 * count + 1
+
+
+def _by_strokes(d, top, good):
+    """The best displacement of a polynomial of each stroke, and how many functions they are; the turns are within some
+    points of the given ones."""
+    degree, best = min(DEGREE, len(d) // 8), None
+    wide = max(1, round(TURN * len(d)))
+    for first in range(-wide, wide + 1):
+        for turn in range(top - wide, top + wide + 1):
+            found = _of_strokes(d, good, (first, turn), degree)
+            best = found if best is None or found[1] < best[1] else best
+    return best[0], 2 * degree
+
+
+def _of_strokes(d, good, turns, degree):
+    """The best displacement of strokes between these turns, and its sum of squares."""
+    count = len(d)
+    place = (np.arange(count) - turns[0]) % count
+    up = turns[1] - turns[0]
+    rising = place < up
+    part = np.where(rising, place / up, (count - place) / (count - up))  # from 0 at the least to 1 at the largest
+    bump = part * (1.0 - part)  # 0 at both turns
+    waves = [np.ones(count), part]
+    for side in (rising, ~rising):
+        waves += [np.where(side, bump * (2.0 * part - 1.0) ** k, 0.0) for k in range(degree - 1)]
+    waves = np.array(waves).T
     found = waves @ np.linalg.lstsq(waves[good], d[good], rcond=None)[0]
-    if np.std(d[good] - found[good]) > SMOOTHER * noise:
-        return d, noise, noise
-    return found, noise, noise * float(np.sqrt((2 * count + 1) / good.sum()))
+    return found, float(np.sum((d - found)[good] ** 2))
 
 
 def _closed(d, q, top, normal, good):
     """A loop from the good points of a cycle whose largest displacement is at `top`."""
     noise_q = noise_of(q[good])
-    d, noise_d, left = _harmonic(d, good)
+    d, noise_d, left = _smooth(d, top, good)
     rising = np.arange(len(d)) < top
     turns = np.array([0, top, len(d)])
     away = good & (np.abs(np.arange(len(d))[:, None] - turns).min(axis=1) >= max(1, round(TURN * len(d))))
