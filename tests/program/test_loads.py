@@ -71,6 +71,23 @@ def deck(path, labels, x):
     return path
 
 
+def assembly(path, labels, x):
+    """The nodes of each patch as an instance NAME-1 of an assembly."""
+    lines, rows = [], np.split(x, len(labels))
+    for (name, some), own in zip(labels.items(), rows):
+        lines += [
+            f"*PART, NAME={name}",
+            "*NODE",
+            *(f"{n}, {p[0]!r}, {p[1]!r}, {p[2]!r}" for n, p in zip(some, own.tolist())),
+        ]
+        lines += ["*END PART"]
+    lines += ["*ASSEMBLY, NAME=A"]
+    for name in labels:
+        lines += [f"*INSTANCE, NAME={name}-1, PART={name}", "*END INSTANCE"]
+    path.write_text("\n".join([*lines, "*END ASSEMBLY"]) + "\n")
+    return path
+
+
 @pytest.fixture
 def files(dovetail, tmp_path):
     """The table and the deck."""
@@ -396,6 +413,152 @@ def report(labels, force, shear=0.25):
     return "\n".join(lines) + "\n"
 
 
+def engineering(value):
+    """A number as reports have it: exponents are multiples of three."""
+    power = 0 if value == 0.0 else 3 * int(np.floor(np.log10(abs(value)) / 3.0))
+    mantissa = f"{value / 10.0**power:.6f}".rstrip("0")
+    return mantissa if power == 0 else f"{mantissa}E{power:+03d}"
+
+
+FIELDS = [
+    f"{field}.{part}" for field in ("CNORMF", "CSHEARF") for part in ("Magnitude", *(f"{field}{k}" for k in "123"))
+]
+
+
+def fields_of(force, shear=0.25):
+    """Columns FIELDS of nodes with these forces."""
+    parts = [(1 - shear) * force, shear * force]
+    return np.hstack([np.hstack([np.linalg.norm(part, axis=1)[:, None], part]) for part in parts])
+
+
+def frames_of(force, initial=False):
+    """(step, increment, step time, forces) in two steps; `initial`: the second one begins with the end of the first."""
+    frames = [(1 + (k > 1), k + 1, time - (k > 1) * TIMES[1], rows) for k, (time, rows) in enumerate(zip(TIMES, force))]
+    return frames[:2] + [(2, 0, 0.0, force[1])] * initial + frames[2:]
+
+
+def table_of(labels, rows, heads, width=None, footer=True):
+    """A table of a report in text, its lines not longer than `width` columns of numbers."""
+    parts = np.split(np.arange(len(heads)), range(width, len(heads), width)) if width else [np.arange(len(heads))]
+    lines = []
+    for k, part in enumerate(parts):
+        top, below = ("            Node", "           Label") if k == 0 else ("", "")
+        lines += [top + "".join(f"  {heads[j]:>16}" for j in part), below + f"{'@Loc 1':>18}" * len(part)]
+        lines += ["-" * len(lines[-1])]
+    for label, row in zip(labels, rows):
+        for k, part in enumerate(parts):
+            words = (one if isinstance(one, str) else engineering(one) for one in (row[j] for j in part))
+            lines.append((f"{label:16d}" if k == 0 else "") + "".join(f"{word:>18}" for word in words))
+    if footer:
+        lines += [
+            "",
+            "",
+            "  Minimum " + f"{'0.':>18}" * len(heads),
+            "",
+            "         At Node" + f"{labels[0]:18d}" * len(heads),
+        ]
+        lines += ["  Maximum " + f"{'0.':>18}" * len(heads), "", "         At Node" + f"{labels[0]:18d}" * len(heads)]
+        lines += ["", "           Total" + f"{'0.':>18}" * len(heads)]
+    return [*lines, "", ""]
+
+
+def frame_of(step, increment, time):
+    """The lines above the tables of a frame."""
+    return [
+        "*" * 80, "Field Output Report, written Mon Jan  5 10:00:00 2026", "", "Source 1", "---------", "",
+        "   ODB: C:/jobs/dovetail.odb", f"   Step: Step-{step}",
+        f"   Frame: Increment {increment:6d}: Step Time = {time:8.4g}", "",
+        "Loc 1 : Nodal values from source 1", "", 'Output sorted by column "Node Label".', "",
+    ]  # fmt: skip
+
+
+def reported(labels, force, heads=FIELDS, region="{}-1", separate=False, initial=False, apart=False, **more):
+    """A report in text; `separate`: a table for each column, `apart`: a report for each field."""
+    lines = []
+    for some in (range(4), range(4, 8)) if apart else (range(8),):
+        for *frame, rows in frames_of(force, initial):
+            lines += frame_of(*frame)
+            values = fields_of(rows)
+            for k, (name, own) in enumerate(labels.items()):
+                lines += [f"Field Output reported at nodes for region: {region.format(name)}"]
+                lines += ["   Computation algorithm: EXTRAPOLATE_COMPUTE_AVERAGE", "   Averaged at nodes", ""]
+                for part in [[j] for j in some] if separate else [list(some)]:
+                    lines += table_of(own, values[4 * k : 4 * k + 4, part], [heads[j] for j in part], **more)
+    return "\n".join(lines) + "\n"
+
+
+def valued(labels, x, force, initial=False):
+    """A report in comma-separated values, coordinates included, one head for each frame."""
+    lines = []
+    for step, increment, time, rows in frames_of(force, initial):
+        heads = ["ODB Name", "Step", "Frame", "Part Instance Name", "Node Label", "X", "Y", "Z"]
+        lines.append(", ".join([*heads, *(f"{name.replace('.', '-'):>15}" for name in FIELDS), "CSTATUS"]))
+        values = fields_of(rows)
+        for k, (name, own) in enumerate(labels.items()):
+            for j, label in enumerate(own, 4 * k):
+                frame = f"Increment {increment:6d}: Step Time = {time:8.4g}"
+                words = ["C:/jobs/dovetail.odb", f"Step-{step}", frame, f"{name}-1", f"{label:10d}"]
+                words += [*map(repr, x[j].tolist()), *map(engineering, values[j]), "NoValue"]
+                lines.append(", ".join(words))
+    return "\n".join(lines) + "\n"
+
+
+PAIR = "ASSEMBLY_BLADE_FLANKS/ASSEMBLY_DISC_FLANKS"
+
+
+@pytest.mark.parametrize(
+    "kind", ["wide", "wrapped", "narrow", "separate", "apart", "sets", "no footers", "initial frames", "pair", "values"]
+)
+def test_reports_as_abaqus_lays_them_out(kind, rounded, tmp_path):
+    """Invariants, limited pages, a table for each column, a report for each field, sets of an instance, columns of one
+    pair of surfaces, the frame at time 0 of a later step, comma-separated values."""
+    labels, x, force = rounded
+    plain = petsam.loads.read(table(tmp_path / "plain.csv", *rounded))
+    model = assembly if kind == "sets" else deck
+    given, path = dict(length="mm", force="N", deck=model(tmp_path / "d.inp", labels, x)), tmp_path / "job.rpt"
+    more = {
+        "wrapped": dict(width=5), "narrow": dict(width=1), "separate": dict(separate=True), "apart": dict(apart=True),
+        "sets": dict(region="{0}-1.{0}_NODES"), "no footers": dict(footer=False), "initial frames": dict(initial=True),
+        "pair": dict(heads=[name.replace(".", f"   {PAIR}.") for name in FIELDS]),
+    }.get(kind, {})  # fmt: skip
+    path.write_text(valued(labels, x, force) if kind == "values" else reported(labels, force, **more))
+    found = petsam.loads.read(path, **given)
+    assert np.array_equal(found.labels % 10**6, plain.labels) and np.allclose(found.times, plain.times, rtol=1e-9)
+    assert np.allclose(found.x, plain.x, rtol=1e-12, atol=1e-15)
+    assert np.allclose(found.force, plain.force, rtol=4e-6, atol=1e-7)
+    assert np.allclose(found.normal, 0.75 * plain.force, rtol=4e-6, atol=1e-7)
+    assert any("at step time 0" in note for note in found.notes) is (kind == "initial frames")
+    own = found.labels[found.nodes("RIGHT-1.RIGHT_NODES" if kind == "sets" else "RIGHT-1")]
+    assert np.array_equal(own % 10**6, labels["RIGHT"])
+
+
+def test_comma_separated_values_have_their_coordinates(rounded, tmp_path):
+    labels, x, force = rounded
+    (tmp_path / "job.csv").write_text(valued(labels, x, force, initial=True))
+    found = petsam.loads.read(tmp_path / "job.csv", length="mm", force="N")
+    assert np.allclose(np.sort(found.x, axis=0), np.sort(1e-3 * x, axis=0)) and len(found.times) == len(TIMES)
+
+
+@pytest.mark.parametrize("word", ["NoValue", "No Value"])
+def test_nodes_without_a_value_have_no_force(word, rounded, tmp_path):
+    labels, x, force = rounded
+    text = reported(labels, force).splitlines()
+    outer = f"{99:16d}" + f"  {word:>16}" * len(FIELDS)
+    lines = [one for line in text for one in ([outer, line] if line.startswith(" " * 15 + "1 ") else [line])]
+    (tmp_path / "job.rpt").write_text("\n".join(lines) + "\n")
+    found = petsam.loads.read(tmp_path / "job.rpt", deck(tmp_path / "d.inp", labels, x), "mm", "N")
+    assert np.array_equal(found.labels, np.concatenate([*labels.values()])) and not found.notes
+
+
+def test_sums_without_friction_are_told(rounded, tmp_path):
+    labels, x, force = rounded
+    text = "\n".join(reported(labels, force, apart=True).splitlines()[: len(reported(labels, force).splitlines())])
+    (tmp_path / "job.rpt").write_text(text)
+    found = petsam.loads.read(tmp_path / "job.rpt", deck(tmp_path / "d.inp", labels, x), "mm", "N")
+    assert any("no CSHEARF in the file" in note for note in found.notes)
+    assert np.allclose(found.force, found.normal)
+
+
 @pytest.fixture(scope="module")
 def rounded(dovetail):
     """The forces in five digits, which all formats keep, and coordinates of few digits."""
@@ -516,6 +679,7 @@ GOOD = "label,x [mm],y [mm],z [mm],fx [N],fy [N],fz [N],time\n"
         ("    1C\n    2C" + " " * 67 + "2\n", "line 2: is binary"),
         ("    1C\n", "has no forces"),
         ("Field Output Report\n", "has no CNORMF1 to 3"),
+        (" THE FOLLOWING TABLE IS PRINTED FOR NODES BELONGING TO NODE SET TIP\n\n NODE FOOT- RF1\n", ".dat) of Abaqus"),
     ],
 )  # fmt: skip
 def test_bad_files_are_refused_with_their_line(text, complaint, tool, tmp_path):
@@ -539,6 +703,41 @@ def test_a_damaged_report_names_its_line(rounded, tool, tmp_path):
         ("Step Time =     0.5000", "", "the frame has no Step Time"),
     ):
         (tmp_path / "job.rpt").write_text(text.replace(old, new, 1))
+        words = ("job.rpt", "--deck", "d.inp", "--length", "mm", "--force", "N", "--frame", "auto")
+        assert complaint in tool(*words, check=3)[1]
+
+
+@pytest.mark.parametrize(
+    "old, new, complaint",
+    [
+        (f"CNORMF   {PAIR}.CNORMF2", "CNORMF   A_TOP/B_TOP.CNORMF2", "report one pair of surfaces per file"),
+        (f"CNORMF   {PAIR}.CNORMF2", "CNORMF.CNORMF1", "has cnormf1 twice: report one frame per table"),
+        (f"CNORMF   {PAIR}.CNORMF3", "S.Mises", "has no CNORMF3: report all three components"),
+        ("LEFT-1", "NOSE-1", "no instance NOSE-1 in the deck"),
+    ],
+)  # fmt: skip
+def test_reports_that_cannot_be_summed_are_refused(old, new, complaint, rounded, tool, tmp_path):
+    labels, x, force = rounded
+    assembly(tmp_path / "d.inp", labels, x)
+    heads = [name.replace(".", f"   {PAIR}.") for name in FIELDS]
+    text = reported(labels, force, heads=heads)
+    (tmp_path / "job.rpt").write_text(text.replace(old, new))
+    words = ("job.rpt", "--deck", "d.inp", "--length", "mm", "--force", "N", "--frame", "auto")
+    assert complaint in tool(*words, check=3)[1]
+
+
+def test_a_narrow_report_that_lacks_a_line_or_repeats_a_frame_is_refused(rounded, tool, tmp_path):
+    labels, x, force = rounded
+    assembly(tmp_path / "d.inp", labels, x)
+    lines = reported(labels, force, width=5).splitlines()
+    row = next(k for k, line in enumerate(lines) if line.startswith(" " * 15 + "2 "))
+    other = reported(labels, 2.0 * force, width=5)
+    for text, complaint in (
+        ("\n".join(lines[: row + 1] + lines[row + 2 :]), f"line {row + 2}: has 6 words, the table's head 3"),
+        ("\n".join(lines[: row + 1]), f"line {row + 1}: node 2 lacks words of its row"),
+        ("\n".join(lines) + other, "report each frame once"),
+    ):
+        (tmp_path / "job.rpt").write_text(text)
         words = ("job.rpt", "--deck", "d.inp", "--length", "mm", "--force", "N", "--frame", "auto")
         assert complaint in tool(*words, check=3)[1]
 

@@ -15,13 +15,14 @@ class Backbone:
     push : Push
     friction, compliance : float
         1 and m/N.
-    scale : float
-        Factor of the contact's compliance.
+    scale, bend : float
+        Factor of the contact's compliance, and what the part of it that slip adds is larger by, relative.
     """
 
-    def __init__(self, push: Push, friction: float, compliance: float, scale: float = 1.0) -> None:
+    def __init__(self, push: Push, friction: float, compliance: float, scale: float = 1.0, bend: float = 0.0) -> None:
         self.force = friction * push.force
-        self.displacement = friction * scale * push.displacement + compliance * self.force
+        self.slips = friction * scale * (push.displacement - push.force / push.stiffness)
+        self.displacement = friction * scale * push.displacement + bend * self.slips + compliance * self.force
         self.friction, self.compliance, self.scale = friction, compliance, scale
 
     @cached_property
@@ -38,10 +39,11 @@ class Backbone:
         return np.interp(np.abs(displacement), self.displacement, self.slope, right=0.0)
 
     def derivatives(self, displacement) -> dict:
-        """Of the force by displacement, friction, compliance, and scale, at displacements (m); those of the straight
-        lines between the points of the table.
+        """Of the force by displacement, friction, compliance, scale, and bend, at displacements (m); those of the
+        straight lines between the points of the table.
 
-        With D = friction (scale f + compliance q) and Q = friction q, at given D: dQ/dp = Q_p - dQ/dD D_p.
+        With D = friction scale (f + bend (f - f' q)) + compliance Q, f' the slope at 0, and Q = friction q, at given D:
+        dQ/dp = Q_p - dQ/dD D_p.
         """
         force, length = self(displacement), np.abs(displacement)
         before = np.clip(np.searchsorted(self.displacement, length) - 1, 0, len(self.force) - 2)
@@ -52,6 +54,7 @@ class Backbone:
             "friction": (force - slope * displacement) / self.friction,
             "compliance": -slope * force,
             "scale": -slope * (displacement - self.compliance * force) / self.scale,
+            "bend": -slope * np.sign(displacement) * np.interp(length, self.displacement, self.slips),
         }
 
 
@@ -91,7 +94,7 @@ def derivatives(backbone, displacement, rising, own, lean, loss):
     sign, ellipse = np.where(rising, 1.0, -1.0), _ellipse(displacement)
     most, along = backbone.derivatives(0.5 * (top - bottom)), backbone.derivatives(way)
     lag = sign * (loss * ellipse - 1.0)  # by the force of the reversal
-    shared = {name: lag * most[name] + 2.0 * sign * along[name] for name in ("friction", "compliance", "scale")}
+    shared = {name: lag * most[name] + 2.0 * sign * along[name] for name in ("friction", "compliance", "scale", "bend")}
     shared["lean"] = displacement - 0.5 * (top + bottom)
     shared["loss"] = sign * ellipse * backbone(0.5 * (top - bottom))
     by_half, by_way = 0.5 * lag * most["displacement"], along["displacement"]

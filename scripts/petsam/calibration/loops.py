@@ -26,7 +26,14 @@ from ..core.errors import Error, library
 from .backbone import Backbone, derivatives, force_of, plain_force
 from .push import Push
 
-SHARED = ("friction", "compliance", "lean", "loss", "scale")  # parameters that all loops of a fit have in common
+SHARED = (
+    "friction",
+    "compliance",
+    "lean",
+    "loss",
+    "scale",
+    "bend",
+)  # parameters that all loops of a fit have in common
 OWN = ("offset", "top", "bottom")  # those of each: force, largest and smallest displacement
 STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from one it may end where all sticks or slides
 # of the friction, from which it begins again where the best loops just slide, or just do not
@@ -37,6 +44,10 @@ LOSING = 0.2  # the most loss that is looked for: more would be a loop of its ow
 TRIALS = 30  # steps of a pass at most: the next pass goes on, and a start that leads nowhere costs little
 FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
 LOSS = (0.0, 0.005)  # of a rig, if nothing is stated, and its standard deviation: clamped joints, load cells, lags
+BENDS = 2.0  # deviation of the bend over that of the scale, if nothing is stated
+LOADS = (
+    0.5  # deviation of a factor of the scale at each of several loads, over that of the scale; BENDS times for bends
+)
 SHAPE = 0.05  # standard deviation of the scale, if nothing is stated: 15 % of a ball's radius, or 8 % of its load
 CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold
 MISFIT = 1.2  # and root mean square of the residuals, in units of the noise, below which it does not matter
@@ -204,16 +215,21 @@ class _Problem:
     def __init__(self, loops, pushes, free, fixed):
         self.loops, self.pushes = loops, pushes
         self.free = [name for name in SHARED if name in free]
-        self.fixed = dict(friction=np.nan, compliance=0.0, lean=0.0, loss=0.0, scale=1.0) | dict(fixed)
+        self.fixed = dict(friction=np.nan, compliance=0.0, lean=0.0, loss=0.0, scale=1.0, bend=0.0) | dict(fixed)
         self.known = {name: self.fixed[name] for name in self.free if isinstance(self.fixed[name], tuple)}
+        self.loads = sorted({push.normal for push in pushes})
+        if self.fixed.get("loads") and len(self.loads) > 1:  # the shape's errors are not the same at each load
+            for name, part in (("scale", 1.0), ("bend", BENDS)):
+                self.known |= {f"{name}{j}": (0.0, part * self.fixed["loads"]) for j in range(len(self.loads))}
+            self.free += [name for name in self.known if name not in self.free]
         self.spread = 1.0  # of the residuals, in units of the noise, in which what is known beforehand is weighed
         self.noise = [loop.noise() for loop in loops]
         self.amplitudes = [(0.5 * np.ptp(one.displacement), 0.5 * np.ptp(one.force)) for one in loops]
 
     def amplitude(self, values, k):
         """Shear amplitude over mu N and stroke over that of sliding, of loop k."""
-        of, (_, top, bottom) = self.shared(values), values[len(self.free) + 3 * k :][:3]
-        backbone, half = Backbone(self.pushes[k], of["friction"], of["compliance"], of["scale"]), 0.5 * (top - bottom)
+        _, top, bottom = values[len(self.free) + 3 * k :][:3]
+        backbone, half = self._backbone(values, k), 0.5 * (top - bottom)
         return float(backbone(half) / backbone.force[-1]), float(half / backbone.displacement[-1])
 
     def turning(self, values):
@@ -224,12 +240,12 @@ class _Problem:
     def scales(self):
         """What changes of the parameters are measured in."""
         d, q = map(max, zip(*self.amplitudes))
-        shared = dict(friction=0.1, compliance=0.1 * d / q, lean=0.1 * q / d, loss=0.01, scale=0.1)
+        shared = dict(friction=0.1, compliance=0.1 * d / q, lean=0.1 * q / d, loss=0.01, scale=0.1, bend=0.1)
         own = [value for d, q in self.amplitudes for value in (0.05 * q, 0.05 * d, 0.05 * d)]
-        return np.array([*(shared[name] for name in self.free), *own])
+        return np.array([*(shared.get(name, 0.05) for name in self.free), *own])
 
     def bounds(self):
-        lowest = dict(friction=LEAST, compliance=0.0, loss=-LOSING, scale=0.05)
+        lowest = dict(friction=LEAST, compliance=0.0, loss=-LOSING, scale=0.05, bend=-0.9)
         highest = dict(friction=MOST, loss=LOSING)
         count = 3 * len(self.loops)
         return (
@@ -248,7 +264,7 @@ class _Problem:
         own = friction * np.interp(min(q / friction, push.normal), push.force, push.displacement)
         steep = self._steep(loop) - push.displacement[1] / push.force[1]
         compliance = max(steep if sliding > 0.99 else (d - own) / q, 1e-3 * d / q)
-        values = dict(friction=friction, compliance=compliance, lean=0.0, loss=0.0, scale=1.0)
+        values = dict(friction=friction, compliance=compliance, lean=0.0, loss=0.0, scale=1.0, bend=0.0)
         values |= {name: value for name, (value, _) in self.known.items()}
         found = [values[name] for name in self.free]
         for one in self.loops:
@@ -281,8 +297,9 @@ class _Problem:
         return force_of(self._backbone(values, k), d, up, *self._beside(values, k))
 
     def _backbone(self, values, k):
-        of = self.shared(values)
-        return Backbone(self.pushes[k], of["friction"], of["compliance"], of["scale"])
+        of, load = self.shared(values), self.loads.index(self.pushes[k].normal)
+        scale, bend = of["scale"] * (1.0 + of.get(f"scale{load}", 0.0)), of["bend"] + of.get(f"bend{load}", 0.0)
+        return Backbone(self.pushes[k], of["friction"], of["compliance"], scale, bend)
 
     def _beside(self, values, k):
         """Parameters of loop k beside its backbone: its own, lean, loss."""
@@ -338,12 +355,20 @@ class _Problem:
             rows = slice(ends[k], ends[k + 1])
             backbone, beside = self._backbone(values, k), self._beside(values, k)
             by, own = derivatives(backbone, loop.displacement, loop.rising, *beside)
+            by = self._by_loads(values, k, by)
             for column, name in enumerate(self.free):
-                found[rows, column] = -weight * by[name]
+                found[rows, column] = -weight * by.get(name, 0.0)
             found[rows, shared + 3 * k : shared + 3 * k + 3] = -weight[:, None] * own
         for row, (name, (_, deviation)) in enumerate(self.known.items(), ends[-1]):
             found[row, self.free.index(name)] = self.spread / deviation
         return found
+
+    def _by_loads(self, values, k, by):
+        """Derivatives of loop k, {name: (n,)}, with those by the factors of its load."""
+        of, load = self.shared(values), self.loads.index(self.pushes[k].normal)
+        own = of.get(f"scale{load}", 0.0)
+        more = {f"scale{load}": of["scale"] * by["scale"], f"bend{load}": by["bend"]}
+        return {**by, "scale": (1.0 + own) * by["scale"], **more}
 
     def solve(self, starts=None):
         """The best parameters, their residuals' sum of squares, deviance, and the Jacobian there."""
@@ -443,13 +468,14 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
     push : Push or sequence of Push
         That of each loop, or of all.
     free : sequence of str
-        Parameters that are found besides friction and compliance: "lean", "loss", "scale".
+        Parameters that are found besides friction and compliance: "lean", "loss", "scale", "bend".
     profile : bool
         False: no range by the profile, which takes most of the time; a friction with a deviation above VAGUE is then
         called not identifiable.
     **fixed
-        What is given: compliance (m/N), lean (N/m), loss; a value, or (value, standard deviation) of one that is found
-        within what is known of it.
+        What is given: compliance (m/N), lean (N/m), loss, scale, bend; a value, or (value, standard deviation) of one
+        that is found within what is known of it. loads: standard deviation of a factor of the scale that each of
+        several normal loads has for itself; BENDS times of what is added to the bend.
 
     Returns
     -------

@@ -121,7 +121,7 @@ def plan(
     for names in sets:
         loops = [_made(backbone, push, kinds[name], points) for name in names]
         sizes = [noise or (NOISE * kinds[name], NOISE * float(backbone(kinds[name]))) for name in names]
-        values = dict(friction=friction, compliance=1.0 / rig, lean=0.0, loss=0.0, scale=1.0)
+        values = dict(friction=friction, compliance=1.0 / rig, lean=0.0, loss=0.0, scale=1.0, bend=0.0)
         rows.append([_deviation(loops, push, free, values, sizes, cycles) / friction for free in UNKNOWN])
         strokes.append(max(kinds[name] for name in names))
         forces.append(float(backbone(strokes[-1])))

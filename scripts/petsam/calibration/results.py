@@ -71,10 +71,12 @@ def lines(found: Result, push: Push) -> list[str]:
             f"{share:.2f}" + (f"; {push.datum}" if push.datum else "")
         )
     for name, (value, deviation) in fit.more.items():
-        text = f"{100 * value:.3g} +- {100 * deviation:.2g} %" if name == "loss" else f"{value:.4g} +- {deviation:.2g}"
-        out.append(
-            {"lean": f"lean {text} N/m", "loss": f"loss {text}", "scale": f"shape's compliance times {text}"}[name]
-        )
+        if name[-1].isdigit():  # of one of several loads
+            continue
+        part = f"{100 * value:.3g} +- {100 * deviation:.2g} %"
+        text = part if name in ("loss", "bend") else f"{value:.4g} +- {deviation:.2g}"
+        out.append({"lean": f"lean {text} N/m", "loss": f"loss {text}", "scale": f"shape's compliance times {text}",
+                    "bend": f"compliance by slip larger by {text}"}[name])  # fmt: skip
     energy = found.energy
     out.append(f"energy {energy[0]:.4g} J in the first cycle, {energy[-1]:.4g} J in the last")
     return out

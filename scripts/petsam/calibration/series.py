@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import Error, counted, library
 from ..core.tables import Column, Tabled
-from .loops import LOSS, SHAPE, Fit, Loop, fit, noise_of
+from .loops import BENDS, LOADS, LOSS, SHAPE, Fit, Loop, fit, noise_of
 from .push import Push
 from .reading import Record
 
@@ -16,14 +16,19 @@ SMOOTH = 40  # parts of a period over which the displacement is smoothed, to fin
 APART = 0.6  # of a period: least distance of two minima
 SCATTER = 5.0  # scatter of the friction over what is expected, from which on it changes, where the contact slides,
 SCATTER_PARTIAL = 2.0  # and where it does not, whose cycles hold less
-HARMONICS, SMOOTHER = 5, 1.15  # of the displacement of a cycle, and the most of its noise that they leave
+DEGREE, HARMONICS = 5, 5  # of polynomials of strokes, and harmonics of the displacement of a cycle
+NOTABLY, SMOOTHER = 0.95, 1.15  # harmonics are taken if they leave less by this; the most of the noise that is left
 SPIKE = 8.0  # of the noise: points farther from the median of their neighbours are left out
 TOGETHER = 3  # cycles of each file that are fitted together, where their amplitudes differ
 ALIKE = 2.0  # of the noise: the standard deviation of the ranges of cycles that are alike; noise makes it about 1
 MOST = 6000  # points of cycles that are fitted as one loop
 TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
 LEANS = 5.0  # standard deviations of a lean in gross slip beyond which loops without one are not the model's
-BEYOND = {"loss": 2.0, "scale": 3.0}  # pull of what is known beforehand from which on the loops alone settle it
+BEYOND = {
+    "loss": 2.0,
+    "scale": 3.0,
+    "bend": 3.0,
+}  # pull of what is known beforehand from which on the loops alone settle it
 UNSETTLED = 0.3  # deviation of the loss over that known beforehand,
 ALIGNED = 0.7  # and its correlation with the friction, beyond which the loops do not separate both:
 UNSTATED = 2.0  # a loss that nobody stated is then so many times less sure
@@ -196,23 +201,64 @@ def _spikes(values):
     return far if far.sum() < 0.05 * len(values) else np.zeros(len(values), dtype=bool)
 
 
-def _harmonic(d, good):
-    """The displacement of a cycle by few harmonics, if they leave no more than its noise: (values, noise, what is left
-    of it in these). Else the points themselves: noise of a displacement bends the loop where it is curved."""
-    count = min(HARMONICS, len(d) // 8)
-    noise, phase = noise_of(d[good]), 2.0 * np.pi * np.arange(len(d)) / len(d)
+def _smooth(d, top, good):
+    """The displacement of a cycle by few functions, if they leave no more than its noise: (values, noise, what is left
+    of it in these). Else the points themselves: noise of a displacement bends the loop where it is curved.
+
+    Polynomials of both strokes, which meet at the turns, hold a sine as well as a triangle. Harmonics round the
+    corners of a triangle, by 6 % of its amplitude, and noise hides it: the loop of the wrong stroke has less friction.
+    They are taken where they leave notably less.
+    """
+    noise = noise_of(d[good])
+    (found, count), (other, others) = _by_strokes(d, top, good), _by_harmonics(d, good)
+    left, rest = (np.std(d[good] - one[good]) for one in (found, other))
+    if rest < NOTABLY * left:
+        found, count, left = other, others, rest
+    if left > SMOOTHER * noise:
+        return d, noise, noise
+    return found, noise, noise * float(np.sqrt(count / good.sum()))
+
+
+def _by_harmonics(d, good):
+    """The best displacement of few harmonics, and how many functions they are."""
+    count, phase = min(HARMONICS, len(d) // 8), 2.0 * np.pi * np.arange(len(d)) / len(d)
     waves = [np.ones(len(d)), *(f(k * phase) for k in range(1, count + 1) for f in (np.cos, np.sin))]
     waves = np.array(waves).T
+    return waves @ np.linalg.lstsq(waves[good], d[good], rcond=None)[0], 2 * count + 1
+
+
+def _by_strokes(d, top, good):
+    """The best displacement of a polynomial of each stroke, and how many functions they are; the turns are within some
+    points of the given ones."""
+    degree, best = min(DEGREE, len(d) // 8), None
+    wide = max(1, round(TURN * len(d)))
+    for first in range(-wide, wide + 1):
+        for turn in range(top - wide, top + wide + 1):
+            found = _of_strokes(d, good, (first, turn), degree)
+            best = found if best is None or found[1] < best[1] else best
+    return best[0], 2 * degree
+
+
+def _of_strokes(d, good, turns, degree):
+    """The best displacement of strokes between these turns, and its sum of squares."""
+    count = len(d)
+    place = (np.arange(count) - turns[0]) % count
+    up = turns[1] - turns[0]
+    rising = place < up
+    part = np.where(rising, place / up, (count - place) / (count - up))  # from 0 at the least to 1 at the largest
+    bump = part * (1.0 - part)  # 0 at both turns
+    waves = [np.ones(count), part]
+    for side in (rising, ~rising):
+        waves += [np.where(side, bump * (2.0 * part - 1.0) ** k, 0.0) for k in range(degree - 1)]
+    waves = np.array(waves).T
     found = waves @ np.linalg.lstsq(waves[good], d[good], rcond=None)[0]
-    if np.std(d[good] - found[good]) > SMOOTHER * noise:
-        return d, noise, noise
-    return found, noise, noise * float(np.sqrt((2 * count + 1) / good.sum()))
+    return found, float(np.sum((d - found)[good] ** 2))
 
 
 def _closed(d, q, top, normal, good):
     """A loop from the good points of a cycle whose largest displacement is at `top`."""
     noise_q = noise_of(q[good])
-    d, noise_d, left = _harmonic(d, good)
+    d, noise_d, left = _smooth(d, top, good)
     rising = np.arange(len(d)) < top
     turns = np.array([0, top, len(d)])
     away = good & (np.abs(np.arange(len(d))[:, None] - turns).min(axis=1) >= max(1, round(TURN * len(d))))
@@ -284,10 +330,12 @@ class Result(Tabled):
         ]
 
 
-def _mean(each, scale):
+def _mean(each, shape):
     """Mean of the cycles' friction, its deviation (the larger one of theirs and of the scatter), and scatter over what
-    is expected. The scale is one of all cycles: its part of their deviations neither scatters nor averages out."""
-    values, deviations = np.array([one.alone("scale", scale) for one in each]).T
+    is expected. The shape is one of all cycles: its part of their deviations neither scatters nor averages out. That of
+    scale or bend is left out, {name: value}, whichever is larger."""
+    name = max(shape, key=lambda one: sum(abs(fit.correlation.get(one, 0.0)) for fit in each))
+    values, deviations = np.array([one.alone(name, shape[name]) for one in each]).T
     weights = 1.0 / deviations**2
     mean = float(np.sum(weights * values) / np.sum(weights))
     expected = 1.0 / np.sqrt(np.sum(weights))
@@ -315,13 +363,20 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
         the friction. Without a scale that is 1 with the deviation SHAPE: in partial slip no residual shows a wrong
         shape, either. Where the loops pull the loss by more than two deviations from what is given, or the scale by
         more than three, they alone settle it; with several normal loads such a scale leaves no numbers, since the
-        shape's compliance may depend otherwise on the load.
+        shape's compliance may depend otherwise on the load. The
+        part of the compliance that slip adds, and the compliance at each of several loads, have deviations of their own
+        in proportion to that of the scale (BENDS, LOADS).
 
     Returns
     -------
     Result
     """
-    together, free, fixed, notes = _fit_together(files, pushes, free, {"loss": None, "scale": (1.0, SHAPE), **fixed})
+    fixed = {"loss": None, "scale": (1.0, SHAPE), **fixed}
+    if isinstance(fixed["scale"], tuple):
+        fixed = {"bend": (0.0, BENDS * fixed["scale"][1]), "loads": LOADS * fixed["scale"][1], **fixed}
+    together, free, fixed, notes = _fit_together(files, pushes, free, fixed)
+    if fixed.get("loads") and len({push.normal for push in pushes}) > 1 and together.identifiable:
+        together = _by_best_load(together, files, pushes, free, fixed, notes)
     each = []
     if sum(len(one.loops) for one in files) > 1:
         each = [
@@ -331,7 +386,8 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     state, found = together.state, (together.friction, together.friction_sd)
     known = [one for one in each if one.identifiable]
     if len(known) == len(each) > 1 and len(files) == 1:
-        mean, deviation, scatter = _mean(each, _value(fixed.get("scale", 1.0)))
+        shape = {name: _value(fixed.get(name, plain)) for name, plain in (("scale", 1.0), ("bend", 0.0))}
+        mean, deviation, scatter = _mean(each, shape)
         if scatter > (SCATTER if together.gross else SCATTER_PARTIAL):
             state, found = "changes", (mean, deviation)
             each = _within(each)
@@ -366,7 +422,7 @@ def _fit_together(files, pushes, free, fixed):
             notes.append(_contradicted(name, *fixed[name], "compliance" in fixed, loads))
             together, free, fixed = alone, (*free, name), rest
             # either may be wrong; and by one factor for all loads rig and friction take what the loads differ in
-            if name == "scale" and ("compliance" in fixed or loads):
+            if name in ("scale", "bend") and ("compliance" in fixed or loads):
                 together = _rejected(together)
     if isinstance(fixed.get("loss"), tuple) and _entangled(together, fixed["loss"][1]):
         if not stated:
@@ -380,6 +436,34 @@ def _fit_together(files, pushes, free, fixed):
     if any(one.turned for one in files) and not (together.gross and together.identifiable):
         together = _rejected(together)
     return together, free, fixed, notes
+
+
+def _by_best_load(together, files, pushes, free, fixed, notes):
+    """A fit of several loads whose friction is known no better than by the loops nearest to sliding alone.
+
+    A curve that is not the shape's differs by the load, as of a rough contact given as a smooth one: loops of several
+    loads then seem to hold the friction much better than each of them, and are many deviations off."""
+    nearest = int(np.argmax([max(np.ptp(loop.force) for loop in one.loops) / one.loops[0].normal for one in files]))
+    alone = None if _loads_differ(together, fixed) else _fit_best([files[nearest]], [pushes[nearest]], free, fixed)
+    if alone is not None and alone.state == "not identifiable":
+        notes.append(
+            "the loops of no load hold the friction by themselves, as those of several would of an exact shape"
+        )
+        return alone
+    if alone is None or not abs(together.friction - alone.friction) < BEYOND["scale"] * alone.friction_sd:
+        notes.append(_contradicted("scale", 1.0, fixed["loads"], "compliance" in fixed, True))
+        return _rejected(together)
+    return replace(together, friction_sd=max(together.friction_sd, alone.friction_sd))
+
+
+def _loads_differ(together, fixed):
+    """Whether the loops pull the shape's compliance at one of several loads from that at the others."""
+    for name in [one for one in together.more if one[-1].isdigit()]:
+        kind = name.rstrip("0123456789")
+        deviation = fixed["loads"] * (BENDS if kind == "bend" else 1.0)
+        if together.pull(name, 0.0, deviation) > BEYOND[kind]:
+            return True
+    return False
 
 
 def _rejected(found):
@@ -403,20 +487,21 @@ def _contradicted(name, value, deviation, given, loads):
             f"the loops do not fit to a loss of the rig of {100 * value:g} +- {100 * deviation:g} %: it is found from "
             "them alone"
         )
+    what = "its compliance" if name == "scale" else "the compliance that slip adds to it"
+    differs = f"{what} is not that of the loops within {100 * deviation:g} %"
     if given:
         return (
-            f"the shape or the given rig does not fit: the shape's compliance is not that of the loops within "
-            f"{100 * deviation:g} %; look at radii, moduli and normal load, and leave out --rig"
+            f"the shape or the given rig does not fit: of the shape, {differs}; look at radii, moduli, roughness, wear "
+            "and normal load, and leave out --rig"
         )
     if loads:
         return (
-            f"the shape does not fit: its compliance is not that of the loops within {100 * deviation:g} %, and with "
-            "several normal loads one factor need not correct it; look at radii, moduli, roughness, and normal loads, "
-            "or fit the loops of each load by themselves"
+            f"the shape does not fit: {differs}, and with several normal loads one factor need not correct it; look at "
+            "radii, moduli, roughness, wear, and normal loads, or fit the loops of each load by themselves"
         )
     return (
-        f"the shape does not fit: its compliance is not that of the loops within {100 * deviation:g} %, so that it is "
-        "found from them alone; look at radii, moduli and normal load"
+        f"the shape does not fit: {differs}, so that it is found from them alone; look at radii, moduli, roughness, "
+        "wear and normal load"
     )
 
 

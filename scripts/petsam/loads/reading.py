@@ -19,7 +19,7 @@ def read(
     ----------
     path : path
         A table with a head (label, x, y, z, fx, fy, fz, time or increment), .dat or .frd of CalculiX, or a field output
-        report of Abaqus with CNORMF and CSHEARF.
+        report of Abaqus, in text or in comma-separated values, with CNORMF and CSHEARF.
     deck : path, optional
         The deck (.inp): coordinates where the file has none, and sets.
     length, force : str, optional
@@ -42,6 +42,8 @@ def read(
         return calculix.read_frd(path, given)
     if calculix.is_dat(text):
         return calculix.read_dat(path, given)
-    if abaqus.is_report(text):
+    if abaqus.is_printed(text):
+        abaqus.refuse_printed(path)
+    if abaqus.is_report(text) or abaqus.is_values(text):
         return abaqus.read(path, given)
     return texts.read(path, given)

@@ -14,11 +14,11 @@ NAMES = {
     "label": ("node", "node label", "node id", "id", "nodelabel"),
     "time": ("total time", "t"),
     "increment": ("inc", "frame", "state"),
-    **{axis: (f"coord{k}", f"coor{k}") for k, axis in enumerate("xyz", 1)},
+    **{axis: (f"coord{k}", f"coor{k}", f"coord.coor{k}", f"coord-coor{k}") for k, axis in enumerate("xyz", 1)},
     **{f"f{axis}": (f"f{k}", f"rf{k}") for k, axis in enumerate("xyz", 1)},
-    **{f"u{axis}": (f"u{k}", f"u.u{k}") for k, axis in enumerate("xyz", 1)},
-    **{f"cnormf{k}": (f"cnormf.cnormf{k}",) for k in (1, 2, 3)},
-    **{f"cshearf{k}": (f"cshearf.cshearf{k}",) for k in (1, 2, 3)},
+    **{f"u{axis}": (f"u{k}", f"u.u{k}", f"u-u{k}") for k, axis in enumerate("xyz", 1)},
+    **{f"cnormf{k}": (f"cnormf.cnormf{k}", f"cnormf-cnormf{k}") for k in (1, 2, 3)},
+    **{f"cshearf{k}": (f"cshearf.cshearf{k}", f"cshearf-cshearf{k}") for k in (1, 2, 3)},
     "cpress": (), "cshear1": (), "cshear2": (),
 }  # fmt: skip
 KNOWN = {other: name for name, others in NAMES.items() for other in (name, *others)}
