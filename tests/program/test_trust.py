@@ -591,6 +591,15 @@ def test_slip_and_stick_in_steady_rolling_are_right_or_warned_of(petsam, tmp_pat
     assert stick > 0.02 or "stick_area" not in told
 
 
+@pytest.mark.parametrize("given, told", [(dict(creep_x=4.0), False), (dict(load_tx=0.998), True)])
+def test_a_stick_zone_is_missed_only_where_one_must_be(petsam, given, told):
+    """Under a given creepage all may slip; under a force below friction some cells stick, if none does on the grid."""
+    ((name, value),) = given.items()
+    size = MU * LOAD if name == "load_tx" else MU * RADIUS / 0.1
+    done = petsam(WHEEL, dict(load_n=LOAD, grid_n=31, grid_size=2.3 * RADIUS), {name: value * size})
+    assert ("stick_area" in doubts(done)[1]) == told
+
+
 def test_creepage_that_is_found_under_spin_is_noted(petsam):
     done = petsam(WHEEL, dict(load_n=LOAD, creep_spin=0.1, grid_n=64, grid_size=2.5 * RADIUS))
     assert [line.split(": ")[1] for line in done.complaint if "creep_y is found" in line] == ["note"]

@@ -56,6 +56,18 @@ static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* True if some cells must stick: loads are given, and no creepage along the surface, under which all may slip. */
+static PetscBool MustStick(const SamControl *control)
+{
+  PetscBool loads = control->force[SAM_COMPONENT_MZ];
+
+  for (SamComponent c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_TY; c++) {
+    if (!control->force[c] && control->value[c] != 0) return PETSC_FALSE;
+    if (control->force[c]) loads = PETSC_TRUE;
+  }
+  return loads;
+}
+
 PetscErrorCode SamAdviceAddRolling(SamAdvice *a, PetscInt k, const SamStep *step)
 {
   const SamGrid grid = a->setup->grid;
@@ -67,11 +79,7 @@ PetscErrorCode SamAdviceAddRolling(SamAdvice *a, PetscInt k, const SamStep *step
   PetscCall(SamContactGetNumber(a->setup->contact, "stick_area", &stick));
   for (int load = 0; load < 2 && area > 0 && a->setup->grid->axes == 2; load++)
     PetscCall(Compare(a, k, step, load ? PETSC_TRUE : PETSC_FALSE, sqrt((double)area / PETSC_PI)));
-  /* creepages that are found: not all cells slip */
-  a->slip.pushed   = step->control.force[SAM_COMPONENT_TX] || step->control.force[SAM_COMPONENT_TY] ||
-                       step->control.force[SAM_COMPONENT_MZ]
-                       ? PETSC_TRUE
-                       : PETSC_FALSE;
+  a->slip.pushed   = MustStick(&step->control);
   a->rolling.width = area > 0 ? (area - stick) / (2 * sqrt(PETSC_PI * area * cell)) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
