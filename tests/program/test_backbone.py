@@ -152,6 +152,19 @@ def test_damping_converges_with_the_grid():
     assert errors[1][0].max() < 1e-5 and errors[1][1].max() < 1e-3 and errors[0][1].max() < 6e-3
 
 
+@pytest.mark.parametrize("n", [40, 64])
+def test_damping_has_the_error_of_its_cells(n):
+    """Mindlin's oscillator, with companion runs: the error covers the true one, and falls with the cells."""
+    contact, stiffness = sphere(LOAD, n, errors=True)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
+    one = joint.Structure([patch], rigid=[[1.0]])
+    found = joint.backbone(one, np.array([0.5, 0.8]) * FRICTION * LOAD / stiffness)
+    _, error = differences(found, *closed([(LOAD, stiffness)]), 1.0)
+    told = found.damping_error / found.damping
+    assert np.all(error < told) and np.all(told < 0.06 * (40 / n) ** 1.5)
+    assert "zeta error" in "\n".join(found.lines()) and "damping_error" in [one.name for one in found.table()]
+
+
 @pytest.mark.parametrize("n", [16, 24])
 def test_a_contact_slides_as_a_whole_beside_one_that_sticks(n):
     """On a free body, with a soft joint between both: what slides has no stiffness of its own.

@@ -45,6 +45,7 @@ COLUMNS = {
     "slipping": ("1", "cells that slip, all patches"),
     "cycles": ("1", "cycles until the energy had settled"),
     "unresolved": ("1", "damping by friction below which it is not resolved; 0 where it is"),
+    "damping_error": ("1", "estimated error of damping by cells and steps of the contacts, with -errors companion"),
 }
 
 
@@ -105,10 +106,13 @@ class Backbone(Numbers):
         lines = [f"modes while all that touches sticks, Hz: {stuck}", f"mode of {self.linear:.6g} Hz"]
         if np.isfinite(self.modes_change):
             lines.append(f"without a quarter of the structure's modes its frequency changes by {self.modes_change:.1e}")
+        known = "damping_error" in self.numbers
         lines.append("")
         lines.append(
             f"{'amplitude/m':>12} {'accel./(m/s2)':>14} {'f/Hz':>11} {'zeta':>10} {self._head('W', 'J'):>10} "
-            f"{'slip':>6} cycles" + (f", amplitudes are modal, in {self._unit(MODAL)}" if self.unit == MODAL else "")
+            f"{'slip':>6} cycles"
+            + known * f"{'zeta error':>11}"
+            + (f", amplitudes are modal, in {self._unit(MODAL)}" if self.unit == MODAL else "")
         )
         for k in range(len(self.alpha)):
             below = f"{f'<{self.unresolved[k]:.1e}':>10}"
@@ -116,6 +120,7 @@ class Backbone(Numbers):
             lines.append(
                 f"{self.amplitude[k]:12.4e} {self.acceleration[k]:14.4e} {self.frequency[k]:11.6g} "
                 f"{damping} {self.energy[k]:10.3e} {self.slipping[k]:6.0f} {self.cycles[k]:6.0f}"
+                + (f"{self.damping_error[k]:11.1e}" if known else "")
             )
         return lines
 
@@ -190,11 +195,13 @@ def backbone(
         rows.append(
             [one.alpha, one.modal, reach, reach * one.omega2, np.sqrt(one.omega2) / (2.0 * np.pi), one.damping]
             + [structure.damping, energy, one.cycle.loop, one.cycle.slipping, one.cycles]
-            + [one.unresolved]
+            + [one.unresolved, one.damping_error]
         )
         patches.append(one.cycle.energies)
         states = one.cycle.states
     numbers = {name: np.array(column) for name, column in zip(COLUMNS, np.transpose(rows))}
+    if not any(patch.has_errors for patch in structure.patches):
+        del numbers["damping_error"]
     unit = MODAL if sensor is None else "m"
     found = Backbone(
         sweep.omega / (2.0 * np.pi),
@@ -247,9 +254,9 @@ def shake(
 
 
 def _warn(found):
-    """Warns of damping by few cells and of cycles that do not settle."""
+    """Warns of damping by few cells, unless its error is known, and of cycles that do not settle."""
     few = found.slipping < FEW
-    if np.any(few):
+    if np.any(few) and "damping_error" not in found.numbers:
         least, last = found.slipping[few].min(), found.amplitude[few].max()
         error = f"{100.0 * ERROR / least:.0f} %" if least > ERROR else "all of it"
         warnings.warn(

@@ -61,8 +61,8 @@ class Numbers(Tabled, Shown):
 
 
 def columns_of(columns, numbers):
-    """The tables.Column of numbers {name: array}, by {name: (unit, text)}."""
-    return [Column(name, unit, text, numbers[name]) for name, (unit, text) in columns.items()]
+    """The tables.Column of those of {name: (unit, text)} that are among the numbers {name: array}."""
+    return [Column(name, unit, text, numbers[name]) for name, (unit, text) in columns.items() if name in numbers]
 
 
 def energies(patches, names):

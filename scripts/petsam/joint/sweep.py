@@ -32,6 +32,7 @@ class Cycle:
     reach     change of the modal coordinates from one reversal to the other
     energies  dissipated energy in each patch, J; 0 where it is not resolved
     noise     energy below which it is not resolved, J; 0 where it is
+    error     estimated error of the energies' sum, J; NaN: unknown
     loop      that of the loop of forces and displacements, J
     states    the field state of each patch before the reversal: 0 open, 1 stick, 2 slip
     given     what each step prescribed and the coordinates that it found, for each patch {name: value}
@@ -41,6 +42,7 @@ class Cycle:
     reach: np.ndarray
     energies: np.ndarray
     noise: float
+    error: float
     loop: float
     states: list
     given: list
@@ -67,6 +69,11 @@ class Point:
     def damping(self):
         """By friction, as a part of critical."""
         return float(self.cycle.energies.sum()) * self.damped
+
+    @property
+    def damping_error(self):
+        """Estimated error of the damping by the contacts' cells and steps; NaN: unknown."""
+        return self.cycle.error * self.damped
 
     @property
     def unresolved(self):
@@ -150,15 +157,16 @@ class Sweep:
 
     def follow(self, forces, scale):
         """Steps under these modal forces, beside those of the preload; returns modal coordinates and energies of each
-        step, whether cells of a patch slip in it, and what it prescribed and found."""
-        found, energies, slips, given, response = [], [], [], [], self.reversed
+        step, the error of all energies, whether cells of a patch slip in it, and what it prescribed and found."""
+        found, energies, error, slips, given, response = [], [], 0.0, [], [], self.reversed
         for force in forces:
             response = self.work.step(self.preload.force + force, response=response, scale=scale)
             found.append(self.work.modal(self.work.force, self.work.loads, self.work.a))
             energies.append([patch.number("dissipated_energy") for patch in self.work.patches])
+            error += sum(patch.energy_error() for patch in self.work.patches)
             slips.append([np.any(patch.contact.field("state") == SLIP) for patch in self.work.patches])
             given.append([patch.given for patch in self.work.patches])
-        return np.array(found), np.array(energies), np.array(slips), given
+        return np.array(found), np.array(energies), error, np.array(slips), given
 
     def scale_of(self, alpha):
         """Changes of coordinates, loads and motions by a modal force, to which the tolerance of steps is relative."""
@@ -180,14 +188,14 @@ class Sweep:
         last, before = self.follow(rise, scale)[0][-1], None
         forces = np.concatenate([rise[-1:], *halves])
         for count in range(1, CYCLES + 1):
-            down, lost, slips, given = self.follow(halves[0], scale)
+            down, lost, error, slips, given = self.follow(halves[0], scale)
             states = [patch.contact.field("state") for patch in self.work.patches]
-            back, more, slip, rest = self.follow(halves[1], scale)
+            back, more, other, slip, rest = self.follow(halves[1], scale)
             path = np.concatenate([[last], down, back])
             loop = -0.5 * float(np.sum((path[1:] + path[:-1]) * np.diff(forces, axis=0)))
             energies, slides = (lost + more).sum(axis=0), np.any(np.concatenate([slips, slip]), axis=0)
             lost, noise = _resolved(energies, slides, loop, self.steps)
-            one = Cycle(path[1:], back[-1] - down[-1], lost, noise, loop, states, given + rest)
+            one = Cycle(path[1:], back[-1] - down[-1], lost, noise, error + other, loop, states, given + rest)
             last = back[-1]
             if count >= least and settled(one, before):
                 break
