@@ -92,6 +92,13 @@ def test_companions_are_runs_on_other_cells_and_with_other_steps(petsam, tmp_pat
         assert row["cause"] == (b"steps" if row["by_steps"] > row["by_cells"] else b"cells")
 
 
+def test_energies_of_bodies_that_yield_are_of_first_order(petsam, loop):
+    petsam(loop, "-errors", "companion", dict(body2_yield=5e8, grid_n=32, steps=1), "-output", "own.h5")
+    row = table("own.h5")["dissipated_energy"]
+    cells = by_cells("of first order", row["value"], row["half"], row["quarter"]) / abs(row["value"])
+    assert row["by_cells"] >= cells * (1 - 1e-9) and cells > 1e-3
+
+
 @pytest.mark.parametrize("cells, other", [(61, 16), (60, 30)])
 def test_other_steps_are_taken_on_a_quarter_of_the_cells_unless_these_are_few(petsam, tmp_path, loop, cells, other):
     said = petsam(loop, "-errors", "companion", dict(grid_n=cells)).stdout

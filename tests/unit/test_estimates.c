@@ -8,17 +8,16 @@
    energy of second order has more than its error. */
 static void test_error_by_cells_is_the_larger_difference(void **state)
 {
-  const SamStateNumber area = {.unit = "m2", .order = 1}, energy = {.unit = "J", .order = 2};
-  const double         first[] = {1 + 2 * 0.01, 1 + 4 * 0.01, NAN}, lucky[] = {1, 1.1, NAN}, alone[] = {1.3, NAN, NAN},
+  const double first[] = {1 + 2 * 0.01, 1 + 4 * 0.01, NAN}, lucky[] = {1, 1.1, NAN}, alone[] = {1.3, NAN, NAN},
                none[] = {NAN, 1, 1}, second[] = {1 + 4 * 0.01, 1 + 16 * 0.01, NAN};
 
   (void)state;
-  sam_assert_close(SamErrorByCells(&area, 1.01, first), 0.01, 1e-15);
-  sam_assert_close(SamErrorByCells(&area, 1, lucky), 0.05, 1e-15);
-  sam_assert_close(SamErrorByCells(&area, 1, alone), 0.3, 1e-15);
-  sam_assert(isnan(SamErrorByCells(&area, 1, none)));
-  sam_assert_close(SamErrorByCells(&energy, 1.01, second), 0.015, 1e-15);
-  sam_assert_close(SamErrorByCells(&energy, 1, lucky), 0.0125, 1e-15);
+  sam_assert_close(SamErrorByCells(PETSC_FALSE, 1.01, first), 0.01, 1e-15);
+  sam_assert_close(SamErrorByCells(PETSC_FALSE, 1, lucky), 0.05, 1e-15);
+  sam_assert_close(SamErrorByCells(PETSC_FALSE, 1, alone), 0.3, 1e-15);
+  sam_assert(isnan(SamErrorByCells(PETSC_FALSE, 1, none)));
+  sam_assert_close(SamErrorByCells(PETSC_TRUE, 1.01, second), 0.015, 1e-15);
+  sam_assert_close(SamErrorByCells(PETSC_TRUE, 1, lucky), 0.0125, 1e-15);
 }
 
 static void test_error_by_steps_is_the_difference_of_runs_on_the_same_cells(void **state)

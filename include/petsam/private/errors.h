@@ -3,7 +3,6 @@
 #define PETSAM_ERRORS_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/state.h>
 
 /* SamCause - what causes an error: the width of the cells, the length of the load steps, or the thickness of the layers
    of a body that yields. */
@@ -82,11 +81,12 @@ typedef struct {
 } SamErrorTable;
 
 /*
-  SamErrorByCells - returns the error of a number by the cells: `own` is its value, `run` those of the companion runs.
+  SamErrorByCells - returns the error of a number by the cells: `own` is its value, `run` those of the companion runs;
+  `energy`: it is an energy of bodies that do not yield.
   SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER. Both
   are NaN if unknown. None is collective (estimates.c).
 */
-PETSC_INTERN double SamErrorByCells(const SamStateNumber *number, double own, const double run[SAM_RUNS]);
+PETSC_INTERN double SamErrorByCells(PetscBool energy, double own, const double run[SAM_RUNS]);
 PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same);
 
 #endif

@@ -5,6 +5,7 @@
 #include "errorsimpl.h"
 #include <petsam/private/control.h>
 #include <petsam/private/grid.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 #define LARGE 0.12 /* error above which a warning is given: the median is two to three times the true one; */
@@ -66,6 +67,13 @@ double SamErrorsLeast(SamSimulation s, const SamStateNumber *number)
   if (!strcmp(unit, "N m")) return 1e-3 * l->load * length;
   if (!strcmp(unit, "1/m")) return length > 0 ? 1e-6 / length : 0;
   return !strcmp(unit, "1") ? 1e-6 : 0;
+}
+
+double SamErrorsByCells(SamSimulation s, const SamStateNumber *number, double value, const double run[SAM_RUNS])
+{
+  const PetscBool energy = number->order == 2 && !strcmp(number->unit, "J") ? PETSC_TRUE : PETSC_FALSE;
+
+  return SamErrorByCells(energy && !SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC), value, run);
 }
 
 double SamErrorsRelativeBySteps(SamSimulation s, const SamErrorNumber *n, const double run[SAM_RUNS])
@@ -137,7 +145,7 @@ void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char u
     if (!strcmp(t->row[k].name, number->name)) return; /* the number of a cycle precedes that of its last step */
   if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least || (least > 0 && most > 0))) return;
   *row                     = (SamErrorRow){.unit = unit, .value = value, .scale = scale};
-  row->cells               = SamErrorByCells(number, value, run) / scale;
+  row->cells               = SamErrorsByCells(s, number, value, run) / scale;
   row->of[SAM_CAUSE_CELLS] = row->cells;
   row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run, e->same) / scale : 0;
   for (int c = 0; c < SAM_CAUSES; c++) row->of[c] = known[c] ? closed[c] : PetscMax(row->of[c], closed[c]);

@@ -276,7 +276,7 @@ PetscErrorCode SamErrorsSet(SamSimulation s, const SamControl *control)
     *SamStateNumbers(state, n->error, SAM_TRIED) =
       SamErrorsPrescribes(control, n->of->name)
         ? 0
-        : SamErrorByCells(n->of, own, run) + n->steps * PetscMax(fabs(own), least);
+        : SamErrorsByCells(s, n->of, own, run) + n->steps * PetscMax(fabs(own), least);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
