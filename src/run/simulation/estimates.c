@@ -8,12 +8,12 @@
   alone covers 74 %, and with a third of it for numbers of second order 83 %. Richardson's extrapolation is worse than
   the difference alone, since these numbers have no order on such grids.
 
-  Energies of elastic bodies are sums over an area, whose errors fall with the square of the cell size or faster, but on
-  the coarsest grid a ring of slip is often lost as a whole. An error of second order is a third of the first difference,
-  and a twelfth of the second one; a half and an eighth are taken. Of 57 energies with errors above 0.5 % in 165 random
-  problems (kinds usual, slide and yield, seeds from 601001, 602001 and 603001) this covers 93 %, as against 95 % by the
-  rule above, with a median of the ratio of estimate and error of 4.2 instead of 6.0. Where bodies yield, whose plastic
-  strain is of first order, energies are, too.
+  Energies of elastic bodies are sums over an area, whose errors fall with the square of the cell size or faster, but
+  on the coarsest grid a ring of slip is often lost as a whole. An error of second order is a third of the first
+  difference, and a twelfth of the second one; a half and an eighth are taken. Of 57 energies with errors above 0.5 %
+  in 165 random problems (kinds usual, slide and yield, seeds from 601001, 602001 and 603001) this covers 93 %, as
+  against 95 % by the rule above, with a median of the ratio of estimate and error of 4.2 instead of 6.0. Where bodies
+  yield, whose plastic strain is of first order, energies are, too.
 
   Steps: the difference between two runs on the same coarse cells, one of which has half as many steps, or twice as
   many.
