@@ -471,6 +471,8 @@ class Contact:
         This rank's rows: fields are arrays of (rows, nx).
     prescribable : dict
         {name: unit} of all that try_step() takes.
+    has_errors : bool
+        True if steps have errors, by companion runs.
 
     Raises
     ------
@@ -520,6 +522,7 @@ class Contact:
             names.append(name.decode())
             if name:
                 self.prescribable[names[-1]] = unit.value.decode()
+        self.has_errors = "contact_area_error" in known
         self._loads, self._displacements, creeps = names[:6], names[6:12], names[12:18]
         self._rigids = [rigid if rigid in known else creep for rigid, creep in zip(self._displacements, creeps)]
 

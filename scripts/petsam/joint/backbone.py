@@ -200,7 +200,7 @@ def backbone(
         patches.append(one.cycle.energies)
         states = one.cycle.states
     numbers = {name: np.array(column) for name, column in zip(COLUMNS, np.transpose(rows))}
-    if not any(patch.has_errors for patch in structure.patches):
+    if not any(patch.contact.has_errors for patch in structure.patches):
         del numbers["damping_error"]
     unit = MODAL if sensor is None else "m"
     found = Backbone(

@@ -254,11 +254,6 @@ class Patch:
         """
         return self.contact.number(name)
 
-    @property
-    def has_errors(self) -> bool:
-        """True if the contact has companion runs (-errors companion)."""
-        return self.contact.options.get("errors") in (True, "companion")
-
     def energy_error(self) -> float:
         """The estimated error of the last step's dissipated energy.
 
@@ -267,7 +262,7 @@ class Patch:
         float
             The error, J; NaN if it is unknown, as of a contact without companion runs (-errors companion).
         """
-        return self.number("dissipated_energy_error") if self.has_errors else float("nan")
+        return self.number("dissipated_energy_error") if self.contact.has_errors else float("nan")
 
     def copy(self, **options: float) -> "Patch":
         """Another patch with a copy of the contact in its committed state.
