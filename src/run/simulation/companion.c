@@ -6,14 +6,18 @@
 
 PetscErrorCode SamCompanionCreate(SamSimulation s, PetscInt halvings, SamCompanion *c)
 {
-  const SamOptions from = {s->comm, NULL};
-  SamSimulation    run;
+  const SamOptions   from = {s->comm, NULL};
+  SamContactSettings settings;
+  SamSimulation      run;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&run));
   *c        = (SamCompanion){.run = run};
   run->comm = s->comm;
   PetscCall(SamSetupCreateCoarse(&s->setup, halvings, &from, &run->setup));
+  settings             = SamContactGetSettings(run->setup.contact);
+  settings.extrapolate = PETSC_FALSE; /* steady rolling: the companions are the coarser solutions */
+  PetscCall(SamContactSetSettings(run->setup.contact, &settings));
   run->conditions      = SamProblemGetConditions(run->setup.problem);
   run->needs           = s->needs;
   run->needs.companion = PETSC_FALSE;
