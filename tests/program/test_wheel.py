@@ -370,6 +370,28 @@ def test_an_equilibrium_needs_few_full_solutions(vehicle):
         assert one.position.pitch_rate == pytest.approx(rate, rel=1e-8)
 
 
+def test_loads_of_a_wheelset_are_not_extrapolated_to_fine_grids(axle, monkeypatch):
+    """What warnings need: a wheel alone has it, whose warnings are those of all its solutions."""
+    steps = []
+    solved = contacts.solved
+    monkeypatch.setattr(contacts, "solved", lambda *given: steps.append(solved(*given)) or steps[-1])
+    found = axle.solve(Position(y=2e-3, speed=20.0), LOAD)
+    assert all(np.isnan(one.numbers["load_tx_extrapolated"]) for one in steps)
+    with Pair(axle.pairs[0].rail, axle.wheel, settings=COARSE) as pair:
+        pair.solve(found.position)
+    assert np.isfinite(steps[-1].numbers["load_tx_extrapolated"])
+
+
+def test_a_full_solution_takes_the_search_of_the_draft_there(axle, monkeypatch):
+    """The gap along the locus belongs to the position: it is searched once for the draft and the solution."""
+    places = []
+    search = Case._near
+    monkeypatch.setattr(Case, "_near", lambda case: places.append(case.position) or search(case))
+    axle.solve(Position(y=2.1e-3, yaw=1e-3, speed=20.0, pitch_rate=-43.4), LOAD)
+    solved = [one for one in places if one.z is not None and one.z != places[0].z]
+    assert len(solved) > 4 and len(set(solved)) == len(solved)
+
+
 def test_a_start_under_another_load_is_near(axle, monkeypatch):
     """By Hertz: 10 drafts of a wheel; from the neighbour's own overlaps 16."""
     at, count = Position(y=2e-3, speed=20.0), []

@@ -225,7 +225,7 @@ class Axle:
             raise Unusable(
                 "left: its nominal radius and the track's curvature are those of the right side: give equal ones"
             )
-        self.pairs = [Pair(*one, friction, side, settings) for one, side in zip(both, SIDES)]
+        self.pairs = [Pair(*one, friction, side, settings, extrapolate=False) for one, side in zip(both, SIDES)]
         self.wheel, self.settings = wheel, self.pairs[0].settings
         for track, one in both:
             _doubt_play(track, one)
@@ -447,6 +447,7 @@ class _Search:
         self.correction = np.zeros(3) if start is None or start.correction is None else start.correction
         self.kept = self.correction  # for a neighbour
         self.before, self.limit = None, FASTEST
+        self.solved = None  # the last position, that of the cases
         self.drafts = None, None  # the last ones, of right wheels
 
     def begin(self, overlaps):
@@ -553,7 +554,8 @@ class _Search:
         """The solutions at the present height and roll."""
         self.passes += not draft
         p = self.position
-        self.cases = self.axle._cases(p)
+        if p != self.solved:
+            self.solved, self.cases = p, self.axle._cases(p)
         touch = np.array([case.search.touch for case in self.cases])
         if draft:
             self.drafts = one, other = [case.draft(p.z) for case in self.cases]
