@@ -367,6 +367,11 @@ class Case:
         points = np.stack([np.zeros_like(y), y, self.pair.rail.section.height(y)])
         return frame.inward(points)[1] - self.pair.wheel.offset
 
+    @property
+    def at_end(self) -> bool:
+        """True where a contact of the last pass is cut by the end of a profile."""
+        return any(kind is ProfileWarning for kind, _ in self._warned)
+
     def _doubt(self, place, angles):
         """Keeps warnings about the patch of this pass."""
         most = float(np.abs(angles - place.angle).max(initial=0.0))
