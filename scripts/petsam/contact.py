@@ -496,6 +496,7 @@ class Contact:
         self._made: dict[str, Any] = dict(comm=comm, **options)
         self._given: dict[str, np.ndarray] = {}
         self._advised: set[str] = set()  # kinds of advice that have been given
+        self._listed: dict[str, list[str]] = {}
         self._c = _load()
         with _lock:
             code = self._c.petsam_create(
@@ -556,7 +557,7 @@ class Contact:
 
     def _names(self, what):
         """Returns the names of the fields ("field") or numbers ("number") that can be requested."""
-        ask, found = getattr(self._c, f"petsam_{what}_name"), []
+        ask, found = getattr(self._c, f"petsam_{what}_name"), self._listed.setdefault(what, [])  # names are only added
         with _lock:
             while name := ask(self._contact, len(found)):
                 found.append(name.decode())

@@ -20,7 +20,7 @@ from petsam.core.errors import Error, MissingFile
 from petsam.profiles import Position, Profile, Settings, contacts
 from petsam.profiles.gap import separation
 from petsam.profiles.locus import locus
-from petsam.profiles.patches import Place, search
+from petsam.profiles.patches import Place, _turned, search
 from petsam.profiles.pose import Frame
 from petsam.profiles.positions import REACH, Case
 from petsam.profiles.section import visible
@@ -472,6 +472,16 @@ def test_patches_that_merge_have_turned_towards_each_other():
     assert [patch.angle for patch in apart] == pytest.approx([joined[0].angle] * 2, abs=1e-6)
     assert free[0].angle == pytest.approx(left.mean(left.angle), abs=1e-12)
     assert free[1].angle - free[0].angle > 0.04  # 8 mm aside: sin d = 8/350, -8/350
+
+
+def test_the_angles_of_three_patches_are_continuous_where_two_merge():
+    """A third one is turned towards both as towards the merged one."""
+    three = np.array([(0.05, 1.0), (0.3, 2.0), (0.42, 3.0)])
+    merged = np.array([(0.05, 1.0), (0.372, 5.0)])
+    one, other = _turned(merged, np.array([0.4]))
+    assert _turned(three, np.array([0.4, 1.0])) == pytest.approx([one, other, other], abs=1e-15)
+    assert one == pytest.approx(0.05 + 0.4 * 5.0 / 6.0 * 0.322)
+    assert _turned(three, np.zeros(2)) == pytest.approx([0.05, 0.3, 0.42], abs=1e-15)
 
 
 def test_regions_that_carry_nothing_are_left_out():

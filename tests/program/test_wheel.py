@@ -291,6 +291,51 @@ def test_weights_of_states_are_shares(vehicle):
         profiles.wear(vehicle, [one, replace(one, weight=-1.0)], 1e6, Law("energy", 1e-14), 2)
 
 
+def worn(rail, slope, play, inner):
+    """A wheel with two hollows and a flange that lies on the rail at three places in a lateral displacement; `inner`:
+    its width beyond the one at this slope."""
+    section, bumps, depth = rail.section, (0.0, 13e-3, 28e-3), 1e-4
+    flange = float(section.y[np.flatnonzero(section.slope(section.y) > -slope)[0]])
+    y = np.arange(max(section.first, flange - inner), flange + 33e-3, 1e-4)
+    gap = depth - depth * sum(np.exp(-(((y - flange - one) / 3e-3) ** 2)) for one in bumps)
+    z = section.height(y) - gap - 20.0 * np.maximum(flange - 3e-3 - y, 0.0) ** 2
+    t = np.arange(1e-4, 0.03, 1e-4)
+    tail = z[-1] - 0.025 * t + ((z[-1] - z[-2]) / 1e-4 + 0.025) * 4e-3 * (1.0 - np.exp(-t / 4e-3))
+    points = np.concatenate([y, y[-1] + t]) - play - 0.75, np.concatenate([z, tail])
+    return profiles.Wheelset(Profile(*points, "wheel"), 0.46)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_three_patches_of_a_wheel_carry_its_load(vehicle):
+    """Two hollows and a flange: balance, mirror images, small steps over 0.05 mm."""
+    wheelset, counts, before = worn(vehicle.rail, 0.5, 0.0, 5e-3), set(), None
+    with Vehicle(vehicle.rail, wheelset, 0.3, COARSE).axle() as axle:
+        for y in (0.0, 5e-5, 1e-4):
+            here = Position(y=y, yaw=1e-3, speed=20.0)
+            found = axle.solve(here, LOAD, before)
+            other = axle.solve(replace(here, y=-y, yaw=-1e-3), LOAD)
+            counts |= {len(one.patches) for one in found.wheels}
+            assert max(abs(found.force_error), abs(found.moment_error)) < 1e-5
+            assert sum(one.force[2] for one in found.wheels) == pytest.approx(LOAD.vertical, rel=2e-5)
+            assert other.right.force * [1, -1, 1] == pytest.approx(found.left.force, abs=1e-4 * LOAD.vertical)
+            if before is not None:
+                assert abs(found.position.z - before.position.z) < 2e-5
+                assert abs(found.lateral - before.lateral) < 0.3 * LOAD.vertical
+            before = found
+    assert 3 in counts
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(
+    ("slope", "inner", "y", "message"),
+    [(0.9, 5e-3, 5.2e-3, "no equilibrium up to an overlap .*: a flange climbs"), (0.55, 5e-3, 5.25e-3, "is cut by")],
+)
+def test_a_flange_without_equilibrium_is_named(vehicle, slope, inner, y, message):
+    with Vehicle(vehicle.rail, worn(vehicle.rail, slope, 5e-3, inner), 0.3, COARSE).axle() as axle:
+        with pytest.raises(Error, match=message):
+            axle.solve(Position(y=y, speed=20.0), LOAD)
+
+
 def test_a_wheel_that_lifts_without_a_flange_does_not_tip_by_it(axle):
     """The load's line outside the right rail lifts the left wheel; the contact is on the tread."""
     with pytest.raises(Error) as caught:
@@ -368,6 +413,28 @@ def test_an_equilibrium_needs_few_full_solutions(vehicle):
         assert max(abs(one.force_error), abs(one.moment_error)) < 1e-5
         rate = -2.0 * one.position.speed / sum(one.radii)
         assert one.position.pitch_rate == pytest.approx(rate, rel=1e-8)
+
+
+def test_loads_of_a_wheelset_are_not_extrapolated_to_fine_grids(axle, monkeypatch):
+    """What warnings need: a wheel alone has it, whose warnings are those of all its solutions."""
+    steps = []
+    solved = contacts.solved
+    monkeypatch.setattr(contacts, "solved", lambda *given: steps.append(solved(*given)) or steps[-1])
+    found = axle.solve(Position(y=2e-3, speed=20.0), LOAD)
+    assert all(np.isnan(one.numbers["load_tx_extrapolated"]) for one in steps)
+    with Pair(axle.pairs[0].rail, axle.wheel, settings=COARSE) as pair:
+        pair.solve(found.position)
+    assert np.isfinite(steps[-1].numbers["load_tx_extrapolated"])
+
+
+def test_a_full_solution_takes_the_search_of_the_draft_there(axle, monkeypatch):
+    """The gap along the locus belongs to the position: it is searched once for the draft and the solution."""
+    places = []
+    search = Case._near
+    monkeypatch.setattr(Case, "_near", lambda case: places.append(case.position) or search(case))
+    axle.solve(Position(y=2.1e-3, yaw=1e-3, speed=20.0, pitch_rate=-43.4), LOAD)
+    solved = [one for one in places if one.z is not None and one.z != places[0].z]
+    assert len(solved) > 4 and len(set(solved)) == len(solved)
 
 
 def test_a_start_under_another_load_is_near(axle, monkeypatch):

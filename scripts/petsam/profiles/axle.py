@@ -21,7 +21,7 @@ from ..core.errors import Error, Unusable
 from . import contacts, derailing
 from .placement import Track, Wheelset
 from .pose import Position
-from .positions import SIDES, Case, Friction, Pair
+from .positions import DEEPEST, SIDES, Case, Friction, Pair
 from .profile import ProfileWarning
 from .result import COLUMNS, DerailWarning, Result
 
@@ -225,7 +225,7 @@ class Axle:
             raise Unusable(
                 "left: its nominal radius and the track's curvature are those of the right side: give equal ones"
             )
-        self.pairs = [Pair(*one, friction, side, settings) for one, side in zip(both, SIDES)]
+        self.pairs = [Pair(*one, friction, side, settings, extrapolate=False) for one, side in zip(both, SIDES)]
         self.wheel, self.settings = wheel, self.pairs[0].settings
         for track, one in both:
             _doubt_play(track, one)
@@ -390,7 +390,7 @@ class Axle:
             state = search.newton(search.state(), rtol)
         if max(abs(state.rest)) <= rtol:
             return search.equilibrium(state)
-        raise _no_equilibrium(self, position, load, state)
+        raise _no_equilibrium(self, position, load, state, search.cases)
 
     def _steep(self, cases):
         """Whether a wheel touches on its flange."""
@@ -447,6 +447,7 @@ class _Search:
         self.correction = np.zeros(3) if start is None or start.correction is None else start.correction
         self.kept = self.correction  # for a neighbour
         self.before, self.limit = None, FASTEST
+        self.solved = None  # the last position, that of the cases
         self.drafts = None, None  # the last ones, of right wheels
 
     def begin(self, overlaps):
@@ -553,8 +554,11 @@ class _Search:
         """The solutions at the present height and roll."""
         self.passes += not draft
         p = self.position
-        self.cases = self.axle._cases(p)
+        if p != self.solved:
+            self.solved, self.cases = p, self.axle._cases(p)
         touch = np.array([case.search.touch for case in self.cases])
+        if (p.z - touch).max() > DEEPEST:
+            raise _wedged(self.axle, p, self.load, self.cases)
         if draft:
             self.drafts = one, other = [case.draft(p.z) for case in self.cases]
         else:
@@ -665,7 +669,7 @@ def _scaled(start, load):
     return [found.overlap * part ** (2.0 / 3.0) for found, part in zip(start.wheels, ratio)]
 
 
-def _no_equilibrium(axle, position, load, state):
+def _no_equilibrium(axle, position, load, state, cases):
     """The error of an iteration without an end."""
     right, left = (float(found.force[2]) for found in state.found)
     where = f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium: the rails carry {right:.4g} N (right) and "
@@ -674,14 +678,35 @@ def _no_equilibrium(axle, position, load, state):
         return Error(f"{where}{left:.4g} N (left) at last: {tips}")
     rest = max(abs(state.rest))
     if rest <= ALMOST:
-        return Error(
-            f"{where}{left:.4g} N (left), and {rest:.2g} of the load or its moment is left: no wheel lifts, but a "
-            "contact moves between two regions of its profiles, where the forces change much with the height: take y "
-            "a little beside it"
-        )
+        return Error(f"{where}{left:.4g} N (left), and {rest:.2g} of the load or its moment is left: {_jump(cases)}")
     return Error(
         f"{where}{left:.4g} N (left) at last: a wheel lifts or climbs: check offset, lateral, height and y, and the "
         "flange"
+    )
+
+
+def _wedged(axle, position, load, cases):
+    """The error where forces are sought in overlaps that no elastic wheel has."""
+    overlaps = [position.z - case.search.touch for case in cases]
+    k = int(np.argmax(overlaps))
+    slope = float(axle.pairs[k].rail.section.slope(np.array(_place(cases[k]))))
+    return Error(
+        f"y {position.y:g} m, load {load.vertical:g} N: no equilibrium up to an overlap of {overlaps[k]:.3g} m of the "
+        f"{SIDES[k]} wheel, which touches at an angle of {abs(math.atan(slope)):.3g} rad: a flange climbs, or lies "
+        "against its rail along its face: take another y"
+    )
+
+
+def _jump(cases):
+    """Why the forces of wheels that do not lift jump."""
+    if any(case.at_end for case in cases):
+        return (
+            "a contact is cut by the end of a visible profile, where the forces jump from cell to cell: give more of "
+            "the profile"
+        )
+    return (
+        "no wheel lifts, but a contact moves between two regions of its profiles, where the forces change much with "
+        "the height: take y a little beside it"
     )
 
 

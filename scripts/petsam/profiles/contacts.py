@@ -16,7 +16,7 @@ MOST = 1024  # cells along x or s
 KEPT = 64  # contacts
 SPARE = 8  # cells by which a grid that is there may be wider than a new one
 COARSER = 3  # cells of a draft
-DRAFTED = dict(tangential_rtol=1e-5, normal_rtol=1e-7, extrapolate=False, edges="none")  # of a draft
+DRAFTED = dict(tangential_rtol=1e-5, normal_rtol=1e-7, edges="none")  # of a draft
 
 
 @dataclass(frozen=True)
@@ -105,10 +105,12 @@ class Contacts:
     ----------
     settings : Settings
         Materials and cells.
+    extrapolate : bool
+        True: loads are extrapolated to fine grids, too; never those of drafts.
     """
 
-    def __init__(self, settings: Settings) -> None:
-        self.settings = settings
+    def __init__(self, settings: Settings, extrapolate: bool = True) -> None:
+        self.settings, self.extrapolate = settings, extrapolate
         self._kept: OrderedDict[tuple, Contact] = OrderedDict()
 
     def cell(self, draft: bool) -> float:
@@ -173,7 +175,7 @@ class Contacts:
         return Contact(
             grid_n=n, grid_size=tuple(k * self.cell(draft) for k in n), gap_type="flat", rolling="steady", friction=1.0,
             body1_young=rail.young, body1_poisson=rail.poisson, body2_young=wheel.young, body2_poisson=wheel.poisson,
-            **(DRAFTED if draft else {}),
+            extrapolate=self.extrapolate and not draft, **(DRAFTED if draft else {}),
         )  # fmt: skip
 
     def close(self) -> None:

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import Optional, Union
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from .placement import Roller, Track, Wheelset
 
@@ -29,24 +28,27 @@ class Locus:
 
     Parameters
     ----------
-    spline : CubicSpline
-        (x, z) over y, m.
+    y : ndarray
+        Of points of the line, growing, (n,), m.
+    points : ndarray
+        Their x and z, (2, n), m.
     """
 
-    spline: CubicSpline
+    y: np.ndarray
+    points: np.ndarray
 
     @property
     def first(self) -> float:
         """The least y, m."""
-        return float(self.spline.x[0])
+        return float(self.y[0])
 
     @property
     def last(self) -> float:
         """The greatest y, m."""
-        return float(self.spline.x[-1])
+        return float(self.y[-1])
 
     def at(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """x and z of the line at y in the track.
+        """x and z of the line at y in the track, by the cubic through the four nearest points.
 
         Parameters
         ----------
@@ -58,8 +60,14 @@ class Locus:
         x, z : ndarray
             m.
         """
-        found = self.spline(y)
-        return found[..., 0], found[..., 1]
+        k = np.clip(np.searchsorted(self.y, y) - 2, 0, self.y.size - 4)
+        divided = [self.points]  # differences of Newton's form
+        for order in (1, 2, 3):
+            divided.append(np.diff(divided[-1]) / (self.y[order:] - self.y[:-order]))
+        found = divided[3][:, k]
+        for order in (2, 1, 0):
+            found = divided[order][:, k] + (y - self.y[k + order]) * found
+        return found[0], found[1]
 
 
 def _angles(row, slope):
@@ -87,7 +95,7 @@ def locus(rail: Union[Track, Roller], wheel: Wheelset, rotation: np.ndarray, asi
     -------
     Locus
     """
-    return Locus(_growing(_points(rail, wheel, rotation, aside, wheel.line)))
+    return _growing(_points(rail, wheel, rotation, aside, wheel.line))
 
 
 def near(
@@ -117,7 +125,7 @@ def near(
     close = np.flatnonzero(gap < gap.min() + reach + BETWEEN)
     first, last = picked[max(close[0] - BESIDE, 0)], picked[min(close[-1] + BESIDE, picked.size - 1)]
     part = tuple(values[first : last + 1] for values in whole)
-    return Locus(_growing(_points(rail, wheel, rotation, aside, part))), (float(y[0]), float(y[-1]))
+    return _growing(_points(rail, wheel, rotation, aside, part)), (float(y[0]), float(y[-1]))
 
 
 def _points(rail, wheel, rotation, aside, line):
@@ -141,10 +149,10 @@ def _points(rail, wheel, rotation, aside, line):
 
 
 def _growing(line):
-    """The spline (x, z) over y of the points whose y grows."""
+    """The line through the points whose y grows."""
     x, y, z = line
     if np.diff(y).min() <= 0.0:
         greatest = np.maximum.accumulate(y)
         keep = np.concatenate([[True], y[1:] > greatest[:-1]])
         x, y, z = x[keep], y[keep], z[keep]
-    return CubicSpline(y, np.stack([x, z], axis=1))
+    return Locus(y, np.stack([x, z]))

@@ -316,13 +316,23 @@ def places(search: Search, regions: Sequence[Region], separation: float, combina
     """
     regions = merged(regions, separation)
     found = [search.place(region) for region in regions]
-    turns = np.zeros(len(found))
-    for k in range(len(found) - 1):
-        one, other = found[k], found[k + 1]
-        part = 2.0 * separation - combination - regions[k].distance(regions[k + 1])
-        part = max(part, 0.0) / (separation - combination)
-        mean = float(np.average([one.angle, other.angle], weights=[one.weight, other.weight]))
-        turns[k] += part * (mean - one.angle)
-        turns[k + 1] += part * (mean - other.angle)
-    turned = [replace(place, angle=float(place.angle + turn)) for place, turn in zip(found, turns)]
+    apart = np.array([one.distance(other) for one, other in zip(regions, regions[1:])])
+    parts = np.maximum(2.0 * separation - combination - apart, 0.0) / (separation - combination)
+    angles = _turned(np.array([(one.angle, one.weight) for one in found]), parts)
+    turned = [replace(place, angle=angle) for place, angle in zip(found, angles)]
     return [search.boxed(place, region) for place, region in zip(turned, regions)]
+
+
+def _turned(patches, parts):
+    """Angles of patches, given with their weights, of which each neighbour is merged with the next one in part.
+
+    They are means over all ways to merge some neighbours and leave others, so that angles are continuous where any two
+    merge.
+    """
+    links, found = np.concatenate([[0.0], parts, [0.0]]), np.zeros(len(patches))
+    for first in range(len(patches)):
+        for end in range(first + 1, len(patches) + 1):
+            share = (1.0 - links[first]) * np.prod(links[first + 1 : end]) * (1.0 - links[end])
+            angles, weights = patches[first:end].T
+            found[first:end] += share * np.average(angles, weights=weights)
+    return found.tolist()

@@ -18,7 +18,7 @@ from ..core.errors import Error, Unusable
 from . import contacts, gap
 from .creepages import creepages
 from .locus import locus, near
-from .patches import Place, Search, places, search
+from .patches import STEP, Place, Search, places, search
 from .placement import Roller, Track, Wheelset
 from .pose import Frame, Position
 from .profile import ProfileWarning
@@ -48,6 +48,8 @@ class Pair:
         right, or left: positions and results of a left wheel are those of the left side, profiles those of the right.
     settings : Settings, optional
         Materials, cells and limits.
+    extrapolate : bool
+        True: loads are extrapolated to fine grids, too, for the error by the cells in warnings.
 
     Raises
     ------
@@ -64,6 +66,7 @@ class Pair:
         friction: Friction = 0.3,
         side: str = "right",
         settings: Optional[contacts.Settings] = None,
+        extrapolate: bool = True,
     ) -> None:
         if not isinstance(rail, (Track, Roller)) or not isinstance(wheel, Wheelset):
             raise TypeError("expected a Track or Roller, and a Wheelset")
@@ -72,7 +75,7 @@ class Pair:
         self.side = side
         self.rail, self.wheel, self.friction = (rail if side == "right" else rail.mirrored()), wheel, friction
         self.settings = contacts.Settings() if settings is None else settings
-        self._contacts = contacts.Contacts(self.settings)
+        self._contacts = contacts.Contacts(self.settings, extrapolate)
         _coefficient(friction, 0.0)
 
     def __enter__(self) -> "Pair":
@@ -348,7 +351,7 @@ class Case:
 
     def _beyond(self, place, laid):
         """Whether bodies that the pressure deforms overlap beyond the grid, where another part of the contact is."""
-        x, s, overlap = place.line
+        x, s, overlap = place.line[:, :: max(round(self.pair.settings.cell / STEP), 1)]
         out = (overlap > 0.0) & ((s < laid.s[0]) | (s > laid.s[-1]) | (x < laid.x[0]) | (x > laid.x[-1]))
         if not out.any():
             return False
@@ -363,6 +366,11 @@ class Case:
         y = y[:, int(np.argmin(np.abs(x)))]
         points = np.stack([np.zeros_like(y), y, self.pair.rail.section.height(y)])
         return frame.inward(points)[1] - self.pair.wheel.offset
+
+    @property
+    def at_end(self) -> bool:
+        """True where a contact of the last pass is cut by the end of a profile."""
+        return any(kind is ProfileWarning for kind, _ in self._warned)
 
     def _doubt(self, place, angles):
         """Keeps warnings about the patch of this pass."""
