@@ -412,7 +412,7 @@ def test_modes_need_the_density_of_each_material(pair, tmp_path):
         (["--modes", "1", "--sensor", "TIP=3", "--sensor", "TIP=4"], "--sensor: give each name once"),
         (["--modes", "1", "--sensor", "TIP="], "expected NAME=NODE"),
         (["--method", "cutoff"], "--method cutoff is not for a pair"),
-        (["--depth", "1"], "--depth is not for a pair"),
+        (["--depth", "1", "--center=-1,0", "--center", "1,0"], "the file of several patches has no stresses"),
         (["--symmetry", "SIDE"], "--symmetry: a pair is given as a whole"),
     ],
 )
