@@ -7,7 +7,7 @@
 # Works from any directory. Environment:
 #   PETSAM   the program              (build/bin/petsam of the repository)
 #   CCX      CalculiX, Debian package calculix-ccx  (ccx)
-#   FULL     1: full contact, too, half an hour  (0)
+#   FULL     1: full contact, too, and that of the sections, three quarters of an hour  (0)
 #   NP       MPI ranks                (2)
 #   OUT      results and figures, relative to the repository's root  (build/dovetail)
 #   PYTHON   a Python with scripts/requirements.txt  (build/venv/bin/python of the repository)
@@ -70,5 +70,6 @@ if [ "${FULL:-0}" = 1 ]; then
     for body in blade disc; do
         "$python" "$here/linear.py" "$body" "$out/$body.h5" "$out/${body}_coarse.h5"
     done
+    "$python" "$here/section.py" "$out/section"
 fi
 compare

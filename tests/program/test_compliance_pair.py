@@ -113,6 +113,18 @@ def test_a_pair_that_nothing_joins_is_the_sum_of_its_bodies(compliance, pair, tm
     assert np.max(np.abs(alone)) > 0.1 * np.max(np.abs(total)) and "stress/basis" not in found
 
 
+def test_the_stresses_of_a_pair_are_those_of_body_2(compliance, tmp_path):  # noqa: F811
+    write(tmp_path / "pair.inp", both())
+    write(tmp_path / "one.inp", body(2))
+    words = ["--contact", "TOP2", *FRAME, "--patch", "2", "--no-picture", "--degree", "2", "--fixed", "END2"]
+    compliance("--mesh", "one.inp", *words, "-o", "one.h5")
+    compliance("--mesh", "pair.inp", *words, "--fixed", "END1", "--pair", "TOP1", "-o", "pair.h5")
+    with h5py.File("one.h5", "r") as one, h5py.File("pair.h5", "r") as two:
+        alone, found = (file["stress/basis"][:] for file in (one, two))
+        assert np.array_equal(one["stress/z"], two["stress/z"])
+    assert np.max(np.abs(found - alone)) < 1e-9 * np.max(np.abs(alone))
+
+
 def test_the_fields_of_body_1_bear_the_opposite_traction():
     patch = basis.Patch((0.1, 0.2), (1.0, 0.7), 2)
     below, above = (kind(patch, 2.0, 0.25) for kind in (halfspace.Mirrored, halfspace.Fields))
@@ -412,7 +424,7 @@ def test_modes_need_the_density_of_each_material(pair, tmp_path):
         (["--modes", "1", "--sensor", "TIP=3", "--sensor", "TIP=4"], "--sensor: give each name once"),
         (["--modes", "1", "--sensor", "TIP="], "expected NAME=NODE"),
         (["--method", "cutoff"], "--method cutoff is not for a pair"),
-        (["--depth", "1"], "--depth is not for a pair"),
+        (["--depth", "1", "--center=-1,0", "--center", "1,0"], "the file of several patches has no stresses"),
         (["--symmetry", "SIDE"], "--symmetry: a pair is given as a whole"),
     ],
 )

@@ -395,6 +395,22 @@ def test_what_a_section_cannot_be_is_named(compliance, tmp_path):  # noqa: F811
     assert "is not supported" in compliance(*corner, check=3)[0]
 
 
+def test_a_node_off_the_plane_and_a_corner_in_the_patch_are_named(compliance, tmp_path):  # noqa: F811
+    nodes, elements = block(tmp_path / "a.inp", 4)
+    text = (tmp_path / "a.inp").read_text()
+    at = f"{nodes[4, 0]:.15e}, {-nodes[4, 1]:.15e}, "
+    (tmp_path / "a.inp").write_text(text.replace(f"\n5, {at}{0.0:.15e}", f"\n5, {at}0.5"))
+    words = ["--contact", "TOP", "--fixed", "BOTTOM", "--no-picture", "--degree", "2", "--patch", "2"]
+    said = compliance("--mesh", "a.inp", *words, check=3)[0]
+    assert f"that at {nodes[4, 0]:.3g}, {-nodes[4, 1]:.3g}, 0.5 is 0.5 off: give all in x and y" in said
+    bent = nodes + np.stack([0.0 * nodes[:, 0], 0.3 * np.abs(nodes[:, 0]) * (1.0 - nodes[:, 1] / 4.0)], axis=1)
+    sets = {"BOTTOM": nodes[:, 1] == 4.0}
+    sections.deck(tmp_path / "b.inp", bent, elements, "CPE8", sets, {"TOP": nodes[:, 1] == 0.0})
+    said = compliance("--mesh", "b.inp", *words, check=3)[0]
+    assert "0.3 m off the plane of the frame, limit 0.1 m" in said and "beside corners by --center" in said
+    compliance("--mesh", "b.inp", *words[:-1], "0.6", "--center=1,0", "--frame=0,0,0:1,-0.3,0:-0.3,-1,0", "-o", "b.h5")
+
+
 def test_definiteness_of_a_line(tmp_path):
     definite = checks.Definiteness(basis.line(0.0, 1.0, 4), 1.0, NU)
     assert definite.smallest(np.zeros((15, 15))) == 1.0

@@ -354,10 +354,12 @@ def scaled(path, body, length, stress):
     "length, stress, units, patch, says",
     [
         (1.0, 70e3, "m", "2", "Young's modulus is 70000 Pa, and the mesh is 4 m long: a deck in mm and MPa has such"),
-        (1.0, 2.1e11, "mm", "2mm", "Young's modulus is 2.1e+17 Pa, and the mesh is 0.004 m long: no solid is harder"),
+        (1.0, 2.1e11, "mm", "2mm", "Young's modulus is 2.1e+17 Pa, and the mesh is 0.004 m long: no solid is harder "
+         "than 1.2e12 Pa: give the moduli of a deck in mm in MPa, or --units m if it is in m"),
+        (1.0, 2.1e14, "m", "2", "no solid is harder than 1.2e12 Pa: give moduli in Pa"),
         (180.0, 2e3, "m", "360", "Young's modulus is 2000 Pa, and the mesh is 720 m long"),
     ],
-)
+)  # fmt: skip
 def test_forgotten_units_are_found(compliance, tmp_path, length, stress, units, patch, says):  # noqa: F811
     scaled(tmp_path / "b.inp", bricks(), length, stress)
     words = ["--mesh", "b.inp", "--fixed", "BOTTOM", *ALWAYS, "--degree", "0", "--units", units, "--patch", patch]
@@ -370,10 +372,11 @@ def test_forgotten_units_are_found(compliance, tmp_path, length, stress, units, 
         (1e-2, 2e4, "2e-2", "Young's modulus is 20000 Pa, and the mesh is 0.04 m long: give --units mm"),
         (1e-2, 210.0, "2e-2", "Young's modulus is 210 Pa, and the mesh is 0.04 m long: give the deck in MPa"),
         (1.0, 30e6, "2", "Young's modulus is 3e+07 Pa, and the mesh is 4 m long"),
-        (10.0, 2e11, "20", "Young's modulus is 2e+11 Pa, and the mesh is 40 m long"),
+        (10.0, 2e11, "20", "Young's modulus is 2e+11 Pa, and the mesh is 40 m long: give a deck in mm "
+         "its moduli in MPa, and --units mm"),
         (1.0, 2e11, "2mm", "the patch is 0.002 m wide, and the elements of its surface are 1 m or more"),
     ],
-)
+)  # fmt: skip
 def test_doubtful_units_are_told(compliance, tmp_path, length, stress, patch, says):  # noqa: F811
     scaled(tmp_path / "b.inp", bricks(), length, stress)
     words = ["--mesh", "b.inp", "--fixed", "BOTTOM", *ALWAYS, "--degree", "0", "--patch", patch, "-o", "f.h5"]

@@ -9,6 +9,8 @@ import pytest
 
 import laps
 import petsam
+import sections
+from conftest import PROGRAM, execute
 from petsam import joint
 from petsam.compliance import bolts, halfplane
 from test_compliance_command import compliance  # noqa: F401
@@ -22,6 +24,7 @@ FRAME = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
 HELD = dict(supports="CLAMP")
 BOLT = {"B": ("WASHER1", "WASHER2", laps.DIAMETER)}
 PRELOAD = {"B": laps.TENSION}
+MODULI = (laps.YOUNG, laps.POISSON)
 OPTIONS = dict(grid_n=CELLS, friction=laps.FRICTION)
 
 
@@ -170,6 +173,59 @@ def test_a_pair_that_nothing_holds_has_the_modes_of_its_elements(lap, reference)
     pair = joint.Pair(path, PRELOAD, **OPTIONS)
     load = pair.structure.patches[0].number("load_n")
     assert pair.tensions["B"] == pytest.approx(load, rel=1e-6)
+
+
+# ---------------------------------------------------------------- stresses
+
+
+def test_stresses_of_body_2_are_those_of_a_direct_solution(lap, solve, launcher, tmp_path):
+    """At Gauss points of elements of the tests' own, by the bolt's tension and petsam's tractions on both bodies."""
+    rigid = dict(disp_x=0, disp_z=0, rot_y=0, friction=laps.FRICTION)
+    given = dict(elasticity="plane", grid_n=CELLS, grid_size=2.0 * HALF, gap_type="flat", body2_compliance=lap.file)
+    moduli = {f"body{k}_{name}": value for k in (1, 2) for name, value in zip(("young", "poisson"), MODULI)}
+    r = solve(given, moduli, rigid, dict(body2_case_bolt_B=laps.TENSION, body2_case_mode2=1e-3))
+    p, q = r.pressure.ravel(), r.shear_x.ravel()
+
+    def traction(at):
+        cell = np.clip(((at + HALF) / (2.0 * HALF) * CELLS).astype(int), 0, CELLS - 1)
+        return np.stack([q[cell], p[cell]], axis=1) * (np.abs(at) < HALF)[:, None]
+
+    tie, closing = laps.bolt(lap)
+    own = lap.second[lap.elements[:, 0]]
+    force = laps.TENSION * closing
+    for mine, sign in ((own, 1.0), (~own, -1.0)):
+        force = force + sign * sections.forces(lap.nodes, lap.elements[mine], traction, 40)
+    free = np.flatnonzero(~np.repeat(lap.sets["CLAMP"], 2))
+    matrix = sections.stiffness(lap.nodes, lap.elements, *MODULI) + tie
+    u = np.zeros(len(force))
+    u[free] = sections.spsolve(matrix[free][:, free].tocsc(), force[free])
+    u = u.reshape(-1, 2) + 1e-3 * lap.compliance.modes.shapes[:, 1].reshape(-1, 3)[:, [0, 2]]
+    middle, rows = lap.nodes[lap.elements].mean(axis=1), np.unique(lap.nodes[lap.second][:, 1])[::2]
+    inside = (np.abs(middle[:, 0]) < HALF) & (middle[:, 1] > rows[1]) & (middle[:, 1] < rows[2])
+    chosen = lap.elements[own & inside]
+    depth, wanted = sections.stresses(lap.nodes, chosen[np.argsort(middle[own & inside][:, 0])], u, *MODULI)
+    below = dict(input=r.path, body=2, depths=depth, output=tmp_path / "s.h5")
+    execute(launcher, tmp_path, [below], 1, 0, program=PROGRAM.with_name("petsam-stress"))
+    with h5py.File(tmp_path / "s.h5") as file:
+        found = [file[f"stress_{name}"][-1].ravel() for name in ("xx", "zz", "xz")]
+    x = np.sort(middle[own & inside][:, 0])
+    found = np.stack([np.interp(x, r.x, one) for one in found])
+    print(np.abs(found - wanted).max(axis=1) / np.abs(wanted).max(axis=1))
+    assert np.max(np.abs(found - wanted)) < 1e-2 * np.abs(wanted).max()
+
+
+def test_stresses_that_a_pair_does_not_have_are_named(lap, solve, launcher, tmp_path):
+    path = tmp_path / "two.h5"
+    made(lap.path, 6, 12e-3, centers=((-9e-3, 0.0), (9e-3, 0.0)), **HELD).write(path)
+    moduli = {f"body{k}_{name}": value for k in (1, 2) for name, value in zip(("young", "poisson"), MODULI)}
+    crowned = dict(gap_type="ellipsoid", gap_radius_x=2.0, gap_radius_y="inf", grid_n=32, grid_size=12e-3)
+    rest = dict(elasticity="plane", load_n=1e5, friction=0.3, allow_edge_contact=True)
+    for file, body, says in ((lap.file, 1, "exchange the surfaces of --contact and --pair"),
+                             (f"{path}:1", 1, "several patches"), (f"{path}:1", 2, "several patches")):  # fmt: skip
+        r = solve(crowned, moduli, rest, dict(body2_compliance=file))
+        below = dict(input=r.path, body=body, depths=1e-4, output=tmp_path / "s.h5")
+        done = execute(launcher, tmp_path, [below], 1, 3, program=PROGRAM.with_name("petsam-stress"))
+        assert says in done.stderr
 
 
 # ---------------------------------------------------------------- commands

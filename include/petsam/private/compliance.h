@@ -86,13 +86,16 @@ PETSC_INTERN void SamComplianceMeans(SamCompliance compliance, PetscInt axis, do
 PETSC_INTERN PetscErrorCode SamComplianceEnds(SamCompliance compliance, SamPair pair, double *least, double *most);
 /*
   SamComplianceCollect - computes the c_j of tractions p, q_x, q_y on body 2. Collective.
+  SamComplianceNeedStress - checks that the file has the stresses of body 0 or 1. Collective. Errors: SAM_ERR_FILE if it
+  has none, or those of the other body of a pair.
   SamComplianceReadStress - reads the axes x, y, z (m), then the stresses at the points by each c and each load case:
   SamComplianceStresses() numbers. Collective. Errors: SAM_ERR_FILE.
   SamComplianceAddStress - adds the stresses by c and the load cases to those of a half-space. Collective. Errors:
-  SAM_ERR_FILE for a file without stresses.
+  SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamComplianceCollect(SamElasticity elasticity, SamCompliance compliance,
                                                  const double *const tractions[], double sums[3][SAM_COMPLIANCE_MODES]);
+PETSC_INTERN PetscErrorCode SamComplianceNeedStress(MPI_Comm comm, SamCompliance compliance, PetscInt body);
 PETSC_INTERN PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance compliance, double values[]);
 PETSC_INTERN PetscErrorCode SamComplianceAddStress(SamElasticity elasticity, SamCompliance compliance,
                                                    SamStress stress);

@@ -32,7 +32,7 @@ def need_plane(mesh, patch, contact):
     if off > CURVED:
         raise Error(
             f"the contact surface is up to {off * patch.narrow:.3g} m off the plane of the frame, limit "
-            f"{CURVED * patch.narrow:.3g} m: correct --frame, or use a smaller --patch"
+            f"{CURVED * patch.narrow:.3g} m: correct --frame, or use a smaller --patch, beside corners by --center"
         )
     return off <= FLATNESS
 

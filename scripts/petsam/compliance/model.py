@@ -308,13 +308,14 @@ def _cases(model, named, solver, found):
 
 
 def _stress(model, found, cases):
-    """Returns points, and stresses of the basis and of the load cases; None if the patch is curved."""
-    where = stresses.grid(model.mesh, model.patch, model.settings.depth)
+    """Returns points, and stresses of the basis and of the load cases, of body 2 of a pair; None if the patch is
+    curved."""
+    where = stresses.grid(found.mesh, model.patch, model.settings.depth)
     if where is None:
         return None
     shape = (len(where.z), len(where.y), len(where.x), 6)
     single = {
-        name: stresses.of_nodes(model.mesh, where.place, case.displacement)[..., 0].reshape(shape)
+        name: stresses.of_nodes(found.mesh, where.place, case.displacement)[..., 0].reshape(shape)
         for name, case in cases.items()
     }
     return where, stresses.remaining(where, found), single
@@ -339,7 +340,7 @@ def computed(source, settings, command="", say=quiet, every=0.0):
     bodies = _bodies(model, found, method, command)
     bodies[0].remarks = remarks
     _add_cases(bodies, model, loads, (solver, found), progress)
-    if settings.stress and not settings.pair:
+    if settings.stress and len(model.patches) == 1:
         progress.begin("stresses")
         bodies[0].stress = _stress(model, found, bodies[0].cases)
     if other:

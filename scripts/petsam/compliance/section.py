@@ -32,9 +32,11 @@ def oriented(mesh, name):
     extent = np.ptp(mesh.nodes, axis=0)
     axis = int(np.argmin(extent))
     if extent[axis] > LEVEL * extent.max():
+        off = np.abs(mesh.nodes[:, axis] - np.median(mesh.nodes[:, axis]))
+        x, y, z = mesh.nodes[np.argmax(off)]
         raise Error(
-            f"{name}: the nodes of a section are in no plane of two axes: extent {extent[0]:.3g}, {extent[1]:.3g}, "
-            f"{extent[2]:.3g}: give it in x and y, or in x and z"
+            f"{name}: the nodes of a section are in no plane of two axes: that at {x:.3g}, {y:.3g}, {z:.3g} is "
+            f"{off.max():.3g} off: give all in x and y, or in x and z"
         )
     first = mesh.nodes[mesh.blocks[0].nodes[:, : mesh.blocks[0].shape.corners]]
     turn = np.sum(np.cross(first[:, 1] - first[:, 0], first[:, -1] - first[:, 0])[:, axis])

@@ -229,9 +229,10 @@ def _check_pair(given):
         for name, value in (("bolt", given.bolts), ("modes", given.modes), ("sensor", given.sensors)):
             if value:
                 raise Unusable(f"--{name} is for a pair: give the surface of body 1 by --pair, or remove it")
-    elif given.depth or given.method == "cutoff":
-        name = "--depth" if given.depth else "--method cutoff"
-        raise Unusable(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
+    elif given.method == "cutoff":
+        raise Unusable("--method cutoff is not for a pair, which has the method image only: remove it")
+    elif given.depth and len(given.centers) > 1:
+        raise Unusable("--depth: the file of several patches has no stresses: remove it, or give one patch")
     elif given.symmetry:
         raise Unusable("--symmetry: a pair is given as a whole: remove it, or give one body alone, without --pair")
 

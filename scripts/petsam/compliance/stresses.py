@@ -13,6 +13,7 @@ COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 POINTS = 13  # number along each axis
 LINE_POINTS = 49  # the same along x, and over the depth, of a section
 DEPTH = 2.0  # in half widths
+COLUMNS = 200  # at a time, to save memory
 TRIES = 12  # number of attempts, each with a depth smaller by a fifth
 
 
@@ -94,7 +95,8 @@ def _add_averages(mesh, index, chosen, displacement, sums):
 
 def remaining(where, remainder):
     """Stress (m, 3, nz, ny, nx, 6) of the body minus the half-space's, on the Grid, by coefficients in N/m; 1/m2."""
-    found = of_nodes(remainder.mesh, where.place, remainder.displacement)
+    pieces = np.array_split(remainder.displacement, -(-remainder.fields.columns // COLUMNS), axis=1)
+    found = np.concatenate([of_nodes(remainder.mesh, where.place, piece) for piece in pieces], axis=2)
     fields, cutoff = remainder.fields, remainder.cutoff
     if cutoff:
         found += _beyond(where.points, fields, cutoff)

@@ -49,11 +49,9 @@ BOLT = (0.02, 2.0)  # diameter of a bolt by the width of its washers
 def of_modulus(young, size, units, what):
     """Warnings about a modulus (Pa) of something of a size (m), or Error if both cannot be right."""
     both = f"Young's modulus is {young:.6g} Pa, and {what} is {size:.3g} m long"
-    other = "mm" if units == "m" else "m"
     if young > HARDEST:
-        raise Error(
-            f"{both}: no solid is harder than 1.2e12 Pa: give --units {other}, or the modulus in the unit of it"
-        )
+        cure = {"m": "give moduli in Pa", "mm": "give the moduli of a deck in mm in MPa, or --units m if it is in m"}
+        raise Error(f"{both}: no solid is harder than 1.2e12 Pa: {cure[units]}")
     if OWN <= young < SOFT and size >= LARGE:
         raise Error(f"{both}: a deck in mm and MPa has such numbers: give --units mm, or the deck in m and Pa")
     if OWN <= young < GIGAPASCALS:
@@ -61,7 +59,8 @@ def of_modulus(young, size, units, what):
     if OWN <= young < SOFT:
         return [f"warning: {both}: give --units mm if the deck is in mm and MPa"]
     if OWN <= young < RUBBER and size >= LARGE or size >= HUGE and young >= OWN:
-        return [f"warning: {both}: give --units that are the deck's"]
+        cure = {"m": "give a deck in mm its moduli in MPa, and --units mm", "mm": "give --units m if the deck is in m"}
+        return [f"warning: {both}: {cure[units]}"]
     return []
 
 

@@ -432,10 +432,12 @@ static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
 static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
                                    SamStress *stress)
 {
-  const SamCompliance c     = ((const Bodies *)e->data)->of[body - 1];
-  SamElasticity       inner = e->inner;
+  const SamCompliance *of    = ((const Bodies *)e->data)->of;
+  const SamCompliance  c     = of[1] && SamComplianceIsPair(of[1]) ? of[1] : of[body - 1];
+  SamElasticity        inner = e->inner;
 
   PetscFunctionBegin;
+  if (c) PetscCall(SamComplianceNeedStress(e->grid->comm, c, body - 1));
   SamElasticityWith(inner, createstress);
   PetscCall((*inner->ops.createstress)(inner, body, settings, stress));
   if (c) PetscCall(SamComplianceAddStress(e, c, *stress));

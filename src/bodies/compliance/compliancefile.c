@@ -377,15 +377,33 @@ static PetscErrorCode FindPatch(SamFile f, Choice *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double values[])
+static const char *const options[] = {"body1_compliance", "body2_compliance"};
+
+PetscErrorCode SamComplianceNeedStress(MPI_Comm comm, SamCompliance c, PetscInt body)
 {
-  const char *const option = c->body ? "body2_compliance" : "body1_compliance";
+  const char *const option = options[c->body];
   Choice            from;
 
   PetscFunctionBegin;
   Choose(c->file, &from);
+  PetscCheck(from.patch <= 0, comm, SAM_ERR_FILE,
+             "-%s %s: stresses of structures with several patches are not computed: use a file of one patch", option,
+             c->file);
+  PetscCheck(body == c->body, comm, SAM_ERR_FILE,
+             "-%s %s: is of a pair, with the stresses of body 2 alone: exchange the surfaces of --contact and --pair",
+             option, c->file);
   PetscCheck(c->below[0], comm, SAM_ERR_FILE, "-%s %s: has no group /stress: make the file without --no-stress", option,
              c->file);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double values[])
+{
+  const char *const option = options[c->body];
+  Choice            from;
+
+  PetscFunctionBegin;
+  Choose(c->file, &from);
   PetscCall(SamFileExamine(comm, option, from.file, NULL, LookBelow, c, values,
                            sizeof(*values) * (size_t)SamComplianceStresses(c)));
   PetscFunctionReturn(PETSC_SUCCESS);
