@@ -69,11 +69,16 @@ double SamErrorsLeast(SamSimulation s, const SamStateNumber *number)
   return !strcmp(unit, "1") ? 1e-6 : 0;
 }
 
+PetscBool SamErrorsYields(SamSimulation s)
+{
+  return SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC) ? PETSC_TRUE : PETSC_FALSE;
+}
+
 double SamErrorsByCells(SamSimulation s, const SamStateNumber *number, double value, const double run[SAM_RUNS])
 {
   const PetscBool energy = number->order == 2 && !strcmp(number->unit, "J") ? PETSC_TRUE : PETSC_FALSE;
 
-  return SamErrorByCells(energy && !SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC), value, run);
+  return SamErrorByCells(energy && !SamErrorsYields(s), value, run);
 }
 
 double SamErrorsRelativeBySteps(SamSimulation s, const SamErrorNumber *n, const double run[SAM_RUNS])

@@ -45,7 +45,7 @@ PetscErrorCode SamErrorsReadOptions(SamSimulation s, const SamOptions *from)
 static PetscBool DependsOnSteps(SamSimulation s)
 {
   if (!SamMotionOf(s->setup.elasticity)->continues) return PETSC_FALSE;
-  return s->needs.friction || SamProblemMoves(s->setup.problem) || SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC);
+  return s->needs.friction || SamProblemMoves(s->setup.problem) || SamErrorsYields(s);
 }
 
 /* A companion run: how often the cells are halved, 0: there is none; and its steps per row of the history. */

@@ -43,6 +43,7 @@ struct _n_SamErrors {
   SamErrorsRaise - raises the largest values of all steps to those of this state.
   SamErrorsGetRuns - gets a number of the companions' last steps, or its sum over all steps; NaN: they have none.
   SamErrorsLeast - returns the value below which a number is next to nothing for this contact.
+  SamErrorsYields - returns true if a body may yield.
   SamErrorsByCells - returns the error of a number by the cells, in its unit, by its values in the companion runs.
   SamErrorsRelativeBySteps - returns the error of a number by the steps, relative to it.
   SamErrorsPrescribes - returns true if the step prescribes the number of this name.
@@ -57,6 +58,7 @@ PETSC_INTERN double SamErrorsGet(SamState state, const char name[]);
 PETSC_INTERN void   SamErrorsRaise(SamErrorLargest *largest, SamState state);
 PETSC_INTERN void SamErrorsGetRuns(SamErrors errors, const SamErrorNumber *number, PetscBool sum, double run[SAM_RUNS]);
 PETSC_INTERN double         SamErrorsLeast(SamSimulation simulation, const SamStateNumber *number);
+PETSC_INTERN PetscBool      SamErrorsYields(SamSimulation simulation);
 PETSC_INTERN double         SamErrorsByCells(SamSimulation simulation, const SamStateNumber *number, double value,
                                              const double run[SAM_RUNS]);
 PETSC_INTERN double         SamErrorsRelativeBySteps(SamSimulation simulation, const SamErrorNumber *number,
