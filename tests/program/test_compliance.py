@@ -168,7 +168,7 @@ def beam(path, softer):
 
 @few("softer, friction, most", [(1, 0.5, 16), (10, 0.5, 20), (10, 1, 26), (30, 1, 45)], 2)
 def test_soft_bodies_converge_with_rotations_held(softer, friction, most, petsam, tmp_path):
-    """What the bending by shear couples: pressed, sheared and reversed. The passes of the softest one vary from 17 to 26
+    """What the bending by shear couples: pressed, sheared and reversed. Passes of the softest one vary from 17 to 26
     with the solvers' tolerances, and with their last digits."""
     z, x = 0.0057 + 0.0363 * softer, 0.004 * softer + 0.001
     rows = [(k + 1.0, a * z, b * x, 0, 0, 0) for k, (a, b) in enumerate([(1, 0), (1, -1), (1, 0), (1, 1), (0.8, 0.5)])]
