@@ -29,7 +29,9 @@
   Both are raised on all ranks of the communicator. All other codes are PETSc's.
   All functions return PETSC_ERR_ARG_NULL if a handle or a pointer is NULL that may not be NULL, and PETSC_ERR_ARG_WRONG
   if a handle belongs to an object of another class, or to one that has been destroyed; the message has the number of
-  the argument. The comments of the functions say where NULL is allowed, and do not list these two errors.
+  the argument. They return PETSC_ERR_ARG_NOTSAMECOMM, at once on each of its ranks, if two objects, or an object and a
+  vector, have communicators of different ranks; the message has the numbers of both arguments. The comments of the
+  functions say where NULL is allowed, and do not list these three errors.
 */
 #define SAM_ERR_USER PETSC_ERR_USER_INPUT
 #define SAM_ERR_FILE PETSC_ERR_FILE_OPEN

@@ -156,6 +156,32 @@ def test_function_checks_its_arguments_first(function):
         assert missing_checks(needed, without) == [check]
 
 
+# those with a communicator
+ON_RANKS = CLASSES - {"SamBody", "SamPair", "SamConditions"} | {"Vec"}
+
+
+def meeting(function):
+    """The numbers of the arguments that are objects or vectors with a communicator."""
+    kinds = [declaration.split() for declaration in function.arguments.values()]
+    return [k for k, kind in enumerate(kinds, 1) if kind[0] in ON_RANKS and len(kind) == 2 and "*" not in kind[1]]
+
+
+MEETINGS = [function for function in PUBLIC if len(meeting(function)) > 1]
+
+
+@pytest.mark.parametrize("function", MEETINGS, ids=[function.name for function in MEETINGS])
+def test_function_compares_the_communicators_of_its_arguments_first(function):
+    first, *others = meeting(function)
+    statements = definition(function.name)[1].partition("PetscFunctionBegin;\n")[2].split("\n")
+    checks = "\n".join(itertools.takewhile(lambda line: re.match(r" *(?:if \(|SamValid|\})", line), statements))
+    for other in others:
+        assert re.search(rf"SamValid(?:SameComm|VecOn)\(.+, {first}, .+, {other}\);", checks)
+
+
+def test_functions_with_two_objects_are_found():
+    assert len(MEETINGS) == 14 and "SamProblemAddLaw" in [function.name for function in MEETINGS]
+
+
 def test_objects_have_a_class_from_their_creation_to_their_end():
     for name in CLASSES - {"SamSolver", "SamNormal", "SamTangential"}:
         assert re.search(rf"class_id +(?:=.*)?= {name}_CLASSID;", SOURCES), name
