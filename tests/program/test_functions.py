@@ -60,9 +60,40 @@ def test_gap_is_found_with_its_place(tmp_path, old, new, gap):
     header.write_text(text[:start] + text[start:].replace(old, new, 1))
     done = check(header)
     name = "SamGridX" if "SamGridX" in gap else "SamGridNorm"
-    line = next(k for k, row in enumerate(header.read_text().split("\n"), 1) if f" {name}(" in row)
+    line = next(k for k, row in enumerate(header.read_text().split("\n"), 1) if re.match(rf"\w.* {name}\(", row))
     assert done.returncode == 1 and gap in done.stdout
     assert f"{header}:{line}: {name} " in done.stdout
+
+
+REFERENCES = (
+    ("SamGridNorm(), SamGridX()", "SamGridNorms(), SamGridX()", "refers to SamGridNorms(): expected another public"),
+    ("SamGridNorm(), SamGridX()", "SamGridNorm, SamGridX()", "refers to SamGridNorm: expected another public"),
+    ("SamGridNorm(), SamGridX()", "SamGridX(), SamGridX()", "refers to SamGridX(): expected another public"),
+    ("SamGridNorm(), SamGridX()", "SamGridCreateVec(), SamGrid", "refers to SamGridCreateVec(): expected another"),
+    ("SamGridNorm(), SamGridX()", "SamGrid, SamGridX(), SamGap, SamLaw", "refers to 5 names: expected 4 at most"),
+    ("SamGapFill().\n", "SamGapFill()\n", "is no last line of the comment"),
+    ("SamGapFill().\n", "SamGapFill().\n\n  More.\n", "is no last line of the comment"),
+)
+
+
+@pytest.mark.parametrize(("old", "new", "fault"), REFERENCES)
+def test_reference_to_no_public_name_is_found(tmp_path, old, new, fault):
+    """In "See also: SamGridNorm(), SamGridX(), SamGapFill()." of SamGridCreateVec()."""
+    text = GRID.read_text()
+    start = text.index("/*\n  SamGridCreateVec - ")
+    assert old in text[start:]
+    header = tmp_path / "grid.h"
+    header.write_text(text[:start] + text[start:].replace(old, new, 1))
+    done = check(header)
+    assert done.returncode == 1 and fault in done.stdout
+
+
+def test_references_are_many_and_on_the_page():
+    assert len(re.findall(r"^  See also: ", HEADERS, re.M)) > 100
+    assert {"SamGridNorm()", "SamContact", "SamNormalAsSolver()", "petsam_monitor"} <= functions.public_names(
+        functions.headers()
+    )
+    assert "\nSee also: `SamGridNorm()`, `SamGridX()`, `SamGapFill()`.\n" in functions.page()
 
 
 def test_function_without_arguments_says_so(tmp_path):
