@@ -29,7 +29,9 @@
   Both are raised on all ranks of the communicator. All other codes are PETSc's.
   All functions return PETSC_ERR_ARG_NULL if a handle or a pointer is NULL that may not be NULL, and PETSC_ERR_ARG_WRONG
   if a handle belongs to an object of another class, or to one that has been destroyed; the message has the number of
-  the argument. The comments of the functions say where NULL is allowed, and do not list these two errors.
+  the argument. They return PETSC_ERR_ARG_NOTSAMECOMM, at once on each of its ranks, if two objects, or an object and a
+  vector, have communicators of different ranks; the message has the numbers of both arguments. The comments of the
+  functions say where NULL is allowed, and do not list these three errors.
 */
 #define SAM_ERR_USER PETSC_ERR_USER_INPUT
 #define SAM_ERR_FILE PETSC_ERR_FILE_OPEN
@@ -44,6 +46,8 @@
   Errors: none of its own.
 
   It must be called after PetscInitialize() and before laws are added to a problem; calling it again does nothing.
+
+  See also: SamFinalize(), SamOptionsPlugins().
 */
 PETSC_EXTERN PetscErrorCode SamInitialize(void);
 
@@ -57,6 +61,8 @@ PETSC_EXTERN PetscErrorCode SamInitialize(void);
   Errors: none of its own.
 
   It must be called before PetscFinalize(). It does nothing without SamInitialize().
+
+  See also: SamInitialize().
 */
 PETSC_EXTERN PetscErrorCode SamFinalize(void);
 
@@ -88,6 +94,8 @@ typedef enum {
           title - the title
 
   Errors: none of its own.
+
+  See also: SamOptionsRead().
 */
 PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[]);
 
@@ -118,6 +126,8 @@ PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char
   For a boolean, `needs` and `excludes` apply only if it is true. `missing`: the purpose of an option that is required
   (if the options that it needs are given) unless it has a default. `recorded`: a stopped run can only continue with the
   same value.
+
+  See also: SamOptionsRead(), SamOptionsReal().
 */
 typedef enum {
   SAM_OPTION_REAL,
@@ -159,6 +169,8 @@ typedef struct {
   Errors: SAM_ERR_USER with the name of the option, the given text, and the expected values.
 
   While the help is printed, the function prints the heading and a line for each row, and requires nothing.
+
+  See also: SamOptionsReal(), SamOptionsHeading().
 */
 PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count,
                                            const SamOptionRow rows[], void *settings, PetscBool given[]);
@@ -177,6 +189,8 @@ PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char he
   Out:    set   - true if the option was given; may be NULL
 
   Errors: SAM_ERR_USER with the name of the option, the given text, and the expected values.
+
+  See also: SamOptionsRead().
 */
 PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[],
                                            const char unit[], SamRange range, PetscReal *value, PetscBool *set);
@@ -198,6 +212,8 @@ PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char na
 
   It registers types (SamGapRegister(), SamLawRegister(), ...). SamOptionsPlugins() must be called before types are
   chosen, as SamSetupReadOptions() does. The libraries stay loaded.
+
+  See also: SamInitialize(), SamGapRegister(), SamLawRegister(), SamElasticityRegister().
 */
 PETSC_EXTERN PetscErrorCode SamOptionsPlugins(const SamOptions *from);
 

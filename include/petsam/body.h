@@ -28,6 +28,8 @@ typedef struct _n_SamBody *SamBody;
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for a number of materials out of range, a modulus that is not positive, a ratio
   outside (-1, 0.5], a rigid material above another one, or a thickness that is not positive.
+
+  See also: SamBodyDestroy(), SamPairCreate().
 */
 PETSC_EXTERN PetscErrorCode SamBodyCreate(PetscInt count, const SamMaterial materials[], SamBody *body);
 
@@ -58,6 +60,8 @@ typedef struct _n_SamPair *SamPair;
   Out:    pair  - the pair
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for two rigid bodies.
+
+  See also: SamPairDestroy(), SamBodyCreate(), SamElasticityCreate().
 */
 PETSC_EXTERN PetscErrorCode SamPairCreate(SamBody body1, SamBody body2, SamPair *pair);
 

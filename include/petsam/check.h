@@ -42,6 +42,8 @@ typedef struct {
   Out:    check     - the errors, relative
 
   Errors: none of its own.
+
+  See also: SamContactTry(), SamContactGetSolution().
 */
 PETSC_EXTERN PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool coupling,
                                              PetscBool u_z_known, const SamSolution *before, SamSolution *solution,

@@ -15,6 +15,8 @@
   The gap and the laws of the problem may change between steps, and laws may be added. Slip belongs to a place on the
   grid and is kept; the pressure is solved again when the separation has changed.
   The fields and numbers that a contact stores, and those that results offer, are in its state (state.h), by name.
+
+  See also: SamContactCreate(), SamContactTry(), SamProblem.
 */
 typedef struct _n_SamContact *SamContact;
 
@@ -27,6 +29,8 @@ typedef struct _n_SamContact *SamContact;
   Out:    contact - the contact
 
   Errors: none of its own.
+
+  See also: SamContactDestroy(), SamProblemCreate(), SamContactSetFromOptions(), SamContactTry().
 */
 PETSC_EXTERN PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact);
 
@@ -50,6 +54,8 @@ PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
           prefix  - the prefix, without dash; copied; NULL: none
 
   Errors: PETSC_ERR_ARG_SIZ for a prefix that is too long.
+
+  See also: SamContactSetFromOptions().
 */
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
 
@@ -62,6 +68,8 @@ PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const
 
   Options: those named at SamContactSettings, and those of SamSolverSetFromOptions() for both solvers.
   Errors: SAM_ERR_USER for a wrong value, or an option that the motion of the bodies does not allow.
+
+  See also: SamContactSetOptionsPrefix(), SamContactSetUp().
 */
 PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 
@@ -75,6 +83,8 @@ PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
   Errors: SAM_ERR_USER if they are not.
 
   SamContactTry() calls it.
+
+  See also: SamContactSetFromOptions(), SamContactTry().
 */
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
 
@@ -89,6 +99,8 @@ PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
   Errors: none of its own.
 
   A program may read that state, and offer results of its own in it.
+
+  See also: SamStateFindField(), SamStateReadField(), SamContactGetField().
 */
 PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamState *state);
 
@@ -118,6 +130,8 @@ PETSC_EXTERN SamGrid SamContactGetGrid(SamContact contact);
 
   A step that has no solution or does not converge gets a status and a message; this is not an error. After
   NO_EQUILIBRIUM there is no tried state. A try replaces an earlier one.
+
+  See also: SamControlInitialize(), SamContactCommit(), SamContactReject(), SamStepIsSolved().
 */
 PETSC_EXTERN PetscErrorCode SamContactTry(SamContact contact, const SamControl *control, SamStep *step);
 
@@ -129,6 +143,8 @@ PETSC_EXTERN PetscErrorCode SamContactTry(SamContact contact, const SamControl *
   In:     contact - the contact
 
   Errors: PETSC_ERR_ORDER without a tried state.
+
+  See also: SamContactTry(), SamContactReject().
 */
 PETSC_EXTERN PetscErrorCode SamContactCommit(SamContact contact);
 
@@ -142,6 +158,8 @@ PETSC_EXTERN PetscErrorCode SamContactCommit(SamContact contact);
   Errors: none of its own.
 
   Later steps are the same, to the last bit, as if the step had not been tried.
+
+  See also: SamContactTry(), SamContactCommit(), SamContactReset().
 */
 PETSC_EXTERN PetscErrorCode SamContactReject(SamContact contact);
 
@@ -154,6 +172,8 @@ PETSC_EXTERN PetscErrorCode SamContactReject(SamContact contact);
   Out:    solution - the solution; borrowed until the next try, commit or rejection
 
   Errors: none of its own.
+
+  See also: SamContactGetField(), SamContactGetNumber().
 */
 PETSC_EXTERN PetscErrorCode SamContactGetSolution(SamContact contact, const SamSolution **solution);
 
@@ -167,6 +187,8 @@ PETSC_EXTERN PetscErrorCode SamContactGetSolution(SamContact contact, const SamS
   Out:    field   - the field (unit of the field in the results), one component
 
   Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for an unknown name; PETSC_ERR_ARG_SIZ for a vector of another size.
+
+  See also: SamGridCreateVec(), SamContactGetNumber(), SamContactGetSolution().
 */
 PETSC_EXTERN PetscErrorCode SamContactGetField(SamContact contact, const char name[], Vec field);
 
@@ -181,6 +203,8 @@ PETSC_EXTERN PetscErrorCode SamContactGetField(SamContact contact, const char na
   Out:    value   - the number (unit of the column of /history); NaN if the step has none
 
   Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for an unknown name.
+
+  See also: SamContactGetField(), SamContactGetSolution().
 */
 PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char name[], PetscReal *value);
 
@@ -192,6 +216,8 @@ PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char n
   In:     contact - the contact
 
   Errors: none of its own.
+
+  See also: SamContactReject().
 */
 PETSC_EXTERN PetscErrorCode SamContactReset(SamContact contact);
 

@@ -72,6 +72,8 @@ typedef struct _n_SamConditions *SamConditions;
                        wanted
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_CONDITIONS conditions.
+
+  See also: SamProblemGetConditions(), SamControlGet(), SamControlSet().
 */
 PETSC_EXTERN PetscErrorCode SamConditionsAdd(SamConditions conditions, const SamCondition *condition,
                                              const SamCondition **own);
@@ -79,6 +81,8 @@ PETSC_EXTERN PetscErrorCode SamConditionsAdd(SamConditions conditions, const Sam
 /*
   SamControl - the prescribed values of a load step. SamControlInitialize() sets the defaults, the user the rest. It is
   copied by assignment. SamControlGet() returns the values of conditions.
+
+  See also: SamControlInitialize(), SamControlSet(), SamContactTry().
 */
 typedef struct {
   PetscReal time;                  /* s; stored with the results; the solution does not depend on it */
@@ -98,6 +102,8 @@ typedef struct {
   Out:    control - the control
 
   Errors: none of its own.
+
+  See also: SamControlSet(), SamContactTry().
 */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
 
@@ -110,6 +116,8 @@ PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
           condition - the condition, from the list of the problem
 
   Errors: none; it returns no error code.
+
+  See also: SamControlSet(), SamConditionsAdd().
 */
 PETSC_EXTERN PetscReal SamControlGet(const SamControl *control, const SamCondition *condition);
 
@@ -124,6 +132,8 @@ PETSC_EXTERN PetscReal SamControlGet(const SamControl *control, const SamConditi
           value      - the value (N, N m, m, rad, 1 or 1/m, or the unit of the condition)
 
   Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for any other name; the message has the nearest one.
+
+  See also: SamControlInitialize(), SamControlGet(), SamContactTry().
 */
 PETSC_EXTERN PetscErrorCode SamControlSet(SamControl *control, SamConditions conditions, const char name[],
                                           PetscReal value);

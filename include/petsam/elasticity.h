@@ -58,6 +58,8 @@ typedef struct {
   Errors: none of its own.
 
   The kernels for products are computed at their first use.
+
+  See also: SamGridCreate(), SamPairCreate(), SamElasticitySetType(), SamElasticityDestroy().
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *elasticity);
 
@@ -73,6 +75,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamE
   references the elasticity.
 
   The option -elasticity sets the type, too.
+
+  See also: SamElasticityGetType(), SamElasticityRegister(), SamElasticitySetFromOptions().
 */
 PETSC_EXTERN PetscErrorCode SamElasticitySetType(SamElasticity elasticity, SamElasticityType type);
 
@@ -96,6 +100,8 @@ PETSC_EXTERN SamElasticityType SamElasticityGetType(SamElasticity elasticity);
           create - function that sets an object's methods and traits, see private/elasticityimpl.h
 
   Errors: none of its own.
+
+  See also: SamElasticitySetType(), SamOptionsPlugins().
 */
 PETSC_EXTERN PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity));
 
@@ -108,6 +114,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityRegister(const char name[], PetscErrorC
           prefix     - the prefix, without dash; copied; NULL: none
 
   Errors: PETSC_ERR_ARG_SIZ for a prefix that is too long.
+
+  See also: SamElasticitySetFromOptions().
 */
 PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elasticity, const char prefix[]);
 
@@ -120,6 +128,8 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elastici
 
   Options: -elasticity (type), -fft_effort, -fft_exchange, and those of the type.
   Errors: SAM_ERR_USER for a wrong value, or layers that the type does not support.
+
+  See also: SamElasticitySetOptionsPrefix(), SamElasticitySetType(), SamElasticitySetUp().
 */
 PETSC_EXTERN PetscErrorCode SamElasticitySetFromOptions(SamElasticity elasticity);
 
@@ -133,6 +143,8 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetFromOptions(SamElasticity elasticity
   Errors: PETSC_ERR_ARG_SIZ for a plane type on a grid of several rows, or another type on a grid of one row.
 
   Products call it themselves, and calling it again does nothing.
+
+  See also: SamElasticitySetFromOptions(), SamElasticityApplyNormal().
 */
 PETSC_EXTERN PetscErrorCode SamElasticitySetUp(SamElasticity elasticity);
 
@@ -166,6 +178,8 @@ PETSC_EXTERN SamGrid SamElasticityGetGrid(SamElasticity elasticity);
   In:     elasticity - the elasticity
 
   Errors: none; it returns no error code.
+
+  See also: SamElasticityGetType().
 */
 PETSC_EXTERN SamElasticityTraits SamElasticityGetTraits(SamElasticity elasticity);
 
@@ -179,6 +193,8 @@ PETSC_EXTERN SamElasticityTraits SamElasticityGetTraits(SamElasticity elasticity
   Out:    u_z        - normal displacement (m), one component; it may be the same vector as p
 
   Errors: PETSC_ERR_SUP if the type has no such product; those of SamElasticitySetUp().
+
+  See also: SamElasticityApplyTangential(), SamElasticityApplyNormalToTangential(), SamGridCreateVec().
 */
 PETSC_EXTERN PetscErrorCode SamElasticityApplyNormal(SamElasticity elasticity, Vec p, Vec u_z);
 
@@ -192,6 +208,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyNormal(SamElasticity elasticity, V
   Out:    u_t        - tangential displacement (m), two components; it may be the same vector as q
 
   Errors: PETSC_ERR_SUP if the type has no such product; those of SamElasticitySetUp().
+
+  See also: SamElasticityApplyNormal(), SamElasticityApplyTangentialToNormal().
 */
 PETSC_EXTERN PetscErrorCode SamElasticityApplyTangential(SamElasticity elasticity, Vec q, Vec u_t);
 
@@ -206,6 +224,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyTangential(SamElasticity elasticit
   Out:    u_t        - tangential displacement (m), two components; it may be the same vector as p
 
   Errors: PETSC_ERR_SUP if the type has no such product; those of SamElasticitySetUp().
+
+  See also: SamElasticityApplyTangentialToNormal(), SamElasticityGetTraits().
 */
 PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity elasticity, Vec p, Vec u_t);
 
@@ -219,6 +239,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity e
   Out:    u_z        - normal displacement (m), one component; it may be the same vector as q
 
   Errors: PETSC_ERR_SUP if the type has no such product; those of SamElasticitySetUp().
+
+  See also: SamElasticityApplyNormalToTangential(), SamElasticityGetTraits().
 */
 PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity elasticity, Vec q, Vec u_z);
 
@@ -233,6 +255,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity e
           tangential - the larger of u_x from q_x and u_y from q_y (m/Pa); NULL: not wanted
 
   Errors: those of SamElasticitySetUp().
+
+  See also: SamElasticityApplyNormal(), SamElasticityApplyTangential().
 */
 PETSC_EXTERN PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity elasticity, PetscReal *normal,
                                                           PetscReal *tangential);

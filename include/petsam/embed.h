@@ -54,6 +54,8 @@ typedef struct petsam_contact petsam_contact;
 
   Loads are given to petsam_try(). -gap_type flat, for one, may stand for a gap that petsam_set_field() gives. Bulk
   stresses are constant.
+
+  See also: petsam_set_field(), petsam_try(), petsam_destroy().
 */
 int petsam_create(int comm, const char *options, petsam_contact **c);
 
@@ -72,6 +74,8 @@ int petsam_create(int comm, const char *options, petsam_contact **c);
   Errors: none of its own.
 
   The centre of cell (i, j) is at x = center[0] - size[0]/2 + (i + 1/2) size[0]/n[0], and so for y.
+
+  See also: petsam_set_field(), petsam_get_field().
 */
 int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], int *first_row, int *rows);
 
@@ -87,6 +91,8 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
   Errors: 2 for another name, a value that is not finite, or a negative coefficient.
 
   Slip belongs to a place and is kept; the pressure is solved again in the next step. The function forgets a tried step.
+
+  See also: petsam_grid(), petsam_get_field().
 */
 int petsam_set_field(petsam_contact *c, const char *name, const double *values);
 
@@ -121,6 +127,8 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   With the option -errors companion the step is solved on other cells and in two halves, too, and each of its numbers
   NAME has an estimated error, the number NAME_error in the same unit: NaN if unknown. Files of petsam_save() have the
   states of these runs, unless a step is tried at that moment; of a file without them, petsam_load() leaves NaN.
+
+  See also: petsam_step_name(), petsam_commit(), petsam_reject(), petsam_history().
 */
 int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                double rigid[6]);
@@ -138,6 +146,8 @@ int petsam_try(petsam_contact *c, double time, const char *names, const double v
   Errors: none; it returns no error code.
 
   The name lives as long as the contact.
+
+  See also: petsam_try().
 */
 const char *petsam_step_name(petsam_contact *c, int k, const char **unit);
 
@@ -169,6 +179,8 @@ typedef int (*petsam_monitor)(void *context, petsam_contact *c, int cycle);
 
   The history ends early if a step has no solution, did not converge or is at the edge of the grid, with that code; the
   step is then tried and not committed.
+
+  See also: petsam_monitor, petsam_live(), petsam_try().
 */
 int petsam_history(petsam_contact *c, const char *columns, int rows, const double *values, petsam_monitor monitor,
                    void *context);
@@ -190,6 +202,8 @@ int petsam_history(petsam_contact *c, const char *columns, int rows, const doubl
   ends the run.
 
   Options -wear_rtol and the like have effect. Files are written, and the run ends early, as in petsam_history().
+
+  See also: petsam_history(), petsam_monitor.
 */
 int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows, const double *values,
                 petsam_monitor monitor, void *context);
@@ -207,6 +221,8 @@ int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows,
   The warnings concern solutions that are right for the grid but may not be intended, for example a slip zone only a few
   cells wide. They are the warnings of the program after a history of the committed steps and this one, without those
   about wear, which petsam_commit() gives. Computing them takes some time, which is spent in this function only.
+
+  See also: petsam_warning().
 */
 int petsam_advise(petsam_contact *c, int *count);
 
@@ -221,6 +237,8 @@ int petsam_advise(petsam_contact *c, int *count);
   Errors: none; it returns no error code.
 
   A warning is a line of text that names an option that helps. It exists until the next step is tried.
+
+  See also: petsam_advise().
 */
 const char *petsam_warning(const petsam_contact *c, int k);
 
@@ -235,6 +253,8 @@ const char *petsam_warning(const petsam_contact *c, int k);
 
   The wear of the step, if any, is removed from the bodies. If the step wears more than the limit of a step,
   petsam_message() has a warning.
+
+  See also: petsam_try(), petsam_reject().
 */
 int petsam_commit(petsam_contact *c);
 
@@ -248,6 +268,8 @@ int petsam_commit(petsam_contact *c);
   Errors: 2 if a monitor calls it.
 
   Later steps are, to the last bit, as if the step had not been tried.
+
+  See also: petsam_try(), petsam_commit().
 */
 int petsam_reject(petsam_contact *c);
 
@@ -268,6 +290,8 @@ int petsam_reject(petsam_contact *c);
   at the end of the step, as -slip_direction end does; with mid, entries of a slip that turns differ by up to a quarter.
   With 1 it is the stiffness at the time at which the motion reverses, and symmetric; without a tried step it is that of
   the committed one.
+
+  See also: petsam_stiffness_with(), petsam_try().
 */
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
 
@@ -287,6 +311,8 @@ int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
   The displacement of a case is its factor; its load is the number NAME_load, the work of the contact's tractions by a
   unit of the factor. So the rows of cases have the opposite sign of their columns: with 1 for `reversal` the parts
   between components, and between cases, are symmetric, and k[n i + j] = -k[n j + i] between a component and a case.
+
+  See also: petsam_stiffness(), petsam_step_name().
 */
 int petsam_stiffness_with(petsam_contact *c, int reversal, const char *cases, double *k);
 
@@ -301,6 +327,8 @@ int petsam_stiffness_with(petsam_contact *c, int reversal, const char *cases, do
   Out:    values - this rank's rows (unit of the field in the results file); each rank receives its own
 
   Errors: 2 for an unknown name, or without a solved step.
+
+  See also: petsam_field_name(), petsam_grid().
 */
 int petsam_get_field(petsam_contact *c, const char *name, double *values);
 
@@ -315,6 +343,8 @@ int petsam_get_field(petsam_contact *c, const char *name, double *values);
   Out:    value - the number (unit of the column in the results file)
 
   Errors: 2 for an unknown name, without a tried step, and for a cycle before petsam_live().
+
+  See also: petsam_number_name().
 */
 int petsam_get_number(petsam_contact *c, const char *name, double *value);
 
@@ -329,6 +359,8 @@ int petsam_get_number(petsam_contact *c, const char *name, double *value);
   Errors: none; it returns no error code.
 
   The name lives as long as the contact.
+
+  See also: petsam_get_field().
 */
 const char *petsam_field_name(petsam_contact *c, int k);
 
@@ -343,6 +375,8 @@ const char *petsam_field_name(petsam_contact *c, int k);
   Errors: none; it returns no error code.
 
   The name lives as long as the contact.
+
+  See also: petsam_get_number().
 */
 const char *petsam_number_name(petsam_contact *c, int k);
 
@@ -358,6 +392,8 @@ const char *petsam_number_name(petsam_contact *c, int k);
                     have all
 
   Errors: 2 for a wrong option, or without a solved step; 3 for a file that cannot be used.
+
+  See also: petsam_get_stress(), petsam_stress_name(), petsam_fatigue().
 */
 int petsam_stress(petsam_contact *c, const char *options, int shape[4]);
 
@@ -373,6 +409,8 @@ int petsam_stress(petsam_contact *c, const char *options, int shape[4]);
 
   The steps of petsam_history(), and of the last computed cycle of petsam_live(), are recorded, too. A step takes 40
   bytes per cell.
+
+  See also: petsam_fatigue(), petsam_commit().
 */
 int petsam_record(petsam_contact *c, int on);
 
@@ -390,6 +428,8 @@ int petsam_record(petsam_contact *c, int on);
 
   A warning of petsam_message() reports a cycle that is not closed: the tractions of its last step differ from those of
   the state in which recording began.
+
+  See also: petsam_record(), petsam_get_stress().
 */
 int petsam_fatigue(petsam_contact *c, const char *options, int shape[4]);
 
@@ -407,6 +447,8 @@ int petsam_fatigue(petsam_contact *c, const char *options, int shape[4]);
   Errors: 2 for a name of which the last of these calls has no result.
 
   The results are, to the last bit, those of petsam-stress on the same steps.
+
+  See also: petsam_stress(), petsam_fatigue(), petsam_stress_name().
 */
 int petsam_get_stress(petsam_contact *c, const char *name, double *values);
 
@@ -420,6 +462,8 @@ int petsam_get_stress(petsam_contact *c, const char *name, double *values);
   Out:    dimensions - number of its dimensions: 1, 3 or 4; NULL: not wanted
 
   Errors: none; it returns no error code.
+
+  See also: petsam_get_stress().
 */
 const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions);
 
@@ -432,6 +476,8 @@ const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions);
           file - name of the file
 
   Errors: 2 without a committed step; 3 for a file that cannot be written.
+
+  See also: petsam_load(), petsam_copy().
 */
 int petsam_save(petsam_contact *c, const char *file);
 
@@ -447,6 +493,8 @@ int petsam_save(petsam_contact *c, const char *file);
 
   Sums that only the file has are ignored. The function discards a tried step. Afterwards only the loads, displacements
   and time are known of the step's numbers.
+
+  See also: petsam_save(), petsam_copy().
 */
 int petsam_load(petsam_contact *c, const char *file);
 
@@ -461,6 +509,8 @@ int petsam_load(petsam_contact *c, const char *file);
   Errors: 2 for a contact of other ranks, grid or gap, or if a monitor calls it.
 
   The function forgets a tried step of `c`.
+
+  See also: petsam_save(), petsam_load().
 */
 int petsam_copy(petsam_contact *c, petsam_contact *from);
 
@@ -474,6 +524,8 @@ int petsam_copy(petsam_contact *c, petsam_contact *from);
   Errors: 2 if a monitor calls it.
 
   The function forgets a tried step.
+
+  See also: petsam_reject(), petsam_create().
 */
 int petsam_reset(petsam_contact *c);
 

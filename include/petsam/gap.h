@@ -7,6 +7,8 @@
 /*
   SamGap - the shape of the bodies: it gives the separation h (m) of the undeformed bodies at the cell centres when they
   touch at x = y = 0 without load. Its types are registered by name; a new type is one file.
+
+  See also: SamGapCreate(), SamGapFill(), SamProblemSetGap().
 */
 typedef struct _n_SamGap *SamGap;
 
@@ -30,6 +32,8 @@ typedef const char *SamGapType;
   Out:    gap  - the gap
 
   Errors: none of its own.
+
+  See also: SamGapDestroy(), SamGapSetType(), SamGapFill().
 */
 PETSC_EXTERN PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap);
 
@@ -53,6 +57,8 @@ PETSC_EXTERN PetscErrorCode SamGapDestroy(SamGap *gap);
           create - function that sets the type's methods; see <petsam/private/gapimpl.h>
 
   Errors: none of its own.
+
+  See also: SamGapSetType(), SamOptionsPlugins().
 */
 PETSC_EXTERN PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap));
 
@@ -65,6 +71,8 @@ PETSC_EXTERN PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*c
           prefix - the prefix, without dash; copied; NULL: none
 
   Errors: PETSC_ERR_ARG_SIZ for a prefix that is too long.
+
+  See also: SamGapSetFromOptions().
 */
 PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[]);
 
@@ -80,6 +88,8 @@ PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix
   sets too many parameters or no heights.
 
   The option -gap_type sets the type, too.
+
+  See also: SamGapSetParameter(), SamGapSetFile(), SamGapFill().
 */
 PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 
@@ -93,6 +103,8 @@ PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
           value - the number (unit of the option: m, or degrees for an angle)
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for a name that the type does not have, or a value out of its range.
+
+  See also: SamGapSetType(), SamGapFill().
 */
 PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value);
 
@@ -111,6 +123,8 @@ PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], Pe
   Datasets of shape (ny, nx) are separations in m unless their attributes units and quantity say otherwise
   (examples/manual/SURFACES.md). The options -gap_file, -gap_dataset, and -gap_rough_file, -gap_rough_dataset set the
   same.
+
+  See also: SamGapSetType(), SamGapFill().
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[]);
 
@@ -127,6 +141,8 @@ PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const cha
   Errors: SAM_ERR_USER for missing or wrong values.
 
   While the help is printed, the options of all types are listed, none is required, and the gap stays flat.
+
+  See also: SamGapSetOptionsPrefix(), SamGapFill().
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
 
@@ -143,6 +159,8 @@ PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
   cannot be read, is not HDF5, or lacks the dataset, and for a dataset of another shape or size, with values that are
   not finite, or with an unknown unit or quantity; SAM_ERR_USER if the parameters of the shape contradict each other or
   overflow on this grid.
+
+  See also: SamGridCreateVec(), SamGapSetType(), SamProblemSetGap().
 */
 PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
 

@@ -45,6 +45,8 @@ struct _n_SamGrid {
 
   The grid and all objects on it use a communicator of the library, PETSc's duplicate of `comm`, so that their messages
   never meet those of the caller.
+
+  See also: SamGridDestroy(), SamGridCreateVec(), SamElasticityCreate().
 */
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
@@ -73,6 +75,8 @@ PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 
   On each rank the local part holds one component after the other, each as (rows, nx). Only written parts of the field
   take memory, so that a field that stays zero, such as the shear without friction, costs nothing.
+
+  See also: SamGridNorm(), SamGridX(), SamGapFill().
 */
 PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field);
 
@@ -115,6 +119,8 @@ static inline PetscBool SamGridIsRow(SamGrid grid)
           i    - index of the column in the whole grid
 
   Errors: none; it returns no error code.
+
+  See also: SamGridY().
 */
 static inline PetscReal SamGridX(SamGrid grid, PetscInt i)
 {
@@ -130,6 +136,8 @@ static inline PetscReal SamGridX(SamGrid grid, PetscInt i)
           j    - index of the row in the whole grid
 
   Errors: none; it returns no error code.
+
+  See also: SamGridX().
 */
 static inline PetscReal SamGridY(SamGrid grid, PetscInt j)
 {

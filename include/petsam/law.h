@@ -41,6 +41,8 @@ typedef const char       *SamLawType;
   Out:    law        - the law
 
   Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for a type that is not registered.
+
+  See also: SamProblemAddLaw(), SamProblemAddLawOfType(), SamLawDestroy().
 */
 PETSC_EXTERN PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *law);
 
@@ -68,6 +70,8 @@ PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
   Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_LAWS types.
 
   Laws act in the order in which their types were registered.
+
+  See also: SamLawCreate(), SamOptionsPlugins().
 */
 PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*create)(SamLaw));
 
@@ -80,6 +84,8 @@ PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*c
           hardness - maximum pressure (Pa); infinite: none
 
   Errors: PETSC_ERR_ARG_WRONG for a law of another type; PETSC_ERR_ARG_OUTOFRANGE unless the hardness is > 0.
+
+  See also: SamLawCreate(), SamProblemAddLaw().
 */
 PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
 
@@ -96,6 +102,8 @@ PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
   PETSC_ERR_ARG_SIZ for a vector of another size.
 
   The values are at the points of the body that lie under the cells before any motion.
+
+  See also: SamLawCreate(), SamGridCreateVec().
 */
 PETSC_EXTERN PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface);
 

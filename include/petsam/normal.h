@@ -30,6 +30,8 @@ static inline SamSolver SamNormalAsSolver(SamNormal normal)
   Out:    normal     - the solver
 
   Errors: none of its own.
+
+  See also: SamNormalSolve(), SamSolverSetFromOptions(), SamNormalDestroy().
 */
 PETSC_EXTERN PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal);
 
@@ -53,6 +55,8 @@ PETSC_EXTERN PetscErrorCode SamNormalDestroy(SamNormal *normal);
           create - function that sets the solver's methods; see <petsam/private/solverimpl.h>
 
   Errors: none of its own.
+
+  See also: SamSolverSetType(), SamOptionsPlugins().
 */
 PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamSolver));
 
@@ -87,6 +91,8 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
   Where displacements are measured from the mean planes (SamElasticityTraits), a given approach must be less than the
   mean separation unless there is a pressure limit; else the reason is NO_EQUILIBRIUM. It is also NO_EQUILIBRIUM for a
   load that exceeds the limit on the whole grid.
+
+  See also: SamSolverSetTolerances(), SamSolverGetReason(), SamSolverGetStatistics().
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
 

@@ -35,6 +35,8 @@ typedef struct {
           values     - the values (unit of the option); copied
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for another count, or a parameter too many.
+
+  See also: SamParametersAddText(), SamParametersFind().
 */
 PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, const char name[], PetscBool fixed,
                                                   PetscInt count, const PetscReal values[]);
@@ -50,6 +52,8 @@ PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, con
           text       - the text; copied
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for a parameter too many.
+
+  See also: SamParametersAddReals(), SamParametersFind().
 */
 PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, const char name[], PetscBool fixed,
                                                  const char text[]);
@@ -63,6 +67,8 @@ PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, cons
           name       - name of the parameter
 
   Errors: none; it returns no error code.
+
+  See also: SamParametersAddReals(), SamParametersAddText().
 */
 PETSC_EXTERN const SamParameter *SamParametersFind(const SamParameters *parameters, const char name[]);
 

@@ -19,6 +19,8 @@ typedef struct _n_SamProblem *SamProblem;
   Out:    problem    - the problem
 
   Errors: none of its own.
+
+  See also: SamProblemSetGap(), SamProblemSetFriction(), SamProblemAddLaw(), SamContactCreate().
 */
 PETSC_EXTERN PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem);
 
@@ -43,6 +45,8 @@ PETSC_EXTERN PetscErrorCode SamProblemDestroy(SamProblem *problem);
   Errors: none; it returns no error code.
 
   They are those of the bodies, of their motion and of the laws that have been added.
+
+  See also: SamConditionsAdd(), SamControlSet().
 */
 PETSC_EXTERN SamConditions SamProblemGetConditions(SamProblem problem);
 
@@ -66,6 +70,8 @@ PETSC_EXTERN SamElasticity SamProblemGetElasticity(SamProblem problem);
           h       - separation (m), one component; copied
 
   Errors: PETSC_ERR_ARG_SIZ for a vector of another size.
+
+  See also: SamGapFill(), SamProblemGetGap().
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetGap(SamProblem problem, Vec h);
 
@@ -79,6 +85,8 @@ PETSC_EXTERN PetscErrorCode SamProblemSetGap(SamProblem problem, Vec h);
   Errors: none; it returns no error code.
 
   It may be changed through PETSc's functions (VecGetArray(), VecAXPY() ...), which raise its revision.
+
+  See also: SamProblemSetGap().
 */
 PETSC_EXTERN Vec SamProblemGetGap(SamProblem problem);
 
@@ -93,6 +101,8 @@ PETSC_EXTERN Vec SamProblemGetGap(SamProblem problem);
   Errors: PETSC_ERR_ARG_WRONG for a second law of a type, or a law of another problem.
 
   Laws act in the order in which their types were registered.
+
+  See also: SamLawCreate(), SamProblemAddLawOfType(), SamProblemGetLaw().
 */
 PETSC_EXTERN PetscErrorCode SamProblemAddLaw(SamProblem problem, SamLaw law);
 
@@ -106,6 +116,8 @@ PETSC_EXTERN PetscErrorCode SamProblemAddLaw(SamProblem problem, SamLaw law);
   Out:    law     - the law; borrowed; NULL: not wanted
 
   Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for a type that is not registered.
+
+  See also: SamProblemAddLaw(), SamProblemGetLaw().
 */
 PETSC_EXTERN PetscErrorCode SamProblemAddLawOfType(SamProblem problem, SamLawType type, SamLaw *law);
 
@@ -118,6 +130,8 @@ PETSC_EXTERN PetscErrorCode SamProblemAddLawOfType(SamProblem problem, SamLawTyp
           type    - name of the type
 
   Errors: none; it returns no error code.
+
+  See also: SamProblemAddLaw(), SamProblemAddLawOfType().
 */
 PETSC_EXTERN SamLaw SamProblemGetLaw(SamProblem problem, SamLawType type);
 
@@ -130,6 +144,8 @@ PETSC_EXTERN SamLaw SamProblemGetLaw(SamProblem problem, SamLawType type);
           friction - the coefficient (1), >= 0
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for a coefficient that is negative or not finite.
+
+  See also: SamProblemSetFrictionField().
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetFriction(SamProblem problem, PetscReal friction);
 
@@ -143,6 +159,8 @@ PETSC_EXTERN PetscErrorCode SamProblemSetFriction(SamProblem problem, PetscReal 
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for coefficients that are negative or not finite; PETSC_ERR_ARG_SIZ for a vector of
   another size.
+
+  See also: SamProblemSetFriction(), SamGridCreateVec().
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetFrictionField(SamProblem problem, Vec friction);
 

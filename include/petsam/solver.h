@@ -38,6 +38,8 @@ typedef enum {
   In:     reason - the reason
 
   Errors: none; it returns no error code.
+
+  See also: SamSolverGetReason().
 */
 PETSC_EXTERN const char *SamSolverReasonName(SamSolverReason reason);
 
@@ -52,6 +54,8 @@ PETSC_EXTERN const char *SamSolverReasonName(SamSolverReason reason);
   Errors: SAM_ERR_USER for an unknown type, with the list of registered types.
 
   The option -<kind>_type sets the type, too.
+
+  See also: SamSolverGetType(), SamNormalRegister(), SamTangentialRegister().
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetType(SamSolver solver, SamSolverType type);
 
@@ -63,6 +67,8 @@ PETSC_EXTERN PetscErrorCode SamSolverSetType(SamSolver solver, SamSolverType typ
   In:     solver - the solver
 
   Errors: none; it returns no error code.
+
+  See also: SamSolverSetType().
 */
 PETSC_EXTERN SamSolverType SamSolverGetType(SamSolver solver);
 
@@ -75,6 +81,8 @@ PETSC_EXTERN SamSolverType SamSolverGetType(SamSolver solver);
           prefix - the prefix, without dash; copied; NULL: none
 
   Errors: PETSC_ERR_ARG_SIZ for a prefix that is too long.
+
+  See also: SamSolverSetFromOptions().
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetOptionsPrefix(SamSolver solver, const char prefix[]);
 
@@ -90,6 +98,8 @@ PETSC_EXTERN PetscErrorCode SamSolverSetOptionsPrefix(SamSolver solver, const ch
   Errors: PETSC_ERR_ARG_OUTOFRANGE for a value below zero, or rtol 0.
 
   The options -<kind>_rtol and -<kind>_max_it set the same.
+
+  See also: SamSolverGetStatistics(), SamSolverMonitorSet().
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetTolerances(SamSolver solver, PetscReal rtol, PetscInt max_it);
 
@@ -108,6 +118,8 @@ typedef PetscErrorCode (*SamSolverMonitor)(SamSolver solver, PetscInt it, PetscR
   Errors: PETSC_ERR_ARG_OUTOFRANGE for more than five functions.
 
   The option -<kind>_monitor adds a function that prints the error.
+
+  See also: SamSolverSetTolerances().
 */
 PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver solver, SamSolverMonitor monitor, void *context);
 
@@ -121,6 +133,8 @@ PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver solver, SamSolverMonit
   Options: -<kind>_type, -<kind>_rtol, -<kind>_max_it, -<kind>_levels, -<kind>_monitor, -<kind>_error_if_not_converged,
   those of the type, and -<kind>_view and -<kind>_converged_reason, viewers that are used after every solve.
   Errors: SAM_ERR_USER with the option's name for a wrong value.
+
+  See also: SamSolverSetOptionsPrefix(), SamSolverSetTolerances().
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver solver);
 
@@ -132,6 +146,8 @@ PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver solver);
   In:     solver - the solver
 
   Errors: none; it returns no error code.
+
+  See also: SamSolverReasonName(), SamSolverGetStatistics().
 */
 PETSC_EXTERN SamSolverReason SamSolverGetReason(SamSolver solver);
 
@@ -147,6 +163,8 @@ PETSC_EXTERN SamSolverReason SamSolverGetReason(SamSolver solver);
           preconditions - number of products with the preconditioner; NULL: not wanted
 
   Errors: none of its own.
+
+  See also: SamSolverGetReason(), SamSolverSetTolerances().
 */
 PETSC_EXTERN PetscErrorCode SamSolverGetStatistics(SamSolver solver, PetscReal *error, PetscInt *iterations,
                                                    PetscInt *applies, PetscInt *preconditions);

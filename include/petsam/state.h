@@ -71,6 +71,8 @@ static inline PetscInt SamStateFieldSize(const SamStateField *field)
   Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_STATE_MOST fields or fields of results.
 
   Declaring the same name again returns the same handle.
+
+  See also: SamStateSetField(), SamStateGetField(), SamStateFindField().
 */
 PETSC_EXTERN PetscErrorCode SamStateDeclareField(SamState state, const SamStateField *field, PetscInt *id);
 
@@ -107,6 +109,8 @@ typedef struct {
   Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_STATE_DECLARED declarations, or SAM_STATE_NUMBERS values.
 
   Numbers declared one after the other lie side by side. Declaring the same name again returns the same place.
+
+  See also: SamStateFindNumber(), SamStateDeclareField().
 */
 PETSC_EXTERN PetscErrorCode SamStateDeclareNumber(SamState state, const SamStateNumber *number, PetscInt *id);
 
@@ -140,6 +144,8 @@ typedef struct {
   Errors: PETSC_ERR_ARG_OUTOFRANGE for a handle that no declaration has returned.
 
   The vector is zero when it is created, and has old values later.
+
+  See also: SamStateGetField(), SamStateReadField().
 */
 PETSC_EXTERN PetscErrorCode SamStateSetField(SamState state, PetscInt id, Vec *field);
 
@@ -154,6 +160,8 @@ PETSC_EXTERN PetscErrorCode SamStateSetField(SamState state, PetscInt id, Vec *f
           generation - the generation
 
   Errors: none; it returns no error code.
+
+  See also: SamStateSetField(), SamStateReadField(), SamStateFindField().
 */
 PETSC_EXTERN Vec SamStateGetField(SamState state, PetscInt id, SamGeneration generation);
 
@@ -169,6 +177,8 @@ PETSC_EXTERN Vec SamStateGetField(SamState state, PetscInt id, SamGeneration gen
   Errors: none; it returns no error code.
 
   The vector is borrowed until the next try, commit or rejection.
+
+  See also: SamStateGetField(), SamStateFindField().
 */
 PETSC_EXTERN Vec SamStateReadField(SamState state, PetscInt id);
 
@@ -181,6 +191,8 @@ PETSC_EXTERN Vec SamStateReadField(SamState state, PetscInt id);
           name  - name of the field
 
   Errors: none; it returns no error code.
+
+  See also: SamStateReadField(), SamStateDeclareField().
 */
 PETSC_EXTERN PetscInt SamStateFindField(SamState state, const char name[]);
 
@@ -193,6 +205,8 @@ PETSC_EXTERN PetscInt SamStateFindField(SamState state, const char name[]);
           name  - name of the numbers
 
   Errors: none; it returns no error code.
+
+  See also: SamStateDeclareNumber().
 */
 PETSC_EXTERN PetscInt SamStateFindNumber(SamState state, const char name[]);
 

@@ -60,6 +60,8 @@ typedef struct {
 
   Here n and t are the unit motion of the column, B is the coupling of dissimilar bodies, and b_p and b_s are the
   derivatives of the bound b of the shear by the pressure and by the length of the slip: mu and 0 of Coulomb's friction.
+
+  See also: SamContactTry(), SamContactCommit().
 */
 PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, PetscInt count,
                                                 const SamCondition *const conditions[], SamStiffness *stiffness);

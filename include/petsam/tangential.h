@@ -33,6 +33,8 @@ static inline SamSolver SamTangentialAsSolver(SamTangential tangential)
   Out:    tangential - the solver
 
   Errors: none of its own.
+
+  See also: SamTangentialSolve(), SamSolverSetFromOptions(), SamTangentialDestroy().
 */
 PETSC_EXTERN PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential);
 
@@ -56,6 +58,8 @@ PETSC_EXTERN PetscErrorCode SamTangentialDestroy(SamTangential *tangential);
           create - function that sets the solver's methods; see <petsam/private/solverimpl.h>
 
   Errors: none of its own.
+
+  See also: SamSolverSetType(), SamOptionsPlugins().
 */
 PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)(SamSolver));
 
@@ -90,6 +94,8 @@ PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorC
 
   The relative error is the residual of the projection equation q = D(q - ds/c), D the projection onto the discs |q| <=
   bound and c the self-influence of a cell: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm.
+
+  See also: SamSolverSetTolerances(), SamSolverGetReason(), SamCellStateOf().
 */
 PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
                                                PetscBool guess, Vec q);

@@ -22,6 +22,8 @@
 
   Errors: PETSC_ERR_ARG_OUTOFRANGE for a coefficient that is negative or not finite; PETSC_ERR_ARG_WRONG for a law of
   another type.
+
+  See also: SamLawCreate(), SamProblemAddLaw().
 */
 PETSC_EXTERN PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2]);
 

@@ -18,10 +18,13 @@ Each function has a comment of a fixed form directly above its prototype:
       Errors: PETSC_ERR_SUP for another type of norm.
 
       Further paragraphs.
+
+      See also: SamGridCreateVec(), SamGrid. (the next ones that its reader needs, on one line; optional)
     */
 
---check writes nothing, and fails with a line for each function without such a comment, and for each argument, unit,
-or paragraph that is missing. Functions are those of PETSC_EXTERN, of petsam/embed.h, and inline ones but for casts.
+--check writes nothing, and fails with a line for each function without such a comment, for each argument, unit, or
+paragraph that is missing, and for each name after "See also:" that no public header declares. Functions are those of
+PETSC_EXTERN, of petsam/embed.h, and inline ones but for casts.
 """
 
 import argparse
@@ -136,6 +139,33 @@ def read_block(comment):
     return block
 
 
+def public_names(paths):
+    """The names of all functions and types of headers, in the way that a comment refers to them."""
+    bare = "\n".join(COMMENT.sub("", path.read_text(encoding="utf-8")) for path in paths)
+    called = {f"{found['name']}()" for found in PROTOTYPE.finditer(bare)}
+    types = re.findall(r"(?:^typedef [^;{}]*?[ *(]|\} ?)\*?(\w+)\)?(?:\([^;]*\))?;", bare, re.M)
+    return called | {name for name in types if name.startswith(("Sam", "petsam_"))}
+
+
+def wrong_references(path, known):
+    """The faults of the lines "See also:" in a header: (line, sentence)."""
+    text = path.read_text(encoding="utf-8")
+    for comment in COMMENT.finditer(text):
+        own = re.match(r"/\*\n  (\w+) - ", comment.group())
+        for found in re.finditer(r"See also:.*", comment.group()):
+            line = text.count("\n", 0, comment.start() + found.start()) + 1
+            names = re.fullmatch(r"See also: ((?:\w+(?:\(\))?, )*\w+(?:\(\))?)\.", found.group())
+            if not own or not names or comment.group()[found.end() :] != "\n*/":
+                yield line, "'See also: NAME, NAME().' is no last line of the comment of a function or type"
+                continue
+            listed = names[1].split(", ")
+            for name in listed:
+                if name not in known or name.rstrip("()") == own[1] or listed.count(name) > 1:
+                    yield line, f"{own[1]} refers to {name}: expected another public name, once"
+            if len(listed) > 4:
+                yield line, f"{own[1]} refers to {len(listed)} names: expected 4 at most"
+
+
 def missing_arguments(function, block):
     listed = [name for _, name, _ in block.entries]
     for name in function.arguments:
@@ -226,8 +256,11 @@ def main():
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "functions.md", help="file of the page")
     parser.add_argument("--check", action="store_true", help="write nothing; fail when a comment lacks something")
     arguments = parser.parse_args()
-    gaps = 0
+    gaps, known = 0, public_names({*headers(), *arguments.headers})
     for path in arguments.headers or headers():
+        for line, fault in wrong_references(path, known):
+            print(f"{path}:{line}: {fault}")
+            gaps += 1
         for function in read_functions(path)[0]:
             for gap in missing(function):
                 print(f"{path}:{function.line}: {function.name} {gap}")

@@ -246,6 +246,7 @@ PetscErrorCode SamContactGetField(SamContact c, const char name[], Vec field)
   SamValidHandle(c, SamContact, 1);
   SamValidPointer(name, 2);
   SamValidVec(field, 3);
+  SamValidVecOn(c->grid->comm, 1, field, 3);
   PetscCall(SamGridCheckVec(c->grid, 1, field, name));
   PetscCall(SamContactHasField(c, name, &has));
   PetscCheck(has, c->grid->comm, PETSC_ERR_ARG_UNKNOWN_TYPE, "Unknown field %s", name);

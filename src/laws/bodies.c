@@ -51,6 +51,7 @@ PetscErrorCode SamLawCreate_Bodies(SamLaw law)
   PetscFunctionBegin;
   law->any_motion = PETSC_TRUE;
   for (SamElasticity o = law->elasticity; o; o = o->inner) {
+    if (o->ops.declare || o->ops.conditions || o->ops.begin || o->ops.advance) law->always = PETSC_TRUE;
     if (o->ops.displace) law->always = law->displaces = PETSC_TRUE;
     if (o->ops.begin) law->forbids_jumps = PETSC_TRUE;
     if (o->ops.begin) law->any_motion = PETSC_FALSE;

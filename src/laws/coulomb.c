@@ -1,6 +1,7 @@
 /* Coulomb's friction: |q| <= mu p; mu is a number or a field, times a factor of the step. */
 #include <petsam/private/grid.h>
 #include <petsam/private/lawimpl.h>
+#include <petsam/private/problem.h>
 #include <petsam/private/fieldfile.h>
 #include <petsam/problem.h>
 #include <petsam/private/parameters.h>
@@ -61,6 +62,7 @@ PetscErrorCode SamProblemSetFrictionField(SamProblem p, Vec friction)
   PetscFunctionBegin;
   SamValidHandle(p, SamProblem, 1);
   SamValidVec(friction, 2);
+  SamValidVecOn(SamProblemGetGrid(p)->comm, 1, friction, 2);
   PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, &law));
   PetscCall(SetField(law, friction));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -48,6 +48,7 @@ PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface)
   PetscFunctionBegin;
   SamValidHandle(law, SamLaw, 1);
   SamValidVec(surface, 3);
+  SamValidVecOn(law->grid->comm, 1, surface, 3);
   PetscCheck(body == 0 || body == 1, law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "Body %" PetscInt_FMT ": expected 0 or 1", body);
   PetscCheck(!strcmp(law->type, SAM_LAW_SLIDE), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no surface",

@@ -60,9 +60,40 @@ def test_gap_is_found_with_its_place(tmp_path, old, new, gap):
     header.write_text(text[:start] + text[start:].replace(old, new, 1))
     done = check(header)
     name = "SamGridX" if "SamGridX" in gap else "SamGridNorm"
-    line = next(k for k, row in enumerate(header.read_text().split("\n"), 1) if f" {name}(" in row)
+    line = next(k for k, row in enumerate(header.read_text().split("\n"), 1) if re.match(rf"\w.* {name}\(", row))
     assert done.returncode == 1 and gap in done.stdout
     assert f"{header}:{line}: {name} " in done.stdout
+
+
+REFERENCES = (
+    ("SamGridNorm(), SamGridX()", "SamGridNorms(), SamGridX()", "refers to SamGridNorms(): expected another public"),
+    ("SamGridNorm(), SamGridX()", "SamGridNorm, SamGridX()", "refers to SamGridNorm: expected another public"),
+    ("SamGridNorm(), SamGridX()", "SamGridX(), SamGridX()", "refers to SamGridX(): expected another public"),
+    ("SamGridNorm(), SamGridX()", "SamGridCreateVec(), SamGrid", "refers to SamGridCreateVec(): expected another"),
+    ("SamGridNorm(), SamGridX()", "SamGrid, SamGridX(), SamGap, SamLaw", "refers to 5 names: expected 4 at most"),
+    ("SamGapFill().\n", "SamGapFill()\n", "is no last line of the comment"),
+    ("SamGapFill().\n", "SamGapFill().\n\n  More.\n", "is no last line of the comment"),
+)
+
+
+@pytest.mark.parametrize(("old", "new", "fault"), REFERENCES)
+def test_reference_to_no_public_name_is_found(tmp_path, old, new, fault):
+    """In "See also: SamGridNorm(), SamGridX(), SamGapFill()." of SamGridCreateVec()."""
+    text = GRID.read_text()
+    start = text.index("/*\n  SamGridCreateVec - ")
+    assert old in text[start:]
+    header = tmp_path / "grid.h"
+    header.write_text(text[:start] + text[start:].replace(old, new, 1))
+    done = check(header)
+    assert done.returncode == 1 and fault in done.stdout
+
+
+def test_references_are_many_and_on_the_page():
+    assert len(re.findall(r"^  See also: ", HEADERS, re.M)) > 100
+    assert {"SamGridNorm()", "SamContact", "SamNormalAsSolver()", "petsam_monitor"} <= functions.public_names(
+        functions.headers()
+    )
+    assert "\nSee also: `SamGridNorm()`, `SamGridX()`, `SamGapFill()`.\n" in functions.page()
 
 
 def test_function_without_arguments_says_so(tmp_path):
@@ -154,6 +185,32 @@ def test_function_checks_its_arguments_first(function):
     for check in needed:  # one that is removed is missed
         without = re.sub(rf"^ *{re.escape(check)}\n", "", body, count=1, flags=re.M)
         assert missing_checks(needed, without) == [check]
+
+
+# those with a communicator
+ON_RANKS = CLASSES - {"SamBody", "SamPair", "SamConditions"} | {"Vec"}
+
+
+def meeting(function):
+    """The numbers of the arguments that are objects or vectors with a communicator."""
+    kinds = [declaration.split() for declaration in function.arguments.values()]
+    return [k for k, kind in enumerate(kinds, 1) if kind[0] in ON_RANKS and len(kind) == 2 and "*" not in kind[1]]
+
+
+MEETINGS = [function for function in PUBLIC if len(meeting(function)) > 1]
+
+
+@pytest.mark.parametrize("function", MEETINGS, ids=[function.name for function in MEETINGS])
+def test_function_compares_the_communicators_of_its_arguments_first(function):
+    first, *others = meeting(function)
+    statements = definition(function.name)[1].partition("PetscFunctionBegin;\n")[2].split("\n")
+    checks = "\n".join(itertools.takewhile(lambda line: re.match(r" *(?:if \(|SamValid|\})", line), statements))
+    for other in others:
+        assert re.search(rf"SamValid(?:SameComm|VecOn)\(.+, {first}, .+, {other}\);", checks)
+
+
+def test_functions_with_two_objects_are_found():
+    assert len(MEETINGS) == 14 and "SamProblemAddLaw" in [function.name for function in MEETINGS]
 
 
 def test_objects_have_a_class_from_their_creation_to_their_end():

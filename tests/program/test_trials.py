@@ -51,8 +51,8 @@ def test_each_is_short_and_named_by_its_registry_alone():
     folder = ROOT / "tests/trials"
     registry = (folder / "trials.c").read_text()
     sources = sorted(set(folder.glob("*.c")) - {folder / "trials.c"})
-    assert len(sources) == len(re.findall(r"^ .*Register\(", registry, re.M)) == 7  # one has an option and a number
-    assert all(len(path.read_text().splitlines()) < 120 for path in sources)
+    assert len(sources) == len(re.findall(r"^ .*Register\(", registry, re.M)) == 9  # one has an option and a number
+    assert all(len(path.read_text().splitlines()) < 230 for path in sources)
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
@@ -177,3 +177,117 @@ def test_motion_has_its_name_and_refuses_what_it_does_not_know(petsam, tmp_path)
     said = petsam(dict(SPHERE, rolling="guided", load_tx=5), check=2).stderr
     assert "load_tx = 5: expected 0: the bodies are guided" in said
     assert "none, steady or guided" in petsam(dict(SPHERE, rolling="gliding"), check=2).stderr
+
+
+# a standard linear solid: displacements creep like 1 + PART (1 - exp(-t/TIME))
+PART, TIME = 3.0, 2.0
+VISCOUS = dict(SPHERE, load_n=None, elasticity="viscous", creep_part=PART, creep_time=TIME, friction=0, history="h.csv")
+
+
+def creep(t):
+    return 1 + PART * (1 - np.exp(-np.asarray(t) / TIME))
+
+
+def relaxation(t):
+    """The load under which the displacement is constant, relative to its first value."""
+    return 1 / (1 + PART) + PART / (1 + PART) * np.exp(-(1 + PART) * np.asarray(t) / TIME)
+
+
+def write_history(path, times, **columns):
+    table = np.column_stack([times, *(np.broadcast_to(values, np.shape(times)) for values in columns.values())])
+    np.savetxt(path / "h.csv", table, delimiter=",", header=",".join(["time", *columns]), comments="", fmt="%.17g")
+
+
+def history(path, *names):
+    with h5py.File(path / "out.h5") as f:
+        return [f[f"history/{name}"][:] for name in names]
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_pressure_under_a_constant_approach_relaxes(petsam, tmp_path, ranks):
+    """The contact stays that of the first step, and its pressure falls like the modulus, to second order in dt."""
+    errors = []
+    for steps in (20, 40):
+        times = np.linspace(0, 2, steps + 1)
+        write_history(tmp_path, times, disp_z=6e-6)
+        petsam(VISCOUS, ranks=ranks)
+        load, area = history(tmp_path, "load_n", "contact_area")
+        assert area == pytest.approx(area[0], rel=1e-6)
+        errors.append(np.abs(load / load[0] / relaxation(times) - 1).max())
+        # each step to the accuracy of the solver: the inverse of the same weights, for a load alone
+        x = times[1] / TIME
+        mean, memory, p = (1 - np.exp(-x)) / x, 0.0, [1.0]
+        for _ in times[1:]:
+            recalled = np.exp(-x) * memory + (mean - np.exp(-x)) * p[-1]
+            p.append((1 - PART * recalled) / (1 + PART * (1 - mean)))
+            memory = recalled + (1 - mean) * p[-1]
+        assert load / load[0] == pytest.approx(p, rel=1e-6)
+    assert errors[1] < 2e-3 and 3.5 < errors[0] / errors[1] < 4.5
+
+
+def test_contact_of_a_sphere_grows_under_a_constant_load(petsam, tmp_path):
+    """Lee and Radok: a^3 grows like the creep, and the approach is a^2/R."""
+    load, times = 100, np.linspace(0, 1, 13) ** 2 * 8
+    write_history(tmp_path, times, load_n=load)
+    petsam(dict(VISCOUS, grid_n=64))
+    approach, area = history(tmp_path, "disp_z", "contact_area")
+    square = (3 * 0.1 * load / (4 * MODULUS) * creep(times)) ** (2 / 3)
+    assert approach == pytest.approx(square / 0.1, rel=1e-3)
+    # the edge of fresh contact is stiffer than a root behind it, by which areas are reconstructed
+    assert area == pytest.approx(np.pi * square, rel=4e-2)
+
+
+def test_layered_bodies_creep_to_softer_ones(petsam, tmp_path):
+    """All materials of a pair creep alike: under a constant load it ends as the elastic pair of relaxed moduli."""
+    layer = dict(body2_layer_young=70e9, body2_layer_poisson=0.3, body2_layer_thickness=2e-4)
+    write_history(tmp_path, [0, *(2.0 ** np.arange(-3, 6)), *np.arange(50, 250, 25)], load_n=200)
+    petsam(dict(VISCOUS, **layer))
+    found = petsam.read("pressure", "disp_z")
+    soft = dict(layer, body2_layer_young=70e9 / (1 + PART), **bodies(210e9 / (1 + PART)))
+    petsam(dict(SPHERE, load_n=200, friction=0, **soft))
+    for one, other in zip(found, petsam.read("pressure", "disp_z")):
+        assert one == pytest.approx(other, rel=1e-6, abs=1e-6 * np.max(other))
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_tangential_displacement_creeps_under_the_same_shear(petsam, tmp_path, ranks):
+    """A load that has crept for long is sheared: the shear stays, its displacement grows like the creep."""
+    start = 240
+    times = np.array([*np.arange(0, start + 1, 20), *(start + np.array([1e-9, 0.5, 1, 3, 7]))])
+    sheared = times > start
+    write_history(tmp_path, times, load_n=200, load_tx=20 * sheared)
+    petsam(dict(VISCOUS, friction=0.3, output_fields="usual"), ranks=ranks)
+    moved, stick = history(tmp_path, "disp_x", "stick_area")
+    moved, stick = moved[sheared], stick[sheared]
+    assert moved == pytest.approx(moved[0] * creep(times[sheared] - start), rel=1e-6)
+    assert stick == pytest.approx(stick[0], rel=1e-5)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_viscous_body_restarts_with_the_same_bits(petsam, tmp_path, ranks):
+    write_history(tmp_path, [0, 1, 2.5, 4], load_n=[100, 150, 130, 160], load_tx=[0, 10, 20, -10])
+    case = dict(VISCOUS, friction=0.3, **bodies(210e9, 0.3, 70e9, 0.2), checkpoint="c.h5", checkpoint_every=2)
+    petsam(case, ranks=ranks)
+    petsam(dict(case, output="on.h5", checkpoint=None, checkpoint_every=None, restart="c.h5.1"), ranks=ranks)
+    for name in ("pressure", "shear_x", "disp_z", "disp_x"):
+        assert petsam.read(name)[0].tobytes() == petsam.read(name, file="on.h5")[0].tobytes()
+    said = petsam(dict(case, restart="c.h5", creep_part=2 * PART), ranks=ranks, check=2).stderr
+    assert "creep" in said
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_conductance_of_a_disc_and_of_any_contact(petsam, ranks):
+    """Bodies of conductivity k through a disc: 2 a k. Through any contact: its stiffness in other units (Barber)."""
+    k, size = (50.0, 20.0), 2.2e-3
+    both = 2 / (1 / k[0] + 1 / k[1])
+    case = dict(SPHERE, elasticity="conducting", conductivities=k, grid_n=96, grid_size=size, stiffness=True,
+        output_fields="usual,conducted",
+    )  # fmt: skip
+    petsam(dict(case, load_n=700), ranks=ranks)
+    conductance, area, flux = petsam.read("conductance", "contact_area", "conducted")
+    assert conductance == pytest.approx(2 * both * np.sqrt(area / np.pi), rel=2e-3)
+    assert flux.sum() * (size / 96) ** 2 == pytest.approx(conductance, rel=1e-6)
+    flat = dict(gap_type="ellipsoid", gap_radius_x=0.3, gap_radius_y=0.05, gap_radius1=None, gap_radius2=None)
+    petsam(case | flat | dict(load_n=100), ranks=ranks)
+    conductance, stiffness = petsam.read("conductance", "stiffness_reversal")
+    assert conductance / both == pytest.approx(stiffness.reshape(6, 6)[0, 0] / MODULUS, rel=1e-6)

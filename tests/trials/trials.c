@@ -10,6 +10,8 @@ PetscErrorCode SamPluginRegister(void)
   PetscCall(SamLawRegister("wetness", CreateWetness));
   PetscCall(SamLawRegister("square", CreateSquare));
   PetscCall(SamElasticityRegister("creeping", CreateCreeping));
+  PetscCall(SamElasticityRegister("viscous", CreateViscous));
+  PetscCall(SamElasticityRegister("conducting", CreateConducting));
   PetscCall(SamGapRegister("wave", CreateWave));
   return SamMotionRegister(&Guided);
 }

@@ -7,5 +7,7 @@ PetscErrorCode                         CreateAdhesion(SamLaw law);
 PetscErrorCode                         CreateWetness(SamLaw law);
 PetscErrorCode                         CreateSquare(SamLaw law);
 PetscErrorCode                         CreateCreeping(SamElasticity elasticity);
+PetscErrorCode                         CreateViscous(SamElasticity elasticity);
+PetscErrorCode                         CreateConducting(SamElasticity elasticity);
 PetscErrorCode                         CreateWave(SamGap gap);
 PETSC_INTERN const struct _n_SamMotion Guided;

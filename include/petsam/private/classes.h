@@ -62,4 +62,21 @@ static inline PetscBool SamIsOfClass(const void *object, SamClassId id)
                "Argument # %d is not a Vec, or it has been destroyed", argument); \
   } while (0)
 
+/*
+  SamValidSameComm - raises PETSC_ERR_ARG_NOTSAMECOMM unless two arguments, given by their communicators and numbers,
+  are on the same ranks in the same order. The library duplicates communicators, so that these need not be identical.
+  The comparison is local: each rank on which the communicators differ fails, and none waits for the others.
+  SamValidVecOn does the same for a vector and the communicator of an object.
+*/
+#define SamValidSameComm(comm, argument, other, other_argument) \
+  do { \
+    int compared; \
+\
+    PetscCallMPI(MPI_Comm_compare(comm, other, &compared)); \
+    PetscCheck(compared == MPI_IDENT || compared == MPI_CONGRUENT, PETSC_COMM_SELF, PETSC_ERR_ARG_NOTSAMECOMM, \
+               "Different communicators: arguments # %d and # %d", argument, other_argument); \
+  } while (0)
+#define SamValidVecOn(comm, argument, vector, vector_argument) \
+  SamValidSameComm(comm, argument, PetscObjectComm((PetscObject)(vector)), vector_argument)
+
 #endif

@@ -14,6 +14,8 @@ PETSC_INTERN PetscErrorCode SamStateCreate(SamGrid grid, SamState *state);
 /* SamStateCreateLike - creates another state with the same declarations and no values. Collective. */
 PETSC_INTERN PetscErrorCode SamStateCreateLike(SamState state, SamState *other);
 PETSC_INTERN PetscErrorCode SamStateDestroy(SamState *state);
+/* SamStateComm - returns the communicator of the grid. Not collective. */
+PETSC_INTERN MPI_Comm SamStateComm(SamState state);
 /*
   SamStateBegin - begins a try: it creates a tried generation without fields, in which real numbers that are results are
   NaN, integers 0, and numbers that are no results as in the committed generation. During the try, numbers that are not

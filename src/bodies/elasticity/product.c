@@ -64,6 +64,8 @@ static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent
     SamValidHandle(e, SamElasticity, 1); \
     SamValidVec(in, 2); \
     SamValidVec(out, 3); \
+    SamValidVecOn(e->grid->comm, 1, in, 2); \
+    SamValidVecOn(e->grid->comm, 1, out, 3); \
     SamElasticityWith(e, method); \
     PetscCall(Apply(e, e->ops.method, event, film, in, out)); \
     PetscFunctionReturn(PETSC_SUCCESS); \

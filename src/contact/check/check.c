@@ -12,6 +12,7 @@
 #include <petsam/tangential.h>
 #include <petsam/private/balance.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/state.h>
 
 /* Adds the tangential displacement by the pressure, and the normal displacement by the shear. */
 static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const SamSolution *s)
@@ -336,6 +337,7 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   if (state) SamValidHandle(state, SamState, 2);
   SamValidPointer(solution, 6);
   SamValidPointer(check, 7);
+  if (state) SamValidSameComm(SamProblemGetGrid(problem)->comm, 1, SamStateComm(state), 2);
   grid = SamProblemGetGrid(problem);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscCall(PetscMemzero(check, sizeof(*check)));

@@ -116,6 +116,7 @@ PetscErrorCode SamProblemSetGap(SamProblem p, Vec h)
   PetscFunctionBegin;
   SamValidHandle(p, SamProblem, 1);
   SamValidVec(h, 2);
+  SamValidVecOn(p->grid->comm, 1, h, 2);
   PetscCall(SamGridCheckVec(p->grid, 1, h, "The gap"));
   PetscCall(VecCopy(h, p->gap));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -164,6 +165,7 @@ PetscErrorCode SamProblemAddLaw(SamProblem p, SamLaw law)
   PetscFunctionBegin;
   SamValidHandle(p, SamProblem, 1);
   SamValidHandle(law, SamLaw, 2);
+  SamValidSameComm(p->grid->comm, 1, law->grid->comm, 2);
   PetscCheck(!SamProblemGetLaw(p, law->type), p->grid->comm, PETSC_ERR_ARG_WRONG, "The problem has a law %s already",
              law->type);
   PetscCall(SamLawReference(law));

@@ -386,6 +386,7 @@ PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *no
   SamValidHandle(grid, SamGrid, 1);
   SamValidVec(field, 2);
   SamValidPointer(norm, 4);
+  SamValidVecOn(grid->comm, 1, field, 2);
   PetscCheck(type == NORM_1 || type == NORM_2, grid->comm, PETSC_ERR_SUP, "Only NORM_1 and NORM_2");
   PetscCall(VecGetLocalSize(field, &n));
   PetscCall(VecGetArrayRead(field, &x));

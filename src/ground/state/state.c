@@ -99,6 +99,11 @@ PetscErrorCode SamStateDestroy(SamState *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+MPI_Comm SamStateComm(SamState s)
+{
+  return s->grid->comm;
+}
+
 /* ---- declarations ---- */
 
 PetscErrorCode SamStateOffer(SamState s, const SamStateResult *result)

@@ -385,6 +385,8 @@ PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, Pets
   SamValidVec(h, 2);
   SamValidPointer(balance, 3);
   SamValidVec(p, 5);
+  SamValidVecOn(SamNormalAsSolver(normal)->comm, 1, h, 2);
+  SamValidVecOn(SamNormalAsSolver(normal)->comm, 1, p, 5);
   PetscCall(SolveProblem(normal, h, NULL, balance, guess, p, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -364,6 +364,9 @@ PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offse
   if (offset) SamValidVec(offset, 3);
   SamValidPointer(balance, 4);
   SamValidVec(q, 6);
+  SamValidVecOn(SamTangentialAsSolver(tangential)->comm, 1, bound, 2);
+  if (offset) SamValidVecOn(SamTangentialAsSolver(tangential)->comm, 1, offset, 3);
+  SamValidVecOn(SamTangentialAsSolver(tangential)->comm, 1, q, 6);
   PetscCall(SamTangentialSolveKeeping(tangential, bound, offset, balance, guess, q, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -326,6 +326,8 @@ PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
   SamValidHandle(gap, SamGap, 1);
   SamValidHandle(grid, SamGrid, 2);
   SamValidVec(h, 3);
+  SamValidSameComm(gap->comm, 1, grid->comm, 2);
+  SamValidVecOn(gap->comm, 1, h, 3);
   PetscCheck(gap->type[0], gap->comm, PETSC_ERR_ORDER, "Call SamGapSetType() or SamGapSetFromOptions() first");
   for (PetscInt k = 0; k < gap->ops.count; k++)
     PetscCheck(!isnan(gap->values[k]), gap->comm, PETSC_ERR_ORDER, "Call SamGapSetParameter() for %s first",
