@@ -21,9 +21,8 @@ from ..joint.wear import Wear
 from ..results.fields import OPEN, SLIP
 from .fields import STATES
 from .style import COLORS, STYLE, WHOLE, bar, drawn, joined, logarithmic, plt
-from .symbols import scalar
 from .units import label as labelled
-from .units import largest, on_axis
+from .units import largest, on_axis, plain
 
 THIN = {"markersize": 5.0, "linewidth": 1.0, "capsize": 3.0}
 MARKS = "os^Dv"
@@ -311,7 +310,7 @@ def saved(found: Saved) -> Figure:
             x, y = (np.array(one.values)[curves == name] for one in (columns[below], column))
             factors = [on_axis(one.unit, largest([np.array(one.values)])) for one in (columns[below], column)]
             joined(ax, factors[0][0] * x, factors[1][0] * y, color, mark + "-", label=name or None)
-        heads = [labelled(scalar(one.name), unit) for one, (_, unit) in zip((columns[below], column), factors)]
+        heads = [labelled(plain(one.name), unit) for one, (_, unit) in zip((columns[below], column), factors)]
         ax.set(xlabel=heads[0], ylabel=heads[1])
     if "assembly" in columns:
         axes[0][0].legend()
