@@ -8,8 +8,10 @@
       0 N (N)      1 Tx (N)     2 Ty (N)     3 Mx (N m)    4 My (N m)    5 Mz (N m)
       0 d_z (m)    1 d_x (m)    2 d_y (m)    3 r_x (rad)   4 r_y (rad)   5 r_z (rad)
   Body 1, the upper one, moves, body 2 is fixed; loads act on body 1, so that the contact's forces on it are their
-  opposites. Moments and rotations are about x = y = 0, right-handed about x, y and the normal that points up, from body
-  2 to body 1; N presses down, and d_z is the approach. With pressure p and shear q on body 2,
+  opposites. x, y and z are right-handed, with z into body 2. Moments and rotations about x = y = 0 turn about x and y
+  by the left hand, about z by the right hand; with y reversed, which files of petsam-compliance exclude, all are
+  right-handed about x, y and the normal n = -z. N presses along z, and d_z is the approach. With pressure p and shear
+  q on body 2,
       N  = sum p dA      Mx = -sum y p dA      My = sum x p dA
       Tx = sum q_x dA    Ty =  sum q_y dA      Mz = sum (x q_y - y q_x) dA
   Displacements are relative to infinity: they contain the compliance of both half-spaces. All units are SI.

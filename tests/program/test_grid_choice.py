@@ -119,10 +119,15 @@ def test_an_unknown_option_is_refused_before_any_trial(petsam, sphere_alone):
     assert "trial 1:" in petsam(sphere_alone, "-accuracy", "5%", *late).stdout
 
 
-def test_a_misspelled_accuracy_is_named_beside_the_missing_grid(petsam, sphere_alone):
+@pytest.mark.parametrize("wrong", ["acuracy_of", "outptu", "wear_cyles", "checkpoint_evry"])
+def test_every_unknown_option_is_refused_before_any_trial(petsam, sphere_alone, wrong):
+    done = petsam(sphere_alone, "-accuracy", "1%", f"-{wrong}", "3", check=2)
+    assert f"-{wrong} 3: unknown option: is -" in done.complaint[0] and "trial" not in done.stdout
+
+
+def test_a_misspelled_accuracy_is_named_before_the_missing_grid(petsam, sphere_alone):
     done = petsam(sphere_alone, "-acuracy", "1%", check=2)
-    assert "-grid_n is missing" in done.complaint[0]
-    assert "is -acuracy meant for -accuracy?" in done.complaint[0]
+    assert "-acuracy: unknown option: is -accuracy meant? -grid_n is missing: " in done.complaint[0]
 
 
 def test_a_given_grid_is_kept(petsam, sphere_alone):
@@ -214,7 +219,15 @@ def test_what_no_grid_resolves_ends_the_trials(petsam, sphere_alone):
     """The stick zone of a push to 0.99999 of the limit: three trials, and the error is told."""
     run = petsam({**sphere_alone, "load_tx": 99.9999}, "-accuracy", "2%")
     assert chosen(run.stdout)[1] == 3
-    assert any("the maximum error is unknown, of stick_area" in line for line in run.complaint)
+    says = "-accuracy 2 % is not reached: the maximum error is unknown, of stick_area"
+    assert any(says in line and line.endswith("; finer cells do not lower it") for line in run.complaint)
+
+
+def test_an_accuracy_beyond_all_grids_is_told_with_what_can_be_reached(petsam, sphere_alone):
+    case = {**sphere_alone, "elasticity": "plane", "load_n": 1e6, "load_tx": None}
+    run = petsam(case, "-accuracy", "1e-9", "-accuracy_of", "contact_area")
+    told = [line for line in run.complaint if "-accuracy 1e-07 % is not reached: the maximum error is " in line]
+    assert told and told[0].endswith("; -accuracy can choose no finer grid and no more steps")
 
 
 def test_a_note_is_given_once(petsam, sphere_alone):

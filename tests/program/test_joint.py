@@ -372,7 +372,10 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
     [
         (("none.h5", "--pressure", "1MPa"), "none.h5: "),
         (("text.h5", "--pressure", "1MPa"), "text.h5: "),
-        (("flat.h5", "--pressure", "1MPa"), "no dataset height or separation"),
+        (
+            ("flat.h5", "--pressure", "1MPa"),
+            "no dataset height or separation; convert another one by petsam-surface FILE --dataset NAME",
+        ),
         (
             ("gaps.h5", "--pressure", "1MPa"),
             "gaps.h5: no surface of petsam-surface: /height has no number at 4 of 1024 ",

@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 import petsam
+from petsam.commands import compliance as compliance_command
 from petsam.commands import loads as command
+from petsam.compliance import frames
 from petsam.core.errors import Error, Unusable
 from petsam.loads import doubts, resultants
 from petsam.loads.forces import Forces
+from support import ROOT
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 SQRT = np.sqrt(0.5)
@@ -159,6 +162,17 @@ def test_signs_are_those_of_the_manual():
     """One node on body 2 at x = 2 m, y = 3 m: N = sum p, Mx = -sum y p, My = sum x p, Mz = sum x q_y - y q_x."""
     loads = resultants.summed(np.array([[2.0, 3.0, 0.0]]), np.array([[[5.0, 7.0, 11.0]]]))
     assert loads.tolist() == [[11.0, 5.0, 7.0, -33.0, 22.0, 2 * 7.0 - 3 * 5.0]]
+
+
+def test_page_help_and_commands_have_one_frame():
+    """z into body 2 and y = z x x: y is out of the page where x is to the right and n is up."""
+    page, header = ((ROOT / name).read_text() for name in ("examples/manual/LOADS.md", "include/petsam/embed.h"))
+    programs = compliance_command.__doc__, command.__doc__, (ROOT / "src/front/app/petsam.help").read_text()
+    for text in (page, header, *programs):
+        assert "x, y and z are right-handed, with z into body 2" in " ".join(text.split())
+    assert "(out of the page)" in page and "y = z x x" in page
+    axes = frames.frame_of((0, 0, 0), (1, 0, 0), (0, 0, -1), np.array([0.0, 0.0, 1.0])).axes
+    assert axes[1].tolist() == [0.0, -1.0, 0.0]  # with x to the right and n up, +y is into the page
 
 
 def test_a_box_is_a_patch_and_all_nodes_are_one(files, dovetail):

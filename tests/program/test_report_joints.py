@@ -7,6 +7,8 @@ import pytest
 
 import petsam
 from petsam.commands import joint as command
+from petsam.commands import plot as plot_command
+from petsam.joint.balance import RESPONSE, Response
 from petsam.joint.band import Band
 from petsam.joint.interfaces import Interface, Outcome
 from petsam.joint.wear import Wear
@@ -112,6 +114,87 @@ def test_the_command_writes_the_page_with_its_options(tmp_path, monkeypatch):
     expected = dict(action="stiffness", file="scan&lt;1&gt;.h5", pressure="1MPa,2MPa", body1="steel", body2="steel")
     assert {name: shown[name] for name in expected} == expected and shown["normal-only"] == "yes"
     assert "report" not in shown
+
+
+def worn():
+    names = ("frequency", "damping", "energy", "volume", "frequency_error", "damping_error")
+    numbers = {"cycles": np.array([0.0, 1e3, 1e4]), **{name: np.array([3.0, 2.0, 1.0]) for name in names}}
+    return Wear(numbers, {"tension_B1 [N]": np.array([1e4, 9e3, 8e3])}, [])
+
+
+def responded():
+    numbers = {name: np.array([1.0, 2.0, 4.0]) for name in RESPONSE}
+    return Response(numbers, np.zeros((3, 1, 1)), np.ones((3, 1)), ["patch1"])
+
+
+SAVED = {
+    "interface": lambda: interface({"loop_energy": np.array([0.01, 0.02, 0.03])}),
+    "backbone": made,
+    "band": lambda: Band({"as given": made(), "without friction": made(lower=0.01)}, {}),
+    "response": responded,
+    "wear": worn,
+}
+
+
+@pytest.mark.parametrize("kind", SAVED)
+def test_a_saved_table_has_the_page_of_its_result(tmp_path, monkeypatch, kind):
+    found = SAVED[kind]()
+    found.to_csv(tmp_path / "t.csv")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.argv", ["petsam-plot", "--report", "t.html", "t.csv"])
+    assert plot_command.main() == 0
+    page, text = read(tmp_path / "t.html")
+    assert page.titles == ["Numbers", "Pictures", "Citation"] and len(page.all("img")) == 1
+    saved = petsam.joint.read("t.csv")
+    for column, written in zip(found.table(), saved.table()):
+        assert (column.name, column.unit) == (written.name, written.unit)
+        assert list(column.values) == pytest.approx(list(written.values)) if column.unit else column.values
+        if column.name.partition("_")[0] not in ("energy", "tension"):  # of patches and bolts
+            assert column.text == written.text
+    if kind != "band":  # its page has limits instead of assemblies
+        found.report("own.html")
+        own = (tmp_path / "own.html").read_text()
+        assert own.partition("<h1>")[2].partition("</h1>")[0] == text.partition("<h1>")[2].partition("</h1>")[0]
+        for first, row in cells(own).items():
+            assert sum(cells(text)[first], []) == pytest.approx(sum(row, []))
+
+
+def test_a_band_has_a_curve_for_each_assembly(tmp_path):
+    SAVED["band"]().to_csv(tmp_path / "t.csv")
+    left, right = petsam.plot.saved(petsam.joint.read(tmp_path / "t.csv")).axes
+    assert [one.get_label() for one in left.lines] == ["as given", "without friction"]
+    assert right.lines[0].get_ydata() == pytest.approx([100.0, 200.0, 400.0])  # 1e-6
+
+
+@pytest.mark.parametrize(
+    "lines, says",
+    [
+        (["depth [m],load [N]", "1,2"], "its first column is depth: tables of petsam-joint begin with one of pressure"),
+        (["alpha [1],frequency [Hz]", "1,2,3"], "row 1 has 3 values, and there are 2 columns"),
+        (["alpha [1],frequency [Hz]", "1,x"], "column frequency [Hz]: could not convert string to float: 'x'"),
+        (["alpha [1]"], "no table: expected a line of heads, as name [unit], and lines of values"),
+        ([], "no table"),
+    ],
+)
+def test_another_table_is_refused(tmp_path, lines, says):
+    (tmp_path / "t.csv").write_text("\n".join(lines))
+    with pytest.raises(petsam.Error, match=re.escape(f"t.csv: {says}")):
+        petsam.joint.read(tmp_path / "t.csv")
+
+
+@pytest.mark.parametrize(
+    "given, says",
+    [
+        ([], "a table of petsam-joint is drawn on a page: give --report NAME.html"),
+        (["--report", "t.html", "--loop"], "--loop: has no effect on the page of a table"),
+        (["--report", "t.html", "--at", "0,0"], "--at: has no effect on the page of a table"),
+    ],
+)
+def test_a_table_has_a_page_and_no_other_pictures(tmp_path, monkeypatch, capsys, given, says):
+    worn().to_csv(tmp_path / "t.csv")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.argv", ["petsam-plot", *given, "t.csv"])
+    assert plot_command.main() and says in capsys.readouterr().err and not (tmp_path / "t.html").exists()
 
 
 def test_what_cannot_be_is_refused(tmp_path, monkeypatch, capsys):

@@ -14,6 +14,7 @@
     petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles
     petsam-plot --scar --cycle -1 --measured 2:profile.csv life.h5     a measured profile beside body 2's
     petsam-plot --report run.html sphere.h5         a page: inputs, numbers, errors, check, history, pictures
+    petsam-plot --report joint.html joint.csv       a page of the table that petsam-joint -o joint has written
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
@@ -33,6 +34,7 @@ import os
 from ..core.errors import Error
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
+from ..joint.saved import read as read_joint
 from ..plot import kinds as kinds_of
 from ..plot import looks, pictures, reports, saving, tables
 from ..plot.kinds import STUDY
@@ -45,6 +47,7 @@ from . import plot_uses as uses
 from .line import guarded, quietly
 from .plot_arguments import FORMATS
 
+TABLE = ".csv"  # end of the name of a table of petsam-joint
 OF_RESULTS, OF_STRESSES = tuple(kinds_of.OF_RESULTS), tuple(kinds_of.OF_STRESSES)
 KINDS = tuple(dict.fromkeys(OF_STRESSES[:3] + OF_RESULTS + OF_STRESSES))  # in the order in which they are drawn
 
@@ -199,11 +202,27 @@ def write_report(options, results):
     print("wrote " + options.report)
 
 
+def write_table(options):
+    """The page of a table of petsam-joint, whose pictures no option changes."""
+    file, found = options.files[0], read_joint(options.files[0])
+    if not options.report:
+        raise Error(f"{file}: a table of petsam-joint is drawn on a page: give --report NAME.html")
+    for name in (*asked(options), *uses.given(options)):
+        raise Error(f"{file}: --{name}: has no effect on the page of a table: remove it")
+    if same(file, options.report):
+        raise Error(f"{options.report}: would replace the table; give another name")
+    reports.report(found, options.report)
+    print("wrote " + options.report)
+
+
 def draw_all(options):
     """All pictures that are asked for."""
     if options.report:
         need_replaceable(options.report)
-    else:
+    if os.path.splitext(options.files[0])[1].lower() == TABLE:
+        write_table(options)
+        return
+    if not options.report:
         need_folder(os.path.dirname(os.path.realpath(options.output or "picture")), options.output or "pictures")
     if options.csv:
         need_replaceable(options.csv)

@@ -238,7 +238,10 @@ def _check(parser, options):
 
 def _read(parser, given):
     parser.add_argument(
-        "files", nargs="+", metavar="FILE.h5", help="of petsam, petsam-stress or petsam-study; several are compared"
+        "files",
+        nargs="+",
+        metavar="FILE.h5",
+        help="of petsam, petsam-stress or petsam-study; several are compared; for a report also a CSV of petsam-joint",
     )
     for group in (_pictures, _quantities, _steps, _look):
         group(parser)

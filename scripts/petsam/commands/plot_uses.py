@@ -36,6 +36,11 @@ def _given(options, name):
     return value is not None and value is not False and value != []
 
 
+def given(options):
+    """The names of the given options that pictures use."""
+    return [name for name in NAMES if _given(options, name)]
+
+
 def is_plane(options):
     """Whether a study is drawn over two inputs: --against X,Y."""
     return "," in (options.against or "")

@@ -5,8 +5,8 @@ import io
 import re
 from typing import NamedTuple
 
-from .errors import library
-from .files import need_replaceable
+from .errors import Error, library
+from .files import lines_of, need_replaceable, text_of
 
 HEAD = re.compile(r"(.+?)(?: \[(.*)\])?")
 
@@ -52,6 +52,27 @@ def write_csv(path, columns, form=repr):
     need_replaceable(path)
     with open(path, "w", encoding="utf-8", newline="") as file:
         file.write(csv_text(columns, form))
+
+
+def read_csv(path):
+    """The columns of a file of write_csv(), whose meanings are empty; raises Error where it is none."""
+    heads, *rows = [row for row in csv.reader(lines_of(text_of(path))) if row] or [[]]
+    if not rows:
+        raise Error(f"{path}: no table: expected a line of heads, as name [unit], and lines of values")
+    for k, row in enumerate(rows, 1):
+        if len(row) != len(heads):
+            raise Error(f"{path}: row {k} has {len(row)} values, and there are {len(heads)} columns")
+    return [Column(*split(text), "", _values(path, text, values)) for text, values in zip(heads, zip(*rows))]
+
+
+def _values(path, text, values):
+    """The values of a column: texts, or with a unit numbers; an empty cell is NaN."""
+    if not split(text)[1]:
+        return list(values)
+    try:
+        return [float(value or "nan") for value in values]
+    except ValueError as error:
+        raise Error(f"{path}: column {text}: {error}") from None
 
 
 def to_dataframe(columns):

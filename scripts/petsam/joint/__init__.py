@@ -7,6 +7,7 @@ backbone    frequency and damping of a mode over its amplitude (backbone.py)
 band        the same over the histories of assembly, and their scatter (band.py)
 wear        what wear does to them over the cycles of a vibration (wear.py)
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
+saved       tables of all these from CSV (saved.py)
 damper      under the platforms of turbine blades, pressed by its centrifugal force (damper.py)
 adapters    contacts in other programs of harmonic balance: tmdsimpy, pyHarm (adapters/)
 """
@@ -19,12 +20,13 @@ from .conductance import Conductors
 from .damper import Damper, damper
 from .interfaces import Interface, interface, mirrored, of_interface, of_windows
 from .pair import Pair
+from .saved import Saved, read
 from .structure import NoSolution, Patch, Structure
 from .sweep import BackboneWarning
 from .wear import Wear, wear
 
 __all__ = [
     "Backbone", "BackboneWarning", "Band", "Conductors", "Damper", "Interface", "NoSolution", "Pair", "Patch",
-    "Response", "Structure", "Wear", "adapters", "backbone", "band", "damper", "forced", "interface", "mirrored",
-    "of_interface", "of_windows", "shake", "wear",
+    "Response", "Saved", "Structure", "Wear", "adapters", "backbone", "band", "damper", "forced", "interface",
+    "mirrored", "of_interface", "of_windows", "read", "shake", "wear",
 ]  # fmt: skip

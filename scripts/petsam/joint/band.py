@@ -135,7 +135,7 @@ class Band(Tabled, Shown):
         -------
         list of tables.Column
         """
-        every = self.every.values()
+        every = list(self.every.values())
         names = [name for name, one in self.every.items() for _ in one.alpha]
         numbers = {name: np.concatenate([one.numbers[name] for one in every]) for name in every[0].numbers}
         columns = [one._replace(unit=self.given._unit(one.unit)) for one in columns_of(COLUMNS, numbers)]

@@ -30,6 +30,13 @@ NAME = "film"  # of a field of a film in messages, and of its dataset in HDF5
 FIRST, POWER = 0.1, 0.95  # of the lowest pressure, for which a row of a card is extrapolated; in proportion to p^POWER
 
 
+def columns_of(electrical):
+    """{name: (unit, text)} of the numbers of a thermal or an electrical conductance."""
+    if not electrical:
+        return COLUMNS
+    return {name: (ELECTRICAL[unit], f"electrical {text}") for name, (unit, text) in COLUMNS.items()}
+
+
 class Conductors(NamedTuple):
     """The conductors of an interface: bodies with layers, films, gas.
 
@@ -63,9 +70,7 @@ class Conductors(NamedTuple):
         -------
         dict
         """
-        if not self.electrical:
-            return COLUMNS
-        return {name: (ELECTRICAL[unit], f"electrical {text}") for name, (unit, text) in COLUMNS.items()}
+        return columns_of(self.electrical)
 
     @property
     def has_film(self) -> bool:

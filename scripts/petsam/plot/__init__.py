@@ -23,7 +23,7 @@ _HOMES = {
         "sections", "stress_maps", "stress_profiles", "study",
     ),
     "reports": ("report", "view"),
-    "of_joints": ("backbone", "band", "conductance", "interface", "joint_wear", "response", "slip_zones"),
+    "of_joints": ("backbone", "band", "conductance", "interface", "joint_wear", "response", "saved", "slip_zones"),
     "of_calibration": ("fit", "scar_fit"),
     "of_compliance": ("compliance",),
     "of_lives": ("lives",),

@@ -8,6 +8,7 @@ from ..joint.backbone import Backbone
 from ..joint.balance import Response
 from ..joint.band import NUMBERS, TEXTS, Band
 from ..joint.interfaces import Interface
+from ..joint.saved import Saved
 from ..joint.wear import Wear
 from . import of_joints, page, sheets
 from .style import STYLE, plt
@@ -26,7 +27,7 @@ KINDS = {
     Wear: ("Frequency and damping of a joint that wears", {"Frequency and damping": of_joints.joint_wear}),
     Interface: ("Stiffness of a rough joint", {"Stiffness and real contact area": of_joints.interface}),
 }
-RESULTS = tuple(KINDS)
+RESULTS = (*KINDS, Saved)
 
 
 def title(found):
@@ -40,6 +41,9 @@ def parts(found, inputs):
 
 
 def _kind(found):
+    """Title and pictures; a table from a file has the title of its kind, and a picture of its columns."""
+    if isinstance(found, Saved):
+        return KINDS[found.kind][0], {"Columns of the table": of_joints.saved}
     return next(one for kind, one in KINDS.items() if isinstance(found, kind))
 
 
@@ -71,7 +75,9 @@ def _error_of(column, known):
 
 
 def _cells(column, errors, limits):
-    """A cell for each row: a number with its error beside it, or the limit below which it is."""
+    """A cell for each row: a text, a number with its error beside it, or the limit below which it is."""
+    if not column.unit:
+        return [page.text(value) for value in column.values]
     cells = []
     for k, value in enumerate(np.asarray(column.values, dtype=float)):
         if limits is not None and value < limits[k]:

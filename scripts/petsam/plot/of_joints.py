@@ -1,5 +1,6 @@
 """Pictures of what petsam.joint has found: interfaces, backbones and their bands, responses, wear."""
 
+import itertools
 from collections.abc import Mapping
 from typing import Optional
 
@@ -15,10 +16,13 @@ from ..joint.backbone import MODAL, Backbone
 from ..joint.balance import Response
 from ..joint.band import ASSEMBLED, NUMBERS, Band
 from ..joint.interfaces import Interface
+from ..joint.saved import Saved
 from ..joint.wear import Wear
 from ..results.fields import OPEN, SLIP
 from .fields import STATES
 from .style import COLORS, STYLE, WHOLE, bar, drawn, joined, logarithmic, plt
+from .units import label as labelled
+from .units import largest, on_axis, plain
 
 THIN = {"markersize": 5.0, "linewidth": 1.0, "capsize": 3.0}
 MARKS = "os^Dv"
@@ -269,6 +273,47 @@ def joint_wear(found: Wear) -> Figure:
         ax.set(xlabel="cycles")
     _changes(axes[0], first, "without wear")
     axes[1].set(title="Damping by friction", ylabel="damping, % of critical")
+    return figure
+
+
+SAVED = {  # of the columns of a file: the one below, and those that are drawn over it
+    Interface: ("pressure", ("k_n", "k_t_x", "k_t_y", "area", "h")),
+    Backbone: ("amplitude", ("frequency", "damping")),
+    Band: ("amplitude", ("frequency", "damping")),
+    Response: ("frequency", ("amplitude", "phase")),
+    Wear: ("cycles", ("frequency", "damping")),
+}
+
+
+@drawn(WHOLE, Saved)
+def saved(found: Saved) -> Figure:
+    """Columns of a table over the first one of its kind; of a band a curve for each assembly.
+
+    Parameters
+    ----------
+    found : joint.Saved
+        The table, of petsam.joint.read().
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    columns = {column.name: column for column in found.table()}
+    below, names = SAVED[found.kind]
+    shown = [columns[name] for name in names if name in columns]
+    curves = np.array(
+        columns["assembly"].values if "assembly" in columns else np.full(np.shape(columns[below].values), "")
+    )
+    figure, axes = plt.subplots(1, len(shown), figsize=(4.0 * len(shown), 3.4), layout="constrained", squeeze=False)
+    for ax, column in zip(axes[0], shown):
+        for name, color, mark in zip(dict.fromkeys(curves), itertools.cycle(COLORS), itertools.cycle(MARKS)):
+            x, y = (np.array(one.values)[curves == name] for one in (columns[below], column))
+            factors = [on_axis(one.unit, largest([np.array(one.values)])) for one in (columns[below], column)]
+            joined(ax, factors[0][0] * x, factors[1][0] * y, color, mark + "-", label=name or None)
+        heads = [labelled(plain(one.name), unit) for one, (_, unit) in zip((columns[below], column), factors)]
+        ax.set(xlabel=heads[0], ylabel=heads[1])
+    if "assembly" in columns:
+        axes[0][0].legend()
     return figure
 
 

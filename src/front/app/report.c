@@ -442,7 +442,7 @@ void SamReportSetAccuracy(SamReport r, const SamAccuracy *accuracy)
 static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
 {
   const SamErrorRow *worst = r->accuracy ? SamAccuracyWorst(r->accuracy, t) : NULL;
-  char               error[SAM_ERROR_TEXT], wanted[SAM_ERROR_TEXT + 32] = "", text[256];
+  char               error[SAM_ERROR_TEXT], wanted[SAM_ERROR_TEXT + 32] = "", limit[80] = "", text[256];
   PetscBool          reached;
 
   PetscFunctionBegin;
@@ -450,8 +450,9 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
   reached = worst->error <= r->accuracy->error ? PETSC_TRUE : PETSC_FALSE;
   if (!reached)
     (void)snprintf(wanted, sizeof(wanted), "-accuracy %.3g %% is not reached: ", 100 * (double)r->accuracy->error);
-  (void)snprintf(text, sizeof(text), "%sthe maximum error is %s, of %s, by the %s", wanted,
-                 SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause]);
+  if (!reached && r->accuracy->limit) (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit);
+  (void)snprintf(text, sizeof(text), "%sthe maximum error is %s, of %s, by the %s%s", wanted,
+                 SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause], limit);
   if (!reached)
     PetscCall(Say(r, &(SamSimulationEvent){.kind = SAM_NOTIFY_ADVICE, .text = text, .setting = ""}));
   else if (!r->quiet)

@@ -561,8 +561,11 @@ static PetscBool Stalls(Task *task, const Choice *was, double factor)
   return task->stalls >= STALLS ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Changes the choice by what a trial on it found; `last`: it is the one to run. */
-static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last)
+/*
+  Changes the choice by what a trial on it found; `last`: it is the one to run; `limit`: set to the reason if the errors
+  cannot become smaller.
+*/
+static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last, const char **limit)
 {
   const Choice was = *c;
   PetscBool    cheap, near;
@@ -582,8 +585,9 @@ static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last)
   if (task->size) Fit(task, t, c);
   Demand(task, &was, t, factor);
   if (Stalls(task, &was, factor[0])) {
-    *c    = was;
-    *last = PETSC_TRUE;
+    *c     = was;
+    *last  = PETSC_TRUE;
+    *limit = "finer cells do not lower it";
     return;
   }
   cheap = (double)was.n[0] * (double)was.n[1] * (double)t->steps <= CHEAP ? PETSC_TRUE : PETSC_FALSE;
@@ -599,8 +603,10 @@ static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last)
   factor[0] = PetscMax(factor[0], *last ? 0.5 : 1);
   if (task->number) Refine(task, &was, factor[0], c);
   Divide(task, factor[1], c);
-  if (c->n[0] == was.n[0] && c->n[1] == was.n[1] && c->steps == was.steps && !Moves(task, &was, c))
-    *last = PETSC_TRUE; /* there are no more */
+  if (c->n[0] == was.n[0] && c->n[1] == was.n[1] && c->steps == was.steps && !Moves(task, &was, c)) {
+    *last  = PETSC_TRUE;
+    *limit = "-accuracy can choose no finer grid and no more steps";
+  }
 }
 
 /* Describes what was chosen. */
@@ -654,7 +660,7 @@ static PetscErrorCode Choose(const SamOptions *from, const SamArguments *argumen
     PetscCall(CheckNames(from, a, trial));
     a->trials++;
     PetscCall(Tell(&task, &c, trial, a));
-    Change(&task, trial, &c, &last);
+    Change(&task, trial, &c, &last, &a->limit);
   }
   PetscCall(PetscFree(trial));
   PetscCall(SetOptions(from, &task, &c));

@@ -10,6 +10,7 @@ from ..basics import QUANTITIES, SAME
 from ..doubts import need_map
 from .stated import HDF5, TEXTS, Reader, Stated
 
+ANOTHER = "convert another one by petsam-surface FILE --dataset NAME -o NEW.h5"
 EVEN = 1e-3  # maximum relative difference of the distances of cells
 
 
@@ -86,9 +87,9 @@ def of_hdf5(path, dataset, bare=False, lengths=True):
         name = name if name in file or dataset else "separation"
         data = file.get(name)
         if data is None and not dataset:
-            raise Error(f"{path}: no dataset height or separation; petsam-surface --dataset chooses another")
+            raise Error(f"{path}: no dataset height or separation; {ANOTHER}")
         if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
-            cure = "petsam-surface --dataset chooses another" if lengths else "give it that name"
+            cure = ANOTHER if lengths else "give it that name"
             raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); {cure}")
         if "scale_factor" in data.attrs or "add_offset" in data.attrs:
             raise Error(
