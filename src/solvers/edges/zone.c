@@ -91,7 +91,7 @@ static PetscErrorCode FindDistances(SamZone *z, PetscReal reach)
   PetscFunctionBegin;
   FillDisc(n, reach, &disc);
   PetscCall(PetscMalloc4(z->count * n, &in, z->count * n, &out_near, z->count * n, &in_near, n, &row));
-  (void)memset(z->bare, 1, (size_t)z->count);
+  for (PetscInt j = 0; j < z->count; j++) z->bare[j] = 1;
   for (PetscInt j = 0; j < z->count; j++) {
     const ptrdiff_t k   = (ptrdiff_t)j * n;
     const char      any = FillRow(n, z->w + k, in + k, row, z->distance + k);
