@@ -519,7 +519,7 @@ static void test_missing_option_is_looked_for_among_those_given(void **state)
     sam_call(PetscOptionsClear(NULL));
     sam_call(PetscOptionsSetValue(NULL, k ? "-pre_bdoy1" : "-pre_body2", "3"));
     sam_says(SamOptionsRequire(&from, PETSC_FALSE, "body1", "a body"), SAM_ERR_USER, "-pre_body1 is missing: a body");
-    sam_assert(k ? strstr(CaughtMessage(), "is -pre_bdoy1 meant") != NULL : !strstr(CaughtMessage(), "meant"));
+    sam_assert(!strstr(CaughtMessage(), "-pre_bdoy1: unknown option: is -pre_body1 meant?") == !k);
   }
   SetText(NULL);
   sam_call(SamOptionsRequire(&from, PETSC_TRUE, "body1", "a body"));
