@@ -117,6 +117,24 @@ def test_states_go_along_with_copies_and_files(tmp_path):
         assert other.try_step(**fourth).errors == last
 
 
+def test_a_companion_that_has_ended_is_kept_with_the_others(tmp_path):
+    """On a quarter of the cells the contact is at the edge of this grid: the errors are those by the others."""
+    narrow = dict(grid_n=32, grid_size=2.5e-3, **UNLIKE)
+    loads = [dict(load_n=1000), dict(load_n=1000, load_tx=150), dict(load_n=900, load_tx=-120)]
+    with contact_of(narrow) as one, contact_of(narrow) as other:
+        for step in loads[:2]:
+            one.try_step(**step)
+            one.commit()
+        one.save("state.h5")
+        expected = one.try_step(**loads[2]).errors
+        other.load("state.h5")
+        other.save("again.h5")
+        other.reset()
+        other.load("again.h5")
+        assert other.try_step(**loads[2]).errors == expected
+        assert expected["shear_max"] > 0 and expected["dissipated_energy"] > 0
+
+
 def test_states_from_elsewhere(tmp_path):
     """A file and another contact without companions have none; a reset needs none."""
     first, second, third, _ = steps_of(1)

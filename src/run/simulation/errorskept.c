@@ -2,27 +2,29 @@
   The companion runs of a simulation in its checkpoints: each is a part with the contact on its own grid, and what its
   numbers have been so far. A restart continues them from there, instead of solving all earlier steps again.
 
-  There are no parts if a companion has ended early, which a restart then finds again, and while a step that was given
-  by itself is tried: its parts have changed the committed state of the companion with other steps.
+  A companion that has ended early is kept with the reason. There are no parts while a step that was given by itself is
+  tried: its parts have changed the committed state of the companion with other steps.
 */
 #include "errorsimpl.h"
 #include <petsam/private/contact.h>
+#include <string.h>
 
 static const char *const names[SAM_RUNS] = {"companion_half", "companion_quarter", "companion_other"};
 
-/* What is kept of a companion besides its contact, in the order of SamErrorNumber */
+/* The rest that is kept of a companion, besides its contact, in the order of SamErrorNumber */
 typedef struct {
-  uint64_t steps[2]; /* its steps so far, and per row of the history */
+  uint64_t steps[2];                              /* its steps so far, and per row of the history */
+  uint64_t fault[SAM_MESSAGE / sizeof(uint64_t)]; /* letters of the reason why it has ended; 0: it has not */
   double   sums[SAM_ERROR_ROWS], marks[SAM_ERROR_ROWS];
 } Run;
 
-/* What is kept of all companions together, with the first part */
+/* The rest that is kept of all companions together, with the first part */
 typedef struct {
   uint64_t numbers; /* checksum of the names of the numbers */
   double   steps[SAM_ERROR_ROWS], largest[4], driven[SAM_COMPONENTS];
 } Common;
 
-#define OF_RUN    3 /* notes on a companion, */
+#define OF_RUN    4 /* notes on a companion, */
 #define OF_COMMON 4 /* and on all together */
 
 /* The parts of a checkpoint */
@@ -51,11 +53,12 @@ static void AddPart(SamErrors e, SamRunKind kind, Kept *k)
   n[0] = (SamNote){"steps", 2, run->steps};
   n[1] = Reals("sums", SAM_ERROR_ROWS, run->sums);
   n[2] = Reals("marks", SAM_ERROR_ROWS, run->marks);
+  n[3] = (SamNote){"fault", PETSC_STATIC_ARRAY_LENGTH(run->fault), run->fault};
   if (!at) {
-    n[3] = (SamNote){"numbers", 1, &k->common.numbers};
-    n[4] = Reals("errors_by_steps", SAM_ERROR_ROWS, k->common.steps);
-    n[5] = Reals("largest", 4, k->common.largest);
-    n[6] = Reals("driven", SAM_COMPONENTS, k->common.driven);
+    n[OF_RUN]     = (SamNote){"numbers", 1, &k->common.numbers};
+    n[OF_RUN + 1] = Reals("errors_by_steps", SAM_ERROR_ROWS, k->common.steps);
+    n[OF_RUN + 2] = Reals("largest", 4, k->common.largest);
+    n[OF_RUN + 3] = Reals("driven", SAM_COMPONENTS, k->common.driven);
   }
   k->kind[at] = kind;
   k->part[at] = (SamCheckpointPart){.name    = names[kind],
@@ -64,10 +67,18 @@ static void AddPart(SamErrors e, SamRunKind kind, Kept *k)
                                     .notes   = n};
 }
 
-static void ListParts(SamErrors e, Kept *k)
+/* Lists the parts, and the numbers as they are declared now. */
+static PetscErrorCode ListParts(SamSimulation s, Kept *k)
 {
+  const SamErrors e = s->errors;
+  SamState        state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  PetscCall(SamErrorsFind(e, state));
   for (SamRunKind kind = SAM_RUN_HALF; kind < SAM_RUNS; kind++)
     if (e->companion[kind].run) AddPart(e, kind, k);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Returns a checksum of the names of the numbers with errors, in their order. */
@@ -76,7 +87,7 @@ static uint64_t ChecksumNumbers(SamErrors e)
   uint64_t sum = 0;
 
   for (PetscInt k = 0; k < e->count; k++)
-    for (const char *letter = e->number[k].of->name; *letter; letter++) sum = SamHashMix(sum + (uint64_t)*letter);
+    sum = SamHashBytes(sum, (const unsigned char *)e->number[k].of->name, strlen(e->number[k].of->name));
   return sum;
 }
 
@@ -115,21 +126,20 @@ static void PassRun(SamErrors e, PetscBool back, SamRunKind kind, Run *r)
   }
 }
 
-/* Returns the steps of a companion per row of the history; 0: there is no history. */
-static uint64_t IncrementsOf(const SamCompanion *c)
+/* Returns the steps of a companion per row of the history that is run; 0: steps are given one by one. */
+static uint64_t IncrementsOf(SamSimulation s, const SamCompanion *c)
 {
-  return c->run->history ? (uint64_t)SamHistoryGetIncrements(c->run->history) : 0;
+  return s->running ? (uint64_t)SamHistoryGetIncrements(c->run->history) : 0;
 }
 
 /* ---- writing ---- */
 
-/* True if the companions' states are those of the same committed steps as the simulation's. */
+/* True if the companions' states are those of the same committed steps as the simulation's, as far as they go. */
 static PetscBool CanKeep(SamSimulation s)
 {
   if (!s->errors || s->life || s->errors->unknown[0]) return PETSC_FALSE;
   for (int c = 0; c < SAM_RUNS; c++)
-    if (s->errors->companion[c].run && (s->errors->companion[c].lost || s->errors->companion[c].moved))
-      return PETSC_FALSE;
+    if (s->errors->companion[c].moved) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
@@ -144,7 +154,8 @@ static void Fill(SamSimulation s, Kept *k)
 
     PassRun(e, PETSC_FALSE, k->kind[p], &k->run[p]);
     k->run[p].steps[0] = (uint64_t)c->steps;
-    k->run[p].steps[1] = IncrementsOf(c);
+    k->run[p].steps[1] = IncrementsOf(s, c);
+    if (c->lost) memcpy(k->run[p].fault, c->fault, sizeof(k->run[p].fault));
   }
 }
 
@@ -157,7 +168,7 @@ PetscErrorCode SamSimulationSave(SamSimulation s, SamCheckpoint checkpoint, cons
   PetscFunctionBegin;
   PetscCall(PetscNew(&k));
   if (CanKeep(s)) {
-    ListParts(s->errors, k);
+    PetscCall(ListParts(s, k));
     Fill(s, k);
   }
   code =
@@ -170,31 +181,35 @@ PetscErrorCode SamSimulationSave(SamSimulation s, SamCheckpoint checkpoint, cons
 /* ---- reading ---- */
 
 /* True if the checkpoint has all parts, of the same numbers and steps. */
-static PetscBool Fits(SamErrors e, Kept *k)
+static PetscBool Fits(SamSimulation s, Kept *k)
 {
   PetscBool fits = k->count ? PETSC_TRUE : PETSC_FALSE;
 
   for (PetscInt p = 0; p < k->count; p++)
-    if (!k->part[p].there || k->run[p].steps[1] != IncrementsOf(&e->companion[k->kind[p]])) fits = PETSC_FALSE;
-  return fits && k->common.numbers == ChecksumNumbers(e) ? PETSC_TRUE : PETSC_FALSE;
+    if (!k->part[p].there || k->run[p].steps[1] != IncrementsOf(s, &s->errors->companion[k->kind[p]]))
+      fits = PETSC_FALSE;
+  return fits && k->common.numbers == ChecksumNumbers(s->errors) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Lets the companions continue from what has been read; otherwise they have no step. */
-static PetscErrorCode Continue(SamErrors e, Kept *k)
+static PetscErrorCode Continue(SamSimulation s, Kept *k)
 {
+  const SamErrors e = s->errors;
+
   PetscFunctionBegin;
-  e->restored = Fits(e, k);
+  e->restored = Fits(s, k);
   for (PetscInt p = 0; p < k->count; p++) {
     SamCompanion *const c = &e->companion[k->kind[p]];
 
-    c->lost     = PETSC_FALSE;
     c->fault[0] = '\0';
     if (e->restored) {
+      memcpy(c->fault, k->run[p].fault, sizeof(k->run[p].fault));
       c->steps = (PetscInt)k->run[p].steps[0];
       PassRun(e, PETSC_TRUE, k->kind[p], &k->run[p]);
     } else if (k->part[p].there) {
       PetscCall(SamContactReset(c->run->setup.contact));
     }
+    c->lost = c->fault[0] ? PETSC_TRUE : PETSC_FALSE;
   }
   if (!e->restored) PetscFunctionReturn(PETSC_SUCCESS);
   PassCommon(e, PETSC_TRUE, &e->committed, &k->common);
@@ -211,11 +226,11 @@ PetscErrorCode SamErrorsRead(SamSimulation s, const char filename[], PetscBool s
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&k));
-  if (s->errors && !s->life) ListParts(s->errors, k);
+  if (s->errors && !s->life) PetscCall(ListParts(s, k));
   for (PetscInt p = 0; p < k->count; p++) PetscCall(SamCompanionReject(&s->errors->companion[k->kind[p]]));
   code =
     SamCheckpointRead(filename, s->setup.contact, sums, &(SamCheckpointRest){parameters, n, notes, k->count, k->part});
-  if (!code && s->errors) code = Continue(s->errors, k);
+  if (!code && s->errors) code = Continue(s, k);
   PetscCall(PetscFree(k));
   PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
