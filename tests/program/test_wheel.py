@@ -416,7 +416,7 @@ def test_an_equilibrium_needs_few_full_solutions(vehicle):
 
 
 def test_loads_of_a_wheelset_are_not_extrapolated_to_fine_grids(axle, monkeypatch):
-    """What warnings need: a wheel alone has it, whose warnings are those of all its solutions."""
+    """Warnings need it: a wheel alone has it, whose warnings are those of all its solutions."""
     steps = []
     solved = contacts.solved
     monkeypatch.setattr(contacts, "solved", lambda *given: steps.append(solved(*given)) or steps[-1])

@@ -46,6 +46,8 @@ struct _n_SamCompliance {
   SamComplianceMoveDatum - makes the matrix that of a half-plane with another datum. Not collective.
 */
 PETSC_INTERN void SamComplianceMoveDatum(SamCompliance compliance, double datum);
+/* SamComplianceOptions - the options of both bodies, without dash. */
+PETSC_INTERN const char *const SamComplianceOptions[2];
 /*
   SamComplianceRead - reads the compliance of body 0 or 1 from the file that `option` (without dash) names, of several
   patches of a structure one, NAME:PATCH, or NAME:PATCH:local[:LOWER] (compliancefile.c); `pair`: the bodies without it.

@@ -26,14 +26,8 @@ from ..core.errors import Error, library
 from .backbone import Backbone, derivatives, force_of, plain_force
 from .push import Push
 
-SHARED = (
-    "friction",
-    "compliance",
-    "lean",
-    "loss",
-    "scale",
-    "bend",
-)  # parameters that all loops of a fit have in common
+# parameters that all loops of a fit have in common
+SHARED = ("friction", "compliance", "lean", "loss", "scale", "bend")
 OWN = ("offset", "top", "bottom")  # those of each: force, largest and smallest displacement
 STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from one it may end where all sticks or slides
 # of the friction, from which it begins again where the best loops just slide, or just do not
@@ -45,9 +39,7 @@ TRIALS = 30  # steps of a pass at most: the next pass goes on, and a start that 
 FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
 LOSS = (0.0, 0.005)  # of a rig, if nothing is stated, and its standard deviation: clamped joints, load cells, lags
 BENDS = 2.0  # deviation of the bend over that of the scale, if nothing is stated
-LOADS = (
-    0.5  # deviation of a factor of the scale at each of several loads, over that of the scale; BENDS times for bends
-)
+LOADS = 0.5  # deviation of a factor of the scale at each of several loads, over that of the scale; bends: BENDS times
 SHAPE = 0.05  # standard deviation of the scale, if nothing is stated: 15 % of a ball's radius, or 8 % of its load
 CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold
 MISFIT = 1.2  # and root mean square of the residuals, in units of the noise, below which it does not matter

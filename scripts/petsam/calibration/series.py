@@ -24,11 +24,8 @@ ALIKE = 2.0  # of the noise: the standard deviation of the ranges of cycles that
 MOST = 6000  # points of cycles that are fitted as one loop
 TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch is not sure
 LEANS = 5.0  # standard deviations of a lean in gross slip beyond which loops without one are not the model's
-BEYOND = {
-    "loss": 2.0,
-    "scale": 3.0,
-    "bend": 3.0,
-}  # pull of what is known beforehand from which on the loops alone settle it
+# pull of what is known beforehand from which on the loops alone settle it
+BEYOND = {"loss": 2.0, "scale": 3.0, "bend": 3.0}
 UNSETTLED = 0.3  # deviation of the loss over that known beforehand,
 ALIGNED = 0.7  # and its correlation with the friction, beyond which the loops do not separate both:
 UNSTATED = 2.0  # a loss that nobody stated is then so many times less sure
@@ -363,9 +360,9 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
         the friction. Without a scale that is 1 with the deviation SHAPE: in partial slip no residual shows a wrong
         shape, either. Where the loops pull the loss by more than two deviations from what is given, or the scale by
         more than three, they alone settle it; with several normal loads such a scale leaves no numbers, since the
-        shape's compliance may depend otherwise on the load. The
-        part of the compliance that slip adds, and the compliance at each of several loads, have deviations of their own
-        in proportion to that of the scale (BENDS, LOADS).
+        shape's compliance may depend otherwise on the load. The part of the compliance that slip adds, and the
+        compliance at each of several loads, have deviations of their own in proportion to that of the scale (BENDS,
+        LOADS).
 
     Returns
     -------
@@ -457,7 +454,7 @@ def _by_best_load(together, files, pushes, free, fixed, notes):
 
 
 def _loads_differ(together, fixed):
-    """Whether the loops pull the shape's compliance at one of several loads from that at the others."""
+    """True if the loops pull the shape's compliance at one of several loads from that at the others."""
     for name in [one for one in together.more if one[-1].isdigit()]:
         kind = name.rstrip("0123456789")
         deviation = fixed["loads"] * (BENDS if kind == "bend" else 1.0)

@@ -83,7 +83,7 @@ def read(path: Union[str, os.PathLike]) -> Saved:
 
 
 def _text(name, known):
-    """What a column means, or its name in words."""
+    """The meaning of a column, or its name in words."""
     if name in known:
         return known[name][1]
     number = name.removesuffix("_spread")

@@ -350,7 +350,7 @@ class Case:
         return found, creeps, friction
 
     def _beyond(self, place, laid):
-        """Whether bodies that the pressure deforms overlap beyond the grid, where another part of the contact is."""
+        """True if bodies that the pressure deforms overlap beyond the grid, where another part of the contact is."""
         x, s, overlap = place.line[:, :: max(round(self.pair.settings.cell / STEP), 1)]
         out = (overlap > 0.0) & ((s < laid.s[0]) | (s > laid.s[-1]) | (x < laid.x[0]) | (x > laid.x[-1]))
         if not out.any():
@@ -405,7 +405,7 @@ def _within(place, drafted):
 
 
 def _at_edge(pressure):
-    """Whether cells at the edge of a grid are in contact."""
+    """True if cells at the edge of a grid are in contact."""
     return bool(pressure[[0, -1]].any() or pressure[:, [0, -1]].any())
 
 

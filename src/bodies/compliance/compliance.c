@@ -398,7 +398,6 @@ static PetscErrorCode SumLoads(SamElasticity e, SamState state, Vec pressure, Ve
 
 /* ---- the type ---- */
 
-static const char *const names[] = {"body1_compliance", "body2_compliance"};
 static const char *const files[] = {"body1_compliance_file", "body2_compliance_file"};
 
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
@@ -422,7 +421,7 @@ static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
     const SamCompliance c = ((const Bodies *)e->data)->of[b];
 
     if (!c) continue;
-    PetscCall(SamParametersAddChecksum(p, names[b], c->checksum));
+    PetscCall(SamParametersAddChecksum(p, SamComplianceOptions[b], c->checksum));
     PetscCall(PetscGetFullPath(c->file, path, sizeof(path)));
     PetscCall(SamParametersAddText(p, files[b], PETSC_FALSE, path));
   }
@@ -543,7 +542,8 @@ static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, Sa
   if (!SamComplianceIsPair(c)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CheckBody(e, from, c, 0, c->young1, c->poisson1));
   PetscCheck(!other, from->comm, SAM_ERR_USER, "-%s%s %s: -%s%s %s is of a pair and has body 1 already: omit the first",
-             SamOptionsPrefix(from), names[0], other->file, SamOptionsPrefix(from), names[1], c->file);
+             SamOptionsPrefix(from), SamComplianceOptions[0], other->file, SamOptionsPrefix(from),
+             SamComplianceOptions[1], c->file);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -558,10 +558,10 @@ static PetscErrorCode MatchPlane(SamElasticity e, const SamOptions *from, SamCom
   PetscCheck(section || !e->traits.plane, from->comm, SAM_ERR_USER,
              "-%s%s %s: is of a body of finite length, and -%selasticity %s of an endless one: give the file of a "
              "section, or omit one of them",
-             SamOptionsPrefix(from), names[c->body], c->file, SamOptionsPrefix(from), inner->type);
+             SamOptionsPrefix(from), SamComplianceOptions[c->body], c->file, SamOptionsPrefix(from), inner->type);
   PetscCheck(e->traits.plane || !section, from->comm, SAM_ERR_USER,
              "-%s%s %s: is of a section in plane strain: give -%selasticity " SAM_ELASTICITY_PLANE,
-             SamOptionsPrefix(from), names[c->body], c->file, SamOptionsPrefix(from));
+             SamOptionsPrefix(from), SamComplianceOptions[c->body], c->file, SamOptionsPrefix(from));
   if (!section) PetscFunctionReturn(PETSC_SUCCESS);
   SamComplianceMoveDatum(c, (double)*SamHalfSpaceDatum(inner));
   if (SamComplianceIsPair(c) || ((const Bodies *)e->data)->of[1 - c->body] ||
@@ -609,13 +609,14 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
   char      file[PETSC_MAX_PATH_LEN] = "";
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, names[b], NULL);
+  for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, SamComplianceOptions[b], NULL);
   for (PetscInt b = 0; b < 2; b++) {
-    const SamOptionRow row = {names[b], "the body's own compliance, by petsam-compliance; FILE:2: of the second patch",
+    const SamOptionRow row = {SamComplianceOptions[b],
+                              "the body's own compliance, by petsam-compliance; FILE:2: of the second patch",
                               SAM_OPTION_FILE, .size = sizeof(file)};
 
     PetscCall(SamOptionsRead(from, NULL, 1, &row, file, &given));
-    if (given && !SamPrintHelp()) PetscCall(Add(elasticity, from, b, names[b], file));
+    if (given && !SamPrintHelp()) PetscCall(Add(elasticity, from, b, SamComplianceOptions[b], file));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -627,14 +628,14 @@ static PetscErrorCode AddFromParameters(SamElasticity *elasticity, const SamPara
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
-    const SamParameter *sum = SamParametersFind(p, names[b]), *file = SamParametersFind(p, files[b]);
+    const SamParameter *sum = SamParametersFind(p, SamComplianceOptions[b]), *file = SamParametersFind(p, files[b]);
     SamParameters       own = {.count = 0};
 
     if (!sum || !file) continue;
-    PetscCall(Add(elasticity, &from, b, names[b], file->text));
+    PetscCall(Add(elasticity, &from, b, SamComplianceOptions[b], file->text));
     PetscCall(SamParametersAddChecksum(&own, "", ((const Bodies *)(*elasticity)->data)->of[b]->checksum));
     PetscCheck(!strcmp(own.list[0].text, sum->text), from.comm, SAM_ERR_FILE,
-               "%s: -%s %s has changed since: bring back that file", source, names[b], file->text);
+               "%s: -%s %s has changed since: bring back that file", source, SamComplianceOptions[b], file->text);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -377,11 +377,11 @@ static PetscErrorCode FindPatch(SamFile f, Choice *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *const options[] = {"body1_compliance", "body2_compliance"};
+const char *const SamComplianceOptions[2] = {"body1_compliance", "body2_compliance"};
 
 PetscErrorCode SamComplianceNeedStress(MPI_Comm comm, SamCompliance c, PetscInt body)
 {
-  const char *const option = options[c->body];
+  const char *const option = SamComplianceOptions[c->body];
   Choice            from;
 
   PetscFunctionBegin;
@@ -399,7 +399,7 @@ PetscErrorCode SamComplianceNeedStress(MPI_Comm comm, SamCompliance c, PetscInt 
 
 PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double values[])
 {
-  const char *const option = options[c->body];
+  const char *const option = SamComplianceOptions[c->body];
   Choice            from;
 
   PetscFunctionBegin;

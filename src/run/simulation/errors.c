@@ -244,12 +244,13 @@ static PetscErrorCode Follow(SamSimulation s, PetscInt k)
 /* Lets the companions solve the steps before the first one of this run, after a restart that has not restored them. */
 static PetscErrorCode CatchUp(SamSimulation s, PetscInt k)
 {
-  SamErrors e = s->errors;
+  SamErrors      e    = s->errors;
+  const PetscInt from = e->restored ? k : 0;
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < e->count && !e->restored; n++)
     e->number[n].steps = e->companion[SAM_RUN_OTHER].run ? NAN : 0;
-  for (PetscInt j = 0; j < k && !e->restored; j++) PetscCall(Follow(s, j));
+  for (PetscInt j = from; j < k; j++) PetscCall(Follow(s, j));
   for (PetscInt n = 0; n < e->count; n++) {
     SamErrorsGetRuns(e, &e->number[n], PETSC_TRUE, e->number[n].base);
     e->number[n].apart = 0;
