@@ -154,8 +154,9 @@ def test_a_single_step_of_both_loads_has_no_error_by_the_steps(petsam, tmp_path)
     assert all(row["by_steps"] < 1e-3 for row in table("own.h5").values())
 
 
-def test_errors_are_the_same_on_any_ranks_and_after_a_restart(petsam, tmp_path, loop):
-    """The restart is between two moments that the companion with other steps shares with the run."""
+@pytest.mark.parametrize("every", [5, 6])
+def test_errors_are_the_same_on_any_ranks_and_after_a_restart(petsam, tmp_path, loop, every):
+    """The restart is between two moments that the companion with other steps shares with the run, or at one."""
     on = dict(errors="companion")
     petsam(loop, on, "-output", "own.h5")
     for ranks in (2, 3):
@@ -164,7 +165,7 @@ def test_errors_are_the_same_on_any_ranks_and_after_a_restart(petsam, tmp_path, 
     solved = {}
     for name, more in dict(without={}, state=on).items():
         head = {**loop, **history(tmp_path / "loop.csv", *LOOP[:3]), **more}
-        petsam(head, "-checkpoint", f"{name}.h5", "-checkpoint_every", "5", "-output", f"head_{name}.h5")
+        petsam(head, "-checkpoint", f"{name}.h5", "-checkpoint_every", every, "-output", f"head_{name}.h5")
         history(tmp_path / "loop.csv", *LOOP)
         done = petsam(loop, on, "-restart", f"{name}.h5", "-output", f"rest_{name}.h5", "-log_view")
         solved[name] = int(re.search(r"^SamApplyT\s+(\d+)", done.stdout, re.M)[1])
