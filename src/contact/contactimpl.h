@@ -23,7 +23,6 @@ struct _n_SamContact {
   SamState         state;
   PetscBool        has_tried;                      /* there is a tried solution */
   PetscBool        same_gap;                       /* the tried step has the gap of the committed pressure */
-  PetscBool        rolls;                          /* the tried step rolls: the committed solution has moved */
   SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
   SamStepCache     cache;                          /* steps of the previous cycle */
   PetscObjectState revision[SAM_GENERATIONS];      /* of the problem at the pressure; -1: another problem */
@@ -42,17 +41,43 @@ static inline PetscBool SamContactIsCoupled(SamContact c)
   return c->traits.coupled && c->set.coupling;
 }
 
+/* True if the tried step rolls: the committed solution has moved along. */
+static inline PetscBool SamContactRolls(SamContact c)
+{
+  return c->generation[SAM_TRIED].rolled != 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* True if steps may start from the same steps one cycle before. A kept step has the change of its displacement as the
    product of its change of shear, so that only tractions may cause displacements, besides a uniform strain. Laws that
    displace by fields (load cases, sliding surfaces, plastic strain) have a part in that change which does not follow
    from the shear. Of coupled bodies the product is not used. */
 static inline PetscBool SamContactRecalls(SamContact c)
 {
-  return c->set.warm_start && c->motion->continues && !c->rolls && !SamProblemFollowsSlip(c->problem) &&
+  return c->set.warm_start && c->motion->continues && !SamContactRolls(c) && !SamProblemFollowsSlip(c->problem) &&
          (SamContactIsCoupled(c) || !SamProblemDisplaces(c->problem));
 }
 
+/* ---- what is prescribed (prescription.c) ---- */
+
+/*
+  SamContactCheckControl - rejects an inconsistent control. Rotations that the elasticity does not have are set to 0.
+  Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE, SAM_ERR_USER.
+  SamContactFindKept - finds the same step one cycle before; sets normal loads that differ from its loads, or the last
+  ones, by rounding only, to these. Not collective.
+  SamContactFindRule - finds the rule of slip of a begun step, whose solution has its control and rolled path.
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamContactCheckControl(SamContact contact, SamControl *control);
+PETSC_INTERN void           SamContactFindKept(SamContact contact, SamControl *control, SamCachedStep *kept);
+PETSC_INTERN PetscErrorCode SamContactFindRule(SamContact contact, SamSolution *solution);
+
 /* ---- what is remembered (generations.c) ---- */
+
+/*
+  Numbers of the slip: the line on which the first loads lay (0: there were none); 1 if later loads have left it; 1 if
+  the slip of the step was turned.
+*/
+enum { SAM_SLIP_LINE_X, SAM_SLIP_LINE_Y, SAM_SLIP_LEFT, SAM_SLIP_ASIDE, SAM_SLIP_NUMBERS };
 
 /* SamContactDeclare - declares all numbers and fields that a contact stores and offers, once. Collective. */
 PETSC_INTERN PetscErrorCode SamContactDeclare(SamContact contact);

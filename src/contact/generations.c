@@ -10,15 +10,8 @@
 #include <petsam/private/problem.h>
 #include <math.h>
 
-#define ALIKE        1e-6                            /* materials with a smaller Dundurs' constant count as alike */
 #define CONTROL      (1 + 2 * SAM_COMPONENTS)        /* numbers of a control besides its conditions */
 #define DISPLACEMENT "relative elastic displacement" /* normal, and tangential */
-
-/*
-  Numbers of the slip: the line on which the first loads lay (0: there were none); 1 if later loads have left it; 1 if
-  the slip of the step was turned.
-*/
-enum { LINE_X, LINE_Y, LEFT, ASIDE, SLIP_NUMBERS };
 
 /* ---- declarations ---- */
 
@@ -105,7 +98,7 @@ static PetscErrorCode DeclareControl(SamContact c)
   PetscCall(Declare(c, "window", "1", "part of the grid that was solved on", SAM_NUMBER_INT, 4, PETSC_TRUE, PETSC_FALSE,
                     &c->window));
   PetscCall(
-    Declare(c, "slip", "1", "direction of slip", SAM_NUMBER_REAL, SLIP_NUMBERS, PETSC_TRUE, PETSC_FALSE, &c->slip));
+    Declare(c, "slip", "1", "direction of slip", SAM_NUMBER_REAL, SAM_SLIP_NUMBERS, PETSC_TRUE, PETSC_FALSE, &c->slip));
   PetscCall(Declare(c, "steps", "1", "committed load steps", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE, &c->steps));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -303,36 +296,6 @@ PetscInt SamContactGetSteps(SamContact c)
   return (PetscInt)*SamStateNumbers(c->state, c->steps, SAM_COMMITTED);
 }
 
-/* Loads or displacements lie on a line if their directions differ by less. */
-#define SAME_DIRECTION 1e-10
-
-/*
-  Finds out whether all causes of shear so far, including this step, lie on one line: tangential loads or displacements
-  without moment, while neither pressure, nor strain, nor a law shears the bodies. Then the shear keeps its direction.
-*/
-static PetscErrorCode LieOnLine(SamContact c, const SamControl *control, PetscBool *on)
-{
-  double *const n = SamStateNumbers(c->state, c->slip, SAM_TRIED);
-  const double  x = (double)control->value[SAM_COMPONENT_TX], y = (double)control->value[SAM_COMPONENT_TY];
-  PetscBool     strained, other_way;
-  SamStrain     e;
-
-  PetscFunctionBegin;
-  PetscCall(SamProblemDisplace(c->problem, NULL, control, NULL, NULL, &e, NULL));
-  strained  = c->grid->axes > 1 && (e.xx != 0 || e.yy != 0 || e.xy != 0);
-  other_way = x != 0 && y != 0 && SamControlWay(control, SAM_COMPONENT_TX) != SamControlWay(control, SAM_COMPONENT_TY);
-  if (n[LINE_X] == 0 && n[LINE_Y] == 0) {
-    n[LINE_X] = x;
-    n[LINE_Y] = y;
-  }
-  if (SamContactIsCoupled(c) || c->rolls || SamProblemDisplaces(c->problem) || strained || other_way ||
-      control->value[SAM_COMPONENT_MZ] != 0 ||
-      fabs(n[LINE_X] * y - n[LINE_Y] * x) > SAME_DIRECTION * hypot(n[LINE_X], n[LINE_Y]) * hypot(x, y))
-    n[LEFT] = 1;
-  *on = n[LEFT] == 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   Moves the committed solution for the next step after the grid has moved: fields that belong to the material move
   through the grid. The rigid motion, and the strain of the surfaces, are taken about the origin, which has moved along.
@@ -352,58 +315,18 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscBool HasContact(const SamSolution *before)
-{
-  return before && before->load[SAM_COMPONENT_N] > 0;
-}
-
-/* True if pressure moves the surfaces along each other because the materials differ, not only because of the shapes. */
-static PetscBool AreDissimilar(SamContact c)
-{
-  return SamContactIsCoupled(c) && fabs((double)SamElasticityGetPair(c->elasticity)->dundurs) > ALIKE;
-}
-
-/* True if there is contact, and it may grow: by the normal load, or by an approach whose load is not known yet. */
-static PetscBool MayGrow(const SamSolution *before, const SamControl *control)
-{
-  return HasContact(before) &&
-         !(control->force[SAM_COMPONENT_N] && control->value[SAM_COMPONENT_N] <= SamSolutionGetNormal(before));
-}
-
-/* True if, in a step from no contact, nothing moves the bodies along each other; otherwise N is applied before the
-   rest. */
-static PetscBool AppliesOnlyNormal(const SamSolution *before, const SamControl *control)
-{
-  PetscBool only = PETSC_TRUE;
-
-  for (PetscInt k = 0; k < 3; k++) {
-    const PetscInt  n    = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
-    const PetscReal rest = before && !control->force[n] ? before->rigid[n] : 0;
-
-    only = only && control->value[n] == rest;
-  }
-  return only;
-}
-
 PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
 {
   SamSolution       *s      = &c->generation[SAM_TRIED];
   const SamSolution *before = SamContactBefore(c);
-  PetscReal          roll[2];
-  PetscBool          straight = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateBegin(c->state));
-  c->rolls = SamProblemGetRolled(c->problem, control, roll) != 0;
-  if (c->rolls && before) PetscCall(Move(c, roll));
-  *s = (SamSolution){.control = *control};
-  PetscCall(LieOnLine(c, control, &straight));
-  s->mid_step = SamContactSlipBefore(c) && !straight && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
-  s->lags     = !straight && !s->mid_step;
-  s->touches =
-    c->set.slip_direction == SAM_SLIP_MID && AreDissimilar(c) && c->motion->continues && !c->rolls &&
-    (MayGrow(before, control) || (!HasContact(before) && (control->together || AppliesOnlyNormal(before, control))));
+  *s        = (SamSolution){.control = *control};
+  s->rolled = SamProblemGetRolled(c->problem, control, s->roll);
+  if (s->rolled != 0 && before) PetscCall(Move(c, s->roll));
+  PetscCall(SamContactFindRule(c, s));
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));
@@ -437,23 +360,23 @@ static void ViewControl(SamContact c, const double n[], SamControl *control)
 
 PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
 {
-  double *const n = SamStateNumbers(c->state, 0, SAM_TRIED);
+  double *const            n     = SamStateNumbers(c->state, 0, SAM_TRIED);
+  const SamSolution *const tried = &c->generation[SAM_TRIED];
 
   PetscFunctionBegin;
-  n[c->time]         = step->control.time;
-  n[c->slip + ASIDE] = c->generation[SAM_TRIED].aside != NULL;
+  n[c->time]                  = step->control.time;
+  n[c->slip + SAM_SLIP_ASIDE] = tried->aside != NULL;
   PetscCall(PetscArraycpy(n + c->solution, step->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(n + c->solution + SAM_COMPONENTS, step->rigid, SAM_COMPONENTS));
-  n[c->apart] = c->generation[SAM_TRIED].rigid[SAM_COMPONENT_N];
-  for (PetscInt k = 0; k < 3 && c->rolls; k++) {
+  n[c->apart] = tried->rigid[SAM_COMPONENT_N];
+  for (PetscInt k = 0; k < 3 && tried->rolled != 0; k++) {
     const PetscInt     m      = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
     const SamSolution *before = SamContactBefore(c);
 
     n[c->creeps + k] = step->control.creep[m] ? step->control.value[m]
-                                              : (step->rigid[m] - (before ? before->rigid[m] : 0)) /
-                                                  SamProblemGetRolled(c->problem, &step->control, NULL);
+                                              : (step->rigid[m] - (before ? before->rigid[m] : 0)) / tried->rolled;
   }
-  StoreControl(c, &c->generation[SAM_TRIED].control, n);
+  StoreControl(c, &tried->control, n);
   n[c->residuals]     = step->check.normal;
   n[c->residuals + 1] = step->check.tangential;
   n[c->residuals + 2] = step->check.equilibrium;
@@ -470,6 +393,7 @@ PetscErrorCode SamContactRefresh(SamContact c)
     double      *n = SamStateNumbers(c->state, 0, g);
 
     ViewControl(c, n, &s->control);
+    s->rolled = SamProblemGetRolled(c->problem, &s->control, s->roll);
     for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* nothing has moved before the first step */
       s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
       s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;
@@ -480,7 +404,7 @@ PetscErrorCode SamContactRefresh(SamContact c)
     PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
     s->displacement_z = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[0], g);
     s->displacement_t = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[1], g);
-    s->aside          = g == SAM_COMMITTED && n[c->slip + ASIDE] ? SamStateGetField(c->state, c->aside, g) : NULL;
+    s->aside = g == SAM_COMMITTED && n[c->slip + SAM_SLIP_ASIDE] ? SamStateGetField(c->state, c->aside, g) : NULL;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

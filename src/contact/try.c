@@ -42,24 +42,24 @@ static PetscErrorCode DescribeBeyond(SamContact c, SamStep *step)
   (void)snprintf(step->message, sizeof(step->message),
                  "the contact %s over the border of the surface that body %d has on the grid (%s), %s = %.6g, %.6g m: "
                  "the grid must hold contact and %s",
-                 c->rolls ? "rolled" : "slid", (int)body, SamCheckDescribeEdge(&step->check, place, sizeof(place)),
-                 c->rolls ? "offset along x, y" : "slide_x, slide_y", (double)way[body - 1][0],
-                 (double)way[body - 1][1], c->rolls ? "path" : "stroke");
-  (void)snprintf(step->setting, sizeof(step->setting), "%s", c->rolls ? "" : "slide");
+                 SamContactRolls(c) ? "rolled" : "slid", (int)body,
+                 SamCheckDescribeEdge(&step->check, place, sizeof(place)),
+                 SamContactRolls(c) ? "offset along x, y" : "slide_x, slide_y", (double)way[body - 1][0],
+                 (double)way[body - 1][1], SamContactRolls(c) ? "path" : "stroke");
+  (void)snprintf(step->setting, sizeof(step->setting), "%s", SamContactRolls(c) ? "" : "slide");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Replaces the message by one about the rolled distance if only material from outside of the grid came into contact. */
 static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
 {
-  const PetscInt  cells[2] = {c->grid->nx, c->grid->ny};
-  const PetscReal size[2]  = {c->grid->dx, c->grid->dy};
-  PetscReal       roll[2];
-  PetscInt        first[2], n[2];
-  char            place[64];
+  const PetscInt   cells[2] = {c->grid->nx, c->grid->ny};
+  const PetscReal  size[2]  = {c->grid->dx, c->grid->dy};
+  const PetscReal *roll     = c->generation[SAM_TRIED].roll;
+  PetscInt         first[2], n[2];
+  char             place[64];
 
   PetscFunctionBegin;
-  (void)SamProblemGetRolled(c->problem, &step->control, roll);
   PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, PETSC_FALSE, first, n));
   for (PetscInt k = 0; k < 2; k++)
     if (first[k] == 0 || first[k] + n[k] == cells[k]) PetscFunctionReturn(PETSC_SUCCESS);
@@ -95,7 +95,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
                           (double)check->normal, (double)check->tangential, (double)check->equilibrium,
                           (double)check->cone, (double)check->edge));
   PetscCall(SamStepJudge(step, &limits));
-  if (c->rolls && check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeEntering(c, step));
+  if (SamContactRolls(c) && check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeEntering(c, step));
   if (check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeBeyond(c, step));
   if (c->traits.patch && check->edge > 0 && SamStepIsSolved(step)) {
     (void)snprintf(step->message, sizeof(step->message),
@@ -104,51 +104,6 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
                    SamCheckDescribeEdge(check, place, sizeof(place)));
     step->setting[0] = '\0';
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactCheckConditions(SamContact c, const SamControl *control, const char where[])
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++) {
-    const SamCondition *one   = SamConditionsGet(c->conditions, k);
-    const PetscReal     value = SamControlGet(control, one);
-
-    PetscCheck(SamRangeHas(one->range, value), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s%s = %.6g: expected %s",
-               where, one->name, (double)value, SamRangeDescribe(one->range));
-    PetscCheck(value == one->usual || !one->couples || SamContactIsCoupled(c), c->grid->comm, SAM_ERR_USER,
-               "%s%s = %.6g: expected %.6g, or -coupling full", where, one->name, (double)value, (double)one->usual);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Rejects an inconsistent control. Rotations that the elasticity does not have are set to 0. */
-static PetscErrorCode CheckControl(SamContact c, SamControl *control)
-{
-  PetscInt                wrong;
-  char                    why[192];
-  const SamElasticityType type = SamElasticityGetType(c->elasticity);
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    const char *name = SamComponentNameOf(k, SamControlWay(control, k));
-
-    PetscCheck(isfinite(control->value[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
-    if (k < SAM_COMPONENT_MX || c->traits.rotations[k - SAM_COMPONENT_MX]) continue;
-    PetscCheck(control->value[k] == 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-               "%s = %.6g: expected 0: bodies of type %s have no such moment or rotation", name,
-               (double)control->value[k], type);
-    control->force[k] = PETSC_FALSE;
-  }
-  PetscCheck(!control->force[SAM_COMPONENT_N] || control->value[SAM_COMPONENT_N] >= 0, c->grid->comm,
-             PETSC_ERR_ARG_OUTOFRANGE, "load_n = %.6g: expected a number >= 0",
-             (double)control->value[SAM_COMPONENT_N]);
-  PetscCall(SamContactCheckConditions(c, control, ""));
-  PetscCall(SamProblemCheckControl(c->problem, control, &wrong, why, sizeof(why)));
-  PetscCheck(!why[0], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s = %.6g: %s",
-             SamControlPartName(control, c->conditions, wrong), (double)SamControlPart(control, c->conditions, wrong),
-             why);
-  PetscCall(SamMotionCheck(c->elasticity, c->conditions, control, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -241,7 +196,7 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
   (void)SamProblemGetOffset(c->problem, c->state, SAM_COMMITTED, 1, last);
   PetscCall(SamContactIsGapCurrent(c, &c->same_gap));
   PetscCall(SamProblemAddSeparation(c->problem, c->state, SAM_COMMITTED, NULL, &moves));
-  *same = !SamContactIsCoupled(c) && SamContactBefore(c) && c->same_gap && !(c->rolls && moves) &&
+  *same = !SamContactIsCoupled(c) && SamContactBefore(c) && c->same_gap && !(SamContactRolls(c) && moves) &&
           slide[0] == last[0] && slide[1] == last[1] &&
           SamControlIsSame(&c->generation[SAM_COMMITTED].control, control, SAM_BALANCE_NORMAL);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -251,8 +206,8 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
 static PetscErrorCode MoveBack(SamContact c)
 {
   PetscFunctionBegin;
-  if (c->rolls) PetscCall(SamContactRefresh(c));
-  c->rolls = PETSC_FALSE;
+  if (SamContactRolls(c)) PetscCall(SamContactRefresh(c));
+  c->generation[SAM_TRIED].rolled = 0;
   PetscCall(RestoreWindow(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -316,7 +271,7 @@ static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char faile
                              .state          = c->state,
                              .elasticity     = c->elasticity,
                              .control        = &s->control,
-                             .rolled         = SamProblemGetRolled(c->problem, &s->control, NULL),
+                             .rolled         = s->rolled,
                              .pressure       = s->pressure,
                              .shear          = s->shear,
                              .last           = {last ? last->pressure : NULL, last ? last->shear : NULL},
@@ -417,7 +372,6 @@ static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pre
                       .counts        = c->counts,
                       .rolling       = c->rolling,
                       .coupled       = SamContactIsCoupled(c),
-                      .rolls         = c->rolls,
                       .same_pressure = same_pressure};
 
   PetscFunctionBegin;
@@ -426,19 +380,6 @@ static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pre
   if (SamContactRecalls(c)) task.start.kept = kept;
   PetscCall(SamStepSolve(&task, step, known_pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Finds the same step one cycle before; sets normal loads that differ from its loads, or the last ones, by rounding
-   only, to these. */
-static void FindKept(SamContact c, SamControl *control, SamCachedStep *kept)
-{
-  const PetscReal lever  = PetscMin(c->grid->width[0], c->grid->width[1]) / 2;
-  SamControl      before = *control;
-
-  SamStepCacheFind(c->cache, control, !SamContactIsCoupled(c), kept);
-  if (*kept) SamCachedStepGetControl(*kept, &before);
-  SamControlSnap(&before, lever, SAM_BALANCE_NORMAL, control);
-  if (SamContactBefore(c)) SamControlSnap(&c->generation[SAM_COMMITTED].control, lever, SAM_BALANCE_NORMAL, control);
 }
 
 PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *step)
@@ -453,11 +394,11 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   SamValidPointer(step, 3);
   given = *control;
   PetscCall(SamContactReject(c));
-  PetscCall(CheckControl(c, &given));
+  PetscCall(SamContactCheckControl(c, &given));
   PetscCall(SamContactSetUp(c));
   PetscCall(PetscMemzero(step, sizeof(*step)));
   step->control = given;
-  FindKept(c, &given, &kept);
+  SamContactFindKept(c, &given, &kept);
   PetscCall(SamContactBegin(c, &given));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
   PetscCall(Solve(c, kept, same_pressure, step, &known_pressure));
@@ -484,7 +425,7 @@ static PetscErrorCode Keep(SamContact c)
 
   PetscFunctionBegin;
   PetscCall(GetStepOf(c, &of));
-  if (now->mid_step && SamStepCacheKeeps(c->cache)) {
+  if (SamRuleTurns(now->rule) && SamContactSlipBefore(c) && SamStepCacheKeeps(c->cache)) {
     PetscCall(SamGridCreateVec(c->grid, 2, &turn));
     PetscCall(SamStepFindTurn(c->problem, c->grid, SamContactSlipBefore(c), now, turn));
   }

@@ -8,6 +8,19 @@
 #include <petsam/private/problemimpl.h>
 #include <petsam/solution.h>
 
+/*
+  SamRuleTurns - true if the shear may turn in the step. SamRuleEnters - true if slip begins where cells touch. Not
+  collective.
+*/
+static inline PetscBool SamRuleTurns(SamSlipRule rule)
+{
+  return rule >= SAM_RULE_MID ? PETSC_TRUE : PETSC_FALSE;
+}
+static inline PetscBool SamRuleEnters(SamSlipRule rule)
+{
+  return rule >= SAM_RULE_LINE ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* SamValues - this rank's values of a solution's fields, between SamValuesGet() and SamValuesRestore(). */
 typedef struct {
   PetscInt      cells;

@@ -91,11 +91,10 @@ typedef struct {
 
 static Border BorderOf(SamProblem problem, SamState state, SamGrid grid, const SamSolution *s)
 {
-  const SamElasticityTraits traits = SamElasticityGetTraits(SamProblemGetElasticity(problem));
-  PetscReal                 enters[3][2];
-  Border                    b = {{0}, {0}};
+  const SamElasticityTraits traits       = SamElasticityGetTraits(SamProblemGetElasticity(problem));
+  PetscReal                 enters[3][2] = {{0}, {0}, {s->roll[0], s->roll[1]}};
+  Border                    b            = {{0}, {0}};
 
-  (void)SamProblemGetRolled(problem, &s->control, enters[2]);
   for (PetscInt body = 0; body < 2; body++) (void)SamProblemGetOffset(problem, state, SAM_TRIED, body, enters[body]);
   for (int k = 0; k < 3; k++) {
     PetscInt low[2], high[2];
@@ -231,7 +230,7 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
 static PetscErrorCode CreateBound(SamProblem problem, SamState state, const SamSolution *before, const SamSolution *s,
                                   Vec *bound)
 {
-  SamBoundAt    at = {state, &s->control, NULL, NULL, SamProblemGetRolled(problem, &s->control, NULL)};
+  SamBoundAt    at = {state, &s->control, NULL, NULL, s->rolled};
   double       *b;
   const SamGrid grid = SamProblemGetGrid(problem);
 

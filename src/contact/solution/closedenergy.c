@@ -80,7 +80,7 @@ static PetscBool IsPlain(SamProblem p, const SamSolution *s)
 {
   const SamConditions conditions = SamProblemGetConditions(p);
   const SamControl   *control    = &s->control;
-  PetscBool           plain      = SamProblemGetRolled(p, control, NULL) == 0;
+  PetscBool           plain      = s->rolled == 0;
 
   for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) {
     const SamCondition *one = SamConditionsGet(conditions, k);

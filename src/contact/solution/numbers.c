@@ -41,7 +41,8 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
 
     if (increment->solutions[0] && SamIncrementGetCellMotion(increment, k, share) != SAM_CELL_MOTION_NONE)
       sums[DISSIPATED] += SamIncrementMix(share, increment->at_before.b, b, k) * hypot(dx[i], dy[i]);
-    if (increment->solutions[1]->touches) sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
+    if (increment->solutions[1]->rule == SAM_RULE_TOUCHING)
+      sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
     if (state == SAM_CELL_OPEN) continue;
     most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
     most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
@@ -99,7 +100,8 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt 
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
                *sy = increment->row[1];
 
-  if (!increment->solutions[0] && !increment->solutions[1]->touches) sums[ERROR] = fabs(sums[DISSIPATED]);
+  if (!increment->solutions[0] && increment->solutions[1]->rule != SAM_RULE_TOUCHING)
+    sums[ERROR] = fabs(sums[DISSIPATED]);
   if (!increment->solutions[0]) return;
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = span[0]; i < span[1]; i++) {
@@ -114,7 +116,7 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt 
 
       const double stays = PetscMax(0, 1 - fabs(b1[k] - b0[k]) / (CHANGES * b1[k]));
 
-      if (increment->solutions[1]->lags) {
+      if (increment->solutions[1]->rule == SAM_RULE_END) {
         sums[ERROR] += ENDS * half * work;
       } else {
         sums[ERROR] += (1 - stays) * TURNS / 6 * half * half * work;
@@ -239,7 +241,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(sums);
   numbers[ENERGY_ERROR] = sums[ERROR] * area;
   numbers[ENTERING]     = sums[BEFORE_TOUCH] * area;
-  numbers[TOUCHING]     = s->touches ? 1 : 0;
+  numbers[TOUCHING]     = s->rule == SAM_RULE_TOUCHING ? 1 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -286,9 +288,8 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   streams = SamMotionOf(SamProblemGetElasticity(problem))->streams;
   PetscCall(SumCells(problem, before, s, numbers));
   PetscCall(SamSolutionFollowClosed(problem, state, before, s, numbers[STICK_CELLS], &numbers[CLOSED]));
-  if (streams) numbers[STORED_ENERGY] = NAN; /* u_t is per rolled distance */
-  if (streams || SamProblemGetRolled(problem, &s->control, NULL) != 0)
-    numbers[ENERGY_ERROR] = NAN; /* it is estimated elsewhere */
+  if (streams) numbers[STORED_ENERGY] = NAN;                  /* u_t is per rolled distance */
+  if (streams || s->rolled != 0) numbers[ENERGY_ERROR] = NAN; /* it is estimated elsewhere */
   PetscCall(SamProblemDisplace(problem, state, &s->control, NULL, NULL, NULL, &offset));
   if (offset) numbers[STORED_ENERGY] = NAN; /* the tractions alone do not cause the displacements */
   if (offset && !before) numbers[ENERGY_ERROR] = fabs(numbers[DISSIPATED_ENERGY]); /* nor in proportion to the load */
@@ -297,8 +298,7 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   numbers[SLIP_WIDTH]    = NAN;
   if (!same_pressure) contact[KNOWN] = 0;
   if (edges) PetscCall(FindEdges(problem, state, s, contact, numbers));
-  if (edges && friction && SamProblemGetRolled(problem, &s->control, NULL) == 0)
-    PetscCall(SamSolutionFindSlip(problem, state, s, &numbers[SLIP_MAX]));
+  if (edges && friction && s->rolled == 0) PetscCall(SamSolutionFindSlip(problem, state, s, &numbers[SLIP_MAX]));
   if (!friction) numbers[SLIP_MAX] = NAN; /* nothing opposes it, and at the edge it is not resolved */
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[FRACTION] = numbers[CONTACT_AREA] / (grid->width[0] * grid->width[1]);

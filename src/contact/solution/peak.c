@@ -260,12 +260,11 @@ PetscErrorCode SamSolutionFindShear(SamProblem problem, SamState state, const Sa
 {
   const PetscInt  id    = SamStateFindNumber(state, kept_peak.name);
   const SamGrid   grid  = SamProblemGetGrid(problem);
-  const PetscBool moves = SamMotionOf(SamProblemGetElasticity(problem))->streams ||
-                          SamProblemGetRolled(problem, &solution->control, NULL) != 0;
-  Kept *const kept = (Kept *)SamStateNumbers(state, id, SAM_TRIED);
-  Peak        peak = {*most, -1};
-  double      shear;
-  SamValues   values;
+  const PetscBool moves = SamMotionOf(SamProblemGetElasticity(problem))->streams || solution->rolled != 0;
+  Kept *const     kept  = (Kept *)SamStateNumbers(state, id, SAM_TRIED);
+  Peak            peak  = {*most, -1};
+  double          shear;
+  SamValues       values;
 
   PetscFunctionBegin;
   memcpy(kept, SamStateNumbers(state, id, SAM_COMMITTED), sizeof(*kept));

@@ -25,8 +25,7 @@
 
 PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
 {
-  const SamBoundAt at = {w->task->state, &w->s->control, w->s->pressure, w->slip,
-                         SamProblemGetRolled(w->task->problem, &w->s->control, NULL)};
+  const SamBoundAt at = {w->task->state, &w->s->control, w->s->pressure, w->slip, w->s->rolled};
 
   PetscFunctionBegin;
   PetscCall(SamProblemComputeBound(w->task->problem, &at, &(SamBound){.value = bound}));

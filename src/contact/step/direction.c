@@ -82,13 +82,12 @@ static PetscBool Grows(SamSolve *w)
   const PetscReal before  = w->task->before ? SamSolutionGetNormal(w->task->before) : 0;
   const PetscBool touched = before > 0 || w->s->control.together ? PETSC_TRUE : PETSC_FALSE;
 
-  return touched && w->task->set->slip_direction == SAM_SLIP_MID && w->task->motion->continues && !w->task->rolls &&
-         SamSolutionGetNormal(w->s) > (1 + LEAST_GROWTH) * before;
+  return touched && SamRuleEnters(w->s->rule) && SamSolutionGetNormal(w->s) > (1 + LEAST_GROWTH) * before;
 }
 
 PetscBool SamSolveIsTwice(SamSolve *w)
 {
-  return !w->holds && (w->s->mid_step || (Grows(w) && !(w->tangential.force[0] && w->tangential.force[1])));
+  return !w->holds && (SamSolveTurns(w) || (Grows(w) && !(w->tangential.force[0] && w->tangential.force[1])));
 }
 
 /* Returns kappa (top of this file) along x or y. */
@@ -318,7 +317,7 @@ static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
 
 PetscBool SamSolveSetsAside(SamSolve *w)
 {
-  return !w->holds && (w->s->mid_step || Grows(w) || w->touching);
+  return !w->holds && (SamSolveTurns(w) || Grows(w) || w->touching);
 }
 
 PetscErrorCode SamSolveSetAside(SamSolve *w, SamAsideFrom from)
@@ -329,9 +328,9 @@ PetscErrorCode SamSolveSetAside(SamSolve *w, SamAsideFrom from)
   PetscFunctionBegin;
   if (!SamSolveSetsAside(w)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(w->task->grid, 2, &aside));
-  if (w->s->mid_step && from == SAM_ASIDE_KEPT)
+  if (SamSolveTurns(w) && from == SAM_ASIDE_KEPT)
     PetscCall(SamCachedStepAddTurn(w->task->start.kept, w->task->grid, aside));
-  else if (w->s->mid_step)
+  else if (SamSolveTurns(w))
     PetscCall((solved ? SetTurn : PredictTurn)(w, aside));
   PetscCall(SamSolveAddEntering(w, solved, PETSC_FALSE, aside));
   if (w->touching) PetscCall(VecAXPY(aside, 1, w->touching));

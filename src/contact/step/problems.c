@@ -172,8 +172,8 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
-    PetscCall(PetscStrlcat(instead, w->task->rolls ? name->creep : SamMotionRigidName(w->task->motion, component).name,
-                           sizeof(instead)));
+    PetscCall(PetscStrlcat(
+      instead, w->s->rolled != 0 ? name->creep : SamMotionRigidName(w->task->motion, component).name, sizeof(instead)));
   }
   PetscCall(SamProblemHasFriction(w->task->problem, &friction));
   if (friction && w->s->load[SAM_COMPONENT_N] == 0) {

@@ -29,8 +29,8 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
     if (w->s->control.creep[n] && task->motion->continues)
-      w->tangential.rigid[k] = (w->task->before ? w->task->before->rigid[n] : 0) +
-                               SamProblemGetRolled(w->task->problem, &w->s->control, NULL) * w->s->control.value[n];
+      w->tangential.rigid[k] =
+        (w->task->before ? w->task->before->rigid[n] : 0) + w->s->rolled * w->s->control.value[n];
   }
   PetscCall(PetscArraycpy(w->rigid, task->start.rigid, 3));
   PetscCall(SamSolutionCreateSeparation(task->problem, task->state, SAM_COMMITTED, &w->separation));
@@ -41,7 +41,7 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
   }
   if (!task->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 1, &w->lift));
-  if (w->s->touches) PetscCall(SamSolveBeginTouching(w));
+  if (w->s->rule == SAM_RULE_TOUCHING) PetscCall(SamSolveBeginTouching(w));
   PetscCall(SamGridCreateVec(task->grid, 1, &w->pressure_product.field));
   PetscCall(SamGridCreateVec(task->grid, 1, &w->previous_pressure));
   PetscCall(SamGridCreateVec(task->grid, 2, &w->previous_shear));
@@ -93,7 +93,7 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
 {
   const PetscBool     twice  = SamSolveIsTwice(w);
   const SamCachedStep kept   = w->kept;
-  const PetscBool     again  = twice && w->s->mid_step && SamCachedStepHasTurn(kept);
+  const PetscBool     again  = twice && SamSolveTurns(w) && SamCachedStepHasTurn(kept);
   const PetscBool     steady = again && SamCachedStepIsRepeated(kept);
   PetscBool           same   = PETSC_FALSE;
   SamSolverReason     reason = SAM_SOLVER_CONVERGED_RTOL;

@@ -42,7 +42,6 @@ typedef struct {
   PetscInt                  counts, rolling;  /* numbers in the state: of the solvers, of rolling.c */
   SamStepOf                 of;               /* inputs for which its pressure is solved */
   PetscBool                 coupled;          /* pressure and shear depend on each other */
-  PetscBool                 rolls;            /* rolls in time */
   PetscBool                 same_pressure;    /* the pressure is the committed one and is not solved again */
   SamStepStart              start;
 } SamStepTask;

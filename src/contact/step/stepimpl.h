@@ -100,7 +100,8 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   SamSolveSetAside - sets the field `aside` for the pressure and bound of the tried solution (direction.c): predicted
   from the step before, as it was in the kept step, or by the shear of the tried solution, whose tolerance may be
   SAM_ROUGH times that of the shear. Collective.
-  SamSolveSetsAside - true if it sets anything in such a step. SamSolveFindsTouching - true if the motion until cells
+  SamSolveSetsAside - true if it sets anything in such a step. SamSolveTurns - true if slip follows the shear at mid
+  step, from the step before. SamSolveFindsTouching - true if the motion until cells
   touch is to be found. Not collective.
   SamSolveBeginTouching - creates the field `touching` of a step in which it is to be found. Collective.
   SamSolveFindTouching - computes the motion (m, two components) of the surfaces of dissimilar bodies in the step until
@@ -123,6 +124,10 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
 typedef enum { SAM_ASIDE_PREDICTED, SAM_ASIDE_KEPT, SAM_ASIDE_SOLVED } SamAsideFrom;
 PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, SamAsideFrom from);
 PETSC_INTERN PetscBool      SamSolveSetsAside(SamSolve *solve);
+static inline PetscBool     SamSolveTurns(SamSolve *solve)
+{
+  return SamRuleTurns(solve->s->rule) && solve->task->before ? PETSC_TRUE : PETSC_FALSE;
+}
 PETSC_INTERN PetscErrorCode SamSolveBeginTouching(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveFindTouching(SamSolve *solve, Vec motion);
 PETSC_INTERN PetscErrorCode SamSolveEndTouching(SamSolve *solve);

@@ -141,8 +141,7 @@ static PetscErrorCode Freeze(Together *t, SamElasticity part, Vec slip)
 {
   SamSolve *const s                         = t->s;
   Vec             fields[SAM_FROZEN_FIELDS] = {NULL}, whole;
-  SamBoundAt      at                        = {s->task->state, &s->s->control, s->s->pressure, NULL,
-                                               SamProblemGetRolled(s->task->problem, &s->s->control, NULL)};
+  SamBoundAt      at                        = {s->task->state, &s->s->control, s->s->pressure, NULL, s->s->rolled};
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(s->task->grid, 1, &whole));
@@ -240,7 +239,7 @@ PetscErrorCode SamSolveCanJoin(SamSolve *s, PetscBool *can)
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetPressureLimit(s->task->problem, &limit));
-  *can = isinf(limit) && motion->continues && !s->task->rolls && !s->touching ? PETSC_TRUE : PETSC_FALSE;
+  *can = isinf(limit) && motion->continues && s->s->rolled == 0 && !s->touching ? PETSC_TRUE : PETSC_FALSE;
   if (SamProblemFollowsSlip(s->task->problem)) *can = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

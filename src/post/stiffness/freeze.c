@@ -58,7 +58,7 @@ static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, Sam
   const SamGrid    whole   = SamContactGetGrid(contact);
 
   PetscFunctionBegin;
-  at.rolled = SamProblemGetRolled(problem, &s->control, NULL);
+  at.rolled = s->rolled;
   PetscCall(SamContactGetState(contact, &at.state));
   PetscCall(SamGridCreateVec(whole, 1, &at.slip));
   PetscCall(SamGridCreateVec(whole, 1, &field));
