@@ -25,6 +25,20 @@ def test_normal_products_of_a_punch_with_moment_at_most_20(solve, n):
     assert solve(PUNCH, dict(grid_n=n, load_my=1.0))["normal_applies"] <= 20
 
 
+@pytest.mark.parametrize(
+    "n, flat, edge, young, poisson, normal, moment",
+    [
+        (65536, 3.7801162049243887e-3, 0.19669777298390828, 70e9, 0.0, 1490310, 845),
+        (150000, 1.5275130194e-3, 0.02000024482, 70e9, 0.3, 1883673.7268, -254.0435444),
+    ],
+)
+def test_normal_products_of_long_rows_at_most_30(solve, n, flat, edge, young, poisson, normal, moment):
+    """A cell that the set of pressed cells loses within the contact, and one at its end, which hardly parts."""
+    pad = dict(gap_type="pad", gap_half_flat_x=flat, gap_edge_radius_x=edge, grid_n=n, grid_size=0.0157)
+    case = dict(pad, elasticity="plane", friction=0.0, load_n=normal, load_my=moment, errors="closed")
+    assert solve(case, bodies(young, poisson))["normal_applies"] <= 30
+
+
 @pytest.mark.parametrize("n", [512, pytest.param(1024, marks=pytest.mark.slow)])
 def test_normal_products_of_a_rough_plane_at_most_30(solve, tmp_path, n):
     """About 8 % of it in contact."""

@@ -46,7 +46,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Part of the loss that is subtracted, and part of A that may change before the loss is recomputed */
+/*
+  Part of the loss that is subtracted, and part of A that may change before the loss is recomputed. After a gradient
+  step any change counts: a cell that A has lost and regained leaves so large a loss in the cells beside it that the
+  preconditioner of a long row is hardly positive there.
+*/
 #define LOSS_OFF 0.5
 #define LOSS_OLD 0.01
 /* A direction's least descent, relative to that of the preconditioned residual */
@@ -122,7 +126,7 @@ static PetscErrorCode UpdateLoss(Work *w)
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) changed += SamActiveSetCountChanged(w, SamActiveSetRow(w, j));
   PetscCall(SamSum(w->level->grid->comm, 1, &changed));
-  if (changed <= LOSS_OLD * w->gram[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (changed <= (w->turned ? 0 : LOSS_OLD * w->gram[0])) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLevelPreconditionSingle(w->solver, w->level, w->self, w->active, w->loss));
   for (PetscInt j = 0; j < w->rows; j++) SamActiveSetLossRow(w, SamActiveSetRow(w, j), (float)LOSS_OFF);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -338,6 +342,24 @@ static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *bett
 }
 
 /*
+  Tries again after a trial that was uphill. Cells that it would have taken beyond a bound stayed there, while the cells
+  beside them moved as if they had gone on. So those leave A, and go to their bound, whose own pressure cannot make up
+  for their gap.
+*/
+static PetscErrorCode TryWithoutClipped(Work *w, double motion[3], PetscBool *found)
+{
+  SamTotal ignored[SAM_GAP_TOTALS] = {{0}};
+
+  PetscFunctionBegin;
+  SetLength(w, 0, ignored);
+  PetscCall(SamActiveSetChoose(w, 1, NULL));
+  w->curvature = 0; /* the last step counts no more */
+  PetscCall(NewDirection(w));
+  PetscCall(Try(w, w->alpha, PETSC_FALSE, motion, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
   Makes one iteration. `gradient`: it makes a gradient step; on return also true if it had to resort to one. `downhill`:
   the energy or the error could be reduced. `found`: an admissible pressure was found.
 */
@@ -351,10 +373,12 @@ static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill,
   if (!*gradient) {
     PetscCall(NewDirection(w));
     PetscCall(Try(w, w->alpha, PETSC_FALSE, motion, found));
+    if (*found && w->slope > 0) PetscCall(TryWithoutClipped(w, motion, found));
     *gradient = (PetscBool)(!*found || w->slope >= 0);
     if (*found && *gradient) SetLength(w, 0, ignored);
   }
   if (*gradient) PetscCall(TryGradient(w, motion, found));
+  w->turned = *gradient;
   *downhill = PETSC_FALSE;
   if (*found && w->slope == 0) PetscCall(TakeTrial(w, motion, downhill));
   if (!*found || w->slope == 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -365,7 +389,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill,
     w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / (w->layered ? FALL : FOLLOW)), FOLLOW));
   else
     w->alpha = 1;
-  PetscCall(SamActiveSetChoose(w, contact));
+  PetscCall(SamActiveSetChoose(w, SAM_PATCH, contact));
   PetscCall(SamLevelIterated(w->solver, w->level, w->error / w->displacement));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -5,12 +5,6 @@
 #include "activesetimpl.h"
 #include <math.h>
 
-/*
-  A cell with pressure leaves A when its gap exceeds PATCH times the displacement by its own pressure. It also leaves A
-  when it penetrates by more than PATCH times the displacement by the pressure that it may still bear. PATCH represents
-  the cell's neighbours, which have about the same pressure.
-*/
-#define PATCH 6.0
 /* Largest rounding of g at the end, relative to the tolerance */
 #define DOUBT 0.03
 /* Relative change of S p by the last projection of a solve, which restores exact equilibrium */
@@ -165,7 +159,7 @@ static PetscErrorCode Move(Work *w, const double motion[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
+PetscErrorCode SamActiveSetChoose(Work *w, double patch, SamTotal contact[])
 {
   double motion[3] = {0, 0, 0};
 
@@ -174,7 +168,7 @@ PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
     PetscCall(Fit(w, contact, motion));
   else
     PetscCall(Choose(w, 0, motion));
-  PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
+  PetscCall(Choose(w, 1 / (patch * w->self), motion));
   PetscCall(Move(w, motion));
   w->rounding = SamLarger(w->rounding, SAM_SINGLE_ROUNDING * w->error);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -197,7 +191,7 @@ PetscErrorCode SamActiveSetRefresh(Work *w)
     PetscCall(FinishGap(w));
   }
   w->rounding = single ? SAM_SINGLE_ROUNDING * w->displacement : 0;
-  PetscCall(SamActiveSetChoose(w, NULL));
+  PetscCall(SamActiveSetChoose(w, SAM_PATCH, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -215,7 +209,7 @@ PetscErrorCode SamActiveSetStart(Work *w)
   PetscCall(VecRestoreArrayRead(w->level->product->field, &u));
   w->rounding = w->level->product->rounding;
   PetscCall(FinishGap(w));
-  PetscCall(SamActiveSetChoose(w, NULL));
+  PetscCall(SamActiveSetChoose(w, SAM_PATCH, NULL));
   if (SamActiveSetIsStale(w)) PetscCall(SamActiveSetRefresh(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -13,6 +13,7 @@ typedef struct {
   const double   *h;
   double         *p, *g;          /* pressure, Pa; gap, m */
   float          *z, *s, *u;      /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
+  PetscBool       turned;         /* the last step was a gradient step */
   float          *loss;           /* subtracted from the preconditioner; 0 on cells that were not in A at the time */
   float          *active;         /* 1 on cells of A, else 0 */
   float          *xi;             /* xi of the columns */
@@ -60,8 +61,13 @@ PETSC_INTERN void SamActiveSetAddRow(SamGapSums row, double eta, SamTotal totals
 /*
   Step 1: chooses A by the gap that fits the cells between their bounds best, moves g to fit A, and computes the error.
   `contact`: the totals over the cells between their bounds; NULL: unknown. Collective.
+
+  A cell with pressure leaves A when its gap exceeds `patch` times the displacement by its own pressure. It also leaves
+  A when it penetrates by more than `patch` times the displacement by the pressure that it may still bear. SAM_PATCH
+  represents the cell's neighbours, which have about the same pressure; 1 the cell alone.
 */
-PETSC_INTERN PetscErrorCode SamActiveSetChoose(SamActiveSet *w, SamTotal contact[]);
+#define SAM_PATCH 6.0
+PETSC_INTERN PetscErrorCode SamActiveSetChoose(SamActiveSet *w, double patch, SamTotal contact[]);
 /* Makes the first step 1, with the level's product if it has one, else with a new product. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetStart(SamActiveSet *w);
 /* Stores S p in the level if that keeps products. Not collective. */
