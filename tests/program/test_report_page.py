@@ -343,7 +343,9 @@ def study(tmp_path):
 def test_a_study(draw, study, tmp_path):
     assert draw("--report", "study.html", study) == (0, [])
     found, text = read(tmp_path / "study.html")
-    assert found.titles == ["Cases", "Pictures", "Citation"] and "20 of 30 cases" in text
+    assert found.titles == ["Cases", "Pictures", "Inputs", "Citation"] and "20 of 30 cases" in text
+    assert "petsam \\ -grid_n 64" in " ".join(found.said().split())
+    assert "1 option of all cases; besides, each has its own ratio, shape" in found.said()
     assert "30 cases, 1 of them failed or not run." in found.said() and "&lt;b&gt;ball&lt;/b&gt;" in text
     row = rows(text)["case&lt;1&gt;"]
     assert 'value="9.9e-07"' in row and "\N{PLUS-MINUS SIGN} <data value" in row

@@ -137,7 +137,7 @@ def save(path, title, parts):
 def _parts(results, pictures):
     """All sections in their order."""
     if isinstance(results, Study):
-        return [_head(results), sheets.cases(results), pictures, _citation(results)]
+        return [_head(results), sheets.cases(results), pictures, sheets.shared(results), _citation(results)]
     last = sheets.of_last(results, int(results.solved[-1]) if isinstance(results, Results) else results.of_last())
     if isinstance(results, Stresses):
         return [_head(results), last, pictures, sheets.history(results), sheets.inputs(results), _citation(results)]

@@ -90,6 +90,19 @@ def inputs(results):
     return page.section("Inputs", *parts, table, class_="page")
 
 
+def shared(study):
+    """The section of the options that all cases of a study have."""
+    rows = given(study)
+    if not rows:
+        return ""
+    words = ["petsam", *(" ".join(part).strip() for part in rows)]
+    command = page.Html(" \\\n  ".join(page.text(word) for word in words))
+    varied = ", ".join(study.inputs)
+    said = f"{counted(len(rows), 'option')} of all cases" + (f"; besides, each has its own {varied}" if varied else "")
+    table = page.table(said, ("option", "given as"), [(name[1:], value) for name, value in rows], (1,))
+    return page.section("Inputs", page.element("pre", page.element("code", command)), table, class_="page")
+
+
 # ---------------------------------------------------------------- numbers
 
 

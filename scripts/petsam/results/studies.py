@@ -58,6 +58,8 @@ class Study(Shown):
         {name: array (cases,)} of numbers, NaN where there is none.
     units : dict
         {name: unit}, of the results.
+    parameters : dict
+        Names of the table of cases (`study`) and the options that all cases have (`options`).
 
     Raises
     ------
@@ -90,6 +92,7 @@ class Study(Shown):
         return f"Study({self.path!r}: {counted(self.cases.size, 'case')}{inputs})"
 
     def _read(self, file):
+        self.parameters = {name: str(file.attrs[name]) for name in ("study", "options") if name in file.attrs}
         self.cases = self._column(file, "case")
         self.codes = self._column(file, "exit_code")
         groups = {name: _own(file, name) for name in ("inputs", "results") if name in file}
