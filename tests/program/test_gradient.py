@@ -316,6 +316,7 @@ def test_refusals():
         (dict(heat="steady"), "heat"), (dict(pressure_limit=1e9), "hardness"),
         (dict(tangential_rtol=1e-4), "tangential_rtol"), (dict(body2_layer_young=1e11, body2_layer_poisson=0.3,
          body2_layer_thickness=1e-4), "layers"),
+        (dict(body2_layers="gold", body2_layer_thickness=1e-4), "layers"),
     ):  # fmt: skip
         with pytest.raises(petsam.Error, match=words):
             gradient.record(contact_of(BODIES, 16, **change)[0], history)

@@ -225,9 +225,21 @@ def test_what_no_grid_resolves_ends_the_trials(petsam, sphere_alone):
 
 def test_an_accuracy_beyond_all_grids_is_told_with_what_can_be_reached(petsam, sphere_alone):
     case = {**sphere_alone, "elasticity": "plane", "load_n": 1e6, "load_tx": None}
-    run = petsam(case, "-accuracy", "1e-9", "-accuracy_of", "contact_area")
-    told = [line for line in run.complaint if "-accuracy 1e-07 % is not reached: the maximum error is " in line]
+    run = petsam(case, "-accuracy", "1e-11", "-accuracy_of", "disp_z")
+    told = [line for line in run.complaint if "-accuracy 1e-09 % is not reached: the maximum error is " in line]
     assert told and told[0].endswith("; -accuracy can choose no finer grid and no more steps")
+
+
+@pytest.mark.slow
+def test_no_grid_is_coarser_than_the_last_trial(petsam, tmp_path):
+    """Its errors are as small as asked; those of coarser grids that follow from them need not be, as they wander."""
+    pad = dict(gap_half_flat_x=4e-4, gap_edge_radius_x=0.01, gap_half_flat_y=1e-3, gap_edge_radius_y=0.03)
+    case = dict(pad, body1="steel", body2="bronze", gap_type="pad", friction=0.4, steps=11)
+    rows = history(tmp_path / "own.csv", "time,load_n,load_tx", (0, 500, 0), (1, 500, 90))
+    run = petsam(case, rows, "-accuracy", "1%")
+    tried = re.findall(r"trial \d+: -grid_n (\d+)", run.stdout + run.stderr)[-1]
+    assert int(chosen(run.stdout)[0]["grid_n"].split(",")[0]) >= int(tried)
+    assert not any("is not reached" in line for line in run.complaint)
 
 
 def test_a_note_is_given_once(petsam, sphere_alone):

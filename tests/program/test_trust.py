@@ -8,6 +8,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
+import petsam as package
 from support import doubts
 
 SLIP = "slip zones are"
@@ -618,3 +619,20 @@ def test_a_moment_that_tilts_pushes_nothing(petsam):
     """No tangential load, and so no slip whose energy could be missing."""
     case = dict(SPHERE, load_n=LOAD, load_my=1e-4 * LOAD, grid_n=40, grid_size=3.2 * RADIUS, friction=0.3)
     assert "dissipated_energy" not in doubts(petsam(case))[1]
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_warnings_are_in_the_results_as_they_are_printed(petsam, tmp_path, ranks):
+    """Each once, with the option that they propose; a reason is not repeated as a part of another one."""
+    case = dict(SPHERE, friction=300.0, load_n=LOAD, load_tx=50.0, grid_n=64, grid_size=3 * RADIUS, output="out.h5")
+    run = petsam(case, ranks=ranks)
+    printed = re.findall(r"petsam: warning: (.*)", run.stderr)
+    with package.open(tmp_path / "out.h5") as results:
+        assert printed and results.warnings == printed
+    assert all(text.count("slip zones are") <= 1 for text in printed) and "slip zones are" in "".join(printed)
+
+
+def test_a_run_without_warnings_has_none_in_its_results(petsam, tmp_path):
+    assert "warning" not in petsam(SPHERE, dict(output="out.h5", grid_n=129, grid_size=3 * RADIUS, load_n=LOAD)).stderr
+    with package.open(tmp_path / "out.h5") as results:
+        assert results.warnings == []

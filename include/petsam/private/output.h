@@ -92,6 +92,13 @@ PETSC_INTERN PetscErrorCode SamOutputWriteCycle(SamOutput output);
 */
 PETSC_INTERN PetscErrorCode SamOutputWriteErrors(SamOutput output, const SamErrorTable *table);
 /*
+  SamOutputWriteWarnings - writes all waiting steps, then the dataset /warnings, once. Collective. Errors: as
+  SamOutputWriteStep().
+*/
+#define SAM_WARNING_TEXT 640 /* most bytes of a warning in the results */
+PETSC_INTERN PetscErrorCode SamOutputWriteWarnings(SamOutput output, PetscInt count,
+                                                   const char texts[][SAM_WARNING_TEXT]);
+/*
   SamOutputGetSaved - gets the number of load steps in the file, the number of steps with fields, and the time (s) of
   the last step with fields, -infinity if there is none; NULL for an unwanted output. Not collective.
 */

@@ -24,7 +24,7 @@ REFUSED = {
     "friction_law": "friction that changes", "heat": "heat", "slide": "surfaces that slide", "film_shear": "a film",
     "body1_compliance": "finite bodies", "body2_compliance": "finite bodies",
     "body1_layer_young": "layers", "body2_layer_young": "layers", "body1_layer_file": "layers",
-    "body2_layer_file": "layers", "step_rtol": "divided steps",
+    "body2_layer_file": "layers", "body1_layers": "layers", "body2_layers": "layers", "step_rtol": "divided steps",
 }  # fmt: skip
 
 

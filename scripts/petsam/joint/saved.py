@@ -73,9 +73,8 @@ def read(path: Union[str, os.PathLike]) -> Saved:
     columns = read_csv(path)
     if columns[0].name not in KINDS:
         known = f"tables of petsam-joint begin with one of {', '.join(KINDS)}"
-        raise Error(
-            f"{path}: its first column is {columns[0].name}: {known}; give one of those, or results of petsam -output"
-        )
+        cure = "results.h5 beside it" if columns[0].name == "case" else "one of those, or results of petsam -output"
+        raise Error(f"{path}: its first column is {columns[0].name}: {known}; give {cure}")
     kind, known = KINDS[columns[0].name]
     electrical = any(column.unit in ELECTRICAL.values() for column in columns)
     known = {"assembly": ("", "the assembly"), **columns_of(electrical), **ERRORS, **known}

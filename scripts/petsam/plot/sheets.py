@@ -283,13 +283,13 @@ def warnings(results):
             found.append(f"the error of {name} is unknown")
         elif one.error > LARGE:
             found.append(f"{name} has an error of {percent(one.error)} by the {one.cause}")
-    return found
+    return found + results.warnings
 
 
 def doubts(results):
     """The section of the warnings."""
     found = warnings(results)
-    note = "What the run has printed on stderr is not in the file."
+    note = "Messages about failed steps, and that -accuracy is not reached, are on the run's stderr alone."
     if not found:
         return page.section("Warnings", page.element("p", f"The file has none. {note}"))
     lines = page.element("ul", *(page.element("li", one) for one in found), class_="warning")

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.errors import Error, library, short, there_are
 from ..core.files import decoded
 from . import errors, parts
-from .datafile import Named, NotSaved, _nodes, _own, _some
+from .datafile import WHOLE, Named, NotSaved, _nodes, _own, _some
 from .fields import OPEN, SLIP, STICK, Fields
 from .shown import Viewed
 
@@ -49,6 +49,8 @@ class Results(Fields, Viewed):
         {name: array (cycles,)} with a value for every computed cycle of a life, all of /wear; empty without a life.
     wear_units : dict
         {name: unit}, of the same.
+    warnings : list of str
+        Warnings of the run, in their order; empty for a run that has not ended.
     errors : Errors
         {name: NumberError} of the last numbers, with -errors companion; a table (errors.py). Empty without.
     parameters : dict
@@ -96,6 +98,7 @@ class Results(Fields, Viewed):
         self.times = self._row(_own(self.file, "time"), "time")
         self._held = self._count_saved()  # saved steps of this file alone
         self.times = self.times[: self._held]
+        self.warnings = self._texts("warnings")
         if "friction_file" not in self.parameters:
             _ = self.parameters["friction"]  # which every other file has
         self.before = int(self.parameters.get("branch_step", 0))
@@ -112,6 +115,15 @@ class Results(Fields, Viewed):
             self.wear, self.wear_units = self._read_table("wear")
             complete = min((values.size for values in self.wear.values()), default=0)  # see solved
             self.wear.update({name: values[:complete] for name, values in self.wear.items()})
+
+    def _texts(self, name):
+        """The texts of a dataset that a file may have."""
+        data = _own(self.file, name) if name in self.file else None
+        if data is None:
+            return []
+        if getattr(data, "ndim", None) != 1 or data.dtype.kind != "S" or data.size > WHOLE:
+            raise ValueError(f"/{name} is not a row of texts")
+        return [decoded(one) for one in data[:].tolist()]
 
     def _count_saved(self):
         """Number of saved steps; those that are in all fields, where a run was killed as it wrote another one."""

@@ -38,6 +38,7 @@ def append(results, part):
     computed = max((values.size for values in part.wear.values()), default=0)
     results.wear.update(_joined(results.wear, cycles, part.wear, computed, {}))
     results.errors = part.errors
+    results.warnings += [one for one in part.warnings if one not in results.warnings]
     results.units.update(part.units)
     results.wear_units.update(part.wear_units)
     results.times = np.concatenate([results.times[saved], part.times[more]])

@@ -128,20 +128,28 @@ static void Append(char text[], size_t size, PetscInt pieces, const char first[]
   (void)snprintf(text + used, size - used, "%s%s", pieces ? before : first, piece);
 }
 
+/* True if a reason is that of an earlier listed error, or a part of another one's. */
+static PetscBool IsSaid(const SamDoubts *d, PetscInt count, const PetscInt list[], PetscInt k)
+{
+  const char *why = d->of[list[k]].why;
+
+  for (PetscInt n = 0; n < count; n++) {
+    const char *other = d->of[list[n]].why;
+
+    if (n != k && strstr(other, why) && (n < k || strlen(other) > strlen(why))) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* Appends the reasons of the listed errors, each once. */
 static void AppendReasons(const SamDoubts *d, PetscInt count, const PetscInt list[], char text[], size_t size)
 {
-  PetscInt    told          = 0;
-  const char *said[REASONS] = {NULL};
+  PetscInt told = 0;
 
   for (PetscInt k = 0; k < count && told < REASONS; k++) {
-    const char *why   = d->of[list[k]].why;
-    PetscBool   again = why[0] ? PETSC_FALSE : PETSC_TRUE;
+    const char *why = d->of[list[k]].why;
 
-    for (PetscInt n = 0; n < told; n++) again = again || !strcmp(said[n], why) ? PETSC_TRUE : PETSC_FALSE;
-    if (again) continue;
-    Append(text, size, told, " (", "; ", why);
-    said[told++] = why;
+    if (why[0] && !IsSaid(d, count, list, k)) Append(text, size, told++, " (", "; ", why);
   }
   if (told) Append(text, size, told, "", ")", "");
 }

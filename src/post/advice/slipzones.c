@@ -273,7 +273,8 @@ static double ExcessOf(double coupling, double t)
   return coupling * coupling * (1.9 / (t * t) - 1.1);
 }
 
-#define SLIPS_AS_N_GROWS "dissimilar bodies slip while N grows, in one step: give N steps of its own (-history)"
+#define SLIPS_AS_N_GROWS \
+  "dissimilar bodies slip while N grows, in one step; -steps needs a -history of two rows, N alone, then all"
 
 /* Advises on dissimilar bodies whose N is applied in one step; called before the last branch ends. */
 static void Long(SamAdvice *a)

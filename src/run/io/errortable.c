@@ -1,4 +1,7 @@
-/* The group /errors of a results file: the numbers of the last step, or of the last cycle, with their errors. */
+/*
+  The group /errors of a results file: the numbers of the last step, or of the last cycle, with their errors; and
+  /warnings.
+*/
 #include "ioimpl.h"
 #include <math.h>
 #include <string.h>
@@ -14,19 +17,29 @@ static void WriteNumbers(SamOutput o, hid_t group, const SamLabel *label, PetscI
   (void)SamFileNote(o->f, H5Dclose(data));
 }
 
-/* Writes a column of texts of fixed length. */
-static void WriteTexts(SamOutput o, hid_t group, const SamLabel *label, PetscInt count, char texts[][SAM_ERROR_NAME])
+/* Writes a column of texts of so many bytes; rank 0 has them. */
+static void WriteTexts(SamOutput o, hid_t group, const SamLabel *label, PetscInt count, size_t bytes,
+                       const char texts[])
 {
   const SamShape shape = {1, {(hsize_t)count}, {(hsize_t)count}, {0}, NULL};
   const SamBlock block = {1, {0}, {o->f->rank ? 0 : (hsize_t)count}};
   const hid_t    type  = SamFileNote(o->f, H5Tcopy(H5T_C_S1));
   hid_t          data;
 
-  (void)SamFileNote(o->f, H5Tset_size(type, SAM_ERROR_NAME));
+  (void)SamFileNote(o->f, H5Tset_size(type, bytes));
   data = SamFileCreateDataset(o->f, group, label, type, &shape, 0);
   SamFileWriteBlock(o->f, data, type, &block, texts);
   (void)SamFileNote(o->f, H5Dclose(data));
   (void)H5Tclose(type);
+}
+
+PetscErrorCode SamOutputAppendWarnings(SamOutput o, PetscInt count, const char texts[][SAM_WARNING_TEXT])
+{
+  static const SamLabel label = {"warnings", NULL, "warnings of the run"};
+
+  PetscFunctionBegin;
+  WriteTexts(o, o->f->id, &label, count, SAM_WARNING_TEXT, texts[0]);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
@@ -74,7 +87,7 @@ PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
       tractions = isnan(tractions) ? t->row[k].error : PetscMax(tractions, t->row[k].error);
   SamFileWriteAttribute(o->f, o->f->id, SAM_OUTPUT_TRACTIONS, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &tractions);
   group = SamFileNote(o->f, H5Gcreate2(o->f->id, "errors", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  for (int c = 0; c < TEXTS; c++) WriteTexts(o, group, &texts[c], t->count, column[c]);
+  for (int c = 0; c < TEXTS; c++) WriteTexts(o, group, &texts[c], t->count, SAM_ERROR_NAME, column[c][0]);
   for (int c = 0; c < NUMBERS; c++) WriteNumbers(o, group, &numbers[c], t->count, values[c]);
   (void)SamFileNote(o->f, H5Gclose(group));
   PetscFunctionReturn(PETSC_SUCCESS);

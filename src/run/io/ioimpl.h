@@ -63,6 +63,9 @@ PETSC_INTERN void SamOutputAppendNumbers(SamOutput output, hid_t dataset, hid_t 
 
 /* SamOutputAppendErrors - creates the group /errors (errortable.c). Notes its failures. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAppendErrors(SamOutput output, const SamErrorTable *table);
+/* SamOutputAppendWarnings - creates the dataset /warnings (errortable.c). Notes its failures. Collective. */
+PETSC_INTERN PetscErrorCode SamOutputAppendWarnings(SamOutput output, PetscInt count,
+                                                    const char texts[][SAM_WARNING_TEXT]);
 
 #define SAM_IDENTITY "results-%016" PRIx64 /* identity of a file, as text */
 

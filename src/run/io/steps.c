@@ -286,6 +286,17 @@ PetscErrorCode SamOutputWriteErrors(SamOutput o, const SamErrorTable *table)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamOutputWriteWarnings(SamOutput o, PetscInt count, const char texts[][SAM_WARNING_TEXT])
+{
+  PetscFunctionBegin;
+  PetscCall(CheckWhole(o));
+  PetscCall(Begin(o, PETSC_FALSE));
+  PetscCall(WriteWaiting(o, PETSC_FALSE, 0));
+  PetscCall(SamOutputAppendWarnings(o, count, texts));
+  PetscCall(End(o));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputGetSaved(SamOutput o, PetscInt *steps, PetscInt *saved, PetscReal *time)
 {
   PetscFunctionBegin;

@@ -600,7 +600,7 @@ static void Change(Task *task, const Trial *t, Choice *c, PetscBool *last, const
   *last = near && !cheap ? PETSC_TRUE : PETSC_FALSE;
   for (int k = 0; k < 2; k++)
     factor[k] = near ? factor[k] : PetscMin(factor[k] > NEAR ? factor[k] / NEAR : factor[k], AT_ONCE);
-  factor[0] = PetscMax(factor[0], *last ? 0.5 : 1);
+  factor[0] = PetscMax(factor[0], 1); /* numbers may wander from grid to grid: none is coarser than what was tried */
   if (task->number) Refine(task, &was, factor[0], c);
   Divide(task, factor[1], c);
   if (c->n[0] == was.n[0] && c->n[1] == was.n[1] && c->steps == was.steps && !Moves(task, &was, c)) {

@@ -268,6 +268,7 @@ static PetscErrorCode Finish(SamSimulation s)
 
   PetscFunctionBegin;
   if (s->output) {
+    if (s->warnings) PetscCall(SamOutputWriteWarnings(s->output, s->warnings, s->warning));
     PetscCall(SamOutputGetSaved(s->output, &steps, &saved, NULL));
     PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, steps,
                             steps == 1 ? "" : "s", saved));

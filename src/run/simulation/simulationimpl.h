@@ -39,6 +39,8 @@ typedef struct {
 
 typedef struct _n_SamErrors *SamErrors;
 
+#define SAM_WARNINGS 16 /* most warnings in the results */
+
 struct _n_SamSimulation {
   MPI_Comm               comm;
   SamSimulationMonitor   monitor; /* NULL: none */
@@ -80,6 +82,8 @@ struct _n_SamSimulation {
   PetscInt               earlier;       /* 1: the state before these steps already has a step */
   PetscBool              advised;       /* advice on the tried step has been computed */
   SamErrors              errors;        /* NULL: they are not computed */
+  PetscInt               warnings;      /* number of the warnings so far that the results will have */
+  char                   warning[SAM_WARNINGS][SAM_WARNING_TEXT];
 };
 
 /*
