@@ -89,6 +89,11 @@ static void test_doubts_of_a_cause_are_told_in_one_line(void **state)
   SamDoubtsAdd(&d, SAM_CAUSE_STEPS, 0.1, 0, "energy", "no steps do");
   SamDoubtsWrite(&d, SAM_CAUSE_STEPS, &factor, text, sizeof(text));
   sam_assert(!strcmp(text, "energy 70 % (long steps)") && factor == 0);
+  SamDoubtsAdd(&d, SAM_CAUSE_LAYERS, 0.4, 2, "energy", "thick");
+  SamDoubtsAdd(&d, SAM_CAUSE_LAYERS, 0.3, 2, "volume", "thick; few");
+  SamDoubtsAdd(&d, SAM_CAUSE_LAYERS, 0.2, 2, "slip_max", "few");
+  SamDoubtsWrite(&d, SAM_CAUSE_LAYERS, &factor, text, sizeof(text));
+  sam_assert(!strcmp(text, "energy 40 %, volume 30 %, slip_max 20 % (thick; few)"));
 }
 
 static void test_a_line_names_some_numbers_and_counts_the_others(void **state)
