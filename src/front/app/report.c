@@ -450,11 +450,12 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
   reached = worst->error <= r->accuracy->error ? PETSC_TRUE : PETSC_FALSE;
   if (!reached)
     (void)snprintf(wanted, sizeof(wanted), "-accuracy %.3g %% is not reached: ", 100 * (double)r->accuracy->error);
-  if (!reached)
-    (void)snprintf(limit, sizeof(limit), "; %s",
-                   r->accuracy->limit                ? r->accuracy->limit
-                   : worst->cause == SAM_CAUSE_CELLS ? "a smaller -accuracy chooses finer cells"
-                                                     : "finer cells do not lower it");
+  if (!reached) {
+    const char *const given = worst->cause == SAM_CAUSE_STEPS ? "the steps are given" : "the layers are given";
+    const char *const cure  = worst->cause == SAM_CAUSE_CELLS ? "a smaller -accuracy chooses finer cells" : given;
+
+    (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit ? r->accuracy->limit : cure);
+  }
   (void)snprintf(text, sizeof(text), "%sthe maximum error is %s, of %s, by the %s%s", wanted,
                  SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause], limit);
   if (!reached)
