@@ -557,8 +557,10 @@ class Contact:
 
     def _names(self, what):
         """Returns the names of the fields ("field") or numbers ("number") that can be requested."""
-        ask, found = getattr(self._c, f"petsam_{what}_name"), self._listed.setdefault(what, [])  # names are only added
+        ask, found = getattr(self._c, f"petsam_{what}_name"), self._listed.setdefault(what, [])
         with _lock:
+            if ask(self._contact, len(found)):  # names are only added, but to any place
+                found.clear()
             while name := ask(self._contact, len(found)):
                 found.append(name.decode())
         return found

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import compliances
+import petsam as package
 from support import ROOT
 from test_embed import CASE as EMBEDDED
 from test_embed import run_python
@@ -671,3 +672,13 @@ with petsam.Contact(**dict(case, grid_n=16)) as contact:
 """,
         tmp_path,
     )
+
+
+def test_a_step_has_the_numbers_that_its_conditions_add():
+    """Their names come between those that a contact had before its first step."""
+    with package.Contact(**{**EMBEDDED, "friction": 0.4}) as contact:
+        before = contact.try_step(load_n=1000)
+        contact.commit()
+        after = contact.try_step(load_n=1000, bulk2_stress_xx=5e7)
+        assert not hasattr(before, "bulk2_stress_xx") and after.bulk2_stress_xx == 5e7
+        assert set(before.numbers) < set(after.numbers)
