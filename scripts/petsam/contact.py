@@ -561,8 +561,8 @@ class Contact:
         with _lock:
             if ask(self._contact, len(found)):  # names are only added, but to any place
                 found.clear()
-            while name := ask(self._contact, len(found)):
-                found.append(name.decode())
+                while name := ask(self._contact, len(found)):
+                    found.append(name.decode())
         return found
 
     # ------------------------------------------------------------ steps

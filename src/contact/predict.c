@@ -51,12 +51,11 @@ static void AddChange(double before, double now, double next, Changes *c)
 static double Continuation(SamContact contact, const SamControl *before, const SamControl *now, const SamControl *next,
                            PetscBool *straight)
 {
-  const SamProblem p = contact->problem;
-  Changes          c = {0, 0, 0};
-  double           alpha, across;
+  Changes c = {0, 0, 0};
+  double  alpha, across;
 
   *straight = PETSC_FALSE;
-  if (SamProblemGetRolled(p, now, NULL) != 0 || SamProblemGetRolled(p, next, NULL) != 0)
+  if (contact->generation[SAM_COMMITTED].rolled != 0 || SamContactRolls(contact))
     return 0; /* the slip moves even if nothing prescribed changes */
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
     const PetscInt k = SamComponentsOf[n / 3][n % 3];

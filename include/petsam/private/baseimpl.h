@@ -320,7 +320,10 @@ PETSC_EXTERN void SamGetFolder(const char filename[], char folder[PETSC_MAX_PATH
   SamOneLine - copies a text of a message, cut to `size`, with escapes such as \n in place of control characters, which
   values of options and names of files may contain and which would break the line. Not collective.
   SamPrintMessage - prints a program's message to stderr as one line, by SamOneLine(). Not collective.
+  SamNameSetting - copies a text, cut to `size`, with the option (without dash; or empty) that helps in parentheses,
+  unless the text names it. Not collective.
 */
+PETSC_EXTERN void SamNameSetting(const char text[], const char setting[], char line[], size_t size);
 PETSC_INTERN void SamOneLine(const char text[], char line[], size_t size);
 PETSC_EXTERN void SamPrintMessage(const char program[], const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 

@@ -75,13 +75,16 @@ def as_input(name, value, options):
     return name, shown, options.get("-" + name, "")
 
 
+def _command(program, options):
+    """A command as it is typed, with an option in a line."""
+    words = [program, *(" ".join(part).strip() for part in options)]
+    return page.element("pre", page.element("code", page.Html(" \\\n  ".join(page.text(word) for word in words))))
+
+
 def inputs(results):
     """The command and all parameters with their units."""
-    options, parts = given(results), []
-    if options:
-        words = [results.program, *(" ".join(part).strip() for part in options)]
-        command = page.Html(" \\\n  ".join(page.text(word) for word in words))
-        parts.append(page.element("pre", page.element("code", command)))
+    options = given(results)
+    parts = [_command(results.program, options)] if options else []
     named, known = dict(options), [name for name in results.parameters if name not in ABOUT]
     rows = [as_input(name, results.parameters[name], named) for name in known]
     rows += [(name[1:], value, value) for name, value in options if name[1:] not in known]
@@ -95,12 +98,10 @@ def shared(study):
     rows = given(study)
     if not rows:
         return ""
-    words = ["petsam", *(" ".join(part).strip() for part in rows)]
-    command = page.Html(" \\\n  ".join(page.text(word) for word in words))
     varied = ", ".join(study.inputs)
     said = f"{counted(len(rows), 'option')} of all cases" + (f"; besides, each has its own {varied}" if varied else "")
     table = page.table(said, ("option", "given as"), [(name[1:], value) for name, value in rows], (1,))
-    return page.section("Inputs", page.element("pre", page.element("code", command)), table, class_="page")
+    return page.section("Inputs", _command("petsam", rows), table, class_="page")
 
 
 # ---------------------------------------------------------------- numbers

@@ -254,18 +254,15 @@ static PetscErrorCode KeepEdges(SamReport r, SamContact contact)
 /* Prints a step's message to stderr, from rank 0; adds the deciding option unless the message names it. */
 static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 {
-  const PetscBool edge       = !step->status && step->check.edge > 0; /* and the option allows it */
-  char            option[48] = "";
-  int             named;
+  const PetscBool edge = !step->status && step->check.edge > 0; /* and the option allows it */
+  char            text[sizeof(step->message) + 64];
 
   if (edge && r->edge_told) return;
   if (edge) r->edge_told = PETSC_TRUE;
   if (r->rank || !step->message[0]) return;
   fflush(stdout);
-  if (step->setting[0]) snprintf(option, sizeof(option), "-%s", step->setting);
-  named = strstr(step->message, option) != NULL;
-  SamPrintMessage("petsam", "%s%s%s%s%s%s%s", step->status ? "" : "warning: ", where, where[0] ? ": " : "",
-                  step->message, named ? "" : " (", named ? "" : option, named ? "" : ")");
+  SamNameSetting(step->message, step->setting, text, sizeof(text));
+  SamPrintMessage("petsam", "%s%s%s%s", step->status ? "" : "warning: ", where, where[0] ? ": " : "", text);
 }
 
 static void Warn(SamReport r, const char text[], const char option[])

@@ -69,3 +69,14 @@ void SamPrintMessage(const char program[], const char format[], ...)
   SamOneLine(text, line, sizeof(line));
   (void)fprintf(stderr, "%s: %s\n", program, line);
 }
+
+void SamNameSetting(const char text[], const char setting[], char line[], size_t size)
+{
+  char option[64] = "";
+
+  if (setting[0]) (void)snprintf(option, sizeof(option), "-%s", setting);
+  if (strstr(text, option))
+    (void)snprintf(line, size, "%s", text);
+  else
+    (void)snprintf(line, size, "%s (%s)", text, option);
+}

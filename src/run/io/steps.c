@@ -263,13 +263,21 @@ PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Prepares writing besides steps: all that wait are written first. */
+static PetscErrorCode BeginApart(SamOutput o)
+{
+  PetscFunctionBegin;
+  PetscCall(CheckWhole(o));
+  PetscCall(Begin(o, PETSC_FALSE));
+  PetscCall(WriteWaiting(o, PETSC_FALSE, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputWriteCycle(SamOutput o)
 {
   PetscFunctionBegin;
   PetscCheck(o->columns[SAM_SERIES_CYCLES][0] >= 0, o->grid->comm, PETSC_ERR_ORDER, "The file has no series of cycles");
-  PetscCall(CheckWhole(o));
-  PetscCall(Begin(o, PETSC_FALSE));
-  PetscCall(WriteWaiting(o, PETSC_FALSE, 0));
+  PetscCall(BeginApart(o));
   PetscCall(AppendRows(o, SAM_SERIES_CYCLES, SamStateNumbers(o->state[SAM_SERIES_CYCLES], 0, SAM_COMMITTED), 1));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -278,9 +286,7 @@ PetscErrorCode SamOutputWriteCycle(SamOutput o)
 PetscErrorCode SamOutputWriteErrors(SamOutput o, const SamErrorTable *table)
 {
   PetscFunctionBegin;
-  PetscCall(CheckWhole(o));
-  PetscCall(Begin(o, PETSC_FALSE));
-  PetscCall(WriteWaiting(o, PETSC_FALSE, 0));
+  PetscCall(BeginApart(o));
   PetscCall(SamOutputAppendErrors(o, table));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -289,9 +295,7 @@ PetscErrorCode SamOutputWriteErrors(SamOutput o, const SamErrorTable *table)
 PetscErrorCode SamOutputWriteWarnings(SamOutput o, PetscInt count, const char texts[][SAM_WARNING_TEXT])
 {
   PetscFunctionBegin;
-  PetscCall(CheckWhole(o));
-  PetscCall(Begin(o, PETSC_FALSE));
-  PetscCall(WriteWaiting(o, PETSC_FALSE, 0));
+  PetscCall(BeginApart(o));
   PetscCall(SamOutputAppendWarnings(o, count, texts));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -10,17 +10,16 @@ PetscErrorCode SamSimulationSetMonitor(SamSimulation s, SamSimulationMonitor mon
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps a warning for the results, each once. */
+/* Keeps a warning for the results as it is printed, each once. */
 static void Keep(SamSimulation s, const SamSimulationEvent *news)
 {
-  char            option[64] = "", text[SAM_WARNING_TEXT] = "";
-  const PetscBool named = news->setting && news->setting[0] ? PETSC_TRUE : PETSC_FALSE;
+  char text[SAM_WARNING_TEXT], line[SAM_WARNING_TEXT] = "";
 
-  if (named) (void)snprintf(option, sizeof(option), " (-%s)", news->setting);
-  (void)snprintf(text, sizeof(text), "%s%s", news->text, named && !strstr(news->text, news->setting) ? option : "");
+  SamNameSetting(news->text, news->setting, text, sizeof(text));
+  SamOneLine(text, line, sizeof(line));
   for (PetscInt k = 0; k < s->warnings; k++)
-    if (!strcmp(s->warning[k], text)) return;
-  if (s->warnings < SAM_WARNINGS) memcpy(s->warning[s->warnings++], text, sizeof(text));
+    if (!strcmp(s->warning[k], line)) return;
+  if (s->warnings < SAM_WARNINGS) memcpy(s->warning[s->warnings++], line, sizeof(line));
 }
 
 /* Steps that wait are written before anything but the next step is told, so that all that has been told is in the

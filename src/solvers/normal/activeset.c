@@ -126,7 +126,7 @@ static PetscErrorCode UpdateLoss(Work *w)
   PetscFunctionBegin;
   for (PetscInt j = 0; j < w->rows; j++) changed += SamActiveSetCountChanged(w, SamActiveSetRow(w, j));
   PetscCall(SamSum(w->level->grid->comm, 1, &changed));
-  if (changed <= (w->turned ? 0 : LOSS_OLD * w->gram[0])) PetscFunctionReturn(PETSC_SUCCESS);
+  if (changed <= (w->from_gradient ? 0 : LOSS_OLD * w->gram[0])) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLevelPreconditionSingle(w->solver, w->level, w->self, w->active, w->loss));
   for (PetscInt j = 0; j < w->rows; j++) SamActiveSetLossRow(w, SamActiveSetRow(w, j), (float)LOSS_OFF);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -378,8 +378,8 @@ static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill,
     if (*found && *gradient) SetLength(w, 0, ignored);
   }
   if (*gradient) PetscCall(TryGradient(w, motion, found));
-  w->turned = *gradient;
-  *downhill = PETSC_FALSE;
+  w->from_gradient = *gradient;
+  *downhill        = PETSC_FALSE;
   if (*found && w->slope == 0) PetscCall(TakeTrial(w, motion, downhill));
   if (!*found || w->slope == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Step(w, &best, contact));

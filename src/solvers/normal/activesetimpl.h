@@ -13,7 +13,7 @@ typedef struct {
   const double   *h;
   double         *p, *g;          /* pressure, Pa; gap, m */
   float          *z, *s, *u;      /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
-  PetscBool       turned;         /* the last step was a gradient step */
+  PetscBool       from_gradient;  /* the last step was a gradient step */
   float          *loss;           /* subtracted from the preconditioner; 0 on cells that were not in A at the time */
   float          *active;         /* 1 on cells of A, else 0 */
   float          *xi;             /* xi of the columns */
