@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""petsam and another program on one periodic rough plane, by turns, on one core each.
+"""petsam and another program on one problem, by turns, on one core each.
 
-    python3 tests/bench/paired.py [--cells 1024,2048] [--rounds 6] [--setting "aspher periodic"] [--build build]
+    python3 tests/bench/paired.py [--case periodic_8] [--cells 1024,2048] [--rounds 6] [--setting "aspher periodic"]
 
-A round is petsam, the other, the other, petsam: what slows the machine down for a while slows both. Both solve the case
-periodic_8 of problem.py to 1e-8. Prints a table, and writes it with all runs to build/bench/paired/: for each program
-the medians of the seconds from building the operators to the solution, of its CPU seconds and of the process's peak
-memory, with their ranges, and the error by problem.py's measure; and the ratio of the CPU seconds of each round, its
-median with the interval that holds the true median with at least 95 % (of order statistics; six rounds are the fewest).
-CPU seconds are those of the same stretch of the other program, without the start of Python, but the whole process's of
-petsam.
+A round is petsam, the other, the other, petsam: what slows the machine down for a while slows both. Both solve a case
+of problem.py, one period of a rough plane unless another is given, to 1e-8. Prints a table, and writes it with all runs
+to build/bench/paired/: for each program the medians of the seconds from building the operators to the solution, of its
+CPU seconds and of the process's peak memory, with their ranges, and the error by problem.py's measure; and the ratio of
+the CPU seconds of each round, its median with the interval that holds the true median with at least 95 % (of order
+statistics; six rounds are the fewest). CPU seconds are those of the same stretch of the other program, without the
+start of Python, but the whole process's of petsam.
 """
 
 import argparse
@@ -29,7 +29,6 @@ import peer  # noqa: E402
 from benchmark import APPROXIMATE, EXACT, PATIENCE, Bench, Failure, Ran, numbers  # noqa: E402
 from run import environment  # noqa: E402
 
-CASE = "periodic_8"
 CONFIDENCE = 0.95
 FEWEST = 6  # rounds whose extremes hold the median with 95 %: 1 - 2 / 2^6
 
@@ -46,8 +45,8 @@ def interval(values):
 
 
 class Pair:
-    def __init__(self, build, setting, folder):
-        self.build, self.setting, self.folder = build, setting, folder
+    def __init__(self, build, case, setting, folder):
+        self.build, self.case, self.setting, self.folder = build, case, setting, folder
         self.env = dict(environment(), OMP_NUM_THREADS="1")
 
     def problem(self, *words):
@@ -76,7 +75,7 @@ class Pair:
     def measure(self, cells, rounds):
         """The errors of both, and the runs of each round."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.problem("make", CASE, cells, self.folder)
+        self.problem("make", self.case, cells, self.folder)
         self.petsam("-output", self.folder / "results.h5", "-overwrite")
         self.other()
         errors = dict(petsam=self.error(self.folder / "results.h5"), other=self.error(self.folder / "peer.npy"))
@@ -120,6 +119,7 @@ def report(results, setting):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--case", default="periodic_8", help="of problem.py")
     parser.add_argument("--cells", type=numbers, default=[1024, 2048])
     parser.add_argument("--rounds", type=int, default=FEWEST, help=f"at least {FEWEST}")
     parser.add_argument("--setting", default="aspher periodic", help="of peer.py")
@@ -132,7 +132,7 @@ def main():
         parser.error(f"--setting {args.setting}: use one of {', '.join(peer.SETTINGS)}")
     if not (args.build / "peers/bin/python").exists():
         sys.exit(f"paired.py: no {args.build}/peers: make peers")
-    pair = Pair(args.build.resolve(), args.setting, args.out.resolve() / "problem")
+    pair = Pair(args.build.resolve(), args.case, args.setting, args.out.resolve() / "problem")
     try:
         results = [pair.measure(cells, args.rounds) for cells in args.cells]
     except Failure as failure:

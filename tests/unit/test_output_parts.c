@@ -1,8 +1,10 @@
 /*
- * Results in parts, which a restart writes one after another, are read as one; a second series beside the history.
+ * Results in parts, which a restart writes one after another, are read as one; a second series beside the history; rows
+ * of zeros.
  */
 #include "results.h"
 
+#include <petsam/private/file.h>
 #include <petsam/private/parts.h>
 #include <petsam/private/results.h>
 
@@ -194,12 +196,86 @@ static void test_second_series_is_beside_the_history(void **state)
   RemoveFile(filename);
 }
 
+/* ---- rows of zeros ---- */
+
+enum { TALL = 700, WIDE = 129 }; /* chunks of more than a page of the disk, which ranks share */
+
+/* Writes a frame with ones in the rows from `from` to before `to` of the grid. */
+static void WriteField(SamFile f, hid_t dataset, hsize_t frame, PetscInt from, PetscInt to, PetscBool old)
+{
+  const SamGrid  g     = f->grid;
+  const SamBlock block = {3, {frame, (hsize_t)g->row_start, 0}, {1, (hsize_t)g->rows, WIDE}};
+  double        *values;
+
+  sam_call(PetscCalloc1(g->cells, &values));
+  for (PetscInt j = PetscMax(from, g->row_start); j < PetscMin(to, g->row_start + g->rows); j++)
+    for (PetscInt i = 0; i < WIDE; i++) values[(j - g->row_start) * WIDE + i] = 1;
+  if (old)
+    SamFileWriteBlock(f, dataset, H5T_NATIVE_DOUBLE, &block, values);
+  else
+    SamFileWriteNotZero(f, dataset, H5T_NATIVE_DOUBLE, sizeof(*values), &block, values);
+  sam_call(PetscFree(values));
+}
+
+/* Counts the values of a frame that differ from ones in these rows and zeros in all others. */
+static PetscReal CountWrong(SamFile f, hid_t dataset, hsize_t frame, PetscInt from, PetscInt to)
+{
+  const SamGrid g     = f->grid;
+  PetscReal     wrong = 0;
+  double       *values;
+
+  sam_call(PetscMalloc1(g->cells, &values));
+  SamFileReadFrame(f, dataset, H5T_NATIVE_DOUBLE, frame, values);
+  for (PetscInt k = 0; k < g->cells; k++) {
+    const PetscInt j = g->row_start + k / WIDE;
+
+    wrong += values[k] == (j >= from && j < to ? 1 : 0) ? 0 : 1;
+  }
+  sam_call(PetscFree(values));
+  sam_call(SamMax(PETSC_COMM_WORLD, 1, &wrong));
+  return wrong;
+}
+
+/* Rows of zeros are left out only where the file has nothing yet: values that are there already are replaced. */
+static void test_zeros_that_are_not_written_read_as_zeros(void **state)
+{
+  static const SamLabel label     = {"field", NULL, NULL};
+  static const PetscInt rows[][2] = {{0, TALL}, {100, 103}, {0, 0}, {650, TALL}};
+  const SamShape        shape     = {3, {0, TALL, WIDE}, {H5S_UNLIMITED, TALL, WIDE}, {1, 100, WIDE}, NULL};
+  const hsize_t         first[] = {1, TALL, WIDE}, all[] = {4, TALL, WIDE};
+  SamGrid               grid = NewGrid(WIDE, TALL, 1, 1);
+  SamFile               f;
+  hid_t                 dataset;
+
+  (void)state;
+  sam_call(SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &f));
+  sam_call(SamFileBegin(f));
+  dataset = SamFileCreateDataset(f, f->id, &label, H5T_IEEE_F64LE, &shape, 0);
+  (void)SamFileNote(f, H5Dset_extent(dataset, first));
+  WriteField(f, dataset, 0, 0, TALL, PETSC_TRUE);
+  (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
+  sam_call(SamFileEnd(f));
+  sam_call(SamFileReserve(f, 4 * TALL * WIDE * (off_t)sizeof(double)));
+  sam_call(SamFileBegin(f));
+  WriteField(f, dataset, 0, 7, 9, PETSC_FALSE);
+  (void)SamFileNote(f, H5Dset_extent(dataset, all));
+  for (hsize_t k = 1; k < 4; k++) WriteField(f, dataset, k, rows[k][0], rows[k][1], PETSC_FALSE);
+  (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
+  sam_assert(CountWrong(f, dataset, 0, 7, 9) == 0);
+  for (hsize_t k = 1; k < 4; k++) sam_assert(CountWrong(f, dataset, k, rows[k][0], rows[k][1]) == 0);
+  sam_call(SamFileEnd(f));
+  sam_call(SamFileDestroy(&f, PETSC_TRUE));
+  sam_call(SamGridDestroy(&grid));
+  RemoveFile(filename);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_a_part_counts_up_to_the_next_one),
     cmocka_unit_test(test_a_file_gets_its_name_when_it_is_complete),
     cmocka_unit_test(test_second_series_is_beside_the_history),
+    cmocka_unit_test(test_zeros_that_are_not_written_read_as_zeros),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -27,10 +27,11 @@ struct _n_SamFile {
   PetscMPIInt rank;
   hid_t       id, transfer; /* the file; property list for collective transfer */
   /* status */
-  off_t       reserved_begin, reserved_end; /* on rank 0: the part of the file that was last reserved */
-  PetscBool   failed;                       /* on this rank; on all ranks after SamFileEnd() or SamFileAgree() */
-  char        reason[256];                  /* reason of the first failure */
-  H5E_auto2_t print;                        /* HDF5's own error output, to be restored by SamFileEnd() */
+  off_t       reserved_begin; /* the file ended here before space was last reserved; its space begins here */
+  off_t       reserved_end;   /* on rank 0: the end of that space */
+  PetscBool   failed;         /* on this rank; on all ranks after SamFileEnd() or SamFileAgree() */
+  char        reason[256];    /* reason of the first failure */
+  H5E_auto2_t print;          /* HDF5's own error output, to be restored by SamFileEnd() */
   void       *print_data;
 };
 
@@ -120,7 +121,14 @@ typedef struct {
   int     rank;
   hsize_t start[SAM_SHAPE_RANK], count[SAM_SHAPE_RANK];
 } SamBlock;
-/* SamFileWriteBlock, SamFileReadBlock - write or read this rank's block of a dataset. */
+/*
+  SamFileWriteBlock, SamFileReadBlock - write or read this rank's block of a dataset.
+  SamFileWriteNotZero - writes this rank's block of a new frame, (1, rows, columns), without its first and last rows if
+  these are zero in all bytes and the file has zeros there already: in new chunks in reserved space. `bytes`: the size
+  of a value in memory.
+*/
+PETSC_INTERN void SamFileWriteNotZero(SamFile file, hid_t dataset, hid_t type, size_t bytes, const SamBlock *block,
+                                      const void *values);
 PETSC_INTERN void SamFileWriteBlock(SamFile file, hid_t dataset, hid_t type, const SamBlock *block, const void *values);
 PETSC_INTERN void SamFileReadBlock(SamFile file, hid_t dataset, hid_t type, const SamBlock *block, void *values);
 /* One frame of a dataset of shape (frames, ny, nx): each rank writes or reads its rows of the file's grid */

@@ -192,7 +192,10 @@ static void AppendCells(SamOutput o, PetscInt f, hsize_t count, const void *valu
   const hid_t   type = TypeOf(o, f, &bytes);
 
   (void)SamFileNote(o->f, H5Dset_extent(o->fields[f], size[layers ? 1 : 0]));
-  SamFileWriteBlock(o->f, o->fields[f], type, layers ? &deep : &flat, values);
+  if (count == 1 && !layers)
+    SamFileWriteNotZero(o->f, o->fields[f], type, bytes, &flat, values);
+  else
+    SamFileWriteBlock(o->f, o->fields[f], type, layers ? &deep : &flat, values);
 }
 
 /* Appends the frames that wait; `present`: instead those of the present step. */

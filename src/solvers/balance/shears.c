@@ -29,18 +29,19 @@ static const float *Ones(void)
 
 /*
   Computes for at most SAM_CHUNK cells of a row v = field + w phi a, its projection x = D(v) onto the disc, and the
-  derivative h of D times w. The second loop, with roots and divisions, runs only if a cell lies beyond its disc.
+  derivative h of D times w. The second loop, with roots and divisions, runs only if a cell lies beyond its disc;
+  `slips`: one does, so that the first loop would find the same.
 */
 SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, const double *restrict qy,
                                      const double *restrict bound, const float *restrict weight, const double a[3],
-                                     SamDual *sums)
+                                     PetscBool slips, SamDual *sums)
 {
   const double ax = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
   double value = 0, scale = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0,
-         beyond = 0;
+         beyond = slips ? 1 : 0;
 
 #pragma omp simd reduction(+ : value, scale, x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
-  for (int i = 0; i < row.count; i++) {
+  for (int i = 0; i < (slips ? 0 : row.count); i++) {
     const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0, w = in * (double)weight[i];
     const double vx = in * qx[i] + w * ax, vy = in * qy[i] + w * (a1 + a2 * xi), n2 = vx * vx + vy * vy;
 
@@ -80,6 +81,22 @@ SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, cons
   SamGramTangentialRow(sums->gram, (const double[6]){hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy}, row.eta);
 }
 
+/* True if the first cell, the last or the one between lies beyond its disc: most rows begin or end in slip. */
+static PetscBool Slips(SamRow row, const double qx[], const double qy[], const double bound[], const float weight[],
+                       const double a[3])
+{
+  const int cells[] = {0, row.count / 2, row.count - 1};
+
+  for (int k = 0; k < 3; k++) {
+    const int    i = cells[k];
+    const double w = (double)weight[i], vx = qx[i] + w * SamFrameX(a, row.eta),
+                 vy = qy[i] + w * (a[1] + a[2] * (row.xi0 + (double)i * row.dxi));
+
+    if (bound[i] > 0 && vx * vx + vy * vy > bound[i] * bound[i]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 static void PassTangential(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
 {
   const Cells *c = (const Cells *)context;
@@ -90,10 +107,10 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
     for (PetscInt n = c->runs->start[j]; n < c->runs->start[j + 1]; n++)
       for (PetscInt i = c->runs->span[n][0], last = c->runs->span[n][1]; i < last; i += SAM_CHUNK) {
         const SamRow  row = SamFrameRow(f, j, i, PetscMin(i + SAM_CHUNK, last));
-        const double *qx  = c->field + row.first;
+        const double *qx = c->field + row.first, *qy = qx + f->grid->cells, *bound = c->bound + row.first;
+        const float  *weight = c->weight ? c->weight + row.first : Ones();
 
-        AddShears(row, qx, qx + f->grid->cells, c->bound + row.first, c->weight ? c->weight + row.first : Ones(), a,
-                  &sums);
+        AddShears(row, qx, qy, bound, weight, a, Slips(row, qx, qy, bound, weight, a), &sums);
       }
     SamAddAll(SAM_DUAL, dual, (const double *)&sums);
   }

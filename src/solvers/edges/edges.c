@@ -65,8 +65,8 @@ static double Line(const SamZone *z, PetscInt i, const double fit[SAM_FIT_TERMS]
 }
 
 /* Fits the function about a cell to the zone's cells behind the margin of the edge; false: there are too few. */
-static PetscBool Extrapolate(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
-                             double fit[SAM_FIT_TERMS], double *bent)
+static PetscBool Extrapolate(const SamZone *z, SamFitWindow *core, PetscInt i, PetscInt j, double fit[SAM_FIT_TERMS],
+                             double *bent)
 {
   if (!SamFit(z, core, i, j, fit, bent)) return PETSC_FALSE;
   fit[0] -= (SamGridIsRow(z->grid) ? Line(z, i, fit) : SHIFT) * hypot(fit[1], fit[2]);
@@ -74,8 +74,7 @@ static PetscBool Extrapolate(const SamZone *z, const SamFitWindow *core, PetscIn
 }
 
 /* Reconstructs a cell of the band; w* becomes its constant term. Returns true if it looks like a smooth edge. */
-static PetscBool Reconstruct(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
-                             double fit[SAM_FIT_TERMS])
+static PetscBool Reconstruct(const SamZone *z, SamFitWindow *core, PetscInt i, PetscInt j, double fit[SAM_FIT_TERMS])
 {
   const ptrdiff_t k      = SamZoneAt(z, i, j);
   double          bent   = 0, slope, over;
@@ -244,7 +243,7 @@ static PetscErrorCode FindBand(Band *band)
                  end    = PetscMin(z->grid->row_start + z->grid->rows + 1, z->first + z->count);
 
   PetscFunctionBegin;
-  SamFitWindowInitialize(WINDOW, LAST + 1, &band->core);
+  PetscCall(SamFitWindowCreate(z, WINDOW, LAST + 1, &band->core));
   PetscCall(PetscMalloc1(cells, &band->slot));
   for (PetscInt j = z->first; j < z->first + z->count; j++) {
     const PetscBool without = j < begin || j >= end || SamZoneIsBare(z, j);
@@ -263,6 +262,7 @@ static PetscErrorCode Destroy(Band *band)
   PetscCall(PetscFree(band->slot));
   PetscCall(PetscFree(band->look));
   PetscCall(PetscFree(band->fit));
+  PetscCall(SamFitWindowDestroy(&band->core));
   PetscCall(SamZoneDestroy(&band->zone));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

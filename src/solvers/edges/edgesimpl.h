@@ -54,23 +54,32 @@ static inline double SamFitAt(const double fit[SAM_FIT_TERMS], double x, double 
 }
 
 /*
-  SamFitWindow - the cells that a fit uses: all within `half` cells in both directions, at most
-  SAM_FIT_HALF, whose squared distance is at least `least`.
+  SamFitWindow - the cells that a fit uses: all within `half` cells in both directions, at most SAM_FIT_HALF, whose
+  squared distance is at least `least`; and the sums over the parts of rows in the windows of columns, which the fits of
+  all cells of a column share: those of the last `kept` rows that were used.
+  SamFitWindowCreate - creates it for the fits in a zone, SamFitWindowDestroy() frees its arrays. Not collective.
 */
 enum { SAM_FIT_HALF = 5, SAM_FIT_SUMS = 8 };
 typedef struct {
-  PetscInt half;
-  int      least;
-  double   terms[2 * SAM_FIT_HALF + 1][SAM_FIT_SUMS]; /* of each column: 1, x, x^2, x^3, x^4 and 1, x, x^2 */
+  PetscInt row, count; /* number of the row in the grid; cells that take part */
+  double   sums[SAM_FIT_SUMS], squares;
+} SamFitRow;
+typedef struct {
+  PetscInt   half;
+  int        least;
+  double     terms[2 * SAM_FIT_HALF + 1][SAM_FIT_SUMS]; /* of each column: 1, x, x^2, x^3, x^4 and 1, x, x^2 */
+  PetscInt   kept;
+  SamFitRow *rows; /* [column of the zone's window][row modulo `kept`] */
 } SamFitWindow;
-PETSC_INTERN void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window);
+PETSC_INTERN PetscErrorCode SamFitWindowCreate(const SamZone *zone, PetscInt half, int least, SamFitWindow *window);
+PETSC_INTERN PetscErrorCode SamFitWindowDestroy(SamFitWindow *window);
 #define SAM_FIT_LEAST      9 /* least number of cells of a fit */
 #define SAM_FIT_LEAST_LINE 3 /* the same on a grid of one row */
 /*
   SamFit - finds the function nearest to the zone's field in the window about a cell. `bent`: rms deviation of the field
   from the function. Returns false if there are too few cells, or if the fit is singular. Not collective.
 */
-PETSC_INTERN PetscBool SamFit(const SamZone *zone, const SamFitWindow *window, PetscInt i, PetscInt j,
+PETSC_INTERN PetscBool SamFit(const SamZone *zone, SamFitWindow *window, PetscInt i, PetscInt j,
                               double fit[SAM_FIT_TERMS], double *bent);
 /* SamFitPart - returns the part of a cell where its function is positive. */
 PETSC_INTERN double SamFitPart(const double fit[SAM_FIT_TERMS]);

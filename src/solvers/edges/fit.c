@@ -5,11 +5,13 @@
 #define TERMS SAM_FIT_TERMS
 #define SUMS  SAM_FIT_SUMS
 #define SUB   16 /* number of sub-cells in each direction */
+#define KEPT  16 /* rows whose sums are kept: more than a window has */
 /* Entries of a symmetric matrix as the rows of its lower triangle; sums of x^m y^n with m + n up to 4 */
 enum { ENTRIES = TERMS * (TERMS + 1) / 2, POWERS = 5 };
 
-void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window)
+PetscErrorCode SamFitWindowCreate(const SamZone *z, PetscInt half, int least, SamFitWindow *window)
 {
+  PetscFunctionBegin;
   *window = (SamFitWindow){.half = half, .least = least};
   for (PetscInt a = -half; a <= half; a++) {
     double *terms = window->terms[a + half], x = 1;
@@ -17,6 +19,17 @@ void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window)
     for (int m = 0; m < POWERS; m++, x *= (double)a / (double)half) terms[m] = x;
     for (int m = 0; m + POWERS < SUMS; m++) terms[m + POWERS] = terms[m];
   }
+  window->kept = PetscMin(z->count, KEPT);
+  PetscCall(PetscMalloc1(z->width * window->kept, &window->rows));
+  for (PetscInt k = 0; k < z->width * window->kept; k++) window->rows[k].row = z->first - 1; /* none */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFitWindowDestroy(SamFitWindow *window)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(window->rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Part of a fit's window that lies in the zone's window */
@@ -112,20 +125,30 @@ static void AddMoments(const double row[SUMS], double y, Sums *sums)
   for (int k = 0; k < TERMS; k++) sums->right[k] += right[k];
 }
 
-static void Sum(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, Sums *sums)
+/* Returns the sums over the part of row b in the window of column i. */
+static const SamFitRow *RowOf(const SamZone *z, SamFitWindow *window, PetscInt i, PetscInt b, Range range)
 {
-  const PetscInt half  = window->half;
-  const Range    range = RangeOf(z, half, i, j);
+  SamFitRow      *row = window->rows + (i - z->left) * window->kept + (b - z->first) % window->kept;
+  const ptrdiff_t k   = SamZoneAt(z, range.left, b);
+
+  if (row->row == b) return row;
+  *row       = (SamFitRow){.row = b};
+  row->count = AddRow(range.right - range.left + 1, z->distance + k, window->least,
+                      window->terms + range.left - i + window->half, z->w + k, row->sums, &row->squares);
+  return row;
+}
+
+static void Sum(const SamZone *z, SamFitWindow *window, PetscInt i, PetscInt j, Sums *sums)
+{
+  const Range range = RangeOf(z, window->half, i, j);
 
   *sums = (Sums){.count = 0};
   for (PetscInt b = range.low; b <= range.high; b++) {
-    const ptrdiff_t k         = SamZoneAt(z, range.left, b);
-    double          row[SUMS] = {0};
-    const PetscInt  count     = AddRow(range.right - range.left + 1, z->distance + k, window->least,
-                                       window->terms + range.left - i + half, z->w + k, row, &sums->squares);
+    const SamFitRow *row = RowOf(z, window, i, b, range);
 
-    if (count) AddMoments(row, (double)(b - j) / (double)half, sums);
-    sums->count += count;
+    if (row->count) AddMoments(row->sums, (double)(b - j) / (double)window->half, sums);
+    sums->squares += row->squares;
+    sums->count += row->count;
   }
 }
 
@@ -143,7 +166,7 @@ static PetscBool FactorOf(const SamZone *z, const Sums *sums, double factor[ENTR
   return Factor(line, factor);
 }
 
-PetscBool SamFit(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double fit[TERMS], double *bent)
+PetscBool SamFit(const SamZone *z, SamFitWindow *window, PetscInt i, PetscInt j, double fit[TERMS], double *bent)
 {
   const double scale = (double)window->half;
   Sums         sums;

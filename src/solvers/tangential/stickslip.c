@@ -102,16 +102,17 @@ PetscErrorCode SamStickSlipKeepProduct(SamStickSlip *w, double rounding)
   Computes, for at most SAM_CHUNK cells of a row, the sums of the slip in the tangent space with the phi, and the Gram
   matrix there. The tangent space is that of H, the derivative of the projection of y = q - inverse s onto the disc.
   With `inverse` 0 it is that of q: cells on their circles may slip along them. The second loop, with roots and
-  divisions, runs only if a cell lies beyond its disc.
+  divisions, runs only if a cell lies beyond its disc; `slips`: one does, so that the first loop would find the same.
 */
-SAM_VECTORIZED static void FitCells(const SamStickSlip *w, SamRow row, double inverse, double sums[3 + SAM_GRAM])
+SAM_VECTORIZED static void FitCells(const SamStickSlip *w, SamRow row, double inverse, PetscBool slips,
+                                    double sums[3 + SAM_GRAM])
 {
   const double *restrict qx = w->q + row.first, *restrict qy = qx + w->cells, *restrict tx = w->s + row.first,
                          *restrict ty = tx + w->cells, *restrict bound = w->bound + row.first;
-  double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = 0;
+  double x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, beyond = slips ? 1 : 0;
 
 #pragma omp simd reduction(+ : x, y, turn, hxx, xi_hyy, xi2_hyy, beyond)
-  for (int i = 0; i < row.count; i++) {
+  for (int i = 0; i < (slips ? 0 : row.count); i++) {
     const double xi = row.xi0 + (double)i * row.dxi, b = bound[i], in = b > 0 ? 1 : 0;
     const double yx = qx[i] - inverse * tx[i], yy = qy[i] - inverse * ty[i];
 
@@ -142,6 +143,20 @@ SAM_VECTORIZED static void FitCells(const SamStickSlip *w, SamRow row, double in
   sums[1] += y;
   sums[2] += turn - row.eta * x;
   SamGramTangentialRow(sums + 3, (const double[6]){hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy}, row.eta);
+}
+
+/* True if the first cell, the last or the one between lies beyond its disc: most rows begin or end in slip. */
+static PetscBool Slips(const SamStickSlip *w, SamRow row, double inverse)
+{
+  const int cells[] = {0, row.count / 2, row.count - 1};
+
+  for (int k = 0; k < 3; k++) {
+    const ptrdiff_t i = row.first + cells[k], j = i + w->cells;
+    const double    b = w->bound[i], yx = w->q[i] - inverse * w->s[i], yy = w->q[j] - inverse * w->s[j];
+
+    if (b > 0 && yx * yx + yy * yy > ON_CIRCLE * b * b) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
 }
 
 /* Subtracts the rigid motion a from a row of slips. */
@@ -180,8 +195,11 @@ static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
     double row[3 + SAM_GRAM] = {0};
 
     for (PetscInt n = 0; SamStickSlipNext(w, j, &n, &run);)
-      for (PetscInt i = run.column, last = i + run.count; i < last; i += SAM_CHUNK)
-        FitCells(w, SamFrameRow(w->frame, j, i, PetscMin(i + SAM_CHUNK, last)), inverse, row);
+      for (PetscInt i = run.column, last = i + run.count; i < last; i += SAM_CHUNK) {
+        const SamRow chunk = SamFrameRow(w->frame, j, i, PetscMin(i + SAM_CHUNK, last));
+
+        FitCells(w, chunk, inverse, Slips(w, chunk, inverse), row);
+      }
     SamAddAll(3 + SAM_GRAM, totals, row);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 3 + SAM_GRAM, totals, sums));
