@@ -30,16 +30,18 @@ def shapes():
 
 
 def solve(heights):
-    """The recorded loop of a pad."""
+    """A pad with its loop recorded."""
     contact = petsam.Contact(**PAD)
     contact.gap = np.tensordot(heights, UNITS, axes=1) + CROWN
-    return petsam.gradient.record(contact, HISTORY)
+    contact.record_gradient()
+    contact.run(HISTORY)
+    return contact
 
 
 def objective(parts, start):
     """Energy over that of the start, and a penalty on the norm of the pressure, with their derivatives."""
-    tape = solve(parts * START[0])
-    energy, norm = (petsam.gradient.of(tape, name, rtol=1e-4) for name in ("energy", "pressure_norm"))
+    contact = solve(parts * START[0])
+    energy, norm = (contact.gradient(name, rtol=1e-4) for name in ("energy", "pressure_norm"))
     value, slope = energy.value / start[0], energy.gap / start[0]
     over = max(norm.value / start[1] / MOST - 1, 0.0)
     slope = slope + 2000 * over * norm.gap / (start[1] * MOST)
@@ -47,14 +49,14 @@ def objective(parts, start):
 
 
 def main():
-    tape = solve(START)
-    first = petsam.gradient.of(tape, "energy")
-    start = first.value, petsam.gradient.of(tape, "pressure_norm").value
+    parabola = solve(START)
+    first = parabola.gradient("energy")
+    start = first.value, parabola.gradient("pressure_norm").value
     bounds = [(0.05, None), *[(0, None)] * (len(POWERS) - 1)]
     found = minimize(objective, START / START[0], args=(start,), jac=True, method="L-BFGS-B", bounds=bounds,
                      options={"maxiter": 60, "ftol": 1e-6})  # fmt: skip
     best = solve(found.x * START[0])
-    energy, norm = (petsam.gradient.backward.value_of(best, name) for name in ("energy", "pressure_norm"))
+    energy, norm = (best.gradient(name, rtol=1e-4).value for name in ("energy", "pressure_norm"))
     print(
         f"runs {found.nfev}, with as many passes back for each number; by differences {found.nfev * len(POWERS)} more"
     )
@@ -62,29 +64,25 @@ def main():
     print(f"norm of the pressure {100 * (norm / start[1] - 1):+.0f} %")
     print("heights at the pad's edge by powers 2 ... 20, um:", np.round(1e6 * START[0] * found.x, 2).tolist())
     if len(sys.argv) > 1:
-        draw(first, tape, best, found.x * START[0], sys.argv[1])
+        draw(first, parabola, best, found.x * START[0], sys.argv[1])
 
 
-def draw(first, tape, best, heights, name):
+def draw(first, parabola, best, heights, name):
     """Draws where a micrometre counts, and both profiles with their pressures."""
-    contact = petsam.Contact(**PAD)
-    x = 1e3 * contact.x
+    x = 1e3 * best.x
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.6), layout="constrained")
     area = (PAD["grid_size"] / PAD["grid_n"]) ** 2
     percent = 100 * first.gap / first.value / area * 1e-6 * 1e-10  # of the work by 1 um on (10 um)^2
     limit = np.abs(percent).max()
-    image = left.pcolormesh(x, 1e3 * contact.y, percent, cmap="RdBu_r", vmin=-limit, vmax=limit)
+    image = left.pcolormesh(x, 1e3 * best.y, percent, cmap="RdBu_r", vmin=-limit, vmax=limit)
     figure.colorbar(image, ax=left, label="change of the work, %")
     left.set_title("1 um removed on 10 um x 10 um", fontsize="medium")
     left.set_xlabel("x, mm")
     left.set_ylabel("y, mm")
     left.set_aspect("equal")
-    middle = len(contact.y) // 2
-    for label, color, heights_of, recorded in (
-        ("parabola", "#0072b2", START, tape),
-        ("best", "#d55e00", heights, best),
-    ):
-        line = recorded.whole(recorded.records[0].pressure)[middle]
+    middle = len(best.y) // 2
+    for label, color, heights_of, pad in (("parabola", "#0072b2", START, parabola), ("best", "#d55e00", heights, best)):
+        line = pad.field("pressure")[middle]  # the same in all steps
         right.plot(x, 1e-6 * line, color=color, label=label)
         print(
             f"{label}: maximum pressure {1e-6 * line.max():.0f} MPa, at the edge {heights_of.sum() * 1e6:.2f} um open"

@@ -470,6 +470,66 @@ int petsam_get_stress(petsam_contact *c, const char *name, double *values);
 const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions);
 
 /*
+  petsam_gradient_record - begins or ends the recording of committed steps for gradients; both forget earlier ones.
+
+  Collective.
+
+  In:     c  - the contact, without a committed step
+          on - 1: records each step that is committed from now on; 0: ends the recording
+
+  Errors: 2 for a contact with steps, or with options whose derivative is not computed.
+
+  Steps of petsam_history() are recorded, too; petsam_commit() and petsam_history() return 2 for a step that has no
+  derivative. The slip must be opposite to the shear at the end of a step, -slip_direction end. A step takes 60 bytes
+  per cell in contact.
+
+  See also: petsam_gradient().
+*/
+int petsam_gradient_record(petsam_contact *c, int on);
+
+/*
+  petsam_gradient - computes the derivatives of a number of the recorded steps by all parameters, in one pass back.
+
+  Collective.
+
+  In:     c      - the contact
+          name   - the number: energy (J, the frictional work of the steps), wear_volume (m3, that of both bodies after
+                   the last of the steps), pressure_norm (Pa, (sum p^8 dA)^(1/8) in the last of the steps), or a load or
+                   a displacement that is found, summed over the steps
+          first  - first of the steps that it is of, from 0; -1: all steps of an energy, else the last one
+          last   - the last of them; -1: the last step
+          moduli - 1: also by the moduli of the bodies
+          rtol   - relative residual of the systems that are solved, such as 1e-6 (1)
+  Out:    steps  - number of recorded steps
+
+  Errors: 2 for an unknown name, a load that is given, a contact that slides as a whole under given loads, and without
+  recorded steps; 10 if a system does not converge.
+
+  See also: petsam_gradient_record(), petsam_get_gradient().
+*/
+int petsam_gradient(petsam_contact *c, const char *name, int first, int last, int moduli, double rtol, int *steps);
+
+/*
+  petsam_get_gradient - copies a result of the last petsam_gradient().
+
+  Collective.
+
+  In:     c      - the contact
+          name   - its name: value, the number itself; gap and friction, derivatives by the separation (1/m) and the
+                   coefficient of friction in each cell; load_n, disp_x, bulk1_stress_xx ..., by the value of each step;
+                   body1_young (1/Pa), body1_poisson ..., by the moduli; wear_coefficient (Pa), wear_energy, by the
+                   coefficients of both bodies alike; borders, the number of cells that are about to change their set,
+                   where derivatives hold to one side; residual, the largest of the systems
+  Out:    values - this rank's rows of a field; of the steps, NaN where it is not given; else one number (unit of the
+                   number over that of the parameter)
+
+  Errors: 2 for another name, or before petsam_gradient().
+
+  See also: petsam_gradient(), petsam_grid().
+*/
+int petsam_get_gradient(petsam_contact *c, const char *name, double *values);
+
+/*
   petsam_save - writes the committed state to a file, safely: an older file of the name becomes name.1.
 
   Collective.

@@ -15,7 +15,7 @@ joint           contact stiffness and damping of rough interfaces per area; join
 profiles        wheel and rail: patches, creepages and forces from two profiles
 calibration     friction, rig stiffness, wear from measured loops: petsam-fit
 conduction      thermal and electrical conductance of contacts: conduction.of(contact, lam1, lam2)
-gradient        derivatives of a number of a history by all parameters: gradient.record(contact, history)
+gradient        derivatives of a number of a history by all parameters: Contact.gradient()
 heat            temperatures by the friction of a cycle at a frequency: heat.work(results).temperatures(50)
 closed          closed-form solutions of contact mechanics
 materials       constants of materials by name

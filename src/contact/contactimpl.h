@@ -90,11 +90,8 @@ PETSC_INTERN PetscErrorCode SamContactBegin(SamContact contact, const SamControl
 PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *step);
 /* SamContactRefresh - makes the views of the committed generation, and of that one step back. Collective. */
 PETSC_INTERN PetscErrorCode SamContactRefresh(SamContact contact);
-/*
-  SamContactBefore - the committed solution, from which the tried one continues; NULL in the first step. Not collective.
-*/
-PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
-/* SamContactSlipBefore - the same, or NULL if the slip of this step does not continue from that solution's slip. */
+/* SamContactSlipBefore - returns the committed solution, or NULL if the slip of this step does not continue from its
+   slip. Not collective. */
 static inline const SamSolution *SamContactSlipBefore(SamContact contact)
 {
   return contact->motion->continues ? SamContactBefore(contact) : NULL;

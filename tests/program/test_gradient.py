@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam import gradient
 
 SIZE = 2.6e-3
 BODIES = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
@@ -34,6 +33,14 @@ def contact_of(bodies, n=32, size=SIZE, friction=0.3, gap=gap_of, **more):
     return contact, x, y
 
 
+def record(contact, history):
+    """Records a history; returns the contact, and the frictional work of each step as the contact has it."""
+    works = []
+    contact.record_gradient()
+    contact.run(history, lambda one, step: works.append(one.number("dissipated_energy")))
+    return contact, np.array(works)
+
+
 def history_of(normal, tx, ty):
     count = len(normal)
     return {"time": np.arange(float(count)), "load_n": normal, "load_tx": tx, "load_ty": ty}
@@ -45,11 +52,11 @@ def test_published_digits_of_similar_bodies():
     a = np.append(TURNS, [-0.4, 0.2, 0.7, 1])
     history = history_of(np.full(13, 1000.0), np.append(0, 200 * a), np.append(0, 60 * a * (1 - a)))
     contact, x, y = contact_of(BODIES)
-    tape = gradient.record(contact, history)
-    found = gradient.of(tape, "energy", rtol=1e-11)
+    works = record(contact, history)[1]
+    found = contact.gradient("energy", moduli=True, rtol=1e-11)
     wave = np.cos(7e3 * x + 1) * np.cos(5e3 * y + 0.5)
     assert found.value == pytest.approx(1.0156654325e-4, rel=1e-9)
-    assert found.value == pytest.approx(tape.energies.sum(), rel=1e-12)
+    assert found.value == pytest.approx(works.sum(), rel=1e-12)
     for value, digits in (
         (np.sum(found["gap"] * wave), 19.128563251), (found["friction"].sum(), -7.00034305e-4),
         (found["load_n"].sum(), -2.4086718393e-7), (found["load_tx"][8], -8.4234204098e-7),
@@ -69,7 +76,7 @@ def test_digits_with_bulk_stress():
     a = np.array([0, 0.4, 0.8, 1, 0.3, -0.4, -1])
     history = history_of(np.full(7, 1000.0), 200 * a, np.zeros(7))
     history |= {"bulk2_stress_xx": 80e6 * a, "bulk1_stress_xy": -20e6 * a**2}
-    found = gradient.of(gradient.record(contact_of(BODIES)[0], history), "energy", rtol=1e-10)
+    found = record(contact_of(BODIES)[0], history)[0].gradient("energy", moduli=True, rtol=1e-10)
     assert found["bulk1_stress_xy"][3] == pytest.approx(-1.6945613128e-13, rel=2e-8)
     assert 210e9 * found["body1_young"] == pytest.approx(-3.31964614e-05, rel=1e-6)
 
@@ -80,11 +87,10 @@ def test_digits_of_wear():
     a = np.concatenate([[0], TURNS, TURNS])
     history = history_of(np.full(17, 1000.0), 200 * a, 60 * a * (1 - a))
     contact, x, y = contact_of(BODIES, wear_coefficient1=1e-11)
-    tape = gradient.record(contact, history)
-    found = gradient.of(tape, "wear_volume", rtol=1e-10)
+    found = record(contact, history)[0].gradient("wear_volume", rtol=1e-10)
     wave = np.cos(7e3 * x + 1) * np.cos(5e3 * y + 0.5)
     assert found.value == pytest.approx(contact.number("wear_volume1"), rel=1e-9)
-    assert 1e-11 * found["wear_coefficient1"] == pytest.approx(4.743367944e-15, rel=1e-7)
+    assert 1e-11 * found["wear_coefficient"] == pytest.approx(4.743367944e-15, rel=1e-7)
     assert np.sum(found["gap"] * wave) == pytest.approx(9.181204978e-10, rel=1e-7)
     assert found["load_tx"][9] == pytest.approx(-1.06910e-19, rel=1e-4)
 
@@ -96,14 +102,14 @@ def test_digits_of_dissimilar_bodies():
         np.append(400, np.full(9, 1000.0)), np.append([0, 0], 200 * TURNS), np.append([0, 0], 60 * TURNS * (1 - TURNS))
     )
     contact, x, y = contact_of(UNLIKE)
-    found = gradient.of(gradient.record(contact, history), "energy", rtol=1e-10)
+    found = record(contact, history)[0].gradient("energy", moduli=True, rtol=1e-10)
     wave = np.cos(7e3 * x + 1) * np.cos(5e3 * y + 0.5)
     for value, digits in (
         (found["load_n"][0], 4.302397939e-8), (found["load_tx"][5], 1.172006263e-6),
         (210e9 * found["body1_young"], 5.848453349e-5), (np.sum(found["gap"] * wave), 5.318417708),
     ):  # fmt: skip
         assert value == pytest.approx(digits, rel=2e-7)
-    rough = gradient.of(gradient.record(contact_of(UNLIKE)[0], history), "energy", rtol=1e-4)
+    rough = contact.gradient("energy", rtol=1e-4)
     assert np.linalg.norm(rough["gap"] - found["gap"]) < 1e-2 * np.linalg.norm(found["gap"])
 
 
@@ -189,7 +195,7 @@ def objectives(problem):
     """Numbers that have a derivative, with their steps."""
     history = problem.history
     yield "energy", None
-    if problem.tape.wear.any():
+    if any(name.startswith("wear") for name in problem.case):
         yield "wear_volume", None
     yield "pressure_norm", slice(1, 3)
     if "elasticity" not in problem.case:
@@ -212,7 +218,8 @@ class Problem:
         self.case, self.history = random_case(seed)
         contact, x, y = self.contact({})
         self.gap, self.wave = self.case["gap"](x, y), 1e-9 * np.cos(5e3 * x + 1) * np.cos(4e3 * y + 0.5)
-        self.tape = gradient.record(contact, self.history)
+        self.recorded, works = record(contact, self.history)
+        self.energy = works.sum()
         self.columns = [name for name in self.history if name != "time"]
 
     def contact(self, change):
@@ -244,6 +251,8 @@ class Problem:
             return np.sum(found.friction * self.case["friction"])
         if parameter in self.case["bodies"]:
             return found[parameter] * self.case["bodies"][parameter]
+        if parameter.startswith("wear"):
+            return found[parameter[:-1]] * self.case[parameter]
         if parameter in self.case:
             return np.sum(found[parameter]) * self.case[parameter]
         return found[parameter][2] * np.abs(self.history[parameter]).max()
@@ -254,9 +263,8 @@ class Problem:
         both = []
         for sign in (1, -1):
             change = self.changed(parameter, sign * size)
-            tape = gradient.record(self.contact(change)[0], change.get("history", self.history))
-            own = tape.energies.sum() if name == "energy" else gradient.backward.value_of(tape, name, steps)
-            both.append(own)
+            contact, works = record(self.contact(change)[0], change.get("history", self.history))
+            both.append(works.sum() if name == "energy" else contact.gradient(name, steps, rtol=0.1).value)
         return (both[0] - both[1]) / (2 * size)
 
 
@@ -266,12 +274,12 @@ def check_random(seed):
     problem, deviations, borders = Problem(seed), {}, 0
     more = [name for name in problem.case if name.startswith(("wear", "bulk"))]
     for name, steps in objectives(problem):
-        if name == "energy" and problem.tape.energies.sum() < 1e-12:
+        if name == "energy" and problem.energy < 1e-12:
             continue  # all cells stick
-        found = gradient.of(problem.tape, name, steps, rtol=1e-11)
+        found = problem.recorded.gradient(name, steps, moduli=True, rtol=1e-11)
         borders += found.borders
         if name == "energy":
-            assert found.value == pytest.approx(problem.tape.energies.sum(), rel=1e-9, abs=1e-15)
+            assert found.value == pytest.approx(problem.energy, rel=1e-9, abs=1e-15)
         for parameter in ("gap", "friction", "body1_young", "body2_poisson", *more, *problem.columns):
             difference = problem.difference(parameter, name, steps)
             scale = max(abs(difference), 0.1 * abs(found.value))
@@ -286,7 +294,7 @@ def test_sphere_beside_hertz():
     history = {"time": [0.0], "load_n": [load]}
     bodies = dict(BODIES, body1_poisson=0.0, body2_poisson=0.0)
     contact, x, y = contact_of(bodies, 65, SIZE, 0.0, lambda x, y: (x**2 + y**2) / (2 * radius))
-    found = gradient.of(gradient.record(contact, history), "disp_z")
+    found = record(contact, history)[0].gradient("disp_z")
     assert found["load_n"][0] * load / found.value == pytest.approx(2 / 3, rel=2e-3)
     by_radius = np.sum(found["gap"] * -(x**2 + y**2) / (2 * radius**2))
     assert by_radius * radius / found.value == pytest.approx(-1 / 3, rel=5e-3)
@@ -298,7 +306,7 @@ def test_an_optimiser_finds_the_friction_of_a_loop():
     history = history_of(np.full(6, 1000.0), 150 * np.array([0, 0.5, 1, 0, -1, 0]), np.zeros(6))
 
     def run(friction):
-        return gradient.of(gradient.record(contact_of(BODIES, 24, friction=friction)[0], history), "energy")
+        return record(contact_of(BODIES, 24, friction=friction)[0], history)[0].gradient("energy")
 
     goal, friction = run(0.37).value, 0.3
     for _ in range(4):
@@ -308,35 +316,108 @@ def test_an_optimiser_finds_the_friction_of_a_loop():
 
 
 @pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(
+    "more", [
+        dict(body2_layer_young=400e9, body2_layer_poisson=0.25, body2_layer_thickness=5e-5),
+        dict(film_shear=1e9, film_thickness=1e-7), dict(body1_young="inf", body1_poisson=0.3),
+    ], ids=["layer", "film", "rigid"],
+)  # fmt: skip
+def test_bodies_whose_moduli_have_no_derivative(more):
+    """Gap, friction and loads have theirs, beside differences; the moduli are refused."""
+    bodies = {name: more.get(name, value) for name, value in UNLIKE.items()}
+    more = {name: value for name, value in more.items() if name not in bodies}
+    history = history_of(np.array([300.0, 400, 400, 380]), np.array([0, 50.0, -30, 40]), np.array([0, 10.0, 20, -5]))
+    wave = lambda x, y: 1e-9 * np.cos(5e3 * x + 1) * np.cos(4e3 * y + 0.5)  # noqa: E731
+
+    def run(gap=0.0, friction=0.3, load=0.0):
+        contact, x, y = contact_of(
+            bodies, 24, friction=friction, gap=lambda x, y: gap_of(x, y) + gap * wave(x, y), **more
+        )
+        changed = {**history, "load_tx": history["load_tx"] + load * np.array([0, 0, 1, 0])}
+        return (*record(contact, changed), wave(x, y))
+
+    contact, works, shape = run()
+    found = contact.gradient("energy", rtol=1e-10)
+    assert found.value == pytest.approx(works.sum(), rel=1e-10)
+    for name, size, derivative in (
+        ("gap", 1e-3, np.sum(found.gap * shape)), ("friction", 1e-6, found.friction.sum()),
+        ("load", 1e-4, found["load_tx"][2]),
+    ):  # fmt: skip
+        start = 0.3 if name == "friction" else 0.0
+        both = [run(**{name: start + sign * size})[1].sum() for sign in (1, -1)]
+        assert derivative == pytest.approx((both[0] - both[1]) / (2 * size), rel=1e-5), name
+    with pytest.raises(petsam.Error, match="leave the moduli out"):
+        contact.gradient("energy", moduli=True)
+
+
+@pytest.mark.filterwarnings("ignore")
 def test_refusals():
     """What has no derivative is named, with what to take instead."""
-    history = {"time": [0.0, 1.0], "load_n": [500.0, 500.0], "load_tx": [0.0, 50.0]}
+    history = {"time": [0.0, 1.0, 2.0], "load_n": [500.0, 500.0, 500.0], "load_tx": [0.0, 50.0, 20.0]}
+    hot = dict(heat="steady", body1_conductivity=50, body1_heat_capacity=3.6e6, body2_conductivity=7,
+               body2_heat_capacity=3.6e6)  # fmt: skip
+    path = dict(friction_law="slip_path", friction_path_final=0.5, friction_path_length=2e-6)
     for change, words in (
-        (dict(slip_direction="mid"), "slip_direction='end'"),
-        (dict(heat="steady"), "heat"), (dict(pressure_limit=1e9), "hardness"),
-        (dict(tangential_rtol=1e-4), "tangential_rtol"), (dict(body2_layer_young=1e11, body2_layer_poisson=0.3,
-         body2_layer_thickness=1e-4), "layers"),
-        (dict(body2_layers="gold", body2_layer_thickness=1e-4), "layers"),
+        (hot, "heat"), (dict(pressure_limit=1e9), "pressure_limit"), (dict(tangential_rtol=1e-4), "tangential_rtol"),
+        (dict(body2_yield=5e8), "yield"), (dict(rolling="steady"), "rolling"), (dict(coupling="none"), "coupling"),
+        (dict(slide=True, wear_coefficient1=1e-12), "slide"), (path, "friction_law"),
     ):  # fmt: skip
+        ball = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=16, grid_size=SIZE, friction=0.3)
+        direction = None if "rolling" in change else "end"
+        contact = petsam.Contact(**{**BODIES, **TIGHT, **ball, "slip_direction": direction, **change})
         with pytest.raises(petsam.Error, match=words):
-            gradient.record(contact_of(BODIES, 16, **change)[0], history)
-    with pytest.raises(petsam.Error, match="column friction_scale"):
-        gradient.record(contact_of(BODIES, 16)[0], {**history, "friction_scale": [1, 0.5]})
+            contact.record_gradient()
+    turning = {**history, "load_ty": [0.0, 0.0, 60.0]}
+    with pytest.raises(petsam.Error, match="-slip_direction end"):
+        record(contact_of(BODIES, 16, slip_direction="mid")[0], turning)
+    with pytest.raises(petsam.Error, match="friction changes"):
+        record(contact_of(BODIES, 16)[0], {**history, "friction_scale": [1, 0.5, 1]})
     with pytest.raises(petsam.Error, match="no contact"):
-        gradient.record(contact_of(BODIES, 16)[0], {"time": [0.0], "disp_z": [-1e-6]})
-    contact = contact_of(BODIES, 16)[0]
-    tape = gradient.record(contact, history)
+        record(contact_of(BODIES, 16)[0], {"time": [0.0], "disp_z": [-1e-6]})[0].gradient("energy")
+    contact, works = record(contact_of(BODIES, 16)[0], history)
     with pytest.raises(petsam.Error, match="has steps already"):
-        gradient.record(contact, history)
-    contact.reset()
-    assert gradient.record(contact, history).energies == pytest.approx(tape.energies, rel=1e-12)
+        contact.record_gradient()
     for name, words in (
         ("contact_area", "piecewise constant"), ("pressure_max", "take pressure_norm"), ("load_n", "take disp_z"),
-        ("disp_sideways", "expected energy"), ("wear_volume", "no coefficient of wear"),
+        ("disp_sideways", "expected energy"), ("wear_volume", "no coefficient of wear"), ("stiffness", "differences"),
     ):  # fmt: skip
         with pytest.raises(petsam.Error, match=words):
-            gradient.of(tape, name)
-    with pytest.raises(petsam.Error, match="no such step"):
-        gradient.of(tape, "energy", slice(5, 7))
+            contact.gradient(name)
+    with pytest.raises(petsam.Error, match="expected steps from 0 to 2"):
+        contact.gradient("energy", slice(5, 7))
+    with pytest.raises(petsam.Error, match="neighbouring"):
+        contact.gradient("energy", slice(-2, None))
+    found = contact.gradient("energy")
     with pytest.raises(petsam.Error, match="no derivative by it"):
-        _ = gradient.of(tape, "energy")["disp_x"]
+        _ = found["disp_x"]
+    with pytest.raises(petsam.Error, match="moduli=True"):
+        _ = found["body1_young"]
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_becomes_of_recorded_steps():
+    """A rejected step is not recorded, a reset forgets all, a new gap ends the record."""
+    history = {"time": [0.0, 1.0, 2.0], "load_n": [500.0, 500.0, 500.0], "load_tx": [0.0, 50.0, 20.0]}
+    contact, x, y = contact_of(BODIES, 16)
+    found = record(contact, history)[0].gradient("energy")
+    contact.reset()
+    contact.try_step(load_n=500.0)
+    contact.commit()
+    contact.try_step(load_n=500.0, load_tx=70.0)
+    contact.reject()
+    for tx in (50.0, 20.0):
+        contact.try_step(load_n=500.0, load_tx=tx)
+        contact.commit()
+    again = contact.gradient("energy")
+    assert again.value == found.value and np.array_equal(again.gap, found.gap)
+    contact.gap = gap_of(x, y) + 1e-9
+    contact.try_step(load_n=500.0, load_tx=10.0)
+    with pytest.raises(petsam.Error, match="gap has been given anew"):
+        contact.commit()
+    contact.reset()  # forgets the gap of the steps before, too
+    contact.try_step(load_n=500.0)
+    contact.commit()
+    assert contact.gradient("disp_z").gap.sum() != 0
+    other = contact_of(BODIES, 16)[0]
+    with pytest.raises(petsam.Error, match="no steps are recorded"):
+        other.gradient("energy")

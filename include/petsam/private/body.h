@@ -76,6 +76,24 @@ PETSC_INTERN PetscBool SamPairIsUniform(SamPair pair);
 PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
 
 /*
+  SamPairConstants - the constants A, B and D (1/Pa) to which the displacements of two uniform bodies are proportional:
+  with the integrals I of 1/r, x^2/r^3, x/r^2 and so on over a cell, u_z by pressure is A I_r, u_t by shear A I_r + B
+  (I_xx, I_xy; I_xy, I_yy), u_t by pressure D (I_x, I_y). `by`: their derivatives by the moduli, E (Pa) and nu of body 1
+  and of body 2, which are in `modulus`.
+  SamPairGetConstants - gets them; returns NULL, or the reason why they do not describe the pair.
+  SamPairGetValues - gets A, B and D of the materials at the surfaces, also where a body is rigid.
+  SamPairCreateOther - creates a pair whose A and B are not proportional to those of a pair, and whose D is not 0.
+  None is collective.
+*/
+enum { SAM_PAIR_CONSTANTS = 3, SAM_PAIR_MODULI = 4 };
+typedef struct {
+  double value[SAM_PAIR_CONSTANTS], modulus[SAM_PAIR_MODULI], by[SAM_PAIR_CONSTANTS][SAM_PAIR_MODULI];
+} SamPairConstants;
+PETSC_INTERN const char    *SamPairGetConstants(SamPair pair, SamPairConstants *constants);
+PETSC_INTERN void           SamPairGetValues(SamPair pair, double value[SAM_PAIR_CONSTANTS]);
+PETSC_INTERN PetscErrorCode SamPairCreateOther(SamPair pair, SamPair *other);
+
+/*
   Symbols times |k|, m/Pa times 1/m: u_z from p, the coupling, u_t from q along the wave, and across it. A wave along x
   of p and (q_x, q_y) moves a surface by u_z = (zz p + zr q_x)/k, u_x = (rr q_x + zr p)/k, u_y = tt q_y/k, where p and
   u_z go like cos kx and q_x and u_x like sin kx.

@@ -179,6 +179,9 @@ PETSC_INTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf whi
 */
 PETSC_INTERN PetscErrorCode SamContactSetState(SamContact contact, SamState state, PetscBool gap_is_current);
 PETSC_INTERN PetscInt       SamContactGetSteps(SamContact contact);
+/* SamContactBefore - returns the committed solution, from which the tried one continues; NULL in the first step. Not
+   collective. */
+PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
 
 /*
   SamContactIsGapCurrent - sets `current` to true if the committed pressure was solved with the present gap of the

@@ -26,6 +26,12 @@ PETSC_INTERN PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from
 */
 PETSC_INTERN PetscErrorCode SamElasticityAddParameters(SamElasticity elasticity, SamParameters *parameters);
 /*
+  SamElasticityCreateOfPair - creates an elasticity of the same type and settings on the same grid for another pair of
+  bodies, without a film. Collective. Errors: PETSC_ERR_SUP for a type that adds to another one, or has more than the
+  pair to describe its bodies.
+*/
+PETSC_INTERN PetscErrorCode SamElasticityCreateOfPair(SamElasticity like, SamPair pair, SamElasticity *elasticity);
+/*
   SamElasticityGetCoarse - gets the operator on the next coarser grid, and the transfer to it; both are borrowed, and
   NULL if the grid is too small to be halved (fewer than 8 cells in a direction, except a single row). They are created
   at the first call. Collective.

@@ -9,6 +9,19 @@
 typedef enum { SAM_FROZEN_NORMAL, SAM_FROZEN_TANGENTIAL, SAM_FROZEN_BOTH } SamFrozenPart;
 
 /*
+  SamFrozenBorder - equations of a system besides those of its cells: row_k.x = a given number for each k, and a
+  multiplier of each, times its column, in the equations of the cells. Rows and columns are of the system's size.
+*/
+typedef struct {
+  PetscInt count;
+  double  *row[SAM_COMPONENTS], *column[SAM_COMPONENTS];
+  double  *spread[SAM_COMPONENTS];                   /* approximate inverse of the matrix times each column */
+  double  *unit[SAM_COMPONENTS];                     /* orthonormal basis of the columns */
+  double   triangle[SAM_COMPONENTS][SAM_COMPONENTS]; /* column k is the sum over l <= k of triangle[l][k] unit_l */
+  double   inverse[SAM_COMPONENTS][SAM_COMPONENTS];  /* of the products row_k.spread_l */
+} SamFrozenBorder;
+
+/*
   SamFrozen - the cells in contact, packed row after row, and their linear response. Fields are packed arrays of up to
   three components, each of `count` values: dp and the unknown of the shear, from which SamFrozenShear() computes dq.
 */
@@ -34,9 +47,12 @@ typedef struct {
   double      **motion; /* these motions, each of three packed components, normal first, m */
   PetscBool     holds;  /* the loads whose components the frames have stay as they are */
   /* the system that is solved */
-  SamFrozenPart part;
-  PetscReal     rtol; /* relative residual to which it is solved */
-  PetscInt      applies, preconditions;
+  SamFrozenPart   part;
+  PetscBool       transposed; /* its matrix is the transposed one; no bound follows the slip then */
+  SamFrozenBorder border;     /* its further equations */
+  PetscReal       rtol;       /* relative residual to which it is solved */
+  double          reference;  /* what residuals are relative to; 0: the norm of the right-hand side */
+  PetscInt        applies, preconditions;
 } SamFrozen;
 
 /*
@@ -85,6 +101,9 @@ PETSC_INTERN void SamFrozenShear(const SamFrozen *frozen, const double p[], cons
    right-hand side. */
 PETSC_INTERN PetscErrorCode SamFrozenPack(const SamFrozen *frozen, Vec field, double values[]);
 PETSC_INTERN void           SamFrozenProject(const SamFrozen *frozen, double values[]);
+/* SamFrozenFollow - adds to the normal part of packed values of three components what the transposed matrix adds: the
+   derivative of the bound by the pressure, times the part along e of the tangential one. Not collective. */
+PETSC_INTERN void SamFrozenFollow(const SamFrozen *frozen, double values[]);
 /* SamFrozenTakeSlip - computes d(ds) = C dq - t after a product with dq, t being the motion along phi k; packed.
    Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenTakeSlip(const SamFrozen *frozen, PetscInt k, double slip[]);
@@ -101,6 +120,23 @@ PETSC_INTERN PetscErrorCode SamFrozenDots(const SamFrozen *frozen, PetscInt n, d
 PETSC_INTERN PetscErrorCode SamFrozenHold(SamFrozen *frozen, const SamBalance *normal, const SamBalance *tangential);
 PETSC_INTERN PetscErrorCode SamFrozenTakeMotion(const SamFrozen *frozen, double residual[]);
 PETSC_INTERN PetscErrorCode SamFrozenTakeLoad(const SamFrozen *frozen, double direction[]);
+
+/*
+  SamFrozenSetBorder - takes over the arrays of `count` rows and columns, whose frees are PetscFree(), as the border of
+  the system whose part is set; `regular`: false if the rows do not determine the multipliers. Collective.
+  SamFrozenClearBorder - frees it. Not collective.
+  SamFrozenSolveBordered - solves the system with its border: x and the multipliers. u_z and u_t become the
+  displacements by x. `error` is the residual relative to the right-hand side b. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamFrozenSetBorder(SamFrozen *frozen, PetscInt count, double *const rows[],
+                                               double *const columns[], PetscBool *regular);
+PETSC_INTERN PetscErrorCode SamFrozenClearBorder(SamFrozen *frozen);
+PETSC_INTERN PetscErrorCode SamFrozenSolveBordered(SamFrozen *frozen, const double b[], const double given[],
+                                                   double x[], double multipliers[], PetscReal *error);
+/* SamFrozenTakeColumns, SamFrozenTakeRows - take the part along the columns off a residual, and the products with the
+   rows off a direction. Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenTakeColumns(const SamFrozen *frozen, double residual[]);
+PETSC_INTERN PetscErrorCode SamFrozenTakeRows(const SamFrozen *frozen, double direction[]);
 
 /* Relative residual of a linear system, for which symmetric parts of the stiffness are accurate to 1e-8, others to
    1e-5 */

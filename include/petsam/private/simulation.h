@@ -4,6 +4,7 @@
 
 #include <petsam/private/advice.h>
 #include <petsam/private/checkpoint.h>
+#include <petsam/private/gradient.h>
 #include <petsam/private/errors.h>
 #include <petsam/private/history.h>
 #include <petsam/private/life.h>
@@ -150,6 +151,14 @@ PETSC_INTERN PetscErrorCode SamSimulationCommitSingle(SamSimulation simulation, 
 PETSC_INTERN PetscErrorCode SamSimulationAdviseSingle(SamSimulation simulation, const SamStep *step,
                                                       SamAdviceFunction receive, void *context);
 PETSC_INTERN void           SamSimulationForgetAdvice(SamSimulation simulation);
+
+/*
+  SamSimulationRecordGradient - begins to record the steps that are committed from now on, or ends it; both forget the
+  recorded ones. Errors: SAM_ERR_USER for what has no derivative, PETSC_ERR_ORDER if the contact has steps. Collective.
+  SamSimulationGetGradient - returns what has recorded the steps, borrowed; NULL: nothing does. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamSimulationRecordGradient(SamSimulation simulation, PetscBool on);
+PETSC_INTERN SamGradient    SamSimulationGetGradient(SamSimulation simulation);
 
 /* Steps in which cells of dissimilar bodies make contact, which takes memory: none, the first only, or a later one. */
 typedef enum { SAM_TOUCHES_NEVER, SAM_TOUCHES_FIRST, SAM_TOUCHES_LATER } SamTouches;

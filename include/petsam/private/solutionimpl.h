@@ -122,6 +122,16 @@ typedef enum {
 } SamCellMotion;
 PETSC_INTERN SamCellMotion SamIncrementGetCellMotion(const SamIncrement *increment, ptrdiff_t k, double share[2]);
 /*
+  SamIncrementGetShareSlopes - gets the derivatives of share[0] of this rank's cell k, which has that motion, by the
+  part of its slip with which it turns round, q0.ds/(b0 |ds|) clipped to 0 and 1, and by `slides`. Not collective.
+  SamIncrementFindEnds - finds, after SamIncrementMeasure(), the cells with the shortest and the longest slip, which
+  determine `slides`, as indices on the whole grid, and its derivatives (1/m) by the lengths of both slips; -1 and 0 if
+  `slides` is 0 or 1. Changes the row that was computed last. Collective.
+*/
+PETSC_INTERN void           SamIncrementGetShareSlopes(const SamIncrement *increment, SamCellMotion motion, ptrdiff_t k,
+                                                       double slopes[2]);
+PETSC_INTERN PetscErrorCode SamIncrementFindEnds(const SamIncrement *increment, PetscInt64 cell[2], double slope[2]);
+/*
   SamIncrementMix - returns the mean of a field's values before and after the step with these weights. Not collective.
 */
 static inline double SamIncrementMix(const double share[2], const double before[], const double now[], ptrdiff_t k)

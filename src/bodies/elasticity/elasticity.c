@@ -418,6 +418,24 @@ PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamElasticityCreateOfPair(SamElasticity like, SamPair pair, SamElasticity *elasticity)
+{
+  const PetscInt first[2] = {0, 0};
+  SamElasticity  e;
+
+  PetscFunctionBegin;
+  PetscCheck(!like->inner && !like->traits.patch, like->grid->comm, PETSC_ERR_SUP,
+             "bodies of type %s have no constants that could be replaced", like->type);
+  PetscCall(SamElasticityCreateLike(like, like->grid, first, &e));
+  PetscCall(SamPairReference(pair));
+  PetscCall(SamPairDestroy(&e->pair));
+  e->pair           = pair;
+  e->film           = 0;
+  e->traits.coupled = SamPairIsCoupled(pair);
+  *elasticity       = e;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamElasticityGetCoarse(SamElasticity e, SamElasticity *coarse, SamTransfer *transfer)
 {
   PetscFunctionBegin;

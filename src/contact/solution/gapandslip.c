@@ -224,11 +224,22 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 /* Ratio of the shortest to the longest slip from which on all cells slide alike */
 #define ALIKE 0.8
 
+/* Returns the length of the slip of this rank's cell k, in the row that was computed last, if all cells in contact are
+   measured by it; else -1. */
+static double Measured(const SamIncrement *s, ptrdiff_t k)
+{
+  const SamValues   *v     = &s->at_now;
+  const ptrdiff_t    i     = k % s->grid->nx;
+  const SamCellState state = SamCellStateOf(v->p[k], v->q[k], v->q[k + s->grid->cells], v->b[k]);
+
+  if (state == SAM_CELL_OPEN || !SamIsPressed(s->at_before.p[k])) return -1;
+  return state == SAM_CELL_STICK ? 0 : hypot(s->row[0][i], s->row[1][i]);
+}
+
 PetscErrorCode SamIncrementMeasure(SamIncrement *s)
 {
-  const SamValues *v  = &s->at_now;
-  const PetscInt   nx = s->grid->nx, cells = s->grid->cells;
-  double           most[2] = {-INFINITY, 0}; /* minus the shortest slip, and the longest one */
+  const PetscInt nx      = s->grid->nx;
+  double         most[2] = {-INFINITY, 0}; /* minus the shortest slip, and the longest one */
 
   PetscFunctionBegin;
   s->slides = 0;
@@ -236,11 +247,9 @@ PetscErrorCode SamIncrementMeasure(SamIncrement *s)
   for (PetscInt j = 0; j < s->grid->rows && most[0] < 0; j++) { /* once a cell sticks, the shortest is known */
     SamIncrementComputeRow(s, j);
     for (PetscInt i = 0; i < nx; i++) {
-      const ptrdiff_t    k     = (ptrdiff_t)j * nx + i;
-      const SamCellState state = SamCellStateOf(v->p[k], v->q[k], v->q[k + cells], v->b[k]);
-      const double       slip  = state == SAM_CELL_STICK ? 0 : hypot(s->row[0][i], s->row[1][i]);
+      const double slip = Measured(s, (ptrdiff_t)j * nx + i);
 
-      if (state == SAM_CELL_OPEN || !SamIsPressed(s->at_before.p[k])) continue;
+      if (slip < 0) continue;
       most[0] = PetscMax(most[0], -slip);
       most[1] = PetscMax(most[1], slip);
     }
@@ -277,16 +286,20 @@ static double Reversal(const SamIncrement *s, ptrdiff_t k)
   return size > 0 ? PetscClipInterval((a->q[k] * x + a->q[l] * y) / size, 0, 1) : 0;
 }
 
-/* The weight of the bound before the step. */
-static double ShareBefore(const SamIncrement *s, SamCellMotion motion, ptrdiff_t k)
+/* The weight of the bound before the step, and its derivatives by the reversal and by `slides`. */
+static double ShareBefore(const SamIncrement *s, SamCellMotion motion, ptrdiff_t k, double slopes[2])
 {
-  double begun, late;
+  double begun, late, least;
 
+  slopes[0] = slopes[1] = 0;
   if (motion == SAM_CELL_MOTION_NONE || motion == SAM_CELL_MOTION_FIRST) return 0;
   if (s->follows_slip || motion == SAM_CELL_MOTION_ENTERS) return 0.5;
   begun = motion == SAM_CELL_MOTION_BEGINS ? 1 : Reversal(s, k);
   if (begun == 0) return 0.5;
-  late = PetscMax(motion == SAM_CELL_MOTION_LEAVES ? LEAVES : BEGUN, 0.5 * s->slides);
+  least = motion == SAM_CELL_MOTION_LEAVES ? LEAVES : BEGUN;
+  late  = PetscMax(least, 0.5 * s->slides);
+  if (begun < 1) slopes[0] = late - 0.5;
+  if (late > least && s->slides < 1) slopes[1] = 0.5 * begun;
   return 0.5 + begun * (late - 0.5);
 }
 
@@ -297,6 +310,7 @@ SamCellMotion SamIncrementGetCellMotion(const SamIncrement *s, ptrdiff_t k, doub
   const SamCellState now    = SamCellStateOf(b->p[k], b->q[k], b->q[l], b->b[k]);
   SamCellState       before = SAM_CELL_OPEN;
   SamCellMotion      motion = SAM_CELL_MOTION_NONE;
+  double             slopes[2];
 
   if (s->solutions[0]) before = SamCellStateOf(a->p[k], a->q[k], a->q[l], a->b[k]);
   if (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP && s->solutions[1]->load[SAM_COMPONENT_N] > 0)
@@ -305,7 +319,7 @@ SamCellMotion SamIncrementGetCellMotion(const SamIncrement *s, ptrdiff_t k, doub
   if (now == SAM_CELL_SLIP && before == SAM_CELL_STICK) motion = SAM_CELL_MOTION_BEGINS;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_OPEN)
     motion = s->solutions[0] ? SAM_CELL_MOTION_ENTERS : SAM_CELL_MOTION_FIRST;
-  share[0] = ShareBefore(s, motion, k);
+  share[0] = ShareBefore(s, motion, k, slopes);
   share[1] = motion == SAM_CELL_MOTION_NONE ? 0 : 1 - share[0];
   if (s->solutions[1]->rule == SAM_RULE_TOUCHING &&
       (motion == SAM_CELL_MOTION_ENTERS || motion == SAM_CELL_MOTION_FIRST)) {
@@ -313,6 +327,43 @@ SamCellMotion SamIncrementGetCellMotion(const SamIncrement *s, ptrdiff_t k, doub
     share[1] = s->solutions[0] && SamSolutionGetNormal(s->solutions[0]) > 0 ? TOUCHED : TOUCHED_FIRST;
   }
   return motion;
+}
+
+void SamIncrementGetShareSlopes(const SamIncrement *s, SamCellMotion motion, ptrdiff_t k, double slopes[2])
+{
+  (void)ShareBefore(s, motion, k, slopes);
+}
+
+PetscErrorCode SamIncrementFindEnds(const SamIncrement *s, PetscInt64 cell[2], double slope[2])
+{
+  const PetscInt nx      = s->grid->nx;
+  double         most[2] = {-INFINITY, 0};
+  PetscInt64     at[2]   = {-1, -1};
+
+  PetscFunctionBegin;
+  for (PetscInt end = 0; end < 2; end++) slope[end] = 0;
+  cell[0] = cell[1] = -1;
+  if (!(s->slides > 0 && s->slides < 1)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt find = 0; find < 2; find++) { /* first the slips, then their cells */
+    for (PetscInt j = 0; j < s->grid->rows; j++) {
+      SamIncrementComputeRow(s, j);
+      for (PetscInt i = 0; i < nx; i++) {
+        const double     slip = Measured(s, (ptrdiff_t)j * nx + i);
+        const PetscInt64 here = (PetscInt64)(s->grid->row_start + j) * nx + i;
+
+        if (slip < 0) continue;
+        for (PetscInt end = 0; end < 2; end++) {
+          if (!find) most[end] = PetscMax(most[end], end ? slip : -slip);
+          if (find && (end ? slip : -slip) == most[end]) at[end] = PetscMax(at[end], here);
+        }
+      }
+    }
+    if (!find) PetscCall(SamMax(s->grid->comm, 2, most));
+  }
+  PetscCallMPI(MPI_Allreduce(at, cell, 2, MPIU_INT64, MPI_MAX, s->grid->comm));
+  slope[0] = s->slides / -most[0];
+  slope[1] = -s->slides / most[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec *h)

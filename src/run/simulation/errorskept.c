@@ -243,5 +243,6 @@ PetscErrorCode SamSimulationLoad(SamSimulation s, const char filename[], const S
   if (s->errors && !s->errors->restored)
     PetscCall(SamErrorsLose(s, "the state is that of a file without those of companion runs"));
   SamSimulationForgetAdvice(s);
+  if (s->gradient) SamGradientForget(s->gradient);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -28,6 +28,7 @@ PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputDestroy(&s->output));
   PetscCall(SamErrorsDestroy(&s->errors));
+  PetscCall(SamGradientDestroy(&s->gradient));
   PetscCall(PetscFree(s->written));
   PetscCall(SamCheckpointDestroy(&s->checkpoints.files));
   PetscCall(SamLifeDestroy(&s->life));
@@ -473,6 +474,7 @@ PetscErrorCode SamSimulationReset(SamSimulation s)
   PetscCall(SamContactReset(s->setup.contact));
   PetscCall(SamErrorsReset(s));
   SamSimulationForgetAdvice(s);
+  if (s->gradient) SamGradientForget(s->gradient);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -488,7 +490,23 @@ PetscErrorCode SamSimulationTakeOver(SamSimulation s, SamSimulation from)
   PetscCall(SamStepCacheCopy(SamContactGetCache(from->setup.contact), SamContactGetCache(s->setup.contact)));
   PetscCall(SamErrorsCopy(s, from));
   SamSimulationForgetAdvice(s);
+  if (s->gradient) SamGradientForget(s->gradient);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationRecordGradient(SamSimulation s, PetscBool on)
+{
+  PetscFunctionBegin;
+  PetscCheck(!on || !SamContactHasStep(s->setup.contact, SAM_COMMITTED), s->comm, PETSC_ERR_ORDER,
+             "the gradient: the contact has steps already: begin before its first step, or after a reset");
+  PetscCall(SamGradientDestroy(&s->gradient));
+  if (on) PetscCall(SamGradientCreate(s->setup.contact, &s->gradient));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamGradient SamSimulationGetGradient(SamSimulation s)
+{
+  return s->gradient;
 }
 
 PetscErrorCode SamSimulationStop(SamSimulation s)

@@ -82,6 +82,7 @@ struct _n_SamSimulation {
   PetscInt               earlier;       /* 1: the state before these steps already has a step */
   PetscBool              advised;       /* advice on the tried step has been computed */
   SamErrors              errors;        /* NULL: they are not computed */
+  SamGradient            gradient;      /* which records the committed steps; NULL: none does */
   PetscInt               warnings;      /* number of the warnings so far that the results will have */
   char                   warning[SAM_WARNINGS][SAM_WARNING_TEXT];
 };

@@ -66,6 +66,7 @@ PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step)
 {
   PetscFunctionBegin;
   PetscCall(SamSimulationNeedTried(s, step));
+  if (s->gradient) PetscCall(SamGradientRecord(s->gradient));
   PetscCall(SamContactCommit(s->setup.contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -92,6 +92,7 @@ static PetscErrorCode TakeOff(const SamFrozen *f, const SamFrame *frame, PetscBo
 PetscErrorCode SamFrozenTakeMotion(const SamFrozen *f, double r[])
 {
   PetscFunctionBegin;
+  PetscCall(SamFrozenTakeColumns(f, r));
   if (!f->holds) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(TakeOff(f, &f->normal, PETSC_FALSE, r, r));
   PetscCall(TakeOff(f, &f->tangential, PETSC_FALSE, r + f->count, r + f->count));
@@ -103,6 +104,7 @@ PetscErrorCode SamFrozenTakeLoad(const SamFrozen *f, double z[])
   double *q;
 
   PetscFunctionBegin;
+  PetscCall(SamFrozenTakeRows(f, z));
   if (!f->holds) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(2 * f->count, &q));
   PetscCall(TakeOff(f, &f->normal, PETSC_FALSE, z, z));

@@ -69,13 +69,16 @@ static PetscErrorCode SetFields(SamFrozen *f, const double x[], const double mov
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the true residual b - A x. */
-static PetscErrorCode FindResidual(SamFrozen *f, const double b[], const double x[], double residual[], double *norm)
+/* Computes the true residual b - A x, and its norm without what is taken off residuals. `work`: scratch. */
+static PetscErrorCode FindResidual(SamFrozen *f, const double b[], const double x[], double residual[], double work[],
+                                   double *norm)
 {
   PetscFunctionBegin;
   PetscCall(SamFrozenApply(f, x, residual));
   for (PetscInt m = 0; m < SamFrozenSize(f); m++) residual[m] = b[m] - residual[m];
-  PetscCall(Norm(f, residual, norm));
+  PetscCall(PetscArraycpy(work, residual, SamFrozenSize(f)));
+  PetscCall(SamFrozenTakeMotion(f, work));
+  PetscCall(Norm(f, work, norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -124,8 +127,8 @@ PetscErrorCode SamKrylovSolve(SamFrozen *f, const double b[], double x[], double
   PetscCall(PetscArrayzero(x, n));
   PetscCall(PetscArraycpy(residual, b, n));
   PetscCall(SamFrozenTakeMotion(f, residual));
-  PetscCall(Norm(f, residual, &norm));
-  left = norm;
+  PetscCall(Norm(f, residual, &left));
+  norm = f->reference > 0 ? f->reference : left;
   for (PetscInt it = 0; it < MOST && left > GOAL * f->rtol * norm; it++) {
     const PetscInt k = it % RESTART;
 
@@ -143,7 +146,7 @@ PetscErrorCode SamKrylovSolve(SamFrozen *f, const double b[], double x[], double
     for (PetscInt m = 0; m < cells; m++) moved[m] += step * (double)d[k].u[m];
     PetscCall(Norm(f, residual, &left));
   }
-  PetscCall(f->holds ? SetFields(f, x, moved, z) : FindResidual(f, b, x, residual, &left));
+  PetscCall(f->holds ? SetFields(f, x, moved, z) : FindResidual(f, b, x, residual, z, &left));
   *error = norm > 0 ? left / norm : 0;
   for (PetscInt k = 0; k < RESTART; k++) {
     PetscCall(PetscFree2(d[k].p, d[k].v));

@@ -44,10 +44,16 @@ static void Project(const SamFrozen *f, PetscBool all, double y[])
   }
 }
 
-/* Returns the part along e of a packed shear if the bound depends on the slip, else 0. */
+/* Returns the part along e of a packed shear. Unknowns have one by rounding, even if no bound depends on the slip. */
 static double Along(const SamFrozen *f, const double x[], PetscInt m)
 {
-  return f->rate[m] != 0 ? x[m] * f->e[0][m] + x[m + f->count] * f->e[1][m] : 0;
+  return x[m] * f->e[0][m] + x[m + f->count] * f->e[1][m];
+}
+
+/* Returns s c, the influence of a cell on itself with the sign of the rate; 0: the bound does not follow the slip. */
+static double Signed(const SamFrozen *f, PetscInt m)
+{
+  return f->rate[m] != 0 ? copysign(f->self[1], f->rate[m]) : 0;
 }
 
 /* Sets a packed pressure to 0 on cells that yield. */
@@ -226,9 +232,15 @@ PetscErrorCode SamFrozenSetTractions(SamFrozen *f, const double x[], double work
   PetscFunctionBegin;
   if (p >= 0) PetscCall(Unpack(f, 1, x + p, f->p));
   if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  SamFrozenShear(f, p >= 0 ? x + p : NULL, x + y, work);
+  SamFrozenShear(f, p >= 0 && !f->transposed ? x + p : NULL, x + y, work);
   PetscCall(Unpack(f, 2, work, f->q));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamFrozenFollow(const SamFrozen *f, double values[])
+{
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt m = 0; m < f->count; m++) values[m] += f->follow[m] * f->e[c][m] * values[m + (c + 1) * f->count];
 }
 
 PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
@@ -239,12 +251,13 @@ PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
   PetscCall(SamFrozenSetTractions(f, x, Ax));
   PetscCall(ComputeDisplacements(f));
   if (p >= 0) PetscCall(Pack(f, 1, f->u_z, Ax + p));
+  if (y >= 0) PetscCall(Pack(f, 2, f->u_t, Ax + y));
+  if (p >= 0 && y >= 0 && f->transposed) SamFrozenFollow(f, Ax);
   if (p >= 0) Bear(f, Ax + p);
   if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Pack(f, 2, f->u_t, Ax + y));
   Project(f, PETSC_FALSE, Ax + y);
   for (PetscInt m = 0; m < f->count; m++) {
-    const double own = (copysign(f->self[1], f->rate[m]) - f->stiff[m]) * Along(f, x + y, m);
+    const double own = (Signed(f, m) - f->stiff[m]) * Along(f, x + y, m);
 
     for (PetscInt c = 0; c < 2; c++)
       Ax[y + m + c * f->count] += f->stiff[m] * x[y + m + c * f->count] + own * f->e[c][m];
@@ -257,7 +270,8 @@ PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
 static PetscErrorCode PreconditionNormal(SamFrozen *f, const double r[], double z[])
 {
   const PetscBool slides   = f->coupled && f->part == SAM_FROZEN_BOTH ? PETSC_TRUE : PETSC_FALSE;
-  const double    slope[2] = {slides ? f->slope[0] : 0, slides ? f->slope[1] : 0};
+  const double    sign     = !slides ? 0 : f->transposed ? -1 : 1; /* the transposed symbol is the conjugate one */
+  const double    slope[2] = {sign * f->slope[0], sign * f->slope[1]};
 
   PetscFunctionBegin;
   for (PetscInt m = 0; m < f->count; m++) f->r[f->cell[m]] = (float)r[m];
@@ -292,7 +306,7 @@ static PetscErrorCode PreconditionTangential(SamFrozen *f, const double r[], dou
   Project(f, PETSC_TRUE, z);
   for (PetscInt c = 0; c < 2; c++)
     for (PetscInt m = 0; m < f->count; m++)
-      z[m + c * f->count] += Along(f, r, m) / copysign(self, f->rate[m]) * f->e[c][m];
+      if (f->rate[m] != 0) z[m + c * f->count] += Along(f, r, m) / Signed(f, m) * f->e[c][m];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,0 +1,147 @@
+/* Derivatives of a number of a load history by all of its parameters. */
+#ifndef PETSAM_PRIVATE_GRADIENT_H
+#define PETSAM_PRIVATE_GRADIENT_H
+
+#include <petsam/contact.h>
+
+/*
+  SamGradient - the recorded steps of a contact, and the derivatives of a number of them by all parameters, in one pass
+  back over the steps. The sets of cells in contact, stick and slip are frozen: their borders do not move to first
+  order. Where a cell is about to change its set, the derivative holds to one side only; such cells are counted.
+  The method stands in src/post/gradient/gradient.c.
+
+  See also: SamGradientCreate(), SamGradientRecord(), SamGradientCompute().
+*/
+typedef struct _n_SamGradient *SamGradient;
+
+/*
+  SamGradientCreate - creates a gradient of a contact, without any step.
+
+  Collective.
+
+  In:     contact  - the contact; it must exist as long as the gradient
+  Out:    gradient - the gradient
+
+  Errors: SAM_ERR_USER for a law, a motion, bodies or settings of the contact whose derivative is not computed.
+
+  See also: SamGradientRecord(), SamGradientDestroy().
+*/
+PETSC_INTERN PetscErrorCode SamGradientCreate(SamContact contact, SamGradient *gradient);
+
+/*
+  SamGradientDestroy - frees the gradient and sets the handle to NULL.
+
+  Collective.
+
+  In,out: gradient - the gradient; NULL on return
+
+  Errors: none of its own.
+*/
+PETSC_INTERN PetscErrorCode SamGradientDestroy(SamGradient *gradient);
+
+/*
+  SamGradientRecord - records the tried step of the contact, which is to be committed next; a step that was recorded in
+  its place is replaced.
+
+  Collective.
+
+  In:     gradient - the gradient
+
+  Errors: PETSC_ERR_ORDER without a tried step, or if an earlier one was not recorded; SAM_ERR_USER if the friction has
+  changed since the first step.
+
+  See also: SamGradientCompute().
+*/
+PETSC_INTERN PetscErrorCode SamGradientRecord(SamGradient gradient);
+
+/*
+  SamGradientForget - forgets all recorded steps, for a contact that begins anew.
+
+  Not collective, but to be called on all ranks.
+
+  In:     gradient - the gradient
+
+  Errors: none; it returns no error code.
+
+  See also: SamGradientRecord(), SamContactReset().
+*/
+PETSC_INTERN void SamGradientForget(SamGradient gradient);
+
+/*
+  SamGradientGetSteps - returns the number of recorded steps.
+
+  Not collective.
+
+  In:     gradient - the gradient
+
+  Errors: none; it returns no error code.
+*/
+PETSC_INTERN PetscInt SamGradientGetSteps(SamGradient gradient);
+
+/*
+  SamGradientCompute - computes a number of the recorded steps and its derivatives.
+
+  Collective.
+
+  In:     gradient - the gradient
+          name     - the number: energy (J), wear_volume (m3), pressure_norm (Pa), a load (N, N m) or a displacement (m,
+                     rad) that is not given, or an objective that SamObjectiveRegister() has added
+          steps    - the first and the last step, from 0; -1, -1: all of an energy, else the last one
+          moduli   - true: also the derivatives by the moduli of the bodies, at some more products a step
+          rtol     - relative residual of the systems (1)
+
+  Errors: SAM_ERR_USER for an unknown name, steps that are not there, a load that is given, or loads that the contact
+  cannot change, as it slides as a whole; PETSC_ERR_NOT_CONVERGED.
+
+  See also: SamGradientGetField(), SamGradientGetNumber().
+*/
+PETSC_INTERN PetscErrorCode SamGradientCompute(SamGradient gradient, const char name[], const PetscInt steps[2],
+                                               PetscBool moduli, PetscReal rtol);
+
+/*
+  SamGradientGetField - copies a field of derivatives.
+
+  Collective.
+
+  In:     gradient - the gradient
+          name     - gap (1/m) or friction, times the unit of the number: by the value in each cell
+  Out:    field    - the field, one component (unit of the number over that of the parameter)
+
+  Errors: SAM_ERR_USER for another name; PETSC_ERR_ORDER before SamGradientCompute().
+
+  See also: SamGradientCompute(), SamGradientGetNumber().
+*/
+PETSC_INTERN PetscErrorCode SamGradientGetField(SamGradient gradient, const char name[], Vec field);
+
+/*
+  SamGradientIsOfSteps - returns true if the derivative by that name has a value of each step.
+
+  Not collective.
+
+  In:     name - a name of SamGradientGetNumber()
+
+  Errors: none; it returns no error code.
+*/
+PETSC_INTERN PetscBool SamGradientIsOfSteps(const char name[]);
+
+/*
+  SamGradientGetNumber - gets the number, a derivative by a number, or what is known of both.
+
+  Not collective.
+
+  In:     gradient - the gradient
+          name     - value; by a prescribed load, displacement or bulk stress of a step: its name; body1_young,
+                     body1_poisson, body2_young, body2_poisson; wear_coefficient, wear_energy: of both bodies together;
+                     borders: the number of cells on the border of their set; residual: the largest of the systems
+          step     - the step, of loads, displacements and bulk stresses
+  Out:    value    - the value (unit of the number over that of the parameter); NaN for a load that is not given
+
+  Errors: SAM_ERR_USER for another name; PETSC_ERR_ORDER before SamGradientCompute(); PETSC_ERR_ARG_OUTOFRANGE for
+  another step.
+
+  See also: SamGradientCompute(), SamGradientGetField().
+*/
+PETSC_INTERN PetscErrorCode SamGradientGetNumber(SamGradient gradient, const char name[], PetscInt step,
+                                                 PetscReal *value);
+
+#endif

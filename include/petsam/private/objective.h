@@ -1,0 +1,56 @@
+/* Numbers of a load history that have a gradient, for authors of new ones. */
+#ifndef PETSAM_OBJECTIVE_H
+#define PETSAM_OBJECTIVE_H
+
+#include <petsam/private/baseimpl.h>
+#include <petsam/control.h>
+
+/*
+  SamObjectiveStep - a step of the history on a part of the grid that has all contacts, as an objective sees it on the
+  way back, from the last step to the first: arrays of this rank's cells, two components one after the other. Of the
+  arrays and numbers below `value` an objective adds to those on which it depends: derivatives by what the step has, and
+  by what the step before has. A cell's derivative is that by the value of the cell.
+*/
+typedef struct {
+  SamGrid           grid;
+  PetscInt          step, first, last; /* steps of the history; the objective is of those from `first` to `last` */
+  PetscInt          component;         /* of a load or displacement */
+  double            area;              /* of a cell, m2; in plane strain of 1 m of its length */
+  const double     *pressure, *shear, *slip, *friction; /* Pa, Pa, m (of the step), 1 */
+  const double     *pressure_before, *shear_before;     /* of the step before; in the first step 0 */
+  const double     *share, *by_back, *by_alike;         /* how the pressure before the step counts in what slips */
+  const PetscInt64 *end;    /* cells whose slips determine how far all slide alike, on this part of the grid */
+  const double     *by_end; /* derivatives of that measure by their lengths, 1/m */
+  const PetscReal  *rigid;  /* displacements of the six components, m and rad */
+  const PetscReal  *rate;   /* coefficients of wear, 1/Pa and m3/J */
+  SamTotal          value;  /* this rank's part of the number */
+  double            number; /* the number, if only the objective can tell: a norm; NaN: the sum of `value` */
+  double           *by_pressure, *by_shear, *by_slip, *by_pressure_before, *by_shear_before, *by_friction, *by_worn;
+  double            by_rigid[SAM_COMPONENTS];
+} SamObjectiveStep;
+
+/*
+  SamObjective - a number with a gradient. `add` adds a step's part of the number and of its derivatives; it is called
+  for all steps from the last to the first. Collective.
+*/
+typedef struct {
+  const char *name, *unit;
+  PetscBool   all; /* true: of all steps unless others are given; false: of the last one */
+  PetscErrorCode (*add)(SamObjectiveStep *at);
+} SamObjective;
+
+/*
+  SamObjectiveRegister - adds an objective, or replaces an earlier one of its name.
+
+  Not collective, but to be called on all ranks.
+
+  In:     objective - the objective; its members are copied, its texts must stay
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_OBJECTIVES.
+
+  See also: SamGradientCompute().
+*/
+#define SAM_OBJECTIVES 32
+PETSC_EXTERN PetscErrorCode SamObjectiveRegister(const SamObjective *objective);
+
+#endif

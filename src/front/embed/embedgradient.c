@@ -1,0 +1,81 @@
+/* Derivatives of a number of the steps in another program: petsam_gradient_record(), petsam_gradient(). */
+#include "embedimpl.h"
+#include <petsam/private/contact.h>
+
+static PetscErrorCode Record(petsam_contact *c, PetscBool on)
+{
+  PetscFunctionBegin;
+  PetscCall(SamEmbedForget(c));
+  PetscCall(SamSimulationRecordGradient(c->simulation, on));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_gradient_record(petsam_contact *c, int on)
+{
+  return SamEmbedEnterTogether(c, __func__, PETSC_TRUE, on != 0) ? SamEmbedLeave(c, Record(c, on != 0))
+                                                                 : SAM_EMBED_USAGE;
+}
+
+/* Gets what has recorded the steps. */
+static PetscErrorCode GetRecorded(petsam_contact *c, SamGradient *g)
+{
+  PetscFunctionBegin;
+  *g = SamSimulationGetGradient(c->simulation);
+  PetscCheck(*g, c->comm, PETSC_ERR_ORDER, "the gradient: no steps are recorded: call petsam_gradient_record() first");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Compute(petsam_contact *c, const char name[], int first, int last, PetscBool moduli, double rtol,
+                              int *steps)
+{
+  const PetscInt range[] = {first, last};
+  SamGradient    g;
+
+  PetscFunctionBegin;
+  PetscCall(GetRecorded(c, &g));
+  PetscCheck(rtol > 0 && rtol < 1, c->comm, SAM_ERR_USER, "the gradient of %s: rtol %.6g: expected between 0 and 1",
+             name, rtol);
+  PetscCall(SamGradientCompute(g, name, range, moduli, (PetscReal)rtol));
+  *steps = (int)SamGradientGetSteps(g);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_gradient(petsam_contact *c, const char *name, int first, int last, int moduli, double rtol, int *steps)
+{
+  const uint64_t sum = SamEmbedAddText(SamHashBits(rtol) + (uint64_t)first + 31 * (uint64_t)last + (moduli != 0), name);
+
+  return SamEmbedEnterTogether(c, __func__, name && steps, sum)
+           ? SamEmbedLeave(c, Compute(c, name, first, last, moduli != 0, rtol, steps))
+           : SAM_EMBED_USAGE;
+}
+
+static PetscErrorCode Get(petsam_contact *c, const char name[], double values[])
+{
+  SamGradient   g;
+  const double *cells;
+
+  PetscFunctionBegin;
+  PetscCall(GetRecorded(c, &g));
+  if (!strcmp(name, "gap") || !strcmp(name, "friction")) {
+    PetscCall(SamGradientGetField(g, name, c->work));
+    PetscCall(VecGetArrayRead(c->work, &cells));
+    PetscCall(PetscArraycpy(values, cells, c->setup->grid->cells));
+    PetscCall(VecRestoreArrayRead(c->work, &cells));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (PetscInt k = 0, steps = SamGradientIsOfSteps(name) ? SamGradientGetSteps(g) : 1; k < steps; k++) {
+    PetscReal value;
+
+    PetscCall(SamGradientGetNumber(g, name, k, &value));
+    values[k] = (double)value;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_get_gradient(petsam_contact *c, const char *name, double *values)
+{
+  return SamEmbedEnterTogether(c, __func__, SamEmbedExists(c) && name && (values || !c->setup->grid->cells),
+                               SamEmbedAddText(0, name))
+           ? SamEmbedLeave(c, Get(c, name, values))
+           : SAM_EMBED_USAGE;
+}

@@ -1,0 +1,385 @@
+/* The adjoint system of a step: see gradient.c. */
+#include "gradientimpl.h"
+#include <petsam/private/contact.h>
+#include <petsam/private/frozen.h>
+#include <petsam/private/problem.h>
+#include <petsam/solution.h>
+#include <math.h>
+
+#define STIFFEST \
+  1e12              /* the resistance of a cell to a turn of the slip is not limited: it would change the derivatives */
+#define BORDER 1e-7 /* of the pressure, or the bound, within which a cell is on the border of its set */
+#define STILL  1e-4 /* of the displacement of a cell by the largest bound: slip below it is on the border to stick */
+
+/* The components in the order of their motions: normal ones first, then those along the surface. */
+static const SamComponent components[SAM_COMPONENTS] = {SAM_COMPONENT_N,  SAM_COMPONENT_MX, SAM_COMPONENT_MY,
+                                                        SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};
+
+/* A system: the unknowns -gamma, packed, and lambda, and what belongs to them */
+typedef struct {
+  SamBack  *b;
+  SamFrozen f;
+  PetscInt  count;                 /* given loads of the step that have a border */
+  PetscInt  given[SAM_COMPONENTS]; /* their places in `components` */
+  double   *x;                     /* three components: -gamma, lambda */
+  double   *right;                 /* right-hand side before its projection, likewise */
+} System;
+
+/* ---- motions ---- */
+
+/* Computes the unit motion of the n-th component in the grid's units of length, packed: three components. */
+static void Motion(const SamFrozen *f, PetscInt n, double values[])
+{
+  const SamGrid g = f->grid;
+
+  (void)PetscArrayzero(values, 3 * f->count);
+  for (PetscInt j = 0; j < g->rows; j++) {
+    const double y = (double)(SamGridY(g, g->row_start + j) / g->length);
+
+    for (PetscInt m = f->start[j]; m < f->start[j + 1]; m++) {
+      const double x = (double)(SamGridX(g, f->cell[m] - j * g->nx) / g->length);
+
+      if (components[n] == SAM_COMPONENT_N) values[m] = 1;
+      if (components[n] == SAM_COMPONENT_MX) values[m] = -y;
+      if (components[n] == SAM_COMPONENT_MY) values[m] = x;
+      if (components[n] == SAM_COMPONENT_TX) values[m + f->count] = 1;
+      if (components[n] == SAM_COMPONENT_TY) values[m + 2 * f->count] = 1;
+      if (components[n] == SAM_COMPONENT_MZ) {
+        values[m + f->count]     = -y;
+        values[m + 2 * f->count] = x;
+      }
+    }
+  }
+}
+
+/* Returns the length of a unit of the n-th component's motion, m or m/rad. */
+static double Unit(const SamFrozen *f, PetscInt n)
+{
+  return components[n] >= SAM_COMPONENT_MX ? (double)f->grid->length : 1;
+}
+
+/* True if the bodies have the n-th component. */
+static PetscBool Has(const SamBack *b, PetscInt n)
+{
+  const SamElasticityTraits traits = SamElasticityGetTraits(b->elasticity);
+
+  return components[n] < SAM_COMPONENT_MX || traits.rotations[components[n] - SAM_COMPONENT_MX] ? PETSC_TRUE
+                                                                                                : PETSC_FALSE;
+}
+
+/* ---- one part of the system ---- */
+
+/* The place of a part's values among three packed components, and whether it has a component's motion. */
+static PetscInt PlaceOf(const SamFrozen *f)
+{
+  return f->part == SAM_FROZEN_TANGENTIAL ? f->count : 0;
+}
+
+static PetscBool Takes(SamFrozenPart part, PetscInt n)
+{
+  return part == SAM_FROZEN_BOTH || (part == SAM_FROZEN_NORMAL) == (n < 3) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Sets the border of a part: the given loads that it has. */
+static PetscErrorCode SetBorder(System *s, SamFrozenPart part)
+{
+  SamFrozen *f = &s->f;
+  double    *row[SAM_COMPONENTS], *column[SAM_COMPONENTS], *motion;
+  PetscInt   count = 0;
+  PetscBool  regular;
+
+  PetscFunctionBegin;
+  f->part = part;
+  PetscCall(PetscMalloc1(3 * f->count, &motion));
+  for (PetscInt i = 0; i < s->count; i++) {
+    if (!Takes(part, s->given[i])) continue;
+    PetscCall(PetscMalloc1(SamFrozenSize(f), &row[count]));
+    PetscCall(PetscMalloc1(SamFrozenSize(f), &column[count]));
+    for (int c = 0; c < 2; c++) {
+      Motion(f, s->given[i], motion);
+      if (c && part == SAM_FROZEN_BOTH) SamFrozenFollow(f, motion);
+      SamFrozenProject(f, motion + PlaceOf(f));
+      PetscCall(PetscArraycpy(c ? column[count] : row[count], motion + PlaceOf(f), SamFrozenSize(f)));
+    }
+    count++;
+  }
+  PetscCall(PetscFree(motion));
+  PetscCall(SamFrozenSetBorder(f, count, row, column, &regular));
+  PetscCheck(regular, f->grid->comm, SAM_ERR_USER,
+             "the gradient: loads are given in step %" PetscInt_FMT " that the contact cannot change: it slides as a "
+             "whole: give displacements",
+             s->b->at.step);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes what the rows of the given loads are: t.V - c_d or -c_d, in units of the grid's length. */
+static PetscErrorCode FindGiven(System *s, double given[])
+{
+  const SamBack *b        = s->b;
+  const SamGrid  g        = b->grid;
+  SamTotal       moved[3] = {{0}};
+  double         sums[3];
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < g->rows; j++) {
+    const double y      = (double)SamGridY(g, g->row_start + j);
+    double       row[3] = {0, 0, 0};
+
+    for (PetscInt i = 0; i < g->nx; i++) {
+      const PetscInt k = j * g->nx + i;
+
+      row[0] += b->later[k];
+      row[1] += b->later[k + g->cells];
+      row[2] += (double)SamGridX(g, i) * b->later[k + g->cells] - y * b->later[k];
+    }
+    SamAddAll(3, moved, row);
+  }
+  PetscCall(SamSumTotals(g->comm, 3, moved, sums));
+  for (PetscInt i = 0; i < s->count; i++) {
+    const PetscInt n = s->given[i];
+
+    given[i] = ((n < 3 ? 0 : sums[n - 3]) - b->at.by_rigid[components[n]]) / Unit(&s->f, n);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves a part; its unknowns go to x, its multipliers to the forces. */
+static PetscErrorCode SolvePart(System *s, SamFrozenPart part, const double given[])
+{
+  SamFrozen   *f = &s->f;
+  double      *right, some[SAM_COMPONENTS], multipliers[SAM_COMPONENTS];
+  PetscInt     count = 0;
+  PetscReal    error;
+  const double area = s->b->at.area;
+
+  PetscFunctionBegin;
+  PetscCall(SetBorder(s, part));
+  PetscCall(PetscMalloc1(SamFrozenSize(f), &right));
+  PetscCall(PetscArraycpy(right, s->right + PlaceOf(f), SamFrozenSize(f)));
+  SamFrozenProject(f, right);
+  for (PetscInt i = 0; i < s->count; i++)
+    if (Takes(part, s->given[i])) some[count++] = given[i];
+  PetscCall(SamFrozenSolveBordered(f, right, some, s->x + PlaceOf(f), multipliers, &error));
+  count = 0;
+  for (PetscInt i = 0; i < s->count; i++)
+    if (Takes(part, s->given[i]))
+      s->b->forces[components[s->given[i]]] = multipliers[count++] / Unit(f, s->given[i]) / area;
+  s->b->g->found.residual = PetscMax(s->b->g->found.residual, error);
+  PetscCall(SamFrozenClearBorder(f));
+  PetscCall(PetscFree(right));
+  PetscCheck(error <= PetscMax(s->b->rtol, 1e-3), f->grid->comm, PETSC_ERR_NOT_CONVERGED,
+             "the gradient: the adjoint of step %" PetscInt_FMT " does not converge: relative residual %.2g",
+             s->b->at.step, (double)error);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the system ---- */
+
+/* Creates a field of the part from an array of its cells. */
+static PetscErrorCode FieldOf(SamGrid g, PetscInt count, const double values[], Vec *field)
+{
+  double *to;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(g, count, field));
+  PetscCall(VecGetArrayWrite(*field, &to));
+  PetscCall(PetscArraycpy(to, values, count * g->cells));
+  PetscCall(VecRestoreArrayWrite(*field, &to));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Freezes the sets of cells of the step. */
+static PetscErrorCode Freeze(System *s)
+{
+  const SamBack          *b  = s->b;
+  const SamObjectiveStep *at = &b->at;
+  const SamGrid           g  = b->grid;
+  double                 *bound, *path;
+  Vec                     fields[SAM_FROZEN_FIELDS] = {NULL};
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(g->cells, &bound, g->cells, &path));
+  for (PetscInt k = 0; k < g->cells; k++) {
+    bound[k] = b->friction[k] * at->pressure[k];
+    path[k]  = hypot(at->slip[k], at->slip[k + g->cells]);
+  }
+  PetscCall(FieldOf(g, 1, at->pressure, &fields[SAM_FROZEN_PRESSURE]));
+  PetscCall(FieldOf(g, 1, bound, &fields[SAM_FROZEN_BOUND]));
+  PetscCall(FieldOf(g, 2, at->shear, &fields[SAM_FROZEN_SHEAR]));
+  PetscCall(FieldOf(g, 1, b->friction, &fields[SAM_FROZEN_SLOPE]));
+  PetscCall(FieldOf(g, 1, path, &fields[SAM_FROZEN_PATH]));
+  PetscCall(SamGridCreateVec(g, 1, &fields[SAM_FROZEN_OVERLAP]));
+  PetscCall(SamFrozenCreate(b->elasticity, fields, b->coupled, STIFFEST, &s->f));
+  for (int k = 0; k < SAM_FROZEN_FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
+  PetscCall(PetscFree2(bound, path));
+  s->f.transposed = PETSC_TRUE;
+  s->f.rtol       = b->rtol;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Counts the cells that are about to change their set. */
+static PetscErrorCode CountBorders(System *s)
+{
+  const SamBack          *b       = s->b;
+  const SamObjectiveStep *at      = &b->at;
+  const SamFrozen        *f       = &s->f;
+  double                  most[2] = {0, 0}, count = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < f->count; m++) {
+    const PetscInt k = f->cell[m];
+
+    most[0] = PetscMax(most[0], at->pressure[k]);
+    most[1] = PetscMax(most[1], b->friction[k] * at->pressure[k]);
+  }
+  PetscCall(SamMax(b->grid->comm, 2, most));
+  for (PetscInt m = 0; m < f->count; m++) {
+    const PetscInt  k = f->cell[m], l = k + b->grid->cells;
+    const double    bound = b->friction[k] * at->pressure[k], slips = fabs(f->e[0][m]) + fabs(f->e[1][m]);
+    const PetscBool weak  = at->pressure[k] < BORDER * most[0],
+                    near  = slips == 0 && bound > 0 && hypot(at->shear[k], at->shear[l]) > (1 - BORDER) * bound,
+                    still = slips > 0 && hypot(at->slip[k], at->slip[l]) < STILL * f->self[1] * most[1];
+
+    if (weak || near || still) count++;
+  }
+  PetscCall(SamSum(b->grid->comm, 1, &count));
+  b->g->found.borders += (PetscInt)count;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the displacements by V, and the right-hand side c + those. */
+static PetscErrorCode FindRight(System *s, double moved[])
+{
+  const SamBack          *b  = s->b;
+  const SamObjectiveStep *at = &b->at;
+  const SamGrid           g  = b->grid;
+  const SamFrozen        *f  = &s->f;
+  Vec                     later, u[2];
+
+  PetscFunctionBegin;
+  PetscCall(FieldOf(g, 2, b->later, &later));
+  for (int c = 0; c < 2; c++) PetscCall(SamGridCreateVec(g, c + 1, &u[c]));
+  PetscCall(SamElasticityApplyTangential(b->elasticity, later, u[1]));
+  if (b->coupled) PetscCall(SamElasticityApplyTangentialToNormal(b->elasticity, later, u[0]));
+  for (int c = 0; c < 2; c++) {
+    const double *from;
+
+    PetscCall(VecGetArrayRead(u[c], &from));
+    PetscCall(PetscArraycpy(moved + c * g->cells, from, (c + 1) * g->cells));
+    PetscCall(VecRestoreArrayRead(u[c], &from));
+    PetscCall(VecDestroy(&u[c]));
+  }
+  PetscCall(VecDestroy(&later));
+  for (PetscInt m = 0; m < f->count; m++) {
+    const PetscInt k = f->cell[m];
+
+    s->right[m] = at->by_pressure[k] + moved[k];
+    for (PetscInt c = 0; c < 2; c++)
+      s->right[m + (c + 1) * f->count] = at->by_shear[k + c * g->cells] + moved[k + (c + 1) * g->cells];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Computes r = c_q + C tau + X gamma - t nu dA on the cells in contact, from the right-hand side, the displacements by
+  the unknowns, which the last product has left, and the forces: packed, two components.
+*/
+static PetscErrorCode FindRest(System *s, double r[])
+{
+  SamFrozen *f = &s->f;
+  double    *motion;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * f->count, &motion));
+  PetscCall(SamFrozenPack(f, f->u_t, r));
+  for (PetscInt m = 0; m < 2 * f->count; m++) r[m] = s->right[m + f->count] - r[m];
+  for (PetscInt i = 0; i < s->count; i++) {
+    const PetscInt n     = s->given[i];
+    const double   force = s->b->forces[components[n]] * s->b->at.area * Unit(f, n);
+
+    if (n < 3) continue;
+    Motion(f, n, motion);
+    for (PetscInt m = 0; m < 2 * f->count; m++) r[m] -= force * motion[m + f->count];
+  }
+  PetscCall(PetscFree(motion));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves the system, or for similar bodies that of the shear, then that of the pressure. `r`: as above. */
+static PetscErrorCode Solve(System *s, PetscBool rubs, const double given[], double r[])
+{
+  SamFrozen     *f = &s->f;
+  const PetscInt n = f->count;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(s->x, 3 * n));
+  PetscCall(PetscArrayzero(r, 2 * n));
+  if (s->b->coupled && rubs) {
+    SamFrozenFollow(f, s->right);
+    PetscCall(SolvePart(s, SAM_FROZEN_BOTH, given));
+    PetscCall(FindRest(s, r));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (rubs) {
+    PetscCall(SolvePart(s, SAM_FROZEN_TANGENTIAL, given));
+    PetscCall(FindRest(s, r));
+  }
+  for (PetscInt m = 0; m < n; m++) /* mu beta */
+    s->right[m] += f->follow[m] * (f->e[0][m] * r[m] + f->e[1][m] * r[m + n]);
+  PetscCall(SolvePart(s, SAM_FROZEN_NORMAL, given));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sets the cotangents of the step, and what it leaves for the step before. */
+static PetscErrorCode SetCotangents(System *s, const double r[])
+{
+  SamBack         *b = s->b;
+  const SamGrid    g = b->grid;
+  const SamFrozen *f = &s->f;
+  const PetscInt   n = f->count;
+  double          *lambda;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(2 * g->cells, &lambda));
+  PetscCall(PetscArrayzero(b->gamma, g->cells));
+  PetscCall(PetscArrayzero(b->beta, g->cells));
+  for (PetscInt m = 0; m < n; m++) {
+    const PetscInt k = f->cell[m];
+
+    b->gamma[k] = -s->x[m];
+    b->beta[k]  = f->e[0][m] * r[m] + f->e[1][m] * r[m + n];
+    for (PetscInt c = 0; c < 2; c++) lambda[k + c * g->cells] = s->x[m + (c + 1) * n];
+  }
+  for (PetscInt k = 0; k < 2 * g->cells; k++) {
+    b->tau[k]   = b->later[k] - lambda[k];
+    b->later[k] = lambda[k] - b->at.by_slip[k];
+  }
+  PetscCall(PetscFree(lambda));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBackSolve(SamBack *b, PetscInt step)
+{
+  const SamRecord *record = &b->g->record[step];
+  const SamGrid    g      = b->grid;
+  System           s      = {.b = b};
+  double           given[SAM_COMPONENTS], rubs = 0, *moved, *r;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2 * g->cells; k++) b->later[k] += b->at.by_slip[k];
+  PetscCall(PetscArrayzero(b->forces, SAM_COMPONENTS));
+  PetscCall(Freeze(&s));
+  PetscCall(CountBorders(&s));
+  for (PetscInt m = 0; m < s.f.count; m++) rubs = PetscMax(rubs, s.f.free[m]);
+  PetscCall(SamMax(g->comm, 1, &rubs));
+  for (PetscInt n = 0; n < SAM_COMPONENTS; n++) /* without friction there is no shear that loads could change */
+    if (record->force[components[n]] && Has(b, n) && (n < 3 || rubs > 0)) s.given[s.count++] = n;
+  PetscCall(PetscMalloc4(3 * s.f.count, &s.x, 3 * s.f.count, &s.right, 2 * s.f.count, &r, 3 * g->cells, &moved));
+  PetscCall(FindRight(&s, moved));
+  PetscCall(FindGiven(&s, given));
+  PetscCall(Solve(&s, rubs > 0 ? PETSC_TRUE : PETSC_FALSE, given, r));
+  PetscCall(SetCotangents(&s, r));
+  PetscCall(PetscFree4(s.x, s.right, r, moved));
+  PetscCall(SamFrozenDestroy(&s.f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,493 @@
+/*
+  Derivatives of a number of a load history by all parameters, by one pass back over its steps.
+
+  Step k has the pressure p, the shear q, the rigid displacements d, the bound b = mu p, the slip v = C q + X p - t d +
+  stretch and the gap g = S p + X'q + h + wear - n d. The sets of cells that are open, stick and slip are frozen; e =
+  q/|q|, n_e is normal to it, ds = v_k - v_(k-1) and L = |ds|/b. With V, the derivative by v_k of what comes later, and
+  c_p, c_q, c_d, those of the number by p, q, d of the step, the cotangents gamma of the gap, tau = V - lambda of the
+  slip and beta of the bound solve
+      r = c_q + C tau + X gamma - t nu_t dA,   stick r = 0,   slip n_e.r = L n_e.lambda, lambda along n_e,
+      beta = e.r,   contact c_p + S gamma + X'tau + mu beta - n nu_n dA = 0,   given loads n.gamma = c_d, t.tau = c_d,
+  whose matrix is the transposed one of the step's linear response (solvers/frozen), with a border of the given loads.
+  Step k leaves lambda - dJ/d(ds) for V of the step before. Derivatives are read off the cotangents: by the gap gamma,
+  by friction p beta, by given loads nu, by given displacements -n.gamma and -t.tau, by a stretch tau (x, y), by the
+  moduli the products of the cotangents with those of the tractions for other constants. Wear adds its depth to the gap
+  of later steps. Similar bodies have two systems, that of the shear first.
+
+  The work of friction, and wear, weigh the pressures before and after a step as the contact does
+  (contact/solution/gapandslip.c); these weights have derivatives, too.
+*/
+#include "gradientimpl.h"
+#include <petsam/private/body.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/law.h>
+#include <petsam/private/lawimpl.h>
+#include <petsam/private/motionimpl.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/solverimpl.h>
+#include <petsam/private/state.h>
+#include <petsam/solution.h>
+#include <math.h>
+
+/* Tolerance of the tangential problem from which on the sets of cells are not those of the solution: the field of
+   derivatives is 12 % wrong at 1e-4 */
+#define LEAST_RTOL 1e-5
+
+static const char *const moduli[SAM_GRADIENT_MODULI] = {"body1_young", "body1_poisson", "body2_young", "body2_poisson"},
+                         *const wears[SAM_GRADIENT_WEARS] = {"wear_coefficient", "wear_energy"};
+
+const char *SamBulkName(PetscInt k)
+{
+  static const char *const names[SAM_GRADIENT_BULKS] = {"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy",
+                                                        "bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"};
+
+  return names[k];
+}
+
+/* ---- the object ---- */
+
+/* Adds the coefficients of wear of a law; refuses laws whose derivative is not computed. */
+static PetscErrorCode CheckLaw(SamGradient g, SamLaw law)
+{
+  static const char *const known[]  = {SAM_LAW_COULOMB,        SAM_LAW_BULK_STRESS, SAM_LAW_BODIES,
+                                       SAM_LAW_ARCHARD,        SAM_LAW_ENERGY,      SAM_LAW_ACCUMULATED_SLIP,
+                                       SAM_LAW_FRICTION_ENERGY};
+  PetscBool                is_known = PETSC_FALSE;
+  SamParameters            parameters;
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < sizeof(known) / sizeof(known[0]); k++)
+    if (!strcmp(law->type, known[k])) is_known = PETSC_TRUE;
+  PetscCheck(is_known, law->grid->comm, SAM_ERR_USER, "the gradient with -%s: its derivative is not computed: omit it",
+             law->option ? law->option : law->type);
+  if (strcmp(law->type, SAM_LAW_ARCHARD) && strcmp(law->type, SAM_LAW_ENERGY)) PetscFunctionReturn(PETSC_SUCCESS);
+  parameters.count = 0;
+  PetscCall(SamLawAddParameters(law, &parameters));
+  for (PetscInt k = 0; k < parameters.count; k++)
+    for (PetscInt n = 0; n < SAM_GRADIENT_WEARS; n++)
+      if (!strncmp(parameters.list[k].name, wears[n], strlen(wears[n]))) g->rate[n] += parameters.list[k].value[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Check(SamGradient g)
+{
+  const SamProblem problem = SamContactGetProblem(g->contact);
+  const MPI_Comm   comm    = SamContactGetGrid(g->contact)->comm;
+  const SamLaw    *laws;
+  PetscInt         count;
+
+  PetscFunctionBegin;
+  PetscCheck(!SamContactGetMotion(g->contact)->streams && SamContactGetMotion(g->contact)->continues, comm,
+             SAM_ERR_USER, "the gradient with -rolling: its derivative is not computed: omit it");
+  PetscCheck(SamContactGetSettings(g->contact).coupling, comm, SAM_ERR_USER,
+             "the gradient with -coupling none: expected full coupling of pressure and shear");
+  PetscCheck(((SamSolver)SamContactGetTangential(g->contact))->rtol <= LEAST_RTOL, comm, SAM_ERR_USER,
+             "the gradient with -tangential_rtol %.6g: cells that stick are not certain: expected at most %.6g",
+             (double)((SamSolver)SamContactGetTangential(g->contact))->rtol, LEAST_RTOL);
+  PetscCall(SamProblemGetLaws(problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++) PetscCall(CheckLaw(g, laws[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientCreate(SamContact contact, SamGradient *gradient)
+{
+  SamGradient    g;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  *gradient = NULL;
+  PetscCall(PetscNew(&g));
+  g->contact = contact;
+  ierr       = Check(g);
+  if (ierr) PetscCall(SamGradientDestroy(&g));
+  PetscCall(ierr);
+  *gradient = g;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ClearFound(SamDerivatives *d)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&d->gap));
+  PetscCall(VecDestroy(&d->friction));
+  PetscCall(PetscFree3(d->load, d->rigid, d->bulk));
+  *d = (SamDerivatives){.borders = 0};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientDestroy(SamGradient *gradient)
+{
+  SamGradient g;
+
+  PetscFunctionBegin;
+  if (!*gradient) PetscFunctionReturn(PETSC_SUCCESS);
+  g = *gradient;
+  SamGradientForget(g);
+  PetscCall(PetscFree(g->record));
+  PetscCall(ClearFound(&g->found));
+  PetscCall(PetscFree(*gradient));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamGradientForget(SamGradient g)
+{
+  while (g->count > 0) (void)SamRecordDestroy(&g->record[--g->count]);
+  (void)VecDestroy(&g->friction);
+}
+
+PetscInt SamGradientGetSteps(SamGradient g)
+{
+  return g->count;
+}
+
+/* ---- the pass back ---- */
+
+/* Selects the part of the grid that has the contacts of all steps. */
+static PetscErrorCode ChoosePart(SamBack *b)
+{
+  const SamGradient   g     = b->g;
+  const SamGrid       whole = SamContactGetGrid(g->contact);
+  const SamElasticity e     = SamProblemGetElasticity(SamContactGetProblem(g->contact));
+  PetscInt            first[2], n[2];
+  double             *touched;
+  Vec                 all;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(whole, 1, &all));
+  PetscCall(VecGetArray(all, &touched));
+  for (PetscInt k = 0; k < g->count; k++)
+    for (PetscInt m = 0; m < g->record[k].count; m++) touched[g->record[k].cell[m]] = 1;
+  PetscCall(VecRestoreArray(all, &touched));
+  PetscCall(SamGridGetSupport(whole, all, PETSC_FALSE, first, n));
+  PetscCall(VecDestroy(&all));
+  PetscCheck(n[0] > 0, whole->comm, SAM_ERR_USER, "the gradient: there is no contact in any step of the history");
+  PetscCall(SamElasticityChoosePart(e, first, n, PETSC_FALSE, &b->window, &b->elasticity));
+  if (!b->window) b->elasticity = e;
+  b->grid    = SamElasticityGetGrid(b->elasticity);
+  b->coupled = SamElasticityGetTraits(e).coupled;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes a field of the contact's grid to an array of the part. */
+static PetscErrorCode TakeArray(SamBack *b, Vec whole, double array[])
+{
+  const double *values;
+  Vec           part;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(b->grid, 1, &part));
+  PetscCall(b->window ? SamWindowTake(b->window, whole, part) : VecCopy(whole, part));
+  PetscCall(VecGetArrayRead(part, &values));
+  PetscCall(PetscArraycpy(array, values, b->grid->cells));
+  PetscCall(VecRestoreArrayRead(part, &values));
+  PetscCall(VecDestroy(&part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode PutArray(SamBack *b, const double array[], Vec *whole)
+{
+  double *values;
+  Vec     part;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(b->grid, 1, &part));
+  PetscCall(VecGetArrayWrite(part, &values));
+  PetscCall(PetscArraycpy(values, array, b->grid->cells));
+  PetscCall(VecRestoreArrayWrite(part, &values));
+  PetscCall(SamGridCreateVec(SamContactGetGrid(b->g->contact), 1, whole));
+  PetscCall(b->window ? SamWindowPut(b->window, part, *whole) : VecCopy(part, *whole));
+  PetscCall(VecDestroy(&part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+enum { ARRAYS = 20 }; /* fields of one component that a pass needs besides those of the steps */
+
+static PetscErrorCode Begin(SamBack *b, double **arrays)
+{
+  const PetscInt         cells = (PetscInt)PetscMax(b->grid->cells, 1);
+  SamObjectiveStep      *at    = &b->at;
+  double                *next;
+  double **const         one[] = {&b->friction, &b->worn,        &b->gamma,        &b->beta,
+                                  &b->by_gap,   &b->by_friction, &at->by_pressure, &at->by_pressure_before,
+                                  &at->by_worn},
+                 **const two[] = {&b->later, &b->tau, &at->by_shear, &at->by_slip, &at->by_shear_before};
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(ARRAYS * cells, arrays));
+  next = *arrays;
+  for (size_t k = 0; k < sizeof(one) / sizeof(one[0]); k++, next += cells) *one[k] = next;
+  for (size_t k = 0; k < sizeof(two) / sizeof(two[0]); k++, next += 2 * cells) *two[k] = next;
+  at->by_friction = b->by_friction;
+  at->friction    = b->friction;
+  at->grid        = b->grid;
+  at->area        = (double)(b->grid->dx * b->grid->dy);
+  at->rate        = b->g->rate;
+  PetscCall(TakeArray(b, b->g->friction, b->friction));
+  PetscCall(SamGridCreateVec(SamContactGetGrid(b->g->contact), SAM_RECORD_VALUES, &b->whole));
+  for (int k = 0; k < 2; k++)
+    PetscCall(SamGridCreateVec(b->grid, SAM_RECORD_VALUES, &(k ? &b->now : &b->before)->field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Makes another step the present one. */
+static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
+{
+  const SamRecord     *r        = &b->g->record[k];
+  const ptrdiff_t      cells    = b->grid->cells;
+  const SamFrameOfStep now      = b->before;
+  SamObjectiveStep    *at       = &b->at;
+  PetscInt             first[2] = {0, 0}, n[2];
+
+  PetscFunctionBegin;
+  b->before = b->now;
+  b->now    = now;
+  PetscCall(SamRecordUnpack(b, k > 0 ? r - 1 : NULL, &b->before));
+  at->step            = k;
+  at->pressure        = now.value + SAM_RECORD_PRESSURE * cells;
+  at->shear           = now.value + SAM_RECORD_SHEAR * cells;
+  at->slip            = now.value + SAM_RECORD_SLIP * cells;
+  at->share           = now.value + SAM_RECORD_SHARE * cells;
+  at->by_back         = now.value + SAM_RECORD_BY_BACK * cells;
+  at->by_alike        = now.value + SAM_RECORD_BY_ALIKE * cells;
+  at->pressure_before = b->before.value + SAM_RECORD_PRESSURE * cells;
+  at->shear_before    = b->before.value + SAM_RECORD_SHEAR * cells;
+  if (b->window) PetscCall(SamWindowGetPlace(b->window, first, n));
+  for (PetscInt i = 0; i < 2; i++) { /* indices on the whole grid become those on the part */
+    const PetscInt64 nx = SamContactGetGrid(b->g->contact)->nx;
+
+    end[i] = r->end[i] < 0 ? -1 : (r->end[i] / nx - first[1]) * b->grid->nx + r->end[i] % nx - first[0];
+  }
+  at->end    = end;
+  at->by_end = r->by_end;
+  at->rigid  = r->rigid;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Moves what has been added to the step before to the present step. */
+static PetscErrorCode Pass(SamBack *b)
+{
+  SamObjectiveStep *at    = &b->at;
+  const PetscInt    cells = b->grid->cells;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(at->by_pressure, at->by_pressure_before, cells));
+  PetscCall(PetscArraycpy(at->by_shear, at->by_shear_before, 2 * cells));
+  PetscCall(PetscArrayzero(at->by_pressure_before, cells));
+  PetscCall(PetscArrayzero(at->by_shear_before, 2 * cells));
+  PetscCall(PetscArrayzero(at->by_slip, 2 * cells));
+  PetscCall(PetscArrayzero(at->by_worn, cells));
+  PetscCall(PetscArrayzero(at->by_rigid, SAM_COMPONENTS));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds to the derivatives what the present step wears, whose depth is in the gap of all later steps. */
+static PetscErrorCode Wear(SamBack *b)
+{
+  SamObjectiveStep *at    = &b->at;
+  const PetscReal  *rate  = b->g->rate;
+  const PetscInt    nx    = b->grid->nx;
+  SamTotal          by[2] = {{0}};
+  double           *rubbed, *factor, sums[2];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < b->grid->cells; k++) b->worn[k] += at->by_worn[k];
+  if (rate[0] == 0 && rate[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(b->grid->cells, &rubbed, b->grid->cells, &factor));
+  SamBackRubbed(at, rubbed);
+  for (PetscInt j = 0; j < b->grid->rows; j++) {
+    double row[2] = {0, 0};
+
+    for (PetscInt k = j * nx; k < (j + 1) * nx; k++) {
+      const double mu = b->friction[k];
+
+      factor[k] = b->worn[k] * (rate[0] + rate[1] * mu);
+      row[0] += b->worn[k] * rubbed[k];
+      row[1] += b->worn[k] * mu * rubbed[k];
+      b->by_friction[k] += b->worn[k] * rate[1] * rubbed[k];
+    }
+    SamAddAll(2, by, row);
+  }
+  PetscCall(SamBackAddRubbed(at, factor));
+  PetscCall(SamSumTotals(b->grid->comm, 2, by, sums));
+  for (PetscInt n = 0; n < 2; n++) b->g->found.wear[n] += sums[n];
+  PetscCall(PetscFree2(rubbed, factor));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Creates bodies with other constants, for the parts of the products that are proportional to one of them
+   (readoff.c). */
+static PetscErrorCode CreateOther(SamBack *b)
+{
+  const SamPair    pair = SamElasticityGetPair(b->elasticity);
+  SamPairConstants constants;
+  SamPair          other;
+  const char      *none = SamPairGetConstants(pair, &constants);
+
+  PetscFunctionBegin;
+  PetscCheck(!none && !SamElasticityGetTraits(b->elasticity).patch, b->grid->comm, SAM_ERR_USER,
+             "the gradient by the moduli is not computed, as %s: leave the moduli out",
+             none ? none : "the bodies are finite");
+  PetscCall(SamPairCreateOther(pair, &other));
+  PetscCall(SamElasticityCreateOfPair(b->elasticity, other, &b->other));
+  PetscCall(SamPairDestroy(&other));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Run(SamBack *b, const SamObjective *objective, PetscBool want_moduli)
+{
+  SamDerivatives *found = &b->g->found;
+  double         *arrays;
+  PetscInt64      end[2];
+
+  PetscFunctionBegin;
+  PetscCall(ChoosePart(b));
+  if (want_moduli) PetscCall(CreateOther(b));
+  found->has_moduli = want_moduli;
+  PetscCall(Begin(b, &arrays));
+  PetscCall(SamRecordUnpack(b, &b->g->record[b->g->count - 1], &b->before));
+  for (PetscInt k = b->g->count - 1; k >= 0; k--) {
+    PetscCall(Pass(b));
+    PetscCall(Select(b, k, end));
+    PetscCall((*objective->add)(&b->at));
+    PetscCall(Wear(b));
+    PetscCall(SamBackSolve(b, k));
+    PetscCall(SamBackRead(b, k));
+  }
+  found->value = b->at.number;
+  if (isnan(b->at.number)) PetscCall(SamSumTotals(b->grid->comm, 1, &b->at.value, &found->value));
+  PetscCall(PutArray(b, b->by_gap, &found->gap));
+  PetscCall(PutArray(b, b->by_friction, &found->friction));
+  for (int k = 0; k < 2; k++) {
+    SamFrameOfStep *frame = k ? &b->now : &b->before;
+
+    PetscCall(VecRestoreArrayRead(frame->field, &frame->value));
+    PetscCall(VecDestroy(&frame->field));
+  }
+  PetscCall(VecDestroy(&b->whole));
+  PetscCall(SamElasticityDestroy(&b->other));
+  PetscCall(PetscFree(arrays));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the component of a load or displacement, which must not be given in the steps; -1: the name is no such one. */
+static PetscErrorCode FindComponent(SamGradient g, const char name[], PetscInt first, PetscInt last,
+                                    PetscInt *component)
+{
+  const MPI_Comm comm = SamContactGetGrid(g->contact)->comm;
+
+  PetscFunctionBegin;
+  *component = -1;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    const PetscBool load = strcmp(name, SamComponentNames[c].load) ? PETSC_FALSE : PETSC_TRUE;
+
+    if (!load && strcmp(name, SamComponentNames[c].rigid)) continue;
+    *component = c;
+    for (PetscInt k = first; k <= last; k++)
+      PetscCheck(g->record[k].force[c] != load, comm, SAM_ERR_USER, "the gradient of %s: it is given: take %s", name,
+                 load ? SamComponentNames[c].rigid : SamComponentNames[c].load);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscInt steps[2], PetscBool want_moduli,
+                                  PetscReal rtol)
+{
+  SamBack             b    = {.g = g, .rtol = rtol};
+  SamDerivatives     *d    = NULL;
+  const MPI_Comm      comm = SamContactGetGrid(g->contact)->comm;
+  const SamObjective *objective;
+
+  PetscFunctionBegin;
+  d = &g->found;
+  PetscCall(SamObjectiveFind(comm, name, &objective));
+  PetscCheck(g->count > 0, comm, SAM_ERR_USER, "the gradient of %s: no step has been recorded", name);
+  b.at.first = steps[0] < 0 ? objective->all ? 0 : g->count - 1 : steps[0];
+  b.at.last  = steps[1] < 0 ? g->count - 1 : steps[1];
+  PetscCheck(b.at.first <= b.at.last && b.at.last < g->count, comm, SAM_ERR_USER,
+             "the gradient of %s: steps %" PetscInt_FMT " to %" PetscInt_FMT
+             ": expected steps from 0 to %" PetscInt_FMT,
+             name, b.at.first, b.at.last, g->count - 1);
+  PetscCall(FindComponent(g, name, b.at.first, b.at.last, &b.at.component));
+  b.at.number = NAN;
+  PetscCall(ClearFound(d));
+  PetscCall(PetscCalloc3(g->count, &d->load, g->count, &d->rigid, g->count, &d->bulk));
+  PetscCall(Run(&b, objective, want_moduli));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the results ---- */
+
+static PetscErrorCode CheckFound(SamGradient g)
+{
+  PetscFunctionBegin;
+  PetscCheck(g->found.gap, SamContactGetGrid(g->contact)->comm, PETSC_ERR_ORDER, "no gradient has been computed");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientGetField(SamGradient g, const char name[], Vec field)
+{
+  const PetscBool gap = strcmp(name, "gap") ? PETSC_FALSE : PETSC_TRUE;
+  SamGrid         grid;
+
+  PetscFunctionBegin;
+  grid = SamContactGetGrid(g->contact);
+  PetscCheck(gap || !strcmp(name, "friction"), grid->comm, SAM_ERR_USER,
+             "the gradient by the field %s: expected gap or friction", name);
+  PetscCall(CheckFound(g));
+  PetscCall(SamGridCheckVec(grid, 1, field, "The field of derivatives"));
+  PetscCall(VecCopy(gap ? g->found.gap : g->found.friction, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamGradientIsOfSteps(const char name[])
+{
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    if (!strcmp(name, SamComponentNames[c].load) || !strcmp(name, SamComponentNames[c].rigid)) return PETSC_TRUE;
+  for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
+    if (!strcmp(name, SamBulkName(k))) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Finds a derivative by a number of a step; returns NULL if the name is none. */
+static const double *OfStep(const SamGradient g, const char name[], PetscInt step)
+{
+  static const double   none = NAN;
+  const SamDerivatives *d    = &g->found;
+
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    if (!strcmp(name, SamComponentNames[c].load)) return g->record[step].force[c] ? &d->load[step][c] : &none;
+    if (!strcmp(name, SamComponentNames[c].rigid)) return g->record[step].force[c] ? &none : &d->rigid[step][c];
+  }
+  for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
+    if (!strcmp(name, SamBulkName(k))) return &d->bulk[step][k];
+  return NULL;
+}
+
+PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt step, PetscReal *value)
+{
+  const SamDerivatives *d;
+  const double         *of_step;
+  MPI_Comm              comm;
+
+  PetscFunctionBegin;
+  comm = SamContactGetGrid(g->contact)->comm;
+  d    = &g->found;
+  PetscCall(CheckFound(g));
+  PetscCheck(step >= 0 && step < g->count, comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "step %" PetscInt_FMT " of a gradient: expected 0 to %" PetscInt_FMT, step, g->count - 1);
+  of_step = OfStep(g, name, step);
+  if (of_step) {
+    *value = *of_step;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  *value = NAN;
+  if (!strcmp(name, "value")) *value = d->value;
+  if (!strcmp(name, "residual")) *value = d->residual;
+  if (!strcmp(name, "borders")) *value = (PetscReal)d->borders;
+  for (PetscInt k = 0; k < SAM_GRADIENT_WEARS; k++)
+    if (!strcmp(name, wears[k])) *value = d->wear[k];
+  for (PetscInt k = 0; k < SAM_GRADIENT_MODULI; k++)
+    if (!strcmp(name, moduli[k]) && d->has_moduli) *value = d->moduli[k];
+  PetscCheck(!isnan(*value), comm, SAM_ERR_USER, "the gradient by %s: there is no derivative by it", name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,188 @@
+/* The recorded steps of a gradient: packed when a step is tried, unpacked on the way back. */
+#include "gradientimpl.h"
+#include <petsam/private/contact.h>
+#include <petsam/private/control.h>
+#include <petsam/private/pressed.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/solutionimpl.h>
+#include <math.h>
+#include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
+
+PetscErrorCode SamRecordDestroy(SamRecord *r)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(r->cell, r->value, r->slope));
+  r->count = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- recording ---- */
+
+/* Computes the coefficient of friction in all cells, as the derivative of the bound by the pressure. */
+static PetscErrorCode ComputeFriction(SamGradient g, const SamSolution *s, Vec friction)
+{
+  SamBoundAt     at    = {.control = &s->control, .pressure = s->pressure, .rolled = s->rolled};
+  const SamBound bound = {.by_pressure = friction};
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(g->contact, &at.state));
+  PetscCall(SamProblemComputeBound(SamContactGetProblem(g->contact), &at, &bound));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Keeps the friction and the gap of the first step, and refuses others in later steps. */
+static PetscErrorCode KeepFields(SamGradient g, const SamSolution *s)
+{
+  const SamGrid    grid = SamContactGetGrid(g->contact);
+  PetscObjectState gap;
+  Vec              friction;
+  PetscReal        change;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectStateGet((PetscObject)SamProblemGetGap(SamContactGetProblem(g->contact)), &gap));
+  PetscCall(SamGridCreateVec(grid, 1, &friction));
+  PetscCall(ComputeFriction(g, s, friction));
+  if (!g->friction) {
+    g->friction = friction;
+    g->gap      = gap;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  change = gap != g->gap ? 1 : 0;
+  PetscCall(SamMax(grid->comm, 1, &change));
+  if (change > 0) PetscCall(VecDestroy(&friction));
+  PetscCheck(change == 0, grid->comm, SAM_ERR_USER,
+             "the gradient: the gap has been given anew between steps: expected the same in all of them");
+  PetscCall(VecAXPY(friction, -1, g->friction));
+  PetscCall(VecNorm(friction, NORM_INFINITY, &change));
+  PetscCall(VecDestroy(&friction));
+  PetscCheck(change == 0, grid->comm, SAM_ERR_USER,
+             "the gradient: the friction changes from step to step: expected the same in all of them");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* True if a cell is in contact after the step or was before it. */
+static PetscBool Takes(const SamIncrement *s, ptrdiff_t k)
+{
+  return SamIsPressed(s->at_now.p[k]) || (s->solutions[0] && SamIsPressed(s->at_before.p[k]));
+}
+
+/* Packs the row of the increment that was computed last, from place m on; returns the next place. */
+static PetscInt PackRow(const SamIncrement *s, PetscInt j, PetscInt m, SamRecord *r)
+{
+  const ptrdiff_t  first = (ptrdiff_t)j * s->grid->nx, n = r->count;
+  const SamValues *v = &s->at_now;
+
+  for (PetscInt i = 0; i < s->grid->nx; i++) {
+    const ptrdiff_t k = first + i, l = k + s->grid->cells;
+    double          share[2], slopes[2];
+    SamCellMotion   motion;
+
+    if (!Takes(s, k)) continue;
+    motion = SamIncrementGetCellMotion(s, k, share);
+    SamIncrementGetShareSlopes(s, motion, k, slopes);
+    r->cell[m]                               = (PetscInt)k;
+    r->value[m + SAM_RECORD_PRESSURE * n]    = v->p[k];
+    r->value[m + SAM_RECORD_SHEAR * n]       = v->q[k];
+    r->value[m + (SAM_RECORD_SHEAR + 1) * n] = v->q[l];
+    r->value[m + SAM_RECORD_SLIP * n]        = s->row[0][i];
+    r->value[m + (SAM_RECORD_SLIP + 1) * n]  = s->row[1][i];
+    r->value[m + SAM_RECORD_SHARE * n]       = motion == SAM_CELL_MOTION_NONE ? -1 : share[0];
+    for (int c = 0; c < 2; c++) r->slope[m + c * n] = (float)slopes[c];
+    m++;
+  }
+  return m;
+}
+
+static PetscErrorCode Pack(SamIncrement *s, SamRecord *r)
+{
+  PetscInt m = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamIncrementMeasure(s));
+  PetscCall(SamIncrementFindEnds(s, r->end, r->by_end));
+  r->count = 0;
+  for (PetscInt k = 0; k < s->grid->cells; k++) r->count += Takes(s, k);
+  PetscCall(PetscMalloc3(r->count, &r->cell, SAM_RECORD_BY_BACK * r->count, &r->value,
+                         (SAM_RECORD_VALUES - SAM_RECORD_BY_BACK) * r->count, &r->slope));
+  for (PetscInt j = 0; j < s->grid->rows; j++) {
+    SamIncrementComputeRow(s, j);
+    m = PackRow(s, j, m, r);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Copies the prescribed values and the displacements of the step. */
+static void CopyControl(SamGradient g, const SamSolution *s, SamRecord *r)
+{
+  const SamConditions conditions = SamProblemGetConditions(SamContactGetProblem(g->contact));
+
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    r->force[c] = s->control.force[c];
+    r->rigid[c] = s->rigid[c];
+  }
+  for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
+    r->bulk[k] = SamControlGet(&s->control, SamConditionsFind(conditions, SamBulkName(k)));
+}
+
+/* Checks that the tried step follows the recorded ones, and its rule of slip. */
+static PetscErrorCode CheckPlace(SamGradient g, PetscInt place, const SamSolution *s)
+{
+  const MPI_Comm comm = SamContactGetGrid(g->contact)->comm;
+
+  PetscFunctionBegin;
+  PetscCheck(SamContactHasStep(g->contact, SAM_TRIED), comm, PETSC_ERR_ORDER,
+             "the gradient: no step is tried: record each step before it is committed");
+  PetscCheck(place <= g->count, comm, PETSC_ERR_ORDER,
+             "the gradient: the contact has steps that were not recorded: begin before its first step");
+  PetscCheck(s->rule <= SAM_RULE_END_LINE, comm, SAM_ERR_USER,
+             "the gradient: slip must be opposite to the shear at the end of a step: give -slip_direction end");
+  PetscCheck(s->rolled == 0, comm, SAM_ERR_USER, "the gradient of steps that roll is not computed");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientRecord(SamGradient g)
+{
+  const SamSolution *now;
+  SamIncrement       increment;
+  SamRecord          r;
+  PetscInt           place;
+
+  PetscFunctionBegin;
+  place = SamContactGetSteps(g->contact);
+  PetscCall(SamContactGetSolution(g->contact, &now));
+  PetscCall(CheckPlace(g, place, now));
+  PetscCall(KeepFields(g, now));
+  PetscCall(SamIncrementCreate(SamContactGetProblem(g->contact), SamContactBefore(g->contact), now, &increment));
+  PetscCall(Pack(&increment, &r));
+  PetscCall(SamIncrementDestroy(&increment));
+  CopyControl(g, now, &r);
+  while (g->count > place) PetscCall(SamRecordDestroy(&g->record[--g->count]));
+  if (g->count == g->room) {
+    g->room = 2 * g->room + 16;
+    PetscCall(PetscRealloc(sizeof(*g->record) * (size_t)g->room, &g->record));
+  }
+  g->record[g->count++] = r;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- on the way back ---- */
+
+PetscErrorCode SamRecordUnpack(const SamBack *b, const SamRecord *r, SamFrameOfStep *frame)
+{
+  const ptrdiff_t cells = SamContactGetGrid(b->g->contact)->cells;
+  double         *to;
+
+  PetscFunctionBegin;
+  if (frame->value) PetscCall(VecRestoreArrayRead(frame->field, &frame->value));
+  PetscCall(VecZeroEntries(b->whole));
+  PetscCall(VecGetArray(b->whole, &to));
+  for (ptrdiff_t m = 0; r && m < r->count; m++) {
+    for (PetscInt c = 0; c < SAM_RECORD_BY_BACK; c++) to[c * cells + r->cell[m]] = r->value[m + c * r->count];
+    for (PetscInt c = SAM_RECORD_BY_BACK; c < SAM_RECORD_VALUES; c++)
+      to[c * cells + r->cell[m]] = (double)r->slope[m + (c - SAM_RECORD_BY_BACK) * r->count];
+  }
+  PetscCall(VecRestoreArray(b->whole, &to));
+  PetscCall(b->window ? SamWindowTake(b->window, b->whole, frame->field) : VecCopy(b->whole, frame->field));
+  PetscCall(VecGetArrayRead(frame->field, &frame->value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
