@@ -11,12 +11,11 @@ The pass back is the library's (src/post/gradient).
 
 import ctypes
 import warnings
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .core.errors import Error, there_are
+from .results.gradients import MODULI, Gradient
 
 if TYPE_CHECKING:
     from .contact import Contact
@@ -24,53 +23,11 @@ if TYPE_CHECKING:
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
 BULK = tuple(f"bulk{body}_stress_{name}" for body in (1, 2) for name in ("xx", "yy", "xy"))
-MODULI = ("body1_young", "body1_poisson", "body2_young", "body2_poisson")
 WEAR = ("wear_coefficient", "wear_energy")
 
 
 class OneSidedWarning(UserWarning):
     """A gradient where cells are on the border of their set: it holds to one side."""
-
-
-@dataclass
-class Gradient:
-    """The derivatives of a number; see Contact.gradient().
-
-    Attributes
-    ----------
-    name : str
-        Of the number.
-    value : float
-        The number itself: J, N, N m, m, rad, m3 or Pa.
-    gap : ndarray
-        By the separation of the undeformed bodies in each cell, per m; this rank's rows, (rows, nx).
-    friction : ndarray
-        By the coefficient of friction in each cell; their sum is that by the coefficient.
-    numbers : dict
-        {name: derivative} by other parameters: of each step, (steps,), by given loads, displacements and bulk stresses;
-        by the moduli, if they were wanted; by the coefficients of wear, of both bodies alike.
-    borders : int
-        Cells on the border of their set in some step; the gradient is one-sided if there are any.
-    residual : float
-        Largest relative residual of the systems.
-    """
-
-    name: str
-    value: float
-    gap: np.ndarray
-    friction: np.ndarray
-    numbers: dict
-    borders: int
-    residual: float
-
-    def __getitem__(self, name: str) -> Union[float, np.ndarray]:
-        """A derivative by the name of its parameter: gap, friction, load_tx, disp_x, body1_young, ..."""
-        every = {"gap": self.gap, "friction": self.friction, **self.numbers}
-        if name in MODULI and name not in every:
-            raise Error(f"gradient: {name}: it was not computed: give moduli=True")
-        if name not in every:
-            raise Error(f"gradient: {name}: there is no derivative by it{there_are(name, list(every))}")
-        return every[name]
 
 
 def compute(contact: "Contact", name: str, steps: tuple[int, int], moduli: bool, rtol: float) -> Gradient:

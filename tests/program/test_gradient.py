@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import petsam
+import petsam as library  # beside the fixture petsam, which runs the program
 
 SIZE = 2.6e-3
 BODIES = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
@@ -421,3 +422,72 @@ def test_what_becomes_of_recorded_steps():
     other = contact_of(BODIES, 16)[0]
     with pytest.raises(petsam.Error, match="no steps are recorded"):
         other.gradient("energy")
+
+
+# ---- of the program
+
+
+RUN = dict(
+    BODIES, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=(40, 33), grid_size=SIZE, friction=0.3,
+    slip_direction="end", normal_rtol=1e-11, tangential_rtol=1e-11, errors="none",
+)  # fmt: skip
+
+
+@pytest.fixture
+def loads(tmp_path):
+    """A history file, and its columns."""
+    history = history_of(np.full(4, 900.0), np.array([0, 120.0, -60, 30]), np.array([0, 20.0, 40, -10]))
+    names = ("time", "load_n", "load_tx", "load_ty")
+    rows = "\n".join(",".join(f"{history[name][k]:.17g}" for name in names) for k in range(4))
+    (tmp_path / "history.csv").write_text(",".join(names) + "\n" + rows + "\n")
+    return history
+
+
+def test_a_run_writes_what_a_contact_in_process_finds(petsam, loads, tmp_path):
+    """The same bits on 1, 2 and 3 ranks, also where the gap is worn; the line of the report; what is read again."""
+    case = dict(RUN, history="history.csv", gradient="energy,disp_x", gradient_moduli=True, wear_coefficient1=1e-12)
+    files = []
+    for ranks in (1, 2, 3):
+        done = petsam(case, dict(output=f"{ranks}.h5"), ranks=ranks)
+        files.append(library.open(tmp_path / f"{ranks}.h5"))
+    for name in ("energy", "disp_x"):
+        one = files[0].gradients[name]
+        for other in (file.gradients[name] for file in files[1:]):
+            assert np.array_equal(one.gap, other.gap) and np.array_equal(one.friction, other.friction)
+            assert one.value == other.value
+            for key, values in one.numbers.items():
+                assert np.array_equal(values, other.numbers[key], equal_nan=True), key
+    contact = library.Contact(**RUN, wear_coefficient1=1e-12)
+    found = record(contact, loads)[0].gradient("energy", moduli=True)
+    one = files[0].gradients["energy"]
+    assert one.value == found.value == pytest.approx(files[0].history["dissipated_energy"].sum(), rel=1e-12)
+    assert np.array_equal(one.gap, found.gap) and one["body1_young"] == found["body1_young"]
+    assert np.array_equal(one["load_tx"], found["load_tx"]) and one.borders == found.borders == 0
+    share = np.sum(loads["load_tx"] * found["load_tx"]) / found.value
+    assert f"gradient    energy {found.value:.6g} J; by 1 % more" in done.stdout
+    assert f"load_tx {share:+.3g} %" in done.stdout
+
+
+def test_steps_of_a_gradient(petsam, loads, tmp_path):
+    """-gradient_steps counts from 1, slices of a contact from 0."""
+    petsam(RUN, dict(history="history.csv", gradient="energy", gradient_steps="2,3", output="out.h5"))
+    found = record(library.Contact(**RUN), loads)[0].gradient("energy", slice(1, 3))
+    assert np.array_equal(library.open(tmp_path / "out.h5").gradients["energy"].gap, found.gap)
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (dict(slip_direction=None), "give -slip_direction end"),
+        (dict(gradient_steps="2,9"), "the history has 4 steps"),
+        (dict(gradient="stick_area"), "piecewise constant"),
+        (dict(gradient="load_n"), "take disp_z"),
+        (dict(output=None), "-output"),
+        (dict(pressure_limit=1e9), "-pressure_limit"),
+        (dict(step_rtol=0.01), "step_rtol"),
+        (dict(gradient_rtol=-1), "gradient_rtol"),
+    ],
+)
+def test_refused_runs(petsam, loads, change, words):
+    case = dict(RUN, history="history.csv", gradient="energy", output="out.h5")
+    assert words in petsam({**case, **change}, check=2).stderr

@@ -114,15 +114,11 @@ PETSC_INTERN PetscErrorCode SamGradientCompute(SamGradient gradient, const char 
 PETSC_INTERN PetscErrorCode SamGradientGetField(SamGradient gradient, const char name[], Vec field);
 
 /*
-  SamGradientIsOfSteps - returns true if the derivative by that name has a value of each step.
-
-  Not collective.
-
-  In:     name - a name of SamGradientGetNumber()
-
-  Errors: none; it returns no error code.
+  SamGradientOfSteps - returns the name of the k-th parameter that has a value of each step; NULL after the last one.
+  SamGradientIsOfSteps - returns true if that name is one of these. Neither is collective.
 */
-PETSC_INTERN PetscBool SamGradientIsOfSteps(const char name[]);
+PETSC_INTERN const char *SamGradientOfSteps(PetscInt k);
+PETSC_INTERN PetscBool   SamGradientIsOfSteps(const char name[]);
 
 /*
   SamGradientGetNumber - gets the number, a derivative by a number, or what is known of both.
@@ -143,5 +139,20 @@ PETSC_INTERN PetscBool SamGradientIsOfSteps(const char name[]);
 */
 PETSC_INTERN PetscErrorCode SamGradientGetNumber(SamGradient gradient, const char name[], PetscInt step,
                                                  PetscReal *value);
+
+/*
+  SamGradientCheckName - checks that a number has a gradient, and is not given itself in a step whose loads `force` are;
+  `component`: that of a load or displacement, else -1. Not collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamGradientCheckName(MPI_Comm comm, const char name[], const PetscBool force[],
+                                                 PetscInt *component);
+/*
+  SamGradientDescribe - writes the number, and the relative changes of it by relative changes of the parameters, the
+  largest first: "energy 2.04e-05 J; by 1 % more friction -1.2 %, load_tx +3.1 %". Values of all steps of a load change
+  together. Collective. Errors: PETSC_ERR_ORDER before SamGradientCompute().
+  SamGradientUnit - returns the unit of the number that was computed last. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamGradientDescribe(SamGradient gradient, char text[], size_t size);
+PETSC_INTERN const char    *SamGradientUnit(SamGradient gradient);
 
 #endif

@@ -5,6 +5,7 @@
 #include <petsam/contact.h>
 #include <petsam/parameters.h>
 #include <petsam/private/errors.h>
+#include <petsam/private/gradient.h>
 
 /*
   SamOutput - a results file, to which one load step at a time is appended (layout: examples/manual/RESULTS.md). Every
@@ -98,6 +99,13 @@ PETSC_INTERN PetscErrorCode SamOutputWriteErrors(SamOutput output, const SamErro
 #define SAM_WARNING_TEXT 640 /* most bytes of a warning in the results */
 PETSC_INTERN PetscErrorCode SamOutputWriteWarnings(SamOutput output, PetscInt count,
                                                    const char texts[][SAM_WARNING_TEXT]);
+/*
+  SamOutputWriteGradient - writes all waiting steps, then the group /gradient/NAME with what a gradient has found:
+  derivatives by gap and friction in each cell, by each step's loads, and numbers as attributes. Collective. Errors: as
+  SamOutputWriteStep().
+*/
+PETSC_INTERN PetscErrorCode SamOutputWriteGradient(SamOutput output, SamGradient gradient, const char name[],
+                                                   PetscBool moduli);
 /*
   SamOutputGetSaved - gets the number of load steps in the file, the number of steps with fields, and the time (s) of
   the last step with fields, -infinity if there is none; NULL for an unwanted output. Not collective.

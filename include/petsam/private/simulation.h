@@ -30,6 +30,7 @@ typedef enum {
   SAM_NOTIFY_EXTENT,     /* size of the contact in `step`: `extent` */
   SAM_NOTIFY_SLIP,       /* dissipated energy of all steps: `slip` */
   SAM_NOTIFY_ERRORS,     /* estimated errors of the last numbers: `errors` */
+  SAM_NOTIFY_GRADIENT,   /* a number and its derivatives: `text` */
   SAM_NOTIFY_FILE,       /* the file `text` has been written, and contains `setting` */
   SAM_NOTIFY_STOPPED     /* stopped before the end, with a checkpoint: `text` says where and why */
 } SamEventKind;

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import Error, library, short, there_are
 from ..core.files import decoded
-from . import errors, parts
+from . import errors, gradients, parts
 from .datafile import WHOLE, Named, NotSaved, _nodes, _own, _some
 from .fields import OPEN, SLIP, STICK, Fields
 from .shown import Viewed
@@ -51,6 +51,8 @@ class Results(Fields, Viewed):
         {name: unit}, of the same.
     warnings : list of str
         Warnings of the run, in their order; empty for a run that has not ended.
+    gradients : dict
+        {name of a number: Gradient}, its derivatives by all parameters, with -gradient; empty without.
     errors : Errors
         {name: NumberError} of the last numbers, with -errors companion; a table (errors.py). Empty without.
     parameters : dict
@@ -99,6 +101,7 @@ class Results(Fields, Viewed):
         self._held = self._count_saved()  # saved steps of this file alone
         self.times = self.times[: self._held]
         self.warnings = self._texts("warnings")
+        self.gradients = gradients.read(self.file.get("gradient"))
         if "friction_file" not in self.parameters:
             _ = self.parameters["friction"]  # which every other file has
         self.before = int(self.parameters.get("branch_step", 0))

@@ -495,6 +495,9 @@ PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulatio
     PetscCall(PrintErrors(r, news->errors));
     PetscCall(CompareErrors(r, news->errors));
     break;
+  case SAM_NOTIFY_GRADIENT:
+    if (!r->quiet) PetscCall(PetscPrintf(r->comm, "%s  gradient    %s\n", r->gradients++ ? "" : "\n", news->text));
+    break;
   case SAM_NOTIFY_FILE:
     PetscCall(AddFile(r, news->text, news->setting));
     break;

@@ -76,6 +76,7 @@ struct _n_SamReport {
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;
+  PetscInt gradients; /* lines on gradients so far */
 };
 
 /*

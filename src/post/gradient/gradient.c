@@ -19,7 +19,9 @@
 */
 #include "gradientimpl.h"
 #include <petsam/private/body.h>
+#include <petsam/private/body.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/control.h>
 #include <petsam/private/law.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
@@ -369,22 +371,20 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective, PetscBool w
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the component of a load or displacement, which must not be given in the steps; -1: the name is no such one. */
-static PetscErrorCode FindComponent(SamGradient g, const char name[], PetscInt first, PetscInt last,
-                                    PetscInt *component)
+PetscErrorCode SamGradientCheckName(MPI_Comm comm, const char name[], const PetscBool force[], PetscInt *component)
 {
-  const MPI_Comm comm = SamContactGetGrid(g->contact)->comm;
+  const SamObjective *objective;
 
   PetscFunctionBegin;
   *component = -1;
+  PetscCall(SamObjectiveFind(comm, name, &objective));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     const PetscBool load = strcmp(name, SamComponentNames[c].load) ? PETSC_FALSE : PETSC_TRUE;
 
     if (!load && strcmp(name, SamComponentNames[c].rigid)) continue;
     *component = c;
-    for (PetscInt k = first; k <= last; k++)
-      PetscCheck(g->record[k].force[c] != load, comm, SAM_ERR_USER, "the gradient of %s: it is given: take %s", name,
-                 load ? SamComponentNames[c].rigid : SamComponentNames[c].load);
+    PetscCheck(force[c] != load, comm, SAM_ERR_USER, "the gradient of %s: it is given: take %s", name,
+               load ? SamComponentNames[c].rigid : SamComponentNames[c].load);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -407,10 +407,13 @@ PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscI
              "the gradient of %s: steps %" PetscInt_FMT " to %" PetscInt_FMT
              ": expected steps from 0 to %" PetscInt_FMT,
              name, b.at.first, b.at.last, g->count - 1);
-  PetscCall(FindComponent(g, name, b.at.first, b.at.last, &b.at.component));
+  for (PetscInt k = b.at.first; k <= b.at.last; k++)
+    PetscCall(SamGradientCheckName(comm, name, g->record[k].force, &b.at.component));
   b.at.number = NAN;
   PetscCall(ClearFound(d));
   PetscCall(PetscCalloc3(g->count, &d->load, g->count, &d->rigid, g->count, &d->bulk));
+  (void)snprintf(d->name, sizeof(d->name), "%s", name);
+  (void)snprintf(d->unit, sizeof(d->unit), "%s", SamUnitOn(SamContactGetGrid(g->contact), objective->unit));
   PetscCall(Run(&b, objective, want_moduli));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -439,12 +442,20 @@ PetscErrorCode SamGradientGetField(SamGradient g, const char name[], Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+const char *SamGradientOfSteps(PetscInt k)
+{
+  const PetscInt past = k - 2 * SAM_COMPONENTS;
+
+  if (past >= 0) return past < SAM_GRADIENT_BULKS ? SamBulkName(past) : NULL;
+  return k < SAM_COMPONENTS ? SamComponentNames[k].load : SamComponentNames[k - SAM_COMPONENTS].rigid;
+}
+
 PetscBool SamGradientIsOfSteps(const char name[])
 {
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-    if (!strcmp(name, SamComponentNames[c].load) || !strcmp(name, SamComponentNames[c].rigid)) return PETSC_TRUE;
-  for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
-    if (!strcmp(name, SamBulkName(k))) return PETSC_TRUE;
+  const char *one;
+
+  for (PetscInt k = 0; (one = SamGradientOfSteps(k)); k++)
+    if (!strcmp(name, one)) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -490,4 +501,99 @@ PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt s
     if (!strcmp(name, moduli[k]) && d->has_moduli) *value = d->moduli[k];
   PetscCheck(!isnan(*value), comm, SAM_ERR_USER, "the gradient by %s: there is no derivative by it", name);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- a line of text ---- */
+
+enum { SHARES = 2 + 2 * SAM_COMPONENTS + SAM_GRADIENT_BULKS + SAM_GRADIENT_MODULI + SAM_GRADIENT_WEARS, TOLD = 5 };
+
+/* A parameter, and the relative change of the number by a relative change of the parameter */
+typedef struct {
+  const char *name;
+  double      share;
+} Share;
+
+static PetscErrorCode ShareOfFriction(SamGradient g, double *share)
+{
+  const SamGrid grid  = SamContactGetGrid(g->contact);
+  SamTotal      total = {0};
+  const double *mu, *by;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(g->friction, &mu));
+  PetscCall(VecGetArrayRead(g->found.friction, &by));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row = 0;
+
+    for (PetscInt k = j * grid->nx; k < (j + 1) * grid->nx; k++) row += mu[k] * by[k];
+    SamAdd(&total, row);
+  }
+  PetscCall(VecRestoreArrayRead(g->found.friction, &by));
+  PetscCall(VecRestoreArrayRead(g->friction, &mu));
+  PetscCall(SamSumTotals(grid->comm, 1, &total, share));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the shares of all parameters, those of a history's column together; returns their number. */
+static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *count)
+{
+  const SamDerivatives *d = &g->found;
+  SamPairConstants      constants;
+  PetscInt              n = 1;
+
+  PetscFunctionBegin;
+  shares[0].name = "friction";
+  PetscCall(ShareOfFriction(g, &shares[0].share));
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    shares[n]     = (Share){SamComponentNames[c].load, 0};
+    shares[n + 1] = (Share){SamComponentNames[c].rigid, 0};
+    for (PetscInt k = 0; k < g->count; k++) {
+      const SamRecord *r = &g->record[k];
+
+      shares[r->force[c] ? n : n + 1].share += r->force[c] ? r->load[c] * d->load[k][c] : r->rigid[c] * d->rigid[k][c];
+    }
+    n += 2;
+  }
+  for (PetscInt b = 0; b < SAM_GRADIENT_BULKS; b++, n++) {
+    shares[n] = (Share){SamBulkName(b), 0};
+    for (PetscInt k = 0; k < g->count; k++) shares[n].share += g->record[k].bulk[b] * d->bulk[k][b];
+  }
+  for (PetscInt k = 0; k < SAM_GRADIENT_WEARS; k++, n++) shares[n] = (Share){wears[k], g->rate[k] * d->wear[k]};
+  if (d->has_moduli) {
+    (void)SamPairGetConstants(SamElasticityGetPair(SamProblemGetElasticity(SamContactGetProblem(g->contact))),
+                              &constants);
+    for (PetscInt k = 0; k < SAM_GRADIENT_MODULI; k++, n++)
+      shares[n] = (Share){moduli[k], constants.modulus[k] * d->moduli[k]};
+  }
+  *count = n;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientDescribe(SamGradient g, char text[], size_t size)
+{
+  const SamDerivatives *d = &g->found;
+  Share                 shares[SHARES];
+  PetscInt              count;
+  size_t                used;
+
+  PetscFunctionBegin;
+  PetscCall(CheckFound(g));
+  PetscCall(FindShares(g, shares, &count));
+  used = (size_t)snprintf(text, size, "%s %.6g %s; by 1 %% more", d->name, (double)d->value, d->unit);
+  for (PetscInt told = 0; told < TOLD; told++) {
+    PetscInt best = 0;
+
+    for (PetscInt k = 1; k < count; k++)
+      if (fabs(shares[k].share) > fabs(shares[best].share)) best = k;
+    if (!(fabs(shares[best].share) > 1e-6 * fabs((double)d->value)) || used >= size) break;
+    used += (size_t)snprintf(text + used, size - used, "%s %s %+.3g %%", told ? "," : "", shares[best].name,
+                             shares[best].share / (double)d->value);
+    shares[best].share = 0;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const char *SamGradientUnit(SamGradient g)
+{
+  return g->found.unit;
 }

@@ -32,7 +32,7 @@ typedef struct {
   PetscInt64 end[2];    /* cells whose slips determine how far all slide alike, on the whole grid; -1: none */
   double     by_end[2]; /* its derivatives by the lengths of these slips, 1/m */
   PetscBool  force[SAM_COMPONENTS];
-  PetscReal  rigid[SAM_COMPONENTS], bulk[SAM_GRADIENT_BULKS];
+  PetscReal  load[SAM_COMPONENTS], rigid[SAM_COMPONENTS], bulk[SAM_GRADIENT_BULKS];
 } SamRecord;
 
 /* The results of a pass back */
@@ -42,6 +42,7 @@ typedef struct {
   Vec       gap, friction;                                                               /* on the contact's grid */
   double (*load)[SAM_COMPONENTS], (*rigid)[SAM_COMPONENTS], (*bulk)[SAM_GRADIENT_BULKS]; /* of each step */
   PetscBool has_moduli;
+  char      name[32], unit[16]; /* of the number */
 } SamDerivatives;
 
 struct _n_SamGradient {

@@ -118,6 +118,7 @@ static void CopyControl(SamGradient g, const SamSolution *s, SamRecord *r)
 
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     r->force[c] = s->control.force[c];
+    r->load[c]  = s->load[c];
     r->rigid[c] = s->rigid[c];
   }
   for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)

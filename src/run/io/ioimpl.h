@@ -61,6 +61,9 @@ PETSC_INTERN PetscErrorCode SamOutputAppendFrames(SamOutput output, PetscBool pr
 PETSC_INTERN void SamOutputAppendNumbers(SamOutput output, hid_t dataset, hid_t type, hsize_t index, hsize_t count,
                                          hsize_t n, const void *numbers);
 
+/* SamOutputAppendGradient - creates the group /gradient/NAME (gradienttable.c). Notes its failures. Collective. */
+PETSC_INTERN PetscErrorCode SamOutputAppendGradient(SamOutput output, SamGradient gradient, const char name[],
+                                                    PetscBool moduli);
 /* SamOutputAppendErrors - creates the group /errors (errortable.c). Notes its failures. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAppendErrors(SamOutput output, const SamErrorTable *table);
 /* SamOutputAppendWarnings - creates the dataset /warnings (errortable.c). Notes its failures. Collective. */

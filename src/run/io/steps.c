@@ -135,9 +135,10 @@ static PetscErrorCode AppendRows(SamOutput o, SamSeries kind, const double rows[
 
 /*
   Prepares writing: raises an error if the file has been changed from outside, and reserves disk space. After an error
-  waiting steps are discarded, as there is no file for them. `present`: the present step's fields are written, too.
+  waiting steps are discarded, as there is no file for them. `present`: the present step's fields are written, too;
+  `more`: so many bytes besides.
 */
-static PetscErrorCode Begin(SamOutput o, PetscBool present)
+static PetscErrorCode Begin(SamOutput o, PetscBool present, off_t more)
 {
   const PetscInt frames = o->frames.count + (present ? 1 : 0);
   PetscErrorCode ierr;
@@ -145,7 +146,7 @@ static PetscErrorCode Begin(SamOutput o, PetscBool present)
   PetscFunctionBegin;
   ierr = SamOutputPublish(o);
   if (!ierr) ierr = SamFileLockCheck(o->grid, "output", o->f->filename, &o->hold);
-  if (!ierr) ierr = SamFileReserve(o->f, frames * (SamOutputFieldBytes(o) + FRAME_INDEX));
+  if (!ierr) ierr = SamFileReserve(o->f, frames * (SamOutputFieldBytes(o) + FRAME_INDEX) + more);
   if (ierr) o->waits = o->frames.count = 0;
   PetscCall(ierr);
   PetscCall(SamFileBegin(o->f));
@@ -180,7 +181,7 @@ static PetscErrorCode End(SamOutput o)
 static PetscErrorCode Complete(SamOutput o, PetscBool present, PetscReal time)
 {
   PetscFunctionBegin;
-  PetscCall(Begin(o, present));
+  PetscCall(Begin(o, present, 0));
   PetscCall(WriteWaiting(o, present, time));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -263,12 +264,12 @@ PetscErrorCode SamOutputWriteFields(SamOutput o, PetscReal time)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Prepares writing besides steps: all that wait are written first. */
-static PetscErrorCode BeginApart(SamOutput o)
+/* Prepares writing so many bytes besides steps: all that wait are written first. */
+static PetscErrorCode BeginApart(SamOutput o, off_t bytes)
 {
   PetscFunctionBegin;
   PetscCall(CheckWhole(o));
-  PetscCall(Begin(o, PETSC_FALSE));
+  PetscCall(Begin(o, PETSC_FALSE, bytes));
   PetscCall(WriteWaiting(o, PETSC_FALSE, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -277,7 +278,7 @@ PetscErrorCode SamOutputWriteCycle(SamOutput o)
 {
   PetscFunctionBegin;
   PetscCheck(o->columns[SAM_SERIES_CYCLES][0] >= 0, o->grid->comm, PETSC_ERR_ORDER, "The file has no series of cycles");
-  PetscCall(BeginApart(o));
+  PetscCall(BeginApart(o, 0));
   PetscCall(AppendRows(o, SAM_SERIES_CYCLES, SamStateNumbers(o->state[SAM_SERIES_CYCLES], 0, SAM_COMMITTED), 1));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -286,7 +287,7 @@ PetscErrorCode SamOutputWriteCycle(SamOutput o)
 PetscErrorCode SamOutputWriteErrors(SamOutput o, const SamErrorTable *table)
 {
   PetscFunctionBegin;
-  PetscCall(BeginApart(o));
+  PetscCall(BeginApart(o, 0));
   PetscCall(SamOutputAppendErrors(o, table));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -295,8 +296,17 @@ PetscErrorCode SamOutputWriteErrors(SamOutput o, const SamErrorTable *table)
 PetscErrorCode SamOutputWriteWarnings(SamOutput o, PetscInt count, const char texts[][SAM_WARNING_TEXT])
 {
   PetscFunctionBegin;
-  PetscCall(BeginApart(o));
+  PetscCall(BeginApart(o, 0));
   PetscCall(SamOutputAppendWarnings(o, count, texts));
+  PetscCall(End(o));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputWriteGradient(SamOutput o, SamGradient g, const char name[], PetscBool moduli)
+{
+  PetscFunctionBegin;
+  PetscCall(BeginApart(o, 2 * (off_t)sizeof(double) * (off_t)o->grid->nx * (off_t)o->grid->ny));
+  PetscCall(SamOutputAppendGradient(o, g, name, moduli));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

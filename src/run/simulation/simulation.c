@@ -209,6 +209,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
     PetscCall(SamSimulationRestart(s));
     PetscCall(SamSimulationDescribePlace(s, PETSC_FALSE, start->after, sizeof(start->after)));
   }
+  PetscCall(SamSimulationBeginGradients(s));
   PetscCall(AdviseLoads(s));
   if (writes) PetscCall(SamSimulationBeginCheckpoints(s));
   if (writes && s->has_output) PetscCall(SamSimulationOpenResults(s));
@@ -364,6 +365,7 @@ static PetscErrorCode RunAll(SamSimulation s)
   if (s->point.worst == SAM_STATUS_CONVERGED) PetscCall(SamAdviceEnd(&s->advice, &slip));
   if (slip) PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_SLIP, .slip = slip}));
   PetscCall(EndErrors(s));
+  PetscCall(SamSimulationEndGradients(s));
   if (!s->untold) PetscCall(SamAdviceTell(&s->advice));
   PetscCall(Finish(s));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -39,6 +39,15 @@ typedef struct {
 
 typedef struct _n_SamErrors *SamErrors;
 
+/* The gradients that a run writes */
+#define SAM_GRADIENT_NAMES 256
+typedef struct {
+  char      names[SAM_GRADIENT_NAMES]; /* of the numbers, separated by commas; empty: none */
+  PetscInt  steps[2];                  /* first and last step, from 1; 0: the usual ones */
+  PetscBool moduli;
+  PetscReal rtol;
+} SamGradientPlan;
+
 #define SAM_WARNINGS 16 /* most warnings in the results */
 
 struct _n_SamSimulation {
@@ -83,7 +92,8 @@ struct _n_SamSimulation {
   PetscBool              advised;       /* advice on the tried step has been computed */
   SamErrors              errors;        /* NULL: they are not computed */
   SamGradient            gradient;      /* which records the committed steps; NULL: none does */
-  PetscInt               warnings;      /* number of the warnings so far that the results will have */
+  SamGradientPlan        gradients;
+  PetscInt               warnings; /* number of the warnings so far that the results will have */
   char                   warning[SAM_WARNINGS][SAM_WARNING_TEXT];
 };
 
@@ -103,6 +113,14 @@ PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[
 PETSC_INTERN PetscErrorCode SamSimulationOpenResults(SamSimulation simulation);
 PETSC_INTERN PetscBool      SamSimulationSaves(SamSimulation simulation, PetscInt step, PetscInt last);
 PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char text[], size_t size);
+/*
+  SamSimulationReadGradients - reads the options of gradients. SamSimulationBeginGradients - begins to record the steps,
+  if there are any. SamSimulationEndGradients - computes them after the last step, writes and tells them (gradients.c).
+  Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamSimulationReadGradients(SamSimulation simulation, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamSimulationBeginGradients(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationEndGradients(SamSimulation simulation);
 /* SamSimulationCreateLife - creates the life, if cycles are requested, once there is a contact. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCreateLife(SamSimulation simulation);
 /*

@@ -167,6 +167,7 @@ PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *fr
   PetscCall(SetProgram(s, s->history, s->plan.cycles, from));
   PetscCall(ReadFiles(s, from));
   PetscCall(SamErrorsReadOptions(s, from));
+  PetscCall(SamSimulationReadGradients(s, from));
   if (!SamPrintHelp()) PetscCall(SamSimulationEstimateShares(s, &s->needs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -9,7 +9,7 @@
 #include <petsam/tangential.h>
 
 #define SAM_NORMAL_POLONSKYKEER "polonskykeer" /* the classical projected CG, on one grid */
-#define SAM_TANGENTIAL_GRADIENT "gradient"     /* accelerated projected gradient */
+#define SAM_TANGENTIAL_GRADIENT "projected"    /* accelerated projected gradient */
 
 PetscErrorCode SamNormalCreate_PolonskyKeer(SamSolver solver);
 PetscErrorCode SamTangentialCreate_Gradient(SamSolver solver);

@@ -1,0 +1,76 @@
+"""Derivatives of a number of a run by all of its parameters: of Contact.gradient(), and of /gradient of a file."""
+
+from dataclasses import dataclass
+from typing import Optional, Union
+
+import h5py
+import numpy as np
+
+from ..core.errors import Error, there_are
+
+MODULI = ("body1_young", "body1_poisson", "body2_young", "body2_poisson")
+
+
+@dataclass
+class Gradient:
+    """The derivatives of a number; see Contact.gradient().
+
+    Attributes
+    ----------
+    name : str
+        Of the number.
+    value : float
+        The number itself: J, N, N m, m, rad, m3 or Pa.
+    gap : ndarray
+        By the separation of the undeformed bodies in each cell, per m, (ny, nx); in process this rank's rows.
+    friction : ndarray
+        By the coefficient of friction in each cell; their sum is that by the coefficient.
+    numbers : dict
+        {name: derivative} by other parameters: of each step, (steps,), by given loads, displacements and bulk stresses;
+        by the moduli, if they were wanted; by the coefficients of wear, of both bodies alike.
+    borders : int
+        Cells on the border of their set in some step; the gradient is one-sided if there are any.
+    residual : float
+        Largest relative residual of the systems.
+    """
+
+    name: str
+    value: float
+    gap: np.ndarray
+    friction: np.ndarray
+    numbers: dict
+    borders: int
+    residual: float
+
+    def __getitem__(self, name: str) -> Union[float, np.ndarray]:
+        """A derivative by the name of its parameter: gap, friction, load_tx, disp_x, body1_young, ..."""
+        every = {"gap": self.gap, "friction": self.friction, **self.numbers}
+        if name in MODULI and name not in every:
+            raise Error(f"gradient: {name}: it was not computed: give moduli=True")
+        if name not in every:
+            raise Error(f"gradient: {name}: there is no derivative by it{there_are(name, list(every))}")
+        return every[name]
+
+
+def read(group: Optional[h5py.Group]) -> dict[str, Gradient]:
+    """The gradients of a results file.
+
+    Parameters
+    ----------
+    group : h5py.Group, optional
+        /gradient; None: the file has none.
+
+    Returns
+    -------
+    dict
+        {name of the number: Gradient}.
+    """
+    found = {}
+    for name, of in () if group is None else group.items():
+        numbers = {key: float(value) for key, value in of.attrs.items() if key != "units"}
+        numbers |= {key: data[:] for key, data in of.items() if data.ndim == 1}
+        found[name] = Gradient(
+            name, numbers.pop("value"), of["gap"][:], of["friction"][:], numbers, int(numbers.pop("borders")),
+            numbers.pop("residual"),
+        )  # fmt: skip
+    return found

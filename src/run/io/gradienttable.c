@@ -1,0 +1,86 @@
+/* The group /gradient of a results file: a number of the run, and its derivatives by all parameters. */
+#include "ioimpl.h"
+#include <petsam/private/contact.h>
+
+static PetscErrorCode WriteNumber(SamOutput o, hid_t group, SamGradient g, const char name[])
+{
+  PetscReal value;
+
+  PetscFunctionBegin;
+  PetscCall(SamGradientGetNumber(g, name, 0, &value));
+  SamFileWriteAttribute(o->f, group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &value);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes the derivatives by a field, (ny, nx). */
+static PetscErrorCode WriteField(SamOutput o, hid_t group, SamGradient g, const char name[], const char unit[])
+{
+  const SamGrid  grid  = o->grid;
+  const SamLabel label = {name, unit, "derivative by the value in each cell"};
+  const SamShape shape = {2, {(hsize_t)grid->ny, (hsize_t)grid->nx}, {(hsize_t)grid->ny, (hsize_t)grid->nx}, {0}, NULL};
+  const SamBlock block = {2, {(hsize_t)grid->row_start, 0}, {(hsize_t)grid->rows, (hsize_t)grid->nx}};
+  const hid_t    data  = SamFileCreateDataset(o->f, group, &label, H5T_IEEE_F64LE, &shape, 0);
+  const double  *values;
+  Vec            field;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 1, &field));
+  PetscCall(SamGradientGetField(g, name, field));
+  PetscCall(VecGetArrayRead(field, &values));
+  SamFileWriteBlock(o->f, data, H5T_NATIVE_DOUBLE, &block, values);
+  PetscCall(VecRestoreArrayRead(field, &values));
+  PetscCall(VecDestroy(&field));
+  (void)SamFileNote(o->f, H5Dclose(data));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes the derivatives by the values of a column of the history, unless none of them is given. */
+static PetscErrorCode WriteColumn(SamOutput o, hid_t group, SamGradient g, const char name[])
+{
+  const PetscInt steps = SamGradientGetSteps(g);
+  const SamLabel label = {name, NULL, "derivative by the value in each step; NaN: it is not given"};
+  const SamShape shape = {1, {(hsize_t)steps}, {(hsize_t)steps}, {0}, NULL};
+  const SamBlock block = {1, {0}, {o->f->rank ? 0 : (hsize_t)steps}};
+  PetscReal     *values, given = 0;
+  hid_t          data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(steps, &values));
+  for (PetscInt k = 0; k < steps; k++) {
+    PetscCall(SamGradientGetNumber(g, name, k, &values[k]));
+    given += isnan(values[k]) ? 0 : 1;
+  }
+  if (given > 0) {
+    data = SamFileCreateDataset(o->f, group, &label, H5T_IEEE_F64LE, &shape, 0);
+    SamFileWriteBlock(o->f, data, H5T_NATIVE_DOUBLE, &block, values);
+    (void)SamFileNote(o->f, H5Dclose(data));
+  }
+  PetscCall(PetscFree(values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputAppendGradient(SamOutput o, SamGradient g, const char name[], PetscBool moduli)
+{
+  static const char *const numbers[] = {"value",        "residual",    "borders",       "wear_coefficient",
+                                        "wear_energy",  "body1_young", "body1_poisson", "body2_young",
+                                        "body2_poisson"};
+  enum { NUMBERS = sizeof(numbers) / sizeof(numbers[0]), MODULI = 4 };
+  char        unit[64];
+  const char *column;
+  hid_t       all, group;
+
+  PetscFunctionBegin;
+  all   = H5Lexists(o->f->id, "gradient", H5P_DEFAULT) > 0
+            ? SamFileNote(o->f, H5Gopen2(o->f->id, "gradient", H5P_DEFAULT))
+            : SamFileNote(o->f, H5Gcreate2(o->f->id, "gradient", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  group = SamFileNote(o->f, H5Gcreate2(all, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  SamFileWriteTextAttribute(o->f, group, "units", SamGradientUnit(g));
+  for (int k = 0; k < (moduli ? NUMBERS : NUMBERS - MODULI); k++) PetscCall(WriteNumber(o, group, g, numbers[k]));
+  (void)snprintf(unit, sizeof(unit), "%s/m", SamGradientUnit(g));
+  PetscCall(WriteField(o, group, g, "gap", unit));
+  PetscCall(WriteField(o, group, g, "friction", SamGradientUnit(g)));
+  for (PetscInt k = 0; (column = SamGradientOfSteps(k)); k++) PetscCall(WriteColumn(o, group, g, column));
+  (void)SamFileNote(o->f, H5Gclose(group));
+  (void)SamFileNote(o->f, H5Gclose(all));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,94 @@
+/* The gradients of a run, by -gradient: steps are recorded as they are committed, and what is found is written. */
+#include "simulationimpl.h"
+#include <petsam/private/base.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/history.h>
+#include <string.h>
+
+#define MEMBER(name) offsetof(SamGradientPlan, name)
+static const SamOptionRow rows[] = {
+  {"gradient", "energy, disp_x, ...: numbers whose derivatives are written", SAM_OPTION_STRING, MEMBER(names),
+   .size = SAM_GRADIENT_NAMES, .needs = SAM_OUTPUT_NEEDED, .excludes = "wear_cycles,step_rtol,restart"},
+  {"gradient_steps", "first and last step that they are of; 0: usual ones", SAM_OPTION_INT, MEMBER(steps), .size = 2,
+   .needs = "gradient"},
+  {"gradient_moduli", "also by the moduli of the bodies", SAM_OPTION_BOOL, MEMBER(moduli), .needs = "gradient"},
+  {"gradient_rtol", "relative residual of their systems", SAM_OPTION_REAL, MEMBER(rtol), .range = SAM_RANGE_POSITIVE,
+   .needs = "gradient"}};
+
+PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  s->gradients = (SamGradientPlan){.rtol = 1e-6};
+  PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Calls a function for each of the numbers. */
+static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulation s, const char name[]))
+{
+  char         **names;
+  int            count;
+  PetscErrorCode ierr = PETSC_SUCCESS;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrToArray(s->gradients.names, ',', &count, &names));
+  for (int k = 0; k < count && !ierr; k++) ierr = (*call)(s, names[k]);
+  PetscCall(PetscStrToArrayDestroy(count, names));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Check(SamSimulation s, const char name[])
+{
+  const SamControl last = SamHistoryGetStep(s->history, s->needs.steps - 1);
+  PetscInt         component;
+
+  PetscFunctionBegin;
+  PetscCall(SamGradientCheckName(s->comm, name, last.force, &component));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
+{
+  PetscFunctionBegin;
+  if (!s->gradients.names[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(SamContactGetSettings(s->setup.contact).slip_direction == SAM_SLIP_END, s->comm, SAM_ERR_USER,
+             "-gradient with the direction of slip at mid step, which has no derivative: give -slip_direction end");
+  PetscCheck(s->gradients.steps[1] <= s->needs.steps, s->comm, SAM_ERR_USER,
+             "-gradient_steps %" PetscInt_FMT ",%" PetscInt_FMT ": the history has %" PetscInt_FMT " steps",
+             s->gradients.steps[0], s->gradients.steps[1], s->needs.steps);
+  PetscCall(ForEach(s, Check));
+  PetscCall(SamSimulationRecordGradient(s, PETSC_TRUE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the gradient of a number, writes it and tells of it. */
+static PetscErrorCode End(SamSimulation s, const char name[])
+{
+  const PetscInt steps[2] = {s->gradients.steps[0] - 1, s->gradients.steps[1] - 1};
+  PetscReal      borders;
+  char           text[SAM_MESSAGE];
+
+  PetscFunctionBegin;
+  PetscCall(SamGradientCompute(s->gradient, name, steps, s->gradients.moduli, s->gradients.rtol));
+  PetscCall(SamOutputWriteGradient(s->output, s->gradient, name, s->gradients.moduli));
+  PetscCall(SamGradientDescribe(s->gradient, text, sizeof(text)));
+  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_GRADIENT, .text = text}));
+  PetscCall(SamGradientGetNumber(s->gradient, "borders", 0, &borders));
+  (void)snprintf(text, sizeof(text),
+                 "gradient of %s: %.0f cells are on the border of their set: it holds to one side, and jumps there by "
+                 "the share of these cells",
+                 name, (double)borders);
+  if (borders > 0) PetscCall(SamSimulationWarn(s, text, ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationEndGradients(SamSimulation s)
+{
+  PetscFunctionBegin;
+  if (!s->gradients.names[0] || !s->output || s->point.worst != SAM_STATUS_CONVERGED || s->stopped)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForEach(s, End));
+  PetscCall(SamSimulationRecordGradient(s, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
