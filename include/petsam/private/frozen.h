@@ -51,6 +51,8 @@ typedef struct {
   PetscBool       transposed; /* its matrix is the transposed one; no bound follows the slip then */
   SamFrozenBorder border;     /* its further equations */
   PetscReal       rtol;       /* relative residual to which it is solved */
+  PetscBool       single;     /* products in single precision, u_z and u_t in the cells alone; not with both kinds */
+  PetscBool       loose;      /* the tolerance is far above that precision */
   double          reference;  /* what residuals are relative to; 0: the norm of the right-hand side */
   PetscInt        applies, preconditions;
 } SamFrozen;

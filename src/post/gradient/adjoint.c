@@ -10,6 +10,7 @@
   1e12              /* the resistance of a cell to a turn of the slip is not limited: it would change the derivatives */
 #define BORDER 1e-7 /* of the pressure, or the bound, within which a cell is on the border of its set */
 #define STILL  1e-4 /* of the displacement of a cell by the largest bound: slip below it is on the border to stick */
+#define SINGLE 1e-6 /* tolerance from which on products in single precision suffice */
 
 /* The components in the order of their motions: normal ones first, then those along the surface. */
 static const SamComponent components[SAM_COMPONENTS] = {SAM_COMPONENT_N,  SAM_COMPONENT_MX, SAM_COMPONENT_MY,
@@ -247,14 +248,12 @@ static PetscErrorCode CountBorders(System *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the displacements by V, and the right-hand side c + those. */
-static PetscErrorCode FindRight(System *s, double moved[])
+/* Computes the displacements by V: three components. */
+static PetscErrorCode Displace(const SamBack *b, double moved[])
 {
-  const SamBack          *b  = s->b;
-  const SamObjectiveStep *at = &b->at;
-  const SamGrid           g  = b->grid;
-  const SamFrozen        *f  = &s->f;
-  Vec                     later, u[2];
+  const SamGrid g = b->grid;
+  const double *from;
+  Vec           later, u[2];
 
   PetscFunctionBegin;
   PetscCall(FieldOf(g, 2, b->later, &later));
@@ -262,14 +261,51 @@ static PetscErrorCode FindRight(System *s, double moved[])
   PetscCall(SamElasticityApplyTangential(b->elasticity, later, u[1]));
   if (b->coupled) PetscCall(SamElasticityApplyTangentialToNormal(b->elasticity, later, u[0]));
   for (int c = 0; c < 2; c++) {
-    const double *from;
-
     PetscCall(VecGetArrayRead(u[c], &from));
     PetscCall(PetscArraycpy(moved + c * g->cells, from, (c + 1) * g->cells));
     PetscCall(VecRestoreArrayRead(u[c], &from));
     PetscCall(VecDestroy(&u[c]));
   }
   PetscCall(VecDestroy(&later));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does the same in single precision, for similar bodies and tolerances far above it. */
+static PetscErrorCode DisplaceSingle(const SamBack *b, double self, double moved[])
+{
+  const SamGrid g    = b->grid;
+  double        most = 0;
+  float        *from, *to;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(moved, g->cells));
+  for (PetscInt k = 0; k < 2 * g->cells; k++) most = PetscMax(most, fabs(b->later[k]));
+  PetscCall(SamMax(g->comm, 1, &most));
+  if (most == 0) {
+    PetscCall(PetscArrayzero(moved, 3 * g->cells));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscMalloc2(2 * g->cells, &from, 2 * g->cells, &to));
+  for (PetscInt k = 0; k < 2 * g->cells; k++) from[k] = (float)(b->later[k] / most);
+  PetscCall(SamElasticityApplyTangentialSingle(b->elasticity, 1 / self, from, to));
+  for (PetscInt k = 0; k < 2 * g->cells; k++) moved[k + g->cells] = self * most * (double)to[k];
+  PetscCall(PetscFree2(from, to));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the displacements by V, and the right-hand side c + those. */
+static PetscErrorCode FindRight(System *s, double moved[])
+{
+  const SamBack          *b  = s->b;
+  const SamObjectiveStep *at = &b->at;
+  const SamGrid           g  = b->grid;
+  const SamFrozen        *f  = &s->f;
+
+  PetscFunctionBegin;
+  if (b->coupled || b->rtol < SINGLE)
+    PetscCall(Displace(b, moved));
+  else
+    PetscCall(DisplaceSingle(b, f->self[1], moved));
   for (PetscInt m = 0; m < f->count; m++) {
     const PetscInt k = f->cell[m];
 

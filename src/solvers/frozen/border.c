@@ -10,19 +10,20 @@
 #include <math.h>
 
 #define SINGULAR 1e-12 /* a pivot relative to the largest number of its row below which the rows depend on each other */
-#define PASSES   4     /* solutions for the residual of the one before: directions are in single precision */
+#define PASSES   6     /* solutions for the residual of the one before: directions are in single precision */
 #define SINGLE   1e-6  /* tolerance from which on that matters */
 
 PetscErrorCode SamFrozenTakeColumns(const SamFrozen *f, double r[])
 {
   const SamFrozenBorder *b = &f->border;
+  const PetscInt         n = SamFrozenSize(f);
   double                 dots[SAM_COMPONENTS];
 
   PetscFunctionBegin;
   if (!b->count) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamFrozenDots(f, b->count, b->unit, r, dots));
   for (PetscInt k = 0; k < b->count; k++)
-    for (PetscInt m = 0; m < SamFrozenSize(f); m++) r[m] -= dots[k] * b->unit[k][m];
+    for (PetscInt m = 0; m < n; m++) r[m] -= dots[k] * b->unit[k][m];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -30,12 +31,13 @@ PetscErrorCode SamFrozenTakeColumns(const SamFrozen *f, double r[])
 static void AddSpread(const SamFrozen *f, double times, const double products[], double z[])
 {
   const SamFrozenBorder *b = &f->border;
+  const PetscInt         n = SamFrozenSize(f);
 
   for (PetscInt k = 0; k < b->count; k++) {
     double part = 0;
 
     for (PetscInt l = 0; l < b->count; l++) part += times * b->inverse[k][l] * products[l];
-    for (PetscInt m = 0; m < SamFrozenSize(f); m++) z[m] += part * b->spread[k][m];
+    for (PetscInt m = 0; m < n; m++) z[m] += part * b->spread[k][m];
   }
 }
 
@@ -226,18 +228,24 @@ static PetscErrorCode MeetRows(SamFrozen *f, const double given[], double x[], d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves for a residual, which is scaled to the order of one, as the range of single precision is small; adds to x. */
+/*
+  Solves for a residual, which is scaled to the order of one, as the range of single precision is small, as far as its
+  digits reach; adds to x. `error` is that of x, before and after.
+*/
 static PetscErrorCode AddSolution(SamFrozen *f, double residual[], double x[], double right[], double dx[],
                                   const Vec sums[2], PetscReal *error)
 {
-  const PetscInt n     = SamFrozenSize(f);
-  const double   scale = f->reference;
+  const PetscInt  n     = SamFrozenSize(f);
+  const double    scale = f->reference;
+  const PetscReal rtol  = f->rtol;
 
   PetscFunctionBegin;
   for (PetscInt m = 0; m < n; m++) right[m] = residual[m] / scale;
   f->reference = 1;
+  f->rtol      = PetscMax(rtol, SINGLE * *error);
   PetscCall(SamKrylovSolve(f, right, dx, residual, error));
   f->reference = scale;
+  f->rtol      = rtol;
   PetscCall(AddDisplacements(f, scale, sums, PETSC_FALSE));
   for (PetscInt m = 0; m < n; m++) {
     x[m] += scale * dx[m];
@@ -250,19 +258,20 @@ PetscErrorCode SamFrozenSolveBordered(SamFrozen *f, const double b[], const doub
                                       double multipliers[], PetscReal *error)
 {
   const PetscInt  n     = SamFrozenSize(f);
-  const PetscBool tight = f->rtol <= SINGLE ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool tight = f->rtol < SINGLE ? PETSC_TRUE : PETSC_FALSE;
   double         *right, *residual, *dx;
-  PetscReal       last = PETSC_INFINITY;
+  PetscReal       last = 1;
   Vec             sums[2];
 
   PetscFunctionBegin;
+  f->single = f->loose = tight ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(PetscMalloc3(n, &right, n, &residual, n, &dx));
   for (int c = 0; c < 2; c++) PetscCall(SamGridCreateVec(f->grid, c + 1, &sums[c]));
   PetscCall(PetscArrayzero(x, n));
   PetscCall(PetscArraycpy(residual, b, n));
   PetscCall(MeetRows(f, given, x, residual, right, sums));
   PetscCall(SetReference(f, b, residual));
-  *error = 0;
+  *error = f->reference > 0 ? 1 : 0;
   for (PetscInt pass = 0; pass < PASSES && f->reference > 0; pass++) {
     PetscCall(AddSolution(f, residual, x, right, dx, sums, error));
     if ((*error <= f->rtol && (pass > 0 || !tight)) || *error > 0.5 * last) break;
@@ -274,5 +283,6 @@ PetscErrorCode SamFrozenSolveBordered(SamFrozen *f, const double b[], const doub
   PetscCall(FindMultipliers(f, residual, multipliers));
   for (int c = 0; c < 2; c++) PetscCall(VecDestroy(&sums[c]));
   PetscCall(PetscFree3(right, residual, dx));
+  f->single = f->loose = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

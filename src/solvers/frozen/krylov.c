@@ -92,7 +92,9 @@ static PetscErrorCode NewDirection(SamFrozen *f, PetscInt k, const double r[], D
   for (PetscInt i = 0; i <= k; i++) v[i] = d[i].v;
   PetscCall(SamFrozenPrecondition(f, r, z));
   PetscCall(SamFrozenTakeLoad(f, z));
+  f->single = f->transposed; /* the residual is computed anew at the end */
   PetscCall(SamFrozenApply(f, z, v[k]));
+  f->single = f->loose;
   PetscCall(SamFrozenTakeMotion(f, v[k]));
   if (d[k].u) PetscCall(GetDisplacements(f, d[k].u));
   for (PetscInt twice = 0; twice < 2; twice++) { /* repeated against rounding */

@@ -243,15 +243,44 @@ void SamFrozenFollow(const SamFrozen *f, double values[])
     for (PetscInt m = 0; m < f->count; m++) values[m] += f->follow[m] * f->e[c][m] * values[m + (c + 1) * f->count];
 }
 
+/* Computes the displacements by the tractions of x in the cells, of a system with one kind of them, in single
+   precision. */
+static PetscErrorCode DisplaceSingle(SamFrozen *f, const double x[], double u[])
+{
+  const PetscBool normal = f->part == SAM_FROZEN_NORMAL ? PETSC_TRUE : PETSC_FALSE;
+  const double    self   = f->self[normal ? 0 : 1]; /* makes the numbers of the order of residuals */
+  const ptrdiff_t cells  = f->grid->cells;
+
+  PetscFunctionBegin;
+  f->applies++;
+  if (!normal) SamFrozenShear(f, NULL, x, u);
+  for (PetscInt c = 0; c < Components(f); c++)
+    for (PetscInt m = 0; m < f->count; m++)
+      f->r[f->cell[m] + c * cells] = (float)(self * (normal ? x : u)[m + c * f->count]);
+  PetscCall((normal ? SamElasticityApplyNormalSingle : SamElasticityApplyTangentialSingle)(f->elasticity, 1 / self,
+                                                                                           f->r, f->z));
+  for (PetscInt c = 0; c < Components(f); c++)
+    for (PetscInt m = 0; m < f->count; m++) u[m + c * f->count] = (double)f->z[f->cell[m] + c * cells];
+  PetscCall(Unpack(f, Components(f), u, normal ? f->u_z : f->u_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DisplaceDouble(SamFrozen *f, const double x[], double u[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamFrozenSetTractions(f, x, u));
+  PetscCall(ComputeDisplacements(f));
+  if (PressureAt(f) >= 0) PetscCall(Pack(f, 1, f->u_z, u + PressureAt(f)));
+  if (ShearAt(f) >= 0) PetscCall(Pack(f, 2, f->u_t, u + ShearAt(f)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
 {
   const PetscInt p = PressureAt(f), y = ShearAt(f);
 
   PetscFunctionBegin;
-  PetscCall(SamFrozenSetTractions(f, x, Ax));
-  PetscCall(ComputeDisplacements(f));
-  if (p >= 0) PetscCall(Pack(f, 1, f->u_z, Ax + p));
-  if (y >= 0) PetscCall(Pack(f, 2, f->u_t, Ax + y));
+  PetscCall((f->single && f->part != SAM_FROZEN_BOTH ? DisplaceSingle : DisplaceDouble)(f, x, Ax));
   if (p >= 0 && y >= 0 && f->transposed) SamFrozenFollow(f, Ax);
   if (p >= 0) Bear(f, Ax + p);
   if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
