@@ -15,7 +15,8 @@ joint           contact stiffness and damping of rough interfaces per area; join
 profiles        wheel and rail: patches, creepages and forces from two profiles
 calibration     friction, rig stiffness, wear from measured loops: petsam-fit
 conduction      thermal and electrical conductance of contacts: conduction.of(contact, lam1, lam2)
-gradient        derivatives of a number of a history by all parameters: Contact.gradient()
+gradient        derivatives of a number of a history by all parameters: Contact.gradient(); for optimisers
+uncertainty     standard deviation of such a number by roughness and parameters, and their shares
 heat            temperatures by the friction of a cycle at a frequency: heat.work(results).temperatures(50)
 closed          closed-form solutions of contact mechanics
 materials       constants of materials by name
@@ -113,7 +114,7 @@ _HOMES = {
 
 _PARTS = (
     "calibration", "closed", "compliance", "conduction", "gradient", "heat", "joint", "lives", "loads", "materials",
-    "plot", "profiles", "results", "study", "surface",
+    "plot", "profiles", "results", "study", "surface", "uncertainty",
 )  # fmt: skip
 _OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
 

@@ -6,15 +6,21 @@
     found = contact.gradient("energy")
     found.value, found["gap"], found["friction"], found["load_tx"]
 
-The pass back is the library's (src/post/gradient).
+The pass back is the library's (src/post/gradient). For optimisers, function() makes runs and passes back of parameters:
+
+    energy = petsam.gradient.function(options, history, "energy", ["friction", "load_tx"])
+    scipy.optimize.minimize(energy, [0.3, 1.0], jac=True)
 """
 
 import ctypes
 import warnings
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from .core.errors import Unusable, counted, there_are
 from .results.gradients import MODULI, Gradient
 
 if TYPE_CHECKING:
@@ -24,6 +30,8 @@ LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
 BULK = tuple(f"bulk{body}_stress_{name}" for body in (1, 2) for name in ("xx", "yy", "xy"))
 WEAR = ("wear_coefficient", "wear_energy")
+OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (1, 2)))  # that function() may change
+IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
 
 
 class OneSidedWarning(UserWarning):
@@ -81,3 +89,153 @@ def compute(contact: "Contact", name: str, steps: tuple[int, int], moduli: bool,
     return Gradient(
         name, number("value"), get("gap", *cells), get("friction", *cells), numbers, borders, number("residual")
     )
+
+
+# ---------------------------------------------------------------- for optimisers
+
+
+def function(
+    options: Mapping[str, Any],
+    history: Any,
+    objective: Any,
+    parameters: Sequence[Any],
+    *,
+    gap: Optional[ArrayLike] = None,
+    scales: ArrayLike = 1.0,
+    rtol: float = 1e-6,
+) -> Callable[[ArrayLike], tuple[Any, np.ndarray]]:
+    """A function of parameters that returns a number and its derivatives: one run, and one pass back, for each call.
+
+    Parameters
+    ----------
+    options : mapping
+        The keywords of Contact; slip_direction="end" is added.
+    history : path or mapping
+        As Contact.run() takes it.
+    objective : str, tuple or list
+        A number as Contact.gradient() takes it, (number, slice of steps), or a list of them.
+    parameters : sequence
+        For each value of x a name: friction, a modulus, wear_coefficient1, ..., or a column of the history, on which x
+        is a factor. Or a part of the gap: an array (ny, nx), times x; a function shape(x, y, value) of the cells'
+        centres; or a pair of this function and that of its derivative by the value. A function alone is
+        differentiated by a complex value: it must be analytic, without abs().
+    gap : array_like, optional
+        A part of the gap that stays, (ny, nx), m.
+    scales : array_like
+        The values of the parameters are x times these. Optimisers need an x whose values are alike in size.
+    rtol : float
+        Relative residual of the systems that are solved.
+
+    Returns
+    -------
+    callable
+        x -> (number, derivatives (parameters,)), as scipy.optimize.minimize(..., jac=True) takes it; of a list
+        x -> (numbers (objectives,), derivatives (objectives, parameters)), with a pass back for each number.
+
+    Raises
+    ------
+    Error
+        If there is no derivative by a parameter, or parts of the gap meet others of the options; by the call, if x or
+        a part has another shape than it should, or a function is real for a complex value.
+    ContactError
+        By the call, if a step has no solution, as in gross slip, or the number has no derivative.
+    """
+    several = isinstance(objective, list)
+    wanted = [(one, None) if isinstance(one, str) else one for one in (objective if several else [objective])]
+    columns = [name for name in history if name in (*LOADS, *WAYS, *BULK)] if isinstance(history, Mapping) else []
+    names = [one for one in parameters if isinstance(one, str)]
+    for name in names:
+        if name not in (*OPTIONS, *columns):
+            raise Unusable(f"parameter {name}: there is no derivative by it{there_are(name, [*OPTIONS, *columns])}")
+    shaped = gap is not None or len(names) < len(parameters)
+    for name, value in options.items():
+        if shaped and name.startswith("gap_") and (name, value) != ("gap_type", "flat"):
+            raise Unusable(f"{name} = {value}: parts of the gap replace it: use gap_type = flat alone")
+    moduli = any(name in MODULI for name in names)
+
+    def evaluate(x: ArrayLike) -> tuple[Any, np.ndarray]:
+        if np.shape(x) != (len(parameters),):
+            raise Unusable(f"x has the shape {np.shape(x)}: give {counted(len(parameters), 'value')}")
+        values = np.asarray(x, dtype=float) * scales
+        given = {one: value for one, value in zip(parameters, values) if isinstance(one, str)}
+        changed = {one: value for one, value in given.items() if one not in columns}
+        with _made({"slip_direction": "end", **options, **changed}) as contact:
+            parts = [
+                None if isinstance(one, str) else _part(contact, one, value) for one, value in zip(parameters, values)
+            ]
+            if shaped:
+                contact.gap = (0.0 if gap is None else np.asarray(gap)) + sum(part[0] for part in parts if part)
+            contact.record_gradient()
+            scaled = {one: np.asarray(history[one]) * given.get(one, 1.0) for one in history} if columns else history
+            contact.run(scaled)
+            found = [contact.gradient(name, steps, moduli, rtol) for name, steps in wanted]
+        by = [
+            [
+                np.sum(each.gap * part[1]) if part else _by_name(each, one, history)
+                for one, part in zip(parameters, parts)
+            ]
+            for each in found
+        ]
+        numbers, slopes = np.array([each.value for each in found]), np.reshape(by, (len(found), -1)) * scales
+        return (numbers, slopes) if several else (float(numbers[0]), slopes[0])
+
+    return evaluate
+
+
+def whole(contact: "Contact") -> "Contact":
+    """The contact, if this process has all of its rows.
+
+    Parameters
+    ----------
+    contact : Contact
+
+    Returns
+    -------
+    Contact
+
+    Raises
+    ------
+    Error
+        If other ranks have rows of it.
+    """
+    if contact.rows != contact.n[1]:
+        raise Unusable(f"{contact.rows} of {contact.n[1]} rows are on this rank: use a contact without comm")
+    return contact
+
+
+def _made(options):
+    from .contact import Contact
+
+    return whole(Contact(**options))
+
+
+def _part(contact, shape, value):
+    """A part of the gap, and its derivative by the value."""
+    x, y = np.meshgrid(contact.x, contact.y)
+    if isinstance(shape, tuple):
+        return tuple(_cells(contact, one(x, y, value)) for one in shape)
+    if not callable(shape):
+        unit = _cells(contact, shape)
+        return value * unit, unit
+    step = IMAGINARY * (abs(value) or 1.0)
+    found = _cells(contact, shape(x, y, complex(value, step)))
+    if not np.iscomplexobj(found):
+        raise Unusable("a part of the gap is real for a complex value: give a pair, it and its derivative")
+    return found.real, found.imag / step
+
+
+def _cells(contact, values):
+    values, cells = np.asarray(values), (contact.rows, contact.n[0])
+    if values.shape != cells:
+        raise Unusable(f"a part of the gap has the shape {values.shape}: the grid has {cells}: use these")
+    return values
+
+
+def _by_name(found, name, history):
+    """The derivative by a number among the options, or by a factor on a column of the history."""
+    if name == "friction":
+        return found.friction.sum()
+    if name in OPTIONS:
+        return found[name if name in MODULI else name[:-1]]
+    slopes, column = found[name], np.append(0.0, history[name])  # steps divide the change from row to row, from 0 on
+    return slopes @ np.interp(np.linspace(0, len(column) - 1, len(slopes) + 1)[1:], range(len(column)), column)

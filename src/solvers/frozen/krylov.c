@@ -97,7 +97,7 @@ static PetscErrorCode NewDirection(SamFrozen *f, PetscInt k, const double r[], D
   f->single = f->loose;
   PetscCall(SamFrozenTakeMotion(f, v[k]));
   if (d[k].u) PetscCall(GetDisplacements(f, d[k].u));
-  for (PetscInt twice = 0; twice < 2; twice++) { /* repeated against rounding */
+  for (PetscInt twice = 0; twice < (f->loose ? 1 : 2); twice++) { /* repeated against rounding */
     PetscCall(SamFrozenDots(f, k, v, v[k], dots));
     for (PetscInt i = 0; i < k; i++)
       for (PetscInt m = 0; m < n; m++) {
