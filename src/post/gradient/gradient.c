@@ -583,8 +583,8 @@ PetscErrorCode SamGradientDescribe(SamGradient g, char text[], size_t size)
   for (PetscInt told = 0; told < TOLD; told++) {
     PetscInt best = 0;
 
-    for (PetscInt k = 1; k < count; k++)
-      if (fabs(shares[k].share) > fabs(shares[best].share)) best = k;
+    for (PetscInt k = 1; k < count; k++) /* of equal ones the first, whatever their last digits are */
+      if (fabs(shares[k].share) > 1.001 * fabs(shares[best].share)) best = k;
     if (!(fabs(shares[best].share) > 1e-6 * fabs((double)d->value)) || used >= size) break;
     used += (size_t)snprintf(text + used, size - used, "%s %s %+.3g %%", told ? "," : "", shares[best].name,
                              shares[best].share / (double)d->value);
