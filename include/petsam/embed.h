@@ -494,9 +494,11 @@ int petsam_gradient_record(petsam_contact *c, int on);
 
   In:     c      - the contact
           name   - the number: energy (J, the frictional work of the steps), wear_volume (m3, that of both bodies after
-                   the last of the steps), pressure_norm (Pa, (sum p^8 dA)^(1/8) in the last of the steps), or a load or
-                   a displacement that is found, summed over the steps
-          first  - first of the steps that it is of, from 0; -1: all steps of an energy, else the last one
+                   the last of the steps), pressure_norm (Pa, (sum p^8 dA)^(1/8) in the last of the steps), a load or a
+                   displacement that is found, summed over the steps, or a smooth maximum (sum s^40)^(1/40) over
+                   the cells at a depth: stress_xx@50um ..., mises@50um (Pa, in the last of the steps), swt@50um
+                   (Pa, of the cycle of the steps); in body 2, or swt@50um@1 in body 1
+          first  - first of the steps that it is of, from 0; -1: all steps of an energy or swt, else the last one
           last   - the last of them; -1: the last step
           moduli - 1: also by the moduli of the bodies
           rtol   - relative residual of the systems that are solved, such as 1e-6 (1)

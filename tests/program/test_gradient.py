@@ -351,6 +351,90 @@ def test_bodies_whose_moduli_have_no_derivative(more):
         contact.gradient("energy", moduli=True)
 
 
+WAVE = 1e-9  # m, of a change of the gap
+
+
+def stressed(history, bodies=UNLIKE, gap=0.0, friction=0.3, **factors):
+    """A recorded contact whose gap is changed by that times a wave, and whose columns by factors; and the wave."""
+    contact, x, y = contact_of(bodies, 24, friction=friction, gap=lambda x, y: gap_of(x, y) + gap * wave_of(x, y))
+    columns = {name: values * (1 + factors.get(name, 0.0)) for name, values in history.items()}
+    return record(contact, columns)[0], wave_of(x, y)
+
+
+def wave_of(x, y):
+    return WAVE * np.cos(5e3 * x + 1) * np.cos(4e3 * y + 0.5)
+
+
+def check_number(number, steps, history, within, **given):
+    """A number's derivatives by the gap, by friction and by columns beside differences; returns the gradient."""
+    contact, shape = stressed(history, **given)
+    found = contact.gradient(number, steps, rtol=1e-10)
+    sizes = {"gap": 1e-3, "friction": 1e-6} | {name: 1e-6 for name in history if name not in ("time", "load_ty")}
+    for name, size in sizes.items():
+        start = 0.3 if name == "friction" else 0.0
+        both = [
+            stressed(history, **given, **{name: start + sign * size})[0].gradient(number, steps, rtol=0.1).value
+            for sign in (1, -1)
+        ]
+        derivative = (
+            np.sum(found.gap * shape) if name == "gap"
+            else found.friction.sum() if name == "friction"
+            else np.sum(found[name] * history[name])
+        )  # fmt: skip
+        assert derivative == pytest.approx((both[0] - both[1]) / (2 * size), rel=within), name
+    return contact, found
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(
+    "number", ["stress_xx@50um", "mises@0.08mm@1", "stress_xx@0", "stress_xz@0.1mm", "stress_yy@0@1"]
+)
+def test_smooth_maxima_of_stresses(number):
+    """The value by the map of petsam-stress; the derivatives, by a bulk stress too."""
+    history = history_of(np.array([300.0, 400, 400, 380]), np.array([0, 50.0, -30, 40]), np.array([0, 10.0, 20, -5]))
+    history |= {"bulk2_stress_xx": np.array([0, 2e7, 3e7, 5e7]), "bulk1_stress_yy": np.array([0, 1e7, 0, 2e7])}
+    contact, found = check_number(number, None, history, 1e-5)
+    name, depth, *body = number.split("@")
+    depth = {"50um": 5e-5, "0.08mm": 8e-5, "0": 0.0, "0.1mm": 1e-4}[depth]
+    values = contact.stress(depths=[depth], body=int(body[0]) if body else 2, quantities="stress,mises")[name]
+    values = np.maximum(values, 0) / values.max()
+    assert found.value == pytest.approx(
+        np.sum(values**40) ** (1 / 40) * _largest(contact, name, depth, body), rel=1e-12
+    )
+
+
+def _largest(contact, name, depth, body):
+    return contact.stress(depths=[depth], body=int(body[0]) if body else 2, quantities="stress,mises")[name].max()
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_smith_watson_and_topper():
+    """The value by the fatigue of recorded steps, and the derivatives."""
+    turns = np.array([0, 0.5, 0.9, 0.3, -0.4, -0.95, -0.2])
+    history = history_of(np.full(8, 400.0), np.append(0, 80 * turns), np.append(0, 15 * turns * (1 - turns)))
+    history["bulk2_stress_xx"] = np.append(0, 4e7 * turns)
+    contact, found = check_number("swt@50um", slice(1, 8), history, 2e-4)
+    contact.record_gradient(False)
+    contact.reset()
+    contact.run({name: values[:1] for name, values in history.items()})
+    contact.record()
+    contact.run({name: values[1:] for name, values in history.items()})
+    values = np.nan_to_num(contact.fatigue("swt", depths=[5e-5])["swt"])
+    norm = np.sum((values / values.max()) ** 40) ** (1 / 40) * values.max()
+    assert found.value == pytest.approx(norm, rel=1e-12)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_cells_that_slide_nearly_alike():
+    """All cells slide, the shortest way more than half of the longest: the work weighs the pressures by their ratio."""
+    history = {
+        "time": np.arange(4.0), "load_n": np.array([400.0, 400, 500, 460]), "disp_x": 1e-6 * np.array([0, 8, 12, 7]),
+        "rot_z": 1e-3 * np.array([0, 0, 0.8, 1.8]),
+    }  # fmt: skip
+    contact, found = check_number("energy", slice(2, 4), history, 3e-6)
+    assert contact.number("stick_area") == 0
+
+
 @pytest.mark.filterwarnings("ignore")
 def test_refusals():
     """What has no derivative is named, with what to take instead."""

@@ -80,7 +80,8 @@ PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
   with the integrals I of 1/r, x^2/r^3, x/r^2 and so on over a cell, u_z by pressure is A I_r, u_t by shear A I_r + B
   (I_xx, I_xy; I_xy, I_yy), u_t by pressure D (I_x, I_y). `by`: their derivatives by the moduli, E (Pa) and nu of body 1
   and of body 2, which are in `modulus`.
-  SamPairGetConstants - gets them; returns NULL, or the reason why they do not describe the pair.
+  SamPairGetConstants - gets them; returns NULL, or the reason why they do not describe the pair; the moduli are those
+  at the surfaces even then.
   SamPairGetValues - gets A, B and D of the materials at the surfaces, also where a body is rigid.
   SamPairCreateOther - creates a pair whose A and B are not proportional to those of a pair, and whose D is not 0.
   None is collective.

@@ -85,7 +85,8 @@ PETSC_INTERN PetscInt SamGradientGetSteps(SamGradient gradient);
 
   In:     gradient - the gradient
           name     - the number: energy (J), wear_volume (m3), pressure_norm (Pa), a load (N, N m) or a displacement (m,
-                     rad) that is not given, or an objective that SamObjectiveRegister() has added
+                     rad) that is not given, a smooth maximum like stress_xx@50um@1, or another objective that
+                     SamObjectiveRegister() has added
           steps    - the first and the last step, from 0; -1, -1: all of an energy, else the last one
           moduli   - true: also the derivatives by the moduli of the bodies, at some more products a step
           rtol     - relative residual of the systems (1)

@@ -3,7 +3,8 @@
 #define PETSAM_OBJECTIVE_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/control.h>
+#include <petsam/private/grid.h>
+#include <petsam/elasticity.h>
 
 /*
   SamObjectiveStep - a step of the history on a part of the grid that has all contacts, as an objective sees it on the
@@ -12,7 +13,10 @@
   by what the step before has. A cell's derivative is that by the value of the cell.
 */
 typedef struct {
+  const char       *name; /* of the number, with what follows an @ */
   SamGrid           grid;
+  SamElasticity     elasticity;        /* on the whole grid */
+  SamWindow         window;            /* the part of it; NULL: it is the whole */
   PetscInt          step, first, last; /* steps of the history; the objective is of those from `first` to `last` */
   PetscInt          component;         /* of a load or displacement */
   double            area;              /* of a cell, m2; in plane strain of 1 m of its length */
@@ -22,21 +26,33 @@ typedef struct {
   const PetscInt64 *end;    /* cells whose slips determine how far all slide alike, on this part of the grid */
   const double     *by_end; /* derivatives of that measure by their lengths, 1/m */
   const PetscReal  *rigid;  /* displacements of the six components, m and rad */
+  const PetscReal  *bulk;   /* bulk stresses xx, yy, xy of body 1, then of body 2, Pa */
   const PetscReal  *rate;   /* coefficients of wear, 1/Pa and m3/J */
   SamTotal          value;  /* this rank's part of the number */
   double            number; /* the number, if only the objective can tell: a norm; NaN: the sum of `value` */
   double           *by_pressure, *by_shear, *by_slip, *by_pressure_before, *by_shear_before, *by_friction, *by_worn;
-  double            by_rigid[SAM_COMPONENTS];
+  double            by_rigid[SAM_COMPONENTS], by_bulk[6];
+  /* gets the tractions of any step on the whole grid, pressure and shear (Pa, three components), and its bulk stresses;
+     collective */
+  PetscErrorCode (*read)(void *context, PetscInt step, Vec tractions, const PetscReal **bulk);
+  void *context; /* of that function */
+  void *data;    /* of the objective, during a pass; NULL at first */
 } SamObjectiveStep;
 
 /*
   SamObjective - a number with a gradient. `add` adds a step's part of the number and of its derivatives; it is called
-  for all steps from the last to the first. Collective.
+  for all steps from the last to the first. `check` checks a name with what follows an @; NULL: nothing may follow.
+  `fixed`: the number depends on the moduli besides through the tractions, so that it has no derivative by them. `end`:
+  frees the data; NULL: there are none.
+  Collective.
 */
 typedef struct {
   const char *name, *unit;
   PetscBool   all; /* true: of all steps unless others are given; false: of the last one */
   PetscErrorCode (*add)(SamObjectiveStep *at);
+  PetscErrorCode (*check)(MPI_Comm comm, const char name[]);
+  PetscBool fixed;
+  PetscErrorCode (*end)(void *data);
 } SamObjective;
 
 /*

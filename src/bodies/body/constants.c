@@ -12,6 +12,8 @@ void SamPairGetValues(SamPair pair, double value[SAM_PAIR_CONSTANTS])
 
 const char *SamPairGetConstants(SamPair pair, SamPairConstants *c)
 {
+  const char *why = SamPairFilm(pair) > 0 ? "there is a film between the bodies" : NULL;
+
   *c = (SamPairConstants){.value = {0}};
   SamPairGetValues(pair, c->value);
   for (int b = 0; b < 2; b++) {
@@ -20,8 +22,8 @@ const char *SamPairGetConstants(SamPair pair, SamPairConstants *c)
     const double       of[] = {1 - nu * nu, nu * (1 + nu), 0.5 * sign * (1 + nu) * (1 - 2 * nu)},
                  slope[]    = {-2 * nu, 1 + 2 * nu, -0.5 * sign * (1 + 4 * nu)};
 
-    if (pair->body[b]->count > 1) return "a body has layers";
-    if (isinf(m->young)) return "a body is rigid";
+    if (pair->body[b]->count > 1) why = "a body has layers";
+    if (isinf(m->young)) why = "a body is rigid";
     c->modulus[2 * b]     = (double)m->young;
     c->modulus[2 * b + 1] = nu;
     for (int n = 0; n < SAM_PAIR_CONSTANTS; n++) {
@@ -29,7 +31,7 @@ const char *SamPairGetConstants(SamPair pair, SamPairConstants *c)
       c->by[n][2 * b + 1] = slope[n] / e;
     }
   }
-  return SamPairFilm(pair) > 0 ? "there is a film between the bodies" : NULL;
+  return why;
 }
 
 PetscErrorCode SamPairCreateOther(SamPair pair, SamPair *other)

@@ -202,6 +202,23 @@ static PetscErrorCode PutArray(SamBack *b, const double array[], Vec *whole)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Reads the tractions of a step, for objectives that need other steps than the present one. */
+static PetscErrorCode ReadStep(void *context, PetscInt step, Vec tractions, const PetscReal **bulk)
+{
+  const SamRecord *r     = &((SamGradient)context)->record[step];
+  const PetscInt   cells = SamContactGetGrid(((SamGradient)context)->contact)->cells;
+  double          *to;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(tractions));
+  PetscCall(VecGetArray(tractions, &to));
+  for (PetscInt c = 0; c < 3; c++) /* pressure and shear are the first values */
+    for (PetscInt m = 0; m < r->count; m++) to[c * cells + r->cell[m]] = r->value[m + c * r->count];
+  PetscCall(VecRestoreArray(tractions, &to));
+  *bulk = r->bulk;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 enum { ARRAYS = 20 }; /* fields of one component that a pass needs besides those of the steps */
 
 static PetscErrorCode Begin(SamBack *b, double **arrays)
@@ -224,6 +241,10 @@ static PetscErrorCode Begin(SamBack *b, double **arrays)
   at->grid        = b->grid;
   at->area        = (double)(b->grid->dx * b->grid->dy);
   at->rate        = b->g->rate;
+  at->elasticity  = SamProblemGetElasticity(SamContactGetProblem(b->g->contact));
+  at->window      = b->window;
+  at->read        = ReadStep;
+  at->context     = b->g;
   PetscCall(TakeArray(b, b->g->friction, b->friction));
   PetscCall(SamGridCreateVec(SamContactGetGrid(b->g->contact), SAM_RECORD_VALUES, &b->whole));
   for (int k = 0; k < 2; k++)
@@ -262,6 +283,7 @@ static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
   at->end    = end;
   at->by_end = r->by_end;
   at->rigid  = r->rigid;
+  at->bulk   = r->bulk;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -279,6 +301,7 @@ static PetscErrorCode Pass(SamBack *b)
   PetscCall(PetscArrayzero(at->by_slip, 2 * cells));
   PetscCall(PetscArrayzero(at->by_worn, cells));
   PetscCall(PetscArrayzero(at->by_rigid, SAM_COMPONENTS));
+  PetscCall(PetscArrayzero(at->by_bulk, SAM_GRADIENT_BULKS));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -355,6 +378,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective, PetscBool w
     PetscCall(SamBackSolve(b, k));
     PetscCall(SamBackRead(b, k));
   }
+  if (objective->end) PetscCall((*objective->end)(b->at.data));
   found->value = b->at.number;
   if (isnan(b->at.number)) PetscCall(SamSumTotals(b->grid->comm, 1, &b->at.value, &found->value));
   PetscCall(PutArray(b, b->by_gap, &found->gap));
@@ -410,6 +434,9 @@ PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscI
   for (PetscInt k = b.at.first; k <= b.at.last; k++)
     PetscCall(SamGradientCheckName(comm, name, g->record[k].force, &b.at.component));
   b.at.number = NAN;
+  b.at.name   = name;
+  PetscCheck(!want_moduli || !objective->fixed, comm, SAM_ERR_USER,
+             "the gradient of %s by the moduli is not computed: leave the moduli out", name);
   PetscCall(ClearFound(d));
   PetscCall(PetscCalloc3(g->count, &d->load, g->count, &d->rigid, g->count, &d->bulk));
   (void)snprintf(d->name, sizeof(d->name), "%s", name);

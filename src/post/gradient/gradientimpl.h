@@ -97,6 +97,8 @@ PETSC_INTERN PetscErrorCode SamRecordUnpack(const SamBack *back, const SamRecord
 PETSC_INTERN PetscErrorCode SamRecordDestroy(SamRecord *record);
 /* SamObjectiveFind - finds the objective of a name. Errors: SAM_ERR_USER, with what is expected. Not collective. */
 PETSC_INTERN PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjective **objective);
+/* SamObjectiveRegisterStresses - registers the smooth maxima of stresses (stressobjective.c). */
+PETSC_INTERN PetscErrorCode SamObjectiveRegisterStresses(void);
 /* SamBulkName - returns the name of one of the six bulk stresses. */
 PETSC_INTERN const char *SamBulkName(PetscInt k);
 

@@ -234,18 +234,19 @@ PetscErrorCode SamObjectiveRegister(const SamObjective *objective)
 
 static PetscErrorCode RegisterAll(void)
 {
-  const SamObjective own[] = {{"energy", "J", PETSC_TRUE, AddEnergy},
-                              {"wear_volume", "m3", PETSC_FALSE, AddVolume},
-                              {"pressure_norm", "Pa", PETSC_FALSE, AddNorm}};
+  const SamObjective own[] = {{.name = "energy", .unit = "J", .all = PETSC_TRUE, .add = AddEnergy},
+                              {.name = "wear_volume", .unit = "m3", .add = AddVolume},
+                              {.name = "pressure_norm", .unit = "Pa", .add = AddNorm}};
   SamObjective       one;
 
   PetscFunctionBegin;
   has_own = PETSC_TRUE;
   for (size_t k = 0; k < sizeof(own) / sizeof(own[0]); k++) PetscCall(SamObjectiveRegister(&own[k]));
+  PetscCall(SamObjectiveRegisterStresses());
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    one = (SamObjective){SamComponentNames[c].load, SamComponentNames[c].load_unit, PETSC_FALSE, AddLoad};
+    one = (SamObjective){.name = SamComponentNames[c].load, .unit = SamComponentNames[c].load_unit, .add = AddLoad};
     PetscCall(SamObjectiveRegister(&one));
-    one = (SamObjective){SamComponentNames[c].rigid, SamComponentNames[c].rigid_unit, PETSC_FALSE, AddRigid};
+    one = (SamObjective){.name = SamComponentNames[c].rigid, .unit = SamComponentNames[c].rigid_unit, .add = AddRigid};
     PetscCall(SamObjectiveRegister(&one));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -266,17 +267,23 @@ static const char *WhyNot(const char name[])
 
 PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjective **objective)
 {
-  char   names[512] = "";
-  size_t used       = 0;
+  const size_t length     = strcspn(name, "@");
+  char         names[512] = "";
+  size_t       used       = 0;
 
   PetscFunctionBegin;
   if (!has_own) PetscCall(RegisterAll());
   *objective = NULL;
   for (PetscInt k = 0; k < listed; k++) {
-    if (!strcmp(list[k].name, name)) *objective = &list[k];
-    used += (size_t)snprintf(names + used, sizeof(names) - used, "%s%s", k ? ", " : "", list[k].name);
+    const PetscBool is =
+      strlen(list[k].name) == length && !strncmp(list[k].name, name, length) && (list[k].check || !name[length]);
+
+    if (is) *objective = &list[k];
+    used += (size_t)snprintf(names + used, sizeof(names) - used, "%s%s%s", k ? ", " : "", list[k].name,
+                             list[k].check ? "@DEPTH" : "");
     used = PetscMin(used, sizeof(names) - 1);
   }
   PetscCheck(*objective, comm, SAM_ERR_USER, "the gradient of %s%s: expected %s", name, WhyNot(name), names);
+  if ((*objective)->check) PetscCall((*(*objective)->check)(comm, name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

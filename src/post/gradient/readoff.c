@@ -77,9 +77,10 @@ static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS
 
     SamControlSetCondition(&control, SamConditionsFind(all, SamBulkName(k)), 1);
     PetscCall(SamProblemCheckControl(problem, &control, &wrong, why, sizeof(why)));
+    d->bulk[step][k] = b->at.by_bulk[k];
     if (why[0]) continue; /* these bodies bear no such stress */
     PetscCall(SamProblemDisplace(problem, NULL, &control, NULL, NULL, &strain, NULL));
-    d->bulk[step][k] =
+    d->bulk[step][k] +=
       sums[X_TAU_X] * strain.xx + sums[Y_TAU_Y] * strain.yy + (sums[Y_TAU_X] + sums[X_TAU_Y]) * strain.xy;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
