@@ -1033,8 +1033,8 @@ class Contact:
         name : str
             "energy", the frictional work of the steps (J); "wear_volume", that of both bodies after the last of the
             steps (m3); a load that is given by its displacement, or a displacement that is given by its load, summed
-            over the steps; "pressure_norm", (sum p^8 dA)^(1/8) of the last of the steps, a smooth maximum. Smooth maxima
-            over the cells at a depth, (sum s^40)^(1/40): "stress_xx@50um" and the other components, "mises@50um" (Pa),
+            over the steps; "pressure_norm", (sum p^8 dA)^(1/8) of the last of the steps, a smooth maximum. Others,
+            (sum s^40)^(1/40) over the cells at a depth: "stress_xx@50um" and the other components, "mises@50um" (Pa),
             of the last of the steps; "swt@50um", Smith, Watson and Topper's parameter of the cycle of the steps (Pa);
             in body 2, or in body 1 as "swt@50um@1".
         steps : slice, optional
