@@ -19,6 +19,7 @@ SLIDES = dict(ROWS, history="slides.csv", slide=True)
 PATH = dict(friction_law="slip_path", friction_path_final=0.5, friction_path_length=1e-3)
 WEARS = dict(wear_coefficient1=1e-14, wear_coefficient2=1e-14)
 SLID = "time,load_n,disp_x\n1,{0},0\n2,{0},1e-4\n3,{0},-1e-4\n4,{0},1e-4\n"
+BACK = dict(gradient="energy", slip_direction="end", errors="none", output="g.h5")
 WIDE, HALF, FULL = dict(grid_size=9e-3), dict(grid_size=2.6e-3), dict(grid_size=1.75e-3)  # a contact of 1.74 mm
 CASES = {
     "pressed": {**BALL, **HALF, "grid_n": 1000},
@@ -43,6 +44,10 @@ CASES = {
     "slide, dissimilar": {**BALL, **WIDE, **SLIDES, **SOFT, "grid_n": 400},
     "dissimilar": {**BALL, **WIDE, **SLIPS, **SOFT, "grid_n": 560},
     "dissimilar, no shear": {**BALL, **WIDE, **SOFT, "friction": 0.3, "grid_n": 400},
+    "gradient": {**BALL, **HALF, **ROWS, **BACK, "grid_n": 512},
+    "gradient, no friction": {**BALL, **FULL, **BACK, "friction": 0, "gradient": "pressure_norm", "grid_n": 400},
+    "gradient, dissimilar": {**BALL, **FULL, **ROWS, **SOFT, **BACK, "grid_n": 300},
+    "gradient, wide grid": {**BALL, **WIDE, **ROWS, **BACK, "grid_n": 560},
     "plane": {**LINE, **HALF, "friction": 0.3, "load_tx": 4e4},
     "plane, wide grid": {**LINE, **WIDE},
 }

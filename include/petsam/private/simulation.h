@@ -165,7 +165,7 @@ PETSC_INTERN SamGradient    SamSimulationGetGradient(SamSimulation simulation);
 typedef enum { SAM_TOUCHES_NEVER, SAM_TOUCHES_FIRST, SAM_TOUCHES_LATER } SamTouches;
 /* SamSimulationNeeds - the properties of a simulation, besides the grid, that determine its memory. */
 typedef struct {
-  PetscBool  friction, coupled, life, stiffness, companion;
+  PetscBool  friction, coupled, life, stiffness, companion, gradient;
   PetscInt   steps;
   PetscInt   laws;          /* memory of the laws per cell, bytes */
   PetscReal  contact, part; /* SamSimulationEstimateShares(): of this rank's cells, and of the grid's */

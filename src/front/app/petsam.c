@@ -114,6 +114,14 @@ static const Bytes step_bytes[2][2][2][2] = {
 static const double stiffness_bytes[2][2][2] = {{{450, 450}, {570, 600}},
                                                 {{450, 450}, {360, 360}}}; /* [several steps][friction][coupled] */
 
+/*
+  Memory of gradients: of recorded steps, bytes per cell in contact, and of the pass back, per cell and per cell in
+  contact beyond that of the steps.
+*/
+#define RECORDED_BYTES 60
+#define GRADIENT_BYTES 64
+static const double gradient_bytes[2][2] = {{730, 700}, {910, 1450}}; /* [friction][coupled] */
+
 /* Estimates the memory of the steps that this rank keeps, bytes; a life keeps two cycles. The contact comes later. */
 static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNeeds *needs, int ranks, double *bytes)
 {
@@ -150,6 +158,16 @@ static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *need
   return cell + b.part * (double)needs->part + contact * (double)needs->contact;
 }
 
+/* Returns the memory of gradients on this rank, bytes. */
+static double BytesOfGradients(const SamSetup *setup, const SamSimulationNeeds *needs)
+{
+  const double cells = (double)setup->grid->cells, contact = cells * (double)needs->contact;
+
+  if (!needs->gradient) return 0;
+  return GRADIENT_BYTES * cells +
+         (gradient_bytes[needs->friction][needs->coupled] + RECORDED_BYTES * (double)needs->steps) * contact;
+}
+
 /* Estimates the memory that this rank will need, bytes. */
 static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
@@ -165,7 +183,8 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscCall(EstimateKept(setup, &needs, ranks, &kept));
   *bytes = BytesPerCell(setup, &needs) * (double)setup->grid->cells * (needs.companion ? 1.6 : 1);
   if (files.checkpoint) *bytes += CHECKPOINT_BYTES * (double)setup->grid->cells;
-  *bytes += SAM_MEMORY_PROGRAM + kept + (files.checkpoint || files.output ? FILE_BYTES : 0);
+  *bytes +=
+    SAM_MEMORY_PROGRAM + kept + BytesOfGradients(setup, &needs) + (files.checkpoint || files.output ? FILE_BYTES : 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

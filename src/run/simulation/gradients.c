@@ -20,6 +20,7 @@ PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *fro
   PetscFunctionBegin;
   s->gradients = (SamGradientPlan){.rtol = 1e-6};
   PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
+  s->needs.gradient = s->gradients.names[0] ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

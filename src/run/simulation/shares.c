@@ -80,10 +80,13 @@ PetscErrorCode SamSimulationEstimateShares(SamSimulation s, SamSimulationNeeds *
   const PetscInt  all[2] = {g->nx, g->ny};
   PetscInt        n[2]   = {1, 1};
   PetscReal       half[2];
-  PetscBool       known;
+  PetscBool       known, end = PETSC_FALSE;
+  char            direction[8] = "";
 
   PetscFunctionBegin;
-  needs->touches = FindTouches(s);
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-slip_direction", direction, sizeof(direction), NULL));
+  PetscCall(PetscStrcmp(direction, "end", &end));
+  needs->touches = end ? SAM_TOUCHES_NEVER : FindTouches(s);
   needs->contact = UNKNOWN;
   needs->part    = 0;
   PetscCall(FindHalf(s, half, &known));
