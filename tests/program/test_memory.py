@@ -47,6 +47,8 @@ CASES = {
     "gradient": {**BALL, **HALF, **ROWS, **BACK, "grid_n": 512},
     "gradient, no friction": {**BALL, **FULL, **BACK, "friction": 0, "gradient": "pressure_norm", "grid_n": 400},
     "gradient, dissimilar": {**BALL, **FULL, **ROWS, **SOFT, **BACK, "grid_n": 300},
+    "gradient of a stress": {**BALL, **WIDE, **ROWS, **BACK, "gradient": "mises@50um", "grid_n": 400},
+    "gradient of a cycle": {**BALL, **HALF, **ROWS, **BACK, "gradient": "energy,swt@50um", "grid_n": 350},
     "gradient, wide grid": {**BALL, **WIDE, **ROWS, **BACK, "grid_n": 560},
     "plane": {**LINE, **HALF, "friction": 0.3, "load_tx": 4e4},
     "plane, wide grid": {**LINE, **WIDE},

@@ -148,6 +148,11 @@ PETSC_INTERN PetscErrorCode SamGradientGetNumber(SamGradient gradient, const cha
 PETSC_INTERN PetscErrorCode SamGradientCheckName(MPI_Comm comm, const char name[], const PetscBool force[],
                                                  PetscInt *component);
 /*
+  SamGradientGetBytes - gets the memory of a number, see SamObjective, bytes per cell. Not collective. Errors:
+  SAM_ERR_USER for an unknown number.
+*/
+PETSC_INTERN PetscErrorCode SamGradientGetBytes(MPI_Comm comm, const char name[], PetscInt bytes[3]);
+/*
   SamGradientDescribe - writes the number, and the relative changes of it by relative changes of the parameters, the
   largest first: "energy 2.04e-05 J; by 1 % more friction -1.2 %, load_tx +3.1 %". Values of all steps of a load change
   together. Collective. Errors: PETSC_ERR_ORDER before SamGradientCompute().

@@ -166,6 +166,7 @@ typedef enum { SAM_TOUCHES_NEVER, SAM_TOUCHES_FIRST, SAM_TOUCHES_LATER } SamTouc
 /* SamSimulationNeeds - the properties of a simulation, besides the grid, that determine its memory. */
 typedef struct {
   PetscBool  friction, coupled, life, stiffness, companion, gradient;
+  PetscInt   gradient_bytes[3]; /* of its numbers, see SamObjective */
   PetscInt   steps;
   PetscInt   laws;          /* memory of the laws per cell, bytes */
   PetscReal  contact, part; /* SamSimulationEstimateShares(): of this rank's cells, and of the grid's */

@@ -161,11 +161,14 @@ static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *need
 /* Returns the memory of gradients on this rank, bytes. */
 static double BytesOfGradients(const SamSetup *setup, const SamSimulationNeeds *needs)
 {
-  const double cells = (double)setup->grid->cells, contact = cells * (double)needs->contact;
+  const double    contact = (double)needs->contact, steps = (double)needs->steps;
+  const double    systems = gradient_bytes[needs->friction][needs->coupled] * contact;
+  const PetscInt *bytes   = needs->gradient_bytes;
 
   if (!needs->gradient) return 0;
-  return GRADIENT_BYTES * cells +
-         (gradient_bytes[needs->friction][needs->coupled] + RECORDED_BYTES * (double)needs->steps) * contact;
+  return (GRADIENT_BYTES + RECORDED_BYTES * steps * contact + (double)bytes[0] +
+          PetscMax(systems, (double)bytes[1] + (double)bytes[2] * steps)) *
+         (double)setup->grid->cells;
 }
 
 /* Estimates the memory that this rank will need, bytes. */

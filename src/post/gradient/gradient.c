@@ -413,6 +413,16 @@ PetscErrorCode SamGradientCheckName(MPI_Comm comm, const char name[], const Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamGradientGetBytes(MPI_Comm comm, const char name[], PetscInt bytes[3])
+{
+  const SamObjective *objective;
+
+  PetscFunctionBegin;
+  PetscCall(SamObjectiveFind(comm, name, &objective));
+  PetscCall(PetscArraycpy(bytes, objective->bytes, 3));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscInt steps[2], PetscBool want_moduli,
                                   PetscReal rtol)
 {

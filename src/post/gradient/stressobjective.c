@@ -17,7 +17,8 @@
 #include <petsam/private/stress.h>
 #include <math.h>
 
-#define POWER 40 /* of the norm: 512 equal values raise it by a sixth */
+#define POWER     40  /* of the norm: 512 equal values raise it by a sixth */
+#define MAP_BYTES 305 /* of the map of the stress: its fields and its kernels, per cell */
 
 enum { MISES = SAM_STRESS_COMPONENTS, SWT };
 static const char *const quantities[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy",
@@ -434,9 +435,18 @@ PetscErrorCode SamObjectiveRegisterStresses(void)
 {
   PetscFunctionBegin;
   for (int k = 0; k < QUANTITIES; k++) {
-    const PetscBool    swt = k == SWT ? PETSC_TRUE : PETSC_FALSE;
-    const SamObjective one = {quantities[k],        "Pa", swt, swt ? AddSWT : AddStress, Check, PETSC_TRUE,
-                              swt ? EndCycle : NULL};
+    static const SamObjective step = {
+      .unit = "Pa", .add = AddStress, .check = Check, .fixed = PETSC_TRUE, .bytes = {0, MAP_BYTES, 0}};
+    static const SamObjective cycle = {.unit  = "Pa",
+                                       .all   = PETSC_TRUE,
+                                       .add   = AddSWT,
+                                       .check = Check,
+                                       .fixed = PETSC_TRUE,
+                                       .end   = EndCycle,
+                                       .bytes = {MAP_BYTES + sizeof(Plane), 0, SAM_STRESS_COMPONENTS * sizeof(double)}};
+    SamObjective              one   = k == SWT ? cycle : step;
+
+    one.name = quantities[k];
 
     PetscCall(SamObjectiveRegister(&one));
   }

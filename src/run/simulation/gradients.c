@@ -15,15 +15,6 @@ static const SamOptionRow rows[] = {
   {"gradient_rtol", "relative residual of their systems", SAM_OPTION_REAL, MEMBER(rtol), .range = SAM_RANGE_POSITIVE,
    .needs = "gradient"}};
 
-PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *from)
-{
-  PetscFunctionBegin;
-  s->gradients = (SamGradientPlan){.rtol = 1e-6};
-  PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
-  s->needs.gradient = s->gradients.names[0] ? PETSC_TRUE : PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Calls a function for each of the numbers. */
 static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulation s, const char name[]))
 {
@@ -36,6 +27,28 @@ static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulat
   for (int k = 0; k < count && !ierr; k++) ierr = (*call)(s, names[k]);
   PetscCall(PetscStrToArrayDestroy(count, names));
   PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Raises the memory of the numbers, which are computed one after the other, to that of one of them. */
+static PetscErrorCode FindBytes(SamSimulation s, const char name[])
+{
+  PetscInt bytes[3];
+
+  PetscFunctionBegin;
+  PetscCall(SamGradientGetBytes(s->comm, name, bytes));
+  for (int k = 0; k < 3; k++) s->needs.gradient_bytes[k] = PetscMax(s->needs.gradient_bytes[k], bytes[k]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  s->gradients = (SamGradientPlan){.rtol = 1e-6};
+  PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
+  s->needs.gradient = s->gradients.names[0] ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(PetscArrayzero(s->needs.gradient_bytes, 3));
+  if (s->needs.gradient) PetscCall(ForEach(s, FindBytes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
