@@ -99,6 +99,7 @@ def _pictures(parser):
         "(of the last body that wears)",
     )  # fmt: skip
     kinds.add_argument("--life", action="store_true", help="volume, depth, energy, area and pressure over cycles")
+    kinds.add_argument("--gradient", action="store_true", help="where 1 um counts: change of the numbers of -gradient")
 
 
 def _quantities(parser):
