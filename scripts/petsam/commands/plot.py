@@ -17,12 +17,13 @@
     petsam-plot --report joint.html joint.csv       a page of the table that petsam-joint -o joint has written
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
-Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
-if friction works, and the history, of three cycles or more their loops and energies, too; of a wear simulation
+Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop, if
+friction works, and the history, of three cycles or more their loops and energies, too; of a wear simulation
 (-wear_cycles) its fretting log, scar and curves over the cycles instead of these; of steady rolling the creep curve,
-and arrows of the slip velocity on the map of stick and slip; of a file of petsam-stress its
-section or maps, the profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that
-vary, over the input with the most values. Constant scalars and fields that are zero to rounding are drawn only by name.
+and arrows of the slip velocity on the map of stick and slip; with derivatives (-gradient) where a micrometre and
+friction count; of a file of petsam-stress its section or maps, the profile, and fatigue parameters if it has them; of
+results.h5 of petsam-study the results that vary, over the input with the most values. Constant scalars and fields that
+are zero to rounding are drawn only by name.
 An option that none of the pictures uses is rejected.
 Each picture is a file NAME_maps.png and so on in the current directory; NAME is the first file's, of results.h5 of a
 study its folder's. An older picture of this name is replaced.

@@ -99,6 +99,9 @@ def _pictures(parser):
         "(of the last body that wears)",
     )  # fmt: skip
     kinds.add_argument("--life", action="store_true", help="volume, depth, energy, area and pressure over cycles")
+    kinds.add_argument(
+        "--gradient", action="store_true", help="where 1 um and friction count: change of the numbers of -gradient"
+    )
 
 
 def _quantities(parser):
@@ -172,7 +175,9 @@ def _look(parser):
     look.add_argument("--depth", type=numbers("m", "depths separated by commas, such as 0.1mm,0.2mm"), metavar="Z,...",
         help="planes of stresses nearest to these depths (some)",
     )  # fmt: skip
-    look.add_argument("--whole-grid", action="store_true", help="maps and profiles of the grid, not of the contact")
+    look.add_argument(
+        "--whole-grid", action="store_true", help="maps, profiles and gradients of the grid, not of the contact"
+    )
     look.add_argument(
         "--limits", type=LIMITS, metavar="LOW,HIGH", help="of the one --field, or --component: -50MPa,50MPa"
     )

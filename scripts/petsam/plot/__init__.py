@@ -1,12 +1,11 @@
 """Pictures of results: by name in pictures.py, as petsam.plot.maps(results), petsam.plot.loop(results, other).
 
-fields and crossings draw fields over the surface and along x and y, series scalars over time or over one another,
-loops and wear cycles and scars, bodies stresses, tables and planes studies; of_compliance, of_lives, of_loads,
-of_surface and of_joints what these parts of the package have found. kinds lists the pictures that suit a file; reports
-makes a page of a file or of results of a joint, with the tables of sheets and joints, the slider of frames and the
-elements of page. colours chooses the
-colours of maps, symbols what known quantities are called, units the prefixes; style has the look of all, saving writes
-files.
+fields and crossings draw fields over the surface and along x and y, gradients derivatives in each cell, series scalars
+over time or over one another, loops and wear cycles and scars, bodies stresses, tables and planes studies;
+of_compliance, of_lives, of_loads, of_surface and of_joints what these parts of the package have found. kinds lists the
+pictures that suit a file; reports makes a page of a file or of results of a joint, with the tables of sheets and
+joints, the slider of frames and the elements of page. colours chooses the colours of maps, symbols what known
+quantities are called, units the prefixes; style has the look of all, saving writes files.
 """
 
 import importlib
@@ -19,8 +18,8 @@ if "ipykernel" not in sys.modules or "MPLBACKEND" not in os.environ:  # a notebo
 # functions and their modules, which load matplotlib at the first use
 _HOMES = {
     "pictures": (
-        "energy", "fatigue", "fretting_log", "history", "life", "loop", "maps", "profiles", "regimes", "scar",
-        "sections", "stress_maps", "stress_profiles", "study",
+        "energy", "fatigue", "fretting_log", "gradient", "history", "life", "loop", "maps", "profiles", "regimes",
+        "scar", "sections", "stress_maps", "stress_profiles", "study",
     ),
     "reports": ("report", "view"),
     "of_joints": ("backbone", "band", "conductance", "interface", "joint_wear", "response", "saved", "slip_zones"),

@@ -9,7 +9,7 @@ from ..core.errors import Error
 from .units import label, scale
 
 SIGNED, UNSIGNED = "RdBu_r", "viridis"
-ENDINGS = ("_x", "_y", "_z")  # of the names of components, which have a sign even where they are positive
+ENDINGS = ("_x", "_y", "_z", "_gradient")  # of names of components and derivatives, which have a sign in any case
 ROUNDING = 1e-6  # of the largest value: what is negative by less is no sign
 LEAST = {"power_density": 0.02}  # the same of a field that is slightly negative in some cells by its nature
 PERCENTILES = (99.8, 99.0, 98.0, 95.0)  # tried in this order

@@ -10,6 +10,7 @@ STUDY = "study"  # the only kind of a study's table
 OF_RESULTS = {
     "maps": pictures.maps, "profiles": pictures.profiles, "loop": pictures.loop, "energy": pictures.energy,
     "history": pictures.history, "fretting-log": pictures.fretting_log, "scar": pictures.scar, "life": pictures.life,
+    "gradient": pictures.gradient,
 }  # fmt: skip
 OF_STRESSES = {
     "maps": pictures.stress_maps, "sections": pictures.sections, "profiles": pictures.stress_profiles,
@@ -21,7 +22,12 @@ MANY = 3  # cycles from which their loops and energies are drawn without being a
 
 
 def of_results(results):
-    """Kinds of pictures for results of petsam; of one that lacks fields, a picture whose message says so."""
+    """Kinds of pictures for results of petsam."""
+    return [*_of_steps(results), *(["gradient"] if all(one.gradients for one in results) else [])]
+
+
+def _of_steps(results):
+    """The kinds but for gradients; of a file that lacks fields, a picture whose message says so."""
     lines = any(one.is_plane for one in results)
     maps = ["maps", "profiles"][lines:] if all(one.steps and fields.usual(one) for one in results) else []
     if all(one.has_life for one in results):

@@ -1,7 +1,7 @@
 """The pictures by name, each a matplotlib figure of files that are open: petsam.plot.loop(results, other, load="tx").
 
-Results of petsam: maps, profiles, loop, energy, history, fretting_log, scar, life. Of petsam-stress: stress_maps,
-sections, stress_profiles, fatigue. The table of petsam-study: study, regimes. Several files are compared.
+Results of petsam: maps, profiles, loop, energy, history, fretting_log, scar, life, gradient. Of petsam-stress:
+stress_maps, sections, stress_profiles, fatigue. The table of petsam-study: study, regimes. Several files are compared.
 
 Parameters that many of them have:
 
@@ -27,7 +27,7 @@ from ..results import cycles
 from ..results.file import Results
 from ..results.stresses import Stresses
 from ..results.studies import Study
-from . import bodies, colours, crossings, fields, looks, loops, planes, series, tables, wear
+from . import bodies, colours, crossings, fields, gradients, looks, loops, planes, series, tables, wear
 from .style import STYLE, drawn, need_kind
 
 ORIGIN = (0.0, 0.0)
@@ -477,6 +477,33 @@ def life(*files: Results) -> Figure:
         If a file is of another program, or has no life.
     """
     return wear.life(files)
+
+
+@picture
+def gradient(*files: Results, whole_grid: bool = False) -> Figure:
+    """Where a micrometre counts: change of each number of -gradient by the gap and by friction on a patch.
+
+    Parameters
+    ----------
+    *files : Results
+        Files of petsam, which are compared.
+    whole_grid : bool
+        Whether the whole grid is drawn, not only the cells that count and a margin.
+    xlim, ylim : tuple, optional
+        Part of the axes, (low, high), SI units.
+    width : float, optional
+        Width of the picture, mm.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    Error
+        If a file is of another program, or has no gradient.
+    """
+    return gradients.gradient(files, whole_grid)
 
 
 # ---------------------------------------------------------------- stresses of petsam-stress

@@ -24,6 +24,7 @@ CAPTIONS = {
     "fretting-log": "Loops of the cycles",
     "scar": "Depth removed through the deepest point",
     "life": "Numbers over the cycles of wear",
+    "gradient": "Where a micrometre counts: change of numbers by gap and friction",
     "study": "Results over the inputs",
     "sections": "Stresses over depth",
     "fatigue": "Fatigue parameters",

@@ -7,6 +7,7 @@ import h5py
 import numpy as np
 
 from ..core.errors import Error, there_are
+from ..core.files import decoded
 
 MODULI = ("body1_young", "body1_poisson", "body2_young", "body2_poisson")
 
@@ -32,6 +33,8 @@ class Gradient:
         Cells on the border of their set in some step; the gradient is one-sided if there are any.
     residual : float
         Largest relative residual of the systems.
+    unit : str
+        Of the number, if it is of a file.
     """
 
     name: str
@@ -41,6 +44,7 @@ class Gradient:
     numbers: dict
     borders: int
     residual: float
+    unit: str = ""
 
     def __getitem__(self, name: str) -> Union[float, np.ndarray]:
         """A derivative by the name of its parameter: gap, friction, load_tx, disp_x, body1_young, ..."""
@@ -50,6 +54,10 @@ class Gradient:
         if name not in every:
             raise Error(f"gradient: {name}: there is no derivative by it{there_are(name, list(every))}")
         return every[name]
+
+
+def _text(value):
+    return decoded(value) if isinstance(value, bytes) else str(value)
 
 
 def read(group: Optional[h5py.Group]) -> dict[str, Gradient]:
@@ -71,6 +79,6 @@ def read(group: Optional[h5py.Group]) -> dict[str, Gradient]:
         numbers |= {key: data[:] for key, data in of.items() if data.ndim == 1}
         found[name] = Gradient(
             name, numbers.pop("value"), of["gap"][:], of["friction"][:], numbers, int(numbers.pop("borders")),
-            numbers.pop("residual"),
+            numbers.pop("residual"), _text(of.attrs["units"]),
         )  # fmt: skip
     return found
