@@ -518,12 +518,12 @@ int petsam_gradient(petsam_contact *c, const char *name, int first, int last, in
 
   In:     c      - the contact
           name   - its name: value, the number itself; gap and friction, derivatives by the separation (1/m) and the
-                   coefficient of friction in each cell; load_n, disp_x, bulk1_stress_xx ..., by the value of each step;
-                   body1_young (1/Pa), body1_poisson ..., by the moduli; wear_coefficient (Pa), wear_energy, by the
-                   coefficients of both bodies alike; borders, the number of cells that are about to change their set,
-                   where derivatives hold to one side; residual, the largest of the systems
-  Out:    values - this rank's rows of a field; of the steps, NaN where it is not given; else one number (unit of the
-                   number over that of the parameter)
+                   coefficient of friction in each cell, NaN where that is 0; load_n, disp_x, bulk1_stress_xx ..., by
+                   the value of each step; body1_young (1/Pa), body1_poisson ..., by the moduli; wear_coefficient (Pa),
+                   wear_energy, by the coefficients of both bodies alike; borders, the number of cells that are about to
+                   change their set, where derivatives hold to one side; residual, the largest of the systems
+  Out:    values - this rank's rows of a field; of the steps that petsam_gradient() told, NaN where it is not given;
+                   else one number (unit of the number over that of the parameter)
 
   Errors: 2 for another name, or before petsam_gradient().
 

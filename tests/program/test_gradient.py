@@ -249,7 +249,7 @@ class Problem:
         if parameter == "gap":
             return np.sum(found.gap * self.wave)
         if parameter == "friction":
-            return np.sum(found.friction * self.case["friction"])
+            return np.nansum(found.friction * self.case["friction"])
         if parameter in self.case["bodies"]:
             return found[parameter] * self.case["bodies"][parameter]
         if parameter.startswith("wear"):
@@ -260,7 +260,7 @@ class Problem:
 
     def difference(self, parameter, name, steps):
         """The same by differences of the contact's own history."""
-        size = 1e-6 if parameter != "gap" else 1e-3
+        size = 1e-3 if parameter == "gap" else 1e-5 if parameter in self.case["bodies"] else 1e-6
         both = []
         for sign in (1, -1):
             change = self.changed(parameter, sign * size)
@@ -281,7 +281,7 @@ def check_random(seed):
         borders += found.borders
         if name == "energy":
             assert found.value == pytest.approx(problem.energy, rel=1e-9, abs=1e-15)
-        for parameter in ("gap", "friction", "body1_young", "body2_poisson", *more, *problem.columns):
+        for parameter in ("gap", "friction", "body1_young", "body1_poisson", "body2_poisson", *more, *problem.columns):
             difference = problem.difference(parameter, name, steps)
             scale = max(abs(difference), 0.1 * abs(found.value))
             deviations[name, parameter] = abs(problem.derivative(found, parameter) - difference) / scale
@@ -436,6 +436,70 @@ def test_cells_that_slide_nearly_alike():
 
 
 @pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("number", ["stress_yy@50um", "mises@50um", "energy"])
+def test_bulk_stress_in_plane_strain(number):
+    """That along x brings nu times as much along y: by the stress and, of the energy, by the moduli."""
+
+    def run(part=0.0, **moduli):
+        turns = np.array([0.5, 1, 0.2, -0.6, 0.3])
+        history = {"time": np.arange(5.0), "load_n": 1e5 * np.array([0.8, 1, 1, 0.9, 1]), "load_tx": 2e4 * turns,
+                   "bulk2_stress_xx": 5e7 * turns * (1 + part), "bulk1_stress_xx": -2e7 * turns}  # fmt: skip
+        bodies = {**UNLIKE, **{name: UNLIKE[name] * (1 + change) for name, change in moduli.items()}}
+        contact = contact_of(bodies, (40, 1), 2.4e-3, gap=lambda x, y: x**2 / 0.2, elasticity="plane")[0]
+        return record(contact, history)[0], history
+
+    contact, history = run()
+    found = contact.gradient(number, None, number == "energy", rtol=1e-10)
+    by = {"part": found["bulk2_stress_xx"] @ history["bulk2_stress_xx"]}
+    if number == "energy":
+        by |= {name: found[name] * UNLIKE[name] for name in UNLIKE}
+    else:
+        assert abs(by["part"]) > 1e-3 * found.value
+    for name, derivative in by.items():
+        both = [run(**{name: size})[0].gradient(number, rtol=0.1).value for size in (1e-6, -1e-6)]
+        assert derivative == pytest.approx((both[0] - both[1]) / 2e-6, rel=3e-5, abs=1e-6 * found.value), name
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_initial_stress_is_part_of_the_stress(tmp_path):
+    (tmp_path / "i.csv").write_text("depth,stress_xx,stress_yy\n0,-1e8,2e8\n1e-3,3e8,1e8\n")
+    history = history_of(np.full(2, 400.0), np.array([0, 50.0]), np.zeros(2))
+    contact = record(contact_of(UNLIKE, 24, body2_initial_stress="i.csv")[0], history)[0]
+    values = contact.stress(depths=[5e-4], quantities="mises")["mises"]
+    norm = np.sum((values / values.max()) ** 40) ** (1 / 40) * values.max()
+    assert contact.gradient("mises@0.5mm").value == pytest.approx(norm, rel=1e-12)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_is_not_there_yet():
+    """Wear of surfaces that do not wear has a derivative; friction in cells without it has none."""
+    history = history_of(np.full(4, 400.0), np.array([0, 50.0, -40, 30]), np.zeros(4))
+    none, little = (
+        record(contact_of(BODIES, 16, **more)[0], history)[0].gradient("energy")
+        for more in ({}, dict(wear_coefficient1=1e-17))
+    )
+    for name in ("wear_coefficient", "wear_energy"):
+        assert none[name] == pytest.approx(little[name], rel=1e-4) and none[name] > 0
+    friction = np.full((16, 16), 0.3)
+    friction[:5] = 0
+    found = record(contact_of(BODIES, 16, friction=friction)[0], history)[0].gradient("energy")
+    assert np.array_equal(np.isnan(found.friction), friction == 0) and not np.isnan(found.gap).any()
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_step_without_contact():
+    """At the end of a history it changes nothing of the steps before."""
+    history = history_of(np.array([400.0, 400, 350, 0]), np.array([0, 50.0, -40, 0]), np.zeros(4))
+    longer = record(contact_of(UNLIKE, 16)[0], history)[0].gradient("energy", slice(0, 3), rtol=1e-10)
+    short = {name: values[:3] for name, values in history.items()}
+    found = record(contact_of(UNLIKE, 16)[0], short)[0].gradient("energy", rtol=1e-10)
+    assert longer.value == found.value and np.allclose(longer.gap, found.gap, rtol=1e-9, atol=0)
+    again = record(contact_of(UNLIKE, 16)[0], {**history, "load_n": [400, 400, 0, 300], "load_tx": [0, 50, 0, 30]})[0]
+    with pytest.raises(petsam.Error, match="in which there is no contact"):
+        again.gradient("energy")
+
+
+@pytest.mark.filterwarnings("ignore")
 def test_refusals():
     """What has no derivative is named, with what to take instead."""
     history = {"time": [0.0, 1.0, 2.0], "load_n": [500.0, 500.0, 500.0], "load_tx": [0.0, 50.0, 20.0]}
@@ -470,8 +534,11 @@ def test_refusals():
             contact.gradient(name)
     with pytest.raises(petsam.Error, match="expected steps from 0 to 2"):
         contact.gradient("energy", slice(5, 7))
-    with pytest.raises(petsam.Error, match="neighbouring"):
-        contact.gradient("energy", slice(-2, None))
+    for steps in (slice(-2, None), slice(0, 0), slice(3, 0), slice(2**31, None), slice(0, 2**32), 1, (0, 2)):
+        with pytest.raises(petsam.Error, match="neighbouring"):
+            contact.gradient("energy", steps)
+    with pytest.raises(petsam.Error, match="which a life has not"):
+        contact.live(10, history)
     found = contact.gradient("energy")
     with pytest.raises(petsam.Error, match="no derivative by it"):
         _ = found["disp_x"]
@@ -570,8 +637,21 @@ def test_steps_of_a_gradient(petsam, loads, tmp_path):
         (dict(pressure_limit=1e9), "-pressure_limit"),
         (dict(step_rtol=0.01), "step_rtol"),
         (dict(gradient_rtol=-1), "gradient_rtol"),
+        (dict(gradient_rtol=2), "gradient_rtol"),
+        (dict(gradient_steps="3,2"), "first and the last one"),
+        (dict(gradient_steps="9,0"), "first and the last one"),
+        (dict(gradient="energy,energy"), "energy stands there twice"),
+        (dict(gradient=","), "expected names"),
+        (dict(gradient="wear_volume,energy"), "no coefficient of wear"),
+        (dict(gradient="energy,mises@1mm", gradient_moduli=True), "leave the moduli out"),
+        (dict(gradient="mises@inf"), "expected a depth"),
+        (dict(gradient=f"mises@{'0' * 70}.1mm"), "expected a depth"),
+        (dict(gradient="mises@1mm@1", body1_young="inf"), "a rigid body"),
+        (dict(gradient="mises@1mm", elasticity="periodic"), "periodic bodies"),
+        (dict(gradient="disp_z", elasticity="periodic"), "no such number"),
     ],
 )
 def test_refused_runs(petsam, loads, change, words):
     case = dict(RUN, history="history.csv", gradient="energy", output="out.h5")
-    assert words in petsam({**case, **change}, check=2).stderr
+    done = petsam({**case, **change}, check=2)
+    assert words in done.stderr and "used  " not in done.stdout  # before any step

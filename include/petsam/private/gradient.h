@@ -142,11 +142,12 @@ PETSC_INTERN PetscErrorCode SamGradientGetNumber(SamGradient gradient, const cha
                                                  PetscReal *value);
 
 /*
-  SamGradientCheckName - checks that a number has a gradient, and is not given itself in a step whose loads `force` are;
-  `component`: that of a load or displacement, else -1. Not collective. Errors: SAM_ERR_USER.
+  SamGradientCheck - checks that a number has a gradient for this contact, by the moduli too if they are wanted, and is
+  not given itself in a step whose loads `force` are; `component`: that of a load or displacement, else -1. Not
+  collective. Errors: SAM_ERR_USER.
 */
-PETSC_INTERN PetscErrorCode SamGradientCheckName(MPI_Comm comm, const char name[], const PetscBool force[],
-                                                 PetscInt *component);
+PETSC_INTERN PetscErrorCode SamGradientCheck(SamGradient gradient, const char name[], const PetscBool force[],
+                                             PetscBool moduli, PetscInt *component);
 /*
   SamGradientGetBytes - gets the memory of a number, see SamObjective, bytes per cell. Not collective. Errors:
   SAM_ERR_USER for an unknown number.

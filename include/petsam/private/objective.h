@@ -41,17 +41,18 @@ typedef struct {
 
 /*
   SamObjective - a number with a gradient. `add` adds a step's part of the number and of its derivatives; it is called
-  for all steps from the last to the first. `check` checks a name with what follows an @; NULL: nothing may follow.
-  `fixed`: the number depends on the moduli besides through the tractions, so that it has no derivative by them. `end`:
-  frees the data; NULL: there are none. `bytes`: the memory that it takes, per cell of the whole grid: during the pass; in
-  one step only; and besides that for each step of the history. Collective.
+  for all steps from the last to the first. `check` checks a name with what follows an @, if `suffix` allows that,
+  for these bodies and coefficients of wear; NULL: all are right. `fixed`: the number depends on the moduli besides
+  through the tractions, so that it has no derivative by them. `end`: frees the data; NULL: there are none. `bytes`: the
+  memory that it takes per cell of the whole grid: during the pass; in one step only; and besides that for each step of
+  the history. Collective.
 */
 typedef struct {
   const char *name, *unit;
   PetscBool   all; /* true: of all steps unless others are given; false: of the last one */
   PetscErrorCode (*add)(SamObjectiveStep *at);
-  PetscErrorCode (*check)(MPI_Comm comm, const char name[]);
-  PetscBool fixed;
+  PetscErrorCode (*check)(SamElasticity elasticity, const PetscReal rate[], const char name[]);
+  PetscBool suffix, fixed;
   PetscErrorCode (*end)(void *data);
   PetscInt bytes[3];
 } SamObjective;

@@ -107,9 +107,10 @@ static PetscErrorCode SetBorder(System *s, SamFrozenPart part)
   PetscCall(PetscFree(motion));
   PetscCall(SamFrozenSetBorder(f, count, row, column, &regular));
   PetscCheck(regular, f->grid->comm, SAM_ERR_USER,
-             "the gradient: loads are given in step %" PetscInt_FMT " that the contact cannot change: it slides as a "
-             "whole: give displacements",
-             s->b->at.step);
+             "the gradient: loads are given in step %" PetscInt_FMT
+             " (the first is 1) that the contact cannot change: it "
+             "slides as a whole: give displacements",
+             s->b->at.step + 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -169,8 +170,9 @@ static PetscErrorCode SolvePart(System *s, SamFrozenPart part, const double give
   PetscCall(SamFrozenClearBorder(f));
   PetscCall(PetscFree(right));
   PetscCheck(error <= PetscMax(s->b->rtol, 1e-3), f->grid->comm, PETSC_ERR_NOT_CONVERGED,
-             "the gradient: the adjoint of step %" PetscInt_FMT " does not converge: relative residual %.2g",
-             s->b->at.step, (double)error);
+             "the gradient: the adjoint of step %" PetscInt_FMT
+             " (the first is 1) does not converge: relative residual %.2g",
+             s->b->at.step + 1, (double)error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -366,6 +368,21 @@ static PetscErrorCode Solve(System *s, PetscBool rubs, const double given[], dou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Checks that nothing depends on the displacements of a step without contact, where its loads are given. */
+static PetscErrorCode CheckLost(const System *s, const double given[])
+{
+  double most = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->count; i++) most = PetscMax(most, fabs(given[i]));
+  PetscCheck(most == 0, s->b->grid->comm, SAM_ERR_USER,
+             "the gradient: the number depends on the displacements in step %" PetscInt_FMT
+             " (the first is 1), in which "
+             "there is no contact, and loads are given: give displacements",
+             s->b->at.step + 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Sets the cotangents of the step, and what it leaves for the step before. */
 static PetscErrorCode SetCotangents(System *s, const double r[])
 {
@@ -399,7 +416,7 @@ PetscErrorCode SamBackSolve(SamBack *b, PetscInt step)
   const SamRecord *record = &b->g->record[step];
   const SamGrid    g      = b->grid;
   System           s      = {.b = b};
-  double           given[SAM_COMPONENTS], rubs = 0, *moved, *r;
+  double           given[SAM_COMPONENTS], rubs = 0, touches, *moved, *r;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2 * g->cells; k++) b->later[k] += b->at.by_slip[k];
@@ -407,13 +424,15 @@ PetscErrorCode SamBackSolve(SamBack *b, PetscInt step)
   PetscCall(Freeze(&s));
   PetscCall(CountBorders(&s));
   for (PetscInt m = 0; m < s.f.count; m++) rubs = PetscMax(rubs, s.f.free[m]);
+  touches = s.f.count;
   PetscCall(SamMax(g->comm, 1, &rubs));
+  PetscCall(SamMax(g->comm, 1, &touches));
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) /* without friction there is no shear that loads could change */
-    if (record->force[components[n]] && Has(b, n) && (n < 3 || rubs > 0)) s.given[s.count++] = n;
+    if (record->force[components[n]] && Has(b, n) && (n < 3 || rubs > 0 || touches == 0)) s.given[s.count++] = n;
   PetscCall(PetscMalloc4(3 * s.f.count, &s.x, 3 * s.f.count, &s.right, 2 * s.f.count, &r, 3 * g->cells, &moved));
   PetscCall(FindRight(&s, moved));
   PetscCall(FindGiven(&s, given));
-  PetscCall(Solve(&s, rubs > 0 ? PETSC_TRUE : PETSC_FALSE, given, r));
+  PetscCall(touches > 0 ? Solve(&s, rubs > 0 ? PETSC_TRUE : PETSC_FALSE, given, r) : CheckLost(&s, given));
   PetscCall(SetCotangents(&s, r));
   PetscCall(PetscFree4(s.x, s.right, r, moved));
   PetscCall(SamFrozenDestroy(&s.f));

@@ -88,6 +88,8 @@ static PetscErrorCode Check(SamGradient g)
              (double)((SamSolver)SamContactGetTangential(g->contact))->rtol, LEAST_RTOL);
   PetscCall(SamProblemGetLaws(problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++) PetscCall(CheckLaw(g, laws[k]));
+  PetscCheck(SamContactGetSettings(g->contact).slip_direction == SAM_SLIP_END, comm, SAM_ERR_USER,
+             "the gradient with the direction of slip at mid step, which has no derivative: give -slip_direction end");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -139,7 +141,7 @@ void SamGradientForget(SamGradient g)
 
 PetscInt SamGradientGetSteps(SamGradient g)
 {
-  return g->count;
+  return g->found.count;
 }
 
 /* ---- the pass back ---- */
@@ -316,7 +318,6 @@ static PetscErrorCode Wear(SamBack *b)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < b->grid->cells; k++) b->worn[k] += at->by_worn[k];
-  if (rate[0] == 0 && rate[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(b->grid->cells, &rubbed, b->grid->cells, &factor));
   SamBackRubbed(at, rubbed);
   for (PetscInt j = 0; j < b->grid->rows; j++) {
@@ -332,7 +333,7 @@ static PetscErrorCode Wear(SamBack *b)
     }
     SamAddAll(2, by, row);
   }
-  PetscCall(SamBackAddRubbed(at, factor));
+  if (rate[0] != 0 || rate[1] != 0) PetscCall(SamBackAddRubbed(at, factor));
   PetscCall(SamSumTotals(b->grid->comm, 2, by, sums));
   for (PetscInt n = 0; n < 2; n++) b->g->found.wear[n] += sums[n];
   PetscCall(PetscFree2(rubbed, factor));
@@ -343,18 +344,28 @@ static PetscErrorCode Wear(SamBack *b)
    (readoff.c). */
 static PetscErrorCode CreateOther(SamBack *b)
 {
-  const SamPair    pair = SamElasticityGetPair(b->elasticity);
-  SamPairConstants constants;
-  SamPair          other;
-  const char      *none = SamPairGetConstants(pair, &constants);
+  SamPair other;
 
   PetscFunctionBegin;
-  PetscCheck(!none && !SamElasticityGetTraits(b->elasticity).patch, b->grid->comm, SAM_ERR_USER,
-             "the gradient by the moduli is not computed, as %s: leave the moduli out",
-             none ? none : "the bodies are finite");
-  PetscCall(SamPairCreateOther(pair, &other));
+  PetscCall(SamPairCreateOther(SamElasticityGetPair(b->elasticity), &other));
   PetscCall(SamElasticityCreateOfPair(b->elasticity, other, &b->other));
   PetscCall(SamPairDestroy(&other));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sets the derivative by friction to NaN in cells without friction: how they would slip has not been recorded. */
+static PetscErrorCode ClearWithoutFriction(SamGradient g)
+{
+  const double *mu;
+  double       *by;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(g->friction, &mu));
+  PetscCall(VecGetArray(g->found.friction, &by));
+  for (PetscInt k = 0; k < SamContactGetGrid(g->contact)->cells; k++)
+    if (!(mu[k] > 0)) by[k] = NAN;
+  PetscCall(VecRestoreArray(g->found.friction, &by));
+  PetscCall(VecRestoreArrayRead(g->friction, &mu));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -383,6 +394,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective, PetscBool w
   if (isnan(b->at.number)) PetscCall(SamSumTotals(b->grid->comm, 1, &b->at.value, &found->value));
   PetscCall(PutArray(b, b->by_gap, &found->gap));
   PetscCall(PutArray(b, b->by_friction, &found->friction));
+  PetscCall(ClearWithoutFriction(b->g));
   for (int k = 0; k < 2; k++) {
     SamFrameOfStep *frame = k ? &b->now : &b->before;
 
@@ -395,13 +407,14 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective, PetscBool w
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGradientCheckName(MPI_Comm comm, const char name[], const PetscBool force[], PetscInt *component)
+/* Checks that a number is not given itself in a step whose loads `force` are, and that these bodies have it. */
+static PetscErrorCode CheckComponent(SamElasticity e, const char name[], const PetscBool force[], PetscInt *component)
 {
-  const SamObjective *objective;
+  const SamElasticityTraits traits = SamElasticityGetTraits(e);
+  const MPI_Comm            comm   = SamElasticityGetGrid(e)->comm;
 
   PetscFunctionBegin;
   *component = -1;
-  PetscCall(SamObjectiveFind(comm, name, &objective));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     const PetscBool load = strcmp(name, SamComponentNames[c].load) ? PETSC_FALSE : PETSC_TRUE;
 
@@ -409,7 +422,34 @@ PetscErrorCode SamGradientCheckName(MPI_Comm comm, const char name[], const Pets
     *component = c;
     PetscCheck(force[c] != load, comm, SAM_ERR_USER, "the gradient of %s: it is given: take %s", name,
                load ? SamComponentNames[c].rigid : SamComponentNames[c].load);
+    PetscCheck(!traits.periodic || c == SAM_COMPONENT_TX || c == SAM_COMPONENT_TY ||
+                 (c == SAM_COMPONENT_N && (load || traits.mean)),
+               comm, SAM_ERR_USER, "the gradient of %s: periodic bodies have no such number: take disp_x or energy",
+               name);
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBool force[], PetscBool want_moduli,
+                                PetscInt *component)
+{
+  const SamElasticity e    = SamProblemGetElasticity(SamContactGetProblem(g->contact));
+  const MPI_Comm      comm = SamContactGetGrid(g->contact)->comm;
+  SamPairConstants    constants;
+  const char         *none;
+  const SamObjective *objective;
+
+  PetscFunctionBegin;
+  PetscCall(SamObjectiveFind(comm, name, &objective));
+  PetscCall(CheckComponent(e, name, force, component));
+  if (objective->check) PetscCall((*objective->check)(e, g->rate, name));
+  if (!want_moduli) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(!objective->fixed, comm, SAM_ERR_USER,
+             "the gradient of %s by the moduli is not computed: leave the moduli out", name);
+  none = SamPairGetConstants(SamElasticityGetPair(e), &constants);
+  if (SamElasticityGetTraits(e).patch) none = "the bodies are finite";
+  PetscCheck(!none, comm, SAM_ERR_USER, "the gradient by the moduli is not computed, as %s: leave the moduli out",
+             none);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -442,12 +482,11 @@ PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscI
              ": expected steps from 0 to %" PetscInt_FMT,
              name, b.at.first, b.at.last, g->count - 1);
   for (PetscInt k = b.at.first; k <= b.at.last; k++)
-    PetscCall(SamGradientCheckName(comm, name, g->record[k].force, &b.at.component));
+    PetscCall(SamGradientCheck(g, name, g->record[k].force, want_moduli, &b.at.component));
   b.at.number = NAN;
   b.at.name   = name;
-  PetscCheck(!want_moduli || !objective->fixed, comm, SAM_ERR_USER,
-             "the gradient of %s by the moduli is not computed: leave the moduli out", name);
   PetscCall(ClearFound(d));
+  d->count = g->count;
   PetscCall(PetscCalloc3(g->count, &d->load, g->count, &d->rigid, g->count, &d->bulk));
   (void)snprintf(d->name, sizeof(d->name), "%s", name);
   (void)snprintf(d->unit, sizeof(d->unit), "%s", SamUnitOn(SamContactGetGrid(g->contact), objective->unit));
@@ -521,8 +560,9 @@ PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt s
   comm = SamContactGetGrid(g->contact)->comm;
   d    = &g->found;
   PetscCall(CheckFound(g));
-  PetscCheck(step >= 0 && step < g->count, comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "step %" PetscInt_FMT " of a gradient: expected 0 to %" PetscInt_FMT, step, g->count - 1);
+  PetscCheck(step >= 0 && step < d->count && d->count <= g->count, comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "step %" PetscInt_FMT " of a gradient: expected 0 to %" PetscInt_FMT ", and no new record since", step,
+             d->count - 1);
   of_step = OfStep(g, name, step);
   if (of_step) {
     *value = *of_step;
@@ -562,7 +602,7 @@ static PetscErrorCode ShareOfFriction(SamGradient g, double *share)
   for (PetscInt j = 0; j < grid->rows; j++) {
     double row = 0;
 
-    for (PetscInt k = j * grid->nx; k < (j + 1) * grid->nx; k++) row += mu[k] * by[k];
+    for (PetscInt k = j * grid->nx; k < (j + 1) * grid->nx; k++) row += mu[k] > 0 ? mu[k] * by[k] : 0;
     SamAdd(&total, row);
   }
   PetscCall(VecRestoreArrayRead(g->found.friction, &by));
@@ -584,7 +624,7 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     shares[n]     = (Share){SamComponentNames[c].load, 0};
     shares[n + 1] = (Share){SamComponentNames[c].rigid, 0};
-    for (PetscInt k = 0; k < g->count; k++) {
+    for (PetscInt k = 0; k < d->count; k++) {
       const SamRecord *r = &g->record[k];
 
       shares[r->force[c] ? n : n + 1].share += r->force[c] ? r->load[c] * d->load[k][c] : r->rigid[c] * d->rigid[k][c];
@@ -593,7 +633,7 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
   }
   for (PetscInt b = 0; b < SAM_GRADIENT_BULKS; b++, n++) {
     shares[n] = (Share){SamBulkName(b), 0};
-    for (PetscInt k = 0; k < g->count; k++) shares[n].share += g->record[k].bulk[b] * d->bulk[k][b];
+    for (PetscInt k = 0; k < d->count; k++) shares[n].share += g->record[k].bulk[b] * d->bulk[k][b];
   }
   for (PetscInt k = 0; k < SAM_GRADIENT_WEARS; k++, n++) shares[n] = (Share){wears[k], g->rate[k] * d->wear[k]};
   if (d->has_moduli) {

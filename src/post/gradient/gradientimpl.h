@@ -42,7 +42,8 @@ typedef struct {
   Vec       gap, friction;                                                               /* on the contact's grid */
   double (*load)[SAM_COMPONENTS], (*rigid)[SAM_COMPONENTS], (*bulk)[SAM_GRADIENT_BULKS]; /* of each step */
   PetscBool has_moduli;
-  char      name[32], unit[16]; /* of the number */
+  PetscInt  count;              /* of the steps */
+  char      name[96], unit[16]; /* of the number */
 } SamDerivatives;
 
 struct _n_SamGradient {

@@ -133,12 +133,18 @@ static PetscErrorCode AddEnergy(SamObjectiveStep *at)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode CheckVolume(SamElasticity elasticity, const PetscReal rate[], const char name[])
+{
+  PetscFunctionBegin;
+  PetscCheck(rate[0] != 0 || rate[1] != 0, SamElasticityGetGrid(elasticity)->comm, SAM_ERR_USER,
+             "the gradient of %s: the contact has no coefficient of wear: give -wear_coefficient1 or another", name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Volume that both bodies have lost after the last of the steps; its derivatives come from the depth (gradient.c). */
 static PetscErrorCode AddVolume(SamObjectiveStep *at)
 {
   PetscFunctionBegin;
-  PetscCheck(at->rate[0] != 0 || at->rate[1] != 0, at->grid->comm, SAM_ERR_USER,
-             "the gradient of wear_volume: the contact has no coefficient of wear: give -wear_coefficient1 or another");
   for (PetscInt k = 0; at->step == at->last && k < at->grid->cells; k++) at->by_worn[k] += at->area;
   if (at->step <= at->last) PetscCall(AddWork(at, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -235,7 +241,7 @@ PetscErrorCode SamObjectiveRegister(const SamObjective *objective)
 static PetscErrorCode RegisterAll(void)
 {
   const SamObjective own[] = {{.name = "energy", .unit = "J", .all = PETSC_TRUE, .add = AddEnergy},
-                              {.name = "wear_volume", .unit = "m3", .add = AddVolume},
+                              {.name = "wear_volume", .unit = "m3", .add = AddVolume, .check = CheckVolume},
                               {.name = "pressure_norm", .unit = "Pa", .add = AddNorm}};
   SamObjective       one;
 
@@ -276,14 +282,13 @@ PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjec
   *objective = NULL;
   for (PetscInt k = 0; k < listed; k++) {
     const PetscBool is =
-      strlen(list[k].name) == length && !strncmp(list[k].name, name, length) && (list[k].check || !name[length]);
+      strlen(list[k].name) == length && !strncmp(list[k].name, name, length) && (list[k].suffix || !name[length]);
 
     if (is) *objective = &list[k];
     used += (size_t)snprintf(names + used, sizeof(names) - used, "%s%s%s", k ? ", " : "", list[k].name,
-                             list[k].check ? "@DEPTH" : "");
+                             list[k].suffix ? "@DEPTH" : "");
     used = PetscMin(used, sizeof(names) - 1);
   }
   PetscCheck(*objective, comm, SAM_ERR_USER, "the gradient of %s%s: expected %s", name, WhyNot(name), names);
-  if ((*objective)->check) PetscCall((*(*objective)->check)(comm, name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

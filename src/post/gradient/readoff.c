@@ -61,14 +61,21 @@ static PetscErrorCode SumMotions(const SamBack *b, double sums[SUMS])
 
 /* ---- stretches ---- */
 
-/* Adds the derivatives by the bulk stresses; the stretch is linear in them. */
+/* Adds the derivatives by the bulk stresses; the stretch is linear in them. In plane strain yy is nu xx. */
 static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS])
 {
   const SamProblem    problem = SamContactGetProblem(b->g->contact);
   const SamConditions all     = SamProblemGetConditions(problem);
   SamDerivatives     *d       = &b->g->found;
+  double             *by      = b->at.by_bulk;
+  SamPairConstants    own;
 
   PetscFunctionBegin;
+  (void)SamPairGetConstants(SamElasticityGetPair(b->elasticity), &own);
+  for (PetscInt k = 0; k < SAM_GRADIENT_BULKS && SamElasticityGetTraits(b->elasticity).plane; k += 3) {
+    by[k] += own.modulus[2 * (k / 3) + 1] * by[k + 1];
+    by[k + 1] = 0;
+  }
   for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++) {
     SamControl control = {.force = {PETSC_FALSE}};
     SamStrain  strain  = {0};
@@ -77,7 +84,7 @@ static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS
 
     SamControlSetCondition(&control, SamConditionsFind(all, SamBulkName(k)), 1);
     PetscCall(SamProblemCheckControl(problem, &control, &wrong, why, sizeof(why)));
-    d->bulk[step][k] = b->at.by_bulk[k];
+    d->bulk[step][k] = by[k];
     if (why[0]) continue; /* these bodies bear no such stress */
     PetscCall(SamProblemDisplace(problem, NULL, &control, NULL, NULL, &strain, NULL));
     d->bulk[step][k] +=
@@ -97,7 +104,7 @@ static void ReadStretch(SamBack *b, PetscInt step, const SamPairConstants *own, 
     const PetscInt body  = k / 3;
     const double   young = own->modulus[2 * body], nu = own->modulus[2 * body + 1], sign = body ? 1 : -1;
     const double   stress = (double)b->g->record[step].bulk[k], shear = sums[Y_TAU_X] + sums[X_TAU_Y];
-    const double   by_nu[] = {plane ? -2 * nu * sums[X_TAU_X] : -sums[Y_TAU_Y], -sums[X_TAU_X], shear};
+    const double   by_nu[] = {plane ? -2 * nu * sums[X_TAU_X] : -sums[Y_TAU_Y], plane ? 0 : -sums[X_TAU_X], shear};
 
     b->g->found.moduli[2 * body] -= b->g->found.bulk[step][k] * stress / young;
     b->g->found.moduli[2 * body + 1] += sign * by_nu[k % 3] * stress / young;

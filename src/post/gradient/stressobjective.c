@@ -45,7 +45,10 @@ static PetscErrorCode Read(MPI_Comm comm, const char name[], Wanted *w)
     if (strlen(quantities[k]) == strcspn(name, "@") && !strncmp(quantities[k], name, strcspn(name, "@")))
       w->quantity = k;
   if (at) (void)snprintf(depth, sizeof(depth), "%.*s", (int)(next ? next - at - 1 : (ptrdiff_t)strlen(at + 1)), at + 1);
-  good = at && SamReadReal("m", depth, &end, &w->depth, &unit) && w->depth >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  good = at && (next ? next : at + strlen(at)) - at < (ptrdiff_t)sizeof(depth) &&
+             SamReadReal("m", depth, &end, &w->depth, &unit) && w->depth >= 0 && isfinite(w->depth)
+           ? PETSC_TRUE
+           : PETSC_FALSE;
   if (next) w->body = !strcmp(next, "@1") ? 1 : !strcmp(next, "@2") ? 2 : 0;
   PetscCheck(good && w->body, comm, SAM_ERR_USER,
              "the gradient of %s: expected a depth, and a body unless it is body 2: %.*s@50um, %.*s@50um@1", name,
@@ -89,13 +92,13 @@ static PetscErrorCode Destroy(Map *m)
 
 static const SamStressComponent in_plane[3] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
 
-/* Computes the stresses of a step, with the bulk stress, in six components. */
+/* Computes the stresses of a step, with the bulk and the initial stress, in six components. */
 static PetscErrorCode Evaluate(const SamObjectiveStep *at, const Wanted *w, PetscInt step, Map *m)
 {
   const PetscInt   cells = m->grid->cells;
   const PetscReal *bulk;
   const double    *t;
-  double          *s;
+  double          *s, uniform[3] = {0}; /* in_plane */
 
   PetscFunctionBegin;
   PetscCall((*at->read)(at->context, step, m->tractions, &bulk));
@@ -107,9 +110,11 @@ static PetscErrorCode Evaluate(const SamObjectiveStep *at, const Wanted *w, Pets
   PetscCall(VecRestoreArray(m->field, &s));
   PetscCall(VecRestoreArrayRead(m->tractions, &t));
   PetscCall(SamStressApply(m->stress, m->field));
+  SamBodyInitialStress(SamPairBody(SamElasticityGetPair(at->elasticity), w->body - 1), w->depth, uniform);
+  for (int k = 0; k < 3; k++) uniform[k] += (double)bulk[3 * (w->body - 1) + k];
   PetscCall(VecGetArray(m->field, &s));
   for (int k = 0; k < 3; k++)
-    for (PetscInt c = 0; c < cells; c++) s[in_plane[k] * cells + c] += (double)bulk[3 * (w->body - 1) + k];
+    for (PetscInt c = 0; c < cells; c++) s[in_plane[k] * cells + c] += uniform[k];
   PetscCall(VecRestoreArray(m->field, &s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -378,23 +383,23 @@ static PetscErrorCode EndCycle(void *data)
 
 /* ---- the objectives ---- */
 
-static PetscErrorCode Check(MPI_Comm comm, const char name[])
+static PetscErrorCode Check(SamElasticity elasticity, const PetscReal rate[], const char name[])
 {
-  Wanted w;
+  const SamElasticityTraits traits = SamElasticityGetTraits(elasticity);
+  const SamPair             pair   = SamElasticityGetPair(elasticity);
+  const MPI_Comm            comm   = SamElasticityGetGrid(elasticity)->comm;
+  const char               *why    = NULL;
+  Wanted                    w;
 
   PetscFunctionBegin;
+  (void)rate;
   PetscCall(Read(comm, name, &w));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Begin(SamObjectiveStep *at, Wanted *w)
-{
-  const SamElasticityTraits traits = SamElasticityGetTraits(at->elasticity);
-
-  PetscFunctionBegin;
-  PetscCall(Read(at->grid->comm, at->name, w));
-  PetscCheck(traits.stress && !traits.patch && SamPairIsUniform(SamElasticityGetPair(at->elasticity)), at->grid->comm,
-             SAM_ERR_USER, "the gradient of %s: it is that of bodies without layers or supports", at->name);
+  if (!traits.stress || traits.periodic) why = "periodic bodies";
+  if (traits.patch) why = "finite bodies";
+  if (!SamPairIsUniform(pair)) why = "bodies with layers";
+  if (SamBodyIsRigid(SamPairBody(pair, w.body - 1))) why = "a rigid body";
+  PetscCheck(!why, comm, SAM_ERR_USER, "the gradient of %s: that of the stresses in %s is not computed%s", name, why,
+             traits.periodic || traits.patch ? ": take pressure_norm" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -405,7 +410,7 @@ static PetscErrorCode AddStress(SamObjectiveStep *at)
 
   PetscFunctionBegin;
   if (at->step != at->last) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Begin(at, &w));
+  PetscCall(Read(at->grid->comm, at->name, &w));
   PetscCall(Create(at, &w, &m));
   PetscCall(AddOfStep(at, &w, &m));
   PetscCall(Destroy(&m));
@@ -419,7 +424,7 @@ static PetscErrorCode AddSWT(SamObjectiveStep *at)
 
   PetscFunctionBegin;
   if (at->step < at->first || at->step > at->last) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Begin(at, &w));
+  PetscCall(Read(at->grid->comm, at->name, &w));
   if (!at->data) {
     PetscCall(PetscNew(&c));
     at->data = c;
@@ -435,14 +440,19 @@ PetscErrorCode SamObjectiveRegisterStresses(void)
 {
   PetscFunctionBegin;
   for (int k = 0; k < QUANTITIES; k++) {
-    static const SamObjective step = {
-      .unit = "Pa", .add = AddStress, .check = Check, .fixed = PETSC_TRUE, .bytes = {0, MAP_BYTES, 0}};
-    static const SamObjective cycle = {.unit  = "Pa",
-                                       .all   = PETSC_TRUE,
-                                       .add   = AddSWT,
-                                       .check = Check,
-                                       .fixed = PETSC_TRUE,
-                                       .end   = EndCycle,
+    static const SamObjective step  = {.unit   = "Pa",
+                                       .add    = AddStress,
+                                       .check  = Check,
+                                       .suffix = PETSC_TRUE,
+                                       .fixed  = PETSC_TRUE,
+                                       .bytes  = {0, MAP_BYTES, 0}};
+    static const SamObjective cycle = {.unit   = "Pa",
+                                       .all    = PETSC_TRUE,
+                                       .add    = AddSWT,
+                                       .check  = Check,
+                                       .suffix = PETSC_TRUE,
+                                       .fixed  = PETSC_TRUE,
+                                       .end    = EndCycle,
                                        .bytes = {MAP_BYTES + sizeof(Plane), 0, SAM_STRESS_COMPONENTS * sizeof(double)}};
     SamObjective              one   = k == SWT ? cycle : step;
 

@@ -30,6 +30,25 @@ static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulat
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Checks that there are names, and that none stands there twice. */
+static PetscErrorCode CheckNames(SamSimulation s)
+{
+  char **names;
+  int    count, twice = -1;
+  char   name[SAM_GRADIENT_NAMES] = "";
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrToArray(s->gradients.names, ',', &count, &names));
+  for (int k = 0; k < count; k++)
+    for (int m = 0; m < k; m++)
+      if (!strcmp(names[k], names[m])) twice = k;
+  if (twice >= 0) (void)snprintf(name, sizeof(name), "%s", names[twice]);
+  PetscCall(PetscStrToArrayDestroy(count, names));
+  PetscCheck(count > 0, s->comm, SAM_ERR_USER, "-gradient %s: expected names like energy,disp_x", s->gradients.names);
+  PetscCheck(twice < 0, s->comm, SAM_ERR_USER, "-gradient %s: %s stands there twice", s->gradients.names, name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Raises the memory of the numbers, which are computed one after the other, to that of one of them. */
 static PetscErrorCode FindBytes(SamSimulation s, const char name[])
 {
@@ -48,7 +67,11 @@ PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *fro
   PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
   s->needs.gradient = s->gradients.names[0] ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscArrayzero(s->needs.gradient_bytes, 3));
-  if (s->needs.gradient) PetscCall(ForEach(s, FindBytes));
+  if (!s->needs.gradient) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(CheckNames(s));
+  PetscCall(ForEach(s, FindBytes));
+  PetscCheck(s->gradients.rtol < 1, s->comm, SAM_ERR_USER, "-gradient_rtol %.6g: expected less than 1",
+             (double)s->gradients.rtol);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -58,21 +81,23 @@ static PetscErrorCode Check(SamSimulation s, const char name[])
   PetscInt         component;
 
   PetscFunctionBegin;
-  PetscCall(SamGradientCheckName(s->comm, name, last.force, &component));
+  PetscCall(SamGradientCheck(s->gradient, name, last.force, s->gradients.moduli, &component));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
 {
+  const PetscInt first = s->gradients.steps[0], last = s->gradients.steps[1], end = last ? last : s->needs.steps;
+
   PetscFunctionBegin;
   if (!s->gradients.names[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(SamContactGetSettings(s->setup.contact).slip_direction == SAM_SLIP_END, s->comm, SAM_ERR_USER,
-             "-gradient with the direction of slip at mid step, which has no derivative: give -slip_direction end");
-  PetscCheck(s->gradients.steps[1] <= s->needs.steps, s->comm, SAM_ERR_USER,
-             "-gradient_steps %" PetscInt_FMT ",%" PetscInt_FMT ": the history has %" PetscInt_FMT " steps",
-             s->gradients.steps[0], s->gradients.steps[1], s->needs.steps);
-  PetscCall(ForEach(s, Check));
+  PetscCheck(first >= 0 && first <= end && (last == 0 || last >= PetscMax(first, 1)) && end <= s->needs.steps, s->comm,
+             SAM_ERR_USER,
+             "-gradient_steps %" PetscInt_FMT ",%" PetscInt_FMT ": the history has %" PetscInt_FMT
+             " steps: give the first and the last one, from 1 on",
+             first, last, s->needs.steps);
   PetscCall(SamSimulationRecordGradient(s, PETSC_TRUE));
+  PetscCall(ForEach(s, Check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,8 +125,11 @@ static PetscErrorCode End(SamSimulation s, const char name[])
 PetscErrorCode SamSimulationEndGradients(SamSimulation s)
 {
   PetscFunctionBegin;
-  if (!s->gradients.names[0] || !s->output || s->point.worst != SAM_STATUS_CONVERGED || s->stopped)
+  if (!s->gradients.names[0] || !s->output) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->point.worst != SAM_STATUS_CONVERGED || s->stopped) {
+    PetscCall(SamSimulationWarn(s, "the gradients are not computed: they need all steps, in one run", "gradient"));
     PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(ForEach(s, End));
   PetscCall(SamSimulationRecordGradient(s, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
