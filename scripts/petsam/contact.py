@@ -1068,7 +1068,9 @@ class Contact:
         """
         first = last = -1
         if steps is not None:
-            ends = (steps.start or 0, steps.stop) if isinstance(steps, slice) and steps.step in (None, 1) else (-1, None)
+            ends = (
+                (steps.start or 0, steps.stop) if isinstance(steps, slice) and steps.step in (None, 1) else (-1, None)
+            )
             if not 0 <= ends[0] < 2**31 or not (ends[1] is None or ends[0] < ends[1] < 2**31):
                 raise ContactError(2, f"gradient: steps {steps}: expected a slice of neighbouring steps, from 0")
             first, last = int(ends[0]), -1 if ends[1] is None else int(ends[1]) - 1

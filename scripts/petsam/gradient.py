@@ -146,7 +146,7 @@ def function(
     names = [one for one in parameters if isinstance(one, str)]
     for name in names:
         if names.count(name) > 1:
-            raise Unusable(f"parameter {name} stands there twice")
+            raise Unusable(f"parameter {name} is listed twice")
         if name not in (*OPTIONS, *columns):
             raise Unusable(f"parameter {name}: there is no derivative by it{there_are(name, [*OPTIONS, *columns])}")
     shaped = gap is not None or len(names) < len(parameters)
@@ -236,8 +236,8 @@ def _cells(contact, values):
 def _by_name(found, name, history):
     """The derivative by a number among the options, or by a factor on a column of the history."""
     if name == "friction":
-        scale = np.ravel(history["friction_scale"])[-1] if isinstance(history, Mapping) and "friction_scale" in history else 1.0
-        return scale * found.friction.sum()
+        scales = history.get("friction_scale", 1.0) if isinstance(history, Mapping) else 1.0
+        return np.ravel(scales)[-1] * found.friction.sum()
     if name in OPTIONS:
         return found[name if name in MODULI else name[:-1]]
     slopes, column = found[name], np.append(0.0, history[name])  # steps divide the change from row to row, from 0 on

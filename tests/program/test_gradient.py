@@ -537,7 +537,7 @@ def test_refusals():
     for steps in (slice(-2, None), slice(0, 0), slice(3, 0), slice(2**31, None), slice(0, 2**32), 1, (0, 2)):
         with pytest.raises(petsam.Error, match="neighbouring"):
             contact.gradient("energy", steps)
-    with pytest.raises(petsam.Error, match="which a life has not"):
+    with pytest.raises(petsam.Error, match="which a wear simulation has not"):
         contact.live(10, history)
     found = contact.gradient("energy")
     with pytest.raises(petsam.Error, match="no derivative by it"):
@@ -640,7 +640,7 @@ def test_steps_of_a_gradient(petsam, loads, tmp_path):
         (dict(gradient_rtol=2), "gradient_rtol"),
         (dict(gradient_steps="3,2"), "first and the last one"),
         (dict(gradient_steps="9,0"), "first and the last one"),
-        (dict(gradient="energy,energy"), "energy stands there twice"),
+        (dict(gradient="energy,energy"), "energy is listed twice"),
         (dict(gradient=","), "expected names"),
         (dict(gradient="wear_volume,energy"), "no coefficient of wear"),
         (dict(gradient="energy,mises@1mm", gradient_moduli=True), "leave the moduli out"),

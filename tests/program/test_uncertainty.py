@@ -133,7 +133,8 @@ def test_refusals_of_uncertainties():
 @pytest.mark.parametrize("steps", [1, 2])
 def test_derivatives_of_a_function_beside_differences(steps):
     """All kinds of parameters, of three numbers at once; with several load steps per row, too."""
-    history = {name: values[:7] for name, values in HISTORY.items()} | {"bulk1_stress_xx": 3e7 * TURNS[:7]}
+    history = {name: values[:7] for name, values in HISTORY.items()}
+    history |= {"bulk1_stress_xx": 3e7 * TURNS[:7], "friction_scale": np.full(7, 1.2)}
     unit = 1e-9 * np.cos(np.arange(32) / 3)[:, None] * np.cos(np.arange(32) / 5 + 1)
     narrow = (lambda x, y, height: height * x**4 / 1e-12, lambda x, y, height: x**4 / 1e-12)
     options = {**BALL, **TIGHT, "wear_coefficient1": 1e-11, "steps": steps}
@@ -181,7 +182,8 @@ def test_refusals_of_functions():
     make = petsam.gradient.function
     ball = {**BALL, "gap_type": "sphere", "gap_radius1": 0.05, "gap_radius2": "inf"}
     for options, names, words in (
-        (BALL, ["frictio"], "is friction meant"), (BALL, ["disp_x"], "there is no derivative by it"),
+        (BALL, ["frictio"], "is friction meant"), (BALL, ["friction", "load_n", "friction"], "is listed twice"),
+        (BALL, ["disp_x"], "there is no derivative by it"),
         (ball, [sphere], "gap_type = sphere: parts of the gap replace it: use gap_type = flat"),
         ({**BALL, "gap_rough_file": "rough.h5"}, [sphere], "gap_rough_file = rough.h5: parts of the gap replace it"),
     ):  # fmt: skip

@@ -30,7 +30,7 @@ static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulat
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that there are names, and that none stands there twice. */
+/* Checks that there are names, and that none is listed twice. */
 static PetscErrorCode CheckNames(SamSimulation s)
 {
   char **names;
@@ -45,7 +45,7 @@ static PetscErrorCode CheckNames(SamSimulation s)
   if (twice >= 0) (void)snprintf(name, sizeof(name), "%s", names[twice]);
   PetscCall(PetscStrToArrayDestroy(count, names));
   PetscCheck(count > 0, s->comm, SAM_ERR_USER, "-gradient %s: expected names like energy,disp_x", s->gradients.names);
-  PetscCheck(twice < 0, s->comm, SAM_ERR_USER, "-gradient %s: %s stands there twice", s->gradients.names, name);
+  PetscCheck(twice < 0, s->comm, SAM_ERR_USER, "-gradient %s: %s is listed twice", s->gradients.names, name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
