@@ -48,7 +48,7 @@ class Patch:
 
 def _window(one, whole):
     """Rows and columns of the cells that count, and a margin."""
-    counts = (one.gap != 0.0) | (one.friction != 0.0)
+    counts = (one.gap != 0.0) | (np.nan_to_num(one.friction) != 0.0)
     slices = []
     for axis, size in zip((1, 0), counts.shape):
         cells = np.flatnonzero(counts.any(axis=axis))
