@@ -6,6 +6,7 @@ damaged checkpoint is never used. A run that is killed goes on to the same resul
 trace.
 """
 
+import contextlib
 import math
 import os
 import re
@@ -262,7 +263,8 @@ class Trials:
             run = self.start([*words, *again], ranks)
             time.sleep(chance.uniform(0, 0.6 if ranks == 1 else 1.2))
             for process in self.processes(run, ranks):
-                os.kill(process, signal.SIGKILL)
+                with contextlib.suppress(ProcessLookupError):  # the launcher ends others as soon as one has died
+                    os.kill(process, signal.SIGKILL)
             try:
                 run.communicate(timeout=self.patience)
             except subprocess.TimeoutExpired:
@@ -317,10 +319,8 @@ class Trials:
                 break
         time.sleep(chance.uniform(0, 0.3))
         for process in self.processes(run, ranks)[: chance.randint(1, ranks)]:
-            try:
+            with contextlib.suppress(ProcessLookupError):
                 os.kill(process, number)
-            except ProcessLookupError:
-                continue
         code, out, err = self.end(run)
         if number in (signal.SIGUSR1, signal.SIGTERM):
             demand(code in (0, 75), "exit code", code, err[-500:])
