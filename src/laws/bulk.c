@@ -2,6 +2,7 @@
   Bulk stress: a uniform stress of a body, parallel to its surface, without stress normal to it. It stretches the
   surface about x = y = 0 by Hooke's law; tension is positive.
 */
+#include <petsam/private/law.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/stress.h>
@@ -10,8 +11,15 @@
 #include <math.h>
 
 enum { XX, YY, XY, COMPONENTS };
-static const char *const names[2][COMPONENTS] = {{"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy"},
-                                                 {"bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"}};
+
+const char *SamBulkName(PetscInt k)
+{
+  static const char *const names[SAM_BULKS] = {"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy",
+                                               "bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"};
+
+  return names[k];
+}
+
 typedef struct {
   const SamCondition *of[2][COMPONENTS]; /* conditions by body and component */
 } Bulk;
@@ -23,7 +31,7 @@ static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
   PetscFunctionBegin;
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < COMPONENTS; k++) {
-      const char *const  name = names[body][k];
+      const char *const  name = SamBulkName(body * COMPONENTS + k);
       const SamCondition one  = {.name     = name,
                                  .unit     = "Pa",
                                  .text     = text,
@@ -75,7 +83,7 @@ static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, cons
                    SamElasticityGetType(law->elasticity));
   else if (stress != 0 && traits.plane && k != XX)
     (void)snprintf(why, size, "has no meaning in plane strain, where yy follows from xx, and there is no xy: give %s",
-                   names[body][XX]);
+                   SamBulkName(body * COMPONENTS + XX));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,5 +1,7 @@
 """Gradients of a load history beside central differences, identities, closed-form solutions and published digits."""
 
+import ctypes
+
 import numpy as np
 import pytest
 
@@ -524,6 +526,10 @@ def test_refusals():
     with pytest.raises(petsam.Error, match="no contact"):
         record(contact_of(BODIES, 16)[0], {"time": [0.0], "disp_z": [-1e-6]})[0].gradient("energy")
     contact, works = record(contact_of(BODIES, 16)[0], history)
+    values = np.empty(16 * 16)
+    for name in (b"gap", b"load_tx", b"value"):
+        with pytest.raises(petsam.Error, match="no gradient has been computed"):
+            contact._call("get_gradient", name, values.ctypes.data_as(ctypes.c_void_p))
     with pytest.raises(petsam.Error, match="has steps already"):
         contact.record_gradient()
     for name, words in (

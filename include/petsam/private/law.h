@@ -37,4 +37,8 @@ PETSC_INTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *param
 */
 PETSC_EXTERN PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction);
 
+/* SamBulkName - returns the name of the k-th bulk stress: xx, yy and xy of body 1, then of body 2. Not collective. */
+enum { SAM_BULKS = 6 };
+PETSC_INTERN const char *SamBulkName(PetscInt k);
+
 #endif

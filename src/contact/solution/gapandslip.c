@@ -255,6 +255,8 @@ PetscErrorCode SamIncrementMeasure(SamIncrement *s)
     }
   }
   PetscCall(SamMax(s->grid->comm, 2, most));
+  s->ends[0] = -most[0];
+  s->ends[1] = most[1];
   if (most[1] > 0) s->slides = PetscMin(-most[0] / (ALIKE * most[1]), 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -336,33 +338,26 @@ void SamIncrementGetShareSlopes(const SamIncrement *s, SamCellMotion motion, ptr
 
 PetscErrorCode SamIncrementFindEnds(const SamIncrement *s, PetscInt64 cell[2], double slope[2])
 {
-  const PetscInt nx      = s->grid->nx;
-  double         most[2] = {-INFINITY, 0};
-  PetscInt64     at[2]   = {-1, -1};
+  const PetscInt nx    = s->grid->nx;
+  PetscInt64     at[2] = {-1, -1};
 
   PetscFunctionBegin;
   for (PetscInt end = 0; end < 2; end++) slope[end] = 0;
   cell[0] = cell[1] = -1;
   if (!(s->slides > 0 && s->slides < 1)) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt find = 0; find < 2; find++) { /* first the slips, then their cells */
-    for (PetscInt j = 0; j < s->grid->rows; j++) {
-      SamIncrementComputeRow(s, j);
-      for (PetscInt i = 0; i < nx; i++) {
-        const double     slip = Measured(s, (ptrdiff_t)j * nx + i);
-        const PetscInt64 here = (PetscInt64)(s->grid->row_start + j) * nx + i;
+  for (PetscInt j = 0; j < s->grid->rows; j++) {
+    SamIncrementComputeRow(s, j);
+    for (PetscInt i = 0; i < nx; i++) {
+      const double     slip = Measured(s, (ptrdiff_t)j * nx + i);
+      const PetscInt64 here = (PetscInt64)(s->grid->row_start + j) * nx + i;
 
-        if (slip < 0) continue;
-        for (PetscInt end = 0; end < 2; end++) {
-          if (!find) most[end] = PetscMax(most[end], end ? slip : -slip);
-          if (find && (end ? slip : -slip) == most[end]) at[end] = PetscMax(at[end], here);
-        }
-      }
+      for (PetscInt end = 0; end < 2; end++)
+        if (slip == s->ends[end]) at[end] = PetscMax(at[end], here);
     }
-    if (!find) PetscCall(SamMax(s->grid->comm, 2, most));
   }
   PetscCallMPI(MPI_Allreduce(at, cell, 2, MPIU_INT64, MPI_MAX, s->grid->comm));
-  slope[0] = s->slides / -most[0];
-  slope[1] = -s->slides / most[1];
+  slope[0] = s->slides / s->ends[0];
+  slope[1] = -s->slides / s->ends[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -63,10 +63,10 @@ static PetscErrorCode Get(petsam_contact *c, const char name[], double values[])
     PetscCall(VecRestoreArrayRead(c->work, &cells));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  for (PetscInt k = 0, steps = SamGradientIsOfSteps(name) ? SamGradientGetSteps(g) : 1; k < steps; k++) {
+  for (PetscInt k = 0; k == 0 || (SamGradientIsOfSteps(name) && k < SamGradientGetSteps(g)); k++) {
     PetscReal value;
 
-    PetscCall(SamGradientGetNumber(g, name, k, &value));
+    PetscCall(SamGradientGetNumber(g, name, k, &value)); /* it rejects the first step if there is no gradient */
     values[k] = (double)value;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

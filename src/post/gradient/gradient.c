@@ -38,14 +38,6 @@
 static const char *const moduli[SAM_GRADIENT_MODULI] = {"body1_young", "body1_poisson", "body2_young", "body2_poisson"},
                          *const wears[SAM_GRADIENT_WEARS] = {"wear_coefficient", "wear_energy"};
 
-const char *SamBulkName(PetscInt k)
-{
-  static const char *const names[SAM_GRADIENT_BULKS] = {"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy",
-                                                        "bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"};
-
-  return names[k];
-}
-
 /* ---- the object ---- */
 
 /* Adds the coefficients of wear of a law; refuses laws whose derivative is not computed. */

@@ -6,9 +6,10 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/grid.h>
+#include <petsam/private/law.h>
 #include <petsam/private/objective.h>
 
-enum { SAM_GRADIENT_BULKS = 6, SAM_GRADIENT_MODULI = 4, SAM_GRADIENT_WEARS = 2 };
+enum { SAM_GRADIENT_BULKS = SAM_BULKS, SAM_GRADIENT_MODULI = 4, SAM_GRADIENT_WEARS = 2 };
 
 /* Values of a recorded cell: fields of the step, and the slopes of the share by which the pressure before the step
    counts (SamIncrementGetShareSlopes()). */
@@ -100,7 +101,5 @@ PETSC_INTERN PetscErrorCode SamRecordDestroy(SamRecord *record);
 PETSC_INTERN PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjective **objective);
 /* SamObjectiveRegisterStresses - registers the smooth maxima of stresses (stressobjective.c). */
 PETSC_INTERN PetscErrorCode SamObjectiveRegisterStresses(void);
-/* SamBulkName - returns the name of one of the six bulk stresses. */
-PETSC_INTERN const char *SamBulkName(PetscInt k);
 
 #endif

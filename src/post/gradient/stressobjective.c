@@ -25,7 +25,7 @@ static const char *const quantities[] = {"stress_xx", "stress_yy", "stress_zz", 
                                          "stress_xz", "stress_yz", "mises",     "swt"};
 enum { QUANTITIES = sizeof(quantities) / sizeof(quantities[0]) };
 
-/* What a name selects */
+/* The quantity, the depth and the body that a name selects */
 typedef struct {
   int      quantity;
   double   depth; /* m */
@@ -265,7 +265,7 @@ typedef struct {
   PetscInt most, high, low;
 } Plane;
 
-/* What is known of a cycle during a pass */
+/* The map and the planes of a cycle, which a pass keeps */
 typedef struct {
   Map    map;
   Plane *plane; /* of each cell */
