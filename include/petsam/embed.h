@@ -500,16 +500,17 @@ int petsam_gradient_record(petsam_contact *c, int on);
                    (Pa, of the cycle of the steps); in body 2, or swt@50um@1 in body 1
           first  - first of the steps that it is of, from 0; -1: all steps of an energy or swt, else the last one
           last   - the last of them; -1: the last step
-          moduli - 1: also by the moduli of the bodies
+          of     - parameters, separated by commas: names of petsam_get_gradient(), gap,load_tx,body1_young say, or
+                   parameters of the shape, gap_radius1 say; NULL: all but the moduli and the shape
           rtol   - relative residual of the systems that are solved, such as 1e-6 (1)
   Out:    steps  - number of recorded steps
 
-  Errors: 2 for an unknown name, a load that is given, a contact that slides as a whole under given loads, and without
-  recorded steps; 10 if a system does not converge.
+  Errors: 2 for unknown names, a load that is given, a contact that slides as a whole under given loads, parameters of
+  the shape where the gap was given cell by cell, and without recorded steps; 10 if a system does not converge.
 
   See also: petsam_gradient_record(), petsam_get_gradient().
 */
-int petsam_gradient(petsam_contact *c, const char *name, int first, int last, int moduli, double rtol, int *steps);
+int petsam_gradient(petsam_contact *c, const char *name, int first, int last, const char *of, double rtol, int *steps);
 
 /*
   petsam_get_gradient - copies a result of the last petsam_gradient().
@@ -519,8 +520,8 @@ int petsam_gradient(petsam_contact *c, const char *name, int first, int last, in
   In:     c      - the contact
           name   - its name: value, the number itself; gap and friction, derivatives by the separation (1/m) and the
                    coefficient of friction in each cell, NaN where that is 0; load_n, disp_x, bulk1_stress_xx ..., by
-                   the value of each step; body1_young (1/Pa), body1_poisson ..., by the moduli; wear_coefficient (Pa),
-                   wear_energy, by the coefficients of both bodies alike; borders, the number of cells that are about to
+                   the value of each step; body1_young (1/Pa), body1_poisson ..., gap_radius1 (1/m) ..., by what of them
+                   was named; wear_coefficient (Pa), wear_energy, by the coefficients of both bodies alike; borders, the number of cells that are about to
                    change their set, where derivatives hold to one side; residual, the largest of the systems
   Out:    values - this rank's rows of a field; of the steps that petsam_gradient() told, NaN where it is not given;
                    else one number (unit of the number over that of the parameter)

@@ -1024,9 +1024,9 @@ class Contact:
         self._call("gradient_record", ctypes.c_int(bool(on)))
 
     def gradient(
-        self, name: str, steps: Optional[slice] = None, moduli: bool = False, rtol: float = 1e-6
+        self, name: str, of: Optional[Sequence[str]] = None, steps: Optional[slice] = None, rtol: float = 1e-6
     ) -> "gradients.Gradient":
-        """The derivatives of a number of the recorded steps by all parameters, in one pass back over the steps.
+        """The derivatives of a number of the recorded steps by its parameters, in one pass back over the steps.
 
         Parameters
         ----------
@@ -1037,10 +1037,12 @@ class Contact:
             (sum s^40)^(1/40) over the cells at a depth: "stress_xx@50um" and the other components, "mises@50um" (Pa),
             of the last of the steps; "swt@50um", Smith, Watson and Topper's parameter of the cycle of the steps (Pa);
             in body 2, or in body 1 as "swt@50um@1".
+        of : sequence of str, optional
+            Parameters: "gap" and "friction", of each cell; "load_n", "disp_x", "bulk2_stress_xx" ..., of each step;
+            "wear_coefficient" and "wear_energy", of both bodies alike; "body1_young" and other moduli, "gap_radius1"
+            and other parameters of the shape. None: all but moduli, which cost some more products a step, and shape.
         steps : slice, optional
             The steps, from 0; None: all for the energy and swt, else the last.
-        moduli : bool
-            Also by the moduli of the bodies.
         rtol : float
             Relative residual of the systems that are solved.
 
@@ -1051,7 +1053,7 @@ class Contact:
         Raises
         ------
         ContactError
-            If there is no such number or step, or the number has no derivative.
+            If there is no such number, parameter or step, or the number has no derivative.
         NotConverged
             If a system does not converge.
 
@@ -1067,6 +1069,8 @@ class Contact:
         cells have no derivative.
         """
         first = last = -1
+        if of is not None and (isinstance(of, str) or not of):
+            raise ContactError(2, f"gradient: of = {of!r}: expected a list of parameters")
         if steps is not None:
             ends = (
                 (steps.start or 0, steps.stop) if isinstance(steps, slice) and steps.step in (None, 1) else (-1, None)
@@ -1074,7 +1078,7 @@ class Contact:
             if not 0 <= ends[0] < 2**31 or not (ends[1] is None or ends[0] < ends[1] < 2**31):
                 raise ContactError(2, f"gradient: steps {steps}: expected a slice of neighbouring steps, from 0")
             first, last = int(ends[0]), -1 if ends[1] is None else int(ends[1]) - 1
-        return gradients.compute(self, name, (first, last), moduli, rtol)
+        return gradients.compute(self, name, of, (first, last), rtol)
 
     def fatigue(
         self,

@@ -30,6 +30,7 @@ LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
 BULK = tuple(f"bulk{body}_stress_{name}" for body in (1, 2) for name in ("xx", "yy", "xy"))
 WEAR = ("wear_coefficient", "wear_energy")
+USUAL = ("gap", "friction", *LOADS, *WAYS, *BULK, *WEAR)  # parameters of a gradient unless others are given
 OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (1, 2)))  # that function() may change
 IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
 
@@ -38,16 +39,19 @@ class OneSidedWarning(UserWarning):
     """A gradient where cells are on the border of their set: it holds to one side."""
 
 
-def compute(contact: "Contact", name: str, steps: tuple[int, int], moduli: bool, rtol: float) -> Gradient:
+def compute(
+    contact: "Contact", name: str, of: Optional[Sequence[str]], steps: tuple[int, int], rtol: float
+) -> Gradient:
     """The gradient of the recorded steps of a contact.
 
     Parameters
     ----------
     contact : Contact
     name : str
+    of : sequence of str, optional
+        Parameters; None: all but those of the bodies and the shape.
     steps : tuple of int
         First and last step, -1: the usual ones.
-    moduli : bool
     rtol : float
 
     Returns
@@ -57,15 +61,15 @@ def compute(contact: "Contact", name: str, steps: tuple[int, int], moduli: bool,
     Raises
     ------
     ContactError
-        If there is no such number or step.
+        If there is no such number, parameter or step.
 
     Warns
     -----
     OneSidedWarning
         If cells are on the border of their set.
     """
-    count = ctypes.c_int()
-    contact._call("gradient", name.encode(), *steps, int(moduli), ctypes.c_double(rtol), ctypes.byref(count))
+    count, text = ctypes.c_int(), None if of is None else ",".join(of).encode()
+    contact._call("gradient", name.encode(), *steps, text, ctypes.c_double(rtol), ctypes.byref(count))
 
     def get(what, *shape):
         found = np.empty(shape)
@@ -75,10 +79,11 @@ def compute(contact: "Contact", name: str, steps: tuple[int, int], moduli: bool,
     def number(what):
         return float(get(what, 1)[0])
 
-    cells = contact.rows, contact.n[0]
-    by_step = {one: get(one, count.value) for one in (*LOADS, *WAYS, *BULK)}
+    cells, columns = (contact.rows, contact.n[0]), (*LOADS, *WAYS, *BULK)
+    wanted = USUAL if of is None else of
+    by_step = {one: get(one, count.value) for one in wanted if one in columns}
     numbers = {one: values for one, values in by_step.items() if not np.isnan(values).all()}
-    numbers.update({one: number(one) for one in (*WEAR, *(MODULI if moduli else ()))})
+    numbers.update({one: number(one) for one in wanted if one not in ("gap", "friction", *columns)})
     borders = int(number("borders"))
     if borders:
         warnings.warn(
@@ -86,9 +91,8 @@ def compute(contact: "Contact", name: str, steps: tuple[int, int], moduli: bool,
             OneSidedWarning,
             stacklevel=3,
         )
-    return Gradient(
-        name, number("value"), get("gap", *cells), get("friction", *cells), numbers, borders, number("residual")
-    )
+    gap, friction = (get(one, *cells) if one in wanted else None for one in ("gap", "friction"))
+    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"))
 
 
 # ---------------------------------------------------------------- for optimisers
@@ -153,7 +157,7 @@ def function(
     for name, value in options.items():
         if shaped and name.startswith("gap_") and (name, value) != ("gap_type", "flat"):
             raise Unusable(f"{name} = {value}: parts of the gap replace it: use gap_type = flat alone")
-    moduli = any(name in MODULI for name in names)
+    of = [*(["gap"] if shaped else []), *dict.fromkeys(_derivative(name) for name in names)]
 
     def evaluate(x: ArrayLike) -> tuple[Any, np.ndarray]:
         if np.shape(x) != (len(parameters),):
@@ -170,7 +174,7 @@ def function(
             contact.record_gradient()
             scaled = {one: np.asarray(history[one]) * given.get(one, 1.0) for one in history} if columns else history
             contact.run(scaled)
-            found = [contact.gradient(name, steps, moduli, rtol) for name, steps in wanted]
+            found = [contact.gradient(name, of, steps, rtol) for name, steps in wanted]
         by = [
             [
                 np.sum(each.gap * part[1]) if part else _by_name(each, one, history)
@@ -233,12 +237,17 @@ def _cells(contact, values):
     return values
 
 
+def _derivative(name):
+    """The name of the derivative by a parameter: those by the coefficients of wear are of both bodies together."""
+    return name[:-1] if name[:-1] in WEAR else name
+
+
 def _by_name(found, name, history):
     """The derivative by a number among the options, or by a factor on a column of the history."""
     if name == "friction":
         scales = history.get("friction_scale", 1.0) if isinstance(history, Mapping) else 1.0
         return np.ravel(scales)[-1] * found.friction.sum()
     if name in OPTIONS:
-        return found[name if name in MODULI else name[:-1]]
+        return found[_derivative(name)]
     slopes, column = found[name], np.append(0.0, history[name])  # steps divide the change from row to row, from 0 on
     return slopes @ np.interp(np.linspace(0, len(column) - 1, len(slopes) + 1)[1:], range(len(column)), column)

@@ -159,7 +159,7 @@ def of(contact: "Contact", found: Gradient, roughness: Optional[Roughness] = Non
     contact : Contact
         The contact whose steps were recorded.
     found : Gradient
-        Of the number, as contact.gradient() returns it; for moduli with moduli=True.
+        Of the number, as contact.gradient() returns it; for a roughness by "gap", for moduli by these.
     roughness : Roughness, optional
         Of the gap, in addition to its shape.
     **sd

@@ -12,6 +12,7 @@ SIZE = 2.6e-3
 BODIES = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
 UNLIKE = dict(BODIES, body2_young=70e9, body2_poisson=0.2)
 TIGHT = dict(slip_direction="end", normal_rtol=1e-12, tangential_rtol=1e-11, errors="none")
+EVERY = (*petsam.gradient.USUAL, *petsam.gradient.MODULI)
 TURNS = np.array([0.3, 0.6, 0.9, 1, 0.5, 0, -0.5, -1])
 
 
@@ -56,7 +57,7 @@ def test_published_digits_of_similar_bodies():
     history = history_of(np.full(13, 1000.0), np.append(0, 200 * a), np.append(0, 60 * a * (1 - a)))
     contact, x, y = contact_of(BODIES)
     works = record(contact, history)[1]
-    found = contact.gradient("energy", moduli=True, rtol=1e-11)
+    found = contact.gradient("energy", EVERY, rtol=1e-11)
     wave = np.cos(7e3 * x + 1) * np.cos(5e3 * y + 0.5)
     assert found.value == pytest.approx(1.0156654325e-4, rel=1e-9)
     assert found.value == pytest.approx(works.sum(), rel=1e-12)
@@ -79,7 +80,7 @@ def test_digits_with_bulk_stress():
     a = np.array([0, 0.4, 0.8, 1, 0.3, -0.4, -1])
     history = history_of(np.full(7, 1000.0), 200 * a, np.zeros(7))
     history |= {"bulk2_stress_xx": 80e6 * a, "bulk1_stress_xy": -20e6 * a**2}
-    found = record(contact_of(BODIES)[0], history)[0].gradient("energy", moduli=True, rtol=1e-10)
+    found = record(contact_of(BODIES)[0], history)[0].gradient("energy", EVERY, rtol=1e-10)
     assert found["bulk1_stress_xy"][3] == pytest.approx(-1.6945613128e-13, rel=2e-8)
     assert 210e9 * found["body1_young"] == pytest.approx(-3.31964614e-05, rel=1e-6)
 
@@ -105,7 +106,7 @@ def test_digits_of_dissimilar_bodies():
         np.append(400, np.full(9, 1000.0)), np.append([0, 0], 200 * TURNS), np.append([0, 0], 60 * TURNS * (1 - TURNS))
     )
     contact, x, y = contact_of(UNLIKE)
-    found = record(contact, history)[0].gradient("energy", moduli=True, rtol=1e-10)
+    found = record(contact, history)[0].gradient("energy", EVERY, rtol=1e-10)
     wave = np.cos(7e3 * x + 1) * np.cos(5e3 * y + 0.5)
     for value, digits in (
         (found["load_n"][0], 4.302397939e-8), (found["load_tx"][5], 1.172006263e-6),
@@ -267,7 +268,7 @@ class Problem:
         for sign in (1, -1):
             change = self.changed(parameter, sign * size)
             contact, works = record(self.contact(change)[0], change.get("history", self.history))
-            both.append(works.sum() if name == "energy" else contact.gradient(name, steps, rtol=0.1).value)
+            both.append(works.sum() if name == "energy" else contact.gradient(name, None, steps, rtol=0.1).value)
         return (both[0] - both[1]) / (2 * size)
 
 
@@ -279,7 +280,7 @@ def check_random(seed):
     for name, steps in objectives(problem):
         if name == "energy" and problem.energy < 1e-12:
             continue  # all cells stick
-        found = problem.recorded.gradient(name, steps, moduli=True, rtol=1e-11)
+        found = problem.recorded.gradient(name, EVERY, steps, rtol=1e-11)
         borders += found.borders
         if name == "energy":
             assert found.value == pytest.approx(problem.energy, rel=1e-9, abs=1e-15)
@@ -350,7 +351,7 @@ def test_bodies_whose_moduli_have_no_derivative(more):
         both = [run(**{name: start + sign * size})[1].sum() for sign in (1, -1)]
         assert derivative == pytest.approx((both[0] - both[1]) / (2 * size), rel=1e-5), name
     with pytest.raises(petsam.Error, match="leave the moduli out"):
-        contact.gradient("energy", moduli=True)
+        contact.gradient("energy", EVERY)
 
 
 WAVE = 1e-9  # m, of a change of the gap
@@ -370,12 +371,12 @@ def wave_of(x, y):
 def check_number(number, steps, history, within, **given):
     """A number's derivatives by the gap, by friction and by columns beside differences; returns the gradient."""
     contact, shape = stressed(history, **given)
-    found = contact.gradient(number, steps, rtol=1e-10)
+    found = contact.gradient(number, None, steps, rtol=1e-10)
     sizes = {"gap": 1e-3, "friction": 1e-6} | {name: 1e-6 for name in history if name not in ("time", "load_ty")}
     for name, size in sizes.items():
         start = 0.3 if name == "friction" else 0.0
         both = [
-            stressed(history, **given, **{name: start + sign * size})[0].gradient(number, steps, rtol=0.1).value
+            stressed(history, **given, **{name: start + sign * size})[0].gradient(number, None, steps, rtol=0.1).value
             for sign in (1, -1)
         ]
         derivative = (
@@ -451,7 +452,7 @@ def test_bulk_stress_in_plane_strain(number):
         return record(contact, history)[0], history
 
     contact, history = run()
-    found = contact.gradient(number, None, number == "energy", rtol=1e-10)
+    found = contact.gradient(number, EVERY if number == "energy" else None, rtol=1e-10)
     by = {"part": found["bulk2_stress_xx"] @ history["bulk2_stress_xx"]}
     if number == "energy":
         by |= {name: found[name] * UNLIKE[name] for name in UNLIKE}
@@ -492,7 +493,7 @@ def test_what_is_not_there_yet():
 def test_a_step_without_contact():
     """At the end of a history it changes nothing of the steps before."""
     history = history_of(np.array([400.0, 400, 350, 0]), np.array([0, 50.0, -40, 0]), np.zeros(4))
-    longer = record(contact_of(UNLIKE, 16)[0], history)[0].gradient("energy", slice(0, 3), rtol=1e-10)
+    longer = record(contact_of(UNLIKE, 16)[0], history)[0].gradient("energy", None, slice(0, 3), rtol=1e-10)
     short = {name: values[:3] for name, values in history.items()}
     found = record(contact_of(UNLIKE, 16)[0], short)[0].gradient("energy", rtol=1e-10)
     assert longer.value == found.value and np.allclose(longer.gap, found.gap, rtol=1e-9, atol=0)
@@ -539,16 +540,16 @@ def test_refusals():
         with pytest.raises(petsam.Error, match=words):
             contact.gradient(name)
     with pytest.raises(petsam.Error, match="expected steps from 0 to 2"):
-        contact.gradient("energy", slice(5, 7))
+        contact.gradient("energy", None, slice(5, 7))
     for steps in (slice(-2, None), slice(0, 0), slice(3, 0), slice(2**31, None), slice(0, 2**32), 1, (0, 2)):
         with pytest.raises(petsam.Error, match="neighbouring"):
-            contact.gradient("energy", steps)
+            contact.gradient("energy", None, steps)
     with pytest.raises(petsam.Error, match="which a wear simulation has not"):
         contact.live(10, history)
     found = contact.gradient("energy")
     with pytest.raises(petsam.Error, match="no derivative by it"):
         _ = found["disp_x"]
-    with pytest.raises(petsam.Error, match="moduli=True"):
+    with pytest.raises(petsam.Error, match="body1_young"):
         _ = found["body1_young"]
 
 
@@ -581,6 +582,50 @@ def test_what_becomes_of_recorded_steps():
         other.gradient("energy")
 
 
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(
+    "shape",
+    [
+        dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf"),
+        dict(gap_type="pad", gap_half_flat_x=4e-4, gap_half_flat_y=0.0, gap_edge_radius_x=0.05, gap_edge_radius_y=0.08),
+        dict(gap_type="roller", gap_roller_radius=0.05, gap_roller_half_length=8e-4, gap_roller_crown=1e-6,
+             gap_roller_drop=5e-6),
+    ],
+)  # fmt: skip
+def test_parameters_of_the_shape(shape):
+    """Beside central differences; an infinite radius changes nothing; a gap given cell by cell has none."""
+    names = [name for name in shape if name != "gap_type"]
+    history = history_of(np.full(4, 500.0), np.array([0, 60.0, -40, 50]), np.zeros(4))
+
+    def run(gap=None, **change):
+        contact = petsam.Contact(
+            **{**BODIES, **TIGHT, "grid_n": 24, "grid_size": SIZE, "friction": 0.3, "allow_edge_contact": True,
+               **shape, **change}
+        )  # fmt: skip
+        if gap:
+            contact.gap = gap(*np.meshgrid(contact.x, contact.y))
+        return record(contact, history)[0]
+
+    contact = run()
+    found = contact.gradient("energy", names, rtol=1e-10)
+    assert found.gap is None and sorted(found.numbers) == sorted(names)
+    for name in names:
+        value = shape[name]
+        if value in ("inf", 0.0):
+            assert value == 0.0 or found[name] == 0.0
+            continue
+        both = [run(**{name: value * (1 + size)}).gradient("energy", ["gap"], rtol=0.1).value for size in (2e-6, -2e-6)]
+        assert found[name] * value == pytest.approx((both[0] - both[1]) / 4e-6, rel=1e-4, abs=1e-6 * found.value), name
+    with pytest.raises(petsam.Error, match="expected gap,friction"):
+        run(gap_of, gap_type="flat", **{name: None for name in names}).gradient("energy", names)
+    with pytest.raises(petsam.Error, match="given cell by cell"):
+        run(gap_of).gradient("energy", names)
+    with pytest.raises(petsam.Error, match="was not computed"):
+        _ = found["gap"]
+    with pytest.raises(petsam.Error, match="expected a list"):
+        contact.gradient("energy", "gap")
+
+
 # ---- of the program
 
 
@@ -602,7 +647,9 @@ def loads(tmp_path):
 
 def test_a_run_writes_what_a_contact_in_process_finds(petsam, loads, tmp_path):
     """The same bits on 1, 2 and 3 ranks, also where the gap is worn; the line of the report; what is read again."""
-    case = dict(RUN, history="history.csv", gradient="energy,disp_x", gradient_moduli=True, wear_coefficient1=1e-12)
+    case = dict(
+        RUN, history="history.csv", gradient="energy,disp_x", gradient_of=",".join(EVERY), wear_coefficient1=1e-12
+    )
     files = []
     for ranks in (1, 2, 3):
         done = petsam(case, dict(output=f"{ranks}.h5"), ranks=ranks)
@@ -615,7 +662,7 @@ def test_a_run_writes_what_a_contact_in_process_finds(petsam, loads, tmp_path):
             for key, values in one.numbers.items():
                 assert np.array_equal(values, other.numbers[key], equal_nan=True), key
     contact = library.Contact(**RUN, wear_coefficient1=1e-12)
-    found = record(contact, loads)[0].gradient("energy", moduli=True)
+    found = record(contact, loads)[0].gradient("energy", EVERY)
     one = files[0].gradients["energy"]
     assert one.value == found.value == pytest.approx(files[0].history["dissipated_energy"].sum(), rel=1e-12)
     assert np.array_equal(one.gap, found.gap) and one["body1_young"] == found["body1_young"]
@@ -628,7 +675,7 @@ def test_a_run_writes_what_a_contact_in_process_finds(petsam, loads, tmp_path):
 def test_steps_of_a_gradient(petsam, loads, tmp_path):
     """-gradient_steps counts from 1, slices of a contact from 0."""
     petsam(RUN, dict(history="history.csv", gradient="energy", gradient_steps="2,3", output="out.h5"))
-    found = record(library.Contact(**RUN), loads)[0].gradient("energy", slice(1, 3))
+    found = record(library.Contact(**RUN), loads)[0].gradient("energy", None, slice(1, 3))
     assert np.array_equal(library.open(tmp_path / "out.h5").gradients["energy"].gap, found.gap)
 
 
@@ -649,7 +696,9 @@ def test_steps_of_a_gradient(petsam, loads, tmp_path):
         (dict(gradient="energy,energy"), "energy is listed twice"),
         (dict(gradient=","), "expected names"),
         (dict(gradient="wear_volume,energy"), "no coefficient of wear"),
-        (dict(gradient="energy,mises@1mm", gradient_moduli=True), "leave the moduli out"),
+        (dict(gradient="energy,mises@1mm", gradient_of="body1_young"), "leave the moduli out"),
+        (dict(gradient_of="gap,frction"), "the gradient by frction: expected gap,friction,load_n"),
+        (dict(gradient_of="gap,gap"), "listed twice"),
         (dict(gradient="mises@inf"), "expected a depth"),
         (dict(gradient=f"mises@{'0' * 70}.1mm"), "expected a depth"),
         (dict(gradient="mises@1mm@1", body1_young="inf"), "a rigid body"),

@@ -82,4 +82,4 @@ def test_plane_problems_have_curves(draw, plane, path, tmp_path):
 
 def test_a_file_without_gradients_is_named(draw, solve):
     code, (error,) = draw("--gradient", solve(ball(n=24), dict(load_tx=20.0)).path)
-    assert code == 3 and "has no gradient, which petsam -gradient NAME writes" in error
+    assert code == 3 and "has no gradient by gap and friction" in error

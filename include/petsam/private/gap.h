@@ -4,6 +4,8 @@
 
 #include <petsam/gap.h>
 
+#define SAM_GAP_PARAMETERS 5 /* maximum number of parameters of a shape */
+
 /*
   SamGapGetFileGrid - gets the grid of the file of the gap or of the roughness, set by the setters or options: cells,
   full widths and centre (m) in x and y, all 0 without a file. It does not read files if -grid_n and -grid_size are
@@ -15,8 +17,11 @@ PETSC_INTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscRe
 /*
   SamGapGetHeight - returns the separation (m) of the shape at a point (m), without roughness; 0 for a type whose
   heights are given cell by cell. Not collective.
+  SamGapGetSlope - returns its derivative by the k-th parameter (m over the unit of the parameter), 0 for an infinite
+  one, to about twelve digits. Not collective.
 */
 PETSC_INTERN PetscReal SamGapGetHeight(SamGap gap, PetscReal x, PetscReal y);
+PETSC_INTERN PetscReal SamGapGetSlope(SamGap gap, PetscInt k, PetscReal x, PetscReal y);
 
 /*
   SamGapGetParameters - gets the type, and the count, names (those of the options, without dash and prefix) and values

@@ -3,10 +3,8 @@
 #define PETSAM_GAPIMPL_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/gap.h>
+#include <petsam/private/gap.h>
 #include <petsam/private/fieldfile.h>
-
-#define SAM_GAP_PARAMETERS 5 /* maximum number of parameters of a shape */
 
 /*
   SamGapContact - the frictionless contact of a shape under a central force, by a closed-form solution: half widths

@@ -3,6 +3,7 @@
 #define PETSAM_PRIVATE_GRADIENT_H
 
 #include <petsam/contact.h>
+#include <petsam/gap.h>
 
 /*
   SamGradient - the recorded steps of a contact, and the derivatives of a number of them by all parameters, in one pass
@@ -20,13 +21,14 @@ typedef struct _n_SamGradient *SamGradient;
   Collective.
 
   In:     contact  - the contact; it must exist as long as the gradient
+          shape    - the shape of its gap, whose parameters have derivatives; likewise
   Out:    gradient - the gradient
 
   Errors: SAM_ERR_USER for a law, a motion, bodies or settings of the contact whose derivative is not computed.
 
   See also: SamGradientRecord(), SamGradientDestroy().
 */
-PETSC_INTERN PetscErrorCode SamGradientCreate(SamContact contact, SamGradient *gradient);
+PETSC_INTERN PetscErrorCode SamGradientCreate(SamContact contact, SamGap shape, SamGradient *gradient);
 
 /*
   SamGradientDestroy - frees the gradient and sets the handle to NULL.
@@ -88,16 +90,18 @@ PETSC_INTERN PetscInt SamGradientGetSteps(SamGradient gradient);
                      rad) that is not given, a smooth maximum like stress_xx@50um@1, or another objective that
                      SamObjectiveRegister() has added
           steps    - the first and the last step, from 0; -1, -1: all of an energy, else the last one
-          moduli   - true: also the derivatives by the moduli of the bodies, at some more products a step
+          of       - names of the wanted parameters, separated by commas: gap, friction, those of steps like load_tx,
+                     wear_coefficient, wear_energy, body1_young and other moduli, at some more products a step, and
+                     those of the shape like gap_radius1; empty: all but moduli and shape
           rtol     - relative residual of the systems (1)
 
-  Errors: SAM_ERR_USER for an unknown name, steps that are not there, a load that is given, or loads that the contact
-  cannot change, as it slides as a whole; PETSC_ERR_NOT_CONVERGED.
+  Errors: SAM_ERR_USER for unknown names, steps that are not there, a load that is given, loads that the contact cannot
+  change, as it slides as a whole, or a shape that the gap has not; PETSC_ERR_NOT_CONVERGED.
 
   See also: SamGradientGetField(), SamGradientGetNumber().
 */
 PETSC_INTERN PetscErrorCode SamGradientCompute(SamGradient gradient, const char name[], const PetscInt steps[2],
-                                               PetscBool moduli, PetscReal rtol);
+                                               const char of[], PetscReal rtol);
 
 /*
   SamGradientGetField - copies a field of derivatives.
@@ -116,10 +120,16 @@ PETSC_INTERN PetscErrorCode SamGradientGetField(SamGradient gradient, const char
 
 /*
   SamGradientOfSteps - returns the name of the k-th parameter that has a value of each step; NULL after the last one.
-  SamGradientIsOfSteps - returns true if that name is one of these. Neither is collective.
+  `unit`: that of its values; NULL: not wanted.
+  SamGradientIsOfSteps - returns true if that name is one of these.
+  SamGradientNumber - returns the name of the k-th parameter with one number, likewise.
+  SamGradientHas - returns true if the derivative by a parameter was wanted when a gradient was computed last. None is
+  collective.
 */
-PETSC_INTERN const char *SamGradientOfSteps(PetscInt k);
+PETSC_INTERN const char *SamGradientOfSteps(PetscInt k, const char **unit);
 PETSC_INTERN PetscBool   SamGradientIsOfSteps(const char name[]);
+PETSC_INTERN const char *SamGradientNumber(SamGradient gradient, PetscInt k);
+PETSC_INTERN PetscBool   SamGradientHas(SamGradient gradient, const char name[]);
 
 /*
   SamGradientGetNumber - gets the number, a derivative by a number, or what is known of both.
@@ -127,9 +137,8 @@ PETSC_INTERN PetscBool   SamGradientIsOfSteps(const char name[]);
   Not collective.
 
   In:     gradient - the gradient
-          name     - value; by a prescribed load, displacement or bulk stress of a step: its name; body1_young,
-                     body1_poisson, body2_young, body2_poisson; wear_coefficient, wear_energy: of both bodies together;
-                     borders: the number of cells on the border of their set; residual: the largest of the systems
+          name     - value; by a prescribed load, displacement or bulk stress of a step: its name; by another parameter
+                     likewise, wear_coefficient and wear_energy being those of both bodies together; borders: the number of cells on the border of their set; residual: the largest of the systems
           step     - the step, of loads, displacements and bulk stresses
   Out:    value    - the value (unit of the number over that of the parameter); NaN for a load that is not given
 
@@ -142,12 +151,12 @@ PETSC_INTERN PetscErrorCode SamGradientGetNumber(SamGradient gradient, const cha
                                                  PetscReal *value);
 
 /*
-  SamGradientCheck - checks that a number has a gradient for this contact, by the moduli too if they are wanted, and is
-  not given itself in a step whose loads `force` are; `component`: that of a load or displacement, else -1. Not
-  collective. Errors: SAM_ERR_USER.
+  SamGradientCheck - checks that a number has a gradient for this contact by wanted parameters (above), and is not given
+  itself in a step whose loads `force` are; `component`: that of a load or displacement, else -1. Not collective.
+  Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamGradientCheck(SamGradient gradient, const char name[], const PetscBool force[],
-                                             PetscBool moduli, PetscInt *component);
+                                             const char of[], PetscInt *component);
 /*
   SamGradientGetBytes - gets the memory of a number, see SamObjective, bytes per cell. Not collective. Errors:
   SAM_ERR_USER for an unknown number.

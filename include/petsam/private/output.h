@@ -101,11 +101,10 @@ PETSC_INTERN PetscErrorCode SamOutputWriteWarnings(SamOutput output, PetscInt co
                                                    const char texts[][SAM_WARNING_TEXT]);
 /*
   SamOutputWriteGradient - writes all waiting steps, then the group /gradient/NAME with what a gradient has found:
-  derivatives by gap and friction in each cell, by each step's loads, and numbers as attributes. Collective. Errors: as
-  SamOutputWriteStep().
+  the wanted derivatives by gap and friction in each cell, by each step's loads, and numbers as attributes. Collective.
+  Errors: as SamOutputWriteStep().
 */
-PETSC_INTERN PetscErrorCode SamOutputWriteGradient(SamOutput output, SamGradient gradient, const char name[],
-                                                   PetscBool moduli);
+PETSC_INTERN PetscErrorCode SamOutputWriteGradient(SamOutput output, SamGradient gradient, const char name[]);
 /*
   SamOutputGetSaved - gets the number of load steps in the file, the number of steps with fields, and the time (s) of
   the last step with fields, -infinity if there is none; NULL for an unwanted output. Not collective.

@@ -46,6 +46,11 @@ class Patch:
         return f"1 µm removed on {self.name}", f"friction {FRICTION:g} higher on {self.name}"
 
 
+def drawn(results):
+    """The gradients of a file that have both fields."""
+    return [one for one in results.gradients.values() if one.has_fields]
+
+
 def _window(one, whole):
     """Rows and columns of the cells that count, and a margin."""
     counts = (one.gap != 0.0) | (np.nan_to_num(one.friction) != 0.0)
@@ -113,11 +118,11 @@ def _curve(panel, one, values, length):
 def gradient(files, whole=False):
     """Changes by the gap (left) and by friction (right), of every gradient of every file."""
     for one in files:
-        if not one.gradients:
-            raise Error(f"{one.path}: --gradient: has no gradient, which petsam -gradient NAME writes")
+        if not drawn(one):
+            raise Error(f"{one.path}: --gradient: has no gradient by gap and friction: use petsam -gradient NAME")
         if one.is_plane != files[0].is_plane:
             raise Error(f"{one.path}: --gradient: plane problems do not go into a picture of others")
-    data = [_read(one, each, whole) for one in files for each in one.gradients.values()]
+    data = [_read(one, each, whole) for one in files for each in drawn(one)]
     need_few(len(data), "gradients")
     length, unit = scale("m", largest([axis for one in data for axis in (one["x"], one["y"])]))
     if files[0].is_plane:

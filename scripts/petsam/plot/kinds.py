@@ -3,7 +3,7 @@
 from ..results import cycles
 from ..results.stresses import Stresses
 from ..results.studies import Study
-from . import fields, noise, pictures, wear
+from . import fields, gradients, noise, pictures, wear
 
 STUDY = "study"  # the only kind of a study's table
 # the pictures of files of petsam, of petsam-stress and of petsam-study, by their kinds
@@ -23,7 +23,7 @@ MANY = 3  # cycles from which their loops and energies are drawn without being a
 
 def of_results(results):
     """Kinds of pictures for results of petsam."""
-    return [*_of_steps(results), *(["gradient"] if all(one.gradients for one in results) else [])]
+    return [*_of_steps(results), *(["gradient"] if all(gradients.drawn(one) for one in results) else [])]
 
 
 def _of_steps(results):

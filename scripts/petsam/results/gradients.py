@@ -22,13 +22,14 @@ class Gradient:
         Of the number.
     value : float
         The number itself: J, N, N m, m, rad, m3 or Pa.
-    gap : ndarray
-        By the separation of the undeformed bodies in each cell, per m, (ny, nx); in process this rank's rows.
-    friction : ndarray
+    gap : ndarray or None
+        By the separation of the undeformed bodies in each cell, per m, (ny, nx); in process this rank's rows. None if
+        it was not wanted, and so below.
+    friction : ndarray or None
         By the coefficient of friction in each cell; their sum is that by the coefficient.
     numbers : dict
         {name: derivative} by other parameters: of each step, (steps,), by given loads, displacements and bulk stresses;
-        by the moduli, if they were wanted; by the coefficients of wear, of both bodies alike.
+        by the coefficients of wear, of both bodies alike; if they were wanted by the moduli and the shape.
     borders : int
         Cells on the border of their set in some step; the gradient is one-sided if there are any.
     residual : float
@@ -39,18 +40,24 @@ class Gradient:
 
     name: str
     value: float
-    gap: np.ndarray
-    friction: np.ndarray
+    gap: Optional[np.ndarray]
+    friction: Optional[np.ndarray]
     numbers: dict
     borders: int
     residual: float
     unit: str = ""
 
+    @property
+    def has_fields(self) -> bool:
+        """True if it has the derivatives by the gap and by friction."""
+        return self.gap is not None and self.friction is not None
+
     def __getitem__(self, name: str) -> Union[float, np.ndarray]:
         """A derivative by the name of its parameter: gap, friction, load_tx, disp_x, body1_young, ..."""
         every = {"gap": self.gap, "friction": self.friction, **self.numbers}
-        if name in MODULI and name not in every:
-            raise Error(f"gradient: {name}: it was not computed: give moduli=True")
+        every = {one: derivative for one, derivative in every.items() if derivative is not None}
+        if name not in every and name.startswith((*MODULI, "gap", "friction")):
+            raise Error(f'gradient: {name}: it was not computed: give of=["{name}"], -gradient_of {name}')
         if name not in every:
             raise Error(f"gradient: {name}: there is no derivative by it{there_are(name, list(every))}")
         return every[name]
@@ -77,8 +84,9 @@ def read(group: Optional[h5py.Group]) -> dict[str, Gradient]:
     for name, of in () if group is None else group.items():
         numbers = {key: float(value) for key, value in of.attrs.items() if key != "units"}
         numbers |= {key: data[:] for key, data in of.items() if data.ndim == 1}
+        gap, friction = (of[key][:] if key in of else None for key in ("gap", "friction"))
         found[name] = Gradient(
-            name, numbers.pop("value"), of["gap"][:], of["friction"][:], numbers, int(numbers.pop("borders")),
+            name, numbers.pop("value"), gap, friction, numbers, int(numbers.pop("borders")),
             numbers.pop("residual"), _text(of.attrs["units"]),
         )  # fmt: skip
     return found

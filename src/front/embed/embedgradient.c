@@ -25,7 +25,7 @@ static PetscErrorCode GetRecorded(petsam_contact *c, SamGradient *g)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Compute(petsam_contact *c, const char name[], int first, int last, PetscBool moduli, double rtol,
+static PetscErrorCode Compute(petsam_contact *c, const char name[], int first, int last, const char of[], double rtol,
                               int *steps)
 {
   const PetscInt range[] = {first, last};
@@ -35,17 +35,18 @@ static PetscErrorCode Compute(petsam_contact *c, const char name[], int first, i
   PetscCall(GetRecorded(c, &g));
   PetscCheck(rtol > 0 && rtol < 1, c->comm, SAM_ERR_USER, "the gradient of %s: rtol %.6g: expected between 0 and 1",
              name, rtol);
-  PetscCall(SamGradientCompute(g, name, range, moduli, (PetscReal)rtol));
+  PetscCall(SamGradientCompute(g, name, range, of, (PetscReal)rtol));
   *steps = (int)SamGradientGetSteps(g);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-int petsam_gradient(petsam_contact *c, const char *name, int first, int last, int moduli, double rtol, int *steps)
+int petsam_gradient(petsam_contact *c, const char *name, int first, int last, const char *of, double rtol, int *steps)
 {
-  const uint64_t sum = SamEmbedAddText(SamHashBits(rtol) + (uint64_t)first + 31 * (uint64_t)last + (moduli != 0), name);
+  const uint64_t sum =
+    SamEmbedAddText(SamEmbedAddText(SamHashBits(rtol) + (uint64_t)first + 31 * (uint64_t)last, name), of);
 
   return SamEmbedEnterTogether(c, __func__, name && steps, sum)
-           ? SamEmbedLeave(c, Compute(c, name, first, last, moduli != 0, rtol, steps))
+           ? SamEmbedLeave(c, Compute(c, name, first, last, of ? of : "", rtol, steps))
            : SAM_EMBED_USAGE;
 }
 

@@ -19,7 +19,6 @@
 */
 #include "gradientimpl.h"
 #include <petsam/private/body.h>
-#include <petsam/private/body.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/control.h>
 #include <petsam/private/law.h>
@@ -34,9 +33,6 @@
 /* Tolerance of the tangential problem from which on the sets of cells are not those of the solution: the field of
    derivatives is 12 % wrong at 1e-4 */
 #define LEAST_RTOL 1e-5
-
-static const char *const moduli[SAM_GRADIENT_MODULI] = {"body1_young", "body1_poisson", "body2_young", "body2_poisson"},
-                         *const wears[SAM_GRADIENT_WEARS] = {"wear_coefficient", "wear_energy"};
 
 /* ---- the object ---- */
 
@@ -58,8 +54,11 @@ static PetscErrorCode CheckLaw(SamGradient g, SamLaw law)
   parameters.count = 0;
   PetscCall(SamLawAddParameters(law, &parameters));
   for (PetscInt k = 0; k < parameters.count; k++)
-    for (PetscInt n = 0; n < SAM_GRADIENT_WEARS; n++)
-      if (!strncmp(parameters.list[k].name, wears[n], strlen(wears[n]))) g->rate[n] += parameters.list[k].value[0];
+    for (PetscInt n = 0; n < SAM_GRADIENT_WEARS; n++) {
+      const char *wear = SamGradientNumber(g, n);
+
+      if (!strncmp(parameters.list[k].name, wear, strlen(wear))) g->rate[n] += parameters.list[k].value[0];
+    }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -85,7 +84,7 @@ static PetscErrorCode Check(SamGradient g)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGradientCreate(SamContact contact, SamGradient *gradient)
+PetscErrorCode SamGradientCreate(SamContact contact, SamGap shape, SamGradient *gradient)
 {
   SamGradient    g;
   PetscErrorCode ierr;
@@ -94,6 +93,7 @@ PetscErrorCode SamGradientCreate(SamContact contact, SamGradient *gradient)
   *gradient = NULL;
   PetscCall(PetscNew(&g));
   g->contact = contact;
+  g->shape   = shape;
   ierr       = Check(g);
   if (ierr) PetscCall(SamGradientDestroy(&g));
   PetscCall(ierr);
@@ -361,7 +361,7 @@ static PetscErrorCode ClearWithoutFriction(SamGradient g)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Run(SamBack *b, const SamObjective *objective, PetscBool want_moduli)
+static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
 {
   SamDerivatives *found = &b->g->found;
   double         *arrays;
@@ -369,8 +369,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective, PetscBool w
 
   PetscFunctionBegin;
   PetscCall(ChoosePart(b));
-  if (want_moduli) PetscCall(CreateOther(b));
-  found->has_moduli = want_moduli;
+  if (SamParametersHaveModuli(b->g, found->of)) PetscCall(CreateOther(b));
   PetscCall(Begin(b, &arrays));
   PetscCall(SamRecordUnpack(b, &b->g->record[b->g->count - 1], &b->before));
   for (PetscInt k = b->g->count - 1; k >= 0; k--) {
@@ -387,6 +386,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective, PetscBool w
   PetscCall(PutArray(b, b->by_gap, &found->gap));
   PetscCall(PutArray(b, b->by_friction, &found->friction));
   PetscCall(ClearWithoutFriction(b->g));
+  if (SamParametersHaveShape(b->g, found->of)) PetscCall(SamParametersAddShape(b->g));
   for (int k = 0; k < 2; k++) {
     SamFrameOfStep *frame = k ? &b->now : &b->before;
 
@@ -422,7 +422,7 @@ static PetscErrorCode CheckComponent(SamElasticity e, const char name[], const P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBool force[], PetscBool want_moduli,
+PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBool force[], const char of[],
                                 PetscInt *component)
 {
   const SamElasticity e    = SamProblemGetElasticity(SamContactGetProblem(g->contact));
@@ -435,7 +435,8 @@ PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBoo
   PetscCall(SamObjectiveFind(comm, name, &objective));
   PetscCall(CheckComponent(e, name, force, component));
   if (objective->check) PetscCall((*objective->check)(e, g->rate, name));
-  if (!want_moduli) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamParametersCheck(g, of));
+  if (!SamParametersHaveModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(!objective->fixed, comm, SAM_ERR_USER,
              "the gradient of %s by the moduli is not computed: leave the moduli out", name);
   none = SamPairGetConstants(SamElasticityGetPair(e), &constants);
@@ -455,7 +456,7 @@ PetscErrorCode SamGradientGetBytes(MPI_Comm comm, const char name[], PetscInt by
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscInt steps[2], PetscBool want_moduli,
+PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscInt steps[2], const char of[],
                                   PetscReal rtol)
 {
   SamBack             b    = {.g = g, .rtol = rtol};
@@ -474,7 +475,7 @@ PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscI
              ": expected steps from 0 to %" PetscInt_FMT,
              name, b.at.first, b.at.last, g->count - 1);
   for (PetscInt k = b.at.first; k <= b.at.last; k++)
-    PetscCall(SamGradientCheck(g, name, g->record[k].force, want_moduli, &b.at.component));
+    PetscCall(SamGradientCheck(g, name, g->record[k].force, of, &b.at.component));
   b.at.number = NAN;
   b.at.name   = name;
   PetscCall(ClearFound(d));
@@ -482,7 +483,8 @@ PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscI
   PetscCall(PetscCalloc3(g->count, &d->load, g->count, &d->rigid, g->count, &d->bulk));
   (void)snprintf(d->name, sizeof(d->name), "%s", name);
   (void)snprintf(d->unit, sizeof(d->unit), "%s", SamUnitOn(SamContactGetGrid(g->contact), objective->unit));
-  PetscCall(Run(&b, objective, want_moduli));
+  (void)snprintf(d->of, sizeof(d->of), "%s", of);
+  PetscCall(Run(&b, objective));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -508,23 +510,6 @@ PetscErrorCode SamGradientGetField(SamGradient g, const char name[], Vec field)
   PetscCall(SamGridCheckVec(grid, 1, field, "The field of derivatives"));
   PetscCall(VecCopy(gap ? g->found.gap : g->found.friction, field));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-const char *SamGradientOfSteps(PetscInt k)
-{
-  const PetscInt past = k - 2 * SAM_COMPONENTS;
-
-  if (past >= 0) return past < SAM_GRADIENT_BULKS ? SamBulkName(past) : NULL;
-  return k < SAM_COMPONENTS ? SamComponentNames[k].load : SamComponentNames[k - SAM_COMPONENTS].rigid;
-}
-
-PetscBool SamGradientIsOfSteps(const char name[])
-{
-  const char *one;
-
-  for (PetscInt k = 0; (one = SamGradientOfSteps(k)); k++)
-    if (!strcmp(name, one)) return PETSC_TRUE;
-  return PETSC_FALSE;
 }
 
 /* Finds a derivative by a number of a step; returns NULL if the name is none. */
@@ -564,17 +549,16 @@ PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt s
   if (!strcmp(name, "value")) *value = d->value;
   if (!strcmp(name, "residual")) *value = d->residual;
   if (!strcmp(name, "borders")) *value = (PetscReal)d->borders;
-  for (PetscInt k = 0; k < SAM_GRADIENT_WEARS; k++)
-    if (!strcmp(name, wears[k])) *value = d->wear[k];
-  for (PetscInt k = 0; k < SAM_GRADIENT_MODULI; k++)
-    if (!strcmp(name, moduli[k]) && d->has_moduli) *value = d->moduli[k];
-  PetscCheck(!isnan(*value), comm, SAM_ERR_USER, "the gradient by %s: there is no derivative by it", name);
+  if (isnan(*value)) PetscCall(SamParametersGet(g, name, value));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- a line of text ---- */
 
-enum { SHARES = 2 + 2 * SAM_COMPONENTS + SAM_GRADIENT_BULKS + SAM_GRADIENT_MODULI + SAM_GRADIENT_WEARS, TOLD = 5 };
+enum {
+  SHARES = 1 + 2 * SAM_COMPONENTS + SAM_GRADIENT_BULKS + SAM_GRADIENT_MODULI + SAM_GRADIENT_WEARS + SAM_GAP_PARAMETERS,
+  TOLD   = 5
+};
 
 /* A parameter, and the relative change of the number by a relative change of the parameter */
 typedef struct {
@@ -607,7 +591,7 @@ static PetscErrorCode ShareOfFriction(SamGradient g, double *share)
 static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *count)
 {
   const SamDerivatives *d = &g->found;
-  SamPairConstants      constants;
+  const char           *name;
   PetscInt              n = 1;
 
   PetscFunctionBegin;
@@ -627,12 +611,10 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
     shares[n] = (Share){SamBulkName(b), 0};
     for (PetscInt k = 0; k < d->count; k++) shares[n].share += g->record[k].bulk[b] * d->bulk[k][b];
   }
-  for (PetscInt k = 0; k < SAM_GRADIENT_WEARS; k++, n++) shares[n] = (Share){wears[k], g->rate[k] * d->wear[k]};
-  if (d->has_moduli) {
-    (void)SamPairGetConstants(SamElasticityGetPair(SamProblemGetElasticity(SamContactGetProblem(g->contact))),
-                              &constants);
-    for (PetscInt k = 0; k < SAM_GRADIENT_MODULI; k++, n++)
-      shares[n] = (Share){moduli[k], constants.modulus[k] * d->moduli[k]};
+  for (PetscInt k = 0; (name = SamGradientNumber(g, k)); k++) {
+    if (!SamParametersHave(d->of, name)) continue;
+    shares[n].name = name;
+    PetscCall(SamParametersGetShare(g, name, &shares[n++].share));
   }
   *count = n;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -5,11 +5,12 @@
 #include <petsam/private/gradient.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/gap.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/law.h>
 #include <petsam/private/objective.h>
 
-enum { SAM_GRADIENT_BULKS = SAM_BULKS, SAM_GRADIENT_MODULI = 4, SAM_GRADIENT_WEARS = 2 };
+enum { SAM_GRADIENT_BULKS = SAM_BULKS, SAM_GRADIENT_MODULI = 4, SAM_GRADIENT_WEARS = 2, SAM_GRADIENT_OF = 512 };
 
 /* Values of a recorded cell: fields of the step, and the slopes of the share by which the pressure before the step
    counts (SamIncrementGetShareSlopes()). */
@@ -38,17 +39,18 @@ typedef struct {
 
 /* The results of a pass back */
 typedef struct {
-  PetscReal value, residual, moduli[SAM_GRADIENT_MODULI], wear[SAM_GRADIENT_WEARS];
+  PetscReal value, residual, moduli[SAM_GRADIENT_MODULI], wear[SAM_GRADIENT_WEARS], shape[SAM_GAP_PARAMETERS];
   PetscInt  borders;
   Vec       gap, friction;                                                               /* on the contact's grid */
   double (*load)[SAM_COMPONENTS], (*rigid)[SAM_COMPONENTS], (*bulk)[SAM_GRADIENT_BULKS]; /* of each step */
-  PetscBool has_moduli;
-  PetscInt  count;              /* of the steps */
-  char      name[96], unit[16]; /* of the number */
+  PetscInt count;                                                                        /* of the steps */
+  char     name[96], unit[16];                                                           /* of the number */
+  char     of[SAM_GRADIENT_OF]; /* the wanted parameters, separated by commas; empty: those without further cost */
 } SamDerivatives;
 
 struct _n_SamGradient {
   SamContact       contact; /* borrowed */
+  SamGap           shape;   /* borrowed */
   PetscInt         count, room;
   SamRecord       *record;
   Vec              friction;          /* coefficient, on the contact's grid; of the first step */
@@ -97,6 +99,21 @@ PETSC_INTERN PetscErrorCode SamBackRead(SamBack *back, PetscInt step);
 /* SamRecordUnpack - sets the fields of a step on the part of the grid; NULL: all are 0. Collective. */
 PETSC_INTERN PetscErrorCode SamRecordUnpack(const SamBack *back, const SamRecord *record, SamFrameOfStep *frame);
 PETSC_INTERN PetscErrorCode SamRecordDestroy(SamRecord *record);
+/*
+  SamParametersCheck - checks the names of wanted parameters, separated by commas. SamParametersHave - true if that of
+  one is wanted, SamParametersHaveModuli, SamParametersHaveShape - if one of these is. Not collective.
+  SamParametersGet - gets the derivative by a parameter with one number, SamParametersGetShare - times its value, 0 if
+  that is infinite. Not collective.
+  SamParametersAddShape - computes the derivatives by the parameters of the shape from that by the gap. Collective.
+  Errors: SAM_ERR_USER for another gap than that of the shape.
+*/
+PETSC_INTERN PetscErrorCode SamParametersCheck(SamGradient g, const char of[]);
+PETSC_INTERN PetscBool      SamParametersHave(const char of[], const char name[]);
+PETSC_INTERN PetscBool      SamParametersHaveModuli(SamGradient g, const char of[]);
+PETSC_INTERN PetscBool      SamParametersHaveShape(SamGradient g, const char of[]);
+PETSC_INTERN PetscErrorCode SamParametersGet(SamGradient g, const char name[], PetscReal *value);
+PETSC_INTERN PetscErrorCode SamParametersGetShare(SamGradient g, const char name[], PetscReal *share);
+PETSC_INTERN PetscErrorCode SamParametersAddShape(SamGradient g);
 /* SamObjectiveFind - finds the objective of a name. Errors: SAM_ERR_USER, with what is expected. Not collective. */
 PETSC_INTERN PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjective **objective);
 /* SamObjectiveRegisterStresses - registers the smooth maxima of stresses (stressobjective.c). */

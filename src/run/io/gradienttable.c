@@ -35,10 +35,10 @@ static PetscErrorCode WriteField(SamOutput o, hid_t group, SamGradient g, const 
 }
 
 /* Writes the derivatives by the values of a column of the history, unless none of them is given. */
-static PetscErrorCode WriteColumn(SamOutput o, hid_t group, SamGradient g, const char name[])
+static PetscErrorCode WriteColumn(SamOutput o, hid_t group, SamGradient g, const char name[], const char unit[])
 {
   const PetscInt steps = SamGradientGetSteps(g);
-  const SamLabel label = {name, NULL, "derivative by the value in each step; NaN: it is not given"};
+  const SamLabel label = {name, unit, "derivative by the value in each step; NaN: it is not given"};
   const SamShape shape = {1, {(hsize_t)steps}, {(hsize_t)steps}, {0}, NULL};
   const SamBlock block = {1, {0}, {o->f->rank ? 0 : (hsize_t)steps}};
   PetscReal     *values, given = 0;
@@ -59,15 +59,28 @@ static PetscErrorCode WriteColumn(SamOutput o, hid_t group, SamGradient g, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputAppendGradient(SamOutput o, SamGradient g, const char name[], PetscBool moduli)
+/* Writes the wanted derivatives by fields and columns. */
+static PetscErrorCode WriteFields(SamOutput o, hid_t group, SamGradient g)
 {
-  static const char *const numbers[] = {"value",        "residual",    "borders",       "wear_coefficient",
-                                        "wear_energy",  "body1_young", "body1_poisson", "body2_young",
-                                        "body2_poisson"};
-  enum { NUMBERS = sizeof(numbers) / sizeof(numbers[0]), MODULI = 4 };
-  char        unit[64];
-  const char *column;
-  hid_t       all, group;
+  const char *const of = SamGradientUnit(g), *name, *column;
+  char              unit[64];
+
+  PetscFunctionBegin;
+  (void)snprintf(unit, sizeof(unit), "%s/m", of);
+  if (SamGradientHas(g, "gap")) PetscCall(WriteField(o, group, g, "gap", unit));
+  if (SamGradientHas(g, "friction")) PetscCall(WriteField(o, group, g, "friction", of));
+  for (PetscInt k = 0; (name = SamGradientOfSteps(k, &column)); k++) {
+    (void)snprintf(unit, sizeof(unit), "%s/(%s)", of, SamUnitOn(o->grid, column));
+    if (SamGradientHas(g, name)) PetscCall(WriteColumn(o, group, g, name, unit));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputAppendGradient(SamOutput o, SamGradient g, const char name[])
+{
+  static const char *const numbers[] = {"value", "residual", "borders"};
+  const char              *one;
+  hid_t                    all, group;
 
   PetscFunctionBegin;
   all   = H5Lexists(o->f->id, "gradient", H5P_DEFAULT) > 0
@@ -75,11 +88,10 @@ PetscErrorCode SamOutputAppendGradient(SamOutput o, SamGradient g, const char na
             : SamFileNote(o->f, H5Gcreate2(o->f->id, "gradient", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   group = SamFileNote(o->f, H5Gcreate2(all, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   SamFileWriteTextAttribute(o->f, group, "units", SamGradientUnit(g));
-  for (int k = 0; k < (moduli ? NUMBERS : NUMBERS - MODULI); k++) PetscCall(WriteNumber(o, group, g, numbers[k]));
-  (void)snprintf(unit, sizeof(unit), "%s/m", SamGradientUnit(g));
-  PetscCall(WriteField(o, group, g, "gap", unit));
-  PetscCall(WriteField(o, group, g, "friction", SamGradientUnit(g)));
-  for (PetscInt k = 0; (column = SamGradientOfSteps(k)); k++) PetscCall(WriteColumn(o, group, g, column));
+  for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); k++) PetscCall(WriteNumber(o, group, g, numbers[k]));
+  for (PetscInt k = 0; (one = SamGradientNumber(g, k)); k++)
+    if (SamGradientHas(g, one)) PetscCall(WriteNumber(o, group, g, one));
+  PetscCall(WriteFields(o, group, g));
   (void)SamFileNote(o->f, H5Gclose(group));
   (void)SamFileNote(o->f, H5Gclose(all));
   PetscFunctionReturn(PETSC_SUCCESS);

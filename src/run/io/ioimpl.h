@@ -62,8 +62,7 @@ PETSC_INTERN void SamOutputAppendNumbers(SamOutput output, hid_t dataset, hid_t 
                                          hsize_t n, const void *numbers);
 
 /* SamOutputAppendGradient - creates the group /gradient/NAME (gradienttable.c). Notes its failures. Collective. */
-PETSC_INTERN PetscErrorCode SamOutputAppendGradient(SamOutput output, SamGradient gradient, const char name[],
-                                                    PetscBool moduli);
+PETSC_INTERN PetscErrorCode SamOutputAppendGradient(SamOutput output, SamGradient gradient, const char name[]);
 /* SamOutputAppendErrors - creates the group /errors (errortable.c). Notes its failures. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAppendErrors(SamOutput output, const SamErrorTable *table);
 /* SamOutputAppendWarnings - creates the dataset /warnings (errortable.c). Notes its failures. Collective. */

@@ -302,11 +302,11 @@ PetscErrorCode SamOutputWriteWarnings(SamOutput o, PetscInt count, const char te
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputWriteGradient(SamOutput o, SamGradient g, const char name[], PetscBool moduli)
+PetscErrorCode SamOutputWriteGradient(SamOutput o, SamGradient g, const char name[])
 {
   PetscFunctionBegin;
   PetscCall(BeginApart(o, 2 * (off_t)sizeof(double) * (off_t)o->grid->nx * (off_t)o->grid->ny));
-  PetscCall(SamOutputAppendGradient(o, g, name, moduli));
+  PetscCall(SamOutputAppendGradient(o, g, name));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -11,7 +11,8 @@ static const SamOptionRow rows[] = {
    .size = SAM_GRADIENT_NAMES, .needs = SAM_OUTPUT_NEEDED, .excludes = "wear_cycles,step_rtol,restart"},
   {"gradient_steps", "first and last step that they are of; 0: usual ones", SAM_OPTION_INT, MEMBER(steps), .size = 2,
    .needs = "gradient"},
-  {"gradient_moduli", "also by the moduli of the bodies", SAM_OPTION_BOOL, MEMBER(moduli), .needs = "gradient"},
+  {"gradient_of", "gap, friction, load_tx, body1_young, gap_radius1, ...: by these; else all but moduli and shape",
+   SAM_OPTION_STRING, MEMBER(of), .size = SAM_GRADIENT_NAMES, .needs = "gradient"},
   {"gradient_rtol", "relative residual of their systems", SAM_OPTION_REAL, MEMBER(rtol), .range = SAM_RANGE_POSITIVE,
    .needs = "gradient"}};
 
@@ -81,7 +82,7 @@ static PetscErrorCode Check(SamSimulation s, const char name[])
   PetscInt         component;
 
   PetscFunctionBegin;
-  PetscCall(SamGradientCheck(s->gradient, name, last.force, s->gradients.moduli, &component));
+  PetscCall(SamGradientCheck(s->gradient, name, last.force, s->gradients.of, &component));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -109,8 +110,8 @@ static PetscErrorCode End(SamSimulation s, const char name[])
   char           text[SAM_MESSAGE];
 
   PetscFunctionBegin;
-  PetscCall(SamGradientCompute(s->gradient, name, steps, s->gradients.moduli, s->gradients.rtol));
-  PetscCall(SamOutputWriteGradient(s->output, s->gradient, name, s->gradients.moduli));
+  PetscCall(SamGradientCompute(s->gradient, name, steps, s->gradients.of, s->gradients.rtol));
+  PetscCall(SamOutputWriteGradient(s->output, s->gradient, name));
   PetscCall(SamGradientDescribe(s->gradient, text, sizeof(text)));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_GRADIENT, .text = text}));
   PetscCall(SamGradientGetNumber(s->gradient, "borders", 0, &borders));

@@ -502,7 +502,7 @@ PetscErrorCode SamSimulationRecordGradient(SamSimulation s, PetscBool on)
   PetscCheck(!on || !SamContactHasStep(s->setup.contact, SAM_COMMITTED), s->comm, PETSC_ERR_ORDER,
              "the gradient: the contact has steps already: begin before its first step, or after a reset");
   PetscCall(SamGradientDestroy(&s->gradient));
-  if (on) PetscCall(SamGradientCreate(s->setup.contact, &s->gradient));
+  if (on) PetscCall(SamGradientCreate(s->setup.contact, s->setup.gap, &s->gradient));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -40,11 +40,11 @@ typedef struct {
 typedef struct _n_SamErrors *SamErrors;
 
 /* The gradients that a run writes */
-#define SAM_GRADIENT_NAMES 256
+#define SAM_GRADIENT_NAMES 512
 typedef struct {
   char      names[SAM_GRADIENT_NAMES]; /* of the numbers, separated by commas; empty: none */
   PetscInt  steps[2];                  /* first and last step, from 1; 0: the usual ones */
-  PetscBool moduli;
+  char      of[SAM_GRADIENT_NAMES];    /* of the parameters, likewise; empty: the usual ones */
   PetscReal rtol;
 } SamGradientPlan;
 

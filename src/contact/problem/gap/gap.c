@@ -350,6 +350,25 @@ PetscReal SamGapGetHeight(SamGap gap, PetscReal x, PetscReal y)
   return gap->ops.height ? gap->ops.height(gap->values, x, y) : 0;
 }
 
+/* Relative change of a parameter: differences of fourth order have about its fourth power as error. */
+#define SLOPE_STEP 1e-4
+
+PetscReal SamGapGetSlope(SamGap gap, PetscInt k, PetscReal x, PetscReal y)
+{
+  static const PetscReal weight[] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
+  const PetscReal        value = gap->values[k], zero = gap->ops.parameters[k].unit ? hypot(x, y) : 1;
+  const PetscReal        step = SLOPE_STEP * (value != 0 ? fabs(value) : zero);
+  PetscReal              values[SAM_GAP_PARAMETERS], sum = 0;
+
+  if (!gap->ops.height || !isfinite(value) || step == 0) return 0;
+  (void)PetscArraycpy(values, gap->values, SAM_GAP_PARAMETERS);
+  for (PetscInt n = 0; n < 4; n++) {
+    values[k] = value + (PetscReal)(n < 2 ? n - 2 : n - 1) * step;
+    sum += weight[n] * gap->ops.height(values, x, y);
+  }
+  return sum / step;
+}
+
 PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count, const char *const **names,
                                    const PetscReal **values)
 {
