@@ -11,8 +11,8 @@ static const SamOptionRow rows[] = {
    .size = SAM_GRADIENT_NAMES, .needs = SAM_OUTPUT_NEEDED, .excludes = "wear_cycles,step_rtol,restart"},
   {"gradient_steps", "first and last step that they are of; 0: usual ones", SAM_OPTION_INT, MEMBER(steps), .size = 2,
    .needs = "gradient"},
-  {"gradient_of", "gap, load_tx, body1_young, ...: by these; else all but moduli, shape",
-   SAM_OPTION_STRING, MEMBER(of), .size = SAM_GRADIENT_NAMES, .needs = "gradient"},
+  {"gradient_of", "gap, load_tx, body1_young, ...: by these; else all but moduli, shape", SAM_OPTION_STRING, MEMBER(of),
+   .size = SAM_GRADIENT_NAMES, .needs = "gradient"},
   {"gradient_rtol", "relative residual of their systems", SAM_OPTION_REAL, MEMBER(rtol), .range = SAM_RANGE_POSITIVE,
    .needs = "gradient"}};
 
