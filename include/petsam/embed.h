@@ -521,8 +521,8 @@ int petsam_gradient(petsam_contact *c, const char *name, int first, int last, co
           name   - its name: value, the number itself; gap and friction, derivatives by the separation (1/m) and the
                    coefficient of friction in each cell, NaN where that is 0; load_n, disp_x, bulk1_stress_xx ..., by
                    the value of each step; body1_young (1/Pa), body1_poisson ..., gap_radius1 (1/m) ..., by what of them
-                   was named; wear_coefficient (Pa), wear_energy, by the coefficients of both bodies alike; borders, the number
-                   of cells that are about to change their set, where derivatives hold to one side; residual, the
+                   was named; wear_coefficient (Pa), wear_energy, by the coefficients of both bodies alike; borders, the
+                   number of cells that are about to change their set, where derivatives hold to one side; residual, the
                    largest of the systems
   Out:    values - this rank's rows of a field; of the steps that petsam_gradient() told, NaN where it is not given;
                    else one number (unit of the number over that of the parameter)
