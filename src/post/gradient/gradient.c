@@ -369,7 +369,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
 
   PetscFunctionBegin;
   PetscCall(ChoosePart(b));
-  if (SamParametersHaveModuli(b->g, found->of)) PetscCall(CreateOther(b));
+  if (SamChoiceHasModuli(b->g, found->of)) PetscCall(CreateOther(b));
   PetscCall(Begin(b, &arrays));
   PetscCall(SamRecordUnpack(b, &b->g->record[b->g->count - 1], &b->before));
   for (PetscInt k = b->g->count - 1; k >= 0; k--) {
@@ -386,7 +386,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
   PetscCall(PutArray(b, b->by_gap, &found->gap));
   PetscCall(PutArray(b, b->by_friction, &found->friction));
   PetscCall(ClearWithoutFriction(b->g));
-  if (SamParametersHaveShape(b->g, found->of)) PetscCall(SamParametersAddShape(b->g));
+  if (SamChoiceHasShape(b->g, found->of)) PetscCall(SamChoiceAddShape(b->g));
   for (int k = 0; k < 2; k++) {
     SamFrameOfStep *frame = k ? &b->now : &b->before;
 
@@ -435,8 +435,8 @@ PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBoo
   PetscCall(SamObjectiveFind(comm, name, &objective));
   PetscCall(CheckComponent(e, name, force, component));
   if (objective->check) PetscCall((*objective->check)(e, g->rate, name));
-  PetscCall(SamParametersCheck(g, of));
-  if (!SamParametersHaveModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamChoiceCheck(g, of));
+  if (!SamChoiceHasModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(!objective->fixed, comm, SAM_ERR_USER,
              "the gradient of %s by the moduli is not computed: leave the moduli out", name);
   none = SamPairGetConstants(SamElasticityGetPair(e), &constants);
@@ -530,7 +530,7 @@ static const double *OfStep(const SamGradient g, const char name[], PetscInt ste
 PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt step, PetscReal *value)
 {
   const SamDerivatives *d;
-  const double         *of_step;
+  const double         *found;
   MPI_Comm              comm;
 
   PetscFunctionBegin;
@@ -540,16 +540,13 @@ PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt s
   PetscCheck(step >= 0 && step < d->count && d->count <= g->count, comm, PETSC_ERR_ARG_OUTOFRANGE,
              "step %" PetscInt_FMT " of a gradient: expected 0 to %" PetscInt_FMT ", and no new record since", step,
              d->count - 1);
-  of_step = OfStep(g, name, step);
-  if (of_step) {
-    *value = *of_step;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
   *value = NAN;
   if (!strcmp(name, "value")) *value = d->value;
   if (!strcmp(name, "residual")) *value = d->residual;
   if (!strcmp(name, "borders")) *value = (PetscReal)d->borders;
-  if (isnan(*value)) PetscCall(SamParametersGet(g, name, value));
+  found = OfStep(g, name, step) ? OfStep(g, name, step) : SamChoiceFind(g, name);
+  if (found) *value = *found;
+  PetscCheck(found || !isnan(*value), comm, SAM_ERR_USER, "the gradient by %s: there is no derivative by it", name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -612,9 +609,9 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
     for (PetscInt k = 0; k < d->count; k++) shares[n].share += g->record[k].bulk[b] * d->bulk[k][b];
   }
   for (PetscInt k = 0; (name = SamGradientNumber(g, k)); k++) {
-    if (!SamParametersHave(d->of, name)) continue;
+    if (!SamChoiceHas(d->of, name)) continue;
     shares[n].name = name;
-    PetscCall(SamParametersGetShare(g, name, &shares[n++].share));
+    PetscCall(SamChoiceGetShare(g, name, &shares[n++].share));
   }
   *count = n;
   PetscFunctionReturn(PETSC_SUCCESS);

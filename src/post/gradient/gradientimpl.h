@@ -100,20 +100,20 @@ PETSC_INTERN PetscErrorCode SamBackRead(SamBack *back, PetscInt step);
 PETSC_INTERN PetscErrorCode SamRecordUnpack(const SamBack *back, const SamRecord *record, SamFrameOfStep *frame);
 PETSC_INTERN PetscErrorCode SamRecordDestroy(SamRecord *record);
 /*
-  SamParametersCheck - checks the names of wanted parameters, separated by commas. SamParametersHave - true if that of
-  one is wanted, SamParametersHaveModuli, SamParametersHaveShape - if one of these is. Not collective.
-  SamParametersGet - gets the derivative by a parameter with one number, SamParametersGetShare - times its value, 0 if
-  that is infinite. Not collective.
-  SamParametersAddShape - computes the derivatives by the parameters of the shape from that by the gap. Collective.
+  SamChoiceCheck - checks the names of wanted parameters, separated by commas. SamChoiceHas - true if that of
+  one is wanted, SamChoiceHasModuli, SamChoiceHasShape - if one of these is. Not collective.
+  SamChoiceFind - returns the derivative by a parameter with one number; NULL: it was not wanted or there is none.
+  SamChoiceGetShare - gets it times the value, 0 if that is infinite. Neither is collective.
+  SamChoiceAddShape - computes the derivatives by the parameters of the shape from that by the gap. Collective.
   Errors: SAM_ERR_USER for another gap than that of the shape.
 */
-PETSC_INTERN PetscErrorCode SamParametersCheck(SamGradient g, const char of[]);
-PETSC_INTERN PetscBool      SamParametersHave(const char of[], const char name[]);
-PETSC_INTERN PetscBool      SamParametersHaveModuli(SamGradient g, const char of[]);
-PETSC_INTERN PetscBool      SamParametersHaveShape(SamGradient g, const char of[]);
-PETSC_INTERN PetscErrorCode SamParametersGet(SamGradient g, const char name[], PetscReal *value);
-PETSC_INTERN PetscErrorCode SamParametersGetShare(SamGradient g, const char name[], PetscReal *share);
-PETSC_INTERN PetscErrorCode SamParametersAddShape(SamGradient g);
+PETSC_INTERN PetscErrorCode   SamChoiceCheck(SamGradient g, const char of[]);
+PETSC_INTERN PetscBool        SamChoiceHas(const char of[], const char name[]);
+PETSC_INTERN PetscBool        SamChoiceHasModuli(SamGradient g, const char of[]);
+PETSC_INTERN PetscBool        SamChoiceHasShape(SamGradient g, const char of[]);
+PETSC_INTERN const PetscReal *SamChoiceFind(SamGradient g, const char name[]);
+PETSC_INTERN PetscErrorCode   SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share);
+PETSC_INTERN PetscErrorCode   SamChoiceAddShape(SamGradient g);
 /* SamObjectiveFind - finds the objective of a name. Errors: SAM_ERR_USER, with what is expected. Not collective. */
 PETSC_INTERN PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjective **objective);
 /* SamObjectiveRegisterStresses - registers the smooth maxima of stresses (stressobjective.c). */
