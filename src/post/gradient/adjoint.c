@@ -99,6 +99,7 @@ static PetscErrorCode SetBorder(System *s, SamFrozenPart part)
     for (int c = 0; c < 2; c++) {
       Motion(f, s->given[i], motion);
       if (c && part == SAM_FROZEN_BOTH) SamFrozenFollow(f, motion);
+      if (!c) SamFrozenProjectRow(f, motion + f->count);
       SamFrozenProject(f, motion + PlaceOf(f));
       PetscCall(PetscArraycpy(c ? column[count] : row[count], motion + PlaceOf(f), SamFrozenSize(f)));
     }
@@ -219,6 +220,83 @@ static PetscErrorCode Freeze(System *s)
   s->f.rtol       = b->rtol;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* ---- the direction of slip at mid step ---- */
+
+/* A cell whose slip is opposite to m = r + w r0, r0 = q0/b0 being the shear before the step and r = e that after it;
+   n_m is the normal of m */
+typedef struct {
+  double r0[2], b0, sine, factor, by[2]; /* factor of the resistance to a turn; k0, derivatives of the turn by r0 */
+} Turned;
+
+/* True if the slip of the packed cell m follows the shear at mid step. */
+static PetscBool Turns(const System *s, PetscInt m)
+{
+  const SamBack   *b    = s->b;
+  const SamFrozen *f    = &s->f;
+  const PetscBool  slip = f->e[0][m] != 0 || f->e[1][m] != 0 ? PETSC_TRUE : PETSC_FALSE;
+
+  return slip && b->g->record[b->at.step].turns && b->at.pressure_before[f->cell[m]] > 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static Turned TurnedOf(const System *s, PetscInt m)
+{
+  const SamObjectiveStep *at = &s->b->at;
+  const PetscInt          k = s->f.cell[m], l = k + s->b->grid->cells;
+  const double            x = s->f.e[0][m], y = s->f.e[1][m];
+  Turned                  t = {.b0 = s->b->friction[k] * at->pressure_before[k]};
+  double                  weight, mx, my, size, across, part;
+
+  t.r0[0]  = at->shear_before[k] / t.b0;
+  t.r0[1]  = at->shear_before[l] / t.b0;
+  weight   = PetscMax(0.5 * (t.r0[0] * (t.r0[0] + x) + t.r0[1] * (t.r0[1] + y)), 0);
+  mx       = x + weight * t.r0[0];
+  my       = y + weight * t.r0[1];
+  size     = hypot(mx, my);
+  t.sine   = (mx * y - my * x) / size;
+  across   = x * t.r0[1] - y * t.r0[0];            /* n_e.r0 */
+  part     = (mx * t.r0[1] - my * t.r0[0]) / size; /* n_m.r0 */
+  t.factor = ((mx * x + my * y) / size + (weight > 0 ? 0.5 * across * part : 0)) / size;
+  if (weight == 0) return t;
+  t.by[0] = (-weight * my / size + part * (t.r0[0] + 0.5 * x)) / size;
+  t.by[1] = (weight * mx / size + part * (t.r0[1] + 0.5 * y)) / size;
+  return t;
+}
+
+static PetscErrorCode TurnAll(System *s)
+{
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < s->f.count; m++)
+    if (Turns(s, m)) {
+      const Turned t = TurnedOf(s, m);
+
+      PetscCall(SamFrozenTurn(&s->f, m, t.sine, t.factor));
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds the derivatives by the shear and the bound before the step. */
+static void LeaveTurned(System *s)
+{
+  SamObjectiveStep *at    = &s->b->at;
+  const PetscInt    cells = s->b->grid->cells, n = s->f.count;
+
+  for (PetscInt m = 0; m < n; m++) {
+    const PetscInt k = s->f.cell[m];
+    double         part, by_bound;
+    Turned         t;
+
+    if (!Turns(s, m)) continue;
+    t        = TurnedOf(s, m);
+    part     = (s->f.e[0][m] * s->x[m + 2 * n] - s->f.e[1][m] * s->x[m + n]) * hypot(at->slip[k], at->slip[k + cells]);
+    by_bound = part * (t.by[0] * t.r0[0] + t.by[1] * t.r0[1]) / t.b0;
+    for (PetscInt c = 0; c < 2; c++) at->by_shear_before[k + c * cells] -= part * t.by[c] / t.b0;
+    at->by_pressure_before[k] += s->b->friction[k] * by_bound;
+    at->by_friction[k] += at->pressure_before[k] * by_bound;
+  }
+}
+
+/* ---- the cotangents ---- */
 
 /* Counts the cells that are about to change their set. */
 static PetscErrorCode CountBorders(System *s)
@@ -390,10 +468,12 @@ static PetscErrorCode SetCotangents(System *s, const double r[])
   const SamGrid    g = b->grid;
   const SamFrozen *f = &s->f;
   const PetscInt   n = f->count;
-  double          *lambda;
+  double          *lambda, *packed;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(2 * n, &packed));
   PetscCall(PetscCalloc1(2 * g->cells, &lambda));
+  SamFrozenShear(f, NULL, s->x + n, packed);
   PetscCall(PetscArrayzero(b->gamma, g->cells));
   PetscCall(PetscArrayzero(b->beta, g->cells));
   for (PetscInt m = 0; m < n; m++) {
@@ -401,13 +481,15 @@ static PetscErrorCode SetCotangents(System *s, const double r[])
 
     b->gamma[k] = -s->x[m];
     b->beta[k]  = f->e[0][m] * r[m] + f->e[1][m] * r[m + n];
-    for (PetscInt c = 0; c < 2; c++) lambda[k + c * g->cells] = s->x[m + (c + 1) * n];
+    for (PetscInt c = 0; c < 2; c++) lambda[k + c * g->cells] = packed[m + c * n];
   }
   for (PetscInt k = 0; k < 2 * g->cells; k++) {
     b->tau[k]   = b->later[k] - lambda[k];
     b->later[k] = lambda[k] - b->at.by_slip[k];
   }
   PetscCall(PetscFree(lambda));
+  PetscCall(PetscFree(packed));
+  LeaveTurned(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -422,6 +504,7 @@ PetscErrorCode SamBackSolve(SamBack *b, PetscInt step)
   for (PetscInt k = 0; k < 2 * g->cells; k++) b->later[k] += b->at.by_slip[k];
   PetscCall(PetscArrayzero(b->forces, SAM_COMPONENTS));
   PetscCall(Freeze(&s));
+  PetscCall(TurnAll(&s));
   PetscCall(CountBorders(&s));
   for (PetscInt m = 0; m < s.f.count; m++) rubs = PetscMax(rubs, s.f.free[m]);
   touches = s.f.count;

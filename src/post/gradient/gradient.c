@@ -79,8 +79,6 @@ static PetscErrorCode Check(SamGradient g)
              (double)((SamSolver)SamContactGetTangential(g->contact))->rtol, LEAST_RTOL);
   PetscCall(SamProblemGetLaws(problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++) PetscCall(CheckLaw(g, laws[k]));
-  PetscCheck(SamContactGetSettings(g->contact).slip_direction == SAM_SLIP_END, comm, SAM_ERR_USER,
-             "the gradient with the direction of slip at mid step, which has no derivative: give -slip_direction end");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

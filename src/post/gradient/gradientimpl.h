@@ -33,6 +33,7 @@ typedef struct {
   float     *slope;     /* of the last two */
   PetscInt64 end[2];    /* cells whose slips determine how far all slide alike, on the whole grid; -1: none */
   double     by_end[2]; /* its derivatives by the lengths of these slips, 1/m */
+  PetscBool  turns;     /* true: slip follows the shear at mid step in cells that were in contact before */
   PetscBool  force[SAM_COMPONENTS];
   PetscReal  load[SAM_COMPONENTS], rigid[SAM_COMPONENTS], bulk[SAM_GRADIENT_BULKS];
 } SamRecord;

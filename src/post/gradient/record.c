@@ -135,8 +135,9 @@ static PetscErrorCode CheckPlace(SamGradient g, PetscInt place, const SamSolutio
              "the gradient: no step is tried: record each step before it is committed");
   PetscCheck(place <= g->count, comm, PETSC_ERR_ORDER,
              "the gradient: the contact has steps that were not recorded: begin before its first step");
-  PetscCheck(s->rule <= SAM_RULE_END_LINE, comm, SAM_ERR_USER,
-             "the gradient: slip must be opposite to the shear at the end of a step: give -slip_direction end");
+  PetscCheck(s->rule < SAM_RULE_TOUCHING, comm, SAM_ERR_USER,
+             "the gradient: the contact of dissimilar bodies grows, and slip that begins when cells touch has no "
+             "derivative: give -slip_direction end");
   PetscCheck(s->rolled == 0, comm, SAM_ERR_USER, "the gradient of steps that roll is not computed");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -157,6 +158,7 @@ PetscErrorCode SamGradientRecord(SamGradient g)
   PetscCall(Pack(&increment, &r));
   PetscCall(SamIncrementDestroy(&increment));
   CopyControl(g, now, &r);
+  r.turns = SamRuleTurns(now->rule) && SamContactBefore(g->contact) ? PETSC_TRUE : PETSC_FALSE;
   while (g->count > place) PetscCall(SamRecordDestroy(&g->record[--g->count]));
   if (g->count == g->room) {
     g->room = 2 * g->room + 16;
