@@ -162,8 +162,7 @@ static PetscErrorCode ChoosePart(SamBack *b)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes a field of the contact's grid to an array of the part. */
-static PetscErrorCode TakeArray(SamBack *b, Vec whole, double array[])
+PetscErrorCode SamBackTake(const SamBack *b, Vec whole, double array[])
 {
   const double *values;
   Vec           part;
@@ -211,16 +210,16 @@ static PetscErrorCode ReadStep(void *context, PetscInt step, Vec tractions, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-enum { ARRAYS = 20 }; /* fields of one component that a pass needs besides those of the steps */
+enum { ARRAYS = 23 }; /* fields of one component that a pass needs besides those of the steps */
 
 static PetscErrorCode Begin(SamBack *b, double **arrays)
 {
   const PetscInt         cells = (PetscInt)PetscMax(b->grid->cells, 1);
   SamObjectiveStep      *at    = &b->at;
   double                *next;
-  double **const         one[] = {&b->friction, &b->worn,        &b->gamma,        &b->beta,
-                                  &b->by_gap,   &b->by_friction, &at->by_pressure, &at->by_pressure_before,
-                                  &at->by_worn},
+  double **const         one[] = {&b->friction, &b->worn,        &b->gamma,          &b->beta,
+                                  &b->by_gap,   &b->by_friction, &at->by_pressure,   &at->by_pressure_before,
+                                  &at->by_worn, &b->ahead,       &b->entered.by_gap, &b->entered.by_friction},
                  **const two[] = {&b->later, &b->tau, &at->by_shear, &at->by_slip, &at->by_shear_before};
 
   PetscFunctionBegin;
@@ -237,21 +236,30 @@ static PetscErrorCode Begin(SamBack *b, double **arrays)
   at->window      = b->window;
   at->read        = ReadStep;
   at->context     = b->g;
-  PetscCall(TakeArray(b, b->g->friction, b->friction));
+  PetscCall(SamBackTake(b, b->g->friction, b->friction));
   PetscCall(SamGridCreateVec(SamContactGetGrid(b->g->contact), SAM_RECORD_VALUES, &b->whole));
   for (int k = 0; k < 2; k++)
     PetscCall(SamGridCreateVec(b->grid, SAM_RECORD_VALUES, &(k ? &b->now : &b->before)->field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscInt64 SamBackPlace(const SamBack *b, PetscInt64 cell)
+{
+  const PetscInt64 nx       = SamContactGetGrid(b->g->contact)->nx;
+  PetscInt         first[2] = {0, 0}, n[2];
+
+  if (cell < 0) return -1;
+  if (b->window) (void)SamWindowGetPlace(b->window, first, n);
+  return (cell / nx - first[1]) * b->grid->nx + cell % nx - first[0];
+}
+
 /* Makes another step the present one. */
 static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
 {
-  const SamRecord     *r        = &b->g->record[k];
-  const ptrdiff_t      cells    = b->grid->cells;
-  const SamFrameOfStep now      = b->before;
-  SamObjectiveStep    *at       = &b->at;
-  PetscInt             first[2] = {0, 0}, n[2];
+  const SamRecord     *r     = &b->g->record[k];
+  const ptrdiff_t      cells = b->grid->cells;
+  const SamFrameOfStep now   = b->before;
+  SamObjectiveStep    *at    = &b->at;
 
   PetscFunctionBegin;
   b->before = b->now;
@@ -266,12 +274,7 @@ static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
   at->by_alike        = now.value + SAM_RECORD_BY_ALIKE * cells;
   at->pressure_before = b->before.value + SAM_RECORD_PRESSURE * cells;
   at->shear_before    = b->before.value + SAM_RECORD_SHEAR * cells;
-  if (b->window) PetscCall(SamWindowGetPlace(b->window, first, n));
-  for (PetscInt i = 0; i < 2; i++) { /* indices on the whole grid become those on the part */
-    const PetscInt64 nx = SamContactGetGrid(b->g->contact)->nx;
-
-    end[i] = r->end[i] < 0 ? -1 : (r->end[i] / nx - first[1]) * b->grid->nx + r->end[i] % nx - first[0];
-  }
+  for (PetscInt i = 0; i < 2; i++) end[i] = SamBackPlace(b, r->end[i]);
   at->end    = end;
   at->by_end = r->by_end;
   at->rigid  = r->rigid;
@@ -292,7 +295,17 @@ static PetscErrorCode Pass(SamBack *b)
   PetscCall(PetscArrayzero(at->by_shear_before, 2 * cells));
   PetscCall(PetscArrayzero(at->by_slip, 2 * cells));
   PetscCall(PetscArrayzero(at->by_worn, cells));
-  PetscCall(PetscArrayzero(at->by_rigid, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(at->by_rigid, b->by_rigid_before, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(b->by_load, b->by_load_before, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(b->strain, b->strain_before, 3));
+  PetscCall(PetscArrayzero(b->by_rigid_before, SAM_COMPONENTS));
+  PetscCall(PetscArrayzero(b->by_load_before, SAM_COMPONENTS));
+  PetscCall(PetscArrayzero(b->strain_before, 3));
+  PetscCall(PetscArrayzero(b->kappa, 2));
+  PetscCall(PetscArrayzero(b->entered.by_gap, cells));
+  PetscCall(PetscArrayzero(b->entered.by_friction, cells));
+  b->entered = (SamEntered){.by_gap = b->entered.by_gap, .by_friction = b->entered.by_friction};
+  b->by_modulus = 0;
   PetscCall(PetscArrayzero(at->by_bulk, SAM_GRADIENT_BULKS));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -377,6 +390,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
     PetscCall(Wear(b));
     PetscCall(SamBackSolve(b, k));
     PetscCall(SamBackRead(b, k));
+    if (b->g->record[k].grows) PetscCall(SamBackLeaveEntered(b, k));
   }
   if (objective->end) PetscCall((*objective->end)(b->at.data));
   found->value = b->at.number;
