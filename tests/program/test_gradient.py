@@ -311,6 +311,42 @@ def test_random_problems_at_mid_step(seed):
     assert max(deviations.values()) < 3e-5 or borders, (seed, max(deviations, key=deviations.get))
 
 
+@pytest.mark.filterwarnings("ignore")
+def test_loads_that_grow_together_from_no_contact():
+    """The distance of the bodies from where they touch first, of a sphere beside the grid's centre."""
+    shift = 3.3e-5
+    history = history_of(np.array([800.0, 900, 900]), np.array([60.0, 150, -40]), np.array([10.0, 40, -10]))
+
+    def work(part=0.0, sharp=0.0):
+        def gap(x, y):
+            bump = 1e-9 * np.exp(-((x - shift) ** 2 + y**2) / 1e-8)
+            return ((x - shift) ** 2 + y**2) / 0.2 + part * 1e-9 * np.cos(7e3 * x + 1) - sharp * bump
+
+        return record(contact_of(BODIES, 32, gap=gap, slip_direction="mid")[0], history)
+
+    contact, works = work()
+    found = contact.gradient("energy", ["gap"], rtol=1e-11)
+    x, y = np.meshgrid(contact.x, contact.y)
+    units = dict(part=1e-9 * np.cos(7e3 * x + 1), sharp=-1e-9 * np.exp(-((x - shift) ** 2 + y**2) / 1e-8))
+    assert found.value == pytest.approx(works.sum(), rel=1e-12) and found.borders == 0
+    for name, unit in units.items():
+        both = [work(**{name: change})[1].sum() for change in (1e-3, -1e-3)]
+        assert np.sum(found.gap * unit) == pytest.approx((both[0] - both[1]) / 2e-3, rel=1e-5), name
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_slip_at_mid_step_is_found_completely():
+    """While steps are recorded, at usual tolerances too, on the grid of the companions as well; not otherwise."""
+    turn = np.pi / 4 * np.arange(1, 9)
+    history = history_of(np.full(9, 1000.0), np.append(0, 200 * np.sin(turn)), np.append(0, 70 * (1 - np.cos(turn))))
+    usual = dict(slip_direction="mid", normal_rtol=1e-8, tangential_rtol=1e-6)
+    tight = record(contact_of(BODIES, slip_direction="mid")[0], history)[1].sum()
+    loose = record(contact_of(BODIES, **usual)[0], history)[1].sum()
+    assert loose == pytest.approx(tight, rel=1e-6)
+    plain = sum(step.dissipated_energy for step in contact_of(BODIES, **usual)[0].run(history))
+    assert 0.002 < abs(plain / tight - 1) < 0.05
+
+
 def check_random(seed, kind):
     """Checks a random problem; returns the deviations relative to the larger one of derivative and number, and the
     number of cells on borders."""

@@ -49,8 +49,9 @@
     3. The tangential problem with this t, from that q on.
   In a cycle that repeats itself step 1 uses t of the same step one cycle before (stepcache.c). If it has done so once,
   step 1 is solved completely, and steps 2 and 3 are left out if t agrees with it.
-  With a tolerance of the shear of at most 1e-8, steps 2 and 3 are repeated, with Anderson's method, until t is that of
-  the solution to this tolerance, so that the solution is that of the rule, and differentiable (solve.c).
+  With a tolerance of the shear of at most 1e-8, and where steps are recorded for gradients, steps 2 and 3 are repeated,
+  with Anderson's method, until t is that of the solution to this tolerance: the solution is that of the rule, and
+  differentiable (solve.c).
   For dissimilar bodies steps 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 suffices: the
   shear keeps its direction, except for the transverse part that Poisson's ratio causes, whose work cancels. The motion
   of cells before they touch follows from the loads: if loads are unknown, after step 1.

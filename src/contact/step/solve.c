@@ -188,7 +188,8 @@ static PetscErrorCode SettlePass(void *context, PetscInt pass, Vec result, SamPa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Repeats the tangential problem until the field `aside` is that of its solution, if the tolerance is tight. */
+/* Repeats the tangential problem until the field `aside` is that of its solution, if the tolerance is tight or that is
+   wanted. */
 static PetscErrorCode Settle(SamSolve *w)
 {
   static const SamFixedPoint iteration = {.components = 2, .most = SETTLES, .pass = SettlePass};
@@ -198,7 +199,8 @@ static PetscErrorCode Settle(SamSolve *w)
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &p.rtol, NULL));
-  if (p.rtol > TIGHT || w->touching || !w->s->aside || !SamSolveSetsAside(w)) PetscFunctionReturn(PETSC_SUCCESS);
+  if ((p.rtol > TIGHT && !w->task->settles) || w->touching || !w->s->aside || !SamSolveSetsAside(w))
+    PetscFunctionReturn(PETSC_SUCCESS);
   if (w->step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamElasticityGetSelfInfluence(w->task->elasticity, &normal, &p.unit));
   PetscCall(VecDuplicate(w->s->aside, &p.argument));

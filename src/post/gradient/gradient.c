@@ -96,6 +96,7 @@ PetscErrorCode SamGradientCreate(SamContact contact, SamGap shape, SamGradient *
   if (ierr) PetscCall(SamGradientDestroy(&g));
   PetscCall(ierr);
   *gradient = g;
+  SamContactSetSettles(contact, PETSC_TRUE);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -117,6 +118,7 @@ PetscErrorCode SamGradientDestroy(SamGradient *gradient)
   if (!*gradient) PetscFunctionReturn(PETSC_SUCCESS);
   g = *gradient;
   SamGradientForget(g);
+  SamContactSetSettles(g->contact, PETSC_FALSE);
   PetscCall(PetscFree(g->record));
   PetscCall(ClearFound(&g->found));
   PetscCall(PetscFree(*gradient));
@@ -304,7 +306,7 @@ static PetscErrorCode Pass(SamBack *b)
   PetscCall(PetscArrayzero(b->kappa, 2));
   PetscCall(PetscArrayzero(b->entered.by_gap, cells));
   PetscCall(PetscArrayzero(b->entered.by_friction, cells));
-  b->entered = (SamEntered){.by_gap = b->entered.by_gap, .by_friction = b->entered.by_friction};
+  b->entered    = (SamEntered){.by_gap = b->entered.by_gap, .by_friction = b->entered.by_friction};
   b->by_modulus = 0;
   PetscCall(PetscArrayzero(at->by_bulk, SAM_GRADIENT_BULKS));
   PetscFunctionReturn(PETSC_SUCCESS);
