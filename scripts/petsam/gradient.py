@@ -302,7 +302,9 @@ def for_torch(evaluate: Callable[[ArrayLike], tuple[Any, np.ndarray]]) -> Callab
 
     def differentiable(x):
         if getattr(x, "dtype", None) is not torch.float64:
-            raise Unusable(f"x is of {getattr(x, 'dtype', type(x).__name__)}: give a tensor of torch.float64, x.double()")
+            raise Unusable(
+                f"x is of {getattr(x, 'dtype', type(x).__name__)}: give a tensor of torch.float64, x.double()"
+            )
         return Run.apply(x)[0]
 
     return differentiable

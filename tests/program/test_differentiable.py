@@ -149,7 +149,10 @@ def test_all_ways_of_torch(torch):
 
 def test_refusals_by_torch(torch):
     evaluate = petsam.gradient.for_torch(polynomials)
-    for x, words in ((X, "x is of float64: give a tensor"), (torch.ones(3), "give a tensor of torch.float64, x.double")):
+    for x, words in (
+        (X, "x is of float64: give a tensor"),
+        (torch.ones(3), "give a tensor of torch.float64, x.double"),
+    ):
         with pytest.raises(petsam.Error, match=words):
             evaluate(x)
     with pytest.raises(petsam.Error, match="no second derivatives of a run"):
