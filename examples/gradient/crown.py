@@ -66,7 +66,7 @@ def minimum(start, moments, sum_of=False):
 
 
 def function(moments, rows=ROLLER["grid_n"][1], sum_of=False):
-    """Stresses (Pa) of the cases and their derivatives, by curvatures over those of Lundberg's profile, or one for all."""
+    """Stresses (Pa) of the cases and their derivatives by curvatures over Lundberg's, or by one for all of them."""
     options = {**ROLLER, "grid_n": (ROLLER["grid_n"][0], rows)}
     stay, parts = gaps(options)
     history = {"time": np.arange(len(moments)), "load_n": np.full(len(moments), LOAD), "load_mx": moments}

@@ -137,7 +137,8 @@ def function(
     -------
     callable
         x -> (number, derivatives (parameters,)), as scipy.optimize.minimize(..., jac=True) takes it; of a list
-        x -> (numbers (objectives,), derivatives (objectives, parameters)), with a pass back for each number.
+        x -> (numbers (objectives,), derivatives (objectives, parameters)), with a pass back for each number. Its
+        attribute shape is () or (objectives,).
 
     Raises
     ------
@@ -216,16 +217,22 @@ def for_jax(
     Raises
     ------
     Error
-        If jax is not installed; by a call, if it computes in single precision. An error of a run reaches the caller as
-        one of jax, which has its message.
+        If jax, of which 0.4.35 is enough, is not installed; by a call, if it computes in single precision. An error of
+        a run reaches the caller as one of jax, which has its message.
     """
     jax = library("jax")
     shape = getattr(evaluate, "shape", ()) if shape is None else tuple(shape)
 
+    def of_shape(x):
+        found = _doubles(evaluate)(x)
+        if found[0].shape != shape:
+            raise Unusable(f"the function returns numbers of the shape {found[0].shape}: give shape={found[0].shape}")
+        return found
+
     @jax.custom_jvp
     def run(x):
         outcome = [jax.ShapeDtypeStruct(both, np.float64) for both in (shape, (*shape, *x.shape))]
-        return jax.pure_callback(_doubles(evaluate), outcome, x, vmap_method="sequential")
+        return jax.pure_callback(of_shape, outcome, x, vmap_method="sequential")
 
     @run.defjvp
     def rejected(point, change):
@@ -267,7 +274,7 @@ def for_torch(evaluate: Callable[[ArrayLike], tuple[Any, np.ndarray]]) -> Callab
     Raises
     ------
     Error
-        If torch is not installed; by a call, if x has another precision.
+        If torch, of which 2.0 is enough, is not installed; by a call, if x has another precision.
     """
     torch = library("torch")
 

@@ -104,6 +104,8 @@ def test_refusals_by_jax(jax):
     evaluate = petsam.gradient.for_jax(polynomials, shape=(2,))
     with pytest.raises(petsam.Error, match="no second derivatives of a run"):
         jax.jacrev(jax.jacrev(evaluate))(X)
+    with pytest.raises(Exception, match=r"numbers of the shape \(2,\): give shape=\(2,\)"):
+        petsam.gradient.for_jax(polynomials)(X)
     model = petsam.gradient.for_jax(Counted("energy"))
     for x, words in (([0.4, 0, 0], r"x has the shape \(3,\): give 4 values"), ([0.1, 0, 0, 0], "gross slip")):
         with pytest.raises(Exception, match=words):
