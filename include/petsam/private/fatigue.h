@@ -49,6 +49,14 @@ PETSC_INTERN double SamFatigueFatemiSocie(const SamFatigueCycle *cycle, double m
 PETSC_INTERN double SamFatigueRuiz(const SamFatigueCycle *cycle, double more[]);
 
 /*
+  SamFatigueSlopes - returns a parameter that is the largest over planes (Findley, SWT, Fatemi and Socie), and computes
+  its derivatives by the stresses: slope[c * states + k] (unit of the parameter over Pa), that by a shear stress counting
+  both of its places. To first order the plane, the states of the extremes and those on the circle stay. They are 0 where
+  no plane is under tension (SWT). `slope` may be the array of the stresses. Not collective.
+*/
+PETSC_INTERN double SamFatigueSlopes(SamFatigueParameter *parameter, const SamFatigueCycle *cycle, double slope[]);
+
+/*
   SamSmallestBall - returns the radius of the smallest ball around n > 0 points (points[i * dimension + d]) of a
   dimension of at most 5, and computes its centre. Not collective. Source: Gaertner 1999, Fast and robust smallest
   enclosing balls (ESA).
