@@ -33,7 +33,7 @@ typedef struct {
     SamFatigueFatemiSocie  largest over n of tau_a/G (1 + k max s_n/yield), 1 (Fatemi and Socie 1988)
     SamFatigueRuiz         D1, J/m2: a quarter of the closed integral of |q . ds|, q the shear on the surface, which for
                            a reciprocating cycle is the shear times the slip amplitude; NaN below the surface
-  Planes are searched in steps of 10 degrees, then around the best plane down to a sixth of a degree. `more` becomes the
+  Planes are searched in steps of 10 degrees, then around the best plane, to the last digits. `more` becomes the
   normal of the critical plane, with z >= 0; it is NaN if no plane is under tension (SWT). For Ruiz's parameter `more`
   becomes D2 (Pa J/m2): D1 times the maximum tension in the direction of the maximum change of slip. Not collective.
   Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.

@@ -3,8 +3,9 @@
 
   Planes: the maximum over planes is searched on a hemisphere of normals, 10 degrees apart; then from the best of them,
   from other normals that are nearly as good and point elsewhere, and from the plane of maximum tension, by steps in
-  angle that are halved down to a sixth of a degree. Near its maximum a parameter is at most quadratic in the
-  angle but for kinks.
+  angle that are halved down to a sixth of a degree; then by Newton's method. As the largest of smooth functions of the
+  angles (of pairs of states for SWT, of weights of states for the radius of a circle) a parameter has no kink at its
+  maximum.
 
   The circle about the path of the shear stress in a plane is computed only if the larger circle about the path's
   rectangle would make the plane the best so far.
@@ -23,6 +24,11 @@ enum { COARSE = 10, STARTS = 5 };
 #define ELSEWHERE  20.0
 /* Least ratio of a start's value to the best value at which this start is tried */
 #define NEARLY 0.9
+
+/* Angle between the planes of a paraboloid; least curvature, relative to the largest; number of steps to its top */
+#define NEARBY 1e-4
+#define FLAT   1e-6
+enum { STEPS = 3 };
 
 /* Least relative increase of the parameter by a step of the search */
 #define CLIMB 1e-6
@@ -178,6 +184,60 @@ static void Climb(const Cycle *c, Plane *at)
   }
 }
 
+/* Returns the plane whose normal is turned by two small angles. */
+static Plane Turned(const Cycle *c, const Plane *from, double a, double b)
+{
+  double n[3], u[3], v[3];
+  Plane  to = {0, 0, 0};
+
+  SetFrame(from->theta, from->phi, n, u, v);
+  for (int d = 0; d < 3; d++) n[d] += a * u[d] + b * v[d];
+  to.theta = atan2(hypot(n[0], n[1]), n[2]);
+  to.phi   = atan2(n[1], n[0]);
+  to.value = OnPlane(c, to.theta, to.phi, -INFINITY);
+  return to;
+}
+
+/*
+  Finds the angles to the top of the paraboloid through the parameter nearby, along those of its axes along which it has
+  one: on a circle of equal planes it has none along the circle.
+*/
+static void FindTop(const Cycle *c, const Plane *at, double step[2])
+{
+  const double h = NEARBY, ends[3][2] = {{Turned(c, at, h, 0).value, Turned(c, at, -h, 0).value},
+                                         {Turned(c, at, 0, h).value, Turned(c, at, 0, -h).value},
+                                         {Turned(c, at, h, h).value, Turned(c, at, -h, -h).value}};
+  double       slope[2], curve[3], mixed, angle;
+
+  for (int k = 0; k < 3; k++) curve[k] = (ends[k][0] + ends[k][1] - 2 * at->value) / (h * h);
+  for (int k = 0; k < 2; k++) slope[k] = (ends[k][0] - ends[k][1]) / (2 * h);
+  mixed   = 0.5 * (curve[2] - curve[0] - curve[1]);
+  angle   = 0.5 * atan2(2 * mixed, curve[0] - curve[1]);
+  step[0] = step[1] = 0;
+  for (int k = 0; k < 2; k++, angle += PETSC_PI / 2) {
+    const double x = cos(angle), y = sin(angle), down = -(x * x * curve[0] + 2 * x * y * mixed + y * y * curve[1]);
+    const double way = (x * slope[0] + y * slope[1]) / down;
+
+    if (!(down > FLAT * (fabs(curve[0]) + fabs(curve[1])) && fabs(way) < FIRST_STEP * DEGREE)) continue;
+    step[0] += way * x;
+    step[1] += way * y;
+  }
+}
+
+/* Moves to the top of a paraboloid while that is better; most of the digits come with the second step. */
+static void StepToTop(const Cycle *c, Plane *at)
+{
+  for (int k = 0; k < STEPS; k++) {
+    double step[2];
+    Plane  top;
+
+    FindTop(c, at, step);
+    top = Turned(c, at, step[0], step[1]);
+    if (!(top.value > at->value)) return;
+    *at = top;
+  }
+}
+
 /* Gets the normal of a plane, or its opposite, so that its z is not negative. */
 static void GetNormal(const Plane *plane, double normal[3])
 {
@@ -297,6 +357,7 @@ static PetscBool FindBest(const Cycle *c, Plane *plane)
     if (starts[k].value >= starts[winner].value) winner = k;
   }
   *plane = starts[winner];
+  StepToTop(c, plane);
   return PETSC_TRUE;
 }
 
