@@ -11,8 +11,8 @@
 
   These are the largest over the planes of tau_a + k max s_n, max s_n (max e_n - min e_n)/2 and tau_a/G (1 + k max
   s_n/yield), with s_n = n'sn, e_n = ((1 + nu) s_n - nu tr s)/E and tau_a the radius of the smallest circle about the
-  path of the shear on the plane. To first order the plane, the states of the extremes and those on the circle stay: with
-  u_i the directions to these from the centre, and weights of sum 1 with sum w_i u_i = 0, d tau_a = sum w_i u_i.d tau_i.
+  path of the shear on the plane. To first order the plane, the states of the extremes and those on the circle stay:
+  d tau_a = sum w_i u_i.d tau_i, with u_i the directions to these from the centre and w_i of sum 1 with sum w_i u_i = 0.
 */
 #include "gradientimpl.h"
 #include <petsam/private/body.h>
@@ -20,8 +20,9 @@
 #include <petsam/private/stress.h>
 #include <math.h>
 
-#define POWER     40  /* of the norm: 512 equal values raise it by a sixth */
-#define MAP_BYTES 305 /* of the map of the stress: its fields and its kernels, per cell */
+#define POWER     40    /* of the norm: 512 equal values raise it by a sixth */
+#define LEAST     1e-18 /* derivative of the norm by a cell's parameter that counts, of those whose sum is about 1 */
+#define MAP_BYTES 305   /* of the map of the stress: its fields and its kernels, per cell */
 
 enum { MISES = SAM_STRESS_COMPONENTS };
 
@@ -312,10 +313,11 @@ static PetscErrorCode AddOfStep(SamObjectiveStep *at, const Wanted *w, Map *m)
 
 /* ---- a parameter of a cycle ---- */
 
-/* The map, and the derivatives of the norm by the stresses of all steps of a cycle, which a pass keeps */
+/* What a pass keeps: the map, and the derivatives of the norm by the stresses of all steps, of the cells that count */
 typedef struct {
-  Map     map;
-  double *by; /* of each cell, of each component, in each step */
+  Map      map;
+  PetscInt count, *cell;
+  double  *by; /* of each of these cells, of each component, in each step */
 } Cycle;
 
 static SamFatigueConstants ConstantsOf(const SamObjectiveStep *at, const Wanted *w)
@@ -343,9 +345,27 @@ static PetscErrorCode Gather(const SamObjectiveStep *at, const Wanted *w, Cycle 
     PetscCall(VecGetArrayRead(c->map.field, &s));
     for (PetscInt m = 0; m < cells; m++)
       for (int n = 0; n < SAM_STRESS_COMPONENTS; n++)
-        c->by[(m * SAM_STRESS_COMPONENTS + n) * states + k] = s[m + n * cells];
+        c->by[((ptrdiff_t)m * SAM_STRESS_COMPONENTS + n) * states + k] = s[m + n * cells];
     PetscCall(VecRestoreArrayRead(c->map.field, &s));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Keeps the cells whose derivative by the parameter is not negligible, and multiplies by it. */
+static PetscErrorCode KeepCells(const double value[], PetscInt cells, size_t size, Cycle *c)
+{
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < cells; m++) c->count += value[m] > LEAST;
+  PetscCall(PetscMalloc1(c->count, &c->cell));
+  c->count = 0;
+  for (PetscInt m = 0; m < cells; m++) {
+    double *const to = c->by + (size_t)c->count * size;
+
+    if (!(value[m] > LEAST)) continue;
+    for (size_t k = 0; k < size; k++) to[k] = value[m] * c->by[(size_t)m * size + k];
+    c->cell[c->count++] = m;
+  }
+  PetscCall(PetscRealloc(PetscMax((size_t)c->count, 1) * size * sizeof(double), &c->by));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -357,19 +377,17 @@ static PetscErrorCode FindSlopes(SamObjectiveStep *at, const Wanted *w, Cycle *c
   double                   *value, *scratch;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(SAM_STRESS_COMPONENTS * states * cells, &c->by));
+  PetscCall(PetscMalloc1((size_t)cells * SAM_STRESS_COMPONENTS * (size_t)states, &c->by));
   PetscCall(Gather(at, w, c));
   PetscCall(PetscMalloc2(cells, &value, SAM_FATIGUE_SCRATCH * states, &scratch));
   for (PetscInt m = 0; m < cells; m++) {
-    double *const         by    = c->by + m * SAM_STRESS_COMPONENTS * states;
+    double *const         by    = c->by + (ptrdiff_t)m * SAM_STRESS_COMPONENTS * states;
     const SamFatigueCycle cycle = {&constants, states, by, NULL, scratch};
 
     value[m] = fmax(SamFatigueSlopes(quantities[w->quantity].of_cycle, &cycle, by), 0);
   }
   PetscCall(FindNorm(at, c->map.grid, value));
-  for (PetscInt m = 0; m < cells; m++)
-    for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS * states; k++)
-      c->by[m * SAM_STRESS_COMPONENTS * states + k] *= value[m];
+  PetscCall(KeepCells(value, cells, (size_t)(SAM_STRESS_COMPONENTS * states), c));
   PetscCall(PetscFree2(value, scratch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -381,12 +399,13 @@ static PetscErrorCode AddOfCycle(SamObjectiveStep *at, const Wanted *w, Cycle *c
   double        *by;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayWrite(c->map.field, &by));
-  for (PetscInt m = 0; m < cells; m++)
+  PetscCall(VecZeroEntries(c->map.field));
+  PetscCall(VecGetArray(c->map.field, &by));
+  for (PetscInt m = 0; m < c->count; m++)
     for (int d = 0; d < SAM_STRESS_COMPONENTS; d++)
-      by[m + d * cells] = c->by[(m * SAM_STRESS_COMPONENTS + d) * states + at->step - at->first];
+      by[c->cell[m] + d * cells] = c->by[((ptrdiff_t)m * SAM_STRESS_COMPONENTS + d) * states + at->step - at->first];
   PetscCall(AddStresses(at, w, &c->map, by));
-  PetscCall(VecRestoreArrayWrite(c->map.field, &by));
+  PetscCall(VecRestoreArray(c->map.field, &by));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -397,6 +416,7 @@ static PetscErrorCode EndCycle(void *data)
   PetscFunctionBegin;
   if (!c) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Destroy(&c->map));
+  PetscCall(PetscFree(c->cell));
   PetscCall(PetscFree(c->by));
   PetscCall(PetscFree(c));
   PetscFunctionReturn(PETSC_SUCCESS);
