@@ -435,9 +435,11 @@ def fatigue_of(contact, history, name, **given):
     return contact.fatigue(name, quantities="stress", **given)
 
 
-def shear_on(stress, cell, normal):
-    """The paths of the normal stress and of the shear on a plane in a cell: (steps), (steps, 3)."""
-    xx, yy, zz, xy, xz, yz = (stress[f"stress_{name}"][:, 0, *cell] for name in ("xx", "yy", "zz", "xy", "xz", "yz"))
+def shear_in(given, row, column):
+    """The paths of the normal stress and of the shear on Findley's plane in a cell: (steps), (steps, 3)."""
+    names = ("xx", "yy", "zz", "xy", "xz", "yz")
+    xx, yy, zz, xy, xz, yz = (given[f"stress_{name}"][:, 0, row, column] for name in names)
+    normal = np.array([given[f"findley_normal_{axis}"][0, row, column] for axis in "xyz"])
     on = np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), 2, 0) @ normal
     return on @ normal, on - np.outer(on @ normal, normal)
 
@@ -459,8 +461,7 @@ def test_parameters_of_planes(number, constants):
     norm = np.sum((values / values.max()) ** 40) ** (1 / 40) * values.max()
     assert found.value == pytest.approx(norm, rel=1e-12)
     if name == "findley" and body == 2:
-        cell = np.unravel_index(np.argmax(values), values.shape)
-        normal, shear = shear_on(given, cell, np.array([given[f"findley_normal_{axis}"][0, *cell] for axis in "xyz"]))
+        normal, shear = shear_in(given, *np.unravel_index(np.argmax(values), values.shape))
         chord = max(np.linalg.norm(a - b) for a in shear for b in shear)
         assert values.max() - 0.3 * normal.max() > 0.5 * chord * (1 + 1e-4)
 

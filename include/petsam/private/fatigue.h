@@ -51,8 +51,8 @@ PETSC_INTERN double SamFatigueRuiz(const SamFatigueCycle *cycle, double more[]);
 /*
   SamFatigueSlopes - returns a parameter that is the largest over planes (Findley, SWT, Fatemi and Socie), and computes
   its derivatives by the stresses: slope[c * states + k] (its unit over Pa), that by a shear stress counting both of its
-  places. To first order the plane, the states of the extremes and those on the circle stay. They are 0 where no plane is
-  under tension (SWT). `slope` may be the array of the stresses. Not collective.
+  places. To first order the plane, the states of the extremes and those on the circle stay. They are 0 where no plane
+  is under tension (SWT). `slope` may be the array of the stresses. Not collective.
 */
 PETSC_INTERN double SamFatigueSlopes(SamFatigueParameter *parameter, const SamFatigueCycle *cycle, double slope[]);
 
