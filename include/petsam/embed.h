@@ -480,8 +480,9 @@ const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions);
   Errors: 2 for a contact with steps, or with options whose derivative is not computed.
 
   Steps of petsam_history() are recorded, too; petsam_commit() and petsam_history() return 2 for a step that has no
-  derivative. The slip must be opposite to the shear at the end of a step, -slip_direction end. A step takes 60 bytes
-  per cell in contact.
+  derivative: where the contact of dissimilar bodies grows that needs -slip_direction end. Slip at mid step is found to
+  the tolerance of the shear while steps are recorded, by more solutions of each step. A step takes 60 bytes per cell in
+  contact.
 
   See also: petsam_gradient().
 */
@@ -522,8 +523,8 @@ int petsam_gradient(petsam_contact *c, const char *name, int first, int last, co
           name   - its name: value, the number itself; gap and friction, derivatives by the separation (1/m) and the
                    coefficient of friction in each cell, NaN where that is 0; load_n, disp_x, bulk1_stress_xx ..., by
                    the value of each step; body1_young (1/Pa), body1_poisson ..., gap_radius1 (1/m) ..., by what of them
-                   was named; wear_coefficient (Pa), wear_energy, by the coefficients of both bodies alike; borders, the number
-                   of cells that are about to change their set, where derivatives hold to one side; residual, the
+                   was named; wear_coefficient (Pa), wear_energy, by the coefficients of both bodies alike; borders, the
+                   number of cells that are about to change their set, where derivatives hold to one side; residual, the
                    largest of the systems
   Out:    values - this rank's rows of a field; of the steps that petsam_gradient() told, NaN where it is not given;
                    else one number (unit of the number over that of the parameter)

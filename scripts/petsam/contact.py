@@ -1018,8 +1018,11 @@ class Contact:
 
         Notes
         -----
-        A step takes 60 bytes for each cell in contact. The contact needs slip_direction="end"; for derivatives of many
-        digits give it tight tolerances, normal_rtol=1e-12 and tangential_rtol=1e-12: the default ones leave about 1e-5.
+        A step takes 60 bytes for each cell in contact. Where the contact of dissimilar bodies grows it needs
+        slip_direction="end". Slip at mid step is found to the tolerance of the shear while steps are recorded, so that
+        the results of a run may differ from one that is not recorded, by what a step of second order leaves. For
+        derivatives of many digits give tight tolerances, normal_rtol=1e-12 and tangential_rtol=1e-12: the default ones
+        leave about 1e-5.
         """
         self._call("gradient_record", ctypes.c_int(bool(on)))
 

@@ -153,6 +153,11 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamContactSetSettles(SamContact c, PetscBool settles)
+{
+  c->settles = settles;
+}
+
 SamProblem SamContactGetProblem(SamContact c)
 {
   return c->problem;

@@ -22,6 +22,7 @@ struct _n_SamContact {
   /* its state */
   SamState         state;
   PetscBool        has_tried;                      /* there is a tried solution */
+  PetscBool        settles;                        /* slip is found to the tolerance of the shear */
   PetscBool        same_gap;                       /* the tried step has the gap of the committed pressure */
   SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
   SamStepCache     cache;                          /* steps of the previous cycle */

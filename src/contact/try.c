@@ -371,6 +371,7 @@ static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pre
                       .displacements = {c->displacements[0], c->displacements[1]},
                       .counts        = c->counts,
                       .rolling       = c->rolling,
+                      .settles       = c->settles,
                       .coupled       = SamContactIsCoupled(c),
                       .same_pressure = same_pressure};
 

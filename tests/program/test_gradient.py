@@ -211,20 +211,26 @@ def objectives(problem):
 @pytest.mark.parametrize("seed", [*range(12), 13, 14, 15, 16])
 def test_random_problems_beside_differences(seed):
     """Each parameter by central differences of the contact's own history."""
-    deviations, borders = check_random(seed)
+    deviations, borders = check_random(seed, Problem)
     assert max(deviations.values()) < 3e-5 or borders, (seed, max(deviations, key=deviations.get))
 
 
 class Problem:
     """A random problem, its number, and what becomes of it when a parameter changes."""
 
+    moduli = ("body1_young", "body1_poisson", "body2_poisson")
+
     def __init__(self, seed):
-        self.case, self.history = random_case(seed)
+        self.case, self.history = self.draw(seed)
         contact, x, y = self.contact({})
         self.gap, self.wave = self.case["gap"](x, y), 1e-9 * np.cos(5e3 * x + 1) * np.cos(4e3 * y + 0.5)
         self.recorded, works = record(contact, self.history)
         self.energy = works.sum()
         self.columns = [name for name in self.history if name != "time"]
+
+    def draw(self, seed):
+        """The case and the history of the problem."""
+        return random_case(seed)
 
     def contact(self, change):
         every = {**self.case, **change}
@@ -263,7 +269,7 @@ class Problem:
 
     def difference(self, parameter, name, steps):
         """The same by differences of the contact's own history."""
-        size = 1e-3 if parameter == "gap" else 1e-5 if parameter in self.case["bodies"] else 1e-6
+        size = 1e-3 if parameter == "gap" else 1e-5 if parameter in self.moduli else 1e-6
         both = []
         for sign in (1, -1):
             change = self.changed(parameter, sign * size)
@@ -272,10 +278,79 @@ class Problem:
         return (both[0] - both[1]) / (2 * size)
 
 
-def check_random(seed):
+class ProblemOfMidStep(Problem):
+    """A random problem of similar bodies whose slip follows the shear at mid step, under loads that grow and shrink."""
+
+    moduli = ("young", "poisson")  # of both bodies at once: they stay similar
+
+    def draw(self, seed):
+        case, history = random_case(seed)
+        bodies, steps = case["bodies"], np.arange(len(history["time"]))
+        bodies |= dict(body2_young=bodies["body1_young"], body2_poisson=bodies["body1_poisson"])
+        normal = "load_n" if "load_n" in history else "disp_z"
+        history[normal] = history[normal] * (1 + 0.12 * np.sin(1.3 * steps + seed))
+        return {**case, "slip_direction": "mid"}, history
+
+    def changed(self, parameter, size):
+        if parameter in self.moduli:
+            both = {name: value * (1 + size * (parameter in name)) for name, value in self.case["bodies"].items()}
+            return dict(bodies=both)
+        return super().changed(parameter, size)
+
+    def derivative(self, found, parameter):
+        if parameter in self.moduli:
+            return sum(found[name] * value for name, value in self.case["bodies"].items() if parameter in name)
+        return super().derivative(found, parameter)
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("seed", [0, 1, 2, 3, 5, 8, 9, 10, 13, 15, 16, 22])
+def test_random_problems_at_mid_step(seed):
+    """Slip that turns with the shear, and begins where cells touch."""
+    deviations, borders = check_random(seed, ProblemOfMidStep)
+    assert max(deviations.values()) < 3e-5 or borders, (seed, max(deviations, key=deviations.get))
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_loads_that_grow_together_from_no_contact():
+    """The distance of the bodies from where they touch first, of a sphere beside the grid's centre."""
+    shift = 3.3e-5
+    history = history_of(np.array([800.0, 900, 900]), np.array([60.0, 150, -40]), np.array([10.0, 40, -10]))
+
+    def work(part=0.0, sharp=0.0):
+        def gap(x, y):
+            bump = 1e-9 * np.exp(-((x - shift) ** 2 + y**2) / 1e-8)
+            return ((x - shift) ** 2 + y**2) / 0.2 + part * 1e-9 * np.cos(7e3 * x + 1) - sharp * bump
+
+        return record(contact_of(BODIES, 32, gap=gap, slip_direction="mid")[0], history)
+
+    contact, works = work()
+    found = contact.gradient("energy", ["gap"], rtol=1e-11)
+    x, y = np.meshgrid(contact.x, contact.y)
+    units = dict(part=1e-9 * np.cos(7e3 * x + 1), sharp=-1e-9 * np.exp(-((x - shift) ** 2 + y**2) / 1e-8))
+    assert found.value == pytest.approx(works.sum(), rel=1e-12) and found.borders == 0
+    for name, unit in units.items():
+        both = [work(**{name: change})[1].sum() for change in (1e-3, -1e-3)]
+        assert np.sum(found.gap * unit) == pytest.approx((both[0] - both[1]) / 2e-3, rel=1e-5), name
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_slip_at_mid_step_is_found_completely():
+    """While steps are recorded, at usual tolerances too, on the grid of the companions as well; not otherwise."""
+    turn = np.pi / 4 * np.arange(1, 9)
+    history = history_of(np.full(9, 1000.0), np.append(0, 200 * np.sin(turn)), np.append(0, 70 * (1 - np.cos(turn))))
+    usual = dict(slip_direction="mid", normal_rtol=1e-8, tangential_rtol=1e-6)
+    tight = record(contact_of(BODIES, slip_direction="mid")[0], history)[1].sum()
+    loose = record(contact_of(BODIES, **usual)[0], history)[1].sum()
+    assert loose == pytest.approx(tight, rel=1e-6)
+    plain = sum(step.dissipated_energy for step in contact_of(BODIES, **usual)[0].run(history))
+    assert 0.002 < abs(plain / tight - 1) < 0.05
+
+
+def check_random(seed, kind):
     """Checks a random problem; returns the deviations relative to the larger one of derivative and number, and the
     number of cells on borders."""
-    problem, deviations, borders = Problem(seed), {}, 0
+    problem, deviations, borders = kind(seed), {}, 0
     more = [name for name in problem.case if name.startswith(("wear", "bulk"))]
     for name, steps in objectives(problem):
         if name == "energy" and problem.energy < 1e-12:
@@ -284,7 +359,7 @@ def check_random(seed):
         borders += found.borders
         if name == "energy":
             assert found.value == pytest.approx(problem.energy, rel=1e-9, abs=1e-15)
-        for parameter in ("gap", "friction", "body1_young", "body1_poisson", "body2_poisson", *more, *problem.columns):
+        for parameter in ("gap", "friction", *problem.moduli, *more, *problem.columns):
             difference = problem.difference(parameter, name, steps)
             scale = max(abs(difference), 0.1 * abs(found.value))
             deviations[name, parameter] = abs(problem.derivative(found, parameter) - difference) / scale
@@ -558,9 +633,8 @@ def test_refusals():
         contact = petsam.Contact(**{**BODIES, **TIGHT, **ball, "slip_direction": direction, **change})
         with pytest.raises(petsam.Error, match=words):
             contact.record_gradient()
-    turning = {**history, "load_ty": [0.0, 0.0, 60.0]}
     with pytest.raises(petsam.Error, match="-slip_direction end"):
-        record(contact_of(BODIES, 16, slip_direction="mid")[0], turning)
+        record(contact_of(UNLIKE, 16, slip_direction="mid")[0], history)
     with pytest.raises(petsam.Error, match="friction changes"):
         record(contact_of(BODIES, 16)[0], {**history, "friction_scale": [1, 0.5, 1]})
     with pytest.raises(petsam.Error, match="no contact"):
@@ -736,7 +810,7 @@ def test_steps_of_a_gradient(petsam, loads, tmp_path):
 @pytest.mark.parametrize(
     "change, words",
     [
-        (dict(slip_direction=None), "give -slip_direction end"),
+        (dict(slip_direction=None, body2_young=70e9), "give -slip_direction end"),
         (dict(gradient_steps="2,9"), "the history has 4 steps"),
         (dict(gradient="stick_area"), "piecewise constant"),
         (dict(gradient="load_n"), "take disp_z"),

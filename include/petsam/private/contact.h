@@ -117,6 +117,13 @@ PETSC_EXTERN SamNormal SamContactGetNormal(SamContact contact);
 */
 PETSC_EXTERN SamTangential SamContactGetTangential(SamContact contact);
 
+/*
+  SamContactSetSettles - lets each step find the direction and the beginning of its slip to the tolerance of the shear,
+  whatever that is; else they are only as accurate as a step is, unless the tolerance is tight (contact/step/
+  direction.c). Not collective.
+*/
+PETSC_INTERN void SamContactSetSettles(SamContact contact, PetscBool settles);
+
 /* SamContactGetProblem - returns the problem of a contact, borrowed. Not collective. */
 PETSC_INTERN SamProblem SamContactGetProblem(SamContact contact);
 

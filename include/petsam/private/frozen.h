@@ -39,6 +39,7 @@ typedef struct {
   double       *stiff;    /* |ds|/(mu p), m/Pa, the resistance to a turn of the slip; 0 in cells that stick */
   double       *free;     /* 1; 0 in cells without friction, and so without shear */
   double       *bears;    /* 1; 0 in cells that yield, whose pressure stays */
+  double       *sine;     /* of the angle from the normal of e to the direction of the unknown traction; NULL: 0 */
   double        slope[2]; /* mean of follow times e */
   double        self[2];  /* influence of a cell on itself, normal and tangential, m/Pa */
   Vec           p, q, u_z, u_t, w_z, w_t;
@@ -103,6 +104,14 @@ PETSC_INTERN void SamFrozenShear(const SamFrozen *frozen, const double p[], cons
    right-hand side. */
 PETSC_INTERN PetscErrorCode SamFrozenPack(const SamFrozen *frozen, Vec field, double values[]);
 PETSC_INTERN void           SamFrozenProject(const SamFrozen *frozen, double values[]);
+/*
+  SamFrozenTurn - lets the unknown traction of the k-th packed cell, which slips, have the direction n_m in place of the
+  normal of e, `sine` being that of the angle from this to n_m, in a transposed system: its slip is normal to n_m. The
+  resistance to a turn of the slip is multiplied by a factor. Not collective.
+  SamFrozenProjectRow - makes a packed motion of two components a row of the unknowns. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamFrozenTurn(SamFrozen *frozen, PetscInt k, double sine, double factor);
+PETSC_INTERN void           SamFrozenProjectRow(const SamFrozen *frozen, double values[]);
 /* SamFrozenFollow - adds to the normal part of packed values of three components what the transposed matrix adds: the
    derivative of the bound by the pressure, times the part along e of the tangential one. Not collective. */
 PETSC_INTERN void SamFrozenFollow(const SamFrozen *frozen, double values[]);

@@ -138,8 +138,8 @@ PETSC_INTERN PetscBool   SamGradientHas(SamGradient gradient, const char name[])
 
   In:     gradient - the gradient
           name     - value; by a prescribed load, displacement or bulk stress of a step: its name; by another parameter
-                     likewise, wear_coefficient and wear_energy being those of both bodies together; borders: the number of
-                     cells on the border of their set; residual: the largest of the systems
+                     likewise, wear_coefficient and wear_energy being those of both bodies together; borders: the
+                     number of cells on the border of their set; residual: the largest of the systems
           step     - the step, of loads, displacements and bulk stresses
   Out:    value    - the value (unit of the number over that of the parameter); NaN for a load that is not given
 

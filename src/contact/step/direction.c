@@ -49,6 +49,9 @@
     3. The tangential problem with this t, from that q on.
   In a cycle that repeats itself step 1 uses t of the same step one cycle before (stepcache.c). If it has done so once,
   step 1 is solved completely, and steps 2 and 3 are left out if t agrees with it.
+  With a tolerance of the shear of at most 1e-8, and where steps are recorded for gradients, steps 2 and 3 are repeated,
+  with Anderson's method, until t is that of the solution to this tolerance: the solution is that of the rule, and
+  differentiable (solve.c).
   For dissimilar bodies steps 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 suffices: the
   shear keeps its direction, except for the transverse part that Poisson's ratio causes, whose work cancels. The motion
   of cells before they touch follows from the loads: if loads are unknown, after step 1.
@@ -60,29 +63,16 @@
 */
 #include "stepimpl.h"
 #include <math.h>
-#include <petsam/private/bodyimpl.h>
+#include <petsam/private/entering.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
 #include <petsam/private/pressed.h>
-#include <petsam/private/body.h>
 
-/* Growth of N, relative to it, below which it is rounding: the ratio of the changes of T and N says nothing there */
-#define LEAST_GROWTH 1e-9
-
-/* Returns a load before the step: zero before the first one. */
-static PetscReal LoadBefore(SamSolve *w, PetscInt component)
-{
-  return w->task->before ? w->task->before->load[component] : 0;
-}
-
-/* True if contact grows with N and the other loads, and the shear determines the motion where contact is made. */
+/* True if contact grows, and the shear determines the motion where it is made. */
 static PetscBool Grows(SamSolve *w)
 {
-  const PetscReal before  = w->task->before ? SamSolutionGetNormal(w->task->before) : 0;
-  const PetscBool touched = before > 0 || w->s->control.together ? PETSC_TRUE : PETSC_FALSE;
-
-  return touched && SamRuleEnters(w->s->rule) && SamSolutionGetNormal(w->s) > (1 + LEAST_GROWTH) * before;
+  return SamApproachGrows(w->task->before, w->s);
 }
 
 PetscBool SamSolveIsTwice(SamSolve *w)
@@ -90,126 +80,38 @@ PetscBool SamSolveIsTwice(SamSolve *w)
   return !w->holds && (SamSolveTurns(w) || (Grows(w) && !(w->tangential.force[0] && w->tangential.force[1])));
 }
 
-/* Returns kappa (top of this file) along x or y. */
-static double RatioOfCompliances(SamSolve *w, int c)
+/* Finds the bodies' motion in the step, by the loads that are `found`, or by those that are given. */
+static PetscErrorCode FindApproach(SamSolve *w, PetscBool found, SamApproach *a)
 {
-  const SamPair pair = SamElasticityGetPair(w->task->elasticity);
-
-  return (double)((pair->shear + (w->task->traits.plane ? c : (PetscReal)0.5) * pair->shear_xx) / pair->normal);
-}
-
-/*
-  Increment of the bodies' motion in a step: the approach about the previous centre of pressure, the tilt, the strain of
-  the surfaces, and the ratio of the changes of the tangential loads to that of N.
-*/
-typedef struct {
-  double    center[2], uniform, tilt[2], tau[2];
-  SamStrain strain;
-} Approach;
-
-static PetscErrorCode AddMotion(SamSolve *w, const SamSolution *before, double normal, Approach *a)
-{
-  const SamSolution *now = w->s;
-  SamStrain          e;
+  PetscReal loads[2];
 
   PetscFunctionBegin;
-  PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &now->control, NULL, NULL, &a->strain, NULL));
-  PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &before->control, NULL, NULL, &e, NULL));
-  a->strain    = (SamStrain){a->strain.xx - e.xx, a->strain.yy - e.yy, a->strain.xy - e.xy};
-  a->center[0] = (double)(before->load[SAM_COMPONENT_MY] / before->load[SAM_COMPONENT_N]);
-  a->center[1] = -(double)(before->load[SAM_COMPONENT_MX] / before->load[SAM_COMPONENT_N]);
-  a->tilt[0]   = (double)(now->rigid[SAM_COMPONENT_MY] - before->rigid[SAM_COMPONENT_MY]);
-  a->tilt[1]   = -(double)(now->rigid[SAM_COMPONENT_MX] - before->rigid[SAM_COMPONENT_MX]);
-  a->uniform   = (double)(now->rigid[SAM_COMPONENT_N] - before->rigid[SAM_COMPONENT_N]) + a->tilt[0] * a->center[0] +
-               a->tilt[1] * a->center[1];
-  if (w->task->traits.plane)
-    a->uniform = 4 * normal / (PETSC_PI * (double)SamPairModulus(SamElasticityGetPair(w->task->elasticity)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode FindApproach(SamSolve *w, PetscBool found, Approach *a)
-{
-  const SamSolution *before = w->task->before, *now = w->s;
-  const PetscReal    load   = LoadBefore(w, SAM_COMPONENT_N);
-  const double       normal = (double)(now->load[SAM_COMPONENT_N] - load);
-
-  PetscFunctionBegin;
-  *a = (Approach){.uniform = 1}; /* from no contact: everything grows by N */
   for (PetscInt c = 0; c < 2; c++) {
-    const PetscInt  k   = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
-    const PetscReal was = LoadBefore(w, k);
-    const PetscReal is  = found ? now->load[k] : (w->tangential.force[c] ? w->tangential.load[c] : was);
+    const PetscInt k = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
 
-    a->tau[c] = (double)(is - was) / normal;
+    loads[c] = w->task->before ? w->task->before->load[k] : 0;
+    if (w->tangential.force[c]) loads[c] = (PetscReal)w->tangential.load[c];
+    if (found) loads[c] = w->s->load[k];
   }
-  if (load > 0) PetscCall(AddMotion(w, before, normal, a));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Computes tau, the ratio of the changes of shear and pressure of a sticking punch, at the contact edge at (x, y). */
-static void ShearAtEdge(const Approach *a, const double kappa[2], double x, double y, double tau[2])
-{
-  const double    at_x = x - a->center[0], at_y = y - a->center[1];
-  const double    tilt = a->tilt[0] * at_x + a->tilt[1] * at_y, normal = a->uniform + 2 * PetscMax(0, tilt);
-  const SamStrain e        = a->strain;
-  const double    moved[2] = {e.xx * at_x + e.xy * at_y, e.xy * at_x + e.yy * at_y};
-
-  for (int c = 0; c < 2; c++) tau[c] = a->uniform > 0 ? (a->tau[c] * a->uniform - 2 * moved[c] / kappa[c]) / normal : 0;
-}
-
-/* Computes the gap before the step in cells that were open; it is 0 in others. */
-static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
-{
-  const SamSolution *before = w->task->before;
-  const double      *p;
-  double            *g;
-
-  PetscFunctionBegin;
-  PetscCall(SamSolutionComputeGap(w->task->problem, before, before->displacement_z, w->separation, gap));
-  PetscCall(VecGetArrayRead(before->pressure, &p));
-  PetscCall(VecGetArray(gap, &g));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = SamIsPressed(p[k]) ? 0 : g[k];
-  PetscCall(VecRestoreArray(gap, &g));
-  PetscCall(VecRestoreArrayRead(before->pressure, &p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Computes the distance of the undeformed bodies instead, in a step from no contact; it is 0 where they touch first. */
-static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
-{
-  double        least = -INFINITY; /* the negative of the least distance */
-  const double *p;
-  double       *g;
-
-  PetscFunctionBegin;
-  PetscCall(SamSolutionComputeGap(w->task->problem, w->s, NULL, w->separation, distance));
-  PetscCall(VecGetArrayRead(w->s->pressure, &p));
-  PetscCall(VecGetArray(distance, &g));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++)
-    if (SamIsPressed(p[k])) least = PetscMax(least, -g[k]);
-  PetscCall(SamMax(w->task->grid->comm, 1, &least));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] += least;
-  PetscCall(VecRestoreArray(distance, &g));
-  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
+  PetscCall(SamApproachFind(w->task->problem, w->task->state, w->task->before, w->s, loads, a));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveFindGaps(SamSolve *w, Vec gap)
 {
   PetscFunctionBegin;
-  PetscCall((LoadBefore(w, SAM_COMPONENT_N) > 0 ? FindGaps : FindDistances)(w, gap));
+  PetscCall(SamApproachGaps(w->task->problem, w->task->before, w->s, w->separation, gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveAddEntering(SamSolve *w, PetscBool found, PetscBool open, Vec motion)
 {
-  const SamSolution *s        = w->s;
-  const SamGrid      grid     = w->task->grid;
-  const PetscInt     cells    = grid->cells;
-  const double       kappa[2] = {RatioOfCompliances(w, 0), RatioOfCompliances(w, 1)};
+  const SamSolution *s     = w->s;
+  const SamGrid      grid  = w->task->grid;
+  const PetscInt     cells = grid->cells;
   double            *to, friction = 0; /* the largest */
   const double      *p, *b, *g;
-  Approach           approach;
+  SamApproach        approach;
   Vec                gap;
 
   PetscFunctionBegin;
@@ -229,10 +131,10 @@ PetscErrorCode SamSolveAddEntering(SamSolve *w, PetscBool found, PetscBool open,
     double          tau[2], size, part;
 
     if (!(pressed || open) || g[k] <= 0) continue;
-    ShearAtEdge(&approach, kappa, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx), tau);
+    SamApproachShear(&approach, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx), tau);
     size = hypot(tau[0], tau[1]);
     part = pressed ? (size * p[k] > b[k] ? b[k] / (p[k] * size) : 1) : size > friction ? friction / size : 1;
-    for (int c = 0; c < 2; c++) to[k + c * cells] -= kappa[c] * tau[c] * part * g[k];
+    for (int c = 0; c < 2; c++) to[k + c * cells] -= approach.kappa[c] * tau[c] * part * g[k];
   }
   PetscCall(VecRestoreArray(motion, &to));
   PetscCall(VecRestoreArrayRead(s->bound, &b));

@@ -14,6 +14,10 @@
 
 /* Relative difference of the field `aside` from that of the solution below which it is left as it is */
 #define SAME_ASIDE 0.05
+/* Tolerance of the shear from which on the field `aside` is that of the solution, and most passes to find it: at larger
+   ones it is one of second order (direction.c) */
+#define TIGHT   1e-8
+#define SETTLES 60
 
 static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
 {
@@ -154,6 +158,58 @@ static PetscErrorCode SolveAgain(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Passes that settle the field `aside` */
+typedef struct {
+  SamSolve *w;
+  Vec       argument;
+  PetscReal rtol, unit; /* displacement of a cell by a shear of 1 Pa, m */
+} Settling;
+
+/* Solves with the field `aside` that is the argument, and computes the one by this solution. The first solution is
+   there. */
+static PetscErrorCode SettlePass(void *context, PetscInt pass, Vec result, SamPassEnd *end)
+{
+  const Settling *p = (Settling *)context;
+  SamSolve *const w = p->w;
+  PetscReal       change;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(p->argument, w->s->aside));
+  w->holds = PETSC_TRUE;
+  if (pass > 1) PetscCall(w->task->coupled ? SolveAgain(w) : SolveShear(w, PETSC_TRUE));
+  w->holds = PETSC_FALSE;
+  *end     = SAM_PASS_FAILED;
+  if (w->step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
+  PetscCall(VecCopy(w->s->aside, result));
+  PetscCall(VecCopy(p->argument, w->s->aside));
+  PetscCall(SamSolveGetChange(w, p->argument, result, p->unit, &change, NULL));
+  *end = change <= p->rtol ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Repeats the tangential problem until the field `aside` is that of its solution, if the tolerance is tight or that is
+   wanted. */
+static PetscErrorCode Settle(SamSolve *w)
+{
+  static const SamFixedPoint iteration = {.components = 2, .most = SETTLES, .pass = SettlePass};
+  Settling                   p         = {.w = w};
+  SamPassEnd                 end;
+  PetscReal                  normal;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &p.rtol, NULL));
+  if ((p.rtol > TIGHT && !w->task->settles) || w->touching || !w->s->aside || !SamSolveSetsAside(w))
+    PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticityGetSelfInfluence(w->task->elasticity, &normal, &p.unit));
+  PetscCall(VecDuplicate(w->s->aside, &p.argument));
+  PetscCall(VecCopy(w->s->aside, p.argument));
+  PetscCall(SamSolveFixedPoint(w, &iteration, &p, p.argument, &end));
+  PetscCall(VecDestroy(&p.argument));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Computes the slip, or the frictional power, of the solution, for a law that uses it. */
 static PetscErrorCode FindSlip(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
@@ -247,6 +303,7 @@ PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step, PetscBool *k
   PetscFunctionBegin;
   PetscCall(Begin(task, step, &w));
   PetscCall(SolveProblems(&w));
+  PetscCall(Settle(&w));
   PetscCall(FollowTractions(&w));
   if (w.touching && w.s->aside) PetscCall(SamSolveEndTouching(&w));
   *known_pressure = task->same_pressure || w.known_pressure ? PETSC_TRUE : PETSC_FALSE;

@@ -41,6 +41,7 @@ typedef struct {
   PetscInt                  aside;            /* field in the state */
   PetscInt                  counts, rolling;  /* numbers in the state: of the solvers, of rolling.c */
   SamStepOf                 of;               /* inputs for which its pressure is solved */
+  PetscBool                 settles;          /* the field `aside` is found to the tolerance of the shear */
   PetscBool                 coupled;          /* pressure and shear depend on each other */
   PetscBool                 same_pressure;    /* the pressure is the committed one and is not solved again */
   SamStepStart              start;

@@ -10,6 +10,7 @@
   1e12              /* the resistance of a cell to a turn of the slip is not limited: it would change the derivatives */
 #define BORDER 1e-7 /* of the pressure, or the bound, within which a cell is on the border of its set */
 #define STILL  1e-4 /* of the displacement of a cell by the largest bound: slip below it is on the border to stick */
+#define PASSES 50   /* for loads that are found and the motion of cells before they touch */
 #define SINGLE 1e-6 /* tolerance from which on products in single precision suffice */
 
 /* The components in the order of their motions: normal ones first, then those along the surface. */
@@ -99,6 +100,7 @@ static PetscErrorCode SetBorder(System *s, SamFrozenPart part)
     for (int c = 0; c < 2; c++) {
       Motion(f, s->given[i], motion);
       if (c && part == SAM_FROZEN_BOTH) SamFrozenFollow(f, motion);
+      if (!c) SamFrozenProjectRow(f, motion + f->count);
       SamFrozenProject(f, motion + PlaceOf(f));
       PetscCall(PetscArraycpy(c ? column[count] : row[count], motion + PlaceOf(f), SamFrozenSize(f)));
     }
@@ -219,6 +221,83 @@ static PetscErrorCode Freeze(System *s)
   s->f.rtol       = b->rtol;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* ---- the direction of slip at mid step ---- */
+
+/* A cell whose slip is opposite to m = r + w r0, r0 = q0/b0 being the shear before the step and r = e that after it;
+   n_m is the normal of m */
+typedef struct {
+  double r0[2], b0, sine, factor, by[2]; /* factor of the resistance to a turn; k0, derivatives of the turn by r0 */
+} Turned;
+
+/* True if the slip of the packed cell m follows the shear at mid step. */
+static PetscBool Turns(const System *s, PetscInt m)
+{
+  const SamBack   *b    = s->b;
+  const SamFrozen *f    = &s->f;
+  const PetscBool  slip = f->e[0][m] != 0 || f->e[1][m] != 0 ? PETSC_TRUE : PETSC_FALSE;
+
+  return slip && b->g->record[b->at.step].turns && b->at.pressure_before[f->cell[m]] > 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static Turned TurnedOf(const System *s, PetscInt m)
+{
+  const SamObjectiveStep *at = &s->b->at;
+  const PetscInt          k = s->f.cell[m], l = k + s->b->grid->cells;
+  const double            x = s->f.e[0][m], y = s->f.e[1][m];
+  Turned                  t = {.b0 = s->b->friction[k] * at->pressure_before[k]};
+  double                  weight, mx, my, size, across, part;
+
+  t.r0[0]  = at->shear_before[k] / t.b0;
+  t.r0[1]  = at->shear_before[l] / t.b0;
+  weight   = PetscMax(0.5 * (t.r0[0] * (t.r0[0] + x) + t.r0[1] * (t.r0[1] + y)), 0);
+  mx       = x + weight * t.r0[0];
+  my       = y + weight * t.r0[1];
+  size     = hypot(mx, my);
+  t.sine   = (mx * y - my * x) / size;
+  across   = x * t.r0[1] - y * t.r0[0];            /* n_e.r0 */
+  part     = (mx * t.r0[1] - my * t.r0[0]) / size; /* n_m.r0 */
+  t.factor = ((mx * x + my * y) / size + (weight > 0 ? 0.5 * across * part : 0)) / size;
+  if (weight == 0) return t;
+  t.by[0] = (-weight * my / size + part * (t.r0[0] + 0.5 * x)) / size;
+  t.by[1] = (weight * mx / size + part * (t.r0[1] + 0.5 * y)) / size;
+  return t;
+}
+
+static PetscErrorCode TurnAll(System *s)
+{
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < s->f.count; m++)
+    if (Turns(s, m)) {
+      const Turned t = TurnedOf(s, m);
+
+      PetscCall(SamFrozenTurn(&s->f, m, t.sine, t.factor));
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds the derivatives by the shear and the bound before the step. */
+static void LeaveTurned(System *s)
+{
+  SamObjectiveStep *at    = &s->b->at;
+  const PetscInt    cells = s->b->grid->cells, n = s->f.count;
+
+  for (PetscInt m = 0; m < n; m++) {
+    const PetscInt k = s->f.cell[m];
+    double         part, by_bound;
+    Turned         t;
+
+    if (!Turns(s, m)) continue;
+    t        = TurnedOf(s, m);
+    part     = (s->f.e[0][m] * s->x[m + 2 * n] - s->f.e[1][m] * s->x[m + n]) * hypot(at->slip[k], at->slip[k + cells]);
+    by_bound = part * (t.by[0] * t.r0[0] + t.by[1] * t.r0[1]) / t.b0;
+    for (PetscInt c = 0; c < 2; c++) at->by_shear_before[k + c * cells] -= part * t.by[c] / t.b0;
+    at->by_pressure_before[k] += s->b->friction[k] * by_bound;
+    at->by_friction[k] += at->pressure_before[k] * by_bound;
+  }
+}
+
+/* ---- the cotangents ---- */
 
 /* Counts the cells that are about to change their set. */
 static PetscErrorCode CountBorders(System *s)
@@ -343,11 +422,97 @@ static PetscErrorCode FindRest(System *s, double r[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves the system, or for similar bodies that of the shear, then that of the pressure. `r`: as above. */
-static PetscErrorCode Solve(System *s, PetscBool rubs, const double given[], double r[])
+/* ---- steps in which contact grows ---- */
+
+/* Computes lambda on the part of the grid, from the unknowns. */
+static PetscErrorCode SpreadLambda(const System *s, double lambda[])
 {
-  SamFrozen     *f = &s->f;
-  const PetscInt n = f->count;
+  const SamFrozen *f     = &s->f;
+  const PetscInt   cells = s->b->grid->cells;
+  double          *packed;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(2 * f->count, &packed));
+  PetscCall(PetscArrayzero(lambda, 2 * cells));
+  SamFrozenShear(f, NULL, s->x + f->count, packed);
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt m = 0; m < f->count; m++) lambda[f->cell[m] + c * cells] = packed[m + c * f->count];
+  PetscCall(PetscFree(packed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds the derivatives by the loads of the step that are found, of the given kind, to the right-hand side. */
+static void AddFound(System *s, SamFrozenPart part, const double by_load[])
+{
+  const SamBack   *b = s->b;
+  const SamRecord *r = &b->g->record[b->at.step];
+  double          *motion;
+
+  if (PetscMalloc1(3 * s->f.count, &motion)) return;
+  for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
+    const double factor = b->at.area * by_load[components[n]];
+
+    if (r->force[components[n]] || !Takes(part, n) || factor == 0) continue;
+    Motion(&s->f, n, motion);
+    for (PetscInt m = 0; m < 3 * s->f.count; m++) s->right[m] += factor * motion[m] * Unit(&s->f, n);
+  }
+  (void)PetscFree(motion);
+}
+
+/*
+  Solves for the shear and the motion of cells before they touch, in turn while that depends on loads which the shear
+  makes.
+*/
+static PetscErrorCode SolveEntering(System *s, const double given[])
+{
+  SamBack         *b = s->b;
+  const PetscInt   n = s->f.count;
+  const SamRecord *r = &b->g->record[b->at.step];
+  double          *lambda, *right, change[SAM_COMPONENTS], load[SAM_COMPONENTS] = {0};
+  PetscBool        again = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(2 * b->grid->cells, &lambda, 3 * n, &right));
+  PetscCall(PetscArraycpy(right, s->right, 3 * n));
+  for (PetscInt pass = 0; again && pass < PASSES; pass++) {
+    PetscCall(SolvePart(s, SAM_FROZEN_TANGENTIAL, given));
+    PetscCall(SpreadLambda(s, lambda));
+    PetscCall(SamBackEnter(b, b->at.step, lambda));
+    again = PETSC_FALSE;
+    for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+      const PetscBool found =
+        !r->force[c] && (c == SAM_COMPONENT_TX || c == SAM_COMPONENT_TY) ? PETSC_TRUE : PETSC_FALSE;
+
+      change[c] = found ? fabs(b->entered.load[1][c] - load[c]) : 0;
+      load[c]   = found ? b->entered.load[1][c] : 0;
+      if (change[c] > b->rtol * fabs(load[c])) again = PETSC_TRUE;
+    }
+    PetscCall(PetscArraycpy(s->right, right, 3 * n));
+    AddFound(s, SAM_FROZEN_TANGENTIAL, load);
+  }
+  PetscCall(PetscFree2(lambda, right));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Lets the normal problem have the derivatives by the loads and displacements of the step. */
+static PetscErrorCode Enter(System *s, double given[])
+{
+  SamBack *b = s->b;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) b->at.by_rigid[c] += b->entered.rigid[1][c];
+  AddFound(s, SAM_FROZEN_NORMAL, b->entered.load[1]);
+  PetscCall(FindGiven(s, given));
+  SamBackAddEntered(b);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves the system, or for similar bodies that of the shear, then that of the pressure. `r`: as above. */
+static PetscErrorCode Solve(System *s, PetscBool rubs, double given[], double r[])
+{
+  SamFrozen      *f     = &s->f;
+  const PetscInt  n     = f->count;
+  const PetscBool grows = s->b->g->record[s->b->at.step].grows;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(s->x, 3 * n));
@@ -359,9 +524,10 @@ static PetscErrorCode Solve(System *s, PetscBool rubs, const double given[], dou
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (rubs) {
-    PetscCall(SolvePart(s, SAM_FROZEN_TANGENTIAL, given));
+    PetscCall(grows ? SolveEntering(s, given) : SolvePart(s, SAM_FROZEN_TANGENTIAL, given));
     PetscCall(FindRest(s, r));
   }
+  if (grows && rubs) PetscCall(Enter(s, given));
   for (PetscInt m = 0; m < n; m++) /* mu beta */
     s->right[m] += f->follow[m] * (f->e[0][m] * r[m] + f->e[1][m] * r[m + n]);
   PetscCall(SolvePart(s, SAM_FROZEN_NORMAL, given));
@@ -393,7 +559,8 @@ static PetscErrorCode SetCotangents(System *s, const double r[])
   double          *lambda;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(2 * g->cells, &lambda));
+  PetscCall(PetscMalloc1(2 * g->cells, &lambda));
+  PetscCall(SpreadLambda(s, lambda));
   PetscCall(PetscArrayzero(b->gamma, g->cells));
   PetscCall(PetscArrayzero(b->beta, g->cells));
   for (PetscInt m = 0; m < n; m++) {
@@ -401,13 +568,13 @@ static PetscErrorCode SetCotangents(System *s, const double r[])
 
     b->gamma[k] = -s->x[m];
     b->beta[k]  = f->e[0][m] * r[m] + f->e[1][m] * r[m + n];
-    for (PetscInt c = 0; c < 2; c++) lambda[k + c * g->cells] = s->x[m + (c + 1) * n];
   }
   for (PetscInt k = 0; k < 2 * g->cells; k++) {
     b->tau[k]   = b->later[k] - lambda[k];
     b->later[k] = lambda[k] - b->at.by_slip[k];
   }
   PetscCall(PetscFree(lambda));
+  LeaveTurned(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -422,6 +589,7 @@ PetscErrorCode SamBackSolve(SamBack *b, PetscInt step)
   for (PetscInt k = 0; k < 2 * g->cells; k++) b->later[k] += b->at.by_slip[k];
   PetscCall(PetscArrayzero(b->forces, SAM_COMPONENTS));
   PetscCall(Freeze(&s));
+  PetscCall(TurnAll(&s));
   PetscCall(CountBorders(&s));
   for (PetscInt m = 0; m < s.f.count; m++) rubs = PetscMax(rubs, s.f.free[m]);
   touches = s.f.count;

@@ -51,7 +51,7 @@ const char *SamGradientNumber(SamGradient g, PetscInt k)
 
 PetscBool SamGradientHas(SamGradient g, const char name[])
 {
-  return SamParametersHave(g->found.of, name);
+  return SamChoiceHas(g->found.of, name);
 }
 
 /* Returns the name of the k-th of all parameters; NULL after the last one. */
@@ -71,7 +71,7 @@ static const char *Find(const char names[], const char name[], size_t length)
   return NULL;
 }
 
-PetscBool SamParametersHave(const char of[], const char name[])
+PetscBool SamChoiceHas(const char of[], const char name[])
 {
   const PetscBool costs = !strncmp(name, "body", 4) || !strncmp(name, "gap_", 4);
 
@@ -85,21 +85,21 @@ static PetscBool HaveOne(SamGradient g, const char of[], PetscInt first, PetscIn
   const char *name;
 
   for (PetscInt k = first; k < last && (name = SamGradientNumber(g, k)); k++)
-    if (SamParametersHave(of, name)) return PETSC_TRUE;
+    if (SamChoiceHas(of, name)) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
-PetscBool SamParametersHaveModuli(SamGradient g, const char of[])
+PetscBool SamChoiceHasModuli(SamGradient g, const char of[])
 {
   return HaveOne(g, of, SAM_GRADIENT_WEARS, NUMBERS);
 }
 
-PetscBool SamParametersHaveShape(SamGradient g, const char of[])
+PetscBool SamChoiceHasShape(SamGradient g, const char of[])
 {
   return HaveOne(g, of, NUMBERS, NUMBERS + SAM_GAP_PARAMETERS);
 }
 
-PetscErrorCode SamParametersCheck(SamGradient g, const char of[])
+PetscErrorCode SamChoiceCheck(SamGradient g, const char of[])
 {
   const MPI_Comm comm       = SamContactGetGrid(g->contact)->comm;
   char           list[1024] = "";
@@ -139,18 +139,12 @@ static PetscReal *PlaceOf(SamGradient g, const char name[])
   return NULL;
 }
 
-PetscErrorCode SamParametersGet(SamGradient g, const char name[], PetscReal *value)
+const PetscReal *SamChoiceFind(SamGradient g, const char name[])
 {
-  const PetscReal *place = SamParametersHave(g->found.of, name) ? PlaceOf(g, name) : NULL;
-
-  PetscFunctionBegin;
-  PetscCheck(place, SamContactGetGrid(g->contact)->comm, SAM_ERR_USER,
-             "the gradient by %s: there is no derivative by it", name);
-  *value = *place;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamChoiceHas(g->found.of, name) ? PlaceOf(g, name) : NULL;
 }
 
-PetscErrorCode SamParametersGetShare(SamGradient g, const char name[], PetscReal *share)
+PetscErrorCode SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share)
 {
   SamPairConstants constants;
   const PetscReal *values, *place = PlaceOf(g, name);
@@ -191,7 +185,7 @@ static PetscErrorCode CheckShape(SamGradient g)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamParametersAddShape(SamGradient g)
+PetscErrorCode SamChoiceAddShape(SamGradient g)
 {
   const SamGrid grid                      = SamContactGetGrid(g->contact);
   SamTotal      total[SAM_GAP_PARAMETERS] = {{0}};

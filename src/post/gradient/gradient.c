@@ -79,8 +79,6 @@ static PetscErrorCode Check(SamGradient g)
              (double)((SamSolver)SamContactGetTangential(g->contact))->rtol, LEAST_RTOL);
   PetscCall(SamProblemGetLaws(problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++) PetscCall(CheckLaw(g, laws[k]));
-  PetscCheck(SamContactGetSettings(g->contact).slip_direction == SAM_SLIP_END, comm, SAM_ERR_USER,
-             "the gradient with the direction of slip at mid step, which has no derivative: give -slip_direction end");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -98,6 +96,7 @@ PetscErrorCode SamGradientCreate(SamContact contact, SamGap shape, SamGradient *
   if (ierr) PetscCall(SamGradientDestroy(&g));
   PetscCall(ierr);
   *gradient = g;
+  SamContactSetSettles(contact, PETSC_TRUE);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -119,6 +118,7 @@ PetscErrorCode SamGradientDestroy(SamGradient *gradient)
   if (!*gradient) PetscFunctionReturn(PETSC_SUCCESS);
   g = *gradient;
   SamGradientForget(g);
+  SamContactSetSettles(g->contact, PETSC_FALSE);
   PetscCall(PetscFree(g->record));
   PetscCall(ClearFound(&g->found));
   PetscCall(PetscFree(*gradient));
@@ -164,8 +164,7 @@ static PetscErrorCode ChoosePart(SamBack *b)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes a field of the contact's grid to an array of the part. */
-static PetscErrorCode TakeArray(SamBack *b, Vec whole, double array[])
+PetscErrorCode SamBackTake(const SamBack *b, Vec whole, double array[])
 {
   const double *values;
   Vec           part;
@@ -213,16 +212,16 @@ static PetscErrorCode ReadStep(void *context, PetscInt step, Vec tractions, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-enum { ARRAYS = 20 }; /* fields of one component that a pass needs besides those of the steps */
+enum { ARRAYS = 23 }; /* fields of one component that a pass needs besides those of the steps */
 
 static PetscErrorCode Begin(SamBack *b, double **arrays)
 {
   const PetscInt         cells = (PetscInt)PetscMax(b->grid->cells, 1);
   SamObjectiveStep      *at    = &b->at;
   double                *next;
-  double **const         one[] = {&b->friction, &b->worn,        &b->gamma,        &b->beta,
-                                  &b->by_gap,   &b->by_friction, &at->by_pressure, &at->by_pressure_before,
-                                  &at->by_worn},
+  double **const         one[] = {&b->friction, &b->worn,        &b->gamma,          &b->beta,
+                                  &b->by_gap,   &b->by_friction, &at->by_pressure,   &at->by_pressure_before,
+                                  &at->by_worn, &b->ahead,       &b->entered.by_gap, &b->entered.by_friction},
                  **const two[] = {&b->later, &b->tau, &at->by_shear, &at->by_slip, &at->by_shear_before};
 
   PetscFunctionBegin;
@@ -239,21 +238,30 @@ static PetscErrorCode Begin(SamBack *b, double **arrays)
   at->window      = b->window;
   at->read        = ReadStep;
   at->context     = b->g;
-  PetscCall(TakeArray(b, b->g->friction, b->friction));
+  PetscCall(SamBackTake(b, b->g->friction, b->friction));
   PetscCall(SamGridCreateVec(SamContactGetGrid(b->g->contact), SAM_RECORD_VALUES, &b->whole));
   for (int k = 0; k < 2; k++)
     PetscCall(SamGridCreateVec(b->grid, SAM_RECORD_VALUES, &(k ? &b->now : &b->before)->field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscInt64 SamBackPlace(const SamBack *b, PetscInt64 cell)
+{
+  const PetscInt64 nx       = SamContactGetGrid(b->g->contact)->nx;
+  PetscInt         first[2] = {0, 0}, n[2];
+
+  if (cell < 0) return -1;
+  if (b->window) (void)SamWindowGetPlace(b->window, first, n);
+  return (cell / nx - first[1]) * b->grid->nx + cell % nx - first[0];
+}
+
 /* Makes another step the present one. */
 static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
 {
-  const SamRecord     *r        = &b->g->record[k];
-  const ptrdiff_t      cells    = b->grid->cells;
-  const SamFrameOfStep now      = b->before;
-  SamObjectiveStep    *at       = &b->at;
-  PetscInt             first[2] = {0, 0}, n[2];
+  const SamRecord     *r     = &b->g->record[k];
+  const ptrdiff_t      cells = b->grid->cells;
+  const SamFrameOfStep now   = b->before;
+  SamObjectiveStep    *at    = &b->at;
 
   PetscFunctionBegin;
   b->before = b->now;
@@ -268,12 +276,7 @@ static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
   at->by_alike        = now.value + SAM_RECORD_BY_ALIKE * cells;
   at->pressure_before = b->before.value + SAM_RECORD_PRESSURE * cells;
   at->shear_before    = b->before.value + SAM_RECORD_SHEAR * cells;
-  if (b->window) PetscCall(SamWindowGetPlace(b->window, first, n));
-  for (PetscInt i = 0; i < 2; i++) { /* indices on the whole grid become those on the part */
-    const PetscInt64 nx = SamContactGetGrid(b->g->contact)->nx;
-
-    end[i] = r->end[i] < 0 ? -1 : (r->end[i] / nx - first[1]) * b->grid->nx + r->end[i] % nx - first[0];
-  }
+  for (PetscInt i = 0; i < 2; i++) end[i] = SamBackPlace(b, r->end[i]);
   at->end    = end;
   at->by_end = r->by_end;
   at->rigid  = r->rigid;
@@ -294,7 +297,17 @@ static PetscErrorCode Pass(SamBack *b)
   PetscCall(PetscArrayzero(at->by_shear_before, 2 * cells));
   PetscCall(PetscArrayzero(at->by_slip, 2 * cells));
   PetscCall(PetscArrayzero(at->by_worn, cells));
-  PetscCall(PetscArrayzero(at->by_rigid, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(at->by_rigid, b->by_rigid_before, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(b->by_load, b->by_load_before, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(b->strain, b->strain_before, 3));
+  PetscCall(PetscArrayzero(b->by_rigid_before, SAM_COMPONENTS));
+  PetscCall(PetscArrayzero(b->by_load_before, SAM_COMPONENTS));
+  PetscCall(PetscArrayzero(b->strain_before, 3));
+  PetscCall(PetscArrayzero(b->kappa, 2));
+  PetscCall(PetscArrayzero(b->entered.by_gap, cells));
+  PetscCall(PetscArrayzero(b->entered.by_friction, cells));
+  b->entered    = (SamEntered){.by_gap = b->entered.by_gap, .by_friction = b->entered.by_friction};
+  b->by_modulus = 0;
   PetscCall(PetscArrayzero(at->by_bulk, SAM_GRADIENT_BULKS));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -369,7 +382,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
 
   PetscFunctionBegin;
   PetscCall(ChoosePart(b));
-  if (SamParametersHaveModuli(b->g, found->of)) PetscCall(CreateOther(b));
+  if (SamChoiceHasModuli(b->g, found->of)) PetscCall(CreateOther(b));
   PetscCall(Begin(b, &arrays));
   PetscCall(SamRecordUnpack(b, &b->g->record[b->g->count - 1], &b->before));
   for (PetscInt k = b->g->count - 1; k >= 0; k--) {
@@ -379,6 +392,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
     PetscCall(Wear(b));
     PetscCall(SamBackSolve(b, k));
     PetscCall(SamBackRead(b, k));
+    if (b->g->record[k].grows) PetscCall(SamBackLeaveEntered(b, k));
   }
   if (objective->end) PetscCall((*objective->end)(b->at.data));
   found->value = b->at.number;
@@ -386,7 +400,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
   PetscCall(PutArray(b, b->by_gap, &found->gap));
   PetscCall(PutArray(b, b->by_friction, &found->friction));
   PetscCall(ClearWithoutFriction(b->g));
-  if (SamParametersHaveShape(b->g, found->of)) PetscCall(SamParametersAddShape(b->g));
+  if (SamChoiceHasShape(b->g, found->of)) PetscCall(SamChoiceAddShape(b->g));
   for (int k = 0; k < 2; k++) {
     SamFrameOfStep *frame = k ? &b->now : &b->before;
 
@@ -435,8 +449,8 @@ PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBoo
   PetscCall(SamObjectiveFind(comm, name, &objective));
   PetscCall(CheckComponent(e, name, force, component));
   if (objective->check) PetscCall((*objective->check)(e, g->rate, name));
-  PetscCall(SamParametersCheck(g, of));
-  if (!SamParametersHaveModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamChoiceCheck(g, of));
+  if (!SamChoiceHasModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(!objective->fixed, comm, SAM_ERR_USER,
              "the gradient of %s by the moduli is not computed: leave the moduli out", name);
   none = SamPairGetConstants(SamElasticityGetPair(e), &constants);
@@ -530,7 +544,7 @@ static const double *OfStep(const SamGradient g, const char name[], PetscInt ste
 PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt step, PetscReal *value)
 {
   const SamDerivatives *d;
-  const double         *of_step;
+  const double         *found;
   MPI_Comm              comm;
 
   PetscFunctionBegin;
@@ -540,16 +554,13 @@ PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt s
   PetscCheck(step >= 0 && step < d->count && d->count <= g->count, comm, PETSC_ERR_ARG_OUTOFRANGE,
              "step %" PetscInt_FMT " of a gradient: expected 0 to %" PetscInt_FMT ", and no new record since", step,
              d->count - 1);
-  of_step = OfStep(g, name, step);
-  if (of_step) {
-    *value = *of_step;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
   *value = NAN;
   if (!strcmp(name, "value")) *value = d->value;
   if (!strcmp(name, "residual")) *value = d->residual;
   if (!strcmp(name, "borders")) *value = (PetscReal)d->borders;
-  if (isnan(*value)) PetscCall(SamParametersGet(g, name, value));
+  found = OfStep(g, name, step) ? OfStep(g, name, step) : SamChoiceFind(g, name);
+  if (found) *value = *found;
+  PetscCheck(found || !isnan(*value), comm, SAM_ERR_USER, "the gradient by %s: there is no derivative by it", name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -612,9 +623,9 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
     for (PetscInt k = 0; k < d->count; k++) shares[n].share += g->record[k].bulk[b] * d->bulk[k][b];
   }
   for (PetscInt k = 0; (name = SamGradientNumber(g, k)); k++) {
-    if (!SamParametersHave(d->of, name)) continue;
+    if (!SamChoiceHas(d->of, name)) continue;
     shares[n].name = name;
-    PetscCall(SamParametersGetShare(g, name, &shares[n++].share));
+    PetscCall(SamChoiceGetShare(g, name, &shares[n++].share));
   }
   *count = n;
   PetscFunctionReturn(PETSC_SUCCESS);

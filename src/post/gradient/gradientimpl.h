@@ -5,6 +5,7 @@
 #include <petsam/private/gradient.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/entering.h>
 #include <petsam/private/gap.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/law.h>
@@ -33,8 +34,16 @@ typedef struct {
   float     *slope;     /* of the last two */
   PetscInt64 end[2];    /* cells whose slips determine how far all slide alike, on the whole grid; -1: none */
   double     by_end[2]; /* its derivatives by the lengths of these slips, 1/m */
+  PetscBool  turns;     /* true: slip follows the shear at mid step in cells that were in contact before */
   PetscBool  force[SAM_COMPONENTS];
   PetscReal  load[SAM_COMPONENTS], rigid[SAM_COMPONENTS], bulk[SAM_GRADIENT_BULKS];
+  /* if contact grows, and slip begins where cells touch (touched.c) */
+  PetscBool   grows, fresh; /* fresh: from no contact */
+  SamApproach approach;
+  PetscInt    entering; /* number of cells that come into contact */
+  PetscInt   *entered;  /* their indices, as those of the cells */
+  double     *distance; /* their gaps before the step, m */
+  PetscInt64  least;    /* the cell where the bodies touch first, on the whole grid; of a fresh step only */
 } SamRecord;
 
 /* The results of a pass back */
@@ -66,6 +75,16 @@ typedef struct {
 } SamFrameOfStep;
 
 /*
+  SamEntered - cotangents of what the motion of cells before they touch depends on: of the gap and the friction of each
+  cell, of the loads and displacements before the step (0) and after it (1), of the growth of the strain xx, yy, xy, of
+  kappa, and of the composite modulus in plane strain, times minus that.
+*/
+typedef struct {
+  double *by_gap, *by_friction;
+  double  load[2][SAM_COMPONENTS], rigid[2][SAM_COMPONENTS], strain[3], kappa[2], uniform, by_modulus;
+} SamEntered;
+
+/*
   SamBack - the pass back: its part of the grid, the present step and the one before, what the objective and the steps
   after have left, and the sums so far. Arrays have a value of each cell of the part, or one for each component.
 */
@@ -85,12 +104,32 @@ typedef struct {
   double          *gamma, *tau, *beta; /* cotangents of the gap, the slip and the bound of a step */
   double          *by_gap, *by_friction;
   double           forces[SAM_COMPONENTS]; /* derivatives by the given loads of the step */
+  /* by what cells have moved before they touched, in the present step and the one after it */
+  SamEntered entered;
+  double    *ahead; /* derivative by the gap of open cells after the step; not in gamma */
+  double     by_load[SAM_COMPONENTS], by_load_before[SAM_COMPONENTS], by_rigid_before[SAM_COMPONENTS];
+  double     strain[3], strain_before[3], kappa[2], by_modulus;
 } SamBack;
 
 /* SamBackRubbed - computes the pressure against which cells slip in the present step, times the slip, Pa m. */
 PETSC_INTERN void SamBackRubbed(const SamObjectiveStep *at, double rubbed[]);
 /* SamBackAddRubbed - adds the derivatives of the sum over cells of a factor times the same. Collective. */
 PETSC_INTERN PetscErrorCode SamBackAddRubbed(SamObjectiveStep *at, const double factor[]);
+/* SamBackAddLoad - adds a factor times the derivatives of a load by the tractions of unit cells. Not collective. */
+PETSC_INTERN void SamBackAddLoad(SamGrid grid, PetscInt component, double factor, double by_pressure[],
+                                 double by_shear[]);
+/* SamBackTake - takes a field of the contact's grid to an array of the part. Collective. SamBackPlace - returns the
+   index on the part of a cell of the contact's grid; -1: none. Not collective. */
+PETSC_INTERN PetscErrorCode SamBackTake(const SamBack *back, Vec whole, double array[]);
+PETSC_INTERN PetscInt64     SamBackPlace(const SamBack *back, PetscInt64 cell);
+/*
+  SamBackEnter - computes the cotangents of what the motion of cells before they touch depends on in the present step,
+  by those of the slip, two components. Collective. SamBackAddEntered - adds those of the step. Not collective.
+  SamBackLeaveEntered - adds those of the step before, once the derivatives are read. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamBackEnter(SamBack *back, PetscInt step, const double lambda[]);
+PETSC_INTERN void           SamBackAddEntered(SamBack *back);
+PETSC_INTERN PetscErrorCode SamBackLeaveEntered(SamBack *back, PetscInt step);
 /* SamBackSolve - solves the adjoint of the present step: gamma, tau, beta, forces, and `later` for the step before.
    Collective. */
 PETSC_INTERN PetscErrorCode SamBackSolve(SamBack *back, PetscInt step);
@@ -100,20 +139,20 @@ PETSC_INTERN PetscErrorCode SamBackRead(SamBack *back, PetscInt step);
 PETSC_INTERN PetscErrorCode SamRecordUnpack(const SamBack *back, const SamRecord *record, SamFrameOfStep *frame);
 PETSC_INTERN PetscErrorCode SamRecordDestroy(SamRecord *record);
 /*
-  SamParametersCheck - checks the names of wanted parameters, separated by commas. SamParametersHave - true if that of
-  one is wanted, SamParametersHaveModuli, SamParametersHaveShape - if one of these is. Not collective.
-  SamParametersGet - gets the derivative by a parameter with one number, SamParametersGetShare - times its value, 0 if
-  that is infinite. Not collective.
-  SamParametersAddShape - computes the derivatives by the parameters of the shape from that by the gap. Collective.
+  SamChoiceCheck - checks the names of wanted parameters, separated by commas. SamChoiceHas - true if that of
+  one is wanted, SamChoiceHasModuli, SamChoiceHasShape - if one of these is. Not collective.
+  SamChoiceFind - returns the derivative by a parameter with one number; NULL: it was not wanted or there is none.
+  SamChoiceGetShare - gets it times the value, 0 if that is infinite. Neither is collective.
+  SamChoiceAddShape - computes the derivatives by the parameters of the shape from that by the gap. Collective.
   Errors: SAM_ERR_USER for another gap than that of the shape.
 */
-PETSC_INTERN PetscErrorCode SamParametersCheck(SamGradient g, const char of[]);
-PETSC_INTERN PetscBool      SamParametersHave(const char of[], const char name[]);
-PETSC_INTERN PetscBool      SamParametersHaveModuli(SamGradient g, const char of[]);
-PETSC_INTERN PetscBool      SamParametersHaveShape(SamGradient g, const char of[]);
-PETSC_INTERN PetscErrorCode SamParametersGet(SamGradient g, const char name[], PetscReal *value);
-PETSC_INTERN PetscErrorCode SamParametersGetShare(SamGradient g, const char name[], PetscReal *share);
-PETSC_INTERN PetscErrorCode SamParametersAddShape(SamGradient g);
+PETSC_INTERN PetscErrorCode   SamChoiceCheck(SamGradient g, const char of[]);
+PETSC_INTERN PetscBool        SamChoiceHas(const char of[], const char name[]);
+PETSC_INTERN PetscBool        SamChoiceHasModuli(SamGradient g, const char of[]);
+PETSC_INTERN PetscBool        SamChoiceHasShape(SamGradient g, const char of[]);
+PETSC_INTERN const PetscReal *SamChoiceFind(SamGradient g, const char name[]);
+PETSC_INTERN PetscErrorCode   SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share);
+PETSC_INTERN PetscErrorCode   SamChoiceAddShape(SamGradient g);
 /* SamObjectiveFind - finds the objective of a name. Errors: SAM_ERR_USER, with what is expected. Not collective. */
 PETSC_INTERN PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjective **objective);
 /* SamObjectiveRegisterStresses - registers the smooth maxima of stresses (stressobjective.c). */

@@ -175,6 +175,35 @@ static PetscErrorCode AddNorm(SamObjectiveStep *at)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Sets the derivatives of a load by pressure and shear at a place, per area. */
+static void SetUnit(PetscInt component, double x, double y, double unit[3])
+{
+  (void)PetscArrayzero(unit, 3);
+  if (component == SAM_COMPONENT_N) unit[0] = 1;
+  if (component == SAM_COMPONENT_MX) unit[0] = -y;
+  if (component == SAM_COMPONENT_MY) unit[0] = x;
+  if (component == SAM_COMPONENT_TX) unit[1] = 1;
+  if (component == SAM_COMPONENT_TY) unit[2] = 1;
+  if (component == SAM_COMPONENT_MZ) {
+    unit[1] = -y;
+    unit[2] = x;
+  }
+}
+
+void SamBackAddLoad(SamGrid g, PetscInt component, double factor, double by_pressure[], double by_shear[])
+{
+  for (PetscInt j = 0; j < g->rows; j++)
+    for (PetscInt i = 0; i < g->nx; i++) {
+      const PetscInt k = j * g->nx + i;
+      double         unit[3];
+
+      SetUnit(component, (double)SamGridX(g, i), (double)SamGridY(g, g->row_start + j), unit);
+      by_pressure[k] += factor * unit[0];
+      by_shear[k] += factor * unit[1];
+      by_shear[k + g->cells] += factor * unit[2];
+    }
+}
+
 /* A load that is found, summed over the steps. */
 static PetscErrorCode AddLoad(SamObjectiveStep *at)
 {
@@ -182,30 +211,18 @@ static PetscErrorCode AddLoad(SamObjectiveStep *at)
 
   PetscFunctionBegin;
   for (PetscInt j = 0; IsOf(at) && j < g->rows; j++) {
-    const double y   = (double)SamGridY(g, g->row_start + j);
-    double       row = 0;
+    double row = 0;
 
     for (PetscInt i = 0; i < g->nx; i++) {
-      const PetscInt k = j * g->nx + i, l = k + g->cells;
-      const double   x = (double)SamGridX(g, i);
-      double         p = 0, qx = 0, qy = 0;
+      const PetscInt k = j * g->nx + i;
+      double         unit[3];
 
-      if (at->component == SAM_COMPONENT_N) p = at->area;
-      if (at->component == SAM_COMPONENT_MX) p = -y * at->area;
-      if (at->component == SAM_COMPONENT_MY) p = x * at->area;
-      if (at->component == SAM_COMPONENT_TX) qx = at->area;
-      if (at->component == SAM_COMPONENT_TY) qy = at->area;
-      if (at->component == SAM_COMPONENT_MZ) {
-        qx = -y * at->area;
-        qy = x * at->area;
-      }
-      row += p * at->pressure[k] + qx * at->shear[k] + qy * at->shear[l];
-      at->by_pressure[k] += p;
-      at->by_shear[k] += qx;
-      at->by_shear[l] += qy;
+      SetUnit(at->component, (double)SamGridX(g, i), (double)SamGridY(g, g->row_start + j), unit);
+      row += at->area * (unit[0] * at->pressure[k] + unit[1] * at->shear[k] + unit[2] * at->shear[k + g->cells]);
     }
     SamAdd(&at->value, row);
   }
+  if (IsOf(at)) SamBackAddLoad(g, at->component, at->area, at->by_pressure, at->by_shear);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -120,7 +120,7 @@ static PetscErrorCode FindProducts(const SamBack *b, SamElasticity e, PetscBool 
 {
   const SamGrid g = b->grid;
   const double *values;
-  double        more;
+  double        more, of_open = 0;
   Vec           p, q, u, v;
   double       *to;
 
@@ -147,8 +147,10 @@ static PetscErrorCode FindProducts(const SamBack *b, SamElasticity e, PetscBool 
     PetscCall((*apply[n])(e, n == 0 || n == 2 ? p : q, tangential ? v : u));
     PetscCall(VecGetArrayRead(tangential ? v : u, &values));
     PetscCall(Dot(g, tangential ? 2 : 1, tangential ? b->tau : b->gamma, values, n == 3 ? &more : sum));
+    if (!tangential) PetscCall(Dot(g, 1, b->ahead, values, &of_open));
     PetscCall(VecRestoreArrayRead(tangential ? v : u, &values));
-    if (n == 3) found->coupling += more;
+    if (n == 0) found->normal += of_open;
+    if (n == 3) found->coupling += more + of_open;
   }
   PetscCall(VecDestroy(&p));
   PetscCall(VecDestroy(&q));
@@ -174,6 +176,13 @@ static PetscErrorCode ReadModuli(SamBack *b, PetscInt step, const double sums[SU
           of_own.normal / own.value[A];
   by[B] = (own.value[A] * of_other.tangential - other.value[A] * of_own.tangential) / determinant;
   by[D] = of_other.coupling / other.value[D];
+  by[A] += b->by_modulus / own.value[A];
+  for (int c = 0; c < 2; c++) { /* kappa = 1 + part B/A (contact/step/entering.c) */
+    const double part = SamElasticityGetTraits(b->elasticity).plane ? c : 0.5;
+
+    by[A] -= b->kappa[c] * part * own.value[B] / (own.value[A] * own.value[A]);
+    by[B] += b->kappa[c] * part / own.value[A];
+  }
   for (PetscInt k = 0; k < SAM_GRADIENT_MODULI; k++)
     for (int n = 0; n < SAM_PAIR_CONSTANTS; n++) b->g->found.moduli[k] += by[n] * own.by[n][k];
   ReadStretch(b, step, &own, sums);
@@ -193,15 +202,20 @@ PetscErrorCode SamBackRead(SamBack *b, PetscInt step)
     b->worn[k] += b->gamma[k];
     b->by_friction[k] += b->at.pressure[k] * b->beta[k];
   }
-  PetscCall(PetscArraycpy(b->g->found.load[step], b->forces, SAM_COMPONENTS));
   PetscCall(SumMotions(b, sums));
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) b->g->found.load[step][c] = b->forces[c] + b->by_load[c];
   rigid[SAM_COMPONENT_N]  = -sums[GAMMA];
   rigid[SAM_COMPONENT_MX] = sums[GAMMA_Y];
   rigid[SAM_COMPONENT_MY] = -sums[GAMMA_X];
   rigid[SAM_COMPONENT_TX] = -sums[TAU_X];
   rigid[SAM_COMPONENT_TY] = -sums[TAU_Y];
   rigid[SAM_COMPONENT_MZ] = sums[Y_TAU_X] - sums[X_TAU_Y];
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) rigid[c] += b->at.by_rigid[c];
+  sums[X_TAU_X] += b->strain[0];
+  sums[Y_TAU_Y] += b->strain[1];
+  sums[Y_TAU_X] += b->strain[2];
   PetscCall(ReadBulk(b, step, sums));
   if (b->other) PetscCall(ReadModuli(b, step, sums));
+  PetscCall(PetscArrayzero(b->ahead, g->cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -12,7 +12,8 @@ PetscErrorCode SamRecordDestroy(SamRecord *r)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree3(r->cell, r->value, r->slope));
-  r->count = 0;
+  PetscCall(PetscFree2(r->entered, r->distance));
+  r->count = r->entering = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -111,6 +112,57 @@ static PetscErrorCode Pack(SamIncrement *s, SamRecord *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Keeps the gaps of the cells that come into contact, and the cell where the bodies have touched first. */
+static PetscErrorCode KeepGaps(SamGrid grid, const double p[], const double gap[], SamRecord *r)
+{
+  PetscInt64 least = -1;
+  PetscInt   m     = 0;
+
+  PetscFunctionBegin;
+  r->entering = 0;
+  for (PetscInt k = 0; k < grid->cells; k++) r->entering += SamIsPressed(p[k]) && gap[k] > 0;
+  PetscCall(PetscMalloc2(r->entering, &r->entered, r->entering, &r->distance));
+  for (PetscInt k = 0; k < grid->cells; k++) {
+    if (!SamIsPressed(p[k])) continue;
+    if (gap[k] == 0) least = (PetscInt64)grid->row_start * grid->nx + k;
+    if (!(gap[k] > 0)) continue;
+    r->entered[m]    = k;
+    r->distance[m++] = gap[k];
+  }
+  PetscCallMPI(MPI_Allreduce(&least, &r->least, 1, MPIU_INT64, MPI_MAX, grid->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Records how the bodies have moved until cells have touched, if contact grows. */
+static PetscErrorCode RecordEntering(SamGradient g, const SamSolution *now, SamRecord *r)
+{
+  const SamProblem   problem = SamContactGetProblem(g->contact);
+  const SamGrid      grid    = SamContactGetGrid(g->contact);
+  const SamSolution *before  = SamContactBefore(g->contact);
+  const PetscReal    loads[] = {now->load[SAM_COMPONENT_TX], now->load[SAM_COMPONENT_TY]};
+  const double      *p, *gap;
+  SamState           state;
+  Vec                separation, field;
+
+  PetscFunctionBegin;
+  r->grows = SamApproachGrows(before, now);
+  r->fresh = !before || !(before->load[SAM_COMPONENT_N] > 0) ? PETSC_TRUE : PETSC_FALSE;
+  if (!r->grows) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetState(g->contact, &state));
+  PetscCall(SamApproachFind(problem, state, before, now, loads, &r->approach));
+  PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
+  PetscCall(SamGridCreateVec(grid, 1, &field));
+  PetscCall(SamApproachGaps(problem, before, now, separation, field));
+  PetscCall(VecGetArrayRead(now->pressure, &p));
+  PetscCall(VecGetArrayRead(field, &gap));
+  PetscCall(KeepGaps(grid, p, gap, r));
+  PetscCall(VecRestoreArrayRead(field, &gap));
+  PetscCall(VecRestoreArrayRead(now->pressure, &p));
+  PetscCall(VecDestroy(&field));
+  PetscCall(SamSolutionDestroySeparation(problem, &separation));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Copies the prescribed values and the displacements of the step. */
 static void CopyControl(SamGradient g, const SamSolution *s, SamRecord *r)
 {
@@ -135,8 +187,9 @@ static PetscErrorCode CheckPlace(SamGradient g, PetscInt place, const SamSolutio
              "the gradient: no step is tried: record each step before it is committed");
   PetscCheck(place <= g->count, comm, PETSC_ERR_ORDER,
              "the gradient: the contact has steps that were not recorded: begin before its first step");
-  PetscCheck(s->rule <= SAM_RULE_END_LINE, comm, SAM_ERR_USER,
-             "the gradient: slip must be opposite to the shear at the end of a step: give -slip_direction end");
+  PetscCheck(s->rule < SAM_RULE_TOUCHING, comm, SAM_ERR_USER,
+             "the gradient: the contact of dissimilar bodies grows, and slip that begins when cells touch has no "
+             "derivative: give -slip_direction end");
   PetscCheck(s->rolled == 0, comm, SAM_ERR_USER, "the gradient of steps that roll is not computed");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -145,7 +198,7 @@ PetscErrorCode SamGradientRecord(SamGradient g)
 {
   const SamSolution *now;
   SamIncrement       increment;
-  SamRecord          r;
+  SamRecord          r = {.grows = PETSC_FALSE};
   PetscInt           place;
 
   PetscFunctionBegin;
@@ -157,6 +210,8 @@ PetscErrorCode SamGradientRecord(SamGradient g)
   PetscCall(Pack(&increment, &r));
   PetscCall(SamIncrementDestroy(&increment));
   CopyControl(g, now, &r);
+  PetscCall(RecordEntering(g, now, &r));
+  r.turns = SamRuleTurns(now->rule) && SamContactBefore(g->contact) ? PETSC_TRUE : PETSC_FALSE;
   while (g->count > place) PetscCall(SamRecordDestroy(&g->record[--g->count]));
   if (g->count == g->room) {
     g->room = 2 * g->room + 16;

@@ -91,6 +91,7 @@ PetscErrorCode SamCompanionFollow(SamCompanion *c, SamSimulation s, PetscInt k, 
   PetscFunctionBegin;
   *there = PETSC_FALSE;
   if (last < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  SamContactSetSettles(c->run->setup.contact, s->gradient ? PETSC_TRUE : PETSC_FALSE);
   while (c->steps <= last && !c->fault[0]) {
     char           message[SAM_MESSAGE] = "";
     PetscErrorCode code;

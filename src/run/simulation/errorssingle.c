@@ -43,8 +43,11 @@ PetscErrorCode SamErrorsTry(SamSimulation s, const SamStep *step)
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
     s->start.loads[c] =
       e->driven[c] || !step->control.force[c] || step->control.value[c] != 0 ? PETSC_TRUE : PETSC_FALSE;
-  for (int c = 0; c < SAM_RUNS; c++)
-    if (e->companion[c].run) PetscCall(SamCompanionTry(&e->companion[c], c == SAM_RUN_OTHER ? 2 : 1, &step->control));
+  for (int c = 0; c < SAM_RUNS; c++) {
+    if (!e->companion[c].run) continue;
+    SamContactSetSettles(e->companion[c].run->setup.contact, s->gradient ? PETSC_TRUE : PETSC_FALSE);
+    PetscCall(SamCompanionTry(&e->companion[c], c == SAM_RUN_OTHER ? 2 : 1, &step->control));
+  }
   PetscCall(SamContactGetState(s->setup.contact, &state));
   PetscCall(SamErrorsFind(e, state));
   SamErrorsRaise(&e->largest, state);

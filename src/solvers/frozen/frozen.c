@@ -173,6 +173,7 @@ PetscErrorCode SamFrozenDestroy(SamFrozen *f)
   PetscFunctionBegin;
   PetscCall(PetscFree(f->start));
   PetscCall(PetscFree(f->cell));
+  PetscCall(PetscFree(f->sine));
   PetscCall(PetscFree7(f->e[0], f->e[1], f->follow, f->rate, f->stiff, f->free, f->bears));
   PetscCall(VecDestroy(&f->p));
   PetscCall(VecDestroy(&f->q));

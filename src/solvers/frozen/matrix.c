@@ -112,6 +112,45 @@ void SamFrozenColumn(const SamFrozen *f, PetscInt k, double column[])
   SamFrozenProject(f, column);
 }
 
+PetscErrorCode SamFrozenTurn(SamFrozen *f, PetscInt k, double sine, double factor)
+{
+  PetscFunctionBegin;
+  if (!f->sine) PetscCall(PetscCalloc1(f->count, &f->sine));
+  f->sine[k] = sine;
+  f->stiff[k] *= factor;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamFrozenProjectRow(const SamFrozen *f, double values[])
+{
+  double *x = values, *y = values + f->count;
+
+  for (PetscInt m = 0; f->sine && m < f->count; m++) { /* the products with n_m, for what lies across e */
+    const double sine = f->sine[m], cosine = sqrt(1 - sine * sine), e0 = f->e[0][m], e1 = f->e[1][m];
+    const double part = cosine * (e0 * y[m] - e1 * x[m]) + sine * (e0 * x[m] + e1 * y[m]);
+
+    if (sine == 0) continue;
+    x[m] = -e1 * part;
+    y[m] = e0 * part;
+  }
+  Project(f, PETSC_FALSE, values);
+}
+
+/* Turns the tractions across e, which are packed, into their own directions. */
+static void Turn(const SamFrozen *f, double q[])
+{
+  double *x = q, *y = q + f->count;
+
+  for (PetscInt m = 0; f->sine && m < f->count; m++) {
+    const double sine = f->sine[m], cosine = sqrt(1 - sine * sine), e0 = f->e[0][m], e1 = f->e[1][m];
+    const double part = e0 * y[m] - e1 * x[m];
+
+    if (sine == 0) continue;
+    x[m] = part * (sine * e0 - cosine * e1);
+    y[m] = part * (sine * e1 + cosine * e0);
+  }
+}
+
 void SamFrozenShear(const SamFrozen *f, const double p[], const double x[], double q[])
 {
   for (PetscInt m = 0; m < f->count; m++) {
@@ -121,6 +160,7 @@ void SamFrozenShear(const SamFrozen *f, const double p[], const double x[], doub
       q[m + c * f->count] =
         (x ? x[m + c * f->count] : 0) + along * f->e[c][m] + (p ? f->follow[m] * f->e[c][m] * p[m] : 0);
   }
+  Turn(f, q);
 }
 
 PetscErrorCode SamFrozenTakeSlip(const SamFrozen *f, PetscInt k, double slip[])
@@ -317,17 +357,17 @@ static PetscErrorCode PreconditionTangential(SamFrozen *f, const double r[], dou
 
   PetscFunctionBegin;
   for (PetscInt m = 0; m < f->count; m++) {
-    const double along = Along(f, r, m);
+    const double along = Along(f, r, m), stiff = PetscMax(f->stiff[m], 0);
 
     for (PetscInt c = 0; c < 2; c++) {
       z[m + c * f->count]          = r[m + c * f->count] - along * f->e[c][m];
-      f->r[f->cell[m] + c * cells] = (float)(sqrt(self / (self + f->stiff[m])) * z[m + c * f->count]);
+      f->r[f->cell[m] + c * cells] = (float)(sqrt(self / (self + stiff)) * z[m + c * f->count]);
     }
   }
   PetscCall(SamElasticityPreconditionTangentialSingle(f->elasticity, self, f->r, f->z));
   for (PetscInt c = 0; c < 2; c++)
     for (PetscInt m = 0; m < f->count; m++) {
-      const double h = self / (self + f->stiff[m]);
+      const double h = self / (self + PetscMax(f->stiff[m], 0));
 
       z[m + c * f->count] =
         (sqrt(h) * (double)f->z[f->cell[m] + c * cells] + 0.5 * (1 - h) * h * z[m + c * f->count]) / self;
