@@ -497,9 +497,10 @@ int petsam_gradient_record(petsam_contact *c, int on);
           name   - the number: energy (J, the frictional work of the steps), wear_volume (m3, that of both bodies after
                    the last of the steps), pressure_norm (Pa, (sum p^8 dA)^(1/8) in the last of the steps), a load or a
                    displacement that is found, summed over the steps, or a smooth maximum (sum s^40)^(1/40) over
-                   the cells at a depth: stress_xx@50um ..., mises@50um (Pa, in the last of the steps), swt@50um
-                   (Pa, of the cycle of the steps); in body 2, or swt@50um@1 in body 1
-          first  - first of the steps that it is of, from 0; -1: all steps of an energy or swt, else the last one
+                   the cells at a depth: stress_xx@50um ..., mises@50um (Pa, in the last of the steps), swt@50um,
+                   findley@50um@k=0.3 (Pa, of the cycle of the steps), fatemi_socie@50um@k=1@yield=900MPa (1, likewise;
+                   constants as in petsam_fatigue()); in body 2, or swt@50um@1 in body 1
+          first  - first of the steps that it is of, from 0; -1: all steps of an energy or a cycle, else the last one
           last   - the last of them; -1: the last step
           of     - parameters, separated by commas: names of petsam_get_gradient(), gap,load_tx,body1_young say, or
                    parameters of the shape, gap_radius1 say; NULL: all but the moduli and the shape

@@ -1039,13 +1039,14 @@ class Contact:
             over the steps; "pressure_norm", (sum p^8 dA)^(1/8) of the last of the steps, a smooth maximum. Others,
             (sum s^40)^(1/40) over the cells at a depth: "stress_xx@50um" and the other components, "mises@50um" (Pa),
             of the last of the steps; "swt@50um", Smith, Watson and Topper's parameter of the cycle of the steps (Pa);
-            in body 2, or in body 1 as "swt@50um@1".
+            "findley@50um@k=0.3" (Pa), "fatemi_socie@50um@k=1@yield=900MPa", with the constants of fatigue(); in body 2,
+            or in body 1 as "swt@50um@1".
         of : sequence of str, optional
             Parameters: "gap" and "friction", of each cell; "load_n", "disp_x", "bulk2_stress_xx" ..., of each step;
             "wear_coefficient" and "wear_energy", of both bodies alike; "body1_young" and other moduli, "gap_radius1"
             and other parameters of the shape. None: all but moduli, which cost some more products a step, and shape.
         steps : slice, optional
-            The steps, from 0; None: all for the energy and swt, else the last.
+            The steps, from 0; None: all for the energy and parameters of a cycle, else the last.
         rtol : float
             Relative residual of the systems that are solved.
 

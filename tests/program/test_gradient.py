@@ -443,12 +443,14 @@ def wave_of(x, y):
     return WAVE * np.cos(5e3 * x + 1) * np.cos(4e3 * y + 0.5)
 
 
-def check_number(number, steps, history, within, **given):
-    """A number's derivatives by the gap, by friction and by columns beside differences; returns the gradient."""
+def check_number(number, steps, history, within, wide=1, **given):
+    """A number's derivatives by the gap, by friction and by columns beside differences, some times as wide as usual;
+    returns the gradient."""
     contact, shape = stressed(history, **given)
     found = contact.gradient(number, None, steps, rtol=1e-10)
     sizes = {"gap": 1e-3, "friction": 1e-6} | {name: 1e-6 for name in history if name not in ("time", "load_ty")}
     for name, size in sizes.items():
+        size *= wide
         start = 0.3 if name == "friction" else 0.0
         both = [
             stressed(history, **given, **{name: start + sign * size})[0].gradient(number, None, steps, rtol=0.1).value
@@ -485,21 +487,58 @@ def _largest(contact, name, depth, body):
     return contact.stress(depths=[depth], body=int(body[0]) if body else 2, quantities="stress,mises")[name].max()
 
 
-@pytest.mark.filterwarnings("ignore")
-def test_smith_watson_and_topper():
-    """The value by the fatigue of recorded steps, and the derivatives."""
-    turns = np.array([0, 0.5, 0.9, 0.3, -0.4, -0.95, -0.2])
-    history = history_of(np.full(8, 400.0), np.append(0, 80 * turns), np.append(0, 15 * turns * (1 - turns)))
-    history["bulk2_stress_xx"] = np.append(0, 4e7 * turns)
-    contact, found = check_number("swt@50um", slice(1, 8), history, 2e-4)
+CYCLE = np.linspace(0, 2 * np.pi, 4)[:-1]
+FINDLEY = {"fatigue_findley_k": 0.3}
+SOCIE = {"fatigue_fatemi_socie_k": 0.7, "fatigue_yield": 3e8}
+
+
+def out_of_phase():
+    """A step, and a cycle in which the shear turns, by three states as its circles need; the bulk stresses turn too."""
+    bulk = {"bulk2_stress_xx": 3e6 * np.cos(CYCLE - 0.4), "bulk1_stress_yy": 2e6 * np.cos(CYCLE + 1)}
+    x, y = 70 * np.cos(CYCLE), 70 * np.sin(CYCLE)
+    history = history_of(np.append(400, 400 + 20 * np.sin(CYCLE)), np.append(0, x), np.append(0, y))
+    return history | {name: np.append(0, values) for name, values in bulk.items()}
+
+
+def fatigue_of(contact, history, name, **given):
+    """The fatigue of the steps after the first one, and the stresses in them."""
     contact.record_gradient(False)
     contact.reset()
     contact.run({name: values[:1] for name, values in history.items()})
     contact.record()
     contact.run({name: values[1:] for name, values in history.items()})
-    values = np.nan_to_num(contact.fatigue("swt", depths=[5e-5])["swt"])
+    return contact.fatigue(name, quantities="stress", **given)
+
+
+def shear_in(given, row, column):
+    """The paths of the normal stress and of the shear on Findley's plane in a cell: (steps), (steps, 3)."""
+    names = ("xx", "yy", "zz", "xy", "xz", "yz")
+    xx, yy, zz, xy, xz, yz = (given[f"stress_{name}"][:, 0, row, column] for name in names)
+    normal = np.array([given[f"findley_normal_{axis}"][0, row, column] for axis in "xyz"])
+    on = np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), 2, 0) @ normal
+    return on @ normal, on - np.outer(on @ normal, normal)
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(
+    "number, constants",
+    [("swt@50um", {}), ("swt@50um@1", {}), ("findley@80um@k=0.3", FINDLEY), ("findley@0.08mm@1@k=0.3", FINDLEY),
+     ("fatemi_socie@50um@k=0.7@yield=300MPa", SOCIE), ("fatemi_socie@80um@yield=3e8@k=0.7@1", SOCIE)],
+)  # fmt: skip
+def test_parameters_of_planes(number, constants):
+    """The value by the fatigue of recorded steps, and the derivatives; the circle has three states on it."""
+    history = out_of_phase()
+    contact, found = check_number(number, slice(1, 4), history, 2e-6, 10)
+    name, depth, *more = number.split("@")
+    body, depth = 1 if "1" in more else 2, {"50um": 5e-5}.get(depth, 8e-5)
+    given = fatigue_of(contact, history, name, depths=[depth], body=body, **constants)
+    values = np.maximum(np.nan_to_num(given[name]), 0)[0]
     norm = np.sum((values / values.max()) ** 40) ** (1 / 40) * values.max()
     assert found.value == pytest.approx(norm, rel=1e-12)
+    if name == "findley" and body == 2:
+        normal, shear = shear_in(given, *np.unravel_index(np.argmax(values), values.shape))
+        chord = max(np.linalg.norm(a - b) for a in shear for b in shear)
+        assert values.max() - 0.3 * normal.max() > 0.5 * chord * (1 + 1e-4)
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -514,7 +553,7 @@ def test_cells_that_slide_nearly_alike():
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("number", ["stress_yy@50um", "mises@50um", "energy"])
+@pytest.mark.parametrize("number", ["stress_yy@50um", "mises@50um", "findley@50um@k=0.3", "energy"])
 def test_bulk_stress_in_plane_strain(number):
     """That along x brings nu times as much along y: by the stress and, of the energy, by the moduli."""
 
@@ -746,6 +785,21 @@ def test_a_run_writes_what_a_contact_in_process_finds(petsam, loads, tmp_path):
     assert f"load_tx {share:+.3g} %" in done.stdout
 
 
+def test_a_run_writes_parameters_of_planes(petsam, loads, tmp_path):
+    """The same bits on 1 and 3 ranks as in process; the units."""
+    names = {"findley@50um@k=0.3": "Pa", "fatemi_socie@50um@1@k=1@yield=900MPa": "1"}
+    for ranks in (1, 3):
+        petsam(RUN, dict(history="history.csv", gradient=",".join(names), output=f"{ranks}.h5"), ranks=ranks)
+    contact = record(library.Contact(**RUN), loads)[0]
+    for name, unit in names.items():
+        found = contact.gradient(name)
+        for file in (library.open(tmp_path / f"{ranks}.h5") for ranks in (1, 3)):
+            one = file.gradients[name]
+            assert one.value == found.value and one.unit == unit
+            assert np.array_equal(one.gap, found.gap) and np.array_equal(one.friction, found.friction)
+            assert np.array_equal(one["load_tx"], found["load_tx"])
+
+
 def test_steps_of_a_gradient(petsam, loads, tmp_path):
     """-gradient_steps counts from 1, slices of a contact from 0."""
     petsam(RUN, dict(history="history.csv", gradient="energy", gradient_steps="2,3", output="out.h5"))
@@ -775,6 +829,15 @@ def test_steps_of_a_gradient(petsam, loads, tmp_path):
         (dict(gradient_of="gap,gap"), "listed twice"),
         (dict(gradient="mises@inf"), "expected a depth"),
         (dict(gradient=f"mises@{'0' * 70}.1mm"), "expected a depth"),
+        (dict(gradient="mises@1mm@k=1"), "expected a depth, and a body"),
+        (dict(gradient="mises@1mm@3"), "expected a depth, and a body"),
+        (dict(gradient="findley@1mm"), "expected a depth, constants, and a body unless it is body 2: findley@50um@k="),
+        (dict(gradient="findley@1mm@k=0.3@k=0.2"), "expected a depth, constants"),
+        (dict(gradient="findley@1mm@k=-0.3"), "expected a depth, constants"),
+        (dict(gradient="findley@1mm@k=0.3MPa"), "expected a depth, constants"),
+        (dict(gradient="findley@1mm@k=0.3@yield=1MPa"), "expected a depth, constants"),
+        (dict(gradient="fatemi_socie@1mm@k=1"), "expected a depth, constants"),
+        (dict(gradient="fatemi_socie@1mm@k=1@yield=0"), "expected a depth, constants"),
         (dict(gradient="mises@1mm@1", body1_young="inf"), "a rigid body"),
         (dict(gradient="mises@1mm", elasticity="periodic"), "periodic bodies"),
         (dict(gradient="disp_z", elasticity="periodic"), "no such number"),

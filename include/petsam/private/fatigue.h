@@ -33,7 +33,7 @@ typedef struct {
     SamFatigueFatemiSocie  largest over n of tau_a/G (1 + k max s_n/yield), 1 (Fatemi and Socie 1988)
     SamFatigueRuiz         D1, J/m2: a quarter of the closed integral of |q . ds|, q the shear on the surface, which for
                            a reciprocating cycle is the shear times the slip amplitude; NaN below the surface
-  Planes are searched in steps of 10 degrees, then around the best plane down to a sixth of a degree. `more` becomes the
+  Planes are searched in steps of 10 degrees, then around the best plane, to the last digits. `more` becomes the
   normal of the critical plane, with z >= 0; it is NaN if no plane is under tension (SWT). For Ruiz's parameter `more`
   becomes D2 (Pa J/m2): D1 times the maximum tension in the direction of the maximum change of slip. Not collective.
   Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.
@@ -47,6 +47,14 @@ PETSC_INTERN double SamFatigueFindley(const SamFatigueCycle *cycle, double more[
 PETSC_INTERN double SamFatigueSWT(const SamFatigueCycle *cycle, double more[]);
 PETSC_INTERN double SamFatigueFatemiSocie(const SamFatigueCycle *cycle, double more[]);
 PETSC_INTERN double SamFatigueRuiz(const SamFatigueCycle *cycle, double more[]);
+
+/*
+  SamFatigueSlopes - returns a parameter that is the largest over planes (Findley, SWT, Fatemi and Socie), and computes
+  its derivatives by the stresses: slope[c * states + k] (its unit over Pa), that by a shear stress counting both of its
+  places. To first order the plane, the states of the extremes and those on the circle stay. They are 0 where no plane
+  is under tension (SWT). `slope` may be the array of the stresses. Not collective.
+*/
+PETSC_INTERN double SamFatigueSlopes(SamFatigueParameter *parameter, const SamFatigueCycle *cycle, double slope[]);
 
 /*
   SamSmallestBall - returns the radius of the smallest ball around n > 0 points (points[i * dimension + d]) of a

@@ -1,15 +1,18 @@
 /*
   Smooth maxima at a depth, as numbers of a history that have a gradient: (sum s+^r)^(1/r) over the cells, s+ being the
-  positive part of a component of the stress or von Mises' stress of the last step, with the bulk stress; or Smith,
-  Watson and Topper's parameter of a cycle of steps.
+  positive part of a component of the stress or von Mises' stress of the last step, with the bulk stress; or a parameter
+  of planes of a cycle of steps: Findley 1959, J. Eng. Ind. 81, 301; Smith, Watson and Topper 1970, J. Mater. 5, 767;
+  Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct. 11, 149.
 
   The stresses of cells are convolutions of the tractions, with kernels that are even or odd in the place: those of p
   are even for xx, yy, zz and xy and odd for xz and yz, those of the shear the other way round. So the transposed map
   consists of the same kernels, with the sign of the odd ones turned: the derivative by a traction is the sum over the
   components of what this traction would cause if it were the derivative by the component.
 
-  SWT = max s_n (max e_n - min e_n)/2 of the plane with the largest one, with s_n = n'sn, e_n = ((1 + nu) s_n - nu tr
-  s)/E. To first order the plane and the states of the extremes stay.
+  These are the largest over the planes of tau_a + k max s_n, max s_n (max e_n - min e_n)/2 and tau_a/G (1 + k max
+  s_n/yield), with s_n = n'sn, e_n = ((1 + nu) s_n - nu tr s)/E and tau_a the radius of the smallest circle about the
+  path of the shear on the plane. To first order the plane, the states of the extremes and those on the circle stay:
+  d tau_a = sum w_i u_i.d tau_i, with u_i the directions to these from the centre and w_i of sum 1 with sum w_i u_i = 0.
 */
 #include "gradientimpl.h"
 #include <petsam/private/body.h>
@@ -17,42 +20,93 @@
 #include <petsam/private/stress.h>
 #include <math.h>
 
-#define POWER     40  /* of the norm: 512 equal values raise it by a sixth */
-#define MAP_BYTES 305 /* of the map of the stress: its fields and its kernels, per cell */
+#define POWER     40    /* of the norm: 512 equal values raise it by a sixth */
+#define LEAST     1e-18 /* derivative of the norm by a cell's parameter that counts, of those whose sum is about 1 */
+#define MAP_BYTES 305   /* of the map of the stress: its fields and its kernels, per cell */
 
-enum { MISES = SAM_STRESS_COMPONENTS, SWT };
-static const char *const quantities[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy",
-                                         "stress_xz", "stress_yz", "mises",     "swt"};
+enum { MISES = SAM_STRESS_COMPONENTS };
+
+/* The quantities; of those of a cycle the parameter, and the constants that a name gives, as in an example */
+static const struct {
+  const char          *name;
+  SamFatigueParameter *of_cycle;
+  const char          *unit, *constants;
+} quantities[] = {{"stress_xx", NULL, "Pa", ""},
+                  {"stress_yy", NULL, "Pa", ""},
+                  {"stress_zz", NULL, "Pa", ""},
+                  {"stress_xy", NULL, "Pa", ""},
+                  {"stress_xz", NULL, "Pa", ""},
+                  {"stress_yz", NULL, "Pa", ""},
+                  {"mises", NULL, "Pa", ""},
+                  {"swt", SamFatigueSWT, "Pa", ""},
+                  {"findley", SamFatigueFindley, "Pa", "@k=0.3"},
+                  {"fatemi_socie", SamFatigueFatemiSocie, "1", "@k=1@yield=900MPa"}};
 enum { QUANTITIES = sizeof(quantities) / sizeof(quantities[0]) };
 
-/* The quantity, the depth and the body that a name selects */
+/* The quantity, the depth, the body and the constants that a name selects */
 typedef struct {
   int      quantity;
-  double   depth; /* m */
-  PetscInt body;  /* 1 or 2 */
+  double   depth, k, yield; /* m, 1, Pa; NaN: not given */
+  PetscInt body;            /* 1 or 2; 0: not given */
 } Wanted;
 
-/* Reads a name like stress_xx@20um or mises@0.1mm@1: depth, and body (2). */
-static PetscErrorCode Read(MPI_Comm comm, const char name[], Wanted *w)
+/* Reads a number that is not given yet. */
+static PetscBool ReadOnce(const char unit[], const char text[], double *value)
 {
-  const char *at = strchr(name, '@'), *next = at ? strchr(at + 1, '@') : NULL, *end;
-  char        depth[64] = "";
-  PetscBool   unit, good;
+  const char *end;
+  PetscBool   has_unit;
 
-  PetscFunctionBegin;
-  *w = (Wanted){.body = 2};
-  for (int k = 0; k < QUANTITIES; k++)
-    if (strlen(quantities[k]) == strcspn(name, "@") && !strncmp(quantities[k], name, strcspn(name, "@")))
-      w->quantity = k;
-  if (at) (void)snprintf(depth, sizeof(depth), "%.*s", (int)(next ? next - at - 1 : (ptrdiff_t)strlen(at + 1)), at + 1);
-  good = at && (next ? next : at + strlen(at)) - at < (ptrdiff_t)sizeof(depth) &&
-             SamReadReal("m", depth, &end, &w->depth, &unit) && w->depth >= 0 && isfinite(w->depth)
+  return isnan(*value) && SamReadReal(unit, text, &end, value, &has_unit) && !*end && isfinite(*value) ? PETSC_TRUE
+                                                                                                       : PETSC_FALSE;
+}
+
+/* Reads what follows one @ of a name: first the depth, then the body or a constant; false: it is none of these. */
+static PetscBool ReadPart(const char part[], Wanted *w)
+{
+  if (isnan(w->depth)) return ReadOnce("m", part, &w->depth);
+  if (!strncmp(part, "k=", 2)) return ReadOnce(NULL, part + 2, &w->k);
+  if (!strncmp(part, "yield=", 6)) return ReadOnce("Pa", part + 6, &w->yield);
+  if (w->body || (strcmp(part, "1") && strcmp(part, "2"))) return PETSC_FALSE;
+  w->body = *part - '0';
+  return PETSC_TRUE;
+}
+
+/* Returns true if the numbers are in their ranges, and the constants those of the quantity. */
+static PetscBool IsRight(const Wanted *w)
+{
+  const char *const constants = quantities[w->quantity].constants;
+
+  return w->depth >= 0 && !isnan(w->k) == !!strstr(constants, "k=") && !(w->k < 0) &&
+             !isnan(w->yield) == !!strstr(constants, "yield=") && !(w->yield <= 0)
            ? PETSC_TRUE
            : PETSC_FALSE;
-  if (next) w->body = !strcmp(next, "@1") ? 1 : !strcmp(next, "@2") ? 2 : 0;
-  PetscCheck(good && w->body, comm, SAM_ERR_USER,
-             "the gradient of %s: expected a depth, and a body unless it is body 2: %.*s@50um, %.*s@50um@1", name,
-             (int)strcspn(name, "@"), name, (int)strcspn(name, "@"), name);
+}
+
+/* Reads a name like stress_xx@20um, mises@0.1mm@1 or findley@50um@k=0.3: depth, body (2), and constants. */
+static PetscErrorCode Read(MPI_Comm comm, const char name[], Wanted *w)
+{
+  const int   length = (int)strcspn(name, "@");
+  PetscBool   good   = PETSC_TRUE;
+  const char *also;
+
+  PetscFunctionBegin;
+  *w = (Wanted){.depth = NAN, .k = NAN, .yield = NAN};
+  for (int k = 0; k < QUANTITIES; k++)
+    if ((int)strlen(quantities[k].name) == length && !strncmp(quantities[k].name, name, (size_t)length))
+      w->quantity = k;
+  for (const char *at = name + length; *at && good;) {
+    const size_t size     = strcspn(at + 1, "@");
+    char         part[64] = "";
+
+    (void)snprintf(part, sizeof(part), "%.*s", (int)size, at + 1);
+    good = size < sizeof(part) ? ReadPart(part, w) : PETSC_FALSE;
+    at += 1 + size;
+  }
+  also = quantities[w->quantity].constants;
+  PetscCheck(good && IsRight(w), comm, SAM_ERR_USER,
+             "the gradient of %s: expected a depth, %sa body unless it is body 2: %.*s@50um%s, %.*s@50um@1%s", name,
+             also[0] ? "constants, and " : "and ", length, name, also, length, name, also);
+  if (!w->body) w->body = 2;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -257,66 +311,33 @@ static PetscErrorCode AddOfStep(SamObjectiveStep *at, const Wanted *w, Map *m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- Smith, Watson and Topper ---- */
+/* ---- a parameter of a cycle ---- */
 
-/* The plane of a cell, the steps of its extremes; derivatives of the norm by max s_n and by max e_n - min e_n */
+/* What a pass keeps: the map, and the derivatives of the norm by the stresses of all steps, of the cells that count */
 typedef struct {
-  double   normal[3], by_stress, by_strain;
-  PetscInt most, high, low;
-} Plane;
-
-/* The map and the planes of a cycle, which a pass keeps */
-typedef struct {
-  Map    map;
-  Plane *plane; /* of each cell */
+  Map      map;
+  PetscInt count, *cell;
+  double  *by; /* of each of these cells, of each component, in each step */
 } Cycle;
 
-/* Returns the stress normal to a plane in a state, and the trace. */
-static double Normal(const double s[], PetscInt states, PetscInt k, const double n[3], double *trace)
+static SamFatigueConstants ConstantsOf(const SamObjectiveStep *at, const Wanted *w)
 {
-  *trace = s[k] + s[states + k] + s[2 * states + k];
-  return n[0] * n[0] * s[k] + n[1] * n[1] * s[states + k] + n[2] * n[2] * s[2 * states + k] +
-         2 * (n[0] * n[1] * s[3 * states + k] + n[0] * n[2] * s[4 * states + k] + n[1] * n[2] * s[5 * states + k]);
+  SamPairConstants constants;
+
+  (void)SamPairGetConstants(SamElasticityGetPair(at->elasticity), &constants);
+  return (SamFatigueConstants){.young          = (PetscReal)constants.modulus[2 * (w->body - 1)],
+                               .poisson        = (PetscReal)constants.modulus[2 * (w->body - 1) + 1],
+                               .findley_k      = (PetscReal)w->k,
+                               .fatemi_socie_k = (PetscReal)w->k,
+                               .yield          = (PetscReal)w->yield};
 }
 
-/* Finds the plane of a cell and its extremes; returns the parameter. */
-static double FindPlane(const SamFatigueCycle *cycle, PetscInt first, Plane *p)
+/* Gathers the stresses of all steps of the cycle. */
+static PetscErrorCode Gather(const SamObjectiveStep *at, const Wanted *w, Cycle *c)
 {
-  const double nu = (double)cycle->constants->poisson, young = (double)cycle->constants->young;
-  const double value = SamFatigueSWT(cycle, p->normal);
-  double       most = -INFINITY, high = -INFINITY, low = INFINITY;
-
-  for (PetscInt k = 0; value > 0 && k < cycle->states; k++) {
-    double       trace;
-    const double s = Normal(cycle->stress, cycle->states, k, p->normal, &trace),
-                 e = ((1 + nu) * s - nu * trace) / young;
-
-    if (s > most) p->most = first + k;
-    if (e > high) p->high = first + k;
-    if (e < low) p->low = first + k;
-    most = PetscMax(most, s);
-    high = PetscMax(high, e);
-    low  = PetscMin(low, e);
-  }
-  p->by_stress = value > 0 ? 0.5 * (high - low) : 0;
-  p->by_strain = value > 0 ? 0.5 * most : 0;
-  return PetscMax(value, 0);
-}
-
-/* Finds the planes of all cells, from the stresses of all steps of the cycle, and the norm of the parameter. */
-static PetscErrorCode FindPlanes(SamObjectiveStep *at, const Wanted *w, Cycle *c)
-{
-  const PetscInt      cells = c->map.grid->cells, states = at->last - at->first + 1;
-  SamPairConstants    constants;
-  SamFatigueConstants of_body = {.young = 0};
-  double             *all, *value, *scratch;
+  const PetscInt cells = c->map.grid->cells, states = at->last - at->first + 1;
 
   PetscFunctionBegin;
-  (void)SamPairGetConstants(SamElasticityGetPair(at->elasticity), &constants);
-  of_body.young   = (PetscReal)constants.modulus[2 * (w->body - 1)];
-  of_body.poisson = (PetscReal)constants.modulus[2 * (w->body - 1) + 1];
-  PetscCall(
-    PetscMalloc3(SAM_STRESS_COMPONENTS * states * cells, &all, cells, &value, SAM_FATIGUE_SCRATCH * states, &scratch));
   for (PetscInt k = 0; k < states; k++) {
     const double *s;
 
@@ -324,48 +345,67 @@ static PetscErrorCode FindPlanes(SamObjectiveStep *at, const Wanted *w, Cycle *c
     PetscCall(VecGetArrayRead(c->map.field, &s));
     for (PetscInt m = 0; m < cells; m++)
       for (int n = 0; n < SAM_STRESS_COMPONENTS; n++)
-        all[(m * SAM_STRESS_COMPONENTS + n) * states + k] = s[m + n * cells];
+        c->by[((ptrdiff_t)m * SAM_STRESS_COMPONENTS + n) * states + k] = s[m + n * cells];
     PetscCall(VecRestoreArrayRead(c->map.field, &s));
   }
-  for (PetscInt m = 0; m < cells; m++) {
-    const SamFatigueCycle cycle = {&of_body, states, all + m * SAM_STRESS_COMPONENTS * states, NULL, scratch};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    value[m] = FindPlane(&cycle, at->first, &c->plane[m]);
+/* Keeps the cells whose derivative by the parameter is not negligible, and multiplies by it. */
+static PetscErrorCode KeepCells(const double value[], PetscInt cells, size_t size, Cycle *c)
+{
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < cells; m++) c->count += value[m] > LEAST;
+  PetscCall(PetscMalloc1(c->count, &c->cell));
+  c->count = 0;
+  for (PetscInt m = 0; m < cells; m++) {
+    double *const to = c->by + (size_t)c->count * size;
+
+    if (!(value[m] > LEAST)) continue;
+    for (size_t k = 0; k < size; k++) to[k] = value[m] * c->by[(size_t)m * size + k];
+    c->cell[c->count++] = m;
+  }
+  PetscCall(PetscRealloc(PetscMax((size_t)c->count, 1) * size * sizeof(double), &c->by));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the parameters of all cells and their norm, and its derivatives by the stresses. */
+static PetscErrorCode FindSlopes(SamObjectiveStep *at, const Wanted *w, Cycle *c)
+{
+  const PetscInt            cells = c->map.grid->cells, states = at->last - at->first + 1;
+  const SamFatigueConstants constants = ConstantsOf(at, w);
+  double                   *value, *scratch;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1((size_t)cells * SAM_STRESS_COMPONENTS * (size_t)states, &c->by));
+  PetscCall(Gather(at, w, c));
+  PetscCall(PetscMalloc2(cells, &value, SAM_FATIGUE_SCRATCH * states, &scratch));
+  for (PetscInt m = 0; m < cells; m++) {
+    double *const         by    = c->by + (ptrdiff_t)m * SAM_STRESS_COMPONENTS * states;
+    const SamFatigueCycle cycle = {&constants, states, by, NULL, scratch};
+
+    value[m] = fmax(SamFatigueSlopes(quantities[w->quantity].of_cycle, &cycle, by), 0);
   }
   PetscCall(FindNorm(at, c->map.grid, value));
-  for (PetscInt m = 0; m < cells; m++) {
-    c->plane[m].by_stress *= value[m];
-    c->plane[m].by_strain *= value[m] / (double)of_body.young;
-  }
-  PetscCall(PetscFree3(all, value, scratch));
+  PetscCall(KeepCells(value, cells, (size_t)(SAM_STRESS_COMPONENTS * states), c));
+  PetscCall(PetscFree2(value, scratch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Adds the derivatives by the stresses of one step. */
 static PetscErrorCode AddOfCycle(SamObjectiveStep *at, const Wanted *w, Cycle *c)
 {
-  const PetscInt   cells = c->map.grid->cells;
-  SamPairConstants constants;
-  double          *by, nu;
+  const PetscInt cells = c->map.grid->cells, states = at->last - at->first + 1;
+  double        *by;
 
   PetscFunctionBegin;
-  (void)SamPairGetConstants(SamElasticityGetPair(at->elasticity), &constants);
-  nu = constants.modulus[2 * (w->body - 1) + 1];
-  PetscCall(PetscCalloc1(SAM_STRESS_COMPONENTS * cells, &by));
-  for (PetscInt m = 0; m < cells; m++) {
-    const Plane  *p      = &c->plane[m];
-    const double *n      = p->normal;
-    const double  strain = p->by_strain * ((p->high == at->step ? 1 : 0) - (p->low == at->step ? 1 : 0));
-    const double  normal = (p->most == at->step ? p->by_stress : 0) + (1 + nu) * strain;
-
-    if (normal == 0 && strain == 0) continue;
-    for (int d = 0; d < 3; d++) by[m + d * cells] = normal * n[d] * n[d] - nu * strain;
-    by[m + SAM_STRESS_XY * cells] = 2 * normal * n[0] * n[1];
-    by[m + SAM_STRESS_XZ * cells] = 2 * normal * n[0] * n[2];
-    by[m + SAM_STRESS_YZ * cells] = 2 * normal * n[1] * n[2];
-  }
+  PetscCall(VecZeroEntries(c->map.field));
+  PetscCall(VecGetArray(c->map.field, &by));
+  for (PetscInt m = 0; m < c->count; m++)
+    for (int d = 0; d < SAM_STRESS_COMPONENTS; d++)
+      by[c->cell[m] + d * cells] = c->by[((ptrdiff_t)m * SAM_STRESS_COMPONENTS + d) * states + at->step - at->first];
   PetscCall(AddStresses(at, w, &c->map, by));
-  PetscCall(PetscFree(by));
+  PetscCall(VecRestoreArray(c->map.field, &by));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -376,7 +416,8 @@ static PetscErrorCode EndCycle(void *data)
   PetscFunctionBegin;
   if (!c) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Destroy(&c->map));
-  PetscCall(PetscFree(c->plane));
+  PetscCall(PetscFree(c->cell));
+  PetscCall(PetscFree(c->by));
   PetscCall(PetscFree(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -417,7 +458,7 @@ static PetscErrorCode AddStress(SamObjectiveStep *at)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddSWT(SamObjectiveStep *at)
+static PetscErrorCode AddParameter(SamObjectiveStep *at)
 {
   Wanted w;
   Cycle *c;
@@ -429,8 +470,7 @@ static PetscErrorCode AddSWT(SamObjectiveStep *at)
     PetscCall(PetscNew(&c));
     at->data = c;
     PetscCall(Create(at, &w, &c->map));
-    PetscCall(PetscCalloc1(c->map.grid->cells, &c->plane));
-    PetscCall(FindPlanes(at, &w, c));
+    PetscCall(FindSlopes(at, &w, c));
   }
   PetscCall(AddOfCycle(at, &w, (Cycle *)at->data));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -440,24 +480,19 @@ PetscErrorCode SamObjectiveRegisterStresses(void)
 {
   PetscFunctionBegin;
   for (int k = 0; k < QUANTITIES; k++) {
-    static const SamObjective step  = {.unit   = "Pa",
-                                       .add    = AddStress,
-                                       .check  = Check,
-                                       .suffix = PETSC_TRUE,
-                                       .fixed  = PETSC_TRUE,
-                                       .bytes  = {0, MAP_BYTES, 0}};
-    static const SamObjective cycle = {.unit   = "Pa",
-                                       .all    = PETSC_TRUE,
-                                       .add    = AddSWT,
+    static const SamObjective step = {
+      .add = AddStress, .check = Check, .suffix = PETSC_TRUE, .fixed = PETSC_TRUE, .bytes = {0, MAP_BYTES, 0}};
+    static const SamObjective cycle = {.all    = PETSC_TRUE,
+                                       .add    = AddParameter,
                                        .check  = Check,
                                        .suffix = PETSC_TRUE,
                                        .fixed  = PETSC_TRUE,
                                        .end    = EndCycle,
-                                       .bytes = {MAP_BYTES + sizeof(Plane), 0, SAM_STRESS_COMPONENTS * sizeof(double)}};
-    SamObjective              one   = k == SWT ? cycle : step;
+                                       .bytes  = {MAP_BYTES, 0, SAM_STRESS_COMPONENTS * sizeof(double)}};
+    SamObjective              one   = quantities[k].of_cycle ? cycle : step;
 
-    one.name = quantities[k];
-
+    one.name = quantities[k].name;
+    one.unit = quantities[k].unit;
     PetscCall(SamObjectiveRegister(&one));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -3,8 +3,9 @@
 
   Planes: the maximum over planes is searched on a hemisphere of normals, 10 degrees apart; then from the best of them,
   from other normals that are nearly as good and point elsewhere, and from the plane of maximum tension, by steps in
-  angle that are halved down to a sixth of a degree. Near its maximum a parameter is at most quadratic in the
-  angle but for kinks.
+  angle that are halved down to a sixth of a degree; then by Newton's method. As the largest of smooth functions of the
+  angles (of pairs of states for SWT, of weights of states for the radius of a circle) a parameter has no kink at its
+  maximum.
 
   The circle about the path of the shear stress in a plane is computed only if the larger circle about the path's
   rectangle would make the plane the best so far.
@@ -23,6 +24,11 @@ enum { COARSE = 10, STARTS = 5 };
 #define ELSEWHERE  20.0
 /* Least ratio of a start's value to the best value at which this start is tried */
 #define NEARLY 0.9
+
+/* Angle between the planes of a paraboloid; least curvature, relative to the largest; number of steps to its top */
+#define NEARBY 1e-4
+#define FLAT   1e-6
+enum { STEPS = 3 };
 
 /* Least relative increase of the parameter by a step of the search */
 #define CLIMB 1e-6
@@ -64,14 +70,27 @@ static void FindEnds(PetscInt n, const double x[], PetscInt stride, double *leas
   }
 }
 
+static double ShearModulus(const Cycle *c)
+{
+  return (double)c->constants->young / (2 * (1 + (double)c->constants->poisson));
+}
+
 /* Returns the factor of the shear amplitude of a plane with that normal stress. */
 static double Factor(const Cycle *c, double normal)
 {
   const SamFatigueConstants *k = c->constants;
-  const double               G = (double)k->young / (2 * (1 + (double)k->poisson));
 
   if (c->kind == FINDLEY) return 1;
-  return (1 + (double)k->fatemi_socie_k * normal / (double)k->yield) / G;
+  return (1 + (double)k->fatemi_socie_k * normal / (double)k->yield) / ShearModulus(c);
+}
+
+/* Returns the derivative of the parameter of a plane of that shear amplitude by its normal stress. */
+static double ByNormal(const Cycle *c, double amplitude)
+{
+  const SamFatigueConstants *k = c->constants;
+
+  if (c->kind == FINDLEY) return (double)k->findley_k;
+  return amplitude / ShearModulus(c) * (double)k->fatemi_socie_k / (double)k->yield;
 }
 
 /* Returns the parameter of a plane whose shear stress has that amplitude. */
@@ -162,6 +181,60 @@ static void Climb(const Cycle *c, Plane *at)
       *at = best;
     else
       step *= 0.5;
+  }
+}
+
+/* Returns the plane whose normal is turned by two small angles. */
+static Plane Turned(const Cycle *c, const Plane *from, double a, double b)
+{
+  double n[3], u[3], v[3];
+  Plane  to = {0, 0, 0};
+
+  SetFrame(from->theta, from->phi, n, u, v);
+  for (int d = 0; d < 3; d++) n[d] += a * u[d] + b * v[d];
+  to.theta = atan2(hypot(n[0], n[1]), n[2]);
+  to.phi   = atan2(n[1], n[0]);
+  to.value = OnPlane(c, to.theta, to.phi, -INFINITY);
+  return to;
+}
+
+/*
+  Finds the angles to the top of the paraboloid through the parameter nearby, along those of its axes along which it has
+  one: on a circle of equal planes it has none along the circle.
+*/
+static void FindTop(const Cycle *c, const Plane *at, double step[2])
+{
+  const double h = NEARBY, ends[3][2] = {{Turned(c, at, h, 0).value, Turned(c, at, -h, 0).value},
+                                         {Turned(c, at, 0, h).value, Turned(c, at, 0, -h).value},
+                                         {Turned(c, at, h, h).value, Turned(c, at, -h, -h).value}};
+  double       slope[2], curve[3], mixed, angle;
+
+  for (int k = 0; k < 3; k++) curve[k] = (ends[k][0] + ends[k][1] - 2 * at->value) / (h * h);
+  for (int k = 0; k < 2; k++) slope[k] = (ends[k][0] - ends[k][1]) / (2 * h);
+  mixed   = 0.5 * (curve[2] - curve[0] - curve[1]);
+  angle   = 0.5 * atan2(2 * mixed, curve[0] - curve[1]);
+  step[0] = step[1] = 0;
+  for (int k = 0; k < 2; k++, angle += PETSC_PI / 2) {
+    const double x = cos(angle), y = sin(angle), down = -(x * x * curve[0] + 2 * x * y * mixed + y * y * curve[1]);
+    const double way = (x * slope[0] + y * slope[1]) / down;
+
+    if (!(down > FLAT * (fabs(curve[0]) + fabs(curve[1])) && fabs(way) < FIRST_STEP * DEGREE)) continue;
+    step[0] += way * x;
+    step[1] += way * y;
+  }
+}
+
+/* Moves to the top of a paraboloid while that is better; most of the digits come with the second step. */
+static void StepToTop(const Cycle *c, Plane *at)
+{
+  for (int k = 0; k < STEPS; k++) {
+    double step[2];
+    Plane  top;
+
+    FindTop(c, at, step);
+    top = Turned(c, at, step[0], step[1]);
+    if (!(top.value > at->value)) return;
+    *at = top;
   }
 }
 
@@ -261,28 +334,42 @@ static void ComputeStrains(const SamFatigueCycle *c, double strain[])
   SamStressStrain(c->states, c->constants->young, c->constants->poisson, s, e);
 }
 
-/* Returns the parameter of the best plane, and its normal. */
-static double LargestOverPlanes(Kind kind, const SamFatigueCycle *of, double normal[3])
+/* Sets up the cycle of a parameter of planes. */
+static Cycle CycleOf(Kind kind, const SamFatigueCycle *of)
 {
-  const PetscBool swt   = kind == SWT; /* SWT is never negative */
-  const Cycle     cycle = {kind, of->constants, of->states, of->stress, of->scratch + 2 * of->states, of->scratch},
-              *c        = &cycle;
-  const double margin   = swt ? INFINITY : (1 - NEARLY) * Scale(c);
-  Plane        starts[STARTS];
-  PetscInt     count = 0, winner = 0;
-  double       best;
+  if (kind == SWT) ComputeStrains(of, of->scratch + 2 * of->states);
+  return (Cycle){kind, of->constants, of->states, of->stress, of->scratch + 2 * of->states, of->scratch};
+}
 
-  if (swt) ComputeStrains(of, of->scratch + 2 * of->states);
-  for (int d = 0; d < 3; d++) normal[d] = NAN;
-  best = FindStarts(c, margin, starts, &count);
-  if (swt && best <= 0) return 0;
+/* Finds the best plane; false: SWT is 0 on all planes. */
+static PetscBool FindBest(const Cycle *c, Plane *plane)
+{
+  const PetscBool swt    = c->kind == SWT ? PETSC_TRUE : PETSC_FALSE; /* SWT is never negative */
+  const double    margin = swt ? INFINITY : (1 - NEARLY) * Scale(c);
+  Plane           starts[STARTS];
+  PetscInt        count = 0, winner = 0;
+  const double    best = FindStarts(c, margin, starts, &count);
+
+  if (swt && best <= 0) return PETSC_FALSE;
   for (PetscInt k = 0; k < count; k++) {
     if (starts[k].value < (swt ? NEARLY * best : best - margin)) continue;
     Climb(c, &starts[k]);
     if (starts[k].value >= starts[winner].value) winner = k;
   }
-  GetNormal(&starts[winner], normal);
-  return starts[winner].value;
+  *plane = starts[winner];
+  StepToTop(c, plane);
+  return PETSC_TRUE;
+}
+
+/* Returns the parameter of the best plane, and its normal. */
+static double LargestOverPlanes(Kind kind, const SamFatigueCycle *of, double normal[3])
+{
+  const Cycle c     = CycleOf(kind, of);
+  Plane       plane = {0, 0, 0};
+
+  for (int d = 0; d < 3; d++) normal[d] = NAN;
+  if (FindBest(&c, &plane)) GetNormal(&plane, normal);
+  return plane.value;
 }
 
 double SamFatigueFindley(const SamFatigueCycle *c, double more[])
@@ -298,6 +385,155 @@ double SamFatigueSWT(const SamFatigueCycle *c, double more[])
 double SamFatigueFatemiSocie(const SamFatigueCycle *c, double more[])
 {
   return LargestOverPlanes(FATEMI_SOCIE, c, more);
+}
+
+/* ---- derivatives by the stresses ---- */
+
+/* Part of the radius by which a state on the circle may be inside of it; and by which two may not be opposite */
+#define ON_CIRCLE 1e-10
+#define OPPOSITE  1e-12
+
+/* States on the circle, whose weights add up to 1; the forces of these sizes along their radii are in balance. */
+typedef struct {
+  PetscInt state[3];
+  double   weight[3];
+} Support;
+
+static double Cross(const double a[2], const double b[2])
+{
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/* Replaces the states in the plane by their radii over that of the circle; returns that radius. */
+static double FindRadii(PetscInt states, double path[])
+{
+  double       center[SAM_BALL_DIMENSION];
+  const double radius = SamSmallestBall(2, states, path, center);
+
+  for (PetscInt k = 0; k < 2 * states; k++) path[k] = radius > 0 ? (path[k] - center[k % 2]) / radius : 0;
+  return radius;
+}
+
+static PetscBool IsOnCircle(const double u[2])
+{
+  return hypot(u[0], u[1]) > 1 - ON_CIRCLE ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Takes three states on the circle if their least weight is larger than that of those before; returns the least. */
+static double OfferThree(const double path[], PetscInt i, PetscInt j, PetscInt k, double least, Support *support)
+{
+  const double *const a = path + 2 * i, *const b = path + 2 * j, *const c = path + 2 * k;
+  const double w[3] = {Cross(b, c), Cross(c, a), Cross(a, b)}, sum = w[0] + w[1] + w[2];
+  const double lowest = sum != 0 ? fmin(fmin(w[0] / sum, w[1] / sum), w[2] / sum) : -INFINITY;
+
+  if (lowest <= least) return least;
+  *support = (Support){{i, j, k}, {w[0] / sum, w[1] / sum, w[2] / sum}};
+  return lowest;
+}
+
+/* Finds the states that determine the circle: two that are opposite, or three. */
+static Support FindSupport(PetscInt states, const double path[])
+{
+  Support support = {{0, 0, 0}, {0, 0, 0}};
+  double  least   = -INFINITY;
+
+  for (PetscInt i = 0; i < states; i++)
+    for (PetscInt j = 0; j < i && IsOnCircle(path + 2 * i); j++)
+      if (path[2 * i] * path[2 * j] + path[2 * i + 1] * path[2 * j + 1] < OPPOSITE - 1)
+        return (Support){{i, j, i}, {0.5, 0.5, 0}};
+  for (PetscInt i = 0; i < states && least < 0; i++)
+    for (PetscInt j = 0; j < i && least < 0 && IsOnCircle(path + 2 * i); j++)
+      for (PetscInt k = 0; k < j && least < 0 && IsOnCircle(path + 2 * j); k++)
+        if (IsOnCircle(path + 2 * k)) least = OfferThree(path, i, j, k, least, &support);
+  return support;
+}
+
+/* Adds the derivatives of n.s.v in a state. */
+static void AddProjected(PetscInt states, PetscInt k, const double n[3], const double v[3], double factor,
+                         double slope[])
+{
+  for (int d = 0; d < 3; d++) slope[(XX + d) * states + k] += factor * n[d] * v[d];
+  slope[XY * states + k] += factor * (n[0] * v[1] + n[1] * v[0]);
+  slope[XZ * states + k] += factor * (n[0] * v[2] + n[2] * v[0]);
+  slope[YZ * states + k] += factor * (n[1] * v[2] + n[2] * v[1]);
+}
+
+/* Returns the state of the largest value, or by a sign of -1 the smallest one. */
+static PetscInt StateOf(PetscInt states, const double x[], double sign)
+{
+  PetscInt most = 0;
+
+  for (PetscInt k = 1; k < states; k++)
+    if (sign * x[k] > sign * x[most]) most = k;
+  return most;
+}
+
+/* Sets the derivatives of SWT, the product of the largest stress and half the range of the strain. */
+static void SetSlopesOfSWT(const Cycle *c, const double n[3], double slope[])
+{
+  const double young = (double)c->constants->young, nu = (double)c->constants->poisson;
+  PetscInt     most, end[2];
+  double       tension, range;
+
+  Project(c->states, c->stress, n, n, 1, c->path);
+  most    = StateOf(c->states, c->path, 1);
+  tension = c->path[most];
+  Project(c->states, c->strain, n, n, 1, c->path);
+  for (int k = 0; k < 2; k++) end[k] = StateOf(c->states, c->path, k ? -1 : 1);
+  range = c->path[end[0]] - c->path[end[1]];
+  (void)PetscArrayzero(slope, COMPONENTS * c->states);
+  AddProjected(c->states, most, n, n, 0.5 * range, slope);
+  for (int k = 0; k < 2; k++) {
+    const double by_strain = (k ? -0.5 : 0.5) * tension / young;
+
+    AddProjected(c->states, end[k], n, n, (1 + nu) * by_strain, slope);
+    for (int d = 0; d < 3; d++) slope[(XX + d) * c->states + end[k]] -= nu * by_strain;
+  }
+}
+
+/* Sets the derivatives of a parameter of the radius of the circle and the largest stress. */
+static void SetSlopesOfShear(const Cycle *c, const Plane *plane, double slope[])
+{
+  double   n[3], u[3], v[3], normal, radius;
+  Support  support;
+  PetscInt most;
+
+  SetFrame(plane->theta, plane->phi, n, u, v);
+  Project(c->states, c->stress, n, n, 1, c->path);
+  most   = StateOf(c->states, c->path, 1);
+  normal = c->path[most];
+  Project(c->states, c->stress, n, u, 2, c->path);
+  Project(c->states, c->stress, n, v, 2, c->path + 1);
+  radius  = FindRadii(c->states, c->path);
+  support = FindSupport(c->states, c->path);
+  (void)PetscArrayzero(slope, COMPONENTS * c->states);
+  AddProjected(c->states, most, n, n, ByNormal(c, radius), slope);
+  for (int k = 0; k < 3; k++) {
+    const PetscInt state  = support.state[k];
+    const double   factor = support.weight[k] * Factor(c, normal);
+
+    AddProjected(c->states, state, n, u, factor * c->path[2 * state], slope);
+    AddProjected(c->states, state, n, v, factor * c->path[2 * state + 1], slope);
+  }
+}
+
+double SamFatigueSlopes(SamFatigueParameter *parameter, const SamFatigueCycle *of, double slope[])
+{
+  const Kind  kind  = parameter == SamFatigueFindley ? FINDLEY : parameter == SamFatigueSWT ? SWT : FATEMI_SOCIE;
+  const Cycle c     = CycleOf(kind, of);
+  Plane       plane = {0, 0, 0};
+  double      n[3];
+
+  if (!FindBest(&c, &plane)) {
+    (void)PetscArrayzero(slope, COMPONENTS * c.states);
+    return 0;
+  }
+  GetNormal(&plane, n);
+  if (kind == SWT)
+    SetSlopesOfSWT(&c, n, slope);
+  else
+    SetSlopesOfShear(&c, &plane, slope);
+  return plane.value;
 }
 
 /* ---- parameters without planes ---- */
