@@ -39,6 +39,7 @@ typedef struct {
   double       *stiff;    /* |ds|/(mu p), m/Pa, the resistance to a turn of the slip; 0 in cells that stick */
   double       *free;     /* 1; 0 in cells without friction, and so without shear */
   double       *bears;    /* 1; 0 in cells that yield, whose pressure stays */
+  double       *soft;     /* displacement of a cell by its own pressure besides the bodies', m/Pa; NULL: 0 */
   double       *sine;     /* of the angle from the normal of e to the direction of the unknown traction; NULL: 0 */
   double        slope[2]; /* mean of follow times e */
   double        self[2];  /* influence of a cell on itself, normal and tangential, m/Pa */
@@ -75,11 +76,14 @@ typedef enum {
 /*
   SamFrozenCreate - takes the sets of cells from the fields of a solution on the grid of an elasticity, which is
   borrowed. `coupled`: true if pressure and shear of dissimilar bodies are coupled; `stiffest`: the largest resistance
-  of a cell to a turn of the slip, in units of its own influence. Collective.
+  of a cell to a turn of the slip, in units of its own influence; `still`: slip in the step below this part of the
+  displacement of a cell by the largest bound is the solver's error, and the cell counts as sticking; likewise an
+  overlap below this part of the displacement of a cell by the largest pressure counts as none. Collective.
   SamFrozenDestroy - frees what the object refers to. Collective.
 */
 PETSC_INTERN PetscErrorCode SamFrozenCreate(SamElasticity elasticity, const Vec fields[SAM_FROZEN_FIELDS],
-                                            PetscBool coupled, double stiffest, SamFrozen *frozen);
+                                            PetscBool coupled, double stiffest, double still, SamFrozen *frozen);
+#define SAM_FROZEN_STILL 1e-5 /* for the usual tolerances */
 PETSC_INTERN PetscErrorCode SamFrozenDestroy(SamFrozen *frozen);
 /* SamFrozenSize - returns the number of a field's values on this rank in the system that is solved. Not collective. */
 PETSC_INTERN PetscInt SamFrozenSize(const SamFrozen *frozen);

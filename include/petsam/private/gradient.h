@@ -4,6 +4,7 @@
 
 #include <petsam/contact.h>
 #include <petsam/gap.h>
+#include <petsam/private/life.h>
 
 /*
   SamGradient - the recorded steps of a contact, and the derivatives of a number of them by all parameters, in one pass
@@ -48,13 +49,25 @@ PETSC_INTERN PetscErrorCode SamGradientDestroy(SamGradient *gradient);
   Collective.
 
   In:     gradient - the gradient
+          row      - the row of the history, from 0; -1: one after that of the last step
+          place    - in a wear simulation; else SAM_LIFE_CLOSING
 
   Errors: PETSC_ERR_ORDER without a tried step, or if an earlier one was not recorded; SAM_ERR_USER if the friction has
   changed since the first step.
 
   See also: SamGradientCompute().
 */
-PETSC_INTERN PetscErrorCode SamGradientRecord(SamGradient gradient);
+PETSC_INTERN PetscErrorCode SamGradientRecord(SamGradient gradient, PetscInt row, SamLifePlace place);
+
+/*
+  SamGradientBeginLife - begins the record of a wear simulation: its history has so many rows, the last `cycle` of which
+  are the cycle. Derivatives by what has a value of each step are by the rows then, and numbers those of the last cycle.
+  SamGradientRecordJump - records a part of a jump. Collective. Errors: SAM_ERR_USER for jumps whose length is not fixed,
+  and surfaces that slide.
+*/
+PETSC_INTERN PetscErrorCode SamGradientBeginLife(SamGradient gradient, PetscInt rows, PetscInt cycle,
+                                                 const SamLifeSettings *settings);
+PETSC_INTERN PetscErrorCode SamGradientRecordJump(SamGradient gradient, const SamLifePart *part);
 
 /*
   SamGradientForget - forgets all recorded steps, for a contact that begins anew.

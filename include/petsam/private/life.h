@@ -4,16 +4,36 @@
 
 #include <petsam/contact.h>
 
+/* Where a step of a life is: in a cycle that closes the loop, or in a computed one, at the start of a jump or in its
+   middle */
+typedef enum { SAM_LIFE_CLOSING, SAM_LIFE_START, SAM_LIFE_MIDDLE } SamLifePlace;
+
+/* A part of a jump: the whole of it, its first or its second half, as one of them has been made; fields are borrowed */
+typedef enum { SAM_LIFE_WHOLE, SAM_LIFE_FIRST_HALF, SAM_LIFE_SECOND_HALF } SamLifePartKind;
+typedef struct {
+  SamLifePartKind   kind;
+  PetscReal         cycles;
+  const SamBalance *balance;  /* mean of the cycle whose wear is repeated */
+  Vec               slip;     /* its wear load per mean pressure, m */
+  Vec               mean;     /* its mean pressure, Pa */
+  Vec               pressure; /* mean pressure at the end of the part, Pa */
+  Vec               from, to; /* wear loads before and after the part */
+} SamLifePart;
+
 /*
   A closed cycle has the steps 0 ... steps - 1; the next cycle begins where the last of them ends.
     control  sets the prescribed values of a step after a number of cycles; only the friction may depend on that number
     solved   is called after each step of a cycle that is computed on the wear so far (not on that within a jump), while
              the step is tried; NULL: not wanted
+    commits  is called before any step is committed; NULL: not wanted
+    jumps    is called after each part of a jump, if it has a solution; NULL: not wanted
 */
 typedef struct {
   PetscInt steps;
   PetscErrorCode (*control)(void *context, PetscInt step, PetscReal cycles, SamControl *control);
   PetscErrorCode (*solved)(void *context, PetscInt step, PetscReal cycles, const SamStep *result);
+  PetscErrorCode (*commits)(void *context, PetscInt step, SamLifePlace place);
+  PetscErrorCode (*jumps)(void *context, const SamLifePart *part);
   void *context;
 } SamLifeCycle;
 
@@ -89,6 +109,12 @@ PETSC_INTERN PetscErrorCode SamLifeCompute(SamLife life, SamLifeReport *report);
   Collective. Errors: PETSC_ERR_ORDER without a computed cycle.
 */
 PETSC_INTERN PetscErrorCode SamLifeJump(SamLife life, PetscReal cycles, SamLifeReport *report);
+
+/*
+  SamLifeExtrapolate - replaces wear loads after the halves of a jump by their extrapolation with those after the jump
+  as a whole, which are nowhere less than at its start (cyclejump.c). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamLifeExtrapolate(SamGrid grid, Vec start, Vec whole, Vec halves);
 
 /*
   SamLifeState - the data on which the life after a jump depends, besides the states of the contact and of the wear. A

@@ -28,6 +28,7 @@ typedef struct {
   const PetscReal  *rigid;  /* displacements of the six components, m and rad */
   const PetscReal  *bulk;   /* bulk stresses xx, yy, xy of body 1, then of body 2, Pa */
   const PetscReal  *rate;   /* coefficients of wear, 1/Pa and m3/J */
+  const double     *load;   /* wear load after the last jump of a wear simulation; NULL: the steps wear */
   SamTotal          value;  /* this rank's part of the number */
   double            number; /* the number, if only the objective can tell: a norm; NaN: the sum of `value` */
   double           *by_pressure, *by_shear, *by_slip, *by_pressure_before, *by_shear_before, *by_friction, *by_worn;

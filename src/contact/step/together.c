@@ -154,7 +154,7 @@ static PetscErrorCode Freeze(Together *t, SamElasticity part, Vec slip)
   PetscCall(Take(t, 1, s->s->pressure, &fields[SAM_FROZEN_PRESSURE]));
   PetscCall(Take(t, 1, s->s->bound, &fields[SAM_FROZEN_BOUND]));
   PetscCall(Take(t, 2, s->s->shear, &fields[SAM_FROZEN_SHEAR]));
-  PetscCall(SamFrozenCreate(part, fields, PETSC_TRUE, INFINITY, &t->f));
+  PetscCall(SamFrozenCreate(part, fields, PETSC_TRUE, INFINITY, SAM_FROZEN_STILL, &t->f));
   PetscCall(SamFrozenHold(&t->f, &s->normal, &s->tangential));
   for (int k = 0; k < SAM_FROZEN_FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
   PetscCall(VecDestroy(&whole));

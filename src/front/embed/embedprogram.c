@@ -85,9 +85,6 @@ static PetscErrorCode RunProgram(Run *run, const double *cycles, const char colu
 
   PetscFunctionBegin;
   PetscCheck(!cycles || *cycles > 0, c->comm, SAM_ERR_USER, "petsam_live: cycles is %.6g: use a number > 0", *cycles);
-  PetscCheck(!cycles || !SamSimulationGetGradient(c->simulation), c->comm, SAM_ERR_USER,
-             "petsam_live: the steps are recorded for gradients, which a wear simulation has not: call "
-             "petsam_gradient_record() with 0 first");
   PetscCall(SamEmbedForget(c));
   PetscCall(GetCommitted(c, &last, &committed));
   PetscCall(SamHistoryCreate(c->comm, c->conditions, &c->control, committed ? &last : NULL, columns, rows, values,

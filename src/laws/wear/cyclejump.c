@@ -189,6 +189,19 @@ static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cy
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Tells of a part of a jump. */
+static PetscErrorCode Tell(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load, const SamLoads to)
+{
+  const SamLifePartKind kind = to == l->whole  ? SAM_LIFE_WHOLE
+                               : to == l->half ? SAM_LIFE_FIRST_HALF
+                                               : SAM_LIFE_SECOND_HALF;
+  const SamLifePart     part = {kind, cycles, &rate->balance, rate->coefficient, rate->pressure, l->p, load[0], to[0]};
+
+  PetscFunctionBegin;
+  PetscCall(l->cycle.jumps(l->cycle.context, &part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Computes the wear loads `to` after `cycles` more at a rate, from `load` on; l->p: the mean pressure, if it wears. */
 static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load, SamLoads to,
                            PetscBool *solved)
@@ -203,6 +216,7 @@ static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, con
   if (l->band) PetscCall(SamLifeIntegrate(l->grid, to[0]));
   PetscCall(VecPointwiseMult(to[0], rate->coefficient, to[0]));
   PetscCall(VecAYPX(to[0], cycles, load[0]));
+  if (*solved && l->cycle.jumps) PetscCall(Tell(l, rate, cycles, load, to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -221,12 +235,12 @@ static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm,
 }
 
 /* Returns the sum of a wear load; interpolation may make it slightly negative in some cells. */
-static PetscErrorCode Volume(SamLife l, Vec load, PetscReal *volume)
+static PetscErrorCode Volume(SamGrid grid, Vec load, PetscReal *volume)
 {
   PetscReal sums[3] = {0};
 
   PetscFunctionBegin;
-  PetscCall(SamBalanceGetLoads(l->grid, SAM_BALANCE_NORMAL, load, sums));
+  PetscCall(SamBalanceGetLoads(grid, SAM_BALANCE_NORMAL, load, sums));
   *volume = sums[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -236,18 +250,18 @@ static PetscErrorCode Volume(SamLife l, Vec load, PetscReal *volume)
   edge, the load stays as at the start, and the others are reduced a little, so that the volume is the extrapolated one.
   If that volume would be less than at the start, the halves stay unchanged.
 */
-static PetscErrorCode Extrapolate(SamLife l, Vec start, Vec whole, Vec halves)
+PetscErrorCode SamLifeExtrapolate(SamGrid grid, Vec start, Vec whole, Vec halves)
 {
   PetscReal before = 0, once = 0, twice = 0, after = 0, share;
 
   PetscFunctionBegin;
-  PetscCall(Volume(l, start, &before));
-  PetscCall(Volume(l, whole, &once));
-  PetscCall(Volume(l, halves, &twice));
+  PetscCall(Volume(grid, start, &before));
+  PetscCall(Volume(grid, whole, &once));
+  PetscCall(Volume(grid, halves, &twice));
   if (2 * twice - once < before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecAXPBY(halves, -1, 2, whole));
   PetscCall(VecPointwiseMax(halves, halves, start));
-  PetscCall(Volume(l, halves, &after));
+  PetscCall(Volume(grid, halves, &after));
   share = after > before ? (2 * twice - once - before) / (after - before) : 1;
   PetscCall(VecAXPBY(halves, 1 - share, share, start));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -286,7 +300,7 @@ static PetscErrorCode FinishJump(SamLife l, PetscReal least, PetscReal *error)
     PetscCall(RelativeDifference(l, l->whole[k], l->halves[k], NORM_2, least / unit, &depth));
     *error = PetscMax(*error, depth);
   }
-  for (PetscInt k = 0; k < l->loads; k++) PetscCall(Extrapolate(l, l->load[k], l->whole[k], l->halves[k]));
+  for (PetscInt k = 0; k < l->loads; k++) PetscCall(SamLifeExtrapolate(l->grid, l->load[k], l->whole[k], l->halves[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -324,6 +324,14 @@ static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Commit(SamLife l, PetscInt k, SamLifePlace place)
+{
+  PetscFunctionBegin;
+  if (l->cycle.commits) PetscCall(l->cycle.commits(l->cycle.context, k, place));
+  PetscCall(SamContactCommit(l->contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- closing the loop ---- */
 
 /* Returns the places of the bodies. */
@@ -370,7 +378,7 @@ static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, Pe
     if (!*solved) break;
     PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &dissipated));
     *energy += dissipated;
-    PetscCall(SamContactCommit(l->contact));
+    PetscCall(Commit(l, k, SAM_LIFE_CLOSING));
   }
   if (*solved) PetscCall(Rewind(l, from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -449,7 +457,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
     PetscCall(SolveStep(l, k, cycles, &step, solved));
     if (tell && l->cycle.solved) PetscCall(l->cycle.solved(l->cycle.context, k, cycles, &step));
     if (*solved) PetscCall(Count(l, k, &step, rate, &mean));
-    if (*solved) PetscCall(SamContactCommit(l->contact));
+    if (*solved) PetscCall(Commit(l, k, rate == &l->start ? SAM_LIFE_START : SAM_LIFE_MIDDLE));
   }
   l->state.computed++;
   l->open = *solved || l->band ? PETSC_FALSE : PETSC_TRUE;

@@ -8,8 +8,7 @@
 
 #define STIFFEST \
   1e12              /* the resistance of a cell to a turn of the slip is not limited: it would change the derivatives */
-#define BORDER 1e-7 /* of the pressure, or the bound, within which a cell is on the border of its set */
-#define STILL  1e-4 /* of the displacement of a cell by the largest bound: slip below it is on the border to stick */
+#define NEAR   10   /* times the tolerance, or the slip that counts: within that a cell is on the border of its set */
 #define PASSES 50   /* for loads that are found and the motion of cells before they touch */
 #define SINGLE 1e-6 /* tolerance from which on products in single precision suffice */
 
@@ -214,7 +213,7 @@ static PetscErrorCode Freeze(System *s)
   PetscCall(FieldOf(g, 1, b->friction, &fields[SAM_FROZEN_SLOPE]));
   PetscCall(FieldOf(g, 1, path, &fields[SAM_FROZEN_PATH]));
   PetscCall(SamGridCreateVec(g, 1, &fields[SAM_FROZEN_OVERLAP]));
-  PetscCall(SamFrozenCreate(b->elasticity, fields, b->coupled, STIFFEST, &s->f));
+  PetscCall(SamFrozenCreate(b->elasticity, fields, b->coupled, STIFFEST, (double)b->g->still, &s->f));
   for (int k = 0; k < SAM_FROZEN_FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
   PetscCall(PetscFree2(bound, path));
   s->f.transposed = PETSC_TRUE;
@@ -305,6 +304,7 @@ static PetscErrorCode CountBorders(System *s)
   const SamBack          *b       = s->b;
   const SamObjectiveStep *at      = &b->at;
   const SamFrozen        *f       = &s->f;
+  const double            near_to = NEAR * (double)b->g->still;
   double                  most[2] = {0, 0}, count = 0;
 
   PetscFunctionBegin;
@@ -318,9 +318,10 @@ static PetscErrorCode CountBorders(System *s)
   for (PetscInt m = 0; m < f->count; m++) {
     const PetscInt  k = f->cell[m], l = k + b->grid->cells;
     const double    bound = b->friction[k] * at->pressure[k], slips = fabs(f->e[0][m]) + fabs(f->e[1][m]);
-    const PetscBool weak  = at->pressure[k] < BORDER * most[0],
-                    near  = slips == 0 && bound > 0 && hypot(at->shear[k], at->shear[l]) > (1 - BORDER) * bound,
-                    still = slips > 0 && hypot(at->slip[k], at->slip[l]) < STILL * f->self[1] * most[1];
+    const PetscBool weak = at->pressure[k] < near_to * most[0],
+                    near = slips == 0 && bound > 0 && hypot(at->shear[k], at->shear[l]) > (1 - near_to) * bound,
+                    still =
+                      slips > 0 && hypot(at->slip[k], at->slip[l]) < NEAR * (double)b->g->still * f->self[1] * most[1];
 
     if (weak || near || still) count++;
   }
@@ -575,6 +576,43 @@ static PetscErrorCode SetCotangents(System *s, const double r[])
   }
   PetscCall(PetscFree(lambda));
   LeaveTurned(s);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBackSolveNormal(SamBack *b, const double pressure[], const double soft[], const double right[],
+                                  const PetscBool force[3], double l[], double forces[3])
+{
+  System       s        = {.b = b};
+  const double given[3] = {0, 0, 0};
+  double       kept[SAM_COMPONENTS], touches;
+  Vec          fields[SAM_FROZEN_FIELDS] = {NULL};
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(l, b->grid->cells));
+  PetscCall(PetscArrayzero(forces, 3));
+  PetscCall(FieldOf(b->grid, 1, pressure, &fields[SAM_FROZEN_PRESSURE]));
+  PetscCall(SamGridCreateVec(b->grid, 1, &fields[SAM_FROZEN_BOUND]));
+  PetscCall(SamFrozenCreate(b->elasticity, fields, PETSC_FALSE, STIFFEST, (double)b->g->still, &s.f));
+  s.f.transposed = PETSC_TRUE;
+  s.f.rtol       = b->rtol;
+  PetscCall(PetscCalloc2(3 * s.f.count, &s.x, 3 * s.f.count, &s.right));
+  PetscCall(PetscMalloc1(s.f.count, &s.f.soft));
+  for (PetscInt m = 0; m < s.f.count; m++) {
+    s.f.soft[m] = soft[s.f.cell[m]];
+    s.right[m]  = right[s.f.cell[m]];
+  }
+  for (PetscInt n = 0; n < 3; n++)
+    if (force[n] && Has(b, n)) s.given[s.count++] = n;
+  touches = s.f.count;
+  PetscCall(SamMax(b->grid->comm, 1, &touches));
+  PetscCall(PetscArraycpy(kept, b->forces, SAM_COMPONENTS));
+  if (touches > 0) PetscCall(SolvePart(&s, SAM_FROZEN_NORMAL, given));
+  for (PetscInt n = 0; n < s.count && touches > 0; n++) forces[s.given[n]] = b->forces[components[s.given[n]]];
+  PetscCall(PetscArraycpy(b->forces, kept, SAM_COMPONENTS));
+  for (PetscInt m = 0; m < s.f.count; m++) l[s.f.cell[m]] = s.x[m];
+  for (int k = 0; k < 2; k++) PetscCall(VecDestroy(&fields[k]));
+  PetscCall(PetscFree2(s.x, s.right));
+  PetscCall(SamFrozenDestroy(&s.f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -21,6 +21,7 @@
 #include <petsam/private/body.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/control.h>
+#include <petsam/private/frozen.h>
 #include <petsam/private/law.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
@@ -33,6 +34,7 @@
 /* Tolerance of the tangential problem from which on the sets of cells are not those of the solution: the field of
    derivatives is 12 % wrong at 1e-4 */
 #define LEAST_RTOL 1e-5
+#define ERRORS     10 /* slip below so many tolerances is the solver's error */
 
 /* ---- the object ---- */
 
@@ -92,6 +94,7 @@ PetscErrorCode SamGradientCreate(SamContact contact, SamGap shape, SamGradient *
   PetscCall(PetscNew(&g));
   g->contact = contact;
   g->shape   = shape;
+  g->still   = PetscMin(ERRORS * ((SamSolver)SamContactGetTangential(contact))->rtol, SAM_FROZEN_STILL);
   ierr       = Check(g);
   if (ierr) PetscCall(SamGradientDestroy(&g));
   PetscCall(ierr);
@@ -120,6 +123,7 @@ PetscErrorCode SamGradientDestroy(SamGradient *gradient)
   SamGradientForget(g);
   SamContactSetSettles(g->contact, PETSC_FALSE);
   PetscCall(PetscFree(g->record));
+  PetscCall(PetscFree(g->jump));
   PetscCall(ClearFound(&g->found));
   PetscCall(PetscFree(*gradient));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -128,12 +132,38 @@ PetscErrorCode SamGradientDestroy(SamGradient *gradient)
 void SamGradientForget(SamGradient g)
 {
   while (g->count > 0) (void)SamRecordDestroy(&g->record[--g->count]);
+  while (g->jumps > 0) (void)SamJumpDestroy(&g->jump[--g->jumps]);
+  g->rows = g->cycle = 0;
   (void)VecDestroy(&g->friction);
 }
 
 PetscInt SamGradientGetSteps(SamGradient g)
 {
   return g->found.count;
+}
+
+PetscErrorCode SamGradientBeginLife(SamGradient g, PetscInt rows, PetscInt cycle, const SamLifeSettings *set)
+{
+  const MPI_Comm comm = SamContactGetGrid(g->contact)->comm;
+
+  PetscFunctionBegin;
+  PetscCheck(set->fixed, comm, SAM_ERR_USER,
+             "the gradient of a wear simulation: the lengths of its jumps depend on the parameters: give -wear_jump");
+  PetscCheck(!set->magnified, comm, SAM_ERR_USER,
+             "the gradient of a wear simulation whose surfaces slide is not computed");
+  PetscCheck(g->rate[0] == 0 || g->rate[1] == 0, comm, SAM_ERR_USER,
+             "the gradient of a wear simulation: expected one law of wear");
+  g->rows  = rows;
+  g->cycle = cycle;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const SamRecord *SamGradientOfRow(SamGradient g, PetscInt row)
+{
+  PetscInt k = 0;
+
+  while (g->rows > 0 && k < g->count - 1 && g->record[k].row != row) k++;
+  return &g->record[g->rows > 0 ? k : row];
 }
 
 /* ---- the pass back ---- */
@@ -153,6 +183,13 @@ static PetscErrorCode ChoosePart(SamBack *b)
   PetscCall(VecGetArray(all, &touched));
   for (PetscInt k = 0; k < g->count; k++)
     for (PetscInt m = 0; m < g->record[k].count; m++) touched[g->record[k].cell[m]] = 1;
+  for (PetscInt k = 0; k < g->jumps; k++) {
+    const double *p;
+
+    PetscCall(VecGetArrayRead(g->jump[k].field[SAM_JUMP_PRESSURE], &p));
+    for (PetscInt m = 0; m < whole->cells; m++) touched[m] = p[m] > 0 ? 1 : touched[m];
+    PetscCall(VecRestoreArrayRead(g->jump[k].field[SAM_JUMP_PRESSURE], &p));
+  }
   PetscCall(VecRestoreArray(all, &touched));
   PetscCall(SamGridGetSupport(whole, all, PETSC_FALSE, first, n));
   PetscCall(VecDestroy(&all));
@@ -213,6 +250,26 @@ static PetscErrorCode ReadStep(void *context, PetscInt step, Vec tractions, cons
 }
 
 enum { ARRAYS = 23 }; /* fields of one component that a pass needs besides those of the steps */
+
+/* Gives a wear simulation its arrays, to be freed with PetscFree(). */
+static PetscErrorCode BeginLife(SamBack *b, double **arrays)
+{
+  const PetscInt cells = (PetscInt)PetscMax(b->grid->cells, 1);
+  SamLifeBack   *life  = &b->life;
+  double **const one[] = {&life->by_worn,  &life->by_start, &life->by_whole, &life->by_wear, &life->by_mean,
+                          &life->by_shift, &life->by_slip,  &life->touches,  &life->load};
+  enum { COUNT = sizeof(one) / sizeof(one[0]) };
+
+  PetscFunctionBegin;
+  *arrays    = NULL;
+  life->left = b->g->jumps;
+  if (!b->g->jumps) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscCalloc1(COUNT * cells, arrays));
+  for (int k = 0; k < COUNT; k++) *one[k] = *arrays + k * cells;
+  PetscCall(SamBackGetLoad(b, life->load));
+  b->at.load = life->load;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 static PetscErrorCode Begin(SamBack *b, double **arrays)
 {
@@ -323,6 +380,7 @@ static PetscErrorCode Wear(SamBack *b)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < b->grid->cells; k++) b->worn[k] += at->by_worn[k];
+  if (b->g->cycle > 0) PetscFunctionReturn(PETSC_SUCCESS); /* jumps wear, not steps */
   PetscCall(PetscMalloc2(b->grid->cells, &rubbed, b->grid->cells, &factor));
   SamBackRubbed(at, rubbed);
   for (PetscInt j = 0; j < b->grid->rows; j++) {
@@ -377,17 +435,20 @@ static PetscErrorCode ClearWithoutFriction(SamGradient g)
 static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
 {
   SamDerivatives *found = &b->g->found;
-  double         *arrays;
+  double         *arrays, *of_life;
   PetscInt64      end[2];
 
   PetscFunctionBegin;
   PetscCall(ChoosePart(b));
   if (SamChoiceHasModuli(b->g, found->of)) PetscCall(CreateOther(b));
   PetscCall(Begin(b, &arrays));
+  PetscCall(BeginLife(b, &of_life));
   PetscCall(SamRecordUnpack(b, &b->g->record[b->g->count - 1], &b->before));
   for (PetscInt k = b->g->count - 1; k >= 0; k--) {
+    PetscCall(SamBackPassJumps(b, k + 1));
     PetscCall(Pass(b));
     PetscCall(Select(b, k, end));
+    PetscCall(SamBackAddCycle(b, k));
     PetscCall((*objective->add)(&b->at));
     PetscCall(Wear(b));
     PetscCall(SamBackSolve(b, k));
@@ -410,6 +471,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
   PetscCall(VecDestroy(&b->whole));
   PetscCall(SamElasticityDestroy(&b->other));
   PetscCall(PetscFree(arrays));
+  PetscCall(PetscFree(of_life));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -451,6 +513,8 @@ PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBoo
   if (objective->check) PetscCall((*objective->check)(e, g->rate, name));
   PetscCall(SamChoiceCheck(g, of));
   if (!SamChoiceHasModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(g->cycle == 0, comm, SAM_ERR_USER,
+             "the gradient by the moduli in a wear simulation is not computed: leave the moduli out");
   PetscCheck(!objective->fixed, comm, SAM_ERR_USER,
              "the gradient of %s by the moduli is not computed: leave the moduli out", name);
   none = SamPairGetConstants(SamElasticityGetPair(e), &constants);
@@ -477,24 +541,26 @@ PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscI
   SamDerivatives     *d    = NULL;
   const MPI_Comm      comm = SamContactGetGrid(g->contact)->comm;
   const SamObjective *objective;
+  PetscInt            begin;
 
   PetscFunctionBegin;
   d = &g->found;
   PetscCall(SamObjectiveFind(comm, name, &objective));
   PetscCheck(g->count > 0, comm, SAM_ERR_USER, "the gradient of %s: no step has been recorded", name);
-  b.at.first = steps[0] < 0 ? objective->all ? 0 : g->count - 1 : steps[0];
-  b.at.last  = steps[1] < 0 ? g->count - 1 : steps[1];
+  begin      = g->cycle > 0 ? g->count - g->cycle : 0;
+  b.at.first = steps[0] < 0 ? objective->all ? begin : g->count - 1 : begin + steps[0];
+  b.at.last  = steps[1] < 0 ? g->count - 1 : begin + steps[1];
   PetscCheck(b.at.first <= b.at.last && b.at.last < g->count, comm, SAM_ERR_USER,
              "the gradient of %s: steps %" PetscInt_FMT " to %" PetscInt_FMT
              ": expected steps from 0 to %" PetscInt_FMT,
-             name, b.at.first, b.at.last, g->count - 1);
+             name, b.at.first - begin, b.at.last - begin, g->count - 1 - begin);
   for (PetscInt k = b.at.first; k <= b.at.last; k++)
     PetscCall(SamGradientCheck(g, name, g->record[k].force, of, &b.at.component));
   b.at.number = NAN;
   b.at.name   = name;
   PetscCall(ClearFound(d));
-  d->count = g->count;
-  PetscCall(PetscCalloc3(g->count, &d->load, g->count, &d->rigid, g->count, &d->bulk));
+  d->count = g->rows > 0 ? g->rows : g->count;
+  PetscCall(PetscCalloc3(d->count, &d->load, d->count, &d->rigid, d->count, &d->bulk));
   (void)snprintf(d->name, sizeof(d->name), "%s", name);
   (void)snprintf(d->unit, sizeof(d->unit), "%s", SamUnitOn(SamContactGetGrid(g->contact), objective->unit));
   (void)snprintf(d->of, sizeof(d->of), "%s", of);
@@ -526,15 +592,17 @@ PetscErrorCode SamGradientGetField(SamGradient g, const char name[], Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds a derivative by a number of a step; returns NULL if the name is none. */
+/* Finds a derivative by a number of a row; returns NULL if the name is none. */
 static const double *OfStep(const SamGradient g, const char name[], PetscInt step)
 {
   static const double   none = NAN;
   const SamDerivatives *d    = &g->found;
 
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    if (!strcmp(name, SamComponentNames[c].load)) return g->record[step].force[c] ? &d->load[step][c] : &none;
-    if (!strcmp(name, SamComponentNames[c].rigid)) return g->record[step].force[c] ? &none : &d->rigid[step][c];
+    if (!strcmp(name, SamComponentNames[c].load))
+      return SamGradientOfRow(g, step)->force[c] ? &d->load[step][c] : &none;
+    if (!strcmp(name, SamComponentNames[c].rigid))
+      return SamGradientOfRow(g, step)->force[c] ? &none : &d->rigid[step][c];
   }
   for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
     if (!strcmp(name, SamBulkName(k))) return &d->bulk[step][k];
@@ -612,7 +680,7 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
     shares[n]     = (Share){SamComponentNames[c].load, 0};
     shares[n + 1] = (Share){SamComponentNames[c].rigid, 0};
     for (PetscInt k = 0; k < d->count; k++) {
-      const SamRecord *r = &g->record[k];
+      const SamRecord *r = SamGradientOfRow(g, k);
 
       shares[r->force[c] ? n : n + 1].share += r->force[c] ? r->load[c] * d->load[k][c] : r->rigid[c] * d->rigid[k][c];
     }
@@ -620,7 +688,7 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
   }
   for (PetscInt b = 0; b < SAM_GRADIENT_BULKS; b++, n++) {
     shares[n] = (Share){SamBulkName(b), 0};
-    for (PetscInt k = 0; k < d->count; k++) shares[n].share += g->record[k].bulk[b] * d->bulk[k][b];
+    for (PetscInt k = 0; k < d->count; k++) shares[n].share += SamGradientOfRow(g, k)->bulk[b] * d->bulk[k][b];
   }
   for (PetscInt k = 0; (name = SamGradientNumber(g, k)); k++) {
     if (!SamChoiceHas(d->of, name)) continue;
@@ -635,7 +703,7 @@ PetscErrorCode SamGradientDescribe(SamGradient g, char text[], size_t size)
 {
   const SamDerivatives *d = &g->found;
   Share                 shares[SHARES];
-  PetscInt              count;
+  PetscInt              count = 0;
   size_t                used;
 
   PetscFunctionBegin;

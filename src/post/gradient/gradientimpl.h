@@ -9,6 +9,7 @@
 #include <petsam/private/gap.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/law.h>
+#include <petsam/private/life.h>
 #include <petsam/private/objective.h>
 
 enum { SAM_GRADIENT_BULKS = SAM_BULKS, SAM_GRADIENT_MODULI = 4, SAM_GRADIENT_WEARS = 2, SAM_GRADIENT_OF = 512 };
@@ -28,15 +29,17 @@ enum {
 
 /* A recorded step: the cells that are in contact in it or were in the step before, packed. */
 typedef struct {
-  PetscInt   count;
-  PetscInt  *cell;      /* indices in this rank's part of the contact's grid */
-  double    *value;     /* of SAM_RECORD_BY_BACK fields, one after the other */
-  float     *slope;     /* of the last two */
-  PetscInt64 end[2];    /* cells whose slips determine how far all slide alike, on the whole grid; -1: none */
-  double     by_end[2]; /* its derivatives by the lengths of these slips, 1/m */
-  PetscBool  turns;     /* true: slip follows the shear at mid step in cells that were in contact before */
-  PetscBool  force[SAM_COMPONENTS];
-  PetscReal  load[SAM_COMPONENTS], rigid[SAM_COMPONENTS], bulk[SAM_GRADIENT_BULKS];
+  PetscInt     row;   /* of the history: in a wear simulation several steps are of the same row */
+  SamLifePlace place; /* in a wear simulation */
+  PetscInt     count;
+  PetscInt    *cell;      /* indices in this rank's part of the contact's grid */
+  double      *value;     /* of SAM_RECORD_BY_BACK fields, one after the other */
+  float       *slope;     /* of the last two */
+  PetscInt64   end[2];    /* cells whose slips determine how far all slide alike, on the whole grid; -1: none */
+  double       by_end[2]; /* its derivatives by the lengths of these slips, 1/m */
+  PetscBool    turns;     /* true: slip follows the shear at mid step in cells that were in contact before */
+  PetscBool    force[SAM_COMPONENTS];
+  PetscReal    load[SAM_COMPONENTS], rigid[SAM_COMPONENTS], bulk[SAM_GRADIENT_BULKS];
   /* if contact grows, and slip begins where cells touch (touched.c) */
   PetscBool   grows, fresh; /* fresh: from no contact */
   SamApproach approach;
@@ -45,6 +48,16 @@ typedef struct {
   double     *distance; /* their gaps before the step, m */
   PetscInt64  least;    /* the cell where the bodies touch first, on the whole grid; of a fresh step only */
 } SamRecord;
+
+/* A part of a jump of a wear simulation: see SamLifePart; `after`: number of steps recorded before it */
+enum { SAM_JUMP_SLIP, SAM_JUMP_MEAN, SAM_JUMP_PRESSURE, SAM_JUMP_FROM, SAM_JUMP_TO, SAM_JUMP_FIELDS };
+typedef struct {
+  SamLifePartKind kind;
+  PetscReal       cycles;
+  PetscInt        after;
+  PetscBool       force[3];
+  Vec             field[SAM_JUMP_FIELDS]; /* on the contact's grid */
+} SamJump;
 
 /* The results of a pass back */
 typedef struct {
@@ -62,6 +75,10 @@ struct _n_SamGradient {
   SamGap           shape;   /* borrowed */
   PetscInt         count, room;
   SamRecord       *record;
+  PetscInt         rows, cycle; /* of a wear simulation: rows of the history, and those of its cycle; else 0 */
+  PetscInt         jumps;
+  SamJump         *jump;  /* parts of jumps */
+  PetscReal        still; /* slip that counts as stick, as a part of the displacement of a cell by the largest bound */
   Vec              friction;          /* coefficient, on the contact's grid; of the first step */
   PetscObjectState gap;               /* of the problem's gap in the first step */
   PetscReal rate[SAM_GRADIENT_WEARS]; /* coefficients of wear of both bodies, by pressure (1/Pa) and energy (m3/J) */
@@ -85,6 +102,17 @@ typedef struct {
 } SamEntered;
 
 /*
+  SamLifeBack - cotangents between the jumps of a wear simulation: of the wear load after the last event, and within a
+  jump of that at its start and of that after it as a whole; of the cycle whose wear is repeated its wear load, its
+  mean pressure, its shift, its slip (of cells that touch never in it), and its mean normal loads.
+*/
+typedef struct {
+  double  *by_worn, *by_start, *by_whole, *by_wear, *by_mean, *by_shift, *by_slip, *touches, *load;
+  double   by_load[3];
+  PetscInt left; /* parts of jumps that have not been passed yet */
+} SamLifeBack;
+
+/*
   SamBack - the pass back: its part of the grid, the present step and the one before, what the objective and the steps
   after have left, and the sums so far. Arrays have a value of each cell of the part, or one for each component.
 */
@@ -104,6 +132,7 @@ typedef struct {
   double          *gamma, *tau, *beta; /* cotangents of the gap, the slip and the bound of a step */
   double          *by_gap, *by_friction;
   double           forces[SAM_COMPONENTS]; /* derivatives by the given loads of the step */
+  SamLifeBack      life;
   /* by what cells have moved before they touched, in the present step and the one after it */
   SamEntered entered;
   double    *ahead; /* derivative by the gap of open cells after the step; not in gamma */
@@ -130,6 +159,28 @@ PETSC_INTERN PetscInt64     SamBackPlace(const SamBack *back, PetscInt64 cell);
 PETSC_INTERN PetscErrorCode SamBackEnter(SamBack *back, PetscInt step, const double lambda[]);
 PETSC_INTERN void           SamBackAddEntered(SamBack *back);
 PETSC_INTERN PetscErrorCode SamBackLeaveEntered(SamBack *back, PetscInt step);
+/*
+  SamBackAddOpen - adds to the derivatives by the tractions and displacements of the step those by the gap, and by the
+  lift by the shear, of each cell. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamBackAddOpen(SamBack *back, const double by_gap[], const double by_lift[]);
+/*
+  SamBackSolveNormal - solves the adjoint of a normal problem with this pressure (Pa), whose surfaces also yield by
+  `soft` (m/Pa), and some given loads: l, 0 outside of the contact, and the derivatives by the loads. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamBackSolveNormal(SamBack *back, const double pressure[], const double soft[],
+                                               const double right[], const PetscBool force[3], double l[],
+                                               double forces[3]);
+/*
+  SamBackPassJumps - goes back over the parts of jumps after so many steps. SamBackAddCycle - adds what the wear of the
+  cycle of the present step is repeated by. SamBackGetLoad - gets the wear load after the last jump. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamBackPassJumps(SamBack *back, PetscInt steps);
+PETSC_INTERN PetscErrorCode SamBackAddCycle(SamBack *back, PetscInt step);
+PETSC_INTERN PetscErrorCode SamBackGetLoad(const SamBack *back, double load[]);
+/* SamGradientOfRow - returns a recorded step of a row of the history. Not collective. */
+PETSC_INTERN const SamRecord *SamGradientOfRow(SamGradient g, PetscInt row);
+PETSC_INTERN PetscErrorCode   SamJumpDestroy(SamJump *jump);
 /* SamBackSolve - solves the adjoint of the present step: gamma, tau, beta, forces, and `later` for the step before.
    Collective. */
 PETSC_INTERN PetscErrorCode SamBackSolve(SamBack *back, PetscInt step);

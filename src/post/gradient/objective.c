@@ -141,12 +141,26 @@ static PetscErrorCode CheckVolume(SamElasticity elasticity, const PetscReal rate
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds the volume that a wear simulation has worn. */
+static void AddWornVolume(SamObjectiveStep *at)
+{
+  const double factor = at->area * (double)(at->rate[0] + at->rate[1]);
+
+  for (PetscInt j = 0; j < at->grid->rows; j++) {
+    double row = 0;
+
+    for (PetscInt k = j * at->grid->nx; k < (j + 1) * at->grid->nx; k++) row += factor * at->load[k];
+    SamAdd(&at->value, row);
+  }
+}
+
 /* Volume that both bodies have lost after the last of the steps; its derivatives come from the depth (gradient.c). */
 static PetscErrorCode AddVolume(SamObjectiveStep *at)
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; at->step == at->last && k < at->grid->cells; k++) at->by_worn[k] += at->area;
-  if (at->step <= at->last) PetscCall(AddWork(at, PETSC_FALSE));
+  if (at->load && at->step == at->last) AddWornVolume(at);
+  if (!at->load && at->step <= at->last) PetscCall(AddWork(at, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -84,11 +84,10 @@ static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS
 
     SamControlSetCondition(&control, SamConditionsFind(all, SamBulkName(k)), 1);
     PetscCall(SamProblemCheckControl(problem, &control, &wrong, why, sizeof(why)));
-    d->bulk[step][k] = by[k];
-    if (why[0]) continue; /* these bodies bear no such stress */
-    PetscCall(SamProblemDisplace(problem, NULL, &control, NULL, NULL, &strain, NULL));
-    d->bulk[step][k] +=
-      sums[X_TAU_X] * strain.xx + sums[Y_TAU_Y] * strain.yy + (sums[Y_TAU_X] + sums[X_TAU_Y]) * strain.xy;
+    /* some bodies bear no such stress */
+    if (!why[0]) PetscCall(SamProblemDisplace(problem, NULL, &control, NULL, NULL, &strain, NULL));
+    by[k] += sums[X_TAU_X] * strain.xx + sums[Y_TAU_Y] * strain.yy + (sums[Y_TAU_X] + sums[X_TAU_Y]) * strain.xy;
+    d->bulk[b->g->record[step].row][k] += by[k];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -106,7 +105,7 @@ static void ReadStretch(SamBack *b, PetscInt step, const SamPairConstants *own, 
     const double   stress = (double)b->g->record[step].bulk[k], shear = sums[Y_TAU_X] + sums[X_TAU_Y];
     const double   by_nu[] = {plane ? -2 * nu * sums[X_TAU_X] : -sums[Y_TAU_Y], plane ? 0 : -sums[X_TAU_X], shear};
 
-    b->g->found.moduli[2 * body] -= b->g->found.bulk[step][k] * stress / young;
+    b->g->found.moduli[2 * body] -= b->at.by_bulk[k] * stress / young;
     b->g->found.moduli[2 * body + 1] += sign * by_nu[k % 3] * stress / young;
   }
 }
@@ -193,8 +192,9 @@ static PetscErrorCode ReadModuli(SamBack *b, PetscInt step, const double sums[SU
 
 PetscErrorCode SamBackRead(SamBack *b, PetscInt step)
 {
-  const SamGrid g = b->grid;
-  double        sums[SUMS], *rigid = b->g->found.rigid[step];
+  const SamGrid  g   = b->grid;
+  const PetscInt row = b->g->record[step].row;
+  double         sums[SUMS], *rigid = b->g->found.rigid[row];
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < g->cells; k++) {
@@ -203,13 +203,13 @@ PetscErrorCode SamBackRead(SamBack *b, PetscInt step)
     b->by_friction[k] += b->at.pressure[k] * b->beta[k];
   }
   PetscCall(SumMotions(b, sums));
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) b->g->found.load[step][c] = b->forces[c] + b->by_load[c];
-  rigid[SAM_COMPONENT_N]  = -sums[GAMMA];
-  rigid[SAM_COMPONENT_MX] = sums[GAMMA_Y];
-  rigid[SAM_COMPONENT_MY] = -sums[GAMMA_X];
-  rigid[SAM_COMPONENT_TX] = -sums[TAU_X];
-  rigid[SAM_COMPONENT_TY] = -sums[TAU_Y];
-  rigid[SAM_COMPONENT_MZ] = sums[Y_TAU_X] - sums[X_TAU_Y];
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) b->g->found.load[row][c] += b->forces[c] + b->by_load[c];
+  rigid[SAM_COMPONENT_N] += -sums[GAMMA];
+  rigid[SAM_COMPONENT_MX] += sums[GAMMA_Y];
+  rigid[SAM_COMPONENT_MY] += -sums[GAMMA_X];
+  rigid[SAM_COMPONENT_TX] += -sums[TAU_X];
+  rigid[SAM_COMPONENT_TY] += -sums[TAU_Y];
+  rigid[SAM_COMPONENT_MZ] += sums[Y_TAU_X] - sums[X_TAU_Y];
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) rigid[c] += b->at.by_rigid[c];
   sums[X_TAU_X] += b->strain[0];
   sums[Y_TAU_Y] += b->strain[1];

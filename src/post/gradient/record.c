@@ -61,14 +61,41 @@ static PetscErrorCode KeepFields(SamGradient g, const SamSolution *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if a cell is in contact after the step or was before it. */
-static PetscBool Takes(const SamIncrement *s, ptrdiff_t k)
+/* Cells that are recorded besides those in contact after the step or before it, as those that wear in a jump may lie
+   there: from the first column and row to before the last ones */
+typedef struct {
+  PetscInt first[2], last[2];
+} Box;
+
+#define BESIDE 8 /* of a contact with so many cells along an axis one more is recorded on each side, and two more */
+
+/* Finds the surroundings of the contact; without `wide` there are none. */
+static PetscErrorCode FindBox(SamGrid grid, const SamSolution *s, PetscBool wide, Box *box)
 {
+  PetscInt first[2], n[2];
+
+  PetscFunctionBegin;
+  *box = (Box){{0, 0}, {0, 0}};
+  if (!wide) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridGetSupport(grid, s->pressure, PETSC_FALSE, first, n));
+  for (int k = 0; k < 2 && n[k] > 0; k++) {
+    box->first[k] = first[k] - n[k] / BESIDE - 2;
+    box->last[k]  = first[k] + n[k] + n[k] / BESIDE + 2;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* True if a cell is recorded. */
+static PetscBool Takes(const SamIncrement *s, const Box *box, ptrdiff_t k)
+{
+  const PetscInt i = (PetscInt)(k % s->grid->nx), j = s->grid->row_start + (PetscInt)(k / s->grid->nx);
+
+  if (i >= box->first[0] && i < box->last[0] && j >= box->first[1] && j < box->last[1]) return PETSC_TRUE;
   return SamIsPressed(s->at_now.p[k]) || (s->solutions[0] && SamIsPressed(s->at_before.p[k]));
 }
 
 /* Packs the row of the increment that was computed last, from place m on; returns the next place. */
-static PetscInt PackRow(const SamIncrement *s, PetscInt j, PetscInt m, SamRecord *r)
+static PetscInt PackRow(const SamIncrement *s, const Box *box, PetscInt j, PetscInt m, SamRecord *r)
 {
   const ptrdiff_t  first = (ptrdiff_t)j * s->grid->nx, n = r->count;
   const SamValues *v = &s->at_now;
@@ -78,7 +105,7 @@ static PetscInt PackRow(const SamIncrement *s, PetscInt j, PetscInt m, SamRecord
     double          share[2], slopes[2];
     SamCellMotion   motion;
 
-    if (!Takes(s, k)) continue;
+    if (!Takes(s, box, k)) continue;
     motion = SamIncrementGetCellMotion(s, k, share);
     SamIncrementGetShareSlopes(s, motion, k, slopes);
     r->cell[m]                               = (PetscInt)k;
@@ -94,7 +121,7 @@ static PetscInt PackRow(const SamIncrement *s, PetscInt j, PetscInt m, SamRecord
   return m;
 }
 
-static PetscErrorCode Pack(SamIncrement *s, SamRecord *r)
+static PetscErrorCode Pack(SamIncrement *s, const Box *box, SamRecord *r)
 {
   PetscInt m = 0;
 
@@ -102,12 +129,12 @@ static PetscErrorCode Pack(SamIncrement *s, SamRecord *r)
   PetscCall(SamIncrementMeasure(s));
   PetscCall(SamIncrementFindEnds(s, r->end, r->by_end));
   r->count = 0;
-  for (PetscInt k = 0; k < s->grid->cells; k++) r->count += Takes(s, k);
+  for (PetscInt k = 0; k < s->grid->cells; k++) r->count += Takes(s, box, k);
   PetscCall(PetscMalloc3(r->count, &r->cell, SAM_RECORD_BY_BACK * r->count, &r->value,
                          (SAM_RECORD_VALUES - SAM_RECORD_BY_BACK) * r->count, &r->slope));
   for (PetscInt j = 0; j < s->grid->rows; j++) {
     SamIncrementComputeRow(s, j);
-    m = PackRow(s, j, m, r);
+    m = PackRow(s, box, j, m, r);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -194,12 +221,13 @@ static PetscErrorCode CheckPlace(SamGradient g, PetscInt place, const SamSolutio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGradientRecord(SamGradient g)
+PetscErrorCode SamGradientRecord(SamGradient g, PetscInt row, SamLifePlace where)
 {
   const SamSolution *now;
   SamIncrement       increment;
-  SamRecord          r = {.grows = PETSC_FALSE};
+  SamRecord          r = {.place = where};
   PetscInt           place;
+  Box                box;
 
   PetscFunctionBegin;
   place = SamContactGetSteps(g->contact);
@@ -207,11 +235,13 @@ PetscErrorCode SamGradientRecord(SamGradient g)
   PetscCall(CheckPlace(g, place, now));
   PetscCall(KeepFields(g, now));
   PetscCall(SamIncrementCreate(SamContactGetProblem(g->contact), SamContactBefore(g->contact), now, &increment));
-  PetscCall(Pack(&increment, &r));
+  PetscCall(FindBox(SamContactGetGrid(g->contact), now, g->cycle > 0 ? PETSC_TRUE : PETSC_FALSE, &box));
+  PetscCall(Pack(&increment, &box, &r));
   PetscCall(SamIncrementDestroy(&increment));
   CopyControl(g, now, &r);
   PetscCall(RecordEntering(g, now, &r));
   r.turns = SamRuleTurns(now->rule) && SamContactBefore(g->contact) ? PETSC_TRUE : PETSC_FALSE;
+  r.row   = row < 0 ? place : row;
   while (g->count > place) PetscCall(SamRecordDestroy(&g->record[--g->count]));
   if (g->count == g->room) {
     g->room = 2 * g->room + 16;

@@ -209,26 +209,56 @@ PetscErrorCode SamBackEnter(SamBack *b, PetscInt step, const double lambda[])
 
 /* ---- what they add ---- */
 
-/* Adds the displacements by a gap's cotangents to the derivatives by the pressure before the step. */
-static PetscErrorCode AddPressed(SamBack *b, const double by_gap[])
+/* Adds the displacements by a field to an array: normal ones, or tangential ones by the coupling. */
+static PetscErrorCode AddDisplacements(SamBack *b, const double values[], PetscBool tangential, double sums[])
 {
-  const SamGrid g = b->grid;
-  const double *u;
-  double       *to;
-  Vec           field, moved;
+  const SamGrid  g = b->grid;
+  const double  *u;
+  double        *to;
+  const PetscInt components = tangential ? 2 : 1;
+  Vec            field, moved;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(g, 1, &field));
-  PetscCall(SamGridCreateVec(g, 1, &moved));
+  PetscCall(SamGridCreateVec(g, components, &moved));
   PetscCall(VecGetArrayWrite(field, &to));
-  PetscCall(PetscArraycpy(to, by_gap, g->cells));
+  PetscCall(PetscArraycpy(to, values, g->cells));
   PetscCall(VecRestoreArrayWrite(field, &to));
-  PetscCall(SamElasticityApplyNormal(b->elasticity, field, moved));
+  PetscCall(
+    (tangential ? SamElasticityApplyNormalToTangential : SamElasticityApplyNormal)(b->elasticity, field, moved));
   PetscCall(VecGetArrayRead(moved, &u));
-  for (PetscInt k = 0; k < g->cells; k++) b->at.by_pressure_before[k] += u[k];
+  for (PetscInt k = 0; k < components * g->cells; k++) sums[k] += u[k];
   PetscCall(VecRestoreArrayRead(moved, &u));
   PetscCall(VecDestroy(&field));
   PetscCall(VecDestroy(&moved));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBackAddOpen(SamBack *b, const double by_gap[], const double by_lift[])
+{
+  const SamGrid     g        = b->grid;
+  SamObjectiveStep *at       = &b->at;
+  SamTotal          total[3] = {{0}};
+  double            sums[3];
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < g->rows; j++) {
+    const double y      = (double)SamGridY(g, g->row_start + j);
+    double       row[3] = {0};
+
+    for (PetscInt i = 0; i < g->nx; i++) {
+      row[0] += by_gap[j * g->nx + i];
+      row[1] += (double)SamGridX(g, i) * by_gap[j * g->nx + i];
+      row[2] += y * by_gap[j * g->nx + i];
+    }
+    SamAddAll(3, total, row);
+  }
+  PetscCall(SamSumTotals(g->comm, 3, total, sums));
+  at->by_rigid[SAM_COMPONENT_N] -= sums[0];
+  at->by_rigid[SAM_COMPONENT_MY] -= sums[1];
+  at->by_rigid[SAM_COMPONENT_MX] += sums[2];
+  PetscCall(AddDisplacements(b, by_gap, PETSC_FALSE, at->by_pressure));
+  if (b->coupled) PetscCall(AddDisplacements(b, by_lift, PETSC_TRUE, at->by_shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -263,6 +293,6 @@ PetscErrorCode SamBackLeaveEntered(SamBack *b, PetscInt step)
   }
   for (int k = 0; k < 3; k++) b->strain_before[k] -= e->strain[k];
   PetscCall(PetscArraycpy(b->ahead, e->by_gap, b->grid->cells));
-  PetscCall(AddPressed(b, e->by_gap));
+  PetscCall(AddDisplacements(b, e->by_gap, PETSC_FALSE, at->by_pressure_before));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

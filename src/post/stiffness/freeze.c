@@ -177,7 +177,8 @@ PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection dire
   PetscCall(SamGridGetSupport(whole, s->pressure, PETSC_FALSE, first, n));
   PetscCall(SamElasticityChoosePart(e, first, n, PETSC_TRUE, &window, &part));
   PetscCall(CreateFields(contact, direction, window, window ? SamWindowGetGrid(window) : whole, fields));
-  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled || count ? PETSC_TRUE : PETSC_FALSE, STIFFEST, f));
+  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled || count ? PETSC_TRUE : PETSC_FALSE, STIFFEST,
+                            SAM_FROZEN_STILL, f));
   PetscCall(AddMotions(contact, window, count, conditions, f));
   for (int k = 0; k < SAM_FROZEN_FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
   PetscFunctionReturn(PETSC_SUCCESS);

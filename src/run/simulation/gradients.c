@@ -8,7 +8,7 @@
 #define MEMBER(name) offsetof(SamGradientPlan, name)
 static const SamOptionRow rows[] = {
   {"gradient", "energy, disp_x, ...: numbers whose derivatives are written", SAM_OPTION_STRING, MEMBER(names),
-   .size = SAM_GRADIENT_NAMES, .needs = SAM_OUTPUT_NEEDED, .excludes = "wear_cycles,step_rtol,restart"},
+   .size = SAM_GRADIENT_NAMES, .needs = SAM_OUTPUT_NEEDED, .excludes = "step_rtol,restart"},
   {"gradient_steps", "first and last step that they are of; 0: usual ones", SAM_OPTION_INT, MEMBER(steps), .size = 2,
    .needs = "gradient"},
   {"gradient_of", "gap, load_tx, body1_young, ...: by these; else all but moduli, shape", SAM_OPTION_STRING, MEMBER(of),
@@ -86,18 +86,34 @@ static PetscErrorCode Check(SamSimulation s, const char name[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns the number of steps that numbers may be of: those of a history, or of its cycle in a wear simulation. */
+static PetscInt CountSteps(SamSimulation s)
+{
+  return s->plan.cycles > 0 ? s->needs.steps - SamLifeOptionsGetStart(&s->plan, s->history) : s->needs.steps;
+}
+
+PetscErrorCode SamSimulationBeginCycles(SamSimulation s)
+{
+  PetscFunctionBegin;
+  if (s->gradient && s->plan.cycles > 0)
+    PetscCall(SamGradientBeginLife(s->gradient, s->needs.steps, CountSteps(s), &s->plan.life));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
 {
-  const PetscInt first = s->gradients.steps[0], last = s->gradients.steps[1], end = last ? last : s->needs.steps;
+  const PetscInt count = CountSteps(s);
+  const PetscInt first = s->gradients.steps[0], last = s->gradients.steps[1], end = last ? last : count;
 
   PetscFunctionBegin;
   if (!s->gradients.names[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(first >= 0 && first <= end && (last == 0 || last >= PetscMax(first, 1)) && end <= s->needs.steps, s->comm,
+  PetscCheck(first >= 0 && first <= end && (last == 0 || last >= PetscMax(first, 1)) && end <= count, s->comm,
              SAM_ERR_USER,
              "-gradient_steps %" PetscInt_FMT ",%" PetscInt_FMT ": the history has %" PetscInt_FMT
              " steps: give the first and the last one, from 1 on",
-             first, last, s->needs.steps);
+             first, last, count);
   PetscCall(SamSimulationRecordGradient(s, PETSC_TRUE));
+  PetscCall(SamSimulationBeginCycles(s));
   PetscCall(ForEach(s, Check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -67,6 +67,26 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Records a step, or a part of a jump, for gradients. */
+static PetscErrorCode RecordStep(void *context, PetscInt step, SamLifePlace place)
+{
+  const SamSimulation s = (SamSimulation)context;
+
+  PetscFunctionBegin;
+  if (s->gradient)
+    PetscCall(SamGradientRecord(s->gradient, SamLifeOptionsGetStart(&s->plan, s->history) + step, place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode RecordJump(void *context, const SamLifePart *part)
+{
+  const SamSimulation s = (SamSimulation)context;
+
+  PetscFunctionBegin;
+  if (s->gradient) PetscCall(SamGradientRecordJump(s->gradient, part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the life ---- */
 
 static PetscErrorCode TellMessage(SamSimulation s, const char where[], const SamStep *step)
@@ -291,6 +311,7 @@ PetscErrorCode SamSimulationLive(SamSimulation s)
   PetscBool ended = PETSC_FALSE;
 
   PetscFunctionBegin;
+  PetscCall(SamSimulationBeginCycles(s));
   if (!s->point.restarted) PetscCall(Start(s, &ended));
   while (!ended && !s->stopped) {
     PetscCall(ComputeCycle(s, &ended));
@@ -302,7 +323,11 @@ PetscErrorCode SamSimulationLive(SamSimulation s)
 
 PetscErrorCode SamSimulationCreateLife(SamSimulation s)
 {
-  SamLifeCycle       cycle = {.control = SamSimulationCycleControl, .solved = WriteStep, .context = s};
+  SamLifeCycle       cycle = {.control = SamSimulationCycleControl,
+                              .solved  = WriteStep,
+                              .commits = RecordStep,
+                              .jumps   = RecordJump,
+                              .context = s};
   SamOutputSettings *set   = &s->output_settings;
 
   PetscFunctionBegin;

@@ -116,8 +116,10 @@ PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char
 /*
   SamSimulationReadGradients - reads the options of gradients. SamSimulationBeginGradients - begins to record the steps,
   if there are any. SamSimulationEndGradients - computes them after the last step, writes and tells them (gradients.c).
-  Collective. Errors: SAM_ERR_USER.
+  SamSimulationBeginCycles - begins the record of a wear simulation, if steps are recorded and it is one. Collective.
+  Errors: SAM_ERR_USER.
 */
+PETSC_INTERN PetscErrorCode SamSimulationBeginCycles(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationReadGradients(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationBeginGradients(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationEndGradients(SamSimulation simulation);

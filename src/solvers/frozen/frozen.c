@@ -25,13 +25,6 @@
 #include <petsam/tangential.h>
 #include <math.h>
 
-/*
-  Slip in a step below this part of the displacement of a cell by the largest bound is the solver's error, and the cell
-  counts as sticking. Likewise an overlap below this part of the displacement of a cell by the largest pressure counts
-  as none.
-*/
-#define STILL 1e-5
-
 /* ---- creation ---- */
 
 /* Packs the cells in contact. */
@@ -91,7 +84,7 @@ static void SetYielding(SamFrozen *f, double still, const double overlap[])
     if (overlap[f->cell[m]] > still) f->bears[m] = 0;
 }
 
-static PetscErrorCode PackCells(SamFrozen *f, double stiffest, const Vec from[SAM_FROZEN_FIELDS])
+static PetscErrorCode PackCells(SamFrozen *f, double stiffest, double still, const Vec from[SAM_FROZEN_FIELDS])
 {
   const double *v[SAM_FROZEN_FIELDS] = {NULL};
   PetscReal     most[2];
@@ -106,8 +99,8 @@ static PetscErrorCode PackCells(SamFrozen *f, double stiffest, const Vec from[SA
   if (from[SAM_FROZEN_PATH]) {
     PetscCall(VecMax(from[SAM_FROZEN_PRESSURE], NULL, &most[0]));
     PetscCall(VecMax(from[SAM_FROZEN_BOUND], NULL, &most[1]));
-    SetSlip(f, STILL * f->self[1] * (double)most[1], stiffest, v);
-    SetYielding(f, STILL * f->self[0] * (double)most[0], v[SAM_FROZEN_OVERLAP]);
+    SetSlip(f, still * f->self[1] * (double)most[1], stiffest, v);
+    SetYielding(f, still * f->self[0] * (double)most[0], v[SAM_FROZEN_OVERLAP]);
   }
   for (PetscInt k = 0; k < SAM_FROZEN_FIELDS; k++)
     if (from[k]) PetscCall(VecRestoreArrayRead(from[k], &v[k]));
@@ -151,7 +144,7 @@ static PetscErrorCode CreateWork(SamFrozen *f)
 }
 
 PetscErrorCode SamFrozenCreate(SamElasticity e, const Vec fields[SAM_FROZEN_FIELDS], PetscBool coupled, double stiffest,
-                               SamFrozen *f)
+                               double still, SamFrozen *f)
 {
   PetscFunctionBegin;
   *f = (SamFrozen){.part       = SAM_FROZEN_BOTH,
@@ -162,7 +155,7 @@ PetscErrorCode SamFrozenCreate(SamElasticity e, const Vec fields[SAM_FROZEN_FIEL
   PetscCall(SamElasticityGetSelfInfluence(e, &f->self[0], &f->self[1]));
   PetscCall(SamFrameSet(&f->normal, f->grid, &(SamBalance){.kind = SAM_BALANCE_NORMAL}));
   PetscCall(SamFrameSet(&f->tangential, f->grid, &(SamBalance){.kind = SAM_BALANCE_TANGENTIAL}));
-  PetscCall(PackCells(f, stiffest, fields));
+  PetscCall(PackCells(f, stiffest, still, fields));
   PetscCall(FindSlope(f));
   PetscCall(CreateWork(f));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -173,6 +166,7 @@ PetscErrorCode SamFrozenDestroy(SamFrozen *f)
   PetscFunctionBegin;
   PetscCall(PetscFree(f->start));
   PetscCall(PetscFree(f->cell));
+  PetscCall(PetscFree(f->soft));
   PetscCall(PetscFree(f->sine));
   PetscCall(PetscFree7(f->e[0], f->e[1], f->follow, f->rate, f->stiff, f->free, f->bears));
   PetscCall(VecDestroy(&f->p));

@@ -323,6 +323,7 @@ PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
   PetscCall((f->single && f->part != SAM_FROZEN_BOTH ? DisplaceSingle : DisplaceDouble)(f, x, Ax));
   if (p >= 0 && y >= 0 && f->transposed) SamFrozenFollow(f, Ax);
   if (p >= 0) Bear(f, Ax + p);
+  for (PetscInt m = 0; p >= 0 && f->soft && m < f->count; m++) Ax[p + m] += f->soft[m] * x[p + m];
   if (y < 0) PetscFunctionReturn(PETSC_SUCCESS);
   Project(f, PETSC_FALSE, Ax + y);
   for (PetscInt m = 0; m < f->count; m++) {
@@ -336,6 +337,12 @@ PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
 
 /* ---- its approximate inverse ---- */
 
+/* Returns the weight of a cell's pressure in the approximate inverse: 1, less where the surface is soft. */
+static double Hard(const SamFrozen *f, PetscInt m)
+{
+  return f->soft ? f->self[0] / (f->self[0] + f->soft[m]) : 1;
+}
+
 static PetscErrorCode PreconditionNormal(SamFrozen *f, const double r[], double z[])
 {
   const PetscBool slides   = f->coupled && f->part == SAM_FROZEN_BOTH ? PETSC_TRUE : PETSC_FALSE;
@@ -343,9 +350,13 @@ static PetscErrorCode PreconditionNormal(SamFrozen *f, const double r[], double 
   const double    slope[2] = {sign * f->slope[0], sign * f->slope[1]};
 
   PetscFunctionBegin;
-  for (PetscInt m = 0; m < f->count; m++) f->r[f->cell[m]] = (float)r[m];
+  for (PetscInt m = 0; m < f->count; m++) f->r[f->cell[m]] = (float)(sqrt(Hard(f, m)) * r[m]);
   PetscCall(SamElasticityPreconditionSlidingSingle(f->elasticity, f->self[0], slope, f->r, f->z));
-  for (PetscInt m = 0; m < f->count; m++) z[m] = (double)f->z[f->cell[m]] / f->self[0];
+  for (PetscInt m = 0; m < f->count; m++) {
+    const double h = Hard(f, m);
+
+    z[m] = (sqrt(h) * (double)f->z[f->cell[m]] + 0.5 * (1 - h) * h * r[m]) / f->self[0];
+  }
   Bear(f, z);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
