@@ -479,7 +479,8 @@ const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions);
 
   Errors: 2 for a contact with steps, or with options whose derivative is not computed.
 
-  Steps of petsam_history() are recorded, too; petsam_commit() and petsam_history() return 2 for a step that has no
+  Steps of petsam_history() are recorded, too, and those of petsam_live() with jumps of fixed length (-wear_jump), whose
+  derivatives are by the rows of its history; petsam_commit() and petsam_history() return 2 for a step that has no
   derivative: where the contact of dissimilar bodies grows that needs -slip_direction end. Slip at mid step is found to
   the tolerance of the shear while steps are recorded, by more solutions of each step. A step takes 60 bytes per cell in
   contact.

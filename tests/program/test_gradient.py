@@ -657,8 +657,6 @@ def test_refusals():
     for steps in (slice(-2, None), slice(0, 0), slice(3, 0), slice(2**31, None), slice(0, 2**32), 1, (0, 2)):
         with pytest.raises(petsam.Error, match="neighbouring"):
             contact.gradient("energy", None, steps)
-    with pytest.raises(petsam.Error, match="which a wear simulation has not"):
-        contact.live(10, history)
     found = contact.gradient("energy")
     with pytest.raises(petsam.Error, match="no derivative by it"):
         _ = found["disp_x"]

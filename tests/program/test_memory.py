@@ -15,6 +15,8 @@ SOFT = dict(body2_young=70e9, body2_poisson=0.34)
 SLIPS = dict(friction=0.3, load_tx=150.0)
 ROWS = dict(friction=0.3, load_n=None, history="history.csv")
 HISTORY = "time,load_n,load_tx\n1,1000,0\n2,1000,150\n3,1000,-150\n4,1000,150\n"
+CYCLE = "time,load_n,load_tx\n0,1000,0\n1,1000,150\n2,1000,-150\n3,1000,0\n"
+LIVES = dict(ROWS, history="cycle.csv", wear_coefficient1=1e-13, wear_cycles=60, wear_jump=20)
 SLIDES = dict(ROWS, history="slides.csv", slide=True)
 PATH = dict(friction_law="slip_path", friction_path_final=0.5, friction_path_length=1e-3)
 WEARS = dict(wear_coefficient1=1e-14, wear_coefficient2=1e-14)
@@ -50,6 +52,8 @@ CASES = {
     "gradient of a stress": {**BALL, **WIDE, **ROWS, **BACK, "gradient": "mises@50um", "grid_n": 400},
     "gradient of a cycle": {**BALL, **HALF, **ROWS, **BACK, "gradient": "energy,swt@50um", "grid_n": 350},
     "gradient, wide grid": {**BALL, **WIDE, **ROWS, **BACK, "grid_n": 560},
+    "gradient, life": {**BALL, **HALF, **LIVES, **BACK, "gradient": "wear_volume", "grid_n": 320},
+    "gradient, life, wide grid": {**BALL, **WIDE, **LIVES, **BACK, "grid_n": 500},
     "plane": {**LINE, **HALF, "friction": 0.3, "load_tx": 4e4},
     "plane, wide grid": {**LINE, **WIDE},
 }
@@ -64,6 +68,7 @@ def megabytes(text, words):
 def test_memory_is_estimated_within_15_percent(petsam, tmp_path, name):
     """For a small contact in a wide grid and for one that fills it; -dry_run prints the same."""
     (tmp_path / "history.csv").write_text(HISTORY)
+    (tmp_path / "cycle.csv").write_text(CYCLE)
     (tmp_path / "slides.csv").write_text(SLID.format(1000))
     (tmp_path / "line.csv").write_text(SLID.format(3e5))
     text = petsam(CASES[name]).stdout

@@ -60,10 +60,10 @@ PETSC_INTERN PetscErrorCode SamGradientDestroy(SamGradient *gradient);
 PETSC_INTERN PetscErrorCode SamGradientRecord(SamGradient gradient, PetscInt row, SamLifePlace place);
 
 /*
-  SamGradientBeginLife - begins the record of a wear simulation: its history has so many rows, the last `cycle` of which
-  are the cycle. Derivatives by what has a value of each step are by the rows then, and numbers those of the last cycle.
-  SamGradientRecordJump - records a part of a jump. Collective. Errors: SAM_ERR_USER for jumps whose length is not fixed,
-  and surfaces that slide.
+  SamGradientBeginLife - begins the record of a wear simulation: its history has so many rows, the last `cycle` of
+  which are the cycle. Derivatives by what has a value of each step are by the rows then, and numbers those of the last cycle.
+  SamGradientRecordJump - records a part of a jump. Collective. Errors: SAM_ERR_USER for jumps whose length is not
+  fixed, and surfaces that slide.
 */
 PETSC_INTERN PetscErrorCode SamGradientBeginLife(SamGradient gradient, PetscInt rows, PetscInt cycle,
                                                  const SamLifeSettings *settings);

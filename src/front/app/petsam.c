@@ -119,6 +119,13 @@ static const double stiffness_bytes[2][2][2] = {{{450, 450}, {570, 600}},
   contact beyond that of the steps.
 */
 #define RECORDED_BYTES 60
+/* A wear simulation records the cells beside the contact, too, parts of so many times as many; per jump the steps of so
+   many cycles, with those that close the loop, and so many before; and fields of each jump, and of the pass back. */
+#define LIFE_BESIDE    1.9
+#define LIFE_CYCLES    3.2
+#define LIFE_FIRST     6.0
+#define JUMP_BYTES     120
+#define LIVING_BYTES   72
 #define GRADIENT_BYTES 64
 static const double gradient_bytes[2][2] = {{730, 700}, {910, 1450}}; /* [friction][coupled] */
 
@@ -161,13 +168,15 @@ static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *need
 /* Returns the memory of gradients on this rank, bytes. */
 static double BytesOfGradients(const SamSetup *setup, const SamSimulationNeeds *needs)
 {
-  const double    contact = (double)needs->contact, steps = (double)needs->steps;
+  const double    contact = (double)needs->contact, jumps = (double)needs->gradient_jumps;
+  const double    cycles = needs->life ? LIFE_BESIDE * (LIFE_FIRST + LIFE_CYCLES * jumps) : 1;
+  const double    steps = cycles * (double)needs->steps, life = needs->life ? LIVING_BYTES + JUMP_BYTES * jumps : 0;
   const double    systems = gradient_bytes[needs->friction][needs->coupled] * contact;
   const PetscInt *bytes   = needs->gradient_bytes;
 
   if (!needs->gradient) return 0;
-  return (GRADIENT_BYTES + RECORDED_BYTES * steps * contact + (double)bytes[0] +
-          PetscMax(systems, (double)bytes[1] + (double)bytes[2] * steps)) *
+  return (GRADIENT_BYTES + life + RECORDED_BYTES * steps * contact + (double)bytes[0] +
+          PetscMax(systems, (double)bytes[1] + (double)bytes[2] * (double)needs->steps)) *
          (double)setup->grid->cells;
 }
 

@@ -201,21 +201,6 @@ static PetscErrorCode ChoosePart(SamBack *b)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamBackTake(const SamBack *b, Vec whole, double array[])
-{
-  const double *values;
-  Vec           part;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(b->grid, 1, &part));
-  PetscCall(b->window ? SamWindowTake(b->window, whole, part) : VecCopy(whole, part));
-  PetscCall(VecGetArrayRead(part, &values));
-  PetscCall(PetscArraycpy(array, values, b->grid->cells));
-  PetscCall(VecRestoreArrayRead(part, &values));
-  PetscCall(VecDestroy(&part));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode PutArray(SamBack *b, const double array[], Vec *whole)
 {
   double *values;
@@ -300,16 +285,6 @@ static PetscErrorCode Begin(SamBack *b, double **arrays)
   for (int k = 0; k < 2; k++)
     PetscCall(SamGridCreateVec(b->grid, SAM_RECORD_VALUES, &(k ? &b->now : &b->before)->field));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscInt64 SamBackPlace(const SamBack *b, PetscInt64 cell)
-{
-  const PetscInt64 nx       = SamContactGetGrid(b->g->contact)->nx;
-  PetscInt         first[2] = {0, 0}, n[2];
-
-  if (cell < 0) return -1;
-  if (b->window) (void)SamWindowGetPlace(b->window, first, n);
-  return (cell / nx - first[1]) * b->grid->nx + cell % nx - first[0];
 }
 
 /* Makes another step the present one. */

@@ -253,6 +253,31 @@ PetscErrorCode SamGradientRecord(SamGradient g, PetscInt row, SamLifePlace where
 
 /* ---- on the way back ---- */
 
+PetscErrorCode SamBackTake(const SamBack *b, Vec whole, double array[])
+{
+  const double *values;
+  Vec           part;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(b->grid, 1, &part));
+  PetscCall(b->window ? SamWindowTake(b->window, whole, part) : VecCopy(whole, part));
+  PetscCall(VecGetArrayRead(part, &values));
+  PetscCall(PetscArraycpy(array, values, b->grid->cells));
+  PetscCall(VecRestoreArrayRead(part, &values));
+  PetscCall(VecDestroy(&part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscInt64 SamBackPlace(const SamBack *b, PetscInt64 cell)
+{
+  const PetscInt64 nx       = SamContactGetGrid(b->g->contact)->nx;
+  PetscInt         first[2] = {0, 0}, n[2];
+
+  if (cell < 0) return -1;
+  if (b->window) (void)SamWindowGetPlace(b->window, first, n);
+  return (cell / nx - first[1]) * b->grid->nx + cell % nx - first[0];
+}
+
 PetscErrorCode SamRecordUnpack(const SamBack *b, const SamRecord *r, SamFrameOfStep *frame)
 {
   const ptrdiff_t cells = SamContactGetGrid(b->g->contact)->cells;

@@ -68,6 +68,7 @@ PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *fro
   PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
   s->needs.gradient = s->gradients.names[0] ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscArrayzero(s->needs.gradient_bytes, 3));
+  s->needs.gradient_jumps = s->needs.life && s->plan.life.fixed ? s->plan.cycles / s->plan.life.jump : 0;
   if (!s->needs.gradient) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CheckNames(s));
   PetscCall(ForEach(s, FindBytes));
