@@ -1018,7 +1018,8 @@ class Contact:
 
         Notes
         -----
-        A step takes 60 bytes for each cell in contact. Cycles of live() are recorded, too, with a fixed wear_jump; the
+        A step takes 60 bytes for each cell in contact; gradient_memory limits that, and further steps wait in a file in
+        $TMPDIR. Cycles of live() are recorded, too, with a fixed wear_jump; the
         derivatives by loads and displacements are by the rows of its history then. Where the contact of dissimilar bodies grows it needs
         slip_direction="end". Slip at mid step is found to the tolerance of the shear while steps are recorded, so that
         the results of a run may differ from one that is not recorded, by what a step of second order leaves. For

@@ -798,6 +798,29 @@ def test_a_run_writes_parameters_of_planes(petsam, loads, tmp_path):
             assert np.array_equal(one["load_tx"], found["load_tx"])
 
 
+def test_steps_beyond_a_limit_of_memory(petsam, loads, tmp_path, monkeypatch):
+    """They wait in a file, and change no bit, on any number of ranks and in process; a folder that is not there."""
+    case = dict(RUN, history="history.csv", steps=3, gradient="energy,swt@50um")
+    petsam(case, dict(output="all.h5"))
+    one = library.open(tmp_path / "all.h5").gradients
+    for ranks in (1, 3):
+        petsam(case, dict(output=f"{ranks}.h5", gradient_memory=3e5), ranks=ranks)
+        for name, found in library.open(tmp_path / f"{ranks}.h5").gradients.items():
+            assert found.value == one[name].value and np.array_equal(found.gap, one[name].gap)
+            assert np.array_equal(found["load_tx"], one[name]["load_tx"])
+    contact = library.Contact(**RUN, gradient_memory=1.0)
+    fine = {name: np.concatenate([np.linspace(values[k - 1] if k else values[0] * (name == "load_n"), values[k], 4)[1:]
+            for k in range(4)]) for name, values in loads.items()}  # fmt: skip
+    fine["time"] = np.arange(12.0)
+    fine["load_n"] = loads["load_n"].repeat(3)
+    found = record(contact, fine)[0].gradient("energy")
+    free = record(library.Contact(**RUN), fine)[0].gradient("energy")
+    assert found.value == free.value and np.array_equal(found.gap, free.gap)
+    monkeypatch.setenv("TMPDIR", str(tmp_path / "nowhere"))
+    done = petsam(case, dict(output="none.h5", gradient_memory=1e3), check=3)
+    assert "nowhere (TMPDIR): No such file" in done.stderr
+
+
 def test_steps_of_a_gradient(petsam, loads, tmp_path):
     """-gradient_steps counts from 1, slices of a contact from 0."""
     petsam(RUN, dict(history="history.csv", gradient="energy", gradient_steps="2,3", output="out.h5"))

@@ -32,6 +32,12 @@ typedef struct _n_SamGradient *SamGradient;
 PETSC_INTERN PetscErrorCode SamGradientCreate(SamContact contact, SamGap shape, SamGradient *gradient);
 
 /*
+  SamGradientSetMemory - limits the memory of recorded steps, bytes on all ranks; 0: it has no limit. Steps beyond it
+  wait in files, without change of the results. Not collective, but to be called on all ranks.
+*/
+PETSC_INTERN void SamGradientSetMemory(SamGradient gradient, PetscReal bytes);
+
+/*
   SamGradientDestroy - frees the gradient and sets the handle to NULL.
 
   Collective.

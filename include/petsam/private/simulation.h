@@ -167,6 +167,7 @@ typedef enum { SAM_TOUCHES_NEVER, SAM_TOUCHES_FIRST, SAM_TOUCHES_LATER } SamTouc
 typedef struct {
   PetscBool  friction, coupled, life, stiffness, companion, gradient;
   PetscInt   gradient_bytes[3]; /* of its numbers, see SamObjective */
+  PetscReal  gradient_memory;   /* of its recorded steps on all ranks, bytes; 0: any */
   PetscReal  gradient_jumps;    /* number of jumps of a wear simulation that are recorded for them */
   PetscInt   steps;
   PetscInt   laws;          /* memory of the laws per cell, bytes */

@@ -166,7 +166,7 @@ static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *need
 }
 
 /* Returns the memory of gradients on this rank, bytes. */
-static double BytesOfGradients(const SamSetup *setup, const SamSimulationNeeds *needs)
+static double BytesOfGradients(const SamSetup *setup, const SamSimulationNeeds *needs, int ranks)
 {
   const double    contact = (double)needs->contact, jumps = (double)needs->gradient_jumps;
   const double    cycles = needs->life ? LIFE_BESIDE * (LIFE_FIRST + LIFE_CYCLES * jumps) : 1;
@@ -174,10 +174,13 @@ static double BytesOfGradients(const SamSetup *setup, const SamSimulationNeeds *
   const double    systems = gradient_bytes[needs->friction][needs->coupled] * contact;
   const PetscInt *bytes   = needs->gradient_bytes;
 
+  double recorded = RECORDED_BYTES * steps * contact * (double)setup->grid->cells;
+
   if (!needs->gradient) return 0;
-  return (GRADIENT_BYTES + life + RECORDED_BYTES * steps * contact + (double)bytes[0] +
-          PetscMax(systems, (double)bytes[1] + (double)bytes[2] * (double)needs->steps)) *
-         (double)setup->grid->cells;
+  if (needs->gradient_memory > 0) recorded = PetscMin(recorded, (double)needs->gradient_memory / ranks);
+  return recorded + (GRADIENT_BYTES + life + (double)bytes[0] +
+                     PetscMax(systems, (double)bytes[1] + (double)bytes[2] * (double)needs->steps)) *
+                      (double)setup->grid->cells;
 }
 
 /* Estimates the memory that this rank will need, bytes. */
@@ -195,8 +198,8 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscCall(EstimateKept(setup, &needs, ranks, &kept));
   *bytes = BytesPerCell(setup, &needs) * (double)setup->grid->cells * (needs.companion ? 1.6 : 1);
   if (files.checkpoint) *bytes += CHECKPOINT_BYTES * (double)setup->grid->cells;
-  *bytes +=
-    SAM_MEMORY_PROGRAM + kept + BytesOfGradients(setup, &needs) + (files.checkpoint || files.output ? FILE_BYTES : 0);
+  *bytes += SAM_MEMORY_PROGRAM + kept + BytesOfGradients(setup, &needs, ranks) +
+            (files.checkpoint || files.output ? FILE_BYTES : 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -84,6 +84,14 @@ static PetscErrorCode Check(SamGradient g)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamGradientSetMemory(SamGradient g, PetscReal bytes)
+{
+  int ranks;
+
+  (void)MPI_Comm_size(SamContactGetGrid(g->contact)->comm, &ranks);
+  g->limit = (double)bytes / ranks;
+}
+
 PetscErrorCode SamGradientCreate(SamContact contact, SamGap shape, SamGradient *gradient)
 {
   SamGradient    g;
@@ -135,6 +143,8 @@ void SamGradientForget(SamGradient g)
   while (g->jumps > 0) (void)SamJumpDestroy(&g->jump[--g->jumps]);
   g->rows = g->cycle = 0;
   (void)VecDestroy(&g->friction);
+  (void)VecDestroy(&g->touched);
+  SamStoreForget(g);
 }
 
 PetscInt SamGradientGetSteps(SamGradient g)
@@ -179,10 +189,9 @@ static PetscErrorCode ChoosePart(SamBack *b)
   Vec                 all;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(whole, 1, &all));
+  PetscCall(VecDuplicate(g->touched, &all));
+  PetscCall(VecCopy(g->touched, all));
   PetscCall(VecGetArray(all, &touched));
-  for (PetscInt k = 0; k < g->count; k++)
-    for (PetscInt m = 0; m < g->record[k].count; m++) touched[g->record[k].cell[m]] = 1;
   for (PetscInt k = 0; k < g->jumps; k++) {
     const double *p;
 
@@ -220,16 +229,18 @@ static PetscErrorCode PutArray(SamBack *b, const double array[], Vec *whole)
 /* Reads the tractions of a step, for objectives that need other steps than the present one. */
 static PetscErrorCode ReadStep(void *context, PetscInt step, Vec tractions, const PetscReal **bulk)
 {
-  const SamRecord *r     = &((SamGradient)context)->record[step];
+  SamRecord *const r     = &((SamGradient)context)->record[step];
   const PetscInt   cells = SamContactGetGrid(((SamGradient)context)->contact)->cells;
   double          *to;
 
   PetscFunctionBegin;
+  PetscCall(SamStoreTake((SamGradient)context, r));
   PetscCall(VecZeroEntries(tractions));
   PetscCall(VecGetArray(tractions, &to));
   for (PetscInt c = 0; c < 3; c++) /* pressure and shear are the first values */
     for (PetscInt m = 0; m < r->count; m++) to[c * cells + r->cell[m]] = r->value[m + c * r->count];
   PetscCall(VecRestoreArray(tractions, &to));
+  PetscCall(SamStoreLeave(r));
   *bulk = r->bulk;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -290,7 +301,7 @@ static PetscErrorCode Begin(SamBack *b, double **arrays)
 /* Makes another step the present one. */
 static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
 {
-  const SamRecord     *r     = &b->g->record[k];
+  SamRecord *const     r     = &b->g->record[k];
   const ptrdiff_t      cells = b->grid->cells;
   const SamFrameOfStep now   = b->before;
   SamObjectiveStep    *at    = &b->at;

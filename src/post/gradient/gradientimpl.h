@@ -10,6 +10,7 @@
 #include <petsam/private/grid.h>
 #include <petsam/private/law.h>
 #include <petsam/private/life.h>
+#include <stdio.h>
 #include <petsam/private/objective.h>
 
 enum { SAM_GRADIENT_BULKS = SAM_BULKS, SAM_GRADIENT_MODULI = 4, SAM_GRADIENT_WEARS = 2, SAM_GRADIENT_OF = 512 };
@@ -29,8 +30,10 @@ enum {
 
 /* A recorded step: the cells that are in contact in it or were in the step before, packed. */
 typedef struct {
-  PetscInt     row;   /* of the history: in a wear simulation several steps are of the same row */
-  SamLifePlace place; /* in a wear simulation */
+  PetscInt     row;    /* of the history: in a wear simulation several steps are of the same row */
+  SamLifePlace place;  /* in a wear simulation */
+  PetscBool    stored; /* the arrays of the cells are in the file, from `at` on, and here for a while only (store.c) */
+  off_t        at;
   PetscInt     count;
   PetscInt    *cell;      /* indices in this rank's part of the contact's grid */
   double      *value;     /* of SAM_RECORD_BY_BACK fields, one after the other */
@@ -71,13 +74,18 @@ typedef struct {
 } SamDerivatives;
 
 struct _n_SamGradient {
-  SamContact       contact; /* borrowed */
-  SamGap           shape;   /* borrowed */
-  PetscInt         count, room;
-  SamRecord       *record;
-  PetscInt         rows, cycle; /* of a wear simulation: rows of the history, and those of its cycle; else 0 */
-  PetscInt         jumps;
-  SamJump         *jump;  /* parts of jumps */
+  SamContact contact; /* borrowed */
+  SamGap     shape;   /* borrowed */
+  PetscInt   count, room;
+  SamRecord *record;
+  PetscInt   rows, cycle; /* of a wear simulation: rows of the history, and those of its cycle; else 0 */
+  PetscInt   jumps;
+  SamJump   *jump;    /* parts of jumps */
+  Vec        touched; /* 1 in cells that some step has recorded, 0 in others */
+  /* steps beyond the limit of this rank's memory (store.c): bytes allowed, 0: any, and in use; their file, and its end */
+  double           limit, kept;
+  FILE            *file;
+  off_t            end;
   PetscReal        still; /* slip that counts as stick, as a part of the displacement of a cell by the largest bound */
   Vec              friction;          /* coefficient, on the contact's grid; of the first step */
   PetscObjectState gap;               /* of the problem's gap in the first step */
@@ -181,13 +189,23 @@ PETSC_INTERN PetscErrorCode SamBackGetLoad(const SamBack *back, double load[]);
 /* SamGradientOfRow - returns a recorded step of a row of the history. Not collective. */
 PETSC_INTERN const SamRecord *SamGradientOfRow(SamGradient g, PetscInt row);
 PETSC_INTERN PetscErrorCode   SamJumpDestroy(SamJump *jump);
+/*
+  SamStoreKeep - moves the arrays of a new record to the file if they are beyond the limit of memory. SamStoreTake - gets
+  them back for a while, until SamStoreLeave(). Collective. Errors: SAM_ERR_FILE. SamStoreForget - closes the file.
+  SamRecordAllocate - allocates the arrays of a record for its cells. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamStoreKeep(SamGradient g, SamRecord *record);
+PETSC_INTERN PetscErrorCode SamStoreTake(SamGradient g, SamRecord *record);
+PETSC_INTERN PetscErrorCode SamStoreLeave(SamRecord *record);
+PETSC_INTERN void           SamStoreForget(SamGradient g);
+PETSC_INTERN PetscErrorCode SamRecordAllocate(SamRecord *record);
 /* SamBackSolve - solves the adjoint of the present step: gamma, tau, beta, forces, and `later` for the step before.
    Collective. */
 PETSC_INTERN PetscErrorCode SamBackSolve(SamBack *back, PetscInt step);
 /* SamBackRead - adds what gamma, tau and beta of the present step give to the derivatives. Collective. */
 PETSC_INTERN PetscErrorCode SamBackRead(SamBack *back, PetscInt step);
 /* SamRecordUnpack - sets the fields of a step on the part of the grid; NULL: all are 0. Collective. */
-PETSC_INTERN PetscErrorCode SamRecordUnpack(const SamBack *back, const SamRecord *record, SamFrameOfStep *frame);
+PETSC_INTERN PetscErrorCode SamRecordUnpack(const SamBack *back, SamRecord *record, SamFrameOfStep *frame);
 PETSC_INTERN PetscErrorCode SamRecordDestroy(SamRecord *record);
 /*
   SamChoiceCheck - checks the names of wanted parameters, separated by commas. SamChoiceHas - true if that of

@@ -17,7 +17,28 @@ PetscErrorCode SamRecordDestroy(SamRecord *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamRecordAllocate(SamRecord *r)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(r->count, &r->cell, SAM_RECORD_BY_BACK * r->count, &r->value,
+                         (SAM_RECORD_VALUES - SAM_RECORD_BY_BACK) * r->count, &r->slope));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- recording ---- */
+
+/* Notes the cells of a new record among those of all steps. */
+static PetscErrorCode Touch(SamGradient g, const SamRecord *r)
+{
+  double *touched;
+
+  PetscFunctionBegin;
+  if (!g->touched) PetscCall(SamGridCreateVec(SamContactGetGrid(g->contact), 1, &g->touched));
+  PetscCall(VecGetArray(g->touched, &touched));
+  for (PetscInt m = 0; m < r->count; m++) touched[r->cell[m]] = 1;
+  PetscCall(VecRestoreArray(g->touched, &touched));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 /* Computes the coefficient of friction in all cells, as the derivative of the bound by the pressure. */
 static PetscErrorCode ComputeFriction(SamGradient g, const SamSolution *s, Vec friction)
@@ -130,8 +151,7 @@ static PetscErrorCode Pack(SamIncrement *s, const Box *box, SamRecord *r)
   PetscCall(SamIncrementFindEnds(s, r->end, r->by_end));
   r->count = 0;
   for (PetscInt k = 0; k < s->grid->cells; k++) r->count += Takes(s, box, k);
-  PetscCall(PetscMalloc3(r->count, &r->cell, SAM_RECORD_BY_BACK * r->count, &r->value,
-                         (SAM_RECORD_VALUES - SAM_RECORD_BY_BACK) * r->count, &r->slope));
+  PetscCall(SamRecordAllocate(r));
   for (PetscInt j = 0; j < s->grid->rows; j++) {
     SamIncrementComputeRow(s, j);
     m = PackRow(s, box, j, m, r);
@@ -247,6 +267,8 @@ PetscErrorCode SamGradientRecord(SamGradient g, PetscInt row, SamLifePlace where
     g->room = 2 * g->room + 16;
     PetscCall(PetscRealloc(sizeof(*g->record) * (size_t)g->room, &g->record));
   }
+  PetscCall(Touch(g, &r));
+  PetscCall(SamStoreKeep(g, &r));
   g->record[g->count++] = r;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -278,13 +300,14 @@ PetscInt64 SamBackPlace(const SamBack *b, PetscInt64 cell)
   return (cell / nx - first[1]) * b->grid->nx + cell % nx - first[0];
 }
 
-PetscErrorCode SamRecordUnpack(const SamBack *b, const SamRecord *r, SamFrameOfStep *frame)
+PetscErrorCode SamRecordUnpack(const SamBack *b, SamRecord *r, SamFrameOfStep *frame)
 {
   const ptrdiff_t cells = SamContactGetGrid(b->g->contact)->cells;
   double         *to;
 
   PetscFunctionBegin;
   if (frame->value) PetscCall(VecRestoreArrayRead(frame->field, &frame->value));
+  if (r) PetscCall(SamStoreTake(b->g, r));
   PetscCall(VecZeroEntries(b->whole));
   PetscCall(VecGetArray(b->whole, &to));
   for (ptrdiff_t m = 0; r && m < r->count; m++) {
@@ -293,6 +316,7 @@ PetscErrorCode SamRecordUnpack(const SamBack *b, const SamRecord *r, SamFrameOfS
       to[c * cells + r->cell[m]] = (double)r->slope[m + (c - SAM_RECORD_BY_BACK) * r->count];
   }
   PetscCall(VecRestoreArray(b->whole, &to));
+  if (r) PetscCall(SamStoreLeave(r));
   PetscCall(b->window ? SamWindowTake(b->window, b->whole, frame->field) : VecCopy(b->whole, frame->field));
   PetscCall(VecGetArrayRead(frame->field, &frame->value));
   PetscFunctionReturn(PETSC_SUCCESS);

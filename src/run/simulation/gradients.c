@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define MEMBER(name) offsetof(SamGradientPlan, name)
+enum { MEMORY = 3 }; /* row of the option that a contact in another program has, too */
 static const SamOptionRow rows[] = {
   {"gradient", "energy, disp_x, ...: numbers whose derivatives are written", SAM_OPTION_STRING, MEMBER(names),
    .size = SAM_GRADIENT_NAMES, .needs = SAM_OUTPUT_NEEDED, .excludes = "step_rtol,restart"},
@@ -13,6 +14,8 @@ static const SamOptionRow rows[] = {
    .needs = "gradient"},
   {"gradient_of", "gap, load_tx, body1_young, ...: by these; else all but moduli, shape", SAM_OPTION_STRING, MEMBER(of),
    .size = SAM_GRADIENT_NAMES, .needs = "gradient"},
+  {"gradient_memory", "bytes for recorded steps; more wait in a file in $TMPDIR; 0: any", SAM_OPTION_REAL,
+   MEMBER(memory), .range = SAM_RANGE_NONNEGATIVE, .needs = "gradient"},
   {"gradient_rtol", "relative residual of their systems", SAM_OPTION_REAL, MEMBER(rtol), .range = SAM_RANGE_POSITIVE,
    .needs = "gradient"}};
 
@@ -61,12 +64,23 @@ static PetscErrorCode FindBytes(SamSimulation s, const char name[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamSimulationReadGradientMemory(SamSimulation s, const SamOptions *from)
+{
+  SamOptionRow row = rows[MEMORY];
+
+  PetscFunctionBegin;
+  row.needs = NULL;
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->gradients, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
   s->gradients = (SamGradientPlan){.rtol = 1e-6};
   PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
-  s->needs.gradient = s->gradients.names[0] ? PETSC_TRUE : PETSC_FALSE;
+  s->needs.gradient_memory = s->gradients.memory;
+  s->needs.gradient        = s->gradients.names[0] ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscArrayzero(s->needs.gradient_bytes, 3));
   s->needs.gradient_jumps = s->needs.life && s->plan.life.fixed ? s->plan.cycles / s->plan.life.jump : 0;
   if (!s->needs.gradient) PetscFunctionReturn(PETSC_SUCCESS);

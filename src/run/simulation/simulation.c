@@ -503,6 +503,7 @@ PetscErrorCode SamSimulationRecordGradient(SamSimulation s, PetscBool on)
              "the gradient: the contact has steps already: begin before its first step, or after a reset");
   PetscCall(SamGradientDestroy(&s->gradient));
   if (on) PetscCall(SamGradientCreate(s->setup.contact, s->setup.gap, &s->gradient));
+  if (on) SamGradientSetMemory(s->gradient, s->gradients.memory);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

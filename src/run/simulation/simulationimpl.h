@@ -45,7 +45,7 @@ typedef struct {
   char      names[SAM_GRADIENT_NAMES]; /* of the numbers, separated by commas; empty: none */
   PetscInt  steps[2];                  /* first and last step, from 1; 0: the usual ones */
   char      of[SAM_GRADIENT_NAMES];    /* of the parameters, likewise; empty: the usual ones */
-  PetscReal rtol;
+  PetscReal rtol, memory;              /* bytes for recorded steps; 0: any */
 } SamGradientPlan;
 
 #define SAM_WARNINGS 16 /* most warnings in the results */
@@ -114,12 +114,14 @@ PETSC_INTERN PetscErrorCode SamSimulationOpenResults(SamSimulation simulation);
 PETSC_INTERN PetscBool      SamSimulationSaves(SamSimulation simulation, PetscInt step, PetscInt last);
 PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char text[], size_t size);
 /*
-  SamSimulationReadGradients - reads the options of gradients. SamSimulationBeginGradients - begins to record the steps,
+  SamSimulationReadGradients - reads the options of gradients, SamSimulationReadGradientMemory - those of a contact that
+  records steps at the call of another program. SamSimulationBeginGradients - begins to record the steps,
   if there are any. SamSimulationEndGradients - computes them after the last step, writes and tells them (gradients.c).
   SamSimulationBeginCycles - begins the record of a wear simulation, if steps are recorded and it is one. Collective.
   Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamSimulationBeginCycles(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationReadGradientMemory(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationReadGradients(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationBeginGradients(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationEndGradients(SamSimulation simulation);

@@ -181,6 +181,7 @@ PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation s, const SamOpti
   PetscCall(ReadPlan(s, PETSC_TRUE, from));
   PetscCall(ReadFiles(s, from));
   PetscCall(SamErrorsReadOptions(s, from));
+  PetscCall(SamSimulationReadGradientMemory(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
