@@ -67,7 +67,8 @@ PETSC_INTERN PetscErrorCode SamGradientRecord(SamGradient gradient, PetscInt row
 
 /*
   SamGradientBeginLife - begins the record of a wear simulation: its history has so many rows, the last `cycle` of
-  which are the cycle. Derivatives by what has a value of each step are by the rows then, and numbers those of the last cycle.
+  which are the cycle. Derivatives by what has a value of each step are by the rows then, and numbers those of the last
+  cycle.
   SamGradientRecordJump - records a part of a jump. Collective. Errors: SAM_ERR_USER for jumps whose length is not
   fixed, and surfaces that slide.
 */

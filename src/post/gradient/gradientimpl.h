@@ -190,8 +190,8 @@ PETSC_INTERN PetscErrorCode SamBackGetLoad(const SamBack *back, double load[]);
 PETSC_INTERN const SamRecord *SamGradientOfRow(SamGradient g, PetscInt row);
 PETSC_INTERN PetscErrorCode   SamJumpDestroy(SamJump *jump);
 /*
-  SamStoreKeep - moves the arrays of a new record to the file if they are beyond the limit of memory. SamStoreTake - gets
-  them back for a while, until SamStoreLeave(). Collective. Errors: SAM_ERR_FILE. SamStoreForget - closes the file.
+  SamStoreKeep - moves the arrays of a new record to the file if they are beyond the limit of memory. SamStoreTake -
+  gets them back for a while, until SamStoreLeave(). Collective. Errors: SAM_ERR_FILE. SamStoreForget - closes the file.
   SamRecordAllocate - allocates the arrays of a record for its cells. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamStoreKeep(SamGradient g, SamRecord *record);
