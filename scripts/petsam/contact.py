@@ -1019,12 +1019,11 @@ class Contact:
         Notes
         -----
         A step takes 60 bytes for each cell in contact; gradient_memory limits that, and further steps wait in a file in
-        $TMPDIR. Cycles of live() are recorded, too, with a fixed wear_jump; the
-        derivatives by loads and displacements are by the rows of its history then. Where the contact of dissimilar bodies grows it needs
-        slip_direction="end". Slip at mid step is found to the tolerance of the shear while steps are recorded, so that
-        the results of a run may differ from one that is not recorded, by what a step of second order leaves. For
-        derivatives of many digits give tight tolerances, normal_rtol=1e-12 and tangential_rtol=1e-12: the default ones
-        leave about 1e-5.
+        $TMPDIR. Cycles of live() are recorded, too, with a fixed wear_jump; the derivatives by loads and displacements
+        are by the rows of its history then. Where the contact of dissimilar bodies grows it needs slip_direction="end".
+        Slip at mid step is found to the tolerance of the shear while steps are recorded, so that the results of a run
+        may differ from one that is not recorded, by what a step of second order leaves. For derivatives of many digits
+        give tight tolerances, normal_rtol=1e-12 and tangential_rtol=1e-12: the default ones leave about 1e-5.
         """
         self._call("gradient_record", ctypes.c_int(bool(on)))
 

@@ -508,6 +508,15 @@ static PetscErrorCode Enter(System *s, double given[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Leaves the normal problem of a step to the step before, which has the same. */
+static void LeaveNormal(System *s)
+{
+  SamBack *b = s->b;
+
+  for (PetscInt m = 0; m < s->f.count; m++) b->at.by_pressure_before[s->f.cell[m]] += s->right[m];
+  for (PetscInt n = 0; n < 3; n++) b->by_rigid_before[components[n]] += b->at.by_rigid[components[n]];
+}
+
 /* Solves the system, or for similar bodies that of the shear, then that of the pressure. `r`: as above. */
 static PetscErrorCode Solve(System *s, PetscBool rubs, double given[], double r[])
 {
@@ -531,7 +540,10 @@ static PetscErrorCode Solve(System *s, PetscBool rubs, double given[], double r[
   if (grows && rubs) PetscCall(Enter(s, given));
   for (PetscInt m = 0; m < n; m++) /* mu beta */
     s->right[m] += f->follow[m] * (f->e[0][m] * r[m] + f->e[1][m] * r[m + n]);
-  PetscCall(SolvePart(s, SAM_FROZEN_NORMAL, given));
+  if (s->b->merges && s->b->g->record[s->b->at.step].same)
+    LeaveNormal(s);
+  else
+    PetscCall(SolvePart(s, SAM_FROZEN_NORMAL, given));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -99,6 +99,16 @@ PetscBool SamChoiceHasShape(SamGradient g, const char of[])
   return HaveOne(g, of, NUMBERS, NUMBERS + SAM_GAP_PARAMETERS);
 }
 
+PetscBool SamChoiceHasNormal(const char of[])
+{
+  static const PetscInt normal[] = {SAM_COMPONENT_N, SAM_COMPONENT_MX, SAM_COMPONENT_MY};
+
+  for (int k = 0; k < 3; k++)
+    if (SamChoiceHas(of, SamComponentNames[normal[k]].load) || SamChoiceHas(of, SamComponentNames[normal[k]].rigid))
+      return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 PetscErrorCode SamChoiceCheck(SamGradient g, const char of[])
 {
   const MPI_Comm comm       = SamContactGetGrid(g->contact)->comm;

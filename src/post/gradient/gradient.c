@@ -207,6 +207,7 @@ static PetscErrorCode ChoosePart(SamBack *b)
   if (!b->window) b->elasticity = e;
   b->grid    = SamElasticityGetGrid(b->elasticity);
   b->coupled = SamElasticityGetTraits(e).coupled;
+  b->merges  = !b->coupled && !SamChoiceHasNormal(g->found.of) ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

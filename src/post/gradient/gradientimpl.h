@@ -40,6 +40,7 @@ typedef struct {
   float       *slope;     /* of the last two */
   PetscInt64   end[2];    /* cells whose slips determine how far all slide alike, on the whole grid; -1: none */
   double       by_end[2]; /* its derivatives by the lengths of these slips, 1/m */
+  PetscBool    same;      /* true: pressure and normal loads are those of the step before */
   PetscBool    turns;     /* true: slip follows the shear at mid step in cells that were in contact before */
   PetscBool    force[SAM_COMPONENTS];
   PetscReal    load[SAM_COMPONENTS], rigid[SAM_COMPONENTS], bulk[SAM_GRADIENT_BULKS];
@@ -82,7 +83,8 @@ struct _n_SamGradient {
   PetscInt   jumps;
   SamJump   *jump;    /* parts of jumps */
   Vec        touched; /* 1 in cells that some step has recorded, 0 in others */
-  /* steps beyond the limit of this rank's memory (store.c): bytes allowed, 0: any, and in use; their file, and its end */
+  /* steps beyond the limit of this rank's memory (store.c): bytes allowed, 0: any, and in use; their file and its
+     end */
   double           limit, kept;
   FILE            *file;
   off_t            end;
@@ -130,6 +132,7 @@ typedef struct {
   SamElasticity    elasticity, other; /* of the part; with other constants, for derivatives by the moduli, or NULL */
   SamGrid          grid;
   PetscBool        coupled;
+  PetscBool        merges; /* steps of one pressure share a normal problem: it is not wanted by step */
   PetscReal        rtol;
   Vec              whole; /* scratch of SAM_RECORD_VALUES fields */
   SamFrameOfStep   now, before;
@@ -209,7 +212,8 @@ PETSC_INTERN PetscErrorCode SamRecordUnpack(const SamBack *back, SamRecord *reco
 PETSC_INTERN PetscErrorCode SamRecordDestroy(SamRecord *record);
 /*
   SamChoiceCheck - checks the names of wanted parameters, separated by commas. SamChoiceHas - true if that of
-  one is wanted, SamChoiceHasModuli, SamChoiceHasShape - if one of these is. Not collective.
+  one is wanted, SamChoiceHasModuli, SamChoiceHasShape - if one of these is, SamChoiceHasNormal - if a
+  normal load or displacement is. Not collective.
   SamChoiceFind - returns the derivative by a parameter with one number; NULL: it was not wanted or there is none.
   SamChoiceGetShare - gets it times the value, 0 if that is infinite. Neither is collective.
   SamChoiceAddShape - computes the derivatives by the parameters of the shape from that by the gap. Collective.
@@ -219,6 +223,7 @@ PETSC_INTERN PetscErrorCode   SamChoiceCheck(SamGradient g, const char of[]);
 PETSC_INTERN PetscBool        SamChoiceHas(const char of[], const char name[]);
 PETSC_INTERN PetscBool        SamChoiceHasModuli(SamGradient g, const char of[]);
 PETSC_INTERN PetscBool        SamChoiceHasShape(SamGradient g, const char of[]);
+PETSC_INTERN PetscBool        SamChoiceHasNormal(const char of[]);
 PETSC_INTERN const PetscReal *SamChoiceFind(SamGradient g, const char name[]);
 PETSC_INTERN PetscErrorCode   SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share);
 PETSC_INTERN PetscErrorCode   SamChoiceAddShape(SamGradient g);

@@ -3,11 +3,11 @@
 
   A part of a jump over m cycles makes of the wear loads w
       w' = w + m e P,   S P + h + K w + shift + m K e P = n d where P > 0,   P of the mean loads,
-  e = r/P0 being the wear load of the cycle before it over its mean pressure, and -shift its mean gap. With the cotangent
-  H' of w', l solves the same normal problem, (S + m K e) l - n nu = m e H', n.l = 0. Then the cotangents are H = H' - K l
-  of w, -l of the gap and the shift, m P (H' - K l) of e, nu of the mean loads, and -l.w' of K. Those of e and shift are
-  of the steps of the cycle: e of the pressure and the slip in each of them, or where the surfaces never touch of the
-  slip; the shift of the gap where cells are open.
+  e = r/P0 being the wear load of the cycle before it over its mean pressure, and -shift its mean gap. With the
+  cotangent H' of w', l solves the same normal problem, (S + m K e) l - n nu = m e H', n.l = 0. Then the cotangents are
+  H = H' - K l of w, -l of the gap and the shift, m P (H' - K l) of e, nu of the mean loads, and -l.w' of K. Those of e
+  and shift are of the steps of the cycle: e of the pressure and the slip in each of them, or where the surfaces never
+  touch of the slip; the shift of the gap where cells are open.
 
   A jump has a whole, a first half, the steps of its middle cycle, and a second half, whose extrapolation is the result.
   The lengths of jumps are fixed.

@@ -210,6 +210,29 @@ static PetscErrorCode RecordEntering(SamGradient g, const SamSolution *now, SamR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Finds out if the step has the pressure and the normal loads of the step before. */
+static PetscErrorCode FindSame(SamGradient g, const SamSolution *now, SamRecord *r)
+{
+  const SamSolution *before = SamContactBefore(g->contact);
+  const SamGrid      grid   = SamContactGetGrid(g->contact);
+  const double      *p, *q;
+  double             differs = 0;
+
+  PetscFunctionBegin;
+  r->same = PETSC_FALSE;
+  if (!before || !SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL))
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(now->pressure, &p));
+  PetscCall(VecGetArrayRead(before->pressure, &q));
+  for (PetscInt k = 0; k < grid->cells; k++)
+    if (p[k] != q[k]) differs = 1;
+  PetscCall(VecRestoreArrayRead(before->pressure, &q));
+  PetscCall(VecRestoreArrayRead(now->pressure, &p));
+  PetscCall(SamMax(grid->comm, 1, &differs));
+  r->same = differs == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Copies the prescribed values and the displacements of the step. */
 static void CopyControl(SamGradient g, const SamSolution *s, SamRecord *r)
 {
@@ -260,6 +283,7 @@ PetscErrorCode SamGradientRecord(SamGradient g, PetscInt row, SamLifePlace where
   PetscCall(SamIncrementDestroy(&increment));
   CopyControl(g, now, &r);
   PetscCall(RecordEntering(g, now, &r));
+  PetscCall(FindSame(g, now, &r));
   r.turns = SamRuleTurns(now->rule) && SamContactBefore(g->contact) ? PETSC_TRUE : PETSC_FALSE;
   r.row   = row < 0 ? place : row;
   while (g->count > place) PetscCall(SamRecordDestroy(&g->record[--g->count]));
