@@ -33,6 +33,8 @@ typedef struct {
   double            number; /* the number, if only the objective can tell: a norm; NaN: the sum of `value` */
   double           *by_pressure, *by_shear, *by_slip, *by_pressure_before, *by_shear_before, *by_friction, *by_worn;
   double            by_rigid[SAM_COMPONENTS], by_bulk[6];
+  PetscBool         moduli; /* derivatives by the moduli are wanted */
+  double by_moduli[4];      /* of both bodies, besides those through the tractions: by E and nu of body 1, of body 2 */
   /* gets the tractions of any step on the whole grid, pressure and shear (Pa, three components), and its bulk stresses;
      collective */
   PetscErrorCode (*read)(void *context, PetscInt step, Vec tractions, const PetscReal **bulk);
@@ -43,8 +45,7 @@ typedef struct {
 /*
   SamObjective - a number with a gradient. `add` adds a step's part of the number and of its derivatives; it is called
   for all steps from the last to the first. `check` checks a name with what follows an @, if `suffix` allows that,
-  for these bodies and coefficients of wear; NULL: all are right. `fixed`: the number depends on the moduli besides
-  through the tractions, so that it has no derivative by them. `end`: frees the data; NULL: there are none. `bytes`: the
+  for these bodies and coefficients of wear; NULL: all are right. `end`: frees the data; NULL: there are none. `bytes`: the
   memory that it takes per cell of the whole grid: during the pass; in one step only; and besides that for each step of
   the history. Collective.
 */
@@ -53,7 +54,7 @@ typedef struct {
   PetscBool   all; /* true: of all steps unless others are given; false: of the last one */
   PetscErrorCode (*add)(SamObjectiveStep *at);
   PetscErrorCode (*check)(SamElasticity elasticity, const PetscReal rate[], const char name[]);
-  PetscBool suffix, fixed;
+  PetscBool suffix;
   PetscErrorCode (*end)(void *data);
   PetscInt bytes[3];
 } SamObjective;

@@ -353,6 +353,7 @@ static PetscErrorCode Pass(SamBack *b)
   b->entered    = (SamEntered){.by_gap = b->entered.by_gap, .by_friction = b->entered.by_friction};
   b->by_modulus = 0;
   PetscCall(PetscArrayzero(at->by_bulk, SAM_GRADIENT_BULKS));
+  PetscCall(PetscArrayzero(at->by_moduli, SAM_GRADIENT_MODULI));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -427,7 +428,8 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
 
   PetscFunctionBegin;
   PetscCall(ChoosePart(b));
-  if (SamChoiceHasModuli(b->g, found->of)) PetscCall(CreateOther(b));
+  b->at.moduli = SamChoiceHasModuli(b->g, found->of);
+  if (b->at.moduli) PetscCall(CreateOther(b));
   PetscCall(Begin(b, &arrays));
   PetscCall(BeginLife(b, &of_life));
   PetscCall(SamRecordUnpack(b, &b->g->record[b->g->count - 1], &b->before));
@@ -502,8 +504,6 @@ PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBoo
   if (!SamChoiceHasModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(g->cycle == 0, comm, SAM_ERR_USER,
              "the gradient by the moduli in a wear simulation is not computed: leave the moduli out");
-  PetscCheck(!objective->fixed, comm, SAM_ERR_USER,
-             "the gradient of %s by the moduli is not computed: leave the moduli out", name);
   none = SamPairGetConstants(SamElasticityGetPair(e), &constants);
   if (SamElasticityGetTraits(e).patch) none = "the bodies are finite";
   PetscCheck(!none, comm, SAM_ERR_USER, "the gradient by the moduli is not computed, as %s: leave the moduli out",

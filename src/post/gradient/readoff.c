@@ -61,8 +61,9 @@ static PetscErrorCode SumMotions(const SamBack *b, double sums[SUMS])
 
 /* ---- stretches ---- */
 
-/* Adds the derivatives by the bulk stresses; the stretch is linear in them. In plane strain yy is nu xx. */
-static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS])
+/* Adds the derivatives by the bulk stresses, and gets those through the stretch, which is linear in them. In plane strain
+   yy is nu xx. */
+static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS], double stretch[SAM_GRADIENT_BULKS])
 {
   const SamProblem    problem = SamContactGetProblem(b->g->contact);
   const SamConditions all     = SamProblemGetConditions(problem);
@@ -86,8 +87,8 @@ static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS
     PetscCall(SamProblemCheckControl(problem, &control, &wrong, why, sizeof(why)));
     /* some bodies bear no such stress */
     if (!why[0]) PetscCall(SamProblemDisplace(problem, NULL, &control, NULL, NULL, &strain, NULL));
-    by[k] += sums[X_TAU_X] * strain.xx + sums[Y_TAU_Y] * strain.yy + (sums[Y_TAU_X] + sums[X_TAU_Y]) * strain.xy;
-    d->bulk[b->g->record[step].row][k] += by[k];
+    stretch[k] = sums[X_TAU_X] * strain.xx + sums[Y_TAU_Y] * strain.yy + (sums[Y_TAU_X] + sums[X_TAU_Y]) * strain.xy;
+    d->bulk[b->g->record[step].row][k] += by[k] + stretch[k];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -95,7 +96,8 @@ static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS
 /* ---- moduli ---- */
 
 /* Adds the derivatives by the moduli of what bulk stresses stretch. */
-static void ReadStretch(SamBack *b, PetscInt step, const SamPairConstants *own, const double sums[SUMS])
+static void ReadStretch(SamBack *b, PetscInt step, const SamPairConstants *own, const double sums[SUMS],
+                        const double stretch[SAM_GRADIENT_BULKS])
 {
   const PetscBool plane = SamElasticityGetTraits(b->elasticity).plane;
 
@@ -105,7 +107,7 @@ static void ReadStretch(SamBack *b, PetscInt step, const SamPairConstants *own, 
     const double   stress = (double)b->g->record[step].bulk[k], shear = sums[Y_TAU_X] + sums[X_TAU_Y];
     const double   by_nu[] = {plane ? -2 * nu * sums[X_TAU_X] : -sums[Y_TAU_Y], plane ? 0 : -sums[X_TAU_X], shear};
 
-    b->g->found.moduli[2 * body] -= b->at.by_bulk[k] * stress / young;
+    b->g->found.moduli[2 * body] -= stretch[k] * stress / young;
     b->g->found.moduli[2 * body + 1] += sign * by_nu[k % 3] * stress / young;
   }
 }
@@ -158,7 +160,8 @@ static PetscErrorCode FindProducts(const SamBack *b, SamElasticity e, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadModuli(SamBack *b, PetscInt step, const double sums[SUMS])
+static PetscErrorCode ReadModuli(SamBack *b, PetscInt step, const double sums[SUMS],
+                                 const double stretch[SAM_GRADIENT_BULKS])
 {
   enum { A, B, D };
   SamPairConstants own, other;
@@ -184,7 +187,8 @@ static PetscErrorCode ReadModuli(SamBack *b, PetscInt step, const double sums[SU
   }
   for (PetscInt k = 0; k < SAM_GRADIENT_MODULI; k++)
     for (int n = 0; n < SAM_PAIR_CONSTANTS; n++) b->g->found.moduli[k] += by[n] * own.by[n][k];
-  ReadStretch(b, step, &own, sums);
+  for (PetscInt k = 0; k < SAM_GRADIENT_MODULI; k++) b->g->found.moduli[k] += b->at.by_moduli[k];
+  ReadStretch(b, step, &own, sums, stretch);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -194,7 +198,7 @@ PetscErrorCode SamBackRead(SamBack *b, PetscInt step)
 {
   const SamGrid  g   = b->grid;
   const PetscInt row = b->g->record[step].row;
-  double         sums[SUMS], *rigid = b->g->found.rigid[row];
+  double         sums[SUMS], stretch[SAM_GRADIENT_BULKS], *rigid = b->g->found.rigid[row];
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < g->cells; k++) {
@@ -214,8 +218,8 @@ PetscErrorCode SamBackRead(SamBack *b, PetscInt step)
   sums[X_TAU_X] += b->strain[0];
   sums[Y_TAU_Y] += b->strain[1];
   sums[Y_TAU_X] += b->strain[2];
-  PetscCall(ReadBulk(b, step, sums));
-  if (b->other) PetscCall(ReadModuli(b, step, sums));
+  PetscCall(ReadBulk(b, step, sums, stretch));
+  if (b->other) PetscCall(ReadModuli(b, step, sums, stretch));
   PetscCall(PetscArrayzero(b->ahead, g->cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

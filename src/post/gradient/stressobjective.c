@@ -22,6 +22,8 @@
 
 #define POWER     40    /* of the norm: 512 equal values raise it by a sixth */
 #define LEAST     1e-18 /* derivative of the norm by a cell's parameter that counts, of those whose sum is about 1 */
+#define CHANGE    0.1   /* of Poisson's ratio, in which the stresses are linear */
+#define STEP      1e-4  /* of Poisson's ratio, for differences of a parameter of a cycle */
 #define MAP_BYTES 305   /* of the map of the stress: its fields and its kernels, per cell */
 
 enum { MISES = SAM_STRESS_COMPONENTS };
@@ -112,13 +114,42 @@ static PetscErrorCode Read(MPI_Comm comm, const char name[], Wanted *w)
 
 /* ---- the stress ---- */
 
-/* The map of the stress on the whole grid */
+/* The map of the stress on the whole grid, and if derivatives by the moduli are wanted that of bodies whose Poisson's
+   ratio is larger by `change` */
 typedef struct {
   SamGrid   grid;
-  SamStress stress;
+  SamStress stress, other;
+  double    change;
   Vec       tractions, by; /* those of the step, and the derivatives by them: three components */
   Vec       field, work;   /* of six components */
 } Map;
+
+/* Creates the map of bodies with another Poisson's ratio. */
+static PetscErrorCode CreateOther(const SamObjectiveStep *at, const Wanted *w, Map *m)
+{
+  const SamPair     pair = SamElasticityGetPair(at->elasticity);
+  const SamMaterial own  = *SamBodyMaterialAt(SamPairBody(pair, w->body - 1), 0);
+  SamMaterial       one;
+  SamBody           body[2];
+  SamPair           others;
+  SamElasticity     elasticity;
+
+  PetscFunctionBegin;
+  m->change = own.poisson > 0.25 ? -CHANGE : CHANGE;
+  for (int b = 0; b < 2; b++) {
+    one = *SamBodyMaterialAt(SamPairBody(pair, b), 0);
+    if (b == w->body - 1) one.poisson += m->change;
+    PetscCall(SamBodyCreate(1, &one, &body[b]));
+  }
+  PetscCall(SamPairCreate(body[0], body[1], &others));
+  PetscCall(SamElasticityCreateOfPair(at->elasticity, others, &elasticity));
+  PetscCall(SamElasticityCreateStress(elasticity, w->body, NULL, &m->other));
+  PetscCall(SamStressSetDepth(m->other, (PetscReal)w->depth));
+  PetscCall(SamElasticityDestroy(&elasticity));
+  PetscCall(SamPairDestroy(&others));
+  for (int b = 0; b < 2; b++) PetscCall(SamBodyDestroy(&body[b]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 static PetscErrorCode Create(const SamObjectiveStep *at, const Wanted *w, Map *m)
 {
@@ -126,6 +157,8 @@ static PetscErrorCode Create(const SamObjectiveStep *at, const Wanted *w, Map *m
   m->grid = SamElasticityGetGrid(at->elasticity);
   PetscCall(SamElasticityCreateStress(at->elasticity, w->body, NULL, &m->stress));
   PetscCall(SamStressSetDepth(m->stress, (PetscReal)w->depth));
+  m->other = NULL;
+  if (at->moduli) PetscCall(CreateOther(at, w, m));
   PetscCall(SamGridCreateVec(m->grid, SAM_STRESS_TRACTIONS, &m->tractions));
   PetscCall(SamGridCreateVec(m->grid, SAM_STRESS_TRACTIONS, &m->by));
   PetscCall(SamGridCreateVec(m->grid, SAM_STRESS_COMPONENTS, &m->field));
@@ -141,29 +174,41 @@ static PetscErrorCode Destroy(Map *m)
   PetscCall(VecDestroy(&m->field));
   PetscCall(VecDestroy(&m->work));
   PetscCall(SamStressDestroy(&m->stress));
+  PetscCall(SamStressDestroy(&m->other));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static const SamStressComponent in_plane[3] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
+
+/* Computes the stresses by the tractions of the map, in six components. */
+static PetscErrorCode Apply(const Map *m, SamStress stress, Vec field)
+{
+  const PetscInt cells = m->grid->cells;
+  const double  *t;
+  double        *s;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(field));
+  PetscCall(VecGetArrayRead(m->tractions, &t));
+  PetscCall(VecGetArray(field, &s));
+  PetscCall(PetscArraycpy(s + SAM_STRESS_ZZ * cells, t, cells));
+  PetscCall(PetscArraycpy(s + SAM_STRESS_XZ * cells, t + cells, 2 * cells));
+  PetscCall(VecRestoreArray(field, &s));
+  PetscCall(VecRestoreArrayRead(m->tractions, &t));
+  PetscCall(SamStressApply(stress, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 /* Computes the stresses of a step, with the bulk and the initial stress, in six components. */
 static PetscErrorCode Evaluate(const SamObjectiveStep *at, const Wanted *w, PetscInt step, Map *m)
 {
   const PetscInt   cells = m->grid->cells;
   const PetscReal *bulk;
-  const double    *t;
   double          *s, uniform[3] = {0}; /* in_plane */
 
   PetscFunctionBegin;
   PetscCall((*at->read)(at->context, step, m->tractions, &bulk));
-  PetscCall(VecZeroEntries(m->field));
-  PetscCall(VecGetArrayRead(m->tractions, &t));
-  PetscCall(VecGetArray(m->field, &s));
-  PetscCall(PetscArraycpy(s + SAM_STRESS_ZZ * cells, t, cells));
-  PetscCall(PetscArraycpy(s + SAM_STRESS_XZ * cells, t + cells, 2 * cells));
-  PetscCall(VecRestoreArray(m->field, &s));
-  PetscCall(VecRestoreArrayRead(m->tractions, &t));
-  PetscCall(SamStressApply(m->stress, m->field));
+  PetscCall(Apply(m, m->stress, m->field));
   SamBodyInitialStress(SamPairBody(SamElasticityGetPair(at->elasticity), w->body - 1), w->depth, uniform);
   for (int k = 0; k < 3; k++) uniform[k] += (double)bulk[3 * (w->body - 1) + k];
   PetscCall(VecGetArray(m->field, &s));
@@ -265,6 +310,44 @@ static PetscErrorCode AddBulk(SamObjectiveStep *at, SamGrid g, const Wanted *w, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  Adds the derivative by Poisson's ratio: the stresses by tractions are linear in it, and so is that along a row of cells
+  in plane strain by a bulk stress. `by`: those by the stresses.
+*/
+static PetscErrorCode AddPoisson(SamObjectiveStep *at, const Wanted *w, Map *m, const double by[])
+{
+  const PetscInt   cells = m->grid->cells, nx = m->grid->nx;
+  const PetscBool  plane = SamElasticityGetTraits(at->elasticity).plane;
+  const PetscReal *bulk;
+  const double    *s, *t;
+  SamTotal         total = {0};
+  double           sum;
+  Vec              own;
+
+  PetscFunctionBegin;
+  PetscCall((*at->read)(at->context, at->step, m->tractions, &bulk));
+  PetscCall(SamGridCreateVec(m->grid, SAM_STRESS_COMPONENTS, &own));
+  PetscCall(Apply(m, m->stress, own));
+  PetscCall(Apply(m, m->other, m->work));
+  PetscCall(VecGetArrayRead(own, &s));
+  PetscCall(VecGetArrayRead(m->work, &t));
+  for (PetscInt j = 0; j < m->grid->rows; j++) {
+    double row = 0;
+
+    for (int c = 0; c < SAM_STRESS_COMPONENTS; c++)
+      for (PetscInt k = j * nx + c * cells, end = k + nx; k < end; k++) row += by[k] * (t[k] - s[k]) / m->change;
+    for (PetscInt k = j * nx; plane && k < (j + 1) * nx; k++)
+      row += by[k + SAM_STRESS_YY * cells] * (double)bulk[3 * (w->body - 1)];
+    SamAdd(&total, row);
+  }
+  PetscCall(VecRestoreArrayRead(m->work, &t));
+  PetscCall(VecRestoreArrayRead(own, &s));
+  PetscCall(VecDestroy(&own));
+  PetscCall(SamSumTotals(m->grid->comm, 1, &total, &sum));
+  at->by_moduli[2 * (w->body - 1) + 1] += sum;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Adds the derivatives by the tractions and the bulk stress of the step, by those by the stresses, which are `by`. */
 static PetscErrorCode AddStresses(SamObjectiveStep *at, const Wanted *w, Map *m, const double by[])
 {
@@ -278,6 +361,7 @@ static PetscErrorCode AddStresses(SamObjectiveStep *at, const Wanted *w, Map *m,
     for (int t = 0; t < SAM_STRESS_TRACTIONS && (w->quantity >= MISES || w->quantity == c); t++)
       PetscCall(AddTransposed(m, (SamStressTraction)t, c, by + c * m->grid->cells));
   PetscCall(AddBulk(at, m->grid, w, by));
+  if (at->moduli) PetscCall(AddPoisson(at, w, m, by));
   PetscCall(SamGridCreateVec(at->grid, SAM_STRESS_TRACTIONS, &part));
   PetscCall(at->window ? SamWindowTake(at->window, m->by, part) : VecCopy(m->by, part));
   PetscCall(VecGetArrayRead(part, &found));
@@ -332,8 +416,27 @@ static SamFatigueConstants ConstantsOf(const SamObjectiveStep *at, const Wanted 
                                .yield          = (PetscReal)w->yield};
 }
 
+/*
+  Computes the derivatives of a parameter by the moduli for the stresses as they are: it is proportional to 1/E, or does
+  not depend on E, and the one by Poisson's ratio is that on the plane, which stays to first order.
+*/
+static void SlopesOfConstants(const SamFatigueCycle *cycle, SamFatigueParameter *parameter, double by[2])
+{
+  SamFatigueConstants changed = *cycle->constants;
+  SamFatigueCycle     other   = *cycle;
+  double              normal[3], both[2];
+
+  other.constants = &changed;
+  for (int k = 0; k < 2; k++) {
+    changed.poisson = cycle->constants->poisson + (PetscReal)((k ? 1 : -1) * STEP);
+    both[k]         = (*parameter)(&other, normal);
+  }
+  by[0] = parameter == SamFatigueFindley ? 0 : -0.5 * (both[0] + both[1]) / (double)cycle->constants->young;
+  by[1] = (both[1] - both[0]) / (2 * STEP);
+}
+
 /* Gathers the stresses of all steps of the cycle. */
-static PetscErrorCode Gather(const SamObjectiveStep *at, const Wanted *w, Cycle *c)
+static PetscErrorCode Gather(const SamObjectiveStep *at, const Wanted *w, Cycle *c, double all[])
 {
   const PetscInt cells = c->map.grid->cells, states = at->last - at->first + 1;
 
@@ -345,7 +448,7 @@ static PetscErrorCode Gather(const SamObjectiveStep *at, const Wanted *w, Cycle 
     PetscCall(VecGetArrayRead(c->map.field, &s));
     for (PetscInt m = 0; m < cells; m++)
       for (int n = 0; n < SAM_STRESS_COMPONENTS; n++)
-        c->by[((ptrdiff_t)m * SAM_STRESS_COMPONENTS + n) * states + k] = s[m + n * cells];
+        all[((ptrdiff_t)m * SAM_STRESS_COMPONENTS + n) * states + k] = s[m + n * cells];
     PetscCall(VecRestoreArrayRead(c->map.field, &s));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -369,6 +472,36 @@ static PetscErrorCode KeepCells(const double value[], PetscInt cells, size_t siz
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds the derivatives of the norm by the moduli for stresses as they are; `weight`: those by the cells' parameters. */
+static PetscErrorCode AddConstants(SamObjectiveStep *at, const Wanted *w, Cycle *c,
+                                   const SamFatigueConstants *constants, const double weight[])
+{
+  const PetscInt states = at->last - at->first + 1, nx = c->map.grid->nx;
+  const size_t   size     = SAM_STRESS_COMPONENTS * (size_t)states;
+  SamTotal       total[2] = {{0}};
+  double        *all, *scratch, sums[2];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2((size_t)c->map.grid->cells * size, &all, SAM_FATIGUE_SCRATCH * states, &scratch));
+  PetscCall(Gather(at, w, c, all));
+  for (PetscInt j = 0, m = 0; j < c->map.grid->rows; j++) {
+    double row[2] = {0};
+
+    for (; m < c->count && c->cell[m] < (j + 1) * nx; m++) {
+      const SamFatigueCycle cycle = {constants, states, all + (size_t)c->cell[m] * size, NULL, scratch};
+      double                by[2];
+
+      SlopesOfConstants(&cycle, quantities[w->quantity].of_cycle, by);
+      for (int n = 0; n < 2; n++) row[n] += weight[c->cell[m]] * by[n];
+    }
+    SamAddAll(2, total, row);
+  }
+  PetscCall(SamSumTotals(c->map.grid->comm, 2, total, sums));
+  for (int n = 0; n < 2; n++) at->by_moduli[2 * (w->body - 1) + n] += sums[n];
+  PetscCall(PetscFree2(all, scratch));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Finds the parameters of all cells and their norm, and its derivatives by the stresses. */
 static PetscErrorCode FindSlopes(SamObjectiveStep *at, const Wanted *w, Cycle *c)
 {
@@ -378,7 +511,7 @@ static PetscErrorCode FindSlopes(SamObjectiveStep *at, const Wanted *w, Cycle *c
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1((size_t)cells * SAM_STRESS_COMPONENTS * (size_t)states, &c->by));
-  PetscCall(Gather(at, w, c));
+  PetscCall(Gather(at, w, c, c->by));
   PetscCall(PetscMalloc2(cells, &value, SAM_FATIGUE_SCRATCH * states, &scratch));
   for (PetscInt m = 0; m < cells; m++) {
     double *const         by    = c->by + (ptrdiff_t)m * SAM_STRESS_COMPONENTS * states;
@@ -388,6 +521,7 @@ static PetscErrorCode FindSlopes(SamObjectiveStep *at, const Wanted *w, Cycle *c
   }
   PetscCall(FindNorm(at, c->map.grid, value));
   PetscCall(KeepCells(value, cells, (size_t)(SAM_STRESS_COMPONENTS * states), c));
+  if (at->moduli) PetscCall(AddConstants(at, w, c, &constants, value));
   PetscCall(PetscFree2(value, scratch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -481,12 +615,11 @@ PetscErrorCode SamObjectiveRegisterStresses(void)
   PetscFunctionBegin;
   for (int k = 0; k < QUANTITIES; k++) {
     static const SamObjective step = {
-      .add = AddStress, .check = Check, .suffix = PETSC_TRUE, .fixed = PETSC_TRUE, .bytes = {0, MAP_BYTES, 0}};
+      .add = AddStress, .check = Check, .suffix = PETSC_TRUE, .bytes = {0, MAP_BYTES, 0}};
     static const SamObjective cycle = {.all    = PETSC_TRUE,
                                        .add    = AddParameter,
                                        .check  = Check,
                                        .suffix = PETSC_TRUE,
-                                       .fixed  = PETSC_TRUE,
                                        .end    = EndCycle,
                                        .bytes  = {MAP_BYTES, 0, SAM_STRESS_COMPONENTS * sizeof(double)}};
     SamObjective              one   = quantities[k].of_cycle ? cycle : step;
