@@ -84,6 +84,8 @@ PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
   at the surfaces even then.
   SamPairGetValues - gets A, B and D of the materials at the surfaces, also where a body is rigid.
   SamPairCreateOther - creates a pair whose A and B are not proportional to those of a pair, and whose D is not 0.
+  SamPairCreateChanged - creates a pair in which Poisson's ratio of a body (0 or 1) is larger by `change`, which may be
+  negative; the stresses that tractions cause are linear in it.
   None is collective.
 */
 enum { SAM_PAIR_CONSTANTS = 3, SAM_PAIR_MODULI = 4 };
@@ -93,6 +95,7 @@ typedef struct {
 PETSC_INTERN const char    *SamPairGetConstants(SamPair pair, SamPairConstants *constants);
 PETSC_INTERN void           SamPairGetValues(SamPair pair, double value[SAM_PAIR_CONSTANTS]);
 PETSC_INTERN PetscErrorCode SamPairCreateOther(SamPair pair, SamPair *other);
+PETSC_INTERN PetscErrorCode SamPairCreateChanged(SamPair pair, PetscInt body, SamPair *changed, double *change);
 
 /*
   Symbols times |k|, m/Pa times 1/m: u_z from p, the coupling, u_t from q along the wave, and across it. A wave along x

@@ -33,8 +33,8 @@ typedef struct {
   double            number; /* the number, if only the objective can tell: a norm; NaN: the sum of `value` */
   double           *by_pressure, *by_shear, *by_slip, *by_pressure_before, *by_shear_before, *by_friction, *by_worn;
   double            by_rigid[SAM_COMPONENTS], by_bulk[6];
-  PetscBool         moduli; /* derivatives by the moduli are wanted */
-  double by_moduli[4];      /* of both bodies, besides those through the tractions: by E and nu of body 1, of body 2 */
+  PetscBool         moduli;       /* derivatives by the moduli are wanted */
+  double            by_moduli[4]; /* besides those through the tractions: by E and nu of body 1, then of body 2 */
   /* gets the tractions of any step on the whole grid, pressure and shear (Pa, three components), and its bulk stresses;
      collective */
   PetscErrorCode (*read)(void *context, PetscInt step, Vec tractions, const PetscReal **bulk);

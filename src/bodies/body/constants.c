@@ -3,6 +3,8 @@
 #include <petsam/private/body.h>
 #include <math.h>
 
+#define CHANGE 0.1 /* of Poisson's ratio: displacements and stresses are linear in it, for any size */
+
 void SamPairGetValues(SamPair pair, double value[SAM_PAIR_CONSTANTS])
 {
   value[0] = (double)pair->normal;
@@ -45,6 +47,23 @@ PetscErrorCode SamPairCreateOther(SamPair pair, SamPair *other)
   PetscCall(SamBodyCreate(1, &soft, &body[0]));
   PetscCall(SamBodyCreate(1, &rigid, &body[1]));
   PetscCall(SamPairCreate(body[0], body[1], other));
+  for (int b = 0; b < 2; b++) PetscCall(SamBodyDestroy(&body[b]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPairCreateChanged(SamPair pair, PetscInt which, SamPair *changed, double *change)
+{
+  SamBody body[2];
+
+  PetscFunctionBegin;
+  *change = pair->body[which]->material->poisson > 0.25 ? -CHANGE : CHANGE;
+  for (PetscInt b = 0; b < 2; b++) {
+    SamMaterial material = *pair->body[b]->material;
+
+    if (b == which) material.poisson += *change;
+    PetscCall(SamBodyCreate(1, &material, &body[b]));
+  }
+  PetscCall(SamPairCreate(body[0], body[1], changed));
   for (int b = 0; b < 2; b++) PetscCall(SamBodyDestroy(&body[b]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

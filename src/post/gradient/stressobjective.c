@@ -22,7 +22,6 @@
 
 #define POWER     40    /* of the norm: 512 equal values raise it by a sixth */
 #define LEAST     1e-18 /* derivative of the norm by a cell's parameter that counts, of those whose sum is about 1 */
-#define CHANGE    0.1   /* of Poisson's ratio, in which the stresses are linear */
 #define STEP      1e-4  /* of Poisson's ratio, for differences of a parameter of a cycle */
 #define MAP_BYTES 305   /* of the map of the stress: its fields and its kernels, per cell */
 
@@ -127,27 +126,16 @@ typedef struct {
 /* Creates the map of bodies with another Poisson's ratio. */
 static PetscErrorCode CreateOther(const SamObjectiveStep *at, const Wanted *w, Map *m)
 {
-  const SamPair     pair = SamElasticityGetPair(at->elasticity);
-  const SamMaterial own  = *SamBodyMaterialAt(SamPairBody(pair, w->body - 1), 0);
-  SamMaterial       one;
-  SamBody           body[2];
-  SamPair           others;
-  SamElasticity     elasticity;
+  SamPair       others;
+  SamElasticity elasticity;
 
   PetscFunctionBegin;
-  m->change = own.poisson > 0.25 ? -CHANGE : CHANGE;
-  for (int b = 0; b < 2; b++) {
-    one = *SamBodyMaterialAt(SamPairBody(pair, b), 0);
-    if (b == w->body - 1) one.poisson += m->change;
-    PetscCall(SamBodyCreate(1, &one, &body[b]));
-  }
-  PetscCall(SamPairCreate(body[0], body[1], &others));
+  PetscCall(SamPairCreateChanged(SamElasticityGetPair(at->elasticity), w->body - 1, &others, &m->change));
   PetscCall(SamElasticityCreateOfPair(at->elasticity, others, &elasticity));
   PetscCall(SamElasticityCreateStress(elasticity, w->body, NULL, &m->other));
   PetscCall(SamStressSetDepth(m->other, (PetscReal)w->depth));
   PetscCall(SamElasticityDestroy(&elasticity));
   PetscCall(SamPairDestroy(&others));
-  for (int b = 0; b < 2; b++) PetscCall(SamBodyDestroy(&body[b]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
