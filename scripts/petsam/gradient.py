@@ -151,7 +151,7 @@ def function(
     ContactError
         By the call, if a step has no solution, as in gross slip, or the number has no derivative.
     """
-    model = _Model(options, history, objective, parameters, gap, scales)
+    model = _Model({"slip_direction": "end", **options}, history, objective, parameters, gap, scales)
     for name in model.names:
         if name not in (*OPTIONS, *model.columns):
             every = [*OPTIONS, *model.columns]
@@ -188,7 +188,9 @@ def numbers(
 
     Parameters
     ----------
-    options, history, gap, scales
+    options : mapping
+        The keywords of Contact, to which nothing is added: slip follows the shear at mid step unless they have another.
+    history, gap, scales
         As function() takes them.
     objective : str, tuple or list
         As function() takes it: energy, wear_volume, a load or a displacement.
@@ -249,7 +251,7 @@ class _Model:
         pairs = list(zip(self.parameters, np.asarray(x, dtype=float) * self.scales))
         given = {one: value for one, value in pairs if isinstance(one, str)}
         changed = {one: value for one, value in given.items() if one not in self.columns}
-        with _made({"slip_direction": "end", **self.options, **changed}) as contact:
+        with _made({**self.options, **changed}) as contact:
             parts = [None if isinstance(one, str) else _part(contact, one, value, record) for one, value in pairs]
             if self.shaped:
                 stays = 0.0 if self.gap is None else np.asarray(self.gap)
