@@ -344,10 +344,8 @@ def fit_contact(
 
     Where the residuals are larger than the deviations (a misfit above 1.2), standard deviations grow by the misfit.
     """
-    problem, optimize = (
-        _Problem(options, history, measured, parameters, dict(known or {}), gap),
-        library("scipy.optimize"),
-    )
+    optimize = library("scipy.optimize")
+    problem = _Problem(options, history, measured, parameters, dict(known or {}), gap)
     for name in bounds or {}:
         if name not in problem.names:
             raise Unusable(f"bounds of {name}: it is no parameter{there_are(name, problem.names)}")
