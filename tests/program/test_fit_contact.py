@@ -202,6 +202,16 @@ def test_passes_back_where_numbers_are_few(monkeypatch):
     assert found.identifiable["friction"] and not found.identifiable["wave"]
 
 
+@pytest.mark.parametrize(("young", "way"), [(210e9, "passes back"), (115e9, "differences")])
+def test_passes_back_are_of_the_same_steps(young, way):
+    """At mid step, if the growing contact is of similar bodies; else differences. The work of 12 steps goes with it."""
+    options = {**OPTIONS, "body2_young": young, "body2_poisson": 0.3}
+    measured = {"energy": (exact(["energy"], options)["energy"], 1e-6)}
+    found = fit_contact(options, LOOP, measured, {"friction": 0.45})
+    assert found.way == way and found.passes == (found.runs if way == "passes back" else 0)
+    assert found.values["friction"] == pytest.approx(0.4, rel=0.01)
+
+
 def test_trial_steps_into_gross_slip_are_shortened():
     """From a friction far above, by loads that leave little: the first step goes below what bears them."""
     history = {**PULL, "load_tx": 300 * np.sin(np.pi * np.arange(9) / 4)}
