@@ -11,12 +11,14 @@ The pass back is the library's (src/post/gradient). For optimisers, function() m
     energy = petsam.gradient.function(options, history, "energy", ["friction", "load_tx"])
     scipy.optimize.minimize(energy, [0.3, 1.0], jac=True)
 
-and for_jax() and for_torch() make parts of programs from such functions that these libraries differentiate.
+numbers() is the same without derivatives; for_jax() and for_torch() make parts of programs from such functions that
+these libraries differentiate.
 """
 
 import ctypes
 import warnings
 from collections.abc import Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
@@ -32,6 +34,7 @@ LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
 BULK = tuple(f"bulk{body}_stress_{name}" for body in (1, 2) for name in ("xx", "yy", "xy"))
 WEAR = ("wear_coefficient", "wear_energy")
+NUMBERS = ("energy", "wear_volume", *LOADS, *WAYS)  # that numbers() takes from a run that is not recorded
 USUAL = ("gap", "friction", *LOADS, *WAYS, *BULK, *WEAR)  # parameters of a gradient unless others are given
 OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (1, 2)))  # that function() may change
 IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
@@ -148,37 +151,16 @@ def function(
     ContactError
         By the call, if a step has no solution, as in gross slip, or the number has no derivative.
     """
-    several = isinstance(objective, list)
-    wanted = [(one, None) if isinstance(one, str) else one for one in (objective if several else [objective])]
-    columns = [name for name in history if name in (*LOADS, *WAYS, *BULK)] if isinstance(history, Mapping) else []
-    names = [one for one in parameters if isinstance(one, str)]
-    for name in names:
-        if names.count(name) > 1:
-            raise Unusable(f"parameter {name} is listed twice")
-        if name not in (*OPTIONS, *columns):
-            raise Unusable(f"parameter {name}: there is no derivative by it{there_are(name, [*OPTIONS, *columns])}")
-    shaped = gap is not None or len(names) < len(parameters)
-    for name, value in options.items():
-        if shaped and name.startswith("gap_") and (name, value) != ("gap_type", "flat"):
-            raise Unusable(f"{name} = {value}: parts of the gap replace it: use gap_type = flat alone")
-    of = [*(["gap"] if shaped else []), *dict.fromkeys(_derivative(name) for name in names)]
+    model = _Model({"slip_direction": "end", **options}, history, objective, parameters, gap, scales)
+    for name in model.names:
+        if name not in (*OPTIONS, *model.columns):
+            every = [*OPTIONS, *model.columns]
+            raise Unusable(f"parameter {name}: there is no derivative by it{there_are(name, every)}")
+    of = [*(["gap"] if model.shaped else []), *dict.fromkeys(_derivative(name) for name in model.names)]
 
     def evaluate(x: ArrayLike) -> tuple[Any, np.ndarray]:
-        if np.shape(x) != (len(parameters),):
-            raise Unusable(f"x has the shape {np.shape(x)}: give {counted(len(parameters), 'value')}")
-        values = np.asarray(x, dtype=float) * scales
-        given = {one: value for one, value in zip(parameters, values) if isinstance(one, str)}
-        changed = {one: value for one, value in given.items() if one not in columns}
-        with _made({"slip_direction": "end", **options, **changed}) as contact:
-            parts = [
-                None if isinstance(one, str) else _part(contact, one, value) for one, value in zip(parameters, values)
-            ]
-            if shaped:
-                contact.gap = (0.0 if gap is None else np.asarray(gap)) + sum(part[0] for part in parts if part)
-            contact.record_gradient()
-            scaled = {one: np.asarray(history[one]) * given.get(one, 1.0) for one in history} if columns else history
-            contact.run(scaled)
-            found = [contact.gradient(name, of, steps, rtol) for name, steps in wanted]
+        with model.solved(x, record=True) as (contact, _, parts):
+            found = [contact.gradient(name, of, steps, rtol) for name, steps in model.wanted]
         by = [
             [
                 np.sum(each.gap * part[1]) if part else _by_name(each, one, history)
@@ -186,11 +168,111 @@ def function(
             ]
             for each in found
         ]
-        numbers, slopes = np.array([each.value for each in found]), np.reshape(by, (len(found), -1)) * scales
-        return (numbers, slopes) if several else (float(numbers[0]), slopes[0])
+        values, slopes = np.array([each.value for each in found]), np.reshape(by, (len(found), -1)) * scales
+        return (values, slopes) if model.several else (float(values[0]), slopes[0])
 
-    evaluate.shape = (len(wanted),) if several else ()
+    evaluate.shape = (len(model.wanted),) if model.several else ()
     return evaluate
+
+
+def numbers(
+    options: Mapping[str, Any],
+    history: Any,
+    objective: Any,
+    parameters: Sequence[Any],
+    *,
+    gap: Optional[ArrayLike] = None,
+    scales: ArrayLike = 1.0,
+) -> Callable[[ArrayLike], Any]:
+    """A function of parameters that returns the numbers of function() without derivatives: one run for each call.
+
+    Parameters
+    ----------
+    options : mapping
+        The keywords of Contact, to which nothing is added: slip follows the shear at mid step unless they have another.
+    history, gap, scales
+        As function() takes them.
+    objective : str, tuple or list
+        As function() takes it: energy, wear_volume, a load or a displacement.
+    parameters : sequence
+        As function() takes them, and any other option of Contact that is a number. A function of a shape may be real.
+
+    Returns
+    -------
+    callable
+        x -> number; of a list x -> numbers (objectives,).
+
+    Raises
+    ------
+    Error
+        If a run alone has no such number, or parts of the gap meet others of the options; by the call, if x or a part
+        has another shape than it should.
+    ContactError
+        By the call, if a step has no solution, or an option is rejected.
+    """
+    model = _Model(options, history, objective, parameters, gap, scales)
+    for name, _ in model.wanted:
+        if name not in NUMBERS:
+            raise Unusable(f"number {name}: it is none of a run alone{there_are(name, list(NUMBERS))}")
+
+    def evaluate(x: ArrayLike) -> Any:
+        with model.solved(x, record=False) as (_, steps, _):
+            values = np.array([_number(steps, name, part) for name, part in model.wanted])
+        return values if model.several else float(values[0])
+
+    return evaluate
+
+
+class _Model:
+    """The runs of function() and numbers(): what is wanted of them, and a contact with its steps for each x."""
+
+    def __init__(self, options, history, objective, parameters, gap, scales):
+        self.options, self.history, self.parameters, self.gap, self.scales = options, history, parameters, gap, scales
+        self.several = isinstance(objective, list)
+        self.wanted = [
+            (one, None) if isinstance(one, str) else one for one in (objective if self.several else [objective])
+        ]
+        named = isinstance(history, Mapping)
+        self.columns = [name for name in history if name in (*LOADS, *WAYS, *BULK)] if named else []
+        self.names = [one for one in parameters if isinstance(one, str)]
+        for name in self.names:
+            if self.names.count(name) > 1:
+                raise Unusable(f"parameter {name} is listed twice")
+        self.shaped = gap is not None or len(self.names) < len(parameters)
+        for name, value in {**options, **dict.fromkeys(self.names, "a parameter")}.items():
+            if self.shaped and name.startswith("gap_") and (name, value) != ("gap_type", "flat"):
+                raise Unusable(f"{name} = {value}: parts of the gap replace it: use gap_type = flat alone")
+
+    @contextmanager
+    def solved(self, x, record):
+        """The contact of x, its steps, and for each parameter its part of the gap with the derivative, or None."""
+        if np.shape(x) != (len(self.parameters),):
+            raise Unusable(f"x has the shape {np.shape(x)}: give {counted(len(self.parameters), 'value')}")
+        pairs = list(zip(self.parameters, np.asarray(x, dtype=float) * self.scales))
+        given = {one: value for one, value in pairs if isinstance(one, str)}
+        changed = {one: value for one, value in given.items() if one not in self.columns}
+        with _made({**self.options, **changed}) as contact:
+            parts = [None if isinstance(one, str) else _part(contact, one, value, record) for one, value in pairs]
+            if self.shaped:
+                stays = 0.0 if self.gap is None else np.asarray(self.gap)
+                contact.gap = stays + sum(part[0] for part in parts if part)
+            if record:
+                contact.record_gradient()
+            factors = {one: given.get(one, 1.0) for one in self.columns}
+            scaled = self.history
+            if self.columns:
+                scaled = {one: np.asarray(values) * factors.get(one, 1.0) for one, values in self.history.items()}
+            yield contact, contact.run(scaled), parts
+
+
+def _number(steps, name, part):
+    """A number of steps as Contact.gradient() has it."""
+    if name == "energy":
+        return sum(step.dissipated_energy for step in (steps if part is None else steps[part]))
+    chosen = steps[-1:] if part is None else steps[part]
+    if name == "wear_volume":
+        return sum(chosen[-1].numbers.get(f"wear_volume{body}", 0.0) for body in (1, 2))
+    return sum(getattr(step, name) for step in chosen)
 
 
 def for_jax(
@@ -349,14 +431,16 @@ def _made(options):
     return whole(Contact(**options))
 
 
-def _part(contact, shape, value):
-    """A part of the gap, and its derivative by the value."""
+def _part(contact, shape, value, differentiate):
+    """A part of the gap, and its derivative by the value, which is None if it is not wanted."""
     x, y = np.meshgrid(contact.x, contact.y)
     if isinstance(shape, tuple):
         return tuple(_cells(contact, one(x, y, value)) for one in shape)
     if not callable(shape):
         unit = _cells(contact, shape)
         return value * unit, unit
+    if not differentiate:
+        return _cells(contact, shape(x, y, value)), None
     step = IMAGINARY * (abs(value) or 1.0)
     found = _cells(contact, shape(x, y, complex(value, step)))
     if not np.iscomplexobj(found):

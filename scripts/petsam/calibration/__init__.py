@@ -1,4 +1,4 @@
-"""Friction, rig stiffness and coefficients of wear from measured loops; what loops a test needs.
+"""Friction, rig stiffness, coefficients of wear and other parameters from measured loops; what loops a test needs.
 
     shape = petsam.calibration.of_shape("sphere.opts", normal=100)
     loops = petsam.calibration.cycles(petsam.calibration.read("loops.csv"), normal=100)
@@ -11,6 +11,7 @@ push        of_shape(), ball(): the displacement of one push, which serves all c
 loops       fit(): the model of a loop, its parameters, and what the loops do not hold
 series      cycles(), analyse(): cycles of a record, without drift, one by one and together
 planning    plan(): how well which strokes would give the friction
+runs        fit_contact(): parameters of any contact from numbers of its history, by full runs
 scars       family(), fit_scar(), split(): the coefficients of wear from the profile of a scar
 results     what the command prints and writes; wear() from a volume
 """
@@ -20,10 +21,12 @@ from .planning import Plan, plan
 from .push import Push, ball, of_shape
 from .reading import Record, read
 from .results import Wear, wear
+from .runs import ContactFit, fit_contact
 from .scars import Family, Scar, Split, family, fit_scar, split
 from .series import Cycles, Result, analyse, cycles
 
 __all__ = [
-    "Cycles", "Family", "Fit", "Loop", "Plan", "Push", "Record", "Result", "Scar", "Split", "Wear",
-    "analyse", "ball", "cycles", "family", "fit", "fit_scar", "of_shape", "plan", "read", "split", "wear",
+    "ContactFit", "Cycles", "Family", "Fit", "Loop", "Plan", "Push", "Record", "Result", "Scar", "Split", "Wear",
+    "analyse", "ball", "cycles", "family", "fit", "fit_contact", "fit_scar", "of_shape", "plan", "read", "split",
+    "wear",
 ]  # fmt: skip
