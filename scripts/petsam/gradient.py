@@ -1,6 +1,6 @@
 """Derivatives of a number of a load history by all of its parameters, in one pass back over its steps.
 
-    contact = petsam.Contact(..., slip_direction="end")
+    contact = petsam.Contact(...)
     contact.record_gradient()
     contact.run({"time": [0, 1, 2], "load_n": [100, 100, 100], "load_tx": [0, 20, -20]})
     found = contact.gradient("energy")
@@ -37,6 +37,7 @@ WEAR = ("wear_coefficient", "wear_energy")
 NUMBERS = ("energy", "wear_volume", *LOADS, *WAYS)  # that numbers() takes from a run that is not recorded
 USUAL = ("gap", "friction", *LOADS, *WAYS, *BULK, *WEAR)  # parameters of a gradient unless others are given
 OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (1, 2)))  # that function() may change
+SETTLES = 1e-8  # tolerance of the shear by which the direction of slip at mid step is found completely
 IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
 NO_SECOND = "there are no second derivatives of a run"
 
@@ -119,7 +120,8 @@ def function(
     Parameters
     ----------
     options : mapping
-        The keywords of Contact; slip_direction="end" is added.
+        The keywords of Contact; tangential_rtol is 1e-8 unless they have another: from there on the direction of slip
+        at mid step is found completely, whether steps are recorded or not.
     history : path or mapping
         As Contact.run() takes it.
     objective : str, tuple or list
@@ -151,7 +153,7 @@ def function(
     ContactError
         By the call, if a step has no solution, as in gross slip, or the number has no derivative.
     """
-    model = _Model({"slip_direction": "end", **options}, history, objective, parameters, gap, scales)
+    model = _Model(options, history, objective, parameters, gap, scales)
     for name in model.names:
         if name not in (*OPTIONS, *model.columns):
             every = [*OPTIONS, *model.columns]
@@ -189,7 +191,7 @@ def numbers(
     Parameters
     ----------
     options : mapping
-        The keywords of Contact, to which nothing is added: slip follows the shear at mid step unless they have another.
+        As function() takes them.
     history, gap, scales
         As function() takes them.
     objective : str, tuple or list
@@ -227,7 +229,8 @@ class _Model:
     """The runs of function() and numbers(): what is wanted of them, and a contact with its steps for each x."""
 
     def __init__(self, options, history, objective, parameters, gap, scales):
-        self.options, self.history, self.parameters, self.gap, self.scales = options, history, parameters, gap, scales
+        self.options, self.history = {"tangential_rtol": SETTLES, **options}, history
+        self.parameters, self.gap, self.scales = parameters, gap, scales
         self.several = isinstance(objective, list)
         self.wanted = [
             (one, None) if isinstance(one, str) else one for one in (objective if self.several else [objective])

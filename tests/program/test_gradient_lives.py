@@ -76,6 +76,7 @@ def test_wear_simulations_beside_differences(name):
     found = {number: contact.gradient(number, rtol=1e-11) for number in ("wear_volume", "energy")}
     body = 2 if "wear_energy2" in case else 1
     coefficient = case.get("wear_energy2", case.get("wear_coefficient1", 1e-11))
+    assert name == "plane" or not found["energy"].borders
     assert found["wear_volume"].value == pytest.approx(contact.number(f"wear_volume{body}"), rel=1e-9)
     derivatives = {
         number: dict(

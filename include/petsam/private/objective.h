@@ -44,8 +44,8 @@ typedef struct {
 
 /*
   SamObjective - a number with a gradient. `add` adds a step's part of the number and of its derivatives; it is called
-  for all steps from the last to the first. `check` checks a name with what follows an @, if `suffix` allows that,
-  for these bodies and coefficients of wear; NULL: all are right. `end`: frees the data; NULL: there are none. `bytes`: the
+  for all steps from the last to the first. `check` checks a name with what follows an @, if `suffix` allows that, for
+  these bodies and coefficients of wear; NULL: all are right. `end`: frees the data; NULL: there are none. `bytes`: the
   memory that it takes per cell of the whole grid: during the pass; in one step only; and besides that for each step of
   the history. Collective.
 */

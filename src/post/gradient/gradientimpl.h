@@ -49,8 +49,7 @@ typedef struct {
   SamApproach approach;
   PetscInt    entering; /* number of cells that come into contact */
   PetscInt   *entered;  /* their indices, as those of the cells */
-  double     *distance; /* their gaps before the step, m */
-  PetscInt64  least;    /* the cell where the bodies touch first, on the whole grid; of a fresh step only */
+  double     *distance; /* their gaps before the step, m; -1: where the bodies touch first in a fresh step */
 } SamRecord;
 
 /* A part of a jump of a wear simulation: see SamLifePart; `after`: number of steps recorded before it */

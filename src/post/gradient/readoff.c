@@ -61,8 +61,8 @@ static PetscErrorCode SumMotions(const SamBack *b, double sums[SUMS])
 
 /* ---- stretches ---- */
 
-/* Adds the derivatives by the bulk stresses, and gets those through the stretch, which is linear in them. In plane strain
-   yy is nu xx. */
+/* Adds the derivatives by the bulk stresses, and gets those through the stretch, which is linear in them. In plane
+   strain yy is nu xx. */
 static PetscErrorCode ReadBulk(SamBack *b, PetscInt step, const double sums[SUMS], double stretch[SAM_GRADIENT_BULKS])
 {
   const SamProblem    problem = SamContactGetProblem(b->g->contact);

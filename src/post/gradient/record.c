@@ -159,24 +159,29 @@ static PetscErrorCode Pack(SamIncrement *s, const Box *box, SamRecord *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps the gaps of the cells that come into contact, and the cell where the bodies have touched first. */
+#define ALIKE 1e-9 /* gaps that differ by less, relative to the largest, are equal */
+
+/*
+  Keeps the gaps of the cells that come into contact; in a step from no contact those of the cells where the bodies touch
+  first, of which there may be several, become -1.
+*/
 static PetscErrorCode KeepGaps(SamGrid grid, const double p[], const double gap[], SamRecord *r)
 {
-  PetscInt64 least = -1;
-  PetscInt   m     = 0;
+  double   most = 0;
+  PetscInt m    = 0;
 
   PetscFunctionBegin;
   r->entering = 0;
-  for (PetscInt k = 0; k < grid->cells; k++) r->entering += SamIsPressed(p[k]) && gap[k] > 0;
+  for (PetscInt k = 0; k < grid->cells; k++)
+    if (SamIsPressed(p[k])) most = PetscMax(most, gap[k]);
+  PetscCall(SamMax(grid->comm, 1, &most));
+  for (PetscInt k = 0; k < grid->cells; k++) r->entering += SamIsPressed(p[k]) && (r->fresh || gap[k] > 0);
   PetscCall(PetscMalloc2(r->entering, &r->entered, r->entering, &r->distance));
   for (PetscInt k = 0; k < grid->cells; k++) {
-    if (!SamIsPressed(p[k])) continue;
-    if (gap[k] == 0) least = (PetscInt64)grid->row_start * grid->nx + k;
-    if (!(gap[k] > 0)) continue;
+    if (!SamIsPressed(p[k]) || !(r->fresh || gap[k] > 0)) continue;
     r->entered[m]    = k;
-    r->distance[m++] = gap[k];
+    r->distance[m++] = r->fresh && gap[k] <= ALIKE * most ? -1 : gap[k];
   }
-  PetscCallMPI(MPI_Allreduce(&least, &r->least, 1, MPIU_INT64, MPI_MAX, grid->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

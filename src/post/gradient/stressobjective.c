@@ -299,8 +299,8 @@ static PetscErrorCode AddBulk(SamObjectiveStep *at, SamGrid g, const Wanted *w, 
 }
 
 /*
-  Adds the derivative by Poisson's ratio: the stresses by tractions are linear in it, and so is that along a row of cells
-  in plane strain by a bulk stress. `by`: those by the stresses.
+  Adds the derivative by Poisson's ratio: the stresses by tractions are linear in it, and so is that along a row of
+  cells in plane strain by a bulk stress. `by`: those by the stresses.
 */
 static PetscErrorCode AddPoisson(SamObjectiveStep *at, const Wanted *w, Map *m, const double by[])
 {

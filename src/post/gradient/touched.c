@@ -19,6 +19,8 @@
 #include <petsam/private/problem.h>
 #include <math.h>
 
+#define LEVEL 1e-9 /* tilt of a cell below this part of the approach is rounding */
+
 /* ---- the motion of a cell ---- */
 
 /* Sums over the cells: cotangents of the numbers of the approach, and of a gap that is moved as a rigid body */
@@ -32,8 +34,10 @@ typedef struct {
 /* Adds the part of a cell to the sums; returns the cotangents of its gap and of its coefficient of friction. */
 static void AddCell(const SamApproach *a, const Cell *c, double sums[SUMS], double *by_gap, double *by_friction)
 {
-  const double    at[2] = {c->x - a->center[0], c->y - a->center[1]};
-  const double    tilt = a->tilt[0] * at[0] + a->tilt[1] * at[1], all = a->uniform + 2 * PetscMax(0, tilt);
+  const double at[2] = {c->x - a->center[0], c->y - a->center[1]};
+  const double tilt = a->tilt[0] * at[0] + a->tilt[1] * at[1], all = a->uniform + 2 * PetscMax(0, tilt);
+  /* 2 max(0, tilt) has a kink without tilt, as in all symmetric problems: the mean of both sides */
+  const double    least = LEVEL * a->uniform, by_tilt = tilt > least ? 2 : tilt < -least ? 0 : 1;
   const SamStrain e        = a->strain;
   const double    moved[2] = {e.xx * at[0] + e.xy * at[1], e.xy * at[0] + e.yy * at[1]};
   double          tau[2], size, part, by[2], along, by_moved[2], by_all = 0;
@@ -57,7 +61,7 @@ static void AddCell(const SamApproach *a, const Cell *c, double sums[SUMS], doub
     sums[UNIFORM] += by[k] * (a->ratio[k] - tau[k]) / all;
     sums[KAPPA + k] += by[k] * 2 * moved[k] / (a->kappa[k] * a->kappa[k] * all);
     by_moved[k] = -2 * by[k] / (a->kappa[k] * all);
-    if (tilt > 0) by_all -= 2 * by[k] * tau[k] / all;
+    by_all -= by_tilt * by[k] * tau[k] / all;
   }
   sums[STRAIN] += by_moved[0] * at[0];
   sums[STRAIN + 1] += by_moved[1] * at[1];
@@ -164,16 +168,29 @@ static void FindRigid(const SamRecord *r, const double sums[SUMS], SamEntered *e
   e->rigid[of][SAM_COMPONENT_MX] += sums[MOVED + 2];
 }
 
-/* Takes the gap of the cell where the bodies touch first, in a step from no contact, off all others. */
-static void AddLeast(SamBack *b, const SamRecord *r, const double sums[SUMS], SamEntered *e)
+/* Takes the gap where the bodies touch first, in a step from no contact, off all others: the mean of the cells where they
+   do. */
+static PetscErrorCode AddLeast(SamBack *b, const SamRecord *r, const double sums[SUMS], SamEntered *e)
 {
-  const SamGrid    g = b->grid;
-  const PetscInt64 k = SamBackPlace(b, r->least), own = k - (PetscInt64)g->row_start * g->nx;
+  const SamGrid g = b->grid;
+  double       *gaps, all[3] = {0}; /* number of these cells, and sums of x and y */
 
-  if (k < 0) return;
-  e->rigid[NOW][SAM_COMPONENT_MY] += sums[MOVED] * (double)SamGridX(g, (PetscInt)(k % g->nx));
-  e->rigid[NOW][SAM_COMPONENT_MX] -= sums[MOVED] * (double)SamGridY(g, (PetscInt)(k / g->nx));
-  if (own >= 0 && own < g->cells) e->by_gap[own] -= sums[MOVED];
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(g->cells, &gaps));
+  PetscCall(TakeGaps(b, r, gaps));
+  for (PetscInt k = 0; k < g->cells; k++) {
+    if (gaps[k] >= 0) continue;
+    all[0] += 1;
+    all[1] += (double)SamGridX(g, k % g->nx);
+    all[2] += (double)SamGridY(g, g->row_start + k / g->nx);
+  }
+  PetscCall(SamSum(g->comm, 3, all));
+  for (PetscInt k = 0; k < g->cells; k++)
+    if (gaps[k] < 0) e->by_gap[k] -= sums[MOVED] / all[0];
+  e->rigid[NOW][SAM_COMPONENT_MY] += sums[MOVED] * all[1] / all[0];
+  e->rigid[NOW][SAM_COMPONENT_MX] -= sums[MOVED] * all[2] / all[0];
+  PetscCall(PetscFree(gaps));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamBackEnter(SamBack *b, PetscInt step, const double lambda[])
@@ -200,7 +217,7 @@ PetscErrorCode SamBackEnter(SamBack *b, PetscInt step, const double lambda[])
   }
   FindLoads(r, sums, plane, constant, e);
   FindRigid(r, sums, e);
-  if (r->fresh) AddLeast(b, r, sums, e);
+  if (r->fresh) PetscCall(AddLeast(b, r, sums, e));
   e->by_modulus = plane && !r->fresh ? sums[UNIFORM] * a->uniform : 0;
   for (int k = 0; k < 2; k++) e->kappa[k] = sums[KAPPA + k];
   for (int k = 0; k < 3; k++) e->strain[k] = sums[STRAIN + k];
