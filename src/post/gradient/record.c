@@ -162,8 +162,8 @@ static PetscErrorCode Pack(SamIncrement *s, const Box *box, SamRecord *r)
 #define ALIKE 1e-9 /* gaps that differ by less, relative to the largest, are equal */
 
 /*
-  Keeps the gaps of the cells that come into contact; in a step from no contact those of the cells where the bodies touch
-  first, of which there may be several, become -1.
+  Keeps the gaps of the cells that come into contact; in a step from no contact those of the cells where the bodies
+  touch first, of which there may be several, become -1.
 */
 static PetscErrorCode KeepGaps(SamGrid grid, const double p[], const double gap[], SamRecord *r)
 {
