@@ -168,8 +168,8 @@ static void FindRigid(const SamRecord *r, const double sums[SUMS], SamEntered *e
   e->rigid[of][SAM_COMPONENT_MX] += sums[MOVED + 2];
 }
 
-/* Takes the gap where the bodies touch first, in a step from no contact, off all others: the mean of the cells where they
-   do. */
+/* Takes the gap where the bodies touch first, in a step from no contact, off all others: the mean of the cells where
+   they do. */
 static PetscErrorCode AddLeast(SamBack *b, const SamRecord *r, const double sums[SUMS], SamEntered *e)
 {
   const SamGrid g = b->grid;
