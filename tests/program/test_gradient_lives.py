@@ -15,6 +15,7 @@ CASES = {
     "energy": dict(wear_coefficient1=None, wear_energy2=3e-11),
     "mid step": dict(slip_direction="mid"),
     "few cycles": dict(wear_jump=2.5),
+    "displacements": dict(approach=7e-6),
     "plane": dict(elasticity="plane", grid_n=(40, 1), wear_coefficient1=2e-13),
 }
 
@@ -34,6 +35,8 @@ def history_of(case, change=None):
     history["load_my" if plane else "load_ty"] = (0.5 if plane else 40) * np.cos(TURN)
     if plane:
         del history["load_my"]
+    if "approach" in case:
+        history["disp_z"] = case["approach"] * history.pop("load_n") / 1000
     for name, (row, part) in (change or {}).items():
         size = part * np.abs(history[name]).max()
         history[name] = history[name] + size * ((row == ROW) | ((row == 0) & (ROW == 8)))
@@ -49,6 +52,7 @@ def live(case, part=0.0, friction=0.3, wear=1.0, loads=None, cycles=20):
     for name in ("wear_coefficient1", "wear_energy2"):
         if every.get(name):
             every[name] = every[name] * wear
+    every = {name: value for name, value in every.items() if name != "approach"}
     contact = petsam.Contact(**{**BODIES, **TIGHT, "allow_edge_contact": True, **every, "friction": friction})
     x, y = np.meshgrid(contact.x, contact.y)
     contact.gap = gap_of(x, y) + part * wave(x, y)
@@ -67,9 +71,10 @@ def test_wear_simulations_beside_differences(name):
     """The worn volume and the work of the last cycle: jumps, their halves, and cells open in a part of the cycle."""
     case = CASES[name]
     contact, x, y = live(case)
+    normal = "disp_z" if "approach" in case else "load_n"
     changes = dict(
         gap=(lambda size: dict(part=size), 1e-3), friction=(lambda size: dict(friction=0.3 + size), 1e-6),
-        wear=(lambda size: dict(wear=1 + size), 1e-6), load_n=(lambda size: dict(loads=dict(load_n=(2, size))), 1e-6),
+        wear=(lambda size: dict(wear=1 + size), 1e-6), normal=(lambda size: dict(loads={normal: (2, size)}), 1e-6),
         load_tx=(lambda size: dict(loads=dict(load_tx=(0, size))), 1e-6),
     )  # fmt: skip
     history = history_of(case)
@@ -82,7 +87,7 @@ def test_wear_simulations_beside_differences(name):
         number: dict(
             gap=np.sum(one.gap * wave(x, y)), friction=one.friction.sum(),
             wear=one["wear_energy" if body == 2 else "wear_coefficient"] * coefficient,
-            load_n=one["load_n"][2] * np.abs(history["load_n"]).max(),
+            normal=one[normal][2] * np.abs(history[normal]).max(),
             load_tx=(one["load_tx"][0] + one["load_tx"][8]) * np.abs(history["load_tx"]).max(),
         )
         for number, one in found.items()
@@ -132,11 +137,13 @@ def test_a_run_writes_what_a_contact_in_process_finds(petsam, tmp_path):
     "change, words",
     [
         (dict(wear_jump=None), "give -wear_jump"),
+        (dict(friction=None, wear_friction="mu.csv"), "friction that changes"),
         (dict(gradient_of="body1_young"), "leave the moduli out"),
         (dict(gradient_steps="1,5"), "the history has 4 steps"),
     ],
 )
 def test_refused_simulations(petsam, tmp_path, change, words):
+    (tmp_path / "mu.csv").write_text("cycle,friction\n0,0.3\n20,0.4\n")
     (tmp_path / "cycle.csv").write_text("time,load_n,load_tx\n0,900,0\n1,900,90\n2,900,0\n3,900,-90\n4,900,0\n")
     case = dict(
         BODIES, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=24, grid_size=SIZE, friction=0.3,
@@ -145,3 +152,17 @@ def test_refused_simulations(petsam, tmp_path, change, words):
     )  # fmt: skip
     done = petsam({**case, **change}, check=2)
     assert words in done.stderr and "used  " not in done.stdout
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_record_has_one_simulation():
+    """Neither steps before it nor after it, but another one after a reset."""
+    contact = live(CASES["archard"], cycles=10)[0]
+    first = contact.gradient("wear_volume", ["gap"])
+    with pytest.raises(petsam.Error, match="further steps begin after a reset"):
+        contact.run({name: values[:2] for name, values in history_of({}).items()})
+    contact.reset()
+    contact.live(10, history_of({}))
+    assert np.array_equal(contact.gradient("wear_volume", ["gap"]).gap, first.gap)
+    with pytest.raises(petsam.Error, match="steps have been recorded before it"):
+        contact.live(10, history_of({}))

@@ -163,6 +163,8 @@ PetscErrorCode SamGradientBeginLife(SamGradient g, PetscInt rows, PetscInt cycle
              "the gradient of a wear simulation whose surfaces slide is not computed");
   PetscCheck(g->rate[0] == 0 || g->rate[1] == 0, comm, SAM_ERR_USER,
              "the gradient of a wear simulation: expected one law of wear");
+  PetscCheck(g->count == 0, comm, PETSC_ERR_ORDER,
+             "the gradient of a wear simulation: steps have been recorded before it: begin after a reset");
   g->rows  = rows;
   g->cycle = cycle;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -117,8 +117,8 @@ typedef struct {
 */
 typedef struct {
   double  *by_worn, *by_start, *by_whole, *by_wear, *by_mean, *by_shift, *by_slip, *touches, *load;
-  double   by_load[3];
-  PetscInt left; /* parts of jumps that have not been passed yet */
+  double   by_load[3], by_rigid[3]; /* of the normal loads and displacements */
+  PetscInt left;                    /* parts of jumps that have not been passed yet */
 } SamLifeBack;
 
 /*

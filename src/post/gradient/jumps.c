@@ -82,6 +82,32 @@ static PetscErrorCode AddWear(SamBack *b, double factor, const double a[], const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds the derivatives by the mean displacements that are given. */
+static PetscErrorCode AddRigid(SamBack *b, const double l[], const PetscBool force[3])
+{
+  const SamGrid g        = b->grid;
+  SamTotal      total[3] = {{0}};
+  double        sums[3];
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < g->rows; j++) {
+    const double y      = (double)SamGridY(g, g->row_start + j);
+    double       row[3] = {0};
+
+    for (PetscInt i = 0; i < g->nx; i++) {
+      const double one = l[j * g->nx + i];
+
+      row[0] += one;
+      row[1] -= y * one;
+      row[2] += (double)SamGridX(g, i) * one;
+    }
+    SamAddAll(3, total, row);
+  }
+  PetscCall(SamSumTotals(g->comm, 3, total, sums));
+  for (int c = 0; c < 3; c++) b->life.by_rigid[c] += force[c] ? 0 : sums[c];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Goes back over a part: by the cotangent `bar` of the wear load after it, replaces this by that of the load before it,
   and adds to those of e and the shift.
@@ -109,6 +135,7 @@ static PetscErrorCode GoBack(SamBack *b, const SamJump *jump, double bar[])
     life->by_slip[k] += m * f.field[SAM_JUMP_PRESSURE][k] * bar[k];
   }
   PetscCall(AddWear(b, -1, l, f.field[SAM_JUMP_TO]));
+  PetscCall(AddRigid(b, l, jump->force));
   for (int c = 0; c < 3; c++) life->by_load[c] += forces[c];
   PetscCall(PetscFree3(l, diagonal, right));
   PetscCall(PetscFree(f.scratch));
@@ -144,6 +171,7 @@ static PetscErrorCode Clear(SamBack *b)
   PetscCall(PetscArrayzero(life->by_slip, cells));
   PetscCall(PetscArrayzero(life->by_shift, cells));
   PetscCall(PetscArrayzero(life->by_load, 3));
+  PetscCall(PetscArrayzero(life->by_rigid, 3));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -363,7 +391,8 @@ PetscErrorCode SamBackAddCycle(SamBack *b, PetscInt step)
   PetscCall(AddWorn(b));
   PetscCall(AddMeans(b, part));
   for (int c = 0; c < 3; c++) {
-    if (r->force[normal[c]]) b->by_load[normal[c]] += part * b->life.by_load[c];
+    b->by_load[normal[c]] += part * b->life.by_load[c];
+    b->at.by_rigid[normal[c]] += part * b->life.by_rigid[c];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -253,7 +253,7 @@ static void CopyControl(SamGradient g, const SamSolution *s, SamRecord *r)
 }
 
 /* Checks that the tried step follows the recorded ones, and its rule of slip. */
-static PetscErrorCode CheckPlace(SamGradient g, PetscInt place, const SamSolution *s)
+static PetscErrorCode CheckPlace(SamGradient g, PetscInt place, PetscInt row, const SamSolution *s)
 {
   const MPI_Comm comm = SamContactGetGrid(g->contact)->comm;
 
@@ -262,6 +262,8 @@ static PetscErrorCode CheckPlace(SamGradient g, PetscInt place, const SamSolutio
              "the gradient: no step is tried: record each step before it is committed");
   PetscCheck(place <= g->count, comm, PETSC_ERR_ORDER,
              "the gradient: the contact has steps that were not recorded: begin before its first step");
+  PetscCheck(row >= 0 || g->cycle == 0 || place < g->rows - g->cycle, comm, PETSC_ERR_ORDER,
+             "the gradient: a wear simulation has been recorded: further steps begin after a reset");
   PetscCheck(s->rule < SAM_RULE_TOUCHING, comm, SAM_ERR_USER,
              "the gradient: the contact of dissimilar bodies grows, and slip that begins when cells touch has no "
              "derivative: give -slip_direction end");
@@ -280,7 +282,7 @@ PetscErrorCode SamGradientRecord(SamGradient g, PetscInt row, SamLifePlace where
   PetscFunctionBegin;
   place = SamContactGetSteps(g->contact);
   PetscCall(SamContactGetSolution(g->contact, &now));
-  PetscCall(CheckPlace(g, place, now));
+  PetscCall(CheckPlace(g, place, row, now));
   PetscCall(KeepFields(g, now));
   PetscCall(SamIncrementCreate(SamContactGetProblem(g->contact), SamContactBefore(g->contact), now, &increment));
   PetscCall(FindBox(SamContactGetGrid(g->contact), now, g->cycle > 0 ? PETSC_TRUE : PETSC_FALSE, &box));

@@ -107,6 +107,23 @@ static PetscInt CountSteps(SamSimulation s)
   return s->plan.cycles > 0 ? s->needs.steps - SamLifeOptionsGetStart(&s->plan, s->history) : s->needs.steps;
 }
 
+/* Rejects friction that changes, before any step. */
+static PetscErrorCode CheckFriction(SamSimulation s)
+{
+  const SamCondition *scale   = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
+  PetscBool           changes = s->plan.points > 0 ? PETSC_TRUE : PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 1; scale && k < s->needs.steps && !changes; k++) {
+    const SamControl first = SamHistoryGetStep(s->history, 0), one = SamHistoryGetStep(s->history, k);
+
+    if (SamControlGet(&first, scale) != SamControlGet(&one, scale)) changes = PETSC_TRUE;
+  }
+  PetscCheck(!changes, s->comm, SAM_ERR_USER,
+             "-gradient with friction that changes in the history has no derivative: keep it the same");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSimulationBeginCycles(SamSimulation s)
 {
   PetscFunctionBegin;
@@ -127,6 +144,7 @@ PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
              "-gradient_steps %" PetscInt_FMT ",%" PetscInt_FMT ": the history has %" PetscInt_FMT
              " steps: give the first and the last one, from 1 on",
              first, last, count);
+  PetscCall(CheckFriction(s));
   PetscCall(SamSimulationRecordGradient(s, PETSC_TRUE));
   PetscCall(SamSimulationBeginCycles(s));
   PetscCall(ForEach(s, Check));
