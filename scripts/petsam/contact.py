@@ -1074,8 +1074,10 @@ class Contact:
         cells have no derivative.
         """
         first = last = -1
-        if of is not None and (isinstance(of, str) or not of):
-            raise ContactError(2, f"gradient: of = {of!r}: expected a list of parameters")
+        if not isinstance(name, str):
+            raise ContactError(2, f"gradient: {name!r}: expected the name of a number, as energy")
+        if of is not None and (isinstance(of, str) or not of or not all(isinstance(one, str) for one in of)):
+            raise ContactError(2, f"gradient: of = {of!r}: expected a list of names of parameters")
         if steps is not None:
             ends = (
                 (steps.start or 0, steps.stop) if isinstance(steps, slice) and steps.step in (None, 1) else (-1, None)

@@ -772,8 +772,11 @@ def test_parameters_of_the_shape(shape):
         run(gap_of).gradient("energy", names)
     with pytest.raises(petsam.Error, match="was not computed"):
         _ = found["gap"]
-    with pytest.raises(petsam.Error, match="expected a list"):
-        contact.gradient("energy", "gap")
+    for name, of, words in (
+        ("energy", "gap", "expected a list"), ("energy", [1], "expected a list"), (None, None, "name of a number"),
+    ):  # fmt: skip
+        with pytest.raises(petsam.Error, match=words):
+            contact.gradient(name, of)
 
 
 # ---- of the program
