@@ -50,8 +50,8 @@ typedef struct {
   the history. Collective.
 */
 typedef struct {
-  const char *name, *unit;
-  PetscBool   all; /* true: of all steps unless others are given; false: of the last one */
+  const char *name, *unit, *unit_of_row; /* on one row of cells; NULL: as SamUnitOn() has it */
+  PetscBool   all;                       /* true: of all steps unless others are given; false: of the last one */
   PetscErrorCode (*add)(SamObjectiveStep *at);
   PetscErrorCode (*check)(SamElasticity elasticity, const PetscReal rate[], const char name[]);
   PetscBool suffix;

@@ -118,7 +118,7 @@ def choose(name, arrays, unit, choice=None):
     factor, prefixed = scale(unit, max(abs(low), abs(high)))
     low, high = factor * low, factor * high
     if not high > low:
-        low, high = (low, low + 1.0) if np.isfinite(low) else (0.0, 1.0)
+        low, high = (-1.0, 1.0) if signed else (low, low + 1.0) if np.isfinite(low) else (0.0, 1.0)
     norm = Normalize(low, high)
     if choice.log:
         norm = SymLogNorm(factor * floor, vmin=low, vmax=high, base=10) if signed else LogNorm(low, high)

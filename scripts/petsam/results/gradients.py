@@ -12,7 +12,7 @@ from ..core.files import decoded
 MODULI = ("body1_young", "body1_poisson", "body2_young", "body2_poisson")
 
 
-@dataclass
+@dataclass(repr=False)
 class Gradient:
     """The derivatives of a number; see Contact.gradient().
 
@@ -33,7 +33,7 @@ class Gradient:
     borders : int
         Cells on the border of their set in some step; the gradient is one-sided if there are any.
     residual : float
-        Largest relative residual of the systems.
+        Largest relative residual of the systems, which are solved to rtol.
     unit : str
         Of the number, if it is of a file.
     """
@@ -46,6 +46,21 @@ class Gradient:
     borders: int
     residual: float
     unit: str = ""
+
+    def keys(self) -> list[str]:
+        """The names of the parameters by which there are derivatives."""
+        fields = {"gap": self.gap, "friction": self.friction}
+        return [*(name for name, field in fields.items() if field is not None), *self.numbers]
+
+    def __iter__(self):
+        return iter(self.keys())
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.keys()
+
+    def __repr__(self):
+        unit = f" {self.unit}" if self.unit else ""
+        return f"Gradient({self.name} {self.value:.6g}{unit}, by {', '.join(self.keys())})"
 
     @property
     def has_fields(self) -> bool:

@@ -537,8 +537,8 @@ PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscI
   PetscCall(SamObjectiveFind(comm, name, &objective));
   PetscCheck(g->count > 0, comm, SAM_ERR_USER, "the gradient of %s: no step has been recorded", name);
   begin      = g->cycle > 0 ? g->count - g->cycle : 0;
-  b.at.first = steps[0] < 0 ? objective->all ? begin : g->count - 1 : begin + steps[0];
   b.at.last  = steps[1] < 0 ? g->count - 1 : begin + steps[1];
+  b.at.first = steps[0] < 0 ? objective->all ? begin : b.at.last : begin + steps[0];
   PetscCheck(b.at.first <= b.at.last && b.at.last < g->count, comm, SAM_ERR_USER,
              "the gradient of %s: steps %" PetscInt_FMT " to %" PetscInt_FMT
              ": expected steps from 0 to %" PetscInt_FMT,
@@ -551,7 +551,10 @@ PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscI
   d->count = g->rows > 0 ? g->rows : g->count;
   PetscCall(PetscCalloc3(d->count, &d->load, d->count, &d->rigid, d->count, &d->bulk));
   (void)snprintf(d->name, sizeof(d->name), "%s", name);
-  (void)snprintf(d->unit, sizeof(d->unit), "%s", SamUnitOn(SamContactGetGrid(g->contact), objective->unit));
+  (void)snprintf(d->unit, sizeof(d->unit), "%s",
+                 objective->unit_of_row && SamGridIsRow(SamContactGetGrid(g->contact))
+                   ? objective->unit_of_row
+                   : SamUnitOn(SamContactGetGrid(g->contact), objective->unit));
   (void)snprintf(d->of, sizeof(d->of), "%s", of);
   PetscCall(Run(&b, objective));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -663,21 +666,23 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
   PetscInt              n = 1;
 
   PetscFunctionBegin;
-  shares[0].name = "friction";
-  PetscCall(ShareOfFriction(g, &shares[0].share));
+  shares[0] = (Share){"friction", 0};
+  if (SamChoiceHas(d->of, "friction")) PetscCall(ShareOfFriction(g, &shares[0].share));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     shares[n]     = (Share){SamComponentNames[c].load, 0};
     shares[n + 1] = (Share){SamComponentNames[c].rigid, 0};
     for (PetscInt k = 0; k < d->count; k++) {
       const SamRecord *r = SamGradientOfRow(g, k);
 
+      if (!SamChoiceHas(d->of, shares[r->force[c] ? n : n + 1].name)) continue;
       shares[r->force[c] ? n : n + 1].share += r->force[c] ? r->load[c] * d->load[k][c] : r->rigid[c] * d->rigid[k][c];
     }
     n += 2;
   }
   for (PetscInt b = 0; b < SAM_GRADIENT_BULKS; b++, n++) {
     shares[n] = (Share){SamBulkName(b), 0};
-    for (PetscInt k = 0; k < d->count; k++) shares[n].share += SamGradientOfRow(g, k)->bulk[b] * d->bulk[k][b];
+    for (PetscInt k = 0; k < d->count && SamChoiceHas(d->of, shares[n].name); k++)
+      shares[n].share += SamGradientOfRow(g, k)->bulk[b] * d->bulk[k][b];
   }
   for (PetscInt k = 0; (name = SamGradientNumber(g, k)); k++) {
     if (!SamChoiceHas(d->of, name)) continue;
@@ -698,17 +703,19 @@ PetscErrorCode SamGradientDescribe(SamGradient g, char text[], size_t size)
   PetscFunctionBegin;
   PetscCall(CheckFound(g));
   PetscCall(FindShares(g, shares, &count));
-  used = (size_t)snprintf(text, size, "%s %.6g %s; by 1 %% more", d->name, (double)d->value, d->unit);
+  used = (size_t)snprintf(text, size, "%s %.6g%s%s", d->name, (double)d->value, strcmp(d->unit, "1") ? " " : "",
+                          strcmp(d->unit, "1") ? d->unit : "");
   for (PetscInt told = 0; told < TOLD; told++) {
     PetscInt best = 0;
 
     for (PetscInt k = 1; k < count; k++) /* of equal ones the first, whatever their last digits are */
       if (fabs(shares[k].share) > 1.001 * fabs(shares[best].share)) best = k;
     if (!(fabs(shares[best].share) > 1e-6 * fabs((double)d->value)) || used >= size) break;
-    used += (size_t)snprintf(text + used, size - used, "%s %s %+.3g %%", told ? "," : "", shares[best].name,
-                             shares[best].share / (double)d->value);
+    used += (size_t)snprintf(text + used, size - used, "%s %s %+.3g %%", told ? "," : "; by 1 % more",
+                             shares[best].name, shares[best].share / (double)d->value);
     shares[best].share = 0;
   }
+  if (!strstr(text, "; by") && used < size) (void)snprintf(text + used, size - used, "; no parameter has an effect");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -271,10 +271,11 @@ PetscErrorCode SamObjectiveRegister(const SamObjective *objective)
 
 static PetscErrorCode RegisterAll(void)
 {
-  const SamObjective own[] = {{.name = "energy", .unit = "J", .all = PETSC_TRUE, .add = AddEnergy},
-                              {.name = "wear_volume", .unit = "m3", .add = AddVolume, .check = CheckVolume},
-                              {.name = "pressure_norm", .unit = "Pa", .add = AddNorm}};
-  SamObjective       one;
+  const SamObjective own[] = {
+    {.name = "energy", .unit = "J", .all = PETSC_TRUE, .add = AddEnergy},
+    {.name = "wear_volume", .unit = "m3", .add = AddVolume, .check = CheckVolume},
+    {.name = "pressure_norm", .unit = "Pa m^(1/4)", .unit_of_row = "Pa m^(1/8)", .add = AddNorm}};
+  SamObjective one;
 
   PetscFunctionBegin;
   has_own = PETSC_TRUE;

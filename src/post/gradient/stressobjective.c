@@ -236,7 +236,8 @@ static PetscErrorCode FindNorm(SamObjectiveStep *at, SamGrid g, double value[])
   PetscFunctionBegin;
   for (PetscInt k = 0; k < g->cells; k++) most = PetscMax(most, value[k]);
   PetscCall(SamMax(g->comm, 1, &most));
-  PetscCheck(most > 0, g->comm, SAM_ERR_USER, "the gradient of %s: it is nowhere above 0", at->name);
+  PetscCheck(most > 0, g->comm, SAM_ERR_USER,
+             "the gradient of %s: it is nowhere above 0: take another depth, or steps with tension", at->name);
   for (PetscInt j = 0; j < g->rows; j++) {
     double row = 0;
 

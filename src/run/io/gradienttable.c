@@ -70,7 +70,8 @@ static PetscErrorCode WriteFields(SamOutput o, hid_t group, SamGradient g)
   if (SamGradientHas(g, "gap")) PetscCall(WriteField(o, group, g, "gap", unit));
   if (SamGradientHas(g, "friction")) PetscCall(WriteField(o, group, g, "friction", of));
   for (PetscInt k = 0; (name = SamGradientOfSteps(k, &column)); k++) {
-    (void)snprintf(unit, sizeof(unit), "%s/(%s)", of, SamUnitOn(o->grid, column));
+    column = SamUnitOn(o->grid, column);
+    (void)snprintf(unit, sizeof(unit), strpbrk(column, " /") ? "%s/(%s)" : "%s/%s", of, column);
     if (SamGradientHas(g, name)) PetscCall(WriteColumn(o, group, g, name, unit));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
