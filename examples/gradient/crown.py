@@ -128,4 +128,6 @@ def draw(found, name):
 
 
 if __name__ == "__main__":
+    if any(word.startswith("-") for word in sys.argv[1:]):
+        sys.exit(__doc__.strip())
     main()

@@ -96,4 +96,6 @@ def draw(first, parabola, best, heights, name):
 UNITS, CROWN = shapes()
 
 if __name__ == "__main__":
+    if any(word.startswith("-") for word in sys.argv[1:]):
+        sys.exit(__doc__.strip())
     main()

@@ -252,7 +252,10 @@ def test_numbers_of_a_run_are_those_of_its_passes_back():
     (dict(bounds={"frictio": (0, 1)}), "is friction meant"),
     (dict(parameters={"rig_compliance": 1e-8}), "needs a measured disp_x or disp_y, and its load"),
     (dict(parameters={"disp_z_offset": 1e-8}), "disp_z is not measured"),
-    (dict(parameters={"load_tx_offset": 0.0}), "starts from 0: give what is known of it"),
+    (dict(parameters={"load_tx_offset": 0.0}), "starts from 0: give known="),
+    (dict(parameters={}), "there are no parameters"),
+    (dict(parameters={"friction": "0.5"}), "a number that it may have"),
+    (dict(parameters={"friction": -1.0}), "a number that it may have"),
     (dict(measured={"energy": (1e-6, 1e-7)}, parameters=TRUE), "1 number for 3 parameters"),
     (dict(parameters={"frictio": 0.3}), "friction"),
 ])  # fmt: skip

@@ -83,3 +83,11 @@ def test_plane_problems_have_curves(draw, plane, path, tmp_path):
 def test_a_file_without_gradients_is_named(draw, solve):
     code, (error,) = draw("--gradient", solve(ball(n=24), dict(load_tx=20.0)).path)
     assert code == 3 and "has no gradient by gap and friction" in error
+
+
+def test_a_derivative_that_is_0_everywhere_has_the_middle_colour(solve):
+    """That of the norm of the pressure by friction, of similar bodies."""
+    results = solve(dict(ball(n=24, half_width=2.5), load_tx=30.0, gradient="pressure_norm"), WANTED)
+    figure = gradients.gradient([library.open(results.path)])
+    image = [image for panel in figure.axes for image in panel.images][1]
+    assert not np.any(image.get_array()) and image.norm.vmin == -image.norm.vmax

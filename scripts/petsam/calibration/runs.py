@@ -15,6 +15,7 @@ some um beforehand.
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import Any, Optional
 
 import numpy as np
@@ -163,11 +164,18 @@ class _Problem:
         for name in known:
             if name not in starts:
                 raise Unusable(f"known {name}: it is no parameter{there_are(name, self.names)}")
+        if not self.names:
+            raise Unusable("there are no parameters: give those to be found, with the values that they start from")
+        for name, start in starts.items():
+            if not isinstance(start, Real) or (start < 0.0 and name.startswith(POSITIVE)):
+                raise Unusable(f"parameter {name} starts from {start!r}: give a number that it may have")
         self.start = np.array([float(starts[name]) for name in self.names])
         self.scales = np.array([max(abs(starts[name]), known.get(name, (0.0, 0.0))[1]) for name in self.names])
         if not np.all(self.scales > 0.0):
             name = self.names[int(np.argmin(self.scales))]
-            raise Unusable(f"parameter {name} starts from 0: give what is known of it, a value and its deviation")
+            raise Unusable(
+                f'parameter {name} starts from 0: give known={{"{name}": (value, deviation)}}, or another start'
+            )
         self.beside = [name for name in self.names if name == RIG or name.endswith(OFFSET)]
         for name in self.beside:
             self._check(name)
@@ -349,8 +357,8 @@ def fit_contact(
     as many numbers as parameters it is that of passes back, one for each number, if all parameters have a derivative
     and the steps have one, too: where the contact of dissimilar bodies grows, with slip_direction="end" only.
 
-    Load steps are part of the model: of a loop with both directions out of phase in 12 steps the friction was 0.4 % off,
-    with slip_direction="end" 8 %; with twice as many steps 0.8 and 4 %. Fit again with more `steps`.
+    Load steps are part of the model: of a loop with both directions out of phase in 12 steps the friction was 0.4 %
+    off, with slip_direction="end" 8 %; with twice as many steps 0.8 and 4 %. Fit again with more `steps`.
 
     Where the residuals are larger than the deviations (a misfit above 1.2), standard deviations grow by the misfit.
     """

@@ -21,7 +21,8 @@ static PetscErrorCode GetRecorded(petsam_contact *c, SamGradient *g)
 {
   PetscFunctionBegin;
   *g = SamSimulationGetGradient(c->simulation);
-  PetscCheck(*g, c->comm, PETSC_ERR_ORDER, "the gradient: no steps are recorded: begin with petsam_gradient_record(), record_gradient() in Python");
+  PetscCheck(*g, c->comm, PETSC_ERR_ORDER,
+             "the gradient: no steps are recorded: begin with petsam_gradient_record(), record_gradient() in Python");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
