@@ -1076,7 +1076,7 @@ class Contact:
         first = last = -1
         if not isinstance(name, str):
             raise ContactError(2, f"gradient: {name!r}: expected the name of a number, as energy")
-        if of is not None and (isinstance(of, str) or not of or not all(isinstance(one, str) for one in of)):
+        if of is not None and (isinstance(of, str) or not len(of) or not all(isinstance(one, str) for one in of)):
             raise ContactError(2, f"gradient: of = {of!r}: expected a list of names of parameters")
         if steps is not None:
             ends = (

@@ -238,6 +238,8 @@ class _Model:
         named = isinstance(history, Mapping)
         self.columns = [name for name in history if name in (*LOADS, *WAYS, *BULK)] if named else []
         self.names = [one for one in parameters if isinstance(one, str)]
+        if not len(parameters) or not self.wanted:
+            raise Unusable("there are no parameters, or no numbers: give some of both")
         for name in self.names:
             if self.names.count(name) > 1:
                 raise Unusable(f"parameter {name} is listed twice")

@@ -656,6 +656,28 @@ def test_a_step_without_contact():
 
 
 @pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("cells", [2, 4])
+def test_a_contact_of_few_cells(cells):
+    """Loads alone determine their pressure, so that nothing is left to be solved but rounding."""
+    shape = dict(gap_type="ellipsoid", gap_radius_x=0.09, gap_radius_y="inf", elasticity="plane", grid_n=(8, 1))
+    contact = petsam.Contact(
+        **{**BODIES, **shape, "grid_size": 6e-3, "friction": 0.4, "errors": "none", "allow_edge_contact": True}
+    )
+    load = {2: 1e3, 4: 1e6}[cells]
+    contact = record(contact, {"time": [0.0], "load_n": [load]})[0]
+    assert contact.number("contact_cells") == cells
+    found = contact.gradient("disp_z")
+    other = record(
+        petsam.Contact(
+            **{**BODIES, **shape, "grid_size": 6e-3, "friction": 0.4, "errors": "none", "allow_edge_contact": True}
+        ),
+        {"time": [0.0], "load_n": [load * (1 + 1e-6)]},
+    )[0]
+    change = (other.gradient("disp_z").value - found.value) / (1e-6 * load)
+    assert found["load_n"][0] == pytest.approx(change, rel=5e-3) and found.gap.sum() == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.filterwarnings("ignore")
 def test_refusals():
     """What has no derivative is named, with what to take instead."""
     history = {"time": [0.0, 1.0, 2.0], "load_n": [500.0, 500.0, 500.0], "load_tx": [0.0, 50.0, 20.0]}

@@ -110,7 +110,7 @@ static PetscErrorCode SetBorder(System *s, SamFrozenPart part)
   PetscCheck(regular, f->grid->comm, SAM_ERR_USER,
              "the gradient: loads are given in step %" PetscInt_FMT
              " (the first is 1) that the contact cannot change: it "
-             "slides as a whole: give displacements",
+             "slides as a whole, or has fewer cells than loads: give displacements, or finer cells",
              s->b->at.step + 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #define SINGULAR 1e-12 /* a pivot relative to the largest number of its row below which the rows depend on each other */
+#define ROUNDING 1e-14 /* part of a residual below which what is left of it is rounding */
 #define PASSES   6     /* solutions for the residual of the one before: directions are in single precision */
 #define SINGLE   1e-6  /* tolerance from which on that matters */
 
@@ -183,11 +184,12 @@ static PetscErrorCode AddDisplacements(SamFrozen *f, double times, const Vec sum
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets what residuals are relative to: the right-hand side, or if that is 0 what the start leaves of it. */
+/* Sets what residuals are relative to: the right-hand side, or if that is 0 what the start leaves of it; 0 if that is
+   rounding, as where the rows determine the unknowns. */
 static PetscErrorCode SetReference(SamFrozen *f, const double b[], const double residual[])
 {
   const PetscInt n = SamFrozenSize(f);
-  double        *work, square;
+  double        *work, square, whole;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &work));
@@ -195,8 +197,10 @@ static PetscErrorCode SetReference(SamFrozen *f, const double b[], const double 
   PetscCall(SamFrozenDots(f, 1, &work, work, &square));
   if (square == 0) {
     PetscCall(PetscArraycpy(work, residual, n));
+    PetscCall(SamFrozenDots(f, 1, &work, work, &whole));
     PetscCall(SamFrozenTakeColumns(f, work));
     PetscCall(SamFrozenDots(f, 1, &work, work, &square));
+    if (square <= ROUNDING * ROUNDING * whole) square = 0;
   }
   f->reference = sqrt(square);
   PetscCall(PetscFree(work));
