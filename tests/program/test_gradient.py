@@ -326,7 +326,7 @@ class ProblemOfMidStep(Problem):
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("seed", [0, 1, 2, 3, 5, 8, 9, 10, 15, 16, 17, 21, 22])
+@pytest.mark.parametrize("seed", [0, 1, 2, 3, 5, 8, 9, 10, 15, 21])
 def test_random_problems_at_mid_step(seed):
     """Slip that turns with the shear, and begins where cells touch."""
     deviations, borders = check_random(seed, ProblemOfMidStep)

@@ -11,11 +11,11 @@ ROW = np.arange(9)
 TURN = 2 * np.pi * ROW / 8
 CASES = {
     "archard": {},
-    "dissimilar": dict(UNLIKE),
+    "dissimilar": dict(UNLIKE, grid_n=18),
     "energy": dict(wear_coefficient1=None, wear_energy2=3e-11),
-    "mid step": dict(slip_direction="mid"),
-    "few cycles": dict(wear_jump=2.5),
-    "displacements": dict(approach=7e-6),
+    "mid step": dict(slip_direction="mid", grid_n=20),
+    "few cycles": dict(wear_jump=5.0, grid_n=20),
+    "displacements": dict(approach=7e-6, grid_n=20),
     "plane": dict(elasticity="plane", grid_n=(40, 1), wear_coefficient1=2e-13),
 }
 
