@@ -501,7 +501,8 @@ int petsam_gradient_record(petsam_contact *c, int on);
                    the cells at a depth: stress_xx@50um ..., mises@50um (Pa, in the last of the steps), swt@50um,
                    findley@50um@k=0.3 (Pa, of the cycle of the steps), fatemi_socie@50um@k=1@yield=900MPa (1, likewise;
                    constants as in petsam_fatigue()); in body 2, or swt@50um@1 in body 1
-          first  - first of the steps that it is of, from 0; -1: all steps of an energy or a cycle, else the last one
+          first  - first of the steps that it is of, from 0, in a wear simulation in its last cycle; -1: all steps of an
+                   energy or a parameter of fatigue, else the last one
           last   - the last of them; -1: the last step
           of     - parameters, separated by commas: names of petsam_get_gradient(), gap,load_tx,body1_young say, or
                    parameters of the shape, gap_radius1 say; NULL: all but the moduli and the shape
