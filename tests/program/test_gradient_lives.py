@@ -98,7 +98,7 @@ def test_wear_simulations_beside_differences(name):
             values = [contact.gradient(number, rtol=0.1).value for contact in both]
             difference = (values[0] - values[1]) / (2 * size)
             scale = max(abs(difference), 1e-2 * abs(one.value) if parameter != "gap" else 0)
-            assert abs(derivatives[number][parameter] - difference) < 3e-5 * scale or one.borders, (number, parameter)
+            assert abs(derivatives[number][parameter] - difference) < 1e-4 * scale or one.borders, (number, parameter)
 
 
 def test_a_run_writes_what_a_contact_in_process_finds(petsam, tmp_path):
