@@ -492,6 +492,10 @@ static PetscErrorCode SolveEntering(System *s, const double given[])
     AddFound(s, SAM_FROZEN_TANGENTIAL, load);
   }
   PetscCall(PetscFree2(lambda, right));
+  PetscCheck(!again, b->grid->comm, PETSC_ERR_NOT_CONVERGED,
+             "the gradient: the loads that are found and the motion of cells before they touch do not agree in step "
+             "%" PetscInt_FMT " (the first is 1) after %d solutions: give -slip_direction end",
+             b->at.step + 1, PASSES);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
