@@ -16,6 +16,7 @@ CASES = {
     "mid step": dict(slip_direction="mid", grid_n=20),
     "few cycles": dict(wear_jump=5.0, grid_n=20),
     "displacements": dict(approach=7e-6, grid_n=20),
+    "new cells": dict(swing=20.0, wear_coefficient1=2e-10, grid_n=30),
     "plane": dict(elasticity="plane", grid_n=(40, 1), wear_coefficient1=2e-13),
 }
 
@@ -27,10 +28,10 @@ def quiet(tmp_path, monkeypatch):
 
 
 def history_of(case, change=None):
-    """Loads out of phase; the normal one opens and closes cells at the edge in each cycle."""
+    """Loads out of phase; the normal one opens and closes cells at the edge, with little swing wear brings new ones."""
     plane = "elasticity" in case
     unit = 300.0 if plane else 1.0
-    history = {"time": ROW.astype(float), "load_n": unit * (1000 + 200 * np.sin(TURN)),
+    history = {"time": ROW.astype(float), "load_n": unit * (1000 + case.get("swing", 200) * np.sin(TURN)),
                "load_tx": unit * 160 * np.sin(TURN + 0.7)}  # fmt: skip
     history["load_my" if plane else "load_ty"] = (0.5 if plane else 40) * np.cos(TURN)
     if plane:
@@ -52,7 +53,7 @@ def live(case, part=0.0, friction=0.3, wear=1.0, loads=None, cycles=20):
     for name in ("wear_coefficient1", "wear_energy2"):
         if every.get(name):
             every[name] = every[name] * wear
-    every = {name: value for name, value in every.items() if name != "approach"}
+    every = {name: value for name, value in every.items() if name not in ("approach", "swing")}
     contact = petsam.Contact(**{**BODIES, **TIGHT, "allow_edge_contact": True, **every, "friction": friction})
     x, y = np.meshgrid(contact.x, contact.y)
     contact.gap = gap_of(x, y) + part * wave(x, y)
