@@ -36,34 +36,36 @@ const char *SamPairGetConstants(SamPair pair, SamPairConstants *c)
   return why;
 }
 
-PetscErrorCode SamPairCreateOther(SamPair pair, SamPair *other)
+/* Creates the pair of two half-spaces. */
+static PetscErrorCode CreatePair(const SamMaterial material[2], SamPair *pair)
 {
-  const PetscBool   large = pair->shear_xx > 0.2 * pair->normal ? PETSC_TRUE : PETSC_FALSE; /* Poisson's ratio */
-  const SamMaterial soft  = {.young = 1 / (PETSC_PI * pair->normal), .poisson = large ? 0 : 0.4},
-                    rigid = {.young = PETSC_INFINITY};
   SamBody body[2];
 
   PetscFunctionBegin;
-  PetscCall(SamBodyCreate(1, &soft, &body[0]));
-  PetscCall(SamBodyCreate(1, &rigid, &body[1]));
-  PetscCall(SamPairCreate(body[0], body[1], other));
+  for (int b = 0; b < 2; b++) PetscCall(SamBodyCreate(1, &material[b], &body[b]));
+  PetscCall(SamPairCreate(body[0], body[1], pair));
   for (int b = 0; b < 2; b++) PetscCall(SamBodyDestroy(&body[b]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPairCreateOther(SamPair pair, SamPair *other)
+{
+  const PetscBool   large       = pair->shear_xx > 0.2 * pair->normal ? PETSC_TRUE : PETSC_FALSE; /* Poisson's ratio */
+  const SamMaterial material[2] = {{.young = 1 / (PETSC_PI * pair->normal), .poisson = large ? 0 : 0.4},
+                                   {.young = PETSC_INFINITY}};
+
+  PetscFunctionBegin;
+  PetscCall(CreatePair(material, other));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamPairCreateChanged(SamPair pair, PetscInt which, SamPair *changed, double *change)
 {
-  SamBody body[2];
+  SamMaterial material[2] = {*pair->body[0]->material, *pair->body[1]->material};
 
   PetscFunctionBegin;
-  *change = pair->body[which]->material->poisson > 0.25 ? -CHANGE : CHANGE;
-  for (PetscInt b = 0; b < 2; b++) {
-    SamMaterial material = *pair->body[b]->material;
-
-    if (b == which) material.poisson += *change;
-    PetscCall(SamBodyCreate(1, &material, &body[b]));
-  }
-  PetscCall(SamPairCreate(body[0], body[1], changed));
-  for (int b = 0; b < 2; b++) PetscCall(SamBodyDestroy(&body[b]));
+  *change = material[which].poisson > 0.25 ? -CHANGE : CHANGE;
+  material[which].poisson += *change;
+  PetscCall(CreatePair(material, changed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

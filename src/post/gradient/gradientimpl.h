@@ -157,6 +157,8 @@ PETSC_INTERN PetscErrorCode SamBackAddRubbed(SamObjectiveStep *at, const double 
 /* SamBackAddLoad - adds a factor times the derivatives of a load by the tractions of unit cells. Not collective. */
 PETSC_INTERN void SamBackAddLoad(SamGrid grid, PetscInt component, double factor, double by_pressure[],
                                  double by_shear[]);
+/* SamBackSumMoments - sums values of the cells, and their products with x and with y (m). Collective. */
+PETSC_INTERN PetscErrorCode SamBackSumMoments(const SamBack *back, const double values[], double sums[3]);
 /* SamBackTake - takes a field of the contact's grid to an array of the part. Collective. SamBackPlace - returns the
    index on the part of a cell of the contact's grid; -1: none. Not collective. */
 PETSC_INTERN PetscErrorCode SamBackTake(const SamBack *back, Vec whole, double array[]);

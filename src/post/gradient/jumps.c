@@ -85,26 +85,13 @@ static PetscErrorCode AddWear(SamBack *b, double factor, const double a[], const
 /* Adds the derivatives by the mean displacements that are given. */
 static PetscErrorCode AddRigid(SamBack *b, const double l[], const PetscBool force[3])
 {
-  const SamGrid g        = b->grid;
-  SamTotal      total[3] = {{0}};
-  double        sums[3];
+  double sums[3];
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < g->rows; j++) {
-    const double y      = (double)SamGridY(g, g->row_start + j);
-    double       row[3] = {0};
-
-    for (PetscInt i = 0; i < g->nx; i++) {
-      const double one = l[j * g->nx + i];
-
-      row[0] += one;
-      row[1] -= y * one;
-      row[2] += (double)SamGridX(g, i) * one;
-    }
-    SamAddAll(3, total, row);
-  }
-  PetscCall(SamSumTotals(g->comm, 3, total, sums));
-  for (int c = 0; c < 3; c++) b->life.by_rigid[c] += force[c] ? 0 : sums[c];
+  PetscCall(SamBackSumMoments(b, l, sums));
+  b->life.by_rigid[0] += force[0] ? 0 : sums[0];
+  b->life.by_rigid[1] -= force[1] ? 0 : sums[2];
+  b->life.by_rigid[2] += force[2] ? 0 : sums[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -204,6 +204,29 @@ static void SetUnit(PetscInt component, double x, double y, double unit[3])
   }
 }
 
+PetscErrorCode SamBackSumMoments(const SamBack *b, const double values[], double sums[3])
+{
+  const SamGrid g        = b->grid;
+  SamTotal      total[3] = {{0}};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < g->rows; j++) {
+    const double y      = (double)SamGridY(g, g->row_start + j);
+    double       row[3] = {0};
+
+    for (PetscInt i = 0; i < g->nx; i++) {
+      const double one = values[j * g->nx + i];
+
+      row[0] += one;
+      row[1] += (double)SamGridX(g, i) * one;
+      row[2] += y * one;
+    }
+    SamAddAll(3, total, row);
+  }
+  PetscCall(SamSumTotals(g->comm, 3, total, sums));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 void SamBackAddLoad(SamGrid g, PetscInt component, double factor, double by_pressure[], double by_shear[])
 {
   for (PetscInt j = 0; j < g->rows; j++)

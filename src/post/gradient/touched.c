@@ -253,24 +253,11 @@ static PetscErrorCode AddDisplacements(SamBack *b, const double values[], PetscB
 
 PetscErrorCode SamBackAddOpen(SamBack *b, const double by_gap[], const double by_lift[])
 {
-  const SamGrid     g        = b->grid;
-  SamObjectiveStep *at       = &b->at;
-  SamTotal          total[3] = {{0}};
+  SamObjectiveStep *at = &b->at;
   double            sums[3];
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < g->rows; j++) {
-    const double y      = (double)SamGridY(g, g->row_start + j);
-    double       row[3] = {0};
-
-    for (PetscInt i = 0; i < g->nx; i++) {
-      row[0] += by_gap[j * g->nx + i];
-      row[1] += (double)SamGridX(g, i) * by_gap[j * g->nx + i];
-      row[2] += y * by_gap[j * g->nx + i];
-    }
-    SamAddAll(3, total, row);
-  }
-  PetscCall(SamSumTotals(g->comm, 3, total, sums));
+  PetscCall(SamBackSumMoments(b, by_gap, sums));
   at->by_rigid[SAM_COMPONENT_N] -= sums[0];
   at->by_rigid[SAM_COMPONENT_MY] -= sums[1];
   at->by_rigid[SAM_COMPONENT_MX] += sums[2];
