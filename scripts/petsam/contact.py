@@ -20,6 +20,7 @@ import sys
 import threading
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional, Union
 
@@ -307,12 +308,15 @@ def _share_mpi():
         ctypes.CDLL(name, mode=ctypes.RTLD_GLOBAL)
 
 
+TEXTS = ("message", "warning", "field_name", "number_name", "step_name", "stress_name", "gradient_unit")
+
+
 def _find():
     reason = ""
     for name in _candidates():
         try:
             found = ctypes.CDLL(name)
-            for text in ("message", "warning", "field_name", "number_name", "step_name", "stress_name"):
+            for text in TEXTS:
                 getattr(found, f"petsam_{text}").restype = ctypes.c_char_p
             found.petsam_destroy.restype = None
             return found
@@ -1003,13 +1007,18 @@ class Contact:
         """
         self._call("record", ctypes.c_int(bool(on)))
 
-    def record_gradient(self, on: bool = True) -> None:
+    def record_gradient(self, on: bool = True) -> AbstractContextManager:
         """Records each step that is committed from now on, for gradient(). Forgets earlier ones.
 
         Parameters
         ----------
         on : bool
             False ends recording.
+
+        Returns
+        -------
+        context manager
+            For `with contact.record_gradient(): contact.run(history)`: it does nothing, recording goes on.
 
         Raises
         ------
@@ -1026,9 +1035,10 @@ class Contact:
         give tight tolerances, normal_rtol=1e-12 and tangential_rtol=1e-12: the default ones leave about 1e-5.
         """
         self._call("gradient_record", ctypes.c_int(bool(on)))
+        return nullcontext(self)
 
     def gradient(
-        self, name: str, of: Optional[Sequence[str]] = None, steps: Optional[slice] = None, rtol: float = 1e-6
+        self, name: str, of: Optional[Sequence[str]] = None, steps: Optional[slice] = None, rtol: float = 1e-4
     ) -> "gradients.Gradient":
         """The derivatives of a number of the recorded steps by its parameters, in one pass back over the steps.
 

@@ -16,13 +16,14 @@ although its standard deviation is still good.
 """
 
 from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .core.errors import Unusable
-from .core.units import shown
+from .core.units import shown, size
 from .gradient import Gradient, whole
 from .surface.generation import RESOLVED, self_affine
 
@@ -36,18 +37,31 @@ class Roughness:
 
     Attributes
     ----------
-    rms : float
-        Root mean square height, m.
+    rms : float or str
+        Root mean square height, m, or with its unit, "50nm".
     hurst : float
         Hurst exponent, 0 to 1: the spectrum falls as q^(-2 (1 + hurst)).
-    shortest, longest : float
-        Shortest and longest wavelength, m.
+    shortest, longest : float or str
+        Shortest and longest wavelength, likewise.
+
+    Raises
+    ------
+    Error
+        If one is not a number.
     """
 
     rms: float
     hurst: float
     shortest: float
     longest: float
+
+    def __post_init__(self):
+        for name, unit in {"rms": "m", "hurst": "", "shortest": "m", "longest": "m"}.items():
+            given = getattr(self, name)
+            value = size(given, unit) if isinstance(given, str) else given
+            if not isinstance(value, Real):
+                raise Unusable(f"roughness: {name} = {given!r}: give a number{', as 1e-6 or 1um' if unit else ''}")
+            object.__setattr__(self, name, float(value))
 
     def waves(self, contact: "Contact") -> np.ndarray:
         """The mean square height of each wave that is periodic over the grid; their sum is rms^2.
@@ -190,7 +204,11 @@ def of(contact: "Contact", found: Gradient, roughness: Optional[Roughness] = Non
 
 def _part(found, name, sd):
     """The standard deviation by one parameter alone."""
-    slope, sd = np.asarray(found[name]), np.asarray(sd, dtype=float)
-    if sd.shape not in ((), slope.shape) or not np.isfinite(sd).all():
+    slope = np.asarray(found[name])
+    try:
+        numbers = np.asarray(sd, dtype=float)
+    except (TypeError, ValueError):
+        numbers = np.full((1, 1, 1), np.nan)
+    if numbers.shape not in ((), slope.shape) or not np.isfinite(numbers).all():
         raise Unusable(f"{name} = {sd}: give a finite number, or an array of the shape {slope.shape}")
-    return abs(float(np.sum(slope * sd)))
+    return abs(float(np.sum(slope * numbers)))

@@ -35,8 +35,8 @@ def solved(heights=0.0, history=HISTORY, **more):
     """A ball on a flat with its loop recorded, and the frictional work of its steps."""
     contact = petsam.Contact(**{**BALL, **more})
     contact.gap = sphere(*np.meshgrid(contact.x, contact.y), 0.05) + heights
-    contact.record_gradient()
-    return contact, sum(step.dissipated_energy for step in contact.run(history))
+    with contact.record_gradient():
+        return contact, sum(step.dissipated_energy for step in contact.run(history))
 
 
 # ---------------------------------------------------------------- uncertainty
@@ -113,7 +113,8 @@ def test_refusals_of_uncertainties():
     for change, words in (
         (dict(), "no standard deviation: give"), (dict(fricton=0.1), "is friction meant"),
         (dict(body1_young=1e9), "give of="), (dict(load_n=[1, 2]), r"an array of the shape \(9,\)"),
-        (dict(friction=np.nan), "give a finite number"),
+        (dict(friction=np.nan), "give a finite number"), (dict(friction="a tenth"), "give a finite number"),
+        (dict(friction=[[0.1], 2]), "give a finite number"), (dict(friction=None), "give a finite number"),
         (dict(roughness=Roughness(-1e-9, 0.8, 0.25e-3, 2e-3)), "give a height and an exponent"),
         (dict(roughness=Roughness(1e-9, 1.2, 0.25e-3, 2e-3)), "give a height and an exponent"),
         (dict(roughness=Roughness(1e-9, 0.8, 0.1e-3, 2e-3)), "has 1.33 cells of the grid; give more than 2"),
@@ -123,6 +124,14 @@ def test_refusals_of_uncertainties():
     ):  # fmt: skip
         with pytest.raises(petsam.Error, match=words):
             of(contact, found, **change)
+    for values, words in (
+        (("50", 0.8, 1e-3, 1e-2), "rms = '50': give a number, as"),
+        ((1e-9, "0.8", 1e-3, 1e-2), "hurst = '0.8'"),
+    ):
+        with pytest.raises(petsam.Error, match=words):
+            Roughness(*values)
+    units = Roughness("50nm", 0.8, "0.25mm", 2e-3)
+    assert units.rms == pytest.approx(50e-9) and units.shortest == pytest.approx(0.25e-3)
     with pytest.raises(petsam.Error, match="5 of 10 rows are on this rank: use a contact without comm"):
         of(SimpleNamespace(rows=5, n=(10, 10)), found, ROUGH)
 
@@ -155,11 +164,50 @@ def test_a_function_of_one_number_beside_the_contact():
     """The gap that stays and its parts are added; the value is a number, as optimisers need it."""
     wave = 1e-8 * np.cos(np.arange(32))[:, None] * np.ones(32)
     contact, work = solved(wave)
-    found = contact.gradient("energy")
+    found = contact.gradient("energy", rtol=1e-6)
     value, slope = petsam.gradient.function(BALL, HISTORY, "energy", ["friction", sphere], gap=wave)([0.4, 0.05])
     by_radius = -np.sum(found.gap * sphere(*np.meshgrid(contact.x, contact.y), 0.05)) / 0.05
     assert isinstance(value, float) and value == pytest.approx(work, rel=1e-8)
     assert slope == pytest.approx([found.friction.sum(), by_radius], rel=1e-6)
+
+
+STEEL = {**BALL, "body2_young": 210e9, "body2_poisson": 0.3, "grid_size": 2.6e-3}
+
+
+def test_the_mean_over_positions_of_the_grid():
+    """Beside runs of their own, numbers() and differences; and nearer to closed forms of a sphere than one grid is."""
+    history = {"time": HISTORY["time"], "load_n": np.full(9, 1000.0), "load_tx": 60 * TURNS}
+    options = {**STEEL, **TIGHT, "grid_n": (40, 36), "grid_center": (3e-5, -2e-5)}
+    numbers, parameters = [("energy", slice(3, 9)), ("disp_x", slice(2, 3))], [sphere, "friction"]
+    make = petsam.gradient.function
+    places = petsam.gradient.positions(options, 5)
+    one = make(options, history, numbers, parameters, rtol=1e-9)
+    several = petsam.gradient.mean(make(place, history, numbers, parameters, rtol=1e-9) for place in places)
+    values, slopes = several([0.1, 0.1])
+    alone = petsam.gradient.mean(petsam.gradient.numbers(place, history, numbers, parameters) for place in places)
+    assert alone([0.1, 0.1]) == pytest.approx(values, rel=1e-9) and several.shape == (2,)
+    work = petsam.gradient.mean(make(place, history, *numbers[:1], parameters) for place in places)
+    assert isinstance(work([0.1, 0.1])[0], float) and work([0.1, 0.1])[0] == pytest.approx(values[0], rel=1e-9)
+    cell, golden = np.array([2.6e-3 / 40, 2.6e-3 / 36]), (np.sqrt(5) - 1) / 2
+    places = [(3e-5 + cell[0] * k / 5, -2e-5 + cell[1] * (golden * k % 1)) for k in range(5)]
+    runs = [make(options | {"grid_center": at}, history, numbers, parameters, rtol=1e-9)([0.1, 0.1]) for at in places]
+    assert values == pytest.approx(np.mean([run[0] for run in runs], axis=0), rel=1e-9)
+    assert slopes == pytest.approx(np.mean([run[1] for run in runs], axis=0), rel=1e-5)
+    for k in range(2):
+        up, down = (several(0.1 + 1e-7 * sign * np.eye(2)[k])[0] for sign in (1, -1))
+        assert slopes[:, k] == pytest.approx((up - down) / 2e-7, rel=1e-5)
+    closed = np.array([-1 / 3, -1.7598])
+    off = [0.1 * evaluate([0.1, 0.1])[1][0] / evaluate([0.1, 0.1])[0][0] - closed for evaluate in (one, several)]
+    assert np.all(abs(off[1]) < 0.06) and np.all(abs(off[1]) < abs(off[0])), off
+
+
+def test_the_secant_of_a_stiffness():
+    """That of a sphere grows as the power 1/3 of its radius: what to take for the stiffness of frozen cells."""
+    press = {"time": np.arange(3), "load_n": [1000, 900, 1100]}
+    points = [("disp_z", slice(k, k + 1)) for k in (1, 2)]
+    places = petsam.gradient.positions(STEEL | TIGHT, 8)
+    way, slopes = petsam.gradient.mean(petsam.gradient.function(at, press, points, [sphere]) for at in places)([0.1])
+    assert 0.1 * np.diff(slopes[:, 0]) / np.diff(way) == pytest.approx(-1 / 3, abs=0.02)
 
 
 def test_an_optimiser_finds_friction_and_radius_of_a_loop():
@@ -189,6 +237,11 @@ def test_refusals_of_functions():
     ):  # fmt: skip
         with pytest.raises(petsam.Error, match=words):
             make(options, HISTORY, "energy", names)
+    for count in (0, 2.5):
+        with pytest.raises(petsam.Error, match="give a number of positions"):
+            petsam.gradient.positions(BALL, count)
+    with pytest.raises(petsam.Error, match="there are no functions"):
+        petsam.gradient.mean([])
     with pytest.raises(petsam.Error, match="use gap_type = flat"):
         make(ball, HISTORY, "energy", ["friction"], gap=np.zeros((32, 32)))
     for parameters, x, words in (

@@ -35,7 +35,7 @@ class Gradient:
     residual : float
         Largest relative residual of the systems, which are solved to rtol.
     unit : str
-        Of the number, if it is of a file.
+        Of the number.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Gradient:
     numbers: dict
     borders: int
     residual: float
-    unit: str = ""
+    unit: str
 
     def keys(self) -> list[str]:
         """The names of the parameters by which there are derivatives."""

@@ -51,6 +51,13 @@ int petsam_gradient(petsam_contact *c, const char *name, int first, int last, co
            : SAM_EMBED_USAGE;
 }
 
+const char *petsam_gradient_unit(const petsam_contact *c)
+{
+  const SamGradient g = SamEmbedExists(c) ? SamSimulationGetGradient(c->simulation) : NULL;
+
+  return g ? SamGradientUnit(g) : "";
+}
+
 static PetscErrorCode Get(petsam_contact *c, const char name[], double values[])
 {
   SamGradient   g;

@@ -321,8 +321,8 @@ static const char *WhyNot(const char name[])
   if (length > 4 && !strcmp(name + length - 4, "area")) return ": it is a count of cells, piecewise constant";
   if (length > 4 && !strcmp(name + length - 4, "_max")) return ": a maximum over cells has kinks; take pressure_norm";
   if (!strncmp(name, "stiffness", 9))
-    return ": that of frozen sets of cells is piecewise constant; take differences of "
-           "two steps";
+    return ": that of frozen sets of cells is piecewise constant; take the difference of a displacement in two "
+           "steps";
   return "";
 }
 

@@ -77,7 +77,7 @@ PetscErrorCode SamSimulationReadGradientMemory(SamSimulation s, const SamOptions
 PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
-  s->gradients = (SamGradientPlan){.rtol = 1e-6};
+  s->gradients = (SamGradientPlan){.rtol = 1e-4};
   PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
   s->needs.gradient_memory = s->gradients.memory;
   s->needs.gradient        = s->gradients.names[0] ? PETSC_TRUE : PETSC_FALSE;
