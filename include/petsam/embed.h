@@ -505,7 +505,8 @@ int petsam_gradient_record(petsam_contact *c, int on);
                    energy or a parameter of fatigue, else the last one
           last   - the last of them; -1: the last step
           of     - parameters, separated by commas: names of petsam_get_gradient(), gap,load_tx,body1_young say, or
-                   parameters of the shape, gap_radius1 say; NULL: all but the moduli and the shape
+                   parameters of the shape, gap_radius1 say; NULL: all but the moduli and the shape, and
+                   those by wear if the bodies wear
           rtol   - relative residual of the systems that are solved, such as 1e-4 (1)
   Out:    steps  - number of recorded steps
 

@@ -1055,7 +1055,8 @@ class Contact:
         of : sequence of str, optional
             Parameters: "gap" and "friction", of each cell; "load_n", "disp_x", "bulk2_stress_xx" ..., of each step;
             "wear_coefficient" and "wear_energy", of both bodies alike; "body1_young" and other moduli, "gap_radius1"
-            and other parameters of the shape. None: all but moduli, which cost some more products a step, and shape.
+            and other parameters of the shape. None: all but moduli, which cost some more products a step, and shape;
+            those by wear if the bodies wear.
         steps : slice, optional
             The steps, from 0; None: all for the energy and parameters of a cycle, else the last.
         rtol : float

@@ -18,13 +18,13 @@ fine grids; for_jax() and for_torch() make parts of programs from such functions
 import ctypes
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .core.errors import Unusable, counted, library, there_are
+from .core.errors import Error, Unusable, counted, library, there_are
 from .results.gradients import MODULI, Gradient
 
 if TYPE_CHECKING:
@@ -91,7 +91,10 @@ def compute(
     wanted = USUAL if of is None else of
     by_step = {one: get(one, count.value) for one in wanted if one in columns}
     numbers = {one: values for one, values in by_step.items() if not np.isnan(values).all()}
-    numbers.update({one: number(one) for one in wanted if one not in ("gap", "friction", *columns)})
+    for one in wanted:
+        if one not in ("gap", "friction", *columns):
+            with suppress(*([Error] if of is None else [])):  # by wear unless it is named only if the bodies wear
+                numbers[one] = number(one)
     borders = int(number("borders"))
     if borders:
         warnings.warn(

@@ -74,24 +74,52 @@ def test_published_digits_of_similar_bodies():
     assert abs(found["gap"].sum()) < 1e-13 * np.abs(found["gap"]).sum() and found.borders == 0
 
 
+LEVEL = {"load_mx": np.full(9, 0.01), "load_my": np.full(9, -0.02)}
+CASES_OF_SHARING = {
+    "loads": {}, "moments": LEVEL, "displacement": dict(disp_z=True),
+    "mixed": {**LEVEL, "load_my": None, "rot_y": np.full(9, 1e-6)}, "wear": dict(wear_coefficient1=1e-11),
+}  # fmt: skip
+
+
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("normal, wear", [("load_n", None), ("disp_z", None), ("load_n", 1e-11)])
-def test_steps_of_one_pressure_share_a_normal_problem(normal, wear):
-    """Where what it gives by step is not wanted; steps of another pressure stay apart, by wear, too."""
-    history = history_of(
-        np.array([900, 900, 900, 1000.0, 1000, 1000, 1000]), np.append(0, 150 * TURNS[2:8]), np.zeros(7)
-    )
-    if normal == "disp_z":
+@pytest.mark.parametrize("name", CASES_OF_SHARING)
+def test_steps_of_one_pressure_share_a_normal_problem(name):
+    """Beside a gradient by the moduli, too, which solves that of each step; steps of another pressure stay apart."""
+    normal = np.array([900, 900, 900, 900, 900, 1000.0, 1000, 1000, 1000])
+    history = history_of(normal, np.append([0, 90, 30], 150 * TURNS[2:8]), 10 * np.sin(np.arange(9)))
+    case = {key: values for key, values in CASES_OF_SHARING[name].items() if values is not None}
+    wear = case.pop("wear_coefficient1", None)
+    if case.pop("disp_z", False):
         history["disp_z"] = 6e-9 * history.pop("load_n")
-    contact = record(contact_of(BODIES, 24, wear_coefficient1=wear)[0], history)[0]
-    for number in ("energy", "pressure_norm", "load_n" if normal == "disp_z" else "disp_z"):
+    history |= case
+    crooked = lambda x, y: gap_of(x, y) + 3e-8 * np.sin(2500 * x + 900 * y) + 2e-8 * np.sin(5000 * y)  # noqa: E731
+    contact = record(contact_of(BODIES, 24, gap=crooked, wear_coefficient1=wear)[0], history)[0]
+    for number in ("energy", "pressure_norm", "load_n" if "disp_z" in history else "disp_z"):
         every = contact.gradient(number, EVERY, rtol=1e-12)
-        some = contact.gradient(number, ["gap", "friction", "load_tx", *petsam.gradient.MODULI], rtol=1e-12)
-        size = np.abs(every.gap).max()
-        assert np.allclose(some.gap, every.gap, rtol=1e-8, atol=1e-8 * size)
-        for name in ("load_tx", *petsam.gradient.MODULI):
-            assert np.allclose(some[name], every[name], rtol=1e-8, atol=1e-14 * np.abs(every.value)), name
-        assert np.allclose(some.friction, every.friction, rtol=1e-8, atol=1e-8 * np.abs(every.friction).max())
+        some = contact.gradient(number, rtol=1e-12)
+        assert ("wear_coefficient" in some) == (wear is not None)
+        for one in some:
+            least = 1e-14 * abs(every.value) / max(np.abs(history.get(one, 1)).max(), 1e-3)
+            assert np.allclose(some[one], every[one], rtol=1e-8, atol=1e-9 * np.abs(every[one]).max() + least), one
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_moduli_and_wear_need_the_normal_problem_of_each_step():
+    """Of bodies that are alike before the change and unlike after it, under a normal force that stays."""
+    history = history_of(np.full(7, 1000.0), np.append(0, 170 * TURNS[:6]), np.zeros(7))
+    crooked = lambda x, y: gap_of(x, y) + 6e-8 * np.sin(2500 * x + 900 * y)  # noqa: E731
+    found = record(contact_of(BODIES, 20, gap=crooked)[0], history)[0].gradient(
+        "energy", [*petsam.gradient.MODULI, "wear_coefficient"], rtol=1e-11
+    )
+    for name, value in BODIES.items():
+        works = [
+            record(contact_of({**BODIES, name: value * (1 + size)}, 20, gap=crooked)[0], history)[1].sum()
+            for size in (1e-5, -1e-5)
+        ]
+        assert value * found[name] == pytest.approx((works[0] - works[1]) / 2e-5, rel=1e-5), name
+    assert abs(found["body1_poisson"] / found["body2_poisson"] - 1) > 0.05
+    little = record(contact_of(BODIES, 20, gap=crooked, wear_coefficient1=1e-17)[0], history)[0]
+    assert found["wear_coefficient"] == pytest.approx(little.gradient("energy")["wear_coefficient"], rel=1e-4)
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -637,7 +665,7 @@ def test_what_is_not_there_yet():
     """Wear of surfaces that do not wear has a derivative; friction in cells without it has none."""
     history = history_of(np.full(4, 400.0), np.array([0, 50.0, -40, 30]), np.zeros(4))
     none, little = (
-        record(contact_of(BODIES, 16, **more)[0], history)[0].gradient("energy")
+        record(contact_of(BODIES, 16, **more)[0], history)[0].gradient("energy", ["wear_coefficient", "wear_energy"])
         for more in ({}, dict(wear_coefficient1=1e-17))
     )
     for name in ("wear_coefficient", "wear_energy"):

@@ -112,7 +112,8 @@ PETSC_INTERN PetscInt SamGradientGetSteps(SamGradient gradient);
           steps    - the first and the last step, from 0; -1, -1: all of an energy, else the last one
           of       - names of the wanted parameters, separated by commas: gap, friction, those of steps like load_tx,
                      wear_coefficient, wear_energy, body1_young and other moduli, at some more products a step, and
-                     those of the shape like gap_radius1; empty: all but moduli and shape
+                     those of the shape like gap_radius1; empty: all but moduli and shape, and those by
+                     wear if the bodies wear
           rtol     - relative residual of the systems (1)
 
   Errors: SAM_ERR_USER for unknown names, steps that are not there, a load that is given, loads that the contact cannot

@@ -512,13 +512,105 @@ static PetscErrorCode Enter(System *s, double given[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Leaves the normal problem of a step to the step before, which has the same. */
-static void LeaveNormal(System *s)
-{
-  SamBack *b = s->b;
+/* ---- steps of one pressure ---- */
 
+/* True if the derivative by the n-th component, by its load if that is given, is wanted by step. */
+static PetscBool IsWanted(const System *s, PetscInt n)
+{
+  const SamRecord        *r    = &s->b->g->record[s->b->at.step];
+  const SamComponentName *name = &SamComponentNames[components[n]];
+
+  return Has(s->b, n) && SamGradientHas(s->b->g, r->force[components[n]] ? name->load : name->rigid);
+}
+
+/* Solves for the n-th component: for a unit of its load, or with its unit motion as the right-hand side. */
+static PetscErrorCode SolveUnit(System *s, PetscInt n)
+{
+  SamBack        *b                     = s->b;
+  SamShared      *shared                = &b->shared;
+  double          given[SAM_COMPONENTS] = {0}, kept[SAM_COMPONENTS];
+  double *const   own[]                 = {s->right, s->x};
+  const PetscBool force                 = b->g->record[b->at.step].force[components[n]];
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(kept, b->forces, SAM_COMPONENTS));
+  PetscCall(PetscMalloc1(3 * s->f.count, &s->right));
+  PetscCall(PetscCalloc1(3 * s->f.count, &s->x));
+  Motion(&s->f, n, s->right);
+  if (force) PetscCall(PetscArrayzero(s->right, s->f.count));
+  for (PetscInt i = 0; i < s->count; i++) given[i] = s->given[i] == n ? 1 : 0;
+  PetscCall(SolvePart(s, SAM_FROZEN_NORMAL, given));
+  for (PetscInt i = 0; i < s->count && s->given[i] < 3; i++)
+    shared->by_given[shared->count][i] = b->forces[components[s->given[i]]] * Unit(&s->f, s->given[i]) * b->at.area;
+  shared->place[shared->count]      = n;
+  shared->found[shared->count]      = 0;
+  shared->by_right[shared->count++] = s->x;
+  PetscCall(PetscFree(s->right));
+  s->right = own[0];
+  s->x     = own[1];
+  PetscCall(PetscArraycpy(b->forces, kept, SAM_COMPONENTS));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* True if the step leaves its normal problem to the step before, which has the same: if that saves solutions. */
+static PetscBool Shares(const System *s)
+{
+  const SamBack *b      = s->b;
+  PetscInt       wanted = 0, k = b->at.step;
+
+  if (!b->shares || !b->g->record[k].same) return PETSC_FALSE;
+  for (PetscInt n = 0; n < 3; n++) wanted += IsWanted(s, n);
+  while (k > 0 && b->g->record[k].same) k--;
+  return b->shared.on || b->at.step - k > wanted ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* The place of a derivative by a component of the present step */
+static double *ByComponent(SamBack *b, PetscInt component)
+{
+  return b->g->record[b->at.step].force[component] ? &b->forces[component] : &b->at.by_rigid[component];
+}
+
+/* Leaves the normal problem of a step to the step before, and finds what is wanted of it by step. */
+static PetscErrorCode LeaveNormal(System *s, const double given[])
+{
+  SamBack   *b      = s->b;
+  SamShared *shared = &b->shared;
+
+  PetscFunctionBegin;
+  for (PetscInt n = 0; n < 3 && !shared->on; n++)
+    if (IsWanted(s, n)) PetscCall(SolveUnit(s, n));
+  shared->on = PETSC_TRUE;
+  s->f.part  = SAM_FROZEN_NORMAL;
+  for (PetscInt k = 0; k < shared->count; k++) {
+    const PetscInt c    = components[shared->place[k]];
+    const double   unit = Unit(&s->f, shared->place[k]);
+    double         found;
+
+    PetscCall(SamFrozenDots(&s->f, 1, &shared->by_right[k], s->right, &found));
+    for (PetscInt i = 0; i < s->count && s->given[i] < 3; i++) found += shared->by_given[k][i] * given[i];
+    found *= b->g->record[b->at.step].force[c] ? 1 / (unit * b->at.area) : unit;
+    *ByComponent(b, c) += found - shared->found[k]; /* the right-hand side has what later steps have left */
+    shared->found[k] = found;
+  }
   for (PetscInt m = 0; m < s->f.count; m++) b->at.by_pressure_before[s->f.cell[m]] += s->right[m];
-  for (PetscInt n = 0; n < 3; n++) b->by_rigid_before[components[n]] += b->at.by_rigid[components[n]];
+  for (PetscInt i = 0; i < s->count && s->given[i] < 3; i++)
+    b->by_rigid_before[components[s->given[i]]] += b->at.by_rigid[components[s->given[i]]];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes what later steps have found by step off what the first of them has found for all. */
+static PetscErrorCode EndShared(SamBack *b)
+{
+  SamShared *shared = &b->shared;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < shared->count; k++) {
+    *ByComponent(b, components[shared->place[k]]) -= shared->found[k];
+    PetscCall(PetscFree(shared->by_right[k]));
+  }
+  shared->on    = PETSC_FALSE;
+  shared->count = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Solves the system, or for similar bodies that of the shear, then that of the pressure. `r`: as above. */
@@ -544,10 +636,12 @@ static PetscErrorCode Solve(System *s, PetscBool rubs, double given[], double r[
   if (grows && rubs) PetscCall(Enter(s, given));
   for (PetscInt m = 0; m < n; m++) /* mu beta */
     s->right[m] += f->follow[m] * (f->e[0][m] * r[m] + f->e[1][m] * r[m + n]);
-  if (s->b->merges && s->b->g->record[s->b->at.step].same)
-    LeaveNormal(s);
-  else
-    PetscCall(SolvePart(s, SAM_FROZEN_NORMAL, given));
+  if (Shares(s)) {
+    PetscCall(LeaveNormal(s, given));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SolvePart(s, SAM_FROZEN_NORMAL, given));
+  PetscCall(EndShared(s->b));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -51,7 +51,7 @@ const char *SamGradientNumber(SamGradient g, PetscInt k)
 
 PetscBool SamGradientHas(SamGradient g, const char name[])
 {
-  return SamChoiceHas(g->found.of, name);
+  return SamChoiceHas(g, g->found.of, name);
 }
 
 /* Returns the name of the k-th of all parameters; NULL after the last one. */
@@ -71,9 +71,16 @@ static const char *Find(const char names[], const char name[], size_t length)
   return NULL;
 }
 
-PetscBool SamChoiceHas(const char of[], const char name[])
+/* True if the bodies wear. */
+static PetscBool Wears(SamGradient g)
 {
-  const PetscBool costs = !strncmp(name, "body", 4) || !strncmp(name, "gap_", 4);
+  return g->rate[0] != 0 || g->rate[1] != 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscBool SamChoiceHas(SamGradient g, const char of[], const char name[])
+{
+  const PetscBool wear  = strncmp(name, "wear_", 5) ? PETSC_FALSE : PETSC_TRUE;
+  const PetscBool costs = !strncmp(name, "body", 4) || !strncmp(name, "gap_", 4) || (wear && !Wears(g));
 
   if (!of[0]) return !costs || SamGradientIsOfSteps(name) ? PETSC_TRUE : PETSC_FALSE;
   return Find(of, name, strlen(name)) ? PETSC_TRUE : PETSC_FALSE;
@@ -85,7 +92,7 @@ static PetscBool HaveOne(SamGradient g, const char of[], PetscInt first, PetscIn
   const char *name;
 
   for (PetscInt k = first; k < last && (name = SamGradientNumber(g, k)); k++)
-    if (SamChoiceHas(of, name)) return PETSC_TRUE;
+    if (SamChoiceHas(g, of, name)) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -94,19 +101,17 @@ PetscBool SamChoiceHasModuli(SamGradient g, const char of[])
   return HaveOne(g, of, SAM_GRADIENT_WEARS, NUMBERS);
 }
 
+PetscBool SamChoiceAllowsSharing(SamGradient g)
+{
+  const char *const of = g->found.of;
+
+  /* the moduli meet the shear of each step; what does not wear would wear in each of them */
+  return !SamChoiceHasModuli(g, of) && (Wears(g) || !HaveOne(g, of, 0, SAM_GRADIENT_WEARS)) ? PETSC_TRUE : PETSC_FALSE;
+}
+
 PetscBool SamChoiceHasShape(SamGradient g, const char of[])
 {
   return HaveOne(g, of, NUMBERS, NUMBERS + SAM_GAP_PARAMETERS);
-}
-
-PetscBool SamChoiceHasNormal(const char of[])
-{
-  static const PetscInt normal[] = {SAM_COMPONENT_N, SAM_COMPONENT_MX, SAM_COMPONENT_MY};
-
-  for (int k = 0; k < 3; k++)
-    if (SamChoiceHas(of, SamComponentNames[normal[k]].load) || SamChoiceHas(of, SamComponentNames[normal[k]].rigid))
-      return PETSC_TRUE;
-  return PETSC_FALSE;
 }
 
 PetscErrorCode SamChoiceCheck(SamGradient g, const char of[])
@@ -151,7 +156,7 @@ static PetscReal *PlaceOf(SamGradient g, const char name[])
 
 const PetscReal *SamChoiceFind(SamGradient g, const char name[])
 {
-  return SamChoiceHas(g->found.of, name) ? PlaceOf(g, name) : NULL;
+  return SamChoiceHas(g, g->found.of, name) ? PlaceOf(g, name) : NULL;
 }
 
 PetscErrorCode SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share)

@@ -209,7 +209,7 @@ static PetscErrorCode ChoosePart(SamBack *b)
   if (!b->window) b->elasticity = e;
   b->grid    = SamElasticityGetGrid(b->elasticity);
   b->coupled = SamElasticityGetTraits(e).coupled;
-  b->merges  = !b->coupled && !SamChoiceHasNormal(g->found.of) ? PETSC_TRUE : PETSC_FALSE;
+  b->shares  = !b->coupled && SamChoiceAllowsSharing(b->g) ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -667,25 +667,25 @@ static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *
 
   PetscFunctionBegin;
   shares[0] = (Share){"friction", 0};
-  if (SamChoiceHas(d->of, "friction")) PetscCall(ShareOfFriction(g, &shares[0].share));
+  if (SamChoiceHas(g, d->of, "friction")) PetscCall(ShareOfFriction(g, &shares[0].share));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     shares[n]     = (Share){SamComponentNames[c].load, 0};
     shares[n + 1] = (Share){SamComponentNames[c].rigid, 0};
     for (PetscInt k = 0; k < d->count; k++) {
       const SamRecord *r = SamGradientOfRow(g, k);
 
-      if (!SamChoiceHas(d->of, shares[r->force[c] ? n : n + 1].name)) continue;
+      if (!SamChoiceHas(g, d->of, shares[r->force[c] ? n : n + 1].name)) continue;
       shares[r->force[c] ? n : n + 1].share += r->force[c] ? r->load[c] * d->load[k][c] : r->rigid[c] * d->rigid[k][c];
     }
     n += 2;
   }
   for (PetscInt b = 0; b < SAM_GRADIENT_BULKS; b++, n++) {
     shares[n] = (Share){SamBulkName(b), 0};
-    for (PetscInt k = 0; k < d->count && SamChoiceHas(d->of, shares[n].name); k++)
+    for (PetscInt k = 0; k < d->count && SamChoiceHas(g, d->of, shares[n].name); k++)
       shares[n].share += SamGradientOfRow(g, k)->bulk[b] * d->bulk[k][b];
   }
   for (PetscInt k = 0; (name = SamGradientNumber(g, k)); k++) {
-    if (!SamChoiceHas(d->of, name)) continue;
+    if (!SamChoiceHas(g, d->of, name)) continue;
     shares[n].name = name;
     PetscCall(SamChoiceGetShare(g, name, &shares[n++].share));
   }

@@ -122,6 +122,19 @@ typedef struct {
 } SamLifeBack;
 
 /*
+  SamShared - the normal problem that consecutive steps of one pressure share. Its right-hand sides are added up and
+  solved once, at the first of them. What is wanted by step, the derivative by a normal load or displacement, is linear
+  in a step's own right-hand side: the product with a solution for that component, one for all of these steps.
+*/
+typedef struct {
+  PetscBool on;              /* the present steps share one */
+  PetscInt  count, place[3]; /* of the components that are wanted by step: their places among the motions */
+  double   *by_right[3];     /* their derivatives by the right-hand side, packed, */
+  double    by_given[3][3];  /* and by what the rows of given loads are */
+  double    found[3];        /* what the steps so far have of them */
+} SamShared;
+
+/*
   SamBack - the pass back: its part of the grid, the present step and the one before, what the objective and the steps
   after have left, and the sums so far. Arrays have a value of each cell of the part, or one for each component.
 */
@@ -131,7 +144,8 @@ typedef struct {
   SamElasticity    elasticity, other; /* of the part; with other constants, for derivatives by the moduli, or NULL */
   SamGrid          grid;
   PetscBool        coupled;
-  PetscBool        merges; /* steps of one pressure share a normal problem: it is not wanted by step */
+  PetscBool        shares; /* steps of one pressure may share a normal problem */
+  SamShared        shared;
   PetscReal        rtol;
   Vec              whole; /* scratch of SAM_RECORD_VALUES fields */
   SamFrameOfStep   now, before;
@@ -213,18 +227,18 @@ PETSC_INTERN PetscErrorCode SamRecordUnpack(const SamBack *back, SamRecord *reco
 PETSC_INTERN PetscErrorCode SamRecordDestroy(SamRecord *record);
 /*
   SamChoiceCheck - checks the names of wanted parameters, separated by commas. SamChoiceHas - true if that of
-  one is wanted, SamChoiceHasModuli, SamChoiceHasShape - if one of these is, SamChoiceHasNormal - if a
-  normal load or displacement is. Not collective.
+  one is wanted, SamChoiceHasModuli, SamChoiceHasShape - if one of these is, SamChoiceAllowsSharing - if
+  of the last wanted ones none needs the normal problem of each step. Not collective.
   SamChoiceFind - returns the derivative by a parameter with one number; NULL: it was not wanted or there is none.
   SamChoiceGetShare - gets it times the value, 0 if that is infinite. Neither is collective.
   SamChoiceAddShape - computes the derivatives by the parameters of the shape from that by the gap. Collective.
   Errors: SAM_ERR_USER for another gap than that of the shape.
 */
 PETSC_INTERN PetscErrorCode   SamChoiceCheck(SamGradient g, const char of[]);
-PETSC_INTERN PetscBool        SamChoiceHas(const char of[], const char name[]);
+PETSC_INTERN PetscBool        SamChoiceHas(SamGradient g, const char of[], const char name[]);
+PETSC_INTERN PetscBool        SamChoiceAllowsSharing(SamGradient g);
 PETSC_INTERN PetscBool        SamChoiceHasModuli(SamGradient g, const char of[]);
 PETSC_INTERN PetscBool        SamChoiceHasShape(SamGradient g, const char of[]);
-PETSC_INTERN PetscBool        SamChoiceHasNormal(const char of[]);
 PETSC_INTERN const PetscReal *SamChoiceFind(SamGradient g, const char name[]);
 PETSC_INTERN PetscErrorCode   SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share);
 PETSC_INTERN PetscErrorCode   SamChoiceAddShape(SamGradient g);
