@@ -36,7 +36,7 @@ def build(prefix, out, *sources):
 def plugin(prefix, tmp_path_factory):
     """The plugin, with nothing of the sources in reach."""
     sources = sorted((prefix / "share/petsam/examples/embed/plugin").glob("*.c"))
-    assert len(sources) == 6
+    assert len(sources) == 7
     return build(prefix, tmp_path_factory.mktemp("plugin") / "plugin.so", *sources)
 
 
@@ -60,6 +60,34 @@ def bits(path):
 
 
 # ---- the program
+
+
+def test_a_number_of_the_plugin_has_a_gradient(petsam, plugin, tmp_path):
+    """By the slope of the plugin's cone, friction and loads, beside differences; the same bits on 3 ranks."""
+    cone = {name: value for name, value in SPHERE.items() if not name.startswith("gap_")} | dict(gap_type="cone")
+    (tmp_path / "cone.csv").write_text("time,load_n,load_tx,load_ty\n0,40,0,0\n1,40,7,2\n2,40,-2,3\n")
+    tight = dict(normal_rtol=1e-12, tangential_rtol=1e-12, slip_direction="end", errors="none")
+    case = (cone, tight, dict(plugin=plugin, history="cone.csv", gradient="shear_norm", gradient_rtol=1e-10))
+
+    def gradient(name="o.h5", ranks=1, slope=2e-3, friction=0.3):
+        more = dict(gap_slope=slope, friction=friction, gradient_of="gap_slope,friction,load_tx", output=name)
+        petsam(*case, more, "-overwrite", ranks=ranks)
+        with h5py.File(tmp_path / name) as file:
+            group = file["gradient/shear_norm"]
+            return dict(group.attrs), group["friction"][:], group["load_tx"][:]
+
+    found, by_friction, by_load = gradient()
+    with h5py.File(tmp_path / "o.h5") as file:
+        q = np.hypot(file["shear_x"][-1], file["shear_y"][-1])
+    area = 2.4e-3 * 2.2e-3 / (45 * 40)
+    assert found["value"] == pytest.approx(((q**8).sum() * area) ** (1 / 8), rel=1e-10)
+    for one, size in (("slope", 1e-6 * 2e-3), ("friction", 1e-6 * 0.3)):
+        start = dict(slope=2e-3, friction=0.3)[one]
+        both = [gradient(**{one: start + sign * size})[0]["value"] for sign in (1, -1)]
+        slope = found["gap_slope"] if one == "slope" else np.nansum(by_friction)
+        assert slope == pytest.approx((both[0] - both[1]) / (2 * size), rel=1e-5), one
+    others = gradient("three.h5", ranks=3)
+    assert others[0] == found and np.array_equal(others[2], by_load) and np.abs(by_load).max() > 0
 
 
 def test_help_lists_the_types_and_their_options(petsam, plugin):

@@ -10,5 +10,6 @@ PetscErrorCode SamPluginRegister(void)
   PetscCall(SamElasticityRegister("coated", CreateCoated));
   PetscCall(SamGapRegister("cone", CreateCone));
   PetscCall(SamNormalRegister("spectral", CreateSpectral));
+  PetscCall(RegisterShearNorm());
   return 0;
 }

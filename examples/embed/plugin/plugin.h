@@ -6,3 +6,4 @@ PetscErrorCode CreateSwelling(SamLaw law);
 PetscErrorCode CreateCoated(SamElasticity elasticity);
 PetscErrorCode CreateCone(SamGap gap);
 PetscErrorCode CreateSpectral(SamSolver solver);
+PetscErrorCode RegisterShearNorm(void);

@@ -28,7 +28,7 @@ def fit(found: Result):
         left.plot(1e6 * loop.displacement, loop.force, ".", color=tint, markersize=3.0, label=name)
         if one.state != "rejected":
             left.plot(1e6 * d, q, color=tint, linewidth=1.0, label="fit")
-    left.set(xlabel="displacement, um", ylabel="force, N", title=found.state)
+    left.set(xlabel="displacement, µm", ylabel="force, N", title=found.state)
     left.legend(loc="best", fontsize=8)
     if several:
         right = axes[0, 1]
@@ -62,6 +62,6 @@ def scar_fit(found):
         panel.plot(1e3 * scar.x, 1e6 * scar.height, ".", color=tint, markersize=4.0, label=name)
         text = f"{scar.coefficient:.3g} +- {scar.coefficient_sd:.2g} 1/Pa"
         panel.plot(1e3 * scar.x, 1e6 * scar.curve, color=tint, linewidth=1.0, label=text)
-    panel.set(xlabel="x, mm", ylabel="height, um")
+    panel.set(xlabel="x, mm", ylabel="height, µm")
     panel.legend(loc="best", fontsize=8)
     return figure

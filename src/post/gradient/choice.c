@@ -140,43 +140,47 @@ PetscErrorCode SamChoiceCheck(SamGradient g, const char of[])
 
 /* ---- values ---- */
 
-/* Returns the place of a number's derivative in the results; NULL: there is none of that name. */
-static PetscReal *PlaceOf(SamGradient g, const char name[])
-{
-  SamDerivatives *d = &g->found;
-  const char     *one;
+/* A parameter with one number: its kind, and its place among those of the kind */
+typedef enum { WEAR, MODULUS, SHAPE } Kind;
 
-  for (PetscInt k = 0; (one = SamGradientNumber(g, k)); k++)
-    if (!strcmp(name, one))
-      return k < SAM_GRADIENT_WEARS ? &d->wear[k]
-             : k < NUMBERS          ? &d->moduli[k - SAM_GRADIENT_WEARS]
-                                    : &d->shape[k - NUMBERS];
-  return NULL;
+/* Finds it; returns false if there is none of that name. */
+static PetscBool FindNumber(SamGradient g, const char name[], Kind *kind, PetscInt *place)
+{
+  const char *one;
+
+  for (PetscInt k = 0; (one = SamGradientNumber(g, k)); k++) {
+    if (strcmp(name, one)) continue;
+    *kind  = k < SAM_GRADIENT_WEARS ? WEAR : k < NUMBERS ? MODULUS : SHAPE;
+    *place = k - (*kind == WEAR ? 0 : *kind == MODULUS ? SAM_GRADIENT_WEARS : NUMBERS);
+    return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
 }
 
 const PetscReal *SamChoiceFind(SamGradient g, const char name[])
 {
-  return SamChoiceHas(g, g->found.of, name) ? PlaceOf(g, name) : NULL;
+  const SamDerivatives  *d    = &g->found;
+  const PetscReal *const by[] = {[WEAR] = d->wear, [MODULUS] = d->moduli, [SHAPE] = d->shape};
+  Kind                   kind;
+  PetscInt               place;
+
+  return SamGradientHas(g, name) && FindNumber(g, name, &kind, &place) ? &by[kind][place] : NULL;
 }
 
 PetscErrorCode SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share)
 {
   SamPairConstants constants;
-  const PetscReal *values, *place = PlaceOf(g, name);
-  const PetscReal  by      = *place;
-  const SamProblem problem = SamContactGetProblem(g->contact);
-  const ptrdiff_t  modulus = place - g->found.moduli, wear = place - g->found.wear;
+  const PetscReal *values[] = {[WEAR] = g->rate, [MODULUS] = constants.modulus, [SHAPE] = NULL}, *by;
+  Kind             kind;
+  PetscInt         place;
 
   PetscFunctionBegin;
-  if (wear >= 0 && wear < SAM_GRADIENT_WEARS) {
-    *share = g->rate[wear] * by;
-  } else if (modulus >= 0 && modulus < SAM_GRADIENT_MODULI) {
-    (void)SamPairGetConstants(SamElasticityGetPair(SamProblemGetElasticity(problem)), &constants);
-    *share = constants.modulus[modulus] * by;
-  } else {
-    PetscCall(SamGapGetParameters(g->shape, NULL, NULL, NULL, &values));
-    *share = isfinite(values[place - g->found.shape]) ? values[place - g->found.shape] * by : 0;
-  }
+  (void)SamPairGetConstants(SamElasticityGetPair(SamProblemGetElasticity(SamContactGetProblem(g->contact))),
+                            &constants);
+  PetscCall(SamGapGetParameters(g->shape, NULL, NULL, NULL, &values[SHAPE]));
+  *share = 0;
+  by     = SamChoiceFind(g, name);
+  if (by && FindNumber(g, name, &kind, &place) && isfinite(values[kind][place])) *share = values[kind][place] * *by;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
