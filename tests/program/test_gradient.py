@@ -118,8 +118,9 @@ def test_moduli_and_wear_need_the_normal_problem_of_each_step():
         ]
         assert value * found[name] == pytest.approx((works[0] - works[1]) / 2e-5, rel=1e-5), name
     assert abs(found["body1_poisson"] / found["body2_poisson"] - 1) > 0.05
-    little = record(contact_of(BODIES, 20, gap=crooked, wear_coefficient1=1e-17)[0], history)[0]
-    assert found["wear_coefficient"] == pytest.approx(little.gradient("energy")["wear_coefficient"], rel=1e-4)
+    for wear in (1e-17, 1e-22):  # so little that the pressure of the next step is the same
+        little = record(contact_of(BODIES, 20, gap=crooked, wear_coefficient1=wear)[0], history)[0]
+        assert found["wear_coefficient"] == pytest.approx(little.gradient("energy")["wear_coefficient"], rel=1e-3)
 
 
 @pytest.mark.filterwarnings("ignore")

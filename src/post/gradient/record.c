@@ -215,7 +215,7 @@ static PetscErrorCode RecordEntering(SamGradient g, const SamSolution *now, SamR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out if the step has the pressure and the normal loads of the step before. */
+/* Finds out if the step has the pressure and the normal loads of the step before, without a jump between them. */
 static PetscErrorCode FindSame(SamGradient g, const SamSolution *now, SamRecord *r)
 {
   const SamSolution *before = SamContactBefore(g->contact);
@@ -225,6 +225,7 @@ static PetscErrorCode FindSame(SamGradient g, const SamSolution *now, SamRecord 
 
   PetscFunctionBegin;
   r->same = PETSC_FALSE;
+  if (g->jumps > 0 && g->jump[g->jumps - 1].after == g->count) PetscFunctionReturn(PETSC_SUCCESS);
   if (!before || !SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL))
     PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(now->pressure, &p));
