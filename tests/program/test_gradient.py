@@ -398,6 +398,19 @@ def test_slip_at_mid_step_is_found_completely():
     assert 0.002 < abs(plain / tight - 1) < 0.05
 
 
+@pytest.mark.filterwarnings("ignore")
+def test_loads_that_are_found_while_contact_grows():
+    """By rough systems, too: what they depend on is found together with the shear, whatever the tolerance."""
+    problem = ProblemOfMidStep(129)
+    assert "disp_x" in problem.history
+    exact, *rough = (
+        problem.recorded.gradient("load_tx", None, slice(2, None), rtol=rtol) for rtol in (1e-12, 1e-2, 1e-4, 1e-8)
+    )
+    for found, rtol in zip(rough, (1e-2, 1e-4, 1e-8)):
+        assert found.residual < 10 * rtol
+        assert np.linalg.norm(found.gap - exact.gap) < 10 * rtol * np.linalg.norm(exact.gap)
+
+
 CLOSE = 3e-5
 
 

@@ -9,7 +9,6 @@
 #define STIFFEST \
   1e12              /* the resistance of a cell to a turn of the slip is not limited: it would change the derivatives */
 #define NEAR   10   /* times the tolerance, or the slip that counts: within that a cell is on the border of its set */
-#define PASSES 50   /* for loads that are found and the motion of cells before they touch */
 #define SINGLE 1e-6 /* tolerance from which on products in single precision suffice */
 
 /* The components in the order of their motions: normal ones first, then those along the surface. */
@@ -460,42 +459,70 @@ static void AddFound(System *s, SamFrozenPart part, const double by_load[])
   (void)PetscFree(motion);
 }
 
+/* Solves for the shear under derivatives by the tangential loads that are found, and finds those that follow from the
+   motion of cells before they touch. `right`: the right-hand side without them; `lambda`: scratch. */
+static PetscErrorCode SolveWithLoads(System *s, const double given[], const double right[], const double by_load[],
+                                     double lambda[])
+{
+  SamBack *b = s->b;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(s->right, right, 3 * s->f.count));
+  AddFound(s, SAM_FROZEN_TANGENTIAL, by_load);
+  PetscCall(SolvePart(s, SAM_FROZEN_TANGENTIAL, given));
+  PetscCall(SpreadLambda(s, lambda));
+  PetscCall(SamBackEnter(b, b->at.step, lambda));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves for one or two unknowns, by columns. */
+static void SolveTwo(PetscInt n, const double columns[2][2], const double b[2], double x[2])
+{
+  const double *c = columns[0], *d = columns[1], determinant = n < 2 ? c[0] : c[0] * d[1] - c[1] * d[0];
+
+  x[0] = (n < 2 ? b[0] : b[0] * d[1] - b[1] * d[0]) / determinant;
+  if (n == 2) x[1] = (c[0] * b[1] - c[1] * b[0]) / determinant;
+}
+
 /*
-  Solves for the shear and the motion of cells before they touch, in turn while that depends on loads which the shear
-  makes.
+  Solves for the shear and the motion of cells before they touch. That depends on the tangential loads of the step;
+  those that are found depend on the shear, whose adjoint depends on their derivatives: linearly, so that as many
+  solutions more as there are such loads give these derivatives.
 */
 static PetscErrorCode SolveEntering(System *s, const double given[])
 {
-  SamBack         *b = s->b;
-  const PetscInt   n = s->f.count;
-  const SamRecord *r = &b->g->record[b->at.step];
-  double          *lambda, *right, change[SAM_COMPONENTS], load[SAM_COMPONENTS] = {0};
-  PetscBool        again = PETSC_TRUE;
+  static const PetscInt along[] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY};
+
+  SamBack         *b     = s->b;
+  const SamRecord *r     = &b->g->record[b->at.step];
+  const double    *after = b->entered.load[1];
+  double          *lambda, *right, load[SAM_COMPONENTS] = {0}, start[2], columns[2][2], found[2], error = 0;
+  PetscInt         c[2], n = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(2 * b->grid->cells, &lambda, 3 * n, &right));
-  PetscCall(PetscArraycpy(right, s->right, 3 * n));
-  for (PetscInt pass = 0; again && pass < PASSES; pass++) {
-    PetscCall(SolvePart(s, SAM_FROZEN_TANGENTIAL, given));
-    PetscCall(SpreadLambda(s, lambda));
-    PetscCall(SamBackEnter(b, b->at.step, lambda));
-    again = PETSC_FALSE;
-    for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-      const PetscBool found =
-        !r->force[c] && (c == SAM_COMPONENT_TX || c == SAM_COMPONENT_TY) ? PETSC_TRUE : PETSC_FALSE;
-
-      change[c] = found ? fabs(b->entered.load[1][c] - load[c]) : 0;
-      load[c]   = found ? b->entered.load[1][c] : 0;
-      if (change[c] > b->rtol * fabs(load[c])) again = PETSC_TRUE;
-    }
-    PetscCall(PetscArraycpy(s->right, right, 3 * n));
-    AddFound(s, SAM_FROZEN_TANGENTIAL, load);
+  PetscCall(PetscMalloc2(2 * b->grid->cells, &lambda, 3 * s->f.count, &right));
+  PetscCall(PetscArraycpy(right, s->right, 3 * s->f.count));
+  PetscCall(SolveWithLoads(s, given, right, load, lambda));
+  for (int k = 0; k < 2; k++)
+    if (!r->force[along[k]] && after[along[k]] != 0) c[n++] = along[k];
+  for (PetscInt k = 0; k < n; k++) start[k] = after[c[k]];
+  for (PetscInt k = 0; k < n; k++) {
+    PetscCall(PetscArrayzero(load, SAM_COMPONENTS));
+    load[c[k]] = start[k];
+    PetscCall(SolveWithLoads(s, given, right, load, lambda));
+    for (PetscInt l = 0; l < n; l++) columns[k][l] = (l == k ? 1 : 0) - (after[c[l]] - start[l]) / start[k];
   }
+  if (n > 0) {
+    SolveTwo(n, columns, start, found);
+    for (PetscInt k = 0; k < n; k++) load[c[k]] = found[k];
+    PetscCall(SolveWithLoads(s, given, right, load, lambda));
+    for (PetscInt k = 0; k < n; k++)
+      if (load[c[k]] != 0) error = PetscMax(error, fabs(after[c[k]] - load[c[k]]) / fabs(load[c[k]]));
+    b->g->found.residual = PetscMax(b->g->found.residual, (PetscReal)error);
+  }
+  PetscCall(PetscArraycpy(s->right, right, 3 * s->f.count));
+  AddFound(s, SAM_FROZEN_TANGENTIAL, load);
   PetscCall(PetscFree2(lambda, right));
-  PetscCheck(!again, b->grid->comm, PETSC_ERR_NOT_CONVERGED,
-             "the gradient: the loads that are found and the motion of cells before they touch do not agree in step "
-             "%" PetscInt_FMT " (the first is 1) after %d solutions: give -slip_direction end",
-             b->at.step + 1, PASSES);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

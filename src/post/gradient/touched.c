@@ -9,8 +9,8 @@
   have made, of the loads and the displacements before and after the step, of the strain by bulk stress, of kappa and of
   mu. In a step from no contact g0 is the distance of the undeformed bodies, measured from where it is least.
 
-  Tangential loads that are found depend on the shear, whose adjoint depends on their cotangents: the caller repeats its
-  system until they agree (adjoint.c).
+  Tangential loads that are found depend on the shear, whose adjoint depends on their cotangents: the caller finds
+  both (adjoint.c).
 */
 #include "gradientimpl.h"
 #include <petsam/private/body.h>
