@@ -469,12 +469,14 @@ static PetscErrorCode SolveEntering(System *s, const double given[])
   SamBack         *b = s->b;
   const PetscInt   n = s->f.count;
   const SamRecord *r = &b->g->record[b->at.step];
-  double          *lambda, *right, change[SAM_COMPONENTS], load[SAM_COMPONENTS] = {0};
+  double          *lambda, *right, change[SAM_COMPONENTS], load[SAM_COMPONENTS] = {0}, most = 0;
   PetscBool        again = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(2 * b->grid->cells, &lambda, 3 * n, &right));
   PetscCall(PetscArraycpy(right, s->right, 3 * n));
+  for (PetscInt m = n; m < 3 * n; m++) most = PetscMax(most, fabs(right[m]));
+  PetscCall(SamMax(b->grid->comm, 1, &most));
   for (PetscInt pass = 0; again && pass < PASSES; pass++) {
     PetscCall(SolvePart(s, SAM_FROZEN_TANGENTIAL, given));
     PetscCall(SpreadLambda(s, lambda));
@@ -486,7 +488,7 @@ static PetscErrorCode SolveEntering(System *s, const double given[])
 
       change[c] = found ? fabs(b->entered.load[1][c] - load[c]) : 0;
       load[c]   = found ? b->entered.load[1][c] : 0;
-      if (change[c] > b->rtol * fabs(load[c])) again = PETSC_TRUE;
+      if (change[c] > b->rtol * PetscMax(fabs(load[c]), most / b->at.area)) again = PETSC_TRUE; /* or it is rounding */
     }
     PetscCall(PetscArraycpy(s->right, right, 3 * n));
     AddFound(s, SAM_FROZEN_TANGENTIAL, load);

@@ -584,17 +584,20 @@ PetscErrorCode SamGradientGetField(SamGradient g, const char name[], Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds a derivative by a number of a row; returns NULL if the name is none. */
+/* Finds a derivative by a number of a row; returns NULL if the name is none. Some bodies have no rotations. */
 static const double *OfStep(const SamGradient g, const char name[], PetscInt step)
 {
-  static const double   none = NAN;
-  const SamDerivatives *d    = &g->found;
+  static const double       none   = NAN;
+  const SamDerivatives     *d      = &g->found;
+  const SamElasticityTraits traits = SamElasticityGetTraits(SamProblemGetElasticity(SamContactGetProblem(g->contact)));
 
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    if (!strcmp(name, SamComponentNames[c].load))
-      return SamGradientOfRow(g, step)->force[c] ? &d->load[step][c] : &none;
-    if (!strcmp(name, SamComponentNames[c].rigid))
-      return SamGradientOfRow(g, step)->force[c] ? &none : &d->rigid[step][c];
+    const PetscBool load = strcmp(name, SamComponentNames[c].load) ? PETSC_FALSE : PETSC_TRUE;
+
+    if (!load && strcmp(name, SamComponentNames[c].rigid)) continue;
+    if (c >= SAM_COMPONENT_MX && !traits.rotations[c - SAM_COMPONENT_MX]) return &none;
+    if (load != SamGradientOfRow(g, step)->force[c]) return &none;
+    return load ? &d->load[step][c] : &d->rigid[step][c];
   }
   for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
     if (!strcmp(name, SamBulkName(k))) return &d->bulk[step][k];
