@@ -21,6 +21,7 @@ import threading
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional, Union
 
@@ -1089,10 +1090,14 @@ class Contact:
             raise ContactError(2, f"gradient: {name!r}: expected the name of a number, as energy")
         if of is not None and (isinstance(of, str) or not len(of) or not all(isinstance(one, str) for one in of)):
             raise ContactError(2, f"gradient: of = {of!r}: expected a list of names of parameters")
+        if not isinstance(rtol, Real):
+            raise ContactError(2, f"gradient: rtol = {rtol!r}: expected a number, as 1e-4")
         if steps is not None:
             ends = (
                 (steps.start or 0, steps.stop) if isinstance(steps, slice) and steps.step in (None, 1) else (-1, None)
             )
+            if not all(end is None or isinstance(end, Integral) for end in ends):
+                ends = -1, None
             if not 0 <= ends[0] < 2**31 or not (ends[1] is None or ends[0] < ends[1] < 2**31):
                 raise ContactError(2, f"gradient: steps {steps}: expected a slice of neighbouring steps, from 0")
             first, last = int(ends[0]), -1 if ends[1] is None else int(ends[1]) - 1

@@ -332,7 +332,7 @@ def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike
     Raises
     ------
     Error
-        If there are none.
+        If there are none; by the call, if they return several shapes.
     """
     every = list(functions)
     if not every:
@@ -340,6 +340,9 @@ def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike
 
     def evaluate(x: ArrayLike) -> Any:
         found = [one(x) for one in every]
+        shapes = {tuple(map(np.shape, one)) if isinstance(one, tuple) else np.shape(one) for one in found}
+        if len(shapes) > 1:
+            raise Unusable("the functions return numbers of several shapes: give those of the same numbers")
         return (
             tuple(sum(parts) / len(every) for parts in zip(*found))
             if isinstance(found[0], tuple)

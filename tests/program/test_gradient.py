@@ -124,6 +124,60 @@ def test_moduli_and_wear_need_the_normal_problem_of_each_step():
 
 
 @pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("name", ["energy", "pressure_norm", "disp_z"])
+def test_wear_that_is_too_little_to_change_the_pressure(name):
+    """By the coefficient of wear of the usual tolerances, by which the solver leaves the pressure as it is."""
+    history = history_of(np.full(9, 1000.0), np.append(0, 170 * TURNS), np.zeros(9))
+    found = []
+    for normal_rtol, coefficient in ((1e-12, 1e-13), (1e-6, 1e-17)):
+        more = dict(wear_coefficient1=coefficient, normal_rtol=normal_rtol, tangential_rtol=1e-7)
+        contact = record(contact_of(BODIES, 20, **more)[0], history)[0]
+        found.append(contact.gradient(name, ["wear_coefficient"], rtol=1e-8)["wear_coefficient"])
+    assert found[1] == pytest.approx(found[0], rel=1e-3)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_system_whose_right_hand_side_is_rounding():
+    """Steps at mid step in which all cells stick, at tolerances that rounding of later steps does not allow."""
+    history = history_of(
+        np.array([1.8e5, 1.8e5, 3e5, 2.4e5, 2.4e5]), np.array([10296.0, 15702, -13048, 21855, -259]),
+        np.array([4061.0, 10373, -9098, 18000, -14456]),
+    )  # fmt: skip
+    crooked = lambda x, y: gap_of(x, 0) + 3e-8 * np.sin(2500 * x)  # noqa: E731
+    rough = 0.4 * (1 + 0.3 * np.sin(np.arange(40)))[None]
+    more = dict(elasticity="plane", slip_direction="mid", friction=rough)
+    contact = record(contact_of(BODIES, (40, 1), gap=crooked, **more)[0], history)[0]
+    for name in ("disp_x", "mises@50um"):
+        usual = contact.gradient(name, ["gap"], rtol=1e-6)
+        for rtol in (1e-7, 1e-9, 1e-11, 1e-13):
+            found = contact.gradient(name, ["gap"], rtol=rtol)
+            assert np.allclose(found.gap, usual.gap, rtol=0, atol=1e-4 * np.abs(usual.gap).max()), rtol
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_loads_that_are_found_and_rounding():
+    """A contact that grows by a displacement and sticks: nothing depends on the loads that it has found."""
+    steps = np.array([3.6, 3.6, 6, 6, 6, 6, 6, 4.8, 4.8]) * 1e-6
+    history = {"time": np.arange(9.0), "disp_z": steps}
+    history["disp_x"] = 1e-7 * np.array([-5.70, -1.45, -4.21, -0.93, -0.30, 7.2, -7.2, -2.19, 2.0])
+    history["disp_y"] = 1e-7 * np.array([-1.0, 2.0, 1.5, -0.5, 1.0, 2.5, -3.0, 1.0, 0.5])
+    crooked = lambda x, y: gap_of(x, 0) + 3e-8 * np.sin(2500 * x)  # noqa: E731
+    contact = record(contact_of(BODIES, (40, 1), gap=crooked, elasticity="plane", slip_direction="mid")[0], history)[0]
+    for name in ("load_tx", "mises@50um"):
+        exact = contact.gradient(name, ["gap"], rtol=1e-10)
+        for rtol in (1e-4, 1e-6, 1e-8):
+            found = contact.gradient(name, ["gap"], rtol=rtol)
+            assert np.allclose(found.gap, exact.gap, rtol=0, atol=30 * rtol * np.abs(exact.gap).max()), (name, rtol)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_rotations_that_periodic_bodies_do_not_have():
+    history = history_of(np.full(4, 800.0), np.array([0, 50.0, 20, -40]), np.zeros(4))
+    found = record(contact_of(BODIES, 18, elasticity="periodic")[0], history)[0].gradient("energy")
+    assert {"load_n", "load_tx"} <= set(found) and not {"rot_x", "rot_y", "rot_z"} & set(found)
+
+
+@pytest.mark.filterwarnings("ignore")
 def test_digits_with_bulk_stress():
     """A published one, and a central difference of the contact's own energy."""
     a = np.array([0, 0.4, 0.8, 1, 0.3, -0.4, -1])
@@ -764,9 +818,21 @@ def test_refusals():
             contact.gradient(name)
     with pytest.raises(petsam.Error, match="expected steps from 0 to 2"):
         contact.gradient("energy", None, slice(5, 7))
-    for steps in (slice(-2, None), slice(0, 0), slice(3, 0), slice(2**31, None), slice(0, 2**32), 1, (0, 2)):
+    for steps in (
+        slice(-2, None),
+        slice(0, 0),
+        slice(3, 0),
+        slice(2**31, None),
+        slice(0, 2**32),
+        slice(1.5, 2),
+        1,
+        (0, 2),
+    ):
         with pytest.raises(petsam.Error, match="neighbouring"):
             contact.gradient("energy", None, steps)
+    for rtol, words in (("1e-4", "expected a number"), (None, "expected a number"), (0, "between 0 and 1")):
+        with pytest.raises(petsam.Error, match=words):
+            contact.gradient("energy", rtol=rtol)
     found = contact.gradient("energy")
     with pytest.raises(petsam.Error, match="no derivative by it"):
         _ = found["disp_x"]

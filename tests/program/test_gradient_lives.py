@@ -167,3 +167,21 @@ def test_a_record_has_one_simulation():
     assert np.array_equal(contact.gradient("wear_volume", ["gap"]).gap, first.gap)
     with pytest.raises(petsam.Error, match="steps have been recorded before it"):
         contact.live(10, history_of({}))
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_jumps_that_are_too_little_to_change_the_pressure():
+    """By the coefficient of wear under a normal force that stays, with tolerances by which the pressure stays, too."""
+    cycle = {"time": ROW.astype(float), "load_n": np.full(9, 1000.0), "load_tx": 160 * np.sin(TURN)}
+    found = []
+    for normal_rtol, coefficient in ((1e-12, 1e-14), (1e-6, 1e-17)):
+        tolerances = dict(normal_rtol=normal_rtol, tangential_rtol=1e-7)
+        contact = petsam.Contact(
+            **{**BODIES, **TIGHT, **tolerances, "grid_n": 20, "grid_size": SIZE, "gap_type": "flat", "friction": 0.3},
+            wear_coefficient1=coefficient, wear_jump=10.0, allow_edge_contact=True,
+        )  # fmt: skip
+        contact.gap = gap_of(*np.meshgrid(contact.x, contact.y))
+        contact.record_gradient()
+        contact.live(40, cycle)
+        found.append([contact.gradient(name, rtol=1e-8)["wear_coefficient"] for name in ("energy", "pressure_norm")])
+    assert found[1] == pytest.approx(found[0], rel=1e-3)

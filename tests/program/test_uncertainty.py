@@ -242,6 +242,8 @@ def test_refusals_of_functions():
             petsam.gradient.positions(BALL, count)
     with pytest.raises(petsam.Error, match="there are no functions"):
         petsam.gradient.mean([])
+    with pytest.raises(petsam.Error, match="numbers of several shapes"):
+        petsam.gradient.mean([lambda x: (1.0, np.zeros(2)), lambda x: (np.ones(2), np.zeros((2, 2)))])([1, 1])
     with pytest.raises(petsam.Error, match="use gap_type = flat"):
         make(ball, HISTORY, "energy", ["friction"], gap=np.zeros((32, 32)))
     for parameters, x, words in (

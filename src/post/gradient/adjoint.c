@@ -495,16 +495,19 @@ static PetscErrorCode SolveEntering(System *s, const double given[])
 
   SamBack         *b     = s->b;
   const SamRecord *r     = &b->g->record[b->at.step];
+  const PetscInt   size  = 3 * s->f.count;
   const double    *after = b->entered.load[1];
-  double          *lambda, *right, load[SAM_COMPONENTS] = {0}, start[2], columns[2][2], found[2], error = 0;
+  double          *lambda, *right, load[SAM_COMPONENTS] = {0}, start[2], columns[2][2], found[2], most = 0, error = 0;
   PetscInt         c[2], n = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(2 * b->grid->cells, &lambda, 3 * s->f.count, &right));
-  PetscCall(PetscArraycpy(right, s->right, 3 * s->f.count));
+  PetscCall(PetscMalloc2(2 * b->grid->cells, &lambda, size, &right));
+  PetscCall(PetscArraycpy(right, s->right, size));
+  for (PetscInt m = s->f.count; m < size; m++) most = PetscMax(most, fabs(right[m]) / b->at.area);
+  PetscCall(SamMax(b->grid->comm, 1, &most));
   PetscCall(SolveWithLoads(s, given, right, load, lambda));
-  for (int k = 0; k < 2; k++)
-    if (!r->force[along[k]] && after[along[k]] != 0) c[n++] = along[k];
+  for (int k = 0; k < 2; k++) /* where all cells stick it is rounding */
+    if (!r->force[along[k]] && fabs(after[along[k]]) > b->rtol * most) c[n++] = along[k];
   for (PetscInt k = 0; k < n; k++) start[k] = after[c[k]];
   for (PetscInt k = 0; k < n; k++) {
     PetscCall(PetscArrayzero(load, SAM_COMPONENTS));
@@ -517,10 +520,10 @@ static PetscErrorCode SolveEntering(System *s, const double given[])
     for (PetscInt k = 0; k < n; k++) load[c[k]] = found[k];
     PetscCall(SolveWithLoads(s, given, right, load, lambda));
     for (PetscInt k = 0; k < n; k++)
-      if (load[c[k]] != 0) error = PetscMax(error, fabs(after[c[k]] - load[c[k]]) / fabs(load[c[k]]));
+      error = PetscMax(error, fabs(after[c[k]] - load[c[k]]) / PetscMax(most, fabs(load[c[k]])));
     b->g->found.residual = PetscMax(b->g->found.residual, (PetscReal)error);
   }
-  PetscCall(PetscArraycpy(s->right, right, 3 * s->f.count));
+  PetscCall(PetscArraycpy(s->right, right, size));
   AddFound(s, SAM_FROZEN_TANGENTIAL, load);
   PetscCall(PetscFree2(lambda, right));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -758,7 +761,8 @@ PetscErrorCode SamBackSolve(SamBack *b, PetscInt step)
   const SamRecord *record = &b->g->record[step];
   const SamGrid    g      = b->grid;
   System           s      = {.b = b};
-  double           given[SAM_COMPONENTS], rubs = 0, touches, *moved, *r;
+  double           given[SAM_COMPONENTS], rubs = 0, touches, *moved, *r, *right, *x;
+  PetscErrorCode   ierr;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2 * g->cells; k++) b->later[k] += b->at.by_slip[k];
@@ -772,12 +776,16 @@ PetscErrorCode SamBackSolve(SamBack *b, PetscInt step)
   PetscCall(SamMax(g->comm, 1, &touches));
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) /* without friction there is no shear that loads could change */
     if (record->force[components[n]] && Has(b, n) && (n < 3 || rubs > 0 || touches == 0)) s.given[s.count++] = n;
-  PetscCall(PetscMalloc4(3 * s.f.count, &s.x, 3 * s.f.count, &s.right, 2 * s.f.count, &r, 3 * g->cells, &moved));
+  PetscCall(PetscMalloc4(3 * s.f.count, &x, 3 * s.f.count, &right, 2 * s.f.count, &r, 3 * g->cells, &moved));
+  s.x     = x;
+  s.right = right;
   PetscCall(FindRight(&s, moved));
   PetscCall(FindGiven(&s, given));
-  PetscCall(touches > 0 ? Solve(&s, rubs > 0 ? PETSC_TRUE : PETSC_FALSE, given, r) : CheckLost(&s, given));
-  PetscCall(SetCotangents(&s, r));
-  PetscCall(PetscFree4(s.x, s.right, r, moved));
+  ierr = touches > 0 ? Solve(&s, rubs > 0 ? PETSC_TRUE : PETSC_FALSE, given, r) : CheckLost(&s, given);
+  if (!ierr) PetscCall(SetCotangents(&s, r));
+  PetscCall(PetscFree4(x, right, r, moved));
+  PetscCall(SamFrozenClearBorder(&s.f));
   PetscCall(SamFrozenDestroy(&s.f));
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

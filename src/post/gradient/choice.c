@@ -103,10 +103,10 @@ PetscBool SamChoiceHasModuli(SamGradient g, const char of[])
 
 PetscBool SamChoiceAllowsSharing(SamGradient g)
 {
-  const PetscBool wear = Wears(g) || HaveOne(g, g->found.of, 0, SAM_GRADIENT_WEARS) ? PETSC_TRUE : PETSC_FALSE;
+  const char *const of = g->found.of;
 
-  /* the moduli meet the shear of each step; steps that wear change the gap of the next ones, however little */
-  return !SamChoiceHasModuli(g, g->found.of) && (!wear || g->cycle > 0) ? PETSC_TRUE : PETSC_FALSE;
+  /* the moduli meet the shear of each step; what does not wear would wear in each of them */
+  return !SamChoiceHasModuli(g, of) && (Wears(g) || !HaveOne(g, of, 0, SAM_GRADIENT_WEARS)) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscBool SamChoiceHasShape(SamGradient g, const char of[])

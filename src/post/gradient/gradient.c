@@ -422,18 +422,13 @@ static PetscErrorCode ClearWithoutFriction(SamGradient g)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
+/* Passes back over the steps, and gets the results. */
+static PetscErrorCode GoBack(SamBack *b, const SamObjective *objective)
 {
   SamDerivatives *found = &b->g->found;
-  double         *arrays, *of_life;
   PetscInt64      end[2];
 
   PetscFunctionBegin;
-  PetscCall(ChoosePart(b));
-  b->at.moduli = SamChoiceHasModuli(b->g, found->of);
-  if (b->at.moduli) PetscCall(CreateOther(b));
-  PetscCall(Begin(b, &arrays));
-  PetscCall(BeginLife(b, &of_life));
   PetscCall(SamRecordUnpack(b, &b->g->record[b->g->count - 1], &b->before));
   for (PetscInt k = b->g->count - 1; k >= 0; k--) {
     PetscCall(SamBackPassJumps(b, k + 1));
@@ -446,23 +441,40 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
     PetscCall(SamBackRead(b, k));
     if (b->g->record[k].grows) PetscCall(SamBackLeaveEntered(b, k));
   }
-  if (objective->end) PetscCall((*objective->end)(b->at.data));
   found->value = b->at.number;
   if (isnan(b->at.number)) PetscCall(SamSumTotals(b->grid->comm, 1, &b->at.value, &found->value));
   PetscCall(PutArray(b, b->by_gap, &found->gap));
   PetscCall(PutArray(b, b->by_friction, &found->friction));
   PetscCall(ClearWithoutFriction(b->g));
   if (SamChoiceHasShape(b->g, found->of)) PetscCall(SamChoiceAddShape(b->g));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
+{
+  double        *arrays, *of_life;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(ChoosePart(b));
+  b->at.moduli = SamChoiceHasModuli(b->g, b->g->found.of);
+  if (b->at.moduli) PetscCall(CreateOther(b));
+  PetscCall(Begin(b, &arrays));
+  PetscCall(BeginLife(b, &of_life));
+  ierr = GoBack(b, objective);
+  if (objective->end && b->at.data) PetscCall((*objective->end)(b->at.data));
   for (int k = 0; k < 2; k++) {
     SamFrameOfStep *frame = k ? &b->now : &b->before;
 
-    PetscCall(VecRestoreArrayRead(frame->field, &frame->value));
+    if (frame->value) PetscCall(VecRestoreArrayRead(frame->field, &frame->value));
     PetscCall(VecDestroy(&frame->field));
   }
+  for (PetscInt k = 0; k < b->shared.count; k++) PetscCall(PetscFree(b->shared.by_right[k])); /* after an error */
   PetscCall(VecDestroy(&b->whole));
   PetscCall(SamElasticityDestroy(&b->other));
   PetscCall(PetscFree(arrays));
   PetscCall(PetscFree(of_life));
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -584,17 +596,20 @@ PetscErrorCode SamGradientGetField(SamGradient g, const char name[], Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds a derivative by a number of a row; returns NULL if the name is none. */
+/* Finds a derivative by a number of a row; returns NULL if the name is none. Some bodies have no rotations. */
 static const double *OfStep(const SamGradient g, const char name[], PetscInt step)
 {
-  static const double   none = NAN;
-  const SamDerivatives *d    = &g->found;
+  static const double       none   = NAN;
+  const SamDerivatives     *d      = &g->found;
+  const SamElasticityTraits traits = SamElasticityGetTraits(SamProblemGetElasticity(SamContactGetProblem(g->contact)));
 
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    if (!strcmp(name, SamComponentNames[c].load))
-      return SamGradientOfRow(g, step)->force[c] ? &d->load[step][c] : &none;
-    if (!strcmp(name, SamComponentNames[c].rigid))
-      return SamGradientOfRow(g, step)->force[c] ? &none : &d->rigid[step][c];
+    const PetscBool load = strcmp(name, SamComponentNames[c].load) ? PETSC_FALSE : PETSC_TRUE;
+
+    if (!load && strcmp(name, SamComponentNames[c].rigid)) continue;
+    if (c >= SAM_COMPONENT_MX && !traits.rotations[c - SAM_COMPONENT_MX]) return &none;
+    if (load != SamGradientOfRow(g, step)->force[c]) return &none;
+    return load ? &d->load[step][c] : &d->rigid[step][c];
   }
   for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
     if (!strcmp(name, SamBulkName(k))) return &d->bulk[step][k];

@@ -215,8 +215,18 @@ static PetscErrorCode RecordEntering(SamGradient g, const SamSolution *now, SamR
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out if the step has the pressure and the normal loads of the step before, without a jump between them. */
-static PetscErrorCode FindSame(SamGradient g, const SamSolution *now, SamRecord *r)
+/* True if the bodies have worn between the step before and that of the place: in each step, or by jumps. */
+static PetscBool HasWorn(SamGradient g, PetscInt place)
+{
+  if (g->cycle == 0) return g->rate[0] != 0 || g->rate[1] != 0 ? PETSC_TRUE : PETSC_FALSE;
+  return g->jumps > 0 && g->jump[g->jumps - 1].after == place ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/*
+  Finds out if the step has the pressure and the normal loads of the step before. Wear that is too little for the
+  solver to change the pressure still has a derivative: such a step is another one.
+*/
+static PetscErrorCode FindSame(SamGradient g, const SamSolution *now, PetscInt place, SamRecord *r)
 {
   const SamSolution *before = SamContactBefore(g->contact);
   const SamGrid      grid   = SamContactGetGrid(g->contact);
@@ -225,8 +235,7 @@ static PetscErrorCode FindSame(SamGradient g, const SamSolution *now, SamRecord 
 
   PetscFunctionBegin;
   r->same = PETSC_FALSE;
-  if (g->jumps > 0 && g->jump[g->jumps - 1].after == g->count) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!before || !SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL))
+  if (!before || HasWorn(g, place) || !SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL))
     PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(now->pressure, &p));
   PetscCall(VecGetArrayRead(before->pressure, &q));
@@ -291,7 +300,7 @@ PetscErrorCode SamGradientRecord(SamGradient g, PetscInt row, SamLifePlace where
   PetscCall(SamIncrementDestroy(&increment));
   CopyControl(g, now, &r);
   PetscCall(RecordEntering(g, now, &r));
-  PetscCall(FindSame(g, now, &r));
+  PetscCall(FindSame(g, now, place, &r));
   r.turns = SamRuleTurns(now->rule) && SamContactBefore(g->contact) ? PETSC_TRUE : PETSC_FALSE;
   r.row   = row < 0 ? place : row;
   while (g->count > place) PetscCall(SamRecordDestroy(&g->record[--g->count]));

@@ -184,25 +184,27 @@ static PetscErrorCode AddDisplacements(SamFrozen *f, double times, const Vec sum
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets what residuals are relative to: the right-hand side, or if that is 0 what the start leaves of it; 0 if that is
-   rounding, as where the rows determine the unknowns. */
-static PetscErrorCode SetReference(SamFrozen *f, const double b[], const double residual[])
+/* Sets what residuals are relative to: the right-hand side, or if that is 0, or no more than rounding of earlier
+   systems beside the numbers of the rows, what the start leaves of it; 0 if that is rounding, as where the rows
+   determine the unknowns. `error`: what the start leaves relative to that, at least 1; `least`: its rounding. */
+static PetscErrorCode SetReference(SamFrozen *f, const double b[], const double residual[], PetscReal *error,
+                                   PetscReal *least)
 {
   const PetscInt n = SamFrozenSize(f);
-  double        *work, square, whole;
+  double        *work, square, whole, left;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &work));
   PetscCall(PetscArraycpy(work, b, n));
   PetscCall(SamFrozenDots(f, 1, &work, work, &square));
-  if (square == 0) {
-    PetscCall(PetscArraycpy(work, residual, n));
-    PetscCall(SamFrozenDots(f, 1, &work, work, &whole));
-    PetscCall(SamFrozenTakeColumns(f, work));
-    PetscCall(SamFrozenDots(f, 1, &work, work, &square));
-    if (square <= ROUNDING * ROUNDING * whole) square = 0;
-  }
+  PetscCall(PetscArraycpy(work, residual, n));
+  PetscCall(SamFrozenDots(f, 1, &work, work, &whole));
+  PetscCall(SamFrozenTakeColumns(f, work));
+  PetscCall(SamFrozenDots(f, 1, &work, work, &left));
+  if (square <= SINGLE * SINGLE * left) square = left <= ROUNDING * ROUNDING * whole ? 0 : left;
   f->reference = sqrt(square);
+  *error       = square > 0 ? PetscMax(1, sqrt(left / square)) : 0;
+  *least       = square > 0 ? ROUNDING * sqrt(whole / square) : 0;
   PetscCall(PetscFree(work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -262,9 +264,10 @@ PetscErrorCode SamFrozenSolveBordered(SamFrozen *f, const double b[], const doub
                                       double multipliers[], PetscReal *error)
 {
   const PetscInt  n     = SamFrozenSize(f);
-  const PetscBool tight = f->rtol < SINGLE ? PETSC_TRUE : PETSC_FALSE;
+  const PetscReal rtol  = f->rtol;
+  const PetscBool tight = rtol < SINGLE ? PETSC_TRUE : PETSC_FALSE;
   double         *right, *residual, *dx;
-  PetscReal       last = 1;
+  PetscReal       last, least = 0;
   Vec             sums[2];
 
   PetscFunctionBegin;
@@ -274,8 +277,9 @@ PetscErrorCode SamFrozenSolveBordered(SamFrozen *f, const double b[], const doub
   PetscCall(PetscArrayzero(x, n));
   PetscCall(PetscArraycpy(residual, b, n));
   PetscCall(MeetRows(f, given, x, residual, right, sums));
-  PetscCall(SetReference(f, b, residual));
-  *error = f->reference > 0 ? 1 : 0;
+  PetscCall(SetReference(f, b, residual, error, &least));
+  last    = *error;
+  f->rtol = PetscMax(rtol, least);
   for (PetscInt pass = 0; pass < PASSES && f->reference > 0; pass++) {
     PetscCall(AddSolution(f, residual, x, right, dx, sums, error));
     if ((*error <= f->rtol && (pass > 0 || !tight)) || *error > 0.5 * last) break;
@@ -283,6 +287,7 @@ PetscErrorCode SamFrozenSolveBordered(SamFrozen *f, const double b[], const doub
     last = *error;
   }
   f->reference = 0;
+  f->rtol      = rtol;
   PetscCall(AddDisplacements(f, 1, sums, PETSC_TRUE));
   PetscCall(FindMultipliers(f, residual, multipliers));
   for (int c = 0; c < 2; c++) PetscCall(VecDestroy(&sums[c]));
