@@ -17,6 +17,7 @@ CASES = {
     "few cycles": dict(wear_jump=5.0, grid_n=20),
     "displacements": dict(approach=7e-6, grid_n=20),
     "new cells": dict(swing=20.0, wear_coefficient1=2e-10, grid_n=30),
+    "one pressure": dict(swing=0.0, wear_rtol=1e-8, grid_n=20),
     "plane": dict(elasticity="plane", grid_n=(40, 1), wear_coefficient1=2e-13),
 }
 

@@ -12,7 +12,8 @@
   Step k leaves lambda - dJ/d(ds) for V of the step before. Derivatives are read off the cotangents: by the gap gamma,
   by friction p beta, by given loads nu, by given displacements -n.gamma and -t.tau, by a stretch tau (x, y), by the
   moduli the products of the cotangents with those of the tractions for other constants. Wear adds its depth to the gap
-  of later steps. Similar bodies have two systems, that of the shear first.
+  of later steps. Similar bodies have two systems, that of the shear first; steps of one pressure share the second one
+  (gradientimpl.h, SamShared).
 
   The work of friction, and wear, weigh the pressures before and after a step as the contact does
   (contact/solution/gapandslip.c); these weights have derivatives, too.
