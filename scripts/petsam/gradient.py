@@ -240,6 +240,8 @@ class _Model:
         self.wanted = [
             (one, None) if isinstance(one, str) else one for one in (objective if self.several else [objective])
         ]
+        if not _fits(scales, len(parameters)):
+            raise Unusable(f"scales = {scales!r}: give a number, or {counted(len(parameters), 'number')}")
         named = isinstance(history, Mapping)
         self.columns = [name for name in history if name in (*LOADS, *WAYS, *BULK)] if named else []
         self.names = [one for one in parameters if isinstance(one, str)]
@@ -273,6 +275,14 @@ class _Model:
             if self.columns:
                 scaled = {one: np.asarray(values) * factors.get(one, 1.0) for one, values in self.history.items()}
             yield contact, contact.run(scaled), parts
+
+
+def _fits(scales, count):
+    """Whether these are numbers, one or as many as parameters."""
+    try:
+        return np.asarray(scales, dtype=float).shape in ((), (count,))
+    except (TypeError, ValueError):
+        return False
 
 
 def _number(steps, name, part):

@@ -155,6 +155,23 @@ def test_a_system_whose_right_hand_side_is_rounding():
 
 
 @pytest.mark.filterwarnings("ignore")
+def test_the_first_of_steps_that_grow_without_tangential_loads():
+    """At mid step; a tangential load of one of them alone is out of proportion, so that N comes first."""
+    history = history_of(np.array([250.0, 500, 750, 1000, 1000, 1000]), np.array([0, 0, 0, 0, 60, -30.0]), np.zeros(6))
+    mid = dict(slip_direction="mid", tangential_rtol=1e-12)
+
+    def run(change):
+        loads = {**history, "load_tx": history["load_tx"] + change}
+        return record(contact_of(BODIES, 24, **mid)[0], loads)
+
+    for name in ("energy", "disp_x"):
+        found = run(np.zeros(6))[0].gradient(name, rtol=1e-10)["load_tx"]
+        for row in (0, 1, 3):
+            both = [run(size * (np.arange(6) == row))[0].gradient(name, rtol=0.1).value for size in (1e-3, -1e-3)]
+            assert found[row] == pytest.approx((both[0] - both[1]) / 2e-3, rel=1e-4, abs=1e-4 * abs(found).max()), row
+
+
+@pytest.mark.filterwarnings("ignore")
 def test_loads_that_are_found_and_rounding():
     """A contact that grows by a displacement and sticks: nothing depends on the loads that it has found."""
     steps = np.array([3.6, 3.6, 6, 6, 6, 6, 6, 4.8, 4.8]) * 1e-6

@@ -45,7 +45,7 @@ def test_maps_are_changes_by_a_patch_in_colours_about_zero(results):
     cell = (results.x[1] - results.x[0]) * (results.y[1] - results.y[0])
     found = results.gradients["energy"]
     assert found.unit == "J" and results.gradients["disp_x"].unit == "m"
-    for panel, values, change in zip(panels[2:], (found.gap, found.friction), (1e-6, 0.1)):
+    for panel, values, change in zip(panels[2:], (found.gap, found.friction), (1e-6, 0.01)):
         drawn = panel.images[0]
         assert np.asarray(drawn.get_array()) == pytest.approx(
             values * change * 1e-8 / cell / found.value * 100, rel=1e-9
@@ -71,7 +71,7 @@ def test_plane_problems_have_curves(draw, plane, path, tmp_path):
         figure = gradients.gradient([results])
         found = results.gradients["energy"]
         step = results.x[1] - results.x[0]
-    for panel, values, change in zip(figure.axes, (found.gap, found.friction), (1e-6, 0.1)):
+    for panel, values, change in zip(figure.axes, (found.gap, found.friction), (1e-6, 0.01)):
         line = panel.lines[-1].get_ydata()
         assert np.abs(line).max() == pytest.approx(np.abs(values).max() * change * 1e-6 / step / found.value * 100)
         assert "a strip of 1 µm" in panel.get_title("left") and len(panel.lines) == 6

@@ -244,6 +244,9 @@ def test_refusals_of_functions():
         petsam.gradient.mean([])
     with pytest.raises(petsam.Error, match="numbers of several shapes"):
         petsam.gradient.mean([lambda x: (1.0, np.zeros(2)), lambda x: (np.ones(2), np.zeros((2, 2)))])([1, 1])
+    for scales in ([1, 2], "one", [[0.05]]):
+        with pytest.raises(petsam.Error, match="give a number, or 1 number"):
+            make(BALL, HISTORY, "energy", [sphere], scales=scales)
     with pytest.raises(petsam.Error, match="use gap_type = flat"):
         make(ball, HISTORY, "energy", ["friction"], gap=np.zeros((32, 32)))
     for parameters, x, words in (

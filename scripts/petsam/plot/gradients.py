@@ -13,7 +13,7 @@ from .fields import Layout
 from .style import bar, curve, extent, field, named, need_few, note, plt
 from .units import label, largest, number, plain, scale
 
-GAP, FRICTION = 1e-6, 0.1  # m, 1: the changes of a patch
+GAP, FRICTION = 1e-6, 0.01  # m, 1: the changes of a patch
 PART = 0.01  # of the contact that a patch has at most
 MARGIN = 0.15  # about the cells that count, over their extent
 EDGES = ((lambda state: state != OPEN, "-"), (lambda state: state == STICK, "--"))  # of contact and of stick
@@ -36,7 +36,7 @@ class Patch:
     def changes(self, results, one):
         """Changes by the gap and by friction, (ny, nx) each, and their unit: of the number, or its own if it is 0."""
         cell = (results.x[1] - results.x[0]) * (1.0 if results.is_plane else results.y[1] - results.y[0])
-        size, unit = (abs(one.value) / 100.0, "%") if one.value else (1.0, one.unit)
+        size, unit = (one.value / 100.0, "%") if one.value else (1.0, one.unit)
         factor = self.side**self.power / cell / size
         return (GAP * factor * one.gap, FRICTION * factor * one.friction), unit
 
@@ -119,7 +119,10 @@ def gradient(files, whole=False):
     """Changes by the gap (left) and by friction (right), of every gradient of every file."""
     for one in files:
         if not drawn(one):
-            raise Error(f"{one.path}: --gradient: has no gradient by gap and friction: use petsam -gradient NAME")
+            raise Error(
+                f"{one.path}: --gradient: has no gradient by gap and friction: use petsam -gradient NAME, without "
+                "-gradient_of, or with both"
+            )
         if one.is_plane != files[0].is_plane:
             raise Error(f"{one.path}: --gradient: plane problems do not go into a picture of others")
     data = [_read(one, each, whole) for one in files for each in drawn(one)]

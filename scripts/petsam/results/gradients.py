@@ -10,6 +10,7 @@ from ..core.errors import Error, there_are
 from ..core.files import decoded
 
 MODULI = ("body1_young", "body1_poisson", "body2_young", "body2_poisson")
+NAMED = ("gap", "friction", "wear_coefficient", "wear_energy", *MODULI)  # they exist if they are named
 
 
 @dataclass(repr=False)
@@ -71,7 +72,7 @@ class Gradient:
         """A derivative by the name of its parameter: gap, friction, load_tx, disp_x, body1_young, ..."""
         every = {"gap": self.gap, "friction": self.friction, **self.numbers}
         every = {one: derivative for one, derivative in every.items() if derivative is not None}
-        if name not in every and name.startswith((*MODULI, "gap", "friction")):
+        if name not in every and (name in NAMED or name.startswith("gap_")):
             raise Error(f'gradient: {name}: it was not computed: give of=["{name}"], -gradient_of {name}')
         if name not in every:
             raise Error(f"gradient: {name}: there is no derivative by it{there_are(name, list(every))}")

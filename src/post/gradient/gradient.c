@@ -721,7 +721,7 @@ PetscErrorCode SamGradientDescribe(SamGradient g, char text[], size_t size)
   PetscCall(FindShares(g, shares, &count));
   used = (size_t)snprintf(text, size, "%s %.6g%s%s", d->name, (double)d->value, strcmp(d->unit, "1") ? " " : "",
                           strcmp(d->unit, "1") ? d->unit : "");
-  for (PetscInt told = 0; told < TOLD; told++) {
+  for (PetscInt told = 0; told < TOLD && count > 0; told++) {
     PetscInt best = 0;
 
     for (PetscInt k = 1; k < count; k++) /* of equal ones the first, whatever their last digits are */
@@ -731,7 +731,8 @@ PetscErrorCode SamGradientDescribe(SamGradient g, char text[], size_t size)
                              shares[best].name, shares[best].share / (double)d->value);
     shares[best].share = 0;
   }
-  if (!strstr(text, "; by") && used < size) (void)snprintf(text + used, size - used, "; no parameter has an effect");
+  if (!strstr(text, "; by") && used < size)
+    (void)snprintf(text + used, size - used, "; by the wanted parameters: in the results");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -197,8 +197,9 @@ static PetscErrorCode RecordEntering(SamGradient g, const SamSolution *now, SamR
   Vec                separation, field;
 
   PetscFunctionBegin;
-  r->grows = SamApproachGrows(before, now);
   r->fresh = !before || !(before->load[SAM_COMPONENT_N] > 0) ? PETSC_TRUE : PETSC_FALSE;
+  /* without tangential loads the first step is in proportion to the next one for these loads only: N comes first */
+  r->grows = SamApproachGrows(before, now) && !(r->fresh && loads[0] == 0 && loads[1] == 0) ? PETSC_TRUE : PETSC_FALSE;
   if (!r->grows) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetState(g->contact, &state));
   PetscCall(SamApproachFind(problem, state, before, now, loads, &r->approach));
