@@ -1017,6 +1017,19 @@ def test_steps_beyond_a_limit_of_memory(petsam, loads, tmp_path, monkeypatch):
     assert "nowhere (TMPDIR): No such file" in done.stderr
 
 
+def test_a_number_without_a_value_leaves_the_others(petsam, tmp_path):
+    """A pad under pressure alone has no cycle with tension; the other numbers are in the file, the exit code tells."""
+    (tmp_path / "h.csv").write_text("time,load_n\n0,2e5\n1,2e5\n")
+    plane = dict(
+        BODIES, elasticity="plane", gap_type="sphere", gap_radius1=0.05, gap_radius2="inf", grid_n=64, grid_size=2.4e-3,
+        friction=0.3, errors="none", allow_edge_contact=True, history="h.csv", output="o.h5",
+        gradient="swt@50um,energy,pressure_norm",
+    )  # fmt: skip
+    done = petsam(plane, check=2)
+    assert "nowhere above 0" in done.stderr
+    assert set(library.open(tmp_path / "o.h5").gradients) == {"energy", "pressure_norm"}
+
+
 def test_steps_of_a_gradient(petsam, loads, tmp_path):
     """-gradient_steps counts from 1, slices of a contact from 0."""
     petsam(RUN, dict(history="history.csv", gradient="energy", gradient_steps="2,3", output="out.h5"))

@@ -19,7 +19,7 @@ static const SamOptionRow rows[] = {
   {"gradient_rtol", "relative residual of their systems", SAM_OPTION_REAL, MEMBER(rtol), .range = SAM_RANGE_POSITIVE,
    .needs = "gradient"}};
 
-/* Calls a function for each of the numbers. */
+/* Calls a function for each of the numbers, also after an error for one of them. */
 static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulation s, const char name[]))
 {
   char         **names;
@@ -28,7 +28,11 @@ static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulat
 
   PetscFunctionBegin;
   PetscCall(PetscStrToArray(s->gradients.names, ',', &count, &names));
-  for (int k = 0; k < count && !ierr; k++) ierr = (*call)(s, names[k]);
+  for (int k = 0; k < count; k++) {
+    const PetscErrorCode one = (*call)(s, names[k]);
+
+    if (!ierr) ierr = one;
+  }
   PetscCall(PetscStrToArrayDestroy(count, names));
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
