@@ -509,26 +509,15 @@ int petsam_gradient_record(petsam_contact *c, int on);
                    those by wear if the bodies wear
           rtol   - relative residual of the systems that are solved, such as 1e-4 (1)
   Out:    steps  - number of recorded steps
+          unit   - that of the number, until the next call; NULL: not wanted
 
   Errors: 2 for unknown names, a load that is given, a contact that slides as a whole under given loads, parameters of
   the shape where the gap was given cell by cell, and without recorded steps; 10 if a system does not converge.
 
-  See also: petsam_gradient_record(), petsam_get_gradient(), petsam_gradient_unit().
+  See also: petsam_gradient_record(), petsam_get_gradient().
 */
-int petsam_gradient(petsam_contact *c, const char *name, int first, int last, const char *of, double rtol, int *steps);
-
-/*
-  petsam_gradient_unit - returns the unit of the number of the last petsam_gradient(); "" before it.
-
-  Not collective.
-
-  In:     c - the contact
-
-  Errors: none; it returns no error code.
-
-  See also: petsam_gradient().
-*/
-const char *petsam_gradient_unit(const petsam_contact *c);
+int petsam_gradient(petsam_contact *c, const char *name, int first, int last, const char *of, double rtol, int *steps,
+                    const char **unit);
 
 /*
   petsam_get_gradient - copies a result of the last petsam_gradient().

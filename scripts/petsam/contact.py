@@ -309,15 +309,12 @@ def _share_mpi():
         ctypes.CDLL(name, mode=ctypes.RTLD_GLOBAL)
 
 
-TEXTS = ("message", "warning", "field_name", "number_name", "step_name", "stress_name", "gradient_unit")
-
-
 def _find():
     reason = ""
     for name in _candidates():
         try:
             found = ctypes.CDLL(name)
-            for text in TEXTS:
+            for text in ("message", "warning", "field_name", "number_name", "step_name", "stress_name"):
                 getattr(found, f"petsam_{text}").restype = ctypes.c_char_p
             found.petsam_destroy.restype = None
             return found

@@ -76,8 +76,10 @@ def compute(
     OneSidedWarning
         If cells are on the border of their set.
     """
-    count, text = ctypes.c_int(), None if of is None else ",".join(of).encode()
-    contact._call("gradient", name.encode(), *steps, text, ctypes.c_double(rtol), ctypes.byref(count))
+    count, unit, text = ctypes.c_int(), ctypes.c_char_p(), None if of is None else ",".join(of).encode()
+    contact._call(
+        "gradient", name.encode(), *steps, text, ctypes.c_double(rtol), ctypes.byref(count), ctypes.byref(unit)
+    )
 
     def get(what, *shape):
         found = np.empty(shape)
@@ -103,8 +105,7 @@ def compute(
             stacklevel=3,
         )
     gap, friction = (get(one, *cells) if one in wanted else None for one in ("gap", "friction"))
-    unit = contact._c.petsam_gradient_unit(contact._contact).decode()
-    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"), unit)
+    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"), unit.value.decode())
 
 
 # ---------------------------------------------------------------- for optimisers

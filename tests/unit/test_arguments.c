@@ -290,7 +290,6 @@ static void AssertNoContact(petsam_contact *none, const char words[])
   sam_assert(petsam_copy(none, none) == 2 && petsam_reset(none) == 2 && Says(NULL, words));
   sam_assert(!petsam_step_name(none, 0, NULL) && !petsam_warning(none, 0) && !petsam_field_name(none, 0));
   sam_assert(!petsam_number_name(none, 0) && !petsam_stress_name(none, 0, NULL));
-  sam_assert(!strcmp(petsam_gradient_unit(none), ""));
 }
 
 static void test_contacts_of_other_programs(void **state)

@@ -27,7 +27,7 @@ static PetscErrorCode GetRecorded(petsam_contact *c, SamGradient *g)
 }
 
 static PetscErrorCode Compute(petsam_contact *c, const char name[], int first, int last, const char of[], double rtol,
-                              int *steps)
+                              int *steps, const char **unit)
 {
   const PetscInt range[] = {first, last};
   SamGradient    g;
@@ -38,24 +38,19 @@ static PetscErrorCode Compute(petsam_contact *c, const char name[], int first, i
              name, rtol);
   PetscCall(SamGradientCompute(g, name, range, of, (PetscReal)rtol));
   *steps = (int)SamGradientGetSteps(g);
+  if (unit) *unit = SamGradientUnit(g);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-int petsam_gradient(petsam_contact *c, const char *name, int first, int last, const char *of, double rtol, int *steps)
+int petsam_gradient(petsam_contact *c, const char *name, int first, int last, const char *of, double rtol, int *steps,
+                    const char **unit)
 {
   const uint64_t sum =
     SamEmbedAddText(SamEmbedAddText(SamHashBits(rtol) + (uint64_t)first + 31 * (uint64_t)last, name), of);
 
   return SamEmbedEnterTogether(c, __func__, name && steps, sum)
-           ? SamEmbedLeave(c, Compute(c, name, first, last, of ? of : "", rtol, steps))
+           ? SamEmbedLeave(c, Compute(c, name, first, last, of ? of : "", rtol, steps, unit))
            : SAM_EMBED_USAGE;
-}
-
-const char *petsam_gradient_unit(const petsam_contact *c)
-{
-  const SamGradient g = SamEmbedExists(c) ? SamSimulationGetGradient(c->simulation) : NULL;
-
-  return g ? SamGradientUnit(g) : "";
 }
 
 static PetscErrorCode Get(petsam_contact *c, const char name[], double values[])
