@@ -4,8 +4,9 @@ Unknowns are the overlaps of both wheels, in their logarithms; height and roll f
 a wheel touches falls with the roll by the lateral arm of its contact. Broyden's iteration begins with Hertz's slope:
 vertical force and roll moment of a wheel grow with its overlap^1.5. It solves drafts on coarser cells, corrected by how
 a full solution differs from its draft, and ends with the slopes of the drafts: two or three full solutions are enough.
-Where a lateral force is given, the lateral displacement is found around it. Inertia is left out: give the forces that
-remain at the wheelset.
+Without a pitch rate it is a third unknown: that of a wheelset without torque about its axle, or by the mean of its
+rolling radii. Where a lateral force is given, the lateral displacement is found around it. Inertia is left out: give
+the forces that remain at the wheelset.
 """
 
 import math
@@ -31,7 +32,9 @@ FIRST, NEXT = 2e-3, 5e-3  # residual of the first drafts, and of others relative
 ALMOST_DONE = 15.0  # residual of drafts over the wanted one, at least: a step from it leads to the wanted one
 MORE, ALMOST = 100, 0.05  # full solutions beyond PASSES, while no more than this is left
 ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
-STEADY = 1e-8  # relative change of the pitch rate of a wheelset that rolls freely
+ROLLINGS = ("free", "radii")  # without a pitch rate: without torque about the axle; by the mean of the rolling radii
+STEADY = 1e-6  # of the load times the radius: torque of a wheelset that rolls freely
+ALIKE = 1e-8  # relative error of the pitch rate by the mean of the radii
 TURN = 2e-3  # rad by which the roll of rigid bodies changes at once
 LEAST_ARM = 0.1  # m: of the distance of both contacts, which steep flanges shorten for the roll
 STEEP, LINE = 0.8, 2e-5  # part of the contacts' distance below which the height is no line over the roll; rad
@@ -122,8 +125,8 @@ class Equilibrium(tables.Tabled):
     climbs : tuple of derailing.Climb
         How near the right and the left wheel are to derailment.
     slopes : ndarray
-        Derivative of what is left, and of the sum of both radii over the nominal diameter, by the logarithms of the
-        overlaps of both wheels, (3, 2), approximate: a neighbour's iteration begins with it.
+        Derivative of what is left, the torque about the axle included, by the logarithms of the overlaps of both wheels
+        and by the pitch rate, (3, 3), approximate: a neighbour's iteration begins with it.
     correction : ndarray
         By how much these three numbers differ from those of a draft, (3,): a neighbour's iteration begins with it, too.
     """
@@ -155,6 +158,11 @@ class Equilibrium(tables.Tabled):
     def wheels(self) -> tuple[Result, Result]:
         """The right and the left solution."""
         return self.right, self.left
+
+    @property
+    def torque(self) -> float:
+        """Torque of the tangential forces on both wheels about the axle, N m: 0 of a wheelset that rolls freely."""
+        return sum(found.torque for found in self.wheels)
 
     @property
     def t_gamma(self) -> float:
@@ -210,6 +218,9 @@ class Axle:
         Materials, cells and limits.
     left : tuple of Track and Wheelset, optional
         Rail and wheel of the left side, as right ones, where they differ.
+    rolling : str
+        Pitch rate of positions without one: free, that without torque about the axle, at which the wheelset is neither
+        driven nor braked; or radii, the speed over the mean of the rolling radii.
     """
 
     def __init__(
@@ -219,7 +230,11 @@ class Axle:
         friction: Friction = 0.3,
         settings: Optional[contacts.Settings] = None,
         left: Optional[tuple[Track, Wheelset]] = None,
+        rolling: str = ROLLINGS[0],
     ) -> None:
+        if rolling not in ROLLINGS:
+            raise Unusable(f"rolling {rolling!r}: expected {' or '.join(ROLLINGS)}")
+        self.rolling = rolling
         both = (rail, wheel), left or (rail, wheel)
         if left is not None and (left[1].radius != wheel.radius or left[0].curvature != rail.curvature):
             raise Unusable(
@@ -307,7 +322,7 @@ class Axle:
         ----------
         position : Position
             Yaw, speeds and lateral displacement; roll and, under a lateral force, y are where the search begins.
-            Without a pitch rate the wheelset rolls by the mean of its rolling radii.
+            Without a pitch rate it is found: see rolling of the Axle.
         load : Load
             The forces.
         start : Equilibrium, optional
@@ -385,10 +400,10 @@ class Axle:
         rtol = self.settings.rtol
         begun = search.position
         state = search.by_drafts(rtol) or search.iterate(rtol, PASSES)
-        if max(abs(state.rest)) > rtol and self._steep(search.cases):
+        if max(abs(state.values)) > rtol and self._steep(search.cases):
             search.position = begun
             state = search.newton(search.state(), rtol)
-        if max(abs(state.rest)) <= rtol:
+        if max(abs(state.values)) <= rtol:
             return search.equilibrium(state)
         raise _no_equilibrium(self, position, load, state, search.cases)
 
@@ -419,9 +434,9 @@ class Rigid:
 
 @dataclass(frozen=True, eq=False)
 class _State:
-    """Both wheels at a height and a roll: overlaps, solutions, what each gives to the balance, what is left with the
-    sum of both rolling radii over the nominal diameter, the arms of the points that touch for the roll, and half their
-    lateral distance."""
+    """Both wheels at a height, a roll and a pitch rate: overlaps, solutions, what each gives to the balance, what is
+    left of forces, moments and torque (or of the pitch rate by the radii), the arms of the points that touch for the
+    roll, and half their lateral distance."""
 
     overlaps: np.ndarray
     found: list
@@ -432,7 +447,7 @@ class _State:
 
     @property
     def rest(self):
-        """What is left of the balance."""
+        """What is left of forces and moments."""
         return self.values[:2]
 
 
@@ -441,8 +456,8 @@ class _Search:
 
     def __init__(self, axle, position, load, start=None):
         self.axle, self.load, self.passes = axle, load, 0
-        self.free = position.pitch_rate is None  # rolls by the mean of its radii
-        self.position = position
+        self.rolling = axle.rolling if position.pitch_rate is None else "given"
+        self.position, self.start = position, start
         self.slopes = start.slopes if start else None
         self.correction = np.zeros(3) if start is None or start.correction is None else start.correction
         self.kept = self.correction  # for a neighbour
@@ -452,32 +467,46 @@ class _Search:
 
     def begin(self, overlaps):
         """Height and roll of these overlaps."""
-        rigid = self.axle.rigid(self.position, overlaps, ROUGH)
+        rigid, radius = self.axle.rigid(self.position, overlaps, ROUGH), self.axle.wheel.radius
         self.position, self.scale = rigid.position, 0.5 * (rigid.points[0] - rigid.points[1])
-        self._roll_freely(sum(rigid.radii))
+        self.slip = 0.5 * math.sqrt(2.0 * _hertz(self.axle, 0.5 * self.load.vertical)[0] / radius)
+        self.unit = self.slip * self.position.speed / radius
+        if self.rolling != "given":
+            rate = _by_radii(self.position.speed, rigid.radii)
+            if self.start is not None and self.rolling == "free" and self.start.position.speed > 0.0:
+                rate *= self.start.position.pitch_rate / _by_radii(self.start.position.speed, self.start.radii)
+            self.position = replace(self.position, pitch_rate=rate)
 
-    def _roll_freely(self, diameter):
-        """The pitch rate of a wheelset that rolls without a mean creepage, by the sum of both radii."""
-        if self.free:
-            self.position = replace(self.position, pitch_rate=-2.0 * self.position.speed / diameter)
+    def _turn(self, more):
+        """Changes the pitch rate so that the creepage of both wheels grows by so many slips; no given one."""
+        if self.rolling != "given":
+            rate = min(self.position.pitch_rate - float(more) * self.unit, 0.0)
+            self.position = replace(self.position, pitch_rate=rate)
 
     def _radii(self, found):
         """Rolling radii of both wheels."""
         return [_radius(one, self.position, self.axle.wheel.radius) for one in found]
 
+    def _turning(self, found):
+        """What is left of the torque about the axle over the axle load times the nominal radius, or of the pitch rate
+        by the radii over its unit."""
+        if self.rolling == "free":
+            return sum(one.torque for one in found) / (self.load.vertical * self.axle.wheel.radius)
+        if self.rolling == "radii":
+            return (_by_radii(self.position.speed, self._radii(found)) - self.position.pitch_rate) / self.unit
+        return 0.0
+
     def done(self, values, rtol):
-        """Whether values are those of an equilibrium in which the wheelset rolls freely if it is to."""
-        if max(abs(values[:2])) > rtol:
-            return False
-        rate = -self.position.speed / (self.axle.wheel.radius * values[2])
-        return not self.free or abs(rate - self.position.pitch_rate) <= STEADY * abs(rate)
+        """Whether values are those of an equilibrium, with the pitch rate."""
+        turning = STEADY if self.rolling == "free" else ALIKE / self.slip
+        return max(abs(values[:2])) <= rtol and abs(values[2]) <= turning
 
     def iterate(self, rtol, passes):
         """The equilibrium by full solutions alone; else the last state."""
         self.correction = np.zeros(3)
         for k in range(passes + MORE):
             state = self.state()
-            if self.done(state.values, rtol) or (k >= passes and max(abs(state.rest)) > ALMOST):
+            if self.done(state.values, rtol) or (k >= passes and max(abs(state.values)) > ALMOST):
                 break
             self.improve(state)
         return state
@@ -489,26 +518,25 @@ class _Search:
             if self.done(state.values, rtol) or min(state.overlaps) <= 0.0:
                 break
             here = self.position
-            slopes = np.empty((2, 2))
-            for k in range(2):
+            slopes = np.eye(3)
+            for k in range(2 if self.rolling == "given" else 3):
                 self.position = here
-                self._move(state, np.eye(2)[k] * DIFFERENCE * state.overlaps)
-                slopes[:, k] = (self.state().rest - state.rest) / math.log1p(DIFFERENCE)
+                self._move(state, DIFFERENCE * np.eye(3)[k])
+                slopes[:, k] = (self.state().values - state.values) / DIFFERENCE
             if not np.linalg.cond(slopes) < 1e8:
                 break
-            step = np.linalg.solve(slopes, -state.rest)
+            step = np.linalg.solve(slopes, -state.values)
             step *= min(1.0, FASTEST / np.abs(step).max())
             state = self._shortened(state, here, step)
         return state
 
     def _shortened(self, state, here, step):
-        """The state after a step of the logarithms of the overlaps, or part of it, so that less is left."""
+        """The state after a step of the unknowns, or part of it, so that less is left."""
         for part in 0.5 ** np.arange(HALVINGS):
             self.position = here
-            self._move(state, state.overlaps * np.expm1(part * step))
-            self._roll_freely(2.0 * self.axle.wheel.radius * state.values[2])
+            self._move(state, part * step)
             after = self.state()
-            if np.linalg.norm(after.rest) < np.linalg.norm(state.rest) or max(abs(after.rest)) < STEADY:
+            if np.linalg.norm(after.values) < np.linalg.norm(state.values) or max(abs(after.values)) < STEADY:
                 break
         return after
 
@@ -518,7 +546,7 @@ class _Search:
             if draft is not None:
                 self.improve(draft)
             draft = self.state(True)
-            if max(abs(draft.rest + self.correction[:2])) <= least:
+            if max(abs(draft.values + self.correction)) <= least:
                 return draft
         return None
 
@@ -531,7 +559,7 @@ class _Search:
             if self.done(state.values, rtol):
                 return state
             self.correction = self.kept = state.values - draft.values
-            draft = self.settle(max(ALMOST_DONE * rtol, NEXT * max(abs(state.rest))), draft)
+            draft = self.settle(max(ALMOST_DONE * rtol, NEXT * max(abs(state.values))), draft)
         if draft is not None:
             self.improve(draft)
             state = self.finish(rtol)
@@ -571,37 +599,43 @@ class _Search:
             given[1] = self.scale * self.load.right
         scale = self.load.vertical * np.array([1.0, self.scale])
         rest = (parts.sum(axis=0) - given) / scale
-        values = np.append(rest, 0.5 * sum(self._radii(found)) / self.axle.wheel.radius)
+        values = np.append(rest, self._turning(found))
         return _State(p.z - touch, found, parts / scale, values, self.axle._arms(self.cases, p), self.scale)
 
     def improve(self, state):
-        """Moves height and roll."""
+        """Moves height, roll and pitch rate."""
         if min(state.overlaps) <= 0.0 or min(state.parts[:, 0]) <= 0.0:
             return self._press(state)
-        now, values = np.log(state.overlaps), state.values
-        own = np.vstack([1.5 * state.parts.T, np.zeros(2)])
+        turned = 0.0 if self.rolling == "given" else -self.position.pitch_rate / self.unit
+        now, values = np.append(np.log(state.overlaps), turned), state.values
+        own = np.eye(3)
+        own[:2, :2] = 1.5 * state.parts.T
         slopes = own if self.slopes is None else self.slopes
         left = values + self.correction
         if self.before is not None:
             slopes = broyden.updated(slopes, now - self.before[0], values - self.before[1])
-            if np.linalg.norm(left[:2]) > 2.0 * np.linalg.norm(self.before[1][:2] + self.correction[:2]):
+            if np.linalg.norm(left) > 2.0 * np.linalg.norm(self.before[1] + self.correction):
                 self.limit, slopes = max(0.5 * self.limit, 0.05), own
-        if np.linalg.cond(slopes[:2]) > 1e6:
+        if np.linalg.cond(slopes) > 1e6:
             slopes = own
-        step = np.linalg.solve(slopes[:2], -left[:2])
+        step = np.linalg.solve(slopes, -left)
         step *= min(1.0, self.limit / max(np.abs(step).max(), 1e-300))
         self.slopes, self.before = slopes, (now, values)
-        self._move(state, np.exp(now + step) - state.overlaps)
-        self._roll_freely(2.0 * self.axle.wheel.radius * (left[2] + slopes[2] @ step))
+        self._move(state, step)
 
     def _press(self, state):
         """Presses wheels that lift onto their rails again."""
         least = 0.2 * np.array(_hertz(self.axle, 0.5 * self.load.vertical))
         wanted = np.where(state.parts[:, 0] <= 0.0, np.maximum(2.0 * state.overlaps, least), state.overlaps)
         self.slopes = self.before = None
-        self._move(state, np.maximum(wanted, least) - state.overlaps)
+        self._press_by(state, np.maximum(wanted, least) - state.overlaps)
 
-    def _move(self, state, more):
+    def _move(self, state, step):
+        """Changes height, roll and pitch rate by a step of the unknowns."""
+        self._press_by(state, state.overlaps * np.expm1(step[:2]))
+        self._turn(step[2])
+
+    def _press_by(self, state, more):
         """Changes height and roll so that the overlaps grow by so much."""
         right, left = state.arms
         roll = (more[0] - more[1]) / (right - left)
@@ -634,6 +668,11 @@ class _Search:
             self.slopes,
             self.kept,
         )
+
+
+def _by_radii(speed, radii):
+    """The pitch rate by the mean of both rolling radii, rad/s."""
+    return -2.0 * speed / sum(radii)
 
 
 def _doubt_play(rail, wheel):
@@ -676,7 +715,7 @@ def _no_equilibrium(axle, position, load, state, cases):
     tips = _tips(axle, load, state)
     if tips:
         return Error(f"{where}{left:.4g} N (left) at last: {tips}")
-    rest = max(abs(state.rest))
+    rest = max(abs(state.values))
     if rest <= ALMOST:
         return Error(f"{where}{left:.4g} N (left), and {rest:.2g} of the load or its moment is left: {_jump(cases)}")
     return Error(

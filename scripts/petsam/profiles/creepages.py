@@ -1,4 +1,9 @@
-"""Creepages of a patch: the velocities of rail and wheel at its reference point, in vectors, without small angles."""
+"""Creepages of a patch: the velocities of rail and wheel at its reference point, in vectors, without small angles.
+
+Each body's velocity is that of its own undeformed surface: of the rail or roller at the patch's origin, of the wheel at
+the point below it by the approach. A body of revolution then rolls with its own radius, whatever the approach: the
+elastic displacements that take part in the slip are those from its undeformed shape.
+"""
 
 from typing import NamedTuple, Union
 
@@ -21,12 +26,16 @@ class Creepages(NamedTuple):
         About its normal, 1/m.
     speed : float
         The rolling speed that they are relative to, m/s.
+    pitch : tuple of float
+        Velocity of the wheel along both axes, m, and its rate about the normal, 1, of a unit pitch rate: products with
+        the forces and the moment on the wheel are their torque about the axle.
     """
 
     x: float
     s: float
     spin: float
     speed: float
+    pitch: tuple[float, float, float]
 
 
 def creepages(
@@ -62,16 +71,20 @@ def creepages(
     arm = point - frame.centre
     rates = frame.rotation @ np.array([position.roll_rate, pitch, position.yaw_rate])
     wheel = np.array([position.speed, position.vy, position.vz]) + _cross(rates, arm)
-    ground, ground_rates = rail.velocity(point, position)
+    ground, ground_rates = rail.velocity(place.origin, position)
+    axle = frame.rotation[:, 1]
+    rolled = _cross(axle, arm)
     if np.isfinite(rail.roller_radius):
         speed = 0.5 * abs(ground[0] + wheel[0])
     else:
-        rolled = _cross(frame.rotation @ np.array([0.0, pitch, 0.0]), arm)[0]
-        speed = 0.5 * (abs(wheel[0] - ground[0] - rolled) + abs(rolled))
+        turned = pitch * rolled[0]
+        speed = 0.5 * (abs(wheel[0] - ground[0] - turned) + abs(turned))
     if not speed > 0.0:
         raise Error("speed 0 and pitch_rate 0: creepages are relative to the rolling speed: give speed above 0")
     x, s, _ = place.axes @ (ground - wheel) / speed
-    return Creepages(float(x), float(s), float((ground_rates - rates) @ place.axes[2] / speed), float(speed))
+    spin = float((ground_rates - rates) @ place.axes[2] / speed)
+    along, across, _ = map(float, place.axes @ rolled)
+    return Creepages(float(x), float(s), spin, float(speed), (along, across, float(axle @ place.axes[2])))
 
 
 def _cross(a, b):

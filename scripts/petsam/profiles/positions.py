@@ -276,12 +276,13 @@ class Case:
             laid = self._laid(frame, place, True)
             if laid is None:
                 return None
-            found = self._solved(frame, place, laid)[0]
+            found, creeps, _ = self._solved(frame, place, laid)
             pressure = laid.contact["pressure"]
             x, s = (pressure.sum(axis=0) @ laid.x, pressure.sum(axis=1) @ laid.s) / pressure.sum()
             fx, fs = map(float, -found.shear)
             box = _around(laid, pressure, self.pair._contacts.cell(True))
-            return Drafted(place.origin + x * place.axes[0] + s * place.axes[1], place.angle, found.n, fx, fs, *box)
+            centre = place.origin + x * place.axes[0] + s * place.axes[1]
+            return Drafted(centre, place.angle, found.n, fx, fs, *box, _torque(found, creeps))
 
         return self._result(z, patch)
 
@@ -338,7 +339,7 @@ class Case:
             cells=int(numbers["contact_cells"]), stick_cells=int(numbers["stick_cells"]), grid=contact.n,
             grid_x=x, grid_s=laid.s, pressure=pressure, t_gamma=float(power.sum()) * cell * cell, power=power,
             slip=np.hypot(contact["slip_velocity_x"], contact["slip_velocity_y"]),
-            wheel_y=self._along_wheel(frame, np.asarray(x), y),
+            wheel_y=self._along_wheel(frame, np.asarray(x), y), torque=_torque(found, creeps),
         )  # fmt: skip
 
     def _solved(self, frame, place, laid):
@@ -388,6 +389,11 @@ class Case:
             warnings.warn(text, kind, stacklevel=3)
         for text in self.advice.values():
             warnings.warn(text, AdviceWarning, stacklevel=3)
+
+
+def _torque(found, creeps):
+    """Torque of a patch's tangential forces on the wheel about its axle, N m."""
+    return float(np.append(found.shear, found.moment) @ creeps.pitch)
 
 
 def _around(laid, pressure, cell):

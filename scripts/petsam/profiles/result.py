@@ -53,6 +53,8 @@ class Drafted:
         Normal force, and forces on the rail along x and s, N.
     low, high : ndarray
         Corners of a box in the patch's x and s, of a right wheel, which has the contact and a cell around it, (2,), m.
+    torque : float
+        That of the tangential forces on the wheel about its axle, N m.
     """
 
     centre: np.ndarray
@@ -62,6 +64,7 @@ class Drafted:
     fs: float
     low: np.ndarray
     high: np.ndarray
+    torque: float
 
     @property
     def force(self) -> np.ndarray:
@@ -128,6 +131,8 @@ class Patch:
         Slip velocity over the rolling speed, (ns, nx).
     wheel_y : ndarray
         y of the wheel's profile at each row of cells, (ns,), m; of a left wheel that of its right one, too.
+    torque : float
+        That of the tangential forces on the wheel about its axle, N m; positive against the sense of rolling forward.
     """
 
     x: float
@@ -157,6 +162,7 @@ class Patch:
     power: np.ndarray = field(repr=False)
     slip: np.ndarray = field(repr=False)
     wheel_y: np.ndarray = field(repr=False)
+    torque: float
 
     @property
     def centre(self) -> np.ndarray:
@@ -216,6 +222,11 @@ class Result(tables.Tabled):
     def force(self) -> np.ndarray:
         """Force on the rail in the track, (3,), N: x forward, y to the right, z down."""
         return sum((patch.force for patch in self.patches), np.zeros(3))
+
+    @property
+    def torque(self) -> float:
+        """Torque of the tangential forces on the wheel about its axle, N m."""
+        return float(sum(patch.torque for patch in self.patches))
 
     @property
     def overlap(self) -> float:
