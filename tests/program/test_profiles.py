@@ -129,14 +129,14 @@ def test_a_sphere_on_a_plane(yaw):
     """CONTACT: N 97,220, p_max 2906 at 0.16 mm; yawed, x 59.104, y 191.07, without creep along its own x."""
     track = profiles.Track(flat("rail"), 0.34)
     wheelset = profiles.Wheelset(arc("wheel", 0.1, 0.05), 0.1, 0.4, 0.0)
-    speeds = dict(speed=2 * np.cos(yaw), vy=2 * np.sin(yaw), pitch_rate=-2 / (0.1 - 0.16e-3))
+    speeds = dict(speed=2 * np.cos(yaw), vy=2 * np.sin(yaw), pitch_rate=-2 / 0.1)
     (patch,) = profiles.solve(track, wheelset, Position(z=0.16e-3, yaw=yaw, **speeds), settings=SETTINGS).patches
     assert (patch.x, patch.y) == pytest.approx((-0.2 * np.sin(yaw), 0.2 * np.cos(yaw)), abs=1e-7)
     assert patch.n == pytest.approx(4 / 3 * SETTINGS.modulus * np.sqrt(0.1 * 0.16e-3**3), rel=2e-4)
     assert patch.n == pytest.approx(97220, rel=1e-3)
     assert patch.p_max == pytest.approx(2906e6, rel=3e-3)
     assert patch.approach == pytest.approx(0.16e-3, rel=1e-9)
-    assert np.abs([patch.creep_x, patch.creep_s]).max() < 2e-3  # the point is deeper by the approach
+    assert (patch.creep_x, patch.creep_s) == pytest.approx((0.0, 0.0), abs=1e-9)
     assert patch.creep_spin == pytest.approx(0.0, abs=1e-9)
 
 
@@ -149,17 +149,69 @@ def test_a_cylinder_on_a_crowned_roller():
     assert patch.n == pytest.approx(4 / 3 * SETTINGS.modulus * np.sqrt(0.1 * 0.16e-3**3), rel=2e-4)
     assert patch.n == pytest.approx(97190, rel=2e-4)  # CONTACT
     assert patch.p_max == pytest.approx(2901e6, rel=1e-3)
-    assert patch.speed == pytest.approx(2.0, rel=2e-3)
+    assert patch.speed == pytest.approx(2.0, rel=1e-9)
     assert patch.grid == (60, 60)  # the overlap is round: 2 sqrt(2 0.16 100) = 11.3 mm wide
-    # the reference point is deeper by the approach: nearer to the roller's axis, farther from the wheel's
-    assert patch.creep_x == pytest.approx(creep_of_roller(), abs=1e-8)
+    assert patch.creep_x == pytest.approx(0.0, abs=1e-12)
+    assert abs(patch.fx) < 1e-9 * patch.n
 
 
-def creep_of_roller():
-    """(v_roller - v_wheel)/V at 0.16 mm below the roller's surface: both axes lie 0.16 mm nearer together."""
-    roller = -5.0 * (0.4 - 0.16e-3)
-    wheel = -15.0 * (0.4 / 3)
-    return (roller - wheel) / (0.5 * abs(roller + wheel))
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize(
+    "radius, other, depth", [(0.1, 0.1, 20e-6), (0.5, 0.5, 1e-4), (0.1, 0.1, 1e-4), (0.3, 0.1, 5e-5), (0.2, 0.7, 5e-5)]
+)
+def test_discs_with_equal_surface_speeds_have_no_creepage(radius, other, depth, side):
+    """Equal ones by symmetry; unlike ones, since each rolls with its own undeformed radius."""
+    roller = profiles.Roller(arc("rail", 0.3, 0.02), radius, 0.36)
+    wheelset = profiles.Wheelset(arc("wheel", 0.3, 0.02), other, 0.4, 0.0)
+    where = Position(z=depth, roller_rate=2.0 / radius, pitch_rate=-2.0 / other)
+    (patch,) = profiles.solve(roller, wheelset, where, side=side).patches
+    assert patch.speed == pytest.approx(2.0, rel=1e-9)
+    assert (patch.creep_x, patch.creep_s) == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert np.hypot(patch.fx, patch.fs) < 1e-9 * patch.n and patch.t_gamma < 1e-12 * patch.n
+
+
+def test_equal_discs_exchanged_pull_the_other_way():
+    """The faster of two equal discs drives the other one: with both rates exchanged by as much, of the other sign."""
+    roller = profiles.Roller(arc("rail", 0.3, 0.02), 0.3, 0.36)
+    wheelset = profiles.Wheelset(arc("wheel", 0.3, 0.02), 0.3, 0.4, 0.0)
+    rates = (6.0, -6.002), (6.002, -6.0)
+    one, other = (
+        profiles.solve(roller, wheelset, Position(z=5e-5, roller_rate=first, pitch_rate=second)).patches[0]
+        for first, second in rates
+    )
+    assert one.creep_x == pytest.approx(2.0 * 0.002 / 12.002, rel=1e-9)
+    assert other.fx == pytest.approx(-one.fx, rel=1e-6) and abs(one.fx) > 0.05 * one.n
+
+
+# CONTACT on rollers, cases 6, 7 and 10 of test-rollers2: the roller's rate (rad/s), xi, eta, phi (1/mm), N, Fx, Fs (N),
+# M_n (N mm)
+ROLLERS = {
+    6: (0.25, -2.500e-8, 0.0, 0.0, 97190, 0.1411, 0.0, 0.0),
+    7: (0.238834, 4.870e-7, 1.123e-8, 0.0, 98820, -2.862, 0.01184, -0.2095),
+    10: (0.24381, -3.364e-5, 0.0, -2.004e-3, 98050, -18.05, 14170, 33240),
+}
+
+
+@pytest.mark.filterwarnings("ignore::petsam.profiles.profile.ProfileWarning")
+@pytest.mark.parametrize("case", ROLLERS)
+def test_contact_on_rollers(case):
+    """A cylinder on a crowned roller (6), yawed by 0.3 (7), and a crown on a cone (10)."""
+    rate, *wanted = ROLLERS[case]
+    crown = profiles.Roller(arc("rail", 0.1, 0.03), 0.4, 0.14 if case == 7 else 0.34)
+    cone = profiles.Roller(flat("rail", slope=np.tan(0.2)), 0.4, 0.34)
+    roller, profile = (cone, arc("wheel", 0.1, 0.05)) if case == 10 else (crown, flat("wheel"))
+    wheelset = profiles.Wheelset(profile, 0.13333333, 0.0 if case == 7 else 0.4, 0.0)
+    place = {6: dict(z=0.16e-3), 7: dict(z=0.16e-3, y=0.1, yaw=-0.3, vy=-29.552021e-3), 10: dict(z=-1.87e-3)}[case]
+    where = Position(pitch_rate=-0.75, roller_rate=rate, **place)
+    (patch,) = profiles.solve(roller, wheelset, where, settings=SETTINGS).patches
+    xi, eta, phi, n, fx, fs, mn = wanted
+    assert patch.creep_x == pytest.approx(xi, abs=2e-7 if case == 10 else 1e-10)  # of the cone: y 0.1 um aside
+    assert patch.creep_s == pytest.approx(eta, abs=1e-11)
+    assert 1e-3 * patch.creep_spin == pytest.approx(phi, rel=3e-4, abs=1e-14)
+    assert patch.n == pytest.approx(n, rel=3e-4)
+    assert patch.fx == pytest.approx(fx, rel=1e-3, abs=3e-5 * n if case == 10 else 0.0)
+    assert patch.fs == pytest.approx(fs, rel=1e-3, abs=1e-5)
+    assert 1e3 * patch.mn == pytest.approx(mn, rel=1e-3, abs=1e-4)
 
 
 @pytest.mark.parametrize("curvature, rate", [(0.1, 0.0), (0.0, 0.3), (0.1, 0.3)])
@@ -194,6 +246,26 @@ def test_a_crown_on_a_conical_roller():
 
 
 # ---------------------------------------------------------------- CONTACT
+
+
+def test_a_free_wheelset_has_the_pitch_rate_of_the_benchmark(files):
+    """Its first case, at 20 kN: the wheelset rolls without torque; xi and Fx of CONTACT."""
+    with profiles.Axle(*files, settings=SETTINGS) as axle:
+        found = axle.solve(Position(speed=2.0), profiles.Load(20e3))
+    assert found.position.pitch_rate == pytest.approx(CASES[1][3], abs=5e-8)
+    (patch,) = found.left.patches
+    assert patch.creep_x == pytest.approx(LEFT[1][2], abs=5e-9)
+    assert patch.fx == pytest.approx(LEFT[1][6], abs=0.03)
+
+
+def test_a_free_wheelset_of_made_profiles_has_nearly_this_pitch_rate(made):
+    """By the mean of the rolling radii it is 6e-5 away, the approach over the radius."""
+    rates = []
+    for rolling in "free", "radii":
+        with profiles.Axle(*made, settings=SETTINGS, rolling=rolling) as axle:
+            rates.append(axle.solve(Position(speed=2.0), profiles.Load(20e3)).position.pitch_rate)
+    assert rates[0] == pytest.approx(CASES[1][3], rel=1e-5)
+    assert rates[1] / rates[0] - 1.0 > 5e-5
 
 
 def row(patch):

@@ -10,10 +10,11 @@ the left ones as mirror images. Profiles are s1002, uic60, files of SIMPACK (.pr
 and direction of z --unit and --z give; y is towards the field side.
 
 Height and roll follow from the axle load and the balance of moments about x, the lateral force from y, or y from
---lateral. Without a pitch rate the wheelset rolls by the mean of its rolling radii. A table is a text with a head of
-names with units, y [mm],yaw [mrad],speed [km/h],load [kN],weight, and a line per position. It may also have vy, vz,
-roll_rate, yaw_rate, pitch_rate, lateral, offset, height, load_right and load_left (the vertical forces of both wheels
-instead of the axle load), and roll, which is compared with the one that is found.
+--lateral. A table is a text with a head of names with units, y [mm],yaw [mrad],speed [km/h],load [kN],weight, and a
+line per position. It may also have vy, vz, roll_rate, yaw_rate, pitch_rate, lateral, offset, height, load_right and
+load_left (the vertical forces of both wheels instead of the axle load), and roll, which is compared with the one that
+is found. Without a pitch rate the wheelset rolls freely: without torque about its axle, neither driven nor braked; with
+--rolling radii at the speed over the mean of its rolling radii.
 
 The residual is what is left of the balance of forces or moments, relative to the axle load.
 
@@ -180,6 +181,8 @@ def _positions(one):
                        help="lateral force on the wheelset, to the right, instead of --y")  # fmt: skip
     group.add_argument("--height", type=_length("a length: 0.46m"), metavar="L",
                        help="z of the lateral force below the axle; negative above it (0)")  # fmt: skip
+    group.add_argument("--rolling", choices=("free", "radii"), default="free",
+                       help="pitch rate where none is given: without torque (free), or by the mean of both radii")  # fmt: skip
     group.add_argument("--table", metavar="FILE.csv", help="positions of a simulation of the vehicle")
     whole = word(words.integer, "a whole number, 1 or more", lambda value: value >= 1)
     group.add_argument("--cores", type=whole, metavar="N", help="processes (all available cores)")
@@ -336,7 +339,8 @@ def _vehicle(options):
     given = {name: getattr(options, f"{name}_material") for name in ("rail", "wheel")}
     bodies = {name: profiles.Material(*numbers) for name, numbers in given.items() if numbers}
     settings = profiles.Settings(cell=options.cell, **bodies)
-    return profiles.Vehicle(*placed[0], options.friction, settings, placed[1] if len(placed) > 1 else None)
+    left = placed[1] if len(placed) > 1 else None
+    return profiles.Vehicle(*placed[0], options.friction, settings, left, options.rolling)
 
 
 def _unlike(options):

@@ -12,7 +12,7 @@ import numpy as np
 from ..contact import ContactError
 from ..core import processes, tables
 from ..core.errors import Error, NoEquilibrium
-from .axle import Axle, Equilibrium
+from .axle import ROLLINGS, Axle, Equilibrium
 from .contacts import Settings
 from .placement import Track, Wheelset
 from .positions import Friction
@@ -36,6 +36,8 @@ class Vehicle:
         Materials, cells and limits.
     left : tuple of Track and Wheelset, optional
         See Axle.
+    rolling : str
+        See Axle.
     """
 
     rail: Track
@@ -43,6 +45,7 @@ class Vehicle:
     friction: Friction = 0.3
     settings: Optional[Settings] = None
     left: Optional[tuple[Track, Wheelset]] = None
+    rolling: str = ROLLINGS[0]
 
     def axle(self) -> Axle:
         """The wheelset on its rails.
@@ -51,7 +54,7 @@ class Vehicle:
         -------
         Axle
         """
-        return Axle(self.rail, self.wheel, self.friction, self.settings, self.left)
+        return Axle(self.rail, self.wheel, self.friction, self.settings, self.left, self.rolling)
 
 
 @dataclass(frozen=True, eq=False)
