@@ -182,7 +182,7 @@ def _positions(one):
     group.add_argument("--height", type=_length("a length: 0.46m"), metavar="L",
                        help="z of the lateral force below the axle; negative above it (0)")  # fmt: skip
     group.add_argument("--rolling", choices=("free", "radii"), default="free",
-                       help="pitch rate where none is given: without torque (free), or by the mean of both radii")  # fmt: skip
+                       help="without a pitch rate: without torque (free), or by the mean of both radii")  # fmt: skip
     group.add_argument("--table", metavar="FILE.csv", help="positions of a simulation of the vehicle")
     whole = word(words.integer, "a whole number, 1 or more", lambda value: value >= 1)
     group.add_argument("--cores", type=whole, metavar="N", help="processes (all available cores)")
