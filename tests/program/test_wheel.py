@@ -245,6 +245,16 @@ def test_without_friction_a_wheelset_has_an_equilibrium(vehicle, friction):
     assert sum(one.force[2] for one in found.wheels) == pytest.approx(100e3, rel=2e-5)
 
 
+def test_the_command_rolls_freely_or_by_the_mean_of_the_radii(run):
+    """By the radii the creepage in the middle is the approach over the radius, 8e-5."""
+    creepages = [
+        float(re.search(r"creepages (\S+)", run(*BASE, *ONE, "--y", "0", *rolling))[1])
+        for rolling in ([], ["--rolling", "free"], ["--rolling", "radii"])
+    ]
+    assert creepages[0] == creepages[1]
+    assert creepages[2] == pytest.approx(8.1e-5, abs=2e-6) and creepages[0] < 0.0
+
+
 def test_rolling_of_another_name_is_named(vehicle):
     with pytest.raises(Error, match="rolling 'coasting': expected free or radii"):
         replace(vehicle, rolling="coasting").axle()

@@ -33,8 +33,8 @@ class Position:
     speed : float
         Forward speed, m/s; 0 on rollers.
     pitch_rate : float, optional
-        Rate of rotation about the axle, rad/s, negative forward; None: the speed over the nominal radius, on rollers
-        none.
+        Rate of rotation about the axle, rad/s, negative forward; None: that of an Axle is found, and one wheel has the
+        speed over its nominal radius, on rollers none.
     vy, vz : float
         Lateral and vertical velocity, m/s.
     roll_rate, yaw_rate : float
