@@ -33,13 +33,13 @@ from ..plot.saving import write
 from ..surface import generation, levels, writing
 from ..surface.basics import QUANTITIES
 from ..surface.doubts import doubts as doubts_of
+from ..surface.doubts import of_size
 from ..surface.maps import combined, moments, new_map, peak_to_valley, rms_height, rms_slope
 from ..surface.reading import FORMATS, read
 from ..surface.words import sides, unit
 from .line import Parser, add_choice, guarded, joined, quietly, word
 
 MOST = 1 << 16  # cells in x or y
-WIDE = 1.0  # m: few instruments measure a surface of this size
 OF_FILES = (
     "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
     "dataset", "channel", "window", "outliers", "fill", "level", "grid_size",
@@ -111,7 +111,9 @@ def _file_options(parser):
         "--skip-rows", type=COUNT, default=0, metavar="K", help="lines to skip at the start of a text file"
     )
     reader.add_argument("--skip-columns", type=COUNT, default=0, metavar="K", help="columns to skip")
-    reader.add_argument("--dataset", metavar="NAME", help="HDF5 dataset (/height, or /separation)")
+    reader.add_argument(
+        "--dataset", metavar="NAME", help="dataset of HDF5 (/height, or /separation), array of .npz (its only map)"
+    )
     reader.add_argument("--channel", metavar="NAME|K", help="channel of an instrument's file (heights)")
 
 
@@ -259,15 +261,7 @@ def random_map(options):
 
 def warn_of_unit(one, name, more=""):
     """Warnings of heights beyond the size, and of a size beyond measured ones."""
-    high, wide = peak_to_valley(one), one.wide
-    texts = []
-    if high > wide:
-        texts.append(f"peak to valley {shown(high)} is more than the size {shown(wide)}: check the unit{more}")
-    if wide >= WIDE:
-        texts.append(
-            f"the surface is {wide:.4g} m wide: check the unit of --size or --pixel, as in 1um; a number alone is in m"
-        )
-    _warn(name, texts)
+    _warn(name, of_size(peak_to_valley(one), one.wide, more))
 
 
 def _warn(name, texts):
