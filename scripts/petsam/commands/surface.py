@@ -5,8 +5,9 @@
     petsam-surface top.h5 bottom.h5 -o pair.h5
     petsam-surface --self-affine 0.8 --rms 0.5um --wavelengths 500um,10um --size 1mm --grid-n 512 --seed 3 -o r3.h5
 
-Reads NumPy's .npy, text (.csv, .txt: one line per y, one number per x; points x, y, z of a regular grid; profiles
-x, z), HDF5 (.h5), and through the library SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for
+Reads NumPy's .npy and .npz, text (.csv, .txt: one line per y, one number per x; points x, y, z of a regular grid;
+profiles x, z), HDF5 (.h5), and through the library SurfaceTopography from PyPI Matlab's .mat and the files of many
+instruments; of several arrays in a file the only map, or the one chosen by --dataset or --channel. Writes HDF5 for
 petsam's -gap_file and -gap_rough_file, and a picture beside it. Options give what the file does not contain (units,
 size, body). A map is centred on x = y = 0 unless its file gives a position. Heights are positive outward, so a peak of
 either body reduces the separation. Each map is oriented, cut, freed of outliers, filled, levelled and resampled, in

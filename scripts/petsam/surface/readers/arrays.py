@@ -67,8 +67,7 @@ def chosen(path, shapes, option, wanted=None):
         return wanted
     flat = _flat(shapes)
     maps = [name for name, shape in flat.items() if min(shape) > 1]
-    lines = [name for name, shape in flat.items() if min(shape) == 1 and max(shape) >= FEWEST]
-    found = maps or lines
+    found = maps or list(flat)
     if len(found) != 1:
         what = f"{len(found)} {'maps' if maps else 'profiles'}" if found else "no map (ny, nx)"
         raise Error(f"{path}: contains {what}: {listed(shapes, option)}")
@@ -94,5 +93,6 @@ def listed(shapes, option):
 
 
 def _flat(shapes):
-    """The arrays with rows and columns."""
-    return {name: shape for name, shape in shapes.items() if not isinstance(shape, str) and len(shape) == 2}
+    """The arrays with rows and columns that may be a map or a line."""
+    found = {name: shape for name, shape in shapes.items() if not isinstance(shape, str) and len(shape) == 2}
+    return {name: shape for name, shape in found.items() if min(shape) > 1 or min(shape) == 1 and max(shape) >= FEWEST}
