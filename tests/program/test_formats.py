@@ -6,6 +6,7 @@ import re
 import h5py
 import numpy as np
 import pytest
+import scipy.io
 
 import petsam
 from petsam.surface import levels, spikes
@@ -83,6 +84,7 @@ READ = {
     "xyz falling": ("z.txt", xyz(order=np.arange(H.size)[::-1]), "utf-8", SIZED, ""),
     "xyz intensity": ("z.txt", xyz(more=[np.full(H.size, 255)]), "utf-8", SIZED, ""),
     "xyz heads": ("z.csv", "x [um],y [um],z [um]\n" + xyz(separator=","), "utf-8", dict(body=2), ""),
+    "xyz blanks": ("z.xyz", "x [um] y [um] z [um] I\n" + xyz(more=[H.ravel()]), "utf-8", dict(body=2), ""),
     "xyz other heads": (
         "z.csv", "X(mm);Y(mm);Z / \u00b5m;I\n" + xyz(step=0.01, separator=";", more=[H.ravel()]), "utf-8",
         dict(body=2), "",
@@ -247,6 +249,167 @@ def test_a_profile_runs_in_plane_strain(surface, petsam, tmp_path):  # noqa: F81
         surface("p.csv", "--body", 2, "--level", level, "--no-picture", warnings=None)
         assert stored(tmp_path / "p.h5").shape == (1, 256)
     assert "cells along x only" in surface("p.csv", "--body", 2, "--grid-n", "64,2", check=3)[0]
+
+
+# ---------------------------------------------------------------- containers
+
+
+def savemat(path, arrays):
+    pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
+    scipy.io.savemat(path, {name: "text" if value is None else value for name, value in arrays.items()})
+
+
+def save73(path, arrays):
+    """As Matlab writes version 7.3: HDF5 with its first index changing fastest."""
+    pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, value in arrays.items():
+            file[name] = np.zeros((1, 4), np.uint16) if value is None else np.atleast_2d(value).T
+            file[name].attrs["MATLAB_class"] = np.bytes_("char" if value is None else "double")
+    with open(path, "r+b") as file:
+        file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\x00\x02IM")
+
+
+def saveh5(path, arrays):
+    with h5py.File(path, "w") as file:
+        for name, value in arrays.items():
+            file["group/" + name] = "text" if value is None else value
+
+
+CONTAINERS = {
+    "z.npz": lambda path, arrays: np.savez(path, **arrays),
+    "z.mat": savemat,
+    "7.3.mat": save73,
+    "z.h5": saveh5,
+}
+BESIDE = dict(x=np.arange(12.0), y=np.arange(9.0), fs=1e3)
+
+
+@pytest.mark.parametrize("file", CONTAINERS)
+def test_the_only_map_of_a_file_is_taken(tmp_path, file):
+    """Its rows are y, whatever the format is."""
+    CONTAINERS[file](tmp_path / file, dict(BESIDE, Z=H))
+    one = petsam.surface.read(tmp_path / file, **SIZED)
+    assert_close(one.values, H * 1e-6, 1e-12)
+    assert any("Z of " in text for text in one.remarks), one.remarks
+    CONTAINERS[file](tmp_path / file, dict(Z=H[:1], fs=np.float64(3.0)))
+    one = petsam.surface.read(tmp_path / file, **UM, size="120um")
+    assert one.is_profile and np.allclose(one.values, H[:1] * 1e-6, rtol=1e-12)
+
+
+@pytest.mark.parametrize("file", CONTAINERS)
+@pytest.mark.parametrize("arrays, says", [
+    (dict(Z=H, W=H[:5]), r"contains 2 maps: it has .*(Z|W) \((9|5) x 12\), .*: choose one by"),
+    (dict(x=H[:1], y=H[1:2]), "contains 2 profiles: it has .*x .1 x 12"),
+    (dict(Z=np.stack([H, H])), r"no map \(ny, nx\): it has .*Z \((2 x 9 x 12|12 x 9 x 2)\): write"),
+    (dict(Z=H * (1 + 1j)), "no map|complex|imaginary"), (dict(note=None), "no map.*note|not an array of NumPy"),
+], ids=["two", "lines", "3-D", "complex", "text"])  # fmt: skip
+def test_what_a_file_contains_is_told(tmp_path, file, arrays, says):
+    if file == "z.npz":
+        arrays = {name: np.array("text") if value is None else value for name, value in arrays.items()}
+    CONTAINERS[file](tmp_path / file, arrays)
+    with pytest.raises(petsam.Error, match=says):
+        petsam.surface.read(tmp_path / file, **SIZED)
+    if "W" in arrays:
+        option = "channel" if file.endswith("mat") else "dataset"
+        one = petsam.surface.read(tmp_path / file, **SIZED, **{option: "group/W" if file == "z.h5" else "W"})
+        assert_close(one.values, H[:5] * 1e-6, 1e-12)
+        with pytest.raises(petsam.Error, match="it has .*choose one by"):
+            petsam.surface.read(tmp_path / file, **SIZED, **{option: "V"})
+
+
+def test_a_matrix_of_another_name_is_offered_the_format_table(tmp_path):
+    pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
+    for name in ("z.asc", "z.sur", "z"):
+        (tmp_path / name).write_text(rows(H, ";"))
+        with pytest.raises(petsam.Error, match="give --format table"):
+            petsam.surface.read(tmp_path / name, **SIZED)
+        assert_close(petsam.surface.read(tmp_path / name, **SIZED, format="table").values, H * 1e-6, 1e-12)
+
+
+# ---------------------------------------------------------------- a size that cannot be
+
+
+def wide(path, scale):
+    """A map of H, um, whose file states a size of 120 x 90 um times a scale; what else is to be given."""
+    if path.suffix == ".h5":
+        with h5py.File(path, "w") as file:
+            file["height"] = H
+            file["height"].attrs.update(units="um", size=[1.2e-4 * scale, 9e-5 * scale])
+    elif path.suffix == ".nc":
+        library = pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
+        library.Topography(H.T, (120.0 * scale, 90.0 * scale), unit="um").to_netcdf(str(path))
+    elif path.suffix == ".xyz":
+        path.write_text("x [um] y [um] z [um]\n" + xyz(step=10 * scale))
+    else:
+        path.write_text(f"# Width: {120 * scale} um\n# Height: {90 * scale} um\n# Value units: um\n" + rows(H))
+
+
+@pytest.mark.parametrize("file", ["z.txt", "z.xyz", "z.h5", "z.nc"])
+@pytest.mark.parametrize("given", [dict(size="120um,90um"), dict(pixel="10um")], ids=str)
+@pytest.mark.parametrize("scale, overruled", [(1e6, True), (0.01, True), (2.0, False)])
+def test_a_size_that_is_warned_of_is_overruled(tmp_path, file, given, scale, overruled):
+    """As one of metres, or below the heights; any other holds."""
+    wide(tmp_path / file, scale)
+    if not overruled:
+        with pytest.raises(petsam.Error, match="contradicts --size or --pixel"):
+            petsam.surface.read(tmp_path / file, body=2, **given)
+        return
+    one = petsam.surface.read(tmp_path / file, body=2, **given)
+    assert_close(one.size, [1.2e-4, 9e-5], 1e-9)
+    assert any("size of the file" in text and "overruled by --size or --pixel" in text for text in one.remarks)
+
+
+# ---------------------------------------------------------------- lines of instruments
+
+
+def hfm(path, x, z, valid=1):
+    lines = [f"{a:.6g};{b:.6g};{valid if k == 5 else 1}" for k, (a, b) in enumerate(zip(x, z))]
+    path.write_text("X;Y;valid\n[mm];[um];[1/0]\n" + "\n".join(lines) + "\n")
+
+
+def mitutoyo(path, x, z):
+    book = pytest.importorskip("openpyxl").Workbook()
+    data, certificate = book.active, book.create_sheet("Certificate")
+    data.title, data["A1"] = "DATA", "Ra 0.5 \u00b5m"
+    for k, (a, b) in enumerate(zip(x, z), 1):
+        data.cell(k, 5, float(a)), data.cell(k, 6, float(b))
+    certificate["E2"], certificate["E48"] = "01-Mar-2020", "0.8mm"
+    book.save(path)
+
+
+@pytest.mark.parametrize("x, step", [(PLACES + 0.5, 0.5), (np.round(PLACES * 0.3125, 1), 0.15625)], ids=["", "few"])
+@pytest.mark.parametrize("write, file", [(hfm, "z.hfm"), (mitutoyo, "z.xlsx")], ids=["hfm", "xlsx"])
+def test_a_line_of_an_instrument_is_a_profile(tmp_path, write, file, x, step):
+    pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
+    z = LINE + 1e-3 * PLACES  # not symmetric
+    write(tmp_path / file, x, z)
+    one = petsam.surface.read(tmp_path / file, body=2)
+    assert_close(one.values, z[None] * 1e-6, 1e-5)
+    assert one.cell[0] == pytest.approx(step * 1e-3, rel=1e-3)
+    if write == hfm:
+        hfm(tmp_path / file, x[::-1], z[::-1])
+        assert_close(petsam.surface.read(tmp_path / file, body=2).values, one.values, 1e-12)
+
+
+def test_a_line_of_an_instrument_may_be_uneven_or_lack_points(tmp_path):
+    pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
+    hfm(tmp_path / "z.hfm", PLACES**1.5, LINE)
+    with pytest.raises(petsam.Error, match="is a profile x, z, which is read where x rises in even steps"):
+        petsam.surface.read(tmp_path / "z.hfm", body=2)
+    hfm(tmp_path / "z.hfm", PLACES, LINE, valid=0)
+    assert np.flatnonzero(np.isnan(petsam.surface.read(tmp_path / "z.hfm", body=2).values[0])).tolist() == [5]
+
+
+@pytest.mark.parametrize("empty", [1, 2, 4])
+def test_empty_last_columns_are_left_out(tmp_path, empty):
+    table = "x [um],z [um]\n" + rows(np.c_[PLACES, LINE], ",")
+    (tmp_path / "p.csv").write_text(table.replace("\n", "," * empty + "\n"))
+    one = petsam.surface.read(tmp_path / "p.csv", body=2)
+    assert one.values.shape == (1, 64)
+    assert any(f"{empty} empty last columns left out" in text for text in one.remarks) == (empty > 1)
+    (tmp_path / "z.csv").write_text(rows(H, ",").replace("\n", ",NaN\n"))  # a missing column is none that is empty
+    assert petsam.surface.read(tmp_path / "z.csv", **UM, pixel="1um").n == (NX + 1, NY)
 
 
 # ---------------------------------------------------------------- offsets of rows, outliers

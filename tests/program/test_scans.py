@@ -1,7 +1,9 @@
 """petsam-surface on files as instruments write them: headers, lists of points, positions, rows at offsets."""
 
+import h5py
 import numpy as np
 import pytest
+import scipy.io
 
 import test_surface
 from support import assert_close
@@ -121,12 +123,76 @@ def test_a_list_of_points_is_no_map(surface, tmp_path, name):
     assert "z.csv: line 1: " in said and "a map has one line per y" in said, said
 
 
-@pytest.mark.parametrize("name", [*LISTS, *GRIDS])
-def test_an_array_of_points_is_no_map(surface, tmp_path, name):
-    points = {**LISTS, **GRIDS}[name]
-    for values in (points, points.T) if len(points) > 9 else ():
-        np.save(tmp_path / "z.npy", values)
-        assert values.shape[0] in (4, 5, 6) or "a map has one line" in surface("z.npy", *KNOWS, check=3)[0]
+def save(path, values):
+    """An array in a file of the format that its name has."""
+    if path.suffix == ".mat":
+        pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
+        scipy.io.savemat(path, {"scan": values})
+    elif path.suffix == ".h5":
+        with h5py.File(path, "w") as file:
+            file["scan"] = values
+    else:
+        (np.save if path.suffix == ".npy" else np.savez)(path, values)
+
+
+ARRAYS = ["z.npy", "z.npz", "z.mat", "z.h5"]
+
+
+@pytest.mark.parametrize("file", ARRAYS)
+@pytest.mark.parametrize("name", LISTS)
+def test_an_array_of_points_is_no_map(surface, tmp_path, name, file):
+    for values in (LISTS[name], LISTS[name].T) if len(LISTS[name]) > 9 else ():
+        save(tmp_path / file, values)
+        assert "a map has one line" in surface(file, *KNOWS, "-o", "o.h5", check=3)[0]
+
+
+@pytest.mark.parametrize("file", ARRAYS)
+@pytest.mark.parametrize("name", [*GRIDS, "profile"])
+def test_an_array_of_points_on_a_grid_is_a_map(surface, tmp_path, name, file):
+    """As a text of them is; along the columns, too."""
+    points = GRIDS.get(name, np.c_[0.5 * np.arange(192), H.ravel()])
+    size = "96um" if name == "profile" else "12um,16um"
+    for values in (points, points.T):
+        save(tmp_path / file, values)
+        surface(file, *UM, "--size", size, "--fill", "nearest", "--no-picture", "-o", "o.h5")
+        found = stored(tmp_path / "o.h5").reshape(H.shape)
+        if name == "one missing":
+            found.flat[77] = H.flat[77] * 1e-6
+        assert_close(found, H * 1e-6, 1e-4)
+        assert f"--size {size}" in surface(file, *UM, "-o", "o.h5", check=3)[0]
+
+
+@pytest.mark.parametrize("step, form, count", [
+    (0.15625, "{:.1f}", 2000), (0.15625, "{:.1f}", 12), (1 / 3, "{:.1f}", 300), (0.0625, "{:.1f}", 300),
+    (0.00125, "{:.3f}", 5000), (0.15625, "{:.4g}", 2000), (2.5, "{:.0f}", 40), (-0.15625, "{:.1f}", 500),
+], ids=str)  # fmt: skip
+def test_rounded_positions_are_even(surface, tmp_path, step, form, count):
+    """Within half a unit of the last digit, which is up to twice the step."""
+    heights = np.cos(np.arange(count) / 9)
+    lines = [f"{form.format(7.0 + k * step)},{z:.6f}" for k, z in enumerate(heights)]
+    (tmp_path / "z.csv").write_text("x [um],z [um]\n" + "\n".join(lines))
+    out = surface("z.csv", "--body", 2, "--no-picture")
+    assert any("few digits: taken for even, with a step of" in line for line in out)
+    assert_close(stored(tmp_path / "z.h5")[0], heights[:: -1 if step < 0 else 1] * 1e-6, 1e-5)
+    assert np.diff(stored(tmp_path / "z.h5", "x")) == pytest.approx(abs(step) * 1e-6, rel=2 / count**1.5)
+
+
+def test_rounded_points_are_a_grid(surface, tmp_path):
+    points = np.c_[np.round(POINTS[:, :2] * 0.15625, 1), 0.1 * POINTS[:, 2]]
+    text(tmp_path / "z.csv", points, "x [um],y [um],z [um]\n", ",")
+    surface("z.csv", "--body", 2, "--no-picture")
+    assert_close(stored(tmp_path / "z.h5"), H * 1e-7, 1e-4)
+    for d in "xy":
+        assert np.diff(stored(tmp_path / "z.h5", d)) == pytest.approx(0.15625e-6, rel=0.02)
+
+
+@pytest.mark.parametrize("x", [
+    np.delete(np.arange(30.0), 11), np.delete(np.arange(30.0), [9, 14]), np.r_[0:20, 21:40:2],
+    np.repeat(np.arange(9.0), 2), np.round(np.arange(40) ** 1.1, 1), np.r_[0:20, 21:41] * 0.1,
+], ids=["one absent", "two absent", "two steps", "twice", "growing", "a jump"])  # fmt: skip
+def test_uneven_positions_are_not_taken_for_rounded(surface, tmp_path, x):
+    text(tmp_path / "z.csv", np.c_[x, np.sin(np.arange(x.size))], "x [um],z [um]\n", ",")
+    assert "a profile is read where x rises in even steps" in surface("z.csv", "--body", 2, check=3)[0]
 
 
 @pytest.mark.parametrize("name", GRIDS)

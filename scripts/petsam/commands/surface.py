@@ -5,8 +5,9 @@
     petsam-surface top.h5 bottom.h5 -o pair.h5
     petsam-surface --self-affine 0.8 --rms 0.5um --wavelengths 500um,10um --size 1mm --grid-n 512 --seed 3 -o r3.h5
 
-Reads NumPy's .npy, text (.csv, .txt: one line per y, one number per x; points x, y, z of a regular grid; profiles
-x, z), HDF5 (.h5), and through the library SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for
+Reads NumPy's .npy and .npz, text (.csv, .txt: one line per y, one number per x; points x, y, z of a regular grid;
+profiles x, z), HDF5 (.h5), and through the library SurfaceTopography from PyPI Matlab's .mat and the files of many
+instruments; of several arrays in a file the only map, or the one chosen by --dataset or --channel. Writes HDF5 for
 petsam's -gap_file and -gap_rough_file, and a picture beside it. Options give what the file does not contain (units,
 size, body). A map is centred on x = y = 0 unless its file gives a position. Heights are positive outward, so a peak of
 either body reduces the separation. Each map is oriented, cut, freed of outliers, filled, levelled and resampled, in
@@ -33,13 +34,13 @@ from ..plot.saving import write
 from ..surface import generation, levels, writing
 from ..surface.basics import QUANTITIES
 from ..surface.doubts import doubts as doubts_of
+from ..surface.doubts import of_size
 from ..surface.maps import combined, moments, new_map, peak_to_valley, rms_height, rms_slope
 from ..surface.reading import FORMATS, read
 from ..surface.words import sides, unit
 from .line import Parser, add_choice, guarded, joined, quietly, word
 
 MOST = 1 << 16  # cells in x or y
-WIDE = 1.0  # m: few instruments measure a surface of this size
 OF_FILES = (
     "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
     "dataset", "channel", "window", "outliers", "fill", "level", "grid_size",
@@ -111,7 +112,9 @@ def _file_options(parser):
         "--skip-rows", type=COUNT, default=0, metavar="K", help="lines to skip at the start of a text file"
     )
     reader.add_argument("--skip-columns", type=COUNT, default=0, metavar="K", help="columns to skip")
-    reader.add_argument("--dataset", metavar="NAME", help="HDF5 dataset (/height, or /separation)")
+    reader.add_argument(
+        "--dataset", metavar="NAME", help="dataset of HDF5 (/height, or /separation), array of .npz (its only map)"
+    )
     reader.add_argument("--channel", metavar="NAME|K", help="channel of an instrument's file (heights)")
 
 
@@ -259,15 +262,7 @@ def random_map(options):
 
 def warn_of_unit(one, name, more=""):
     """Warnings of heights beyond the size, and of a size beyond measured ones."""
-    high, wide = peak_to_valley(one), one.wide
-    texts = []
-    if high > wide:
-        texts.append(f"peak to valley {shown(high)} is more than the size {shown(wide)}: check the unit{more}")
-    if wide >= WIDE:
-        texts.append(
-            f"the surface is {wide:.4g} m wide: check the unit of --size or --pixel, as in 1um; a number alone is in m"
-        )
-    _warn(name, texts)
+    _warn(name, of_size(peak_to_valley(one), one.wide, more))
 
 
 def _warn(name, texts):

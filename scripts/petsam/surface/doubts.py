@@ -20,6 +20,7 @@ LINES = 32  # rows and columns from which on their variances are compared
 TIMES = 6.0  # variance between rows over that between columns
 REMOVED = 1e-9  # variance between columns over that between rows, below which they have been removed
 NOTED = 0.05  # rms of what changes from row to row as a whole over the rms of all changes: below, it matters little
+WIDE = 1.0  # m: few instruments measure a surface of this size
 FEW = 1e-3  # share of the points that outliers are at most
 
 
@@ -39,10 +40,9 @@ def need_map(path, values, text, library=False):
     rows, columns = values.shape
     if min(rows, columns) < 2:
         return
-    reads = keep = ""
     if library:
         reads = keep = "; points x, y, z need a full regular grid, each once: interpolate them"
-    elif text:
+    else:
         reads = "; points x, y, z on a regular grid are read: interpolate these to one"
         keep = "; points x, y, z with more columns are read on a regular grid, each once: interpolate these to one"
     if columns == 3 and (text or rows >= LIST):
@@ -196,6 +196,19 @@ def of_stand_in(values):
             points = counted(finite.size - rest.size, "point")
             return [f"the number {value:g} is at {points}, far from all others: give --missing {value:g} if it is none"]
     return []
+
+
+def of_size(high, wide, more=""):
+    """Texts about heights of this peak to valley beyond the size, m, and about a size beyond measured ones."""
+    texts = []
+    if high > wide:
+        texts.append(f"peak to valley {shown(high)} is more than the size {shown(wide)}: check the unit{more}")
+    if wide >= WIDE:
+        texts.append(
+            f"the surface is {wide:.4g} m wide: check its unit; --size or --pixel, as in 1um, overrule such a size of "
+            "a file; a number alone is in m"
+        )
+    return texts
 
 
 def of_cells(one):

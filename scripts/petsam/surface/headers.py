@@ -193,11 +193,10 @@ def of_columns(path, lines, count):
     heights = 1 if count == 2 else 2  # the column of the heights, from 0
     for number, line in reversed(lines):
         words = split(line.strip().lstrip("".join(COMMENTS)).strip())[0]
-        if len(words) >= count:
+        found = OF_UNIT.findall(line)
+        if len(words) == count or len(words) > count and len(found) <= heights:  # else blanks are within the heads
             found = [AT_END.search(" " + word) for word in words[:count]]
             found = [one[1] if one else None for one in found]
-        else:
-            found = OF_UNIT.findall(line)
         if len(found) <= heights or not any(text and metres(text) for text in found):
             continue
         lateral = {metres(text) for text in found[:heights] if text and metres(text)}

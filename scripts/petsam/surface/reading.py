@@ -15,9 +15,9 @@ from ..core.hdf5 import DAMAGED
 from ..core.units import shown
 from . import words
 from .basics import SAME
-from .doubts import of_cells, of_stand_in
+from .doubts import of_cells, of_size, of_stand_in
 from .maps import Map, new_map, turned
-from .readers import FORMATS, reader_of
+from .readers import FORMATS, stated_of
 from .readers.hdf import EVEN, of_hdf5
 from .readers.instruments import LIBRARY
 from .readers.stated import How, Source
@@ -73,7 +73,7 @@ def read_hdf5(path, dataset=None, bare=False):
 def read_values(path, dataset):
     """Values of a map that are no lengths, (rows, columns), first row at the smallest y; in HDF5 of a dataset."""
     source = _guarded(path, lambda: Source(path, How(dataset=dataset, lengths=False)))
-    stated = _guarded(path, lambda: reader_of(source).read(source))
+    stated, _ = _guarded(path, lambda: stated_of(source))
     values = np.array(stated.values, dtype=np.float64)
     return values[::-1] if stated.top else values
 
@@ -199,13 +199,28 @@ def _profile(path, stated, given):
     return given.size[:1] if given.size else given.pixel and (given.pixel[0] * stated.values.size,)
 
 
-def _sized(path, stated, values, given):
-    """Size and centre of the map, or None for what neither the file nor an option states."""
+def _wanted(path, stated, values, given):
+    """The size of the map as given, along x alone of a profile; None without one."""
+    if len(values) == 1:
+        return _profile(path, stated, given)
+    return given.size or given.pixel and tuple(w * n for w, n in zip(given.pixel, values.shape[::-1]))
+
+
+def _overruled(stated, values, unit, wanted):
+    """The statements without a size that a warning would doubt, where another one is given."""
+    sides = [side for side in (stated.size or stated.sides)[: len(wanted or ())] if side]
+    if not sides or np.allclose(sides, wanted[: len(sides)], rtol=SAME, atol=0.0):
+        return stated
+    heights = values[np.isfinite(values)] * (unit or 0.0)
+    if not of_size(float(np.ptp(heights)) if heights.size else 0.0, max(sides)):
+        return stated
+    said = f"size of the file, {' x '.join(map(shown, sides))}, overruled by --size or --pixel"
+    return stated._replace(size=None, sides=(None, None), center=None, remarks=(*stated.remarks, said))
+
+
+def _sized(path, stated, values, wanted):
+    """Size of the map, or None where neither the file nor an option states it."""
     flat = len(values) == 1
-    if flat:
-        wanted = _profile(path, stated, given)
-    else:
-        wanted = given.size or given.pixel and tuple(w * n for w, n in zip(given.pixel, values.shape[::-1]))
     _need_sides(path, stated, wanted)
     _need_spans(path, stated.spans, wanted)
     said = stated.size
@@ -236,11 +251,13 @@ def _combined(path, stated, family, given):
     alone = quantity is None and given.alone and family == "surfacetopography"
     quantity = "height2" if alone else quantity  # instruments measure heights; which body's the remark says
     unit = _agreed(_at(path, stated, "unit"), stated.unit, given.units, "--units")
-    size = _sized(path, stated, values, given)
-    _need(path, family, quantity, unit, size, stated.spans)
     missing = _missing(path, stated, given)
     if missing is not None:
         values = np.where(values == missing, np.nan, values)
+    wanted = _wanted(path, stated, values, given)
+    stated = _overruled(stated, values, unit, wanted)
+    size = _sized(path, stated, values, wanted)
+    _need(path, family, quantity, unit, size, stated.spans)
     one = new_map(values * (-unit if given.depths else unit), size, quantity, path, stated.center or (0.0, 0.0))
     top, remarks = (False, []) if one.is_profile else _top(path, stated, given.first_row)
     if one.is_profile:
@@ -272,10 +289,10 @@ def _stated(path, given):
     word = given.missing if isinstance(given.missing, str) else None
     form = Form(given.decimal, given.skip_rows, given.skip_columns, (word.lower(),) if word else ())
     source = Source(path, How(form, given.units, given.dataset, given.channel, given.format == "table"))
-    reader = reader_of(source, given.format)
-    if word and reader.family != "table":
+    stated, family = stated_of(source, given.format)
+    if word and family != "table":
         raise Error(f"{path}: --missing {short(word)}: is a word, which only texts have: give a number")
-    return reader.read(source), reader.family
+    return stated, family
 
 
 def read(

@@ -134,6 +134,18 @@ def _first_row(lines, form, decimal):
     return len(lines)
 
 
+def _columns(values, words):
+    """How many columns stand before the empty last ones, which separators at the end of every line make.
+
+    words: of the last line, without those of columns that are skipped; an empty word is not one that stands for a
+    missing point.
+    """
+    count = values.shape[1]
+    while count > 1 and not words[count - values.shape[1] - 1] and np.all(np.isnan(values[:, count - 1])):
+        count -= 1
+    return count
+
+
 class Text:
     """A text of numbers, whose file is read once, and whose header is looked for once.
 
@@ -147,6 +159,7 @@ class Text:
 
     def __init__(self, path, form=Form()):  # noqa: B008 - it is never changed
         self.path, self.form = path, form
+        self.empty_columns = 0  # the last ones, which are left out of the table once it is read
 
     @cached_property
     def lines(self):
@@ -185,9 +198,9 @@ class Text:
         if not rows:
             raise Error(f"{self.path}: contains no numbers")
         values = np.array(rows)
-        if values.shape[1] > 1 and np.all(np.isnan(values[:, -1])) and line.rstrip(" ").endswith((",", ";", "\t")):
-            values = values[:, :-1]  # every line ends with a separator
-        return values, self.before, first
+        columns = _columns(values, words)
+        self.empty_columns = values.shape[1] - columns
+        return values[:, :columns], self.before, first
 
     @cached_property
     def header(self):

@@ -44,7 +44,7 @@ class Esri(Reader):
             raise Error(f"{path}: its header has {nx} x {ny} cells of {cell:g}: export the grid again")
         words = [word for line in lines[len(header) :] for word in line]
         values = _numbers(path, words, nx * ny).reshape(ny, nx)
-        return Stated(values, top=True, spans=(cell * nx, cell * ny), missing=missing)
+        return Stated(values, top=True, spans=(cell * nx, cell * ny), missing=missing, layout="grid")
 
 
 class Surfer(Reader):
@@ -66,4 +66,5 @@ class Surfer(Reader):
             raise Error(f"{path}: its header has {nx:g} x {ny:g} points over no width: export the grid again")
         values = _numbers(path, words[8:], int(nx * ny)).reshape(int(ny), int(nx))
         values[np.abs(values) >= BLANK * (1.0 - 1e-5)] = np.nan
-        return Stated(values, top=False, spans=((x1 - x0) * nx / (nx - 1), (y1 - y0) * ny / (ny - 1)))
+        spans = (x1 - x0) * nx / (nx - 1), (y1 - y0) * ny / (ny - 1)
+        return Stated(values, top=False, spans=spans, layout="grid")

@@ -7,7 +7,7 @@ from ...core.errors import Error, short
 from ...core.files import decoded
 from ...core.hdf5 import opened
 from ..basics import QUANTITIES, SAME
-from ..doubts import need_map
+from .arrays import NONE, REAL, chosen, listed, told
 from .stated import HDF5, TEXTS, Reader, Stated
 
 ANOTHER = "convert another one by petsam-surface FILE --dataset NAME -o NEW.h5"
@@ -26,10 +26,7 @@ class Hdf5(Reader):
 
     def read(self, source):
         """The dataset and its attributes."""
-        stated = of_hdf5(source.path, source.how.dataset, lengths=source.how.lengths)
-        if stated.size is None:
-            need_map(source.path, stated.values, text=False)
-        return stated
+        return of_hdf5(source.path, source.how.dataset, lengths=source.how.lengths)
 
 
 def _attribute(path, data, name):
@@ -85,17 +82,20 @@ def of_hdf5(path, dataset, bare=False, lengths=True):
     with opened(path) as file:
         name = (dataset or ("separation" if bare and "separation" in file else "height")).strip("/")
         name = name if name in file or dataset else "separation"
+        remarks = ()
+        if name not in file and not dataset and not bare:
+            shapes = contents(file)
+            name = chosen(path, shapes, "--dataset")
+            remarks = told(name, shapes)
         data = file.get(name)
-        if data is None and not dataset:
-            raise Error(f"{path}: no dataset height or separation; {ANOTHER}")
-        if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in "iuf":
-            cure = ANOTHER if lengths else "give it that name"
+        if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in REAL:
+            cure = ANOTHER if bare else listed(contents(file), "--dataset") if lengths else "give it that name"
             raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); {cure}")
         if "scale_factor" in data.attrs or "add_offset" in data.attrs:
             raise Error(
                 f"{path}: /{name}: its attributes scale_factor or add_offset show that it is packed; unpack it first"
             )
-        values = data[:]
+        values = data[:].T if "MATLAB_class" in data.attrs else data[:]  # Matlab's first index changes fastest
         quantity = _attribute(path, data, "quantity")
         if quantity is not None and quantity not in QUANTITIES:
             known = ", ".join(QUANTITIES)
@@ -106,10 +106,26 @@ def of_hdf5(path, dataset, bare=False, lengths=True):
         if len(values) == 1:
             axes[1] = (1.0, 0.0, False)  # of a profile, per metre along y
     if None in axes:
-        return Stated(values, unit, size, quantity=quantity, name=name)
+        layout = "grid" if size else "array"
+        return Stated(values, unit, size, quantity=quantity, name=name, remarks=remarks, layout=layout)
     x, y = axes
     if x[2]:
         values = values[:, ::-1]
     if size and not np.allclose(size[: min(2, len(values))], (x[0], y[0])[: min(2, len(values))], rtol=EVEN, atol=0.0):
         raise Error(f"{path}: /{name}: its attribute size and the axes x and y contradict each other: remove one")
-    return Stated(values, unit, (x[0], y[0]), (x[1], y[1]), quantity, y[2], name=name)
+    size, center = (x[0], y[0]), (x[1], y[1])
+    return Stated(values, unit, size, center, quantity, y[2], name=name, remarks=remarks, layout="grid")
+
+
+def contents(file):
+    """Shapes of all datasets in an open file by their names, as of arrays.chosen()."""
+    import h5py
+
+    shapes = {}
+
+    def note(name, item):
+        if isinstance(item, h5py.Dataset):
+            shapes[name] = item.shape if item.dtype.kind in REAL else NONE
+
+    file.visititems(note)
+    return shapes

@@ -11,7 +11,7 @@ from ...core.files import SAMPLE, decoded
 from .. import headers
 from ..tables import Form, Text
 
-NUMPY, HDF5 = b"\x93NUMPY", b"\x89HDF\r\n\x1a\n"
+NUMPY, HDF5, ZIP = b"\x93NUMPY", b"\x89HDF\r\n\x1a\n", b"PK\x03\x04"
 TEXTS = (".csv", ".txt")  # endings of texts
 OTHERS = (".tsv", ".dat", ".xyz", ".prn", ".asc", ".grd", "")  # endings that texts may have, and files of instruments
 
@@ -28,10 +28,11 @@ class Stated(NamedTuple):
     remarks: tuple = ()
     doubts: tuple = ()  # texts of warnings
     sides: tuple = (None, None)  # size along x, y of a file that may state only one of them
-    lines: dict = {}  # of the statements unit, x and y in a text
+    lines: dict = {}  # of the statements unit, x and y in a text, and of its first values
     name: str = ""  # of the dataset
     spans: tuple = None  # size along x, y in a unit that the file does not state
     missing: float = None  # value of missing points, which the file states
+    layout: str = "array"  # what lists of points are looked for in: "array", "text", "library"; "grid": none can be
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,12 @@ class Source:
         """Whether the file is a text by its name, or by its contents where the name leaves this open."""
         if self.how.table or self.ending in TEXTS:
             return not self.start.startswith((NUMPY, HDF5))
-        return self.ending in OTHERS and all(c.isprintable() or c in "\r\n\t\f" for c in decoded(self.start))
+        return self.ending in OTHERS and self.is_printable
+
+    @property
+    def is_printable(self):
+        """Whether the first bytes are letters, whatever the name is."""
+        return all(c.isprintable() or c in "\r\n\t\f" for c in decoded(self.start))
 
     @cached_property
     def is_list(self):

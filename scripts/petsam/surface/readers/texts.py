@@ -5,10 +5,9 @@ import re
 import numpy as np
 
 from ...core import units
-from ...core.errors import Error, short
+from ...core.errors import Error, counted, short
 from .. import headers
 from ..basics import SAME
-from ..doubts import need_map
 from .stated import Reader, Stated
 
 SPIP = re.compile(r"file format\s*=\s*ascii", re.IGNORECASE)
@@ -32,9 +31,11 @@ def need_mentioned(path, header, unit):
             )
 
 
-def left_out(count):
-    """The remark about lines of a header."""
-    return (f"{count} header line{'s' if count > 1 else ''} left out",) if count else ()
+def left_out(text):
+    """Remarks about lines of a header, and about empty last columns but for that of a separator at the end of lines."""
+    count, empty = text.table[1], text.empty_columns
+    lines = (f"{counted(count, 'header line')} left out",) if count else ()
+    return (*lines, f"{empty} empty last columns left out") if empty > 1 else lines
 
 
 class Table(Reader):
@@ -54,9 +55,8 @@ class Table(Reader):
     def read(self, source):
         """The lines as rows of a map."""
         path = source.path
-        values, count, first = source.text.table
+        values, _, first = source.text.table
         header = self.header(source)
-        need_map(f"{path}: line {first}", values, text=True)
         need_mentioned(path, header, source.how.units)
         x, y = headers.size_of(path, header, values.shape[::-1])
         size = (x, y) if x and y else None
@@ -64,8 +64,8 @@ class Table(Reader):
         if empty:
             doubts += (f"line {empty} is empty: if it ends a map, leave out what follows it, or give each map a file",)
         return Stated(
-            values, header.unit, size, top=header.top, remarks=left_out(count), doubts=doubts, sides=(x, y),
-            lines=header.lines,
+            values, header.unit, size, top=header.top, remarks=left_out(source.text), doubts=doubts, sides=(x, y),
+            lines={**header.lines, "values": first}, layout="text",
         )  # fmt: skip
 
 
