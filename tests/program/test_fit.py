@@ -642,6 +642,64 @@ def test_files_that_cannot_be_read_are_named(tmp_path, text, said):
     assert said in str(error.value)
 
 
+HEADS = [
+    ("Q_N,d_um", "{q},{d}", 1e-6, 1.0),
+    ("Displacement,Friction Force\n\u00b5m,N", "{d},{q}", 1e-6, 1.0),
+    ("Nr;Weg;Reibkraft\n-;[mm];[kN]", "1;{d};{q}", 1e-3, 1e3),
+    ("um,N", "{d},{q}", 1e-6, 1.0),
+    ("d [um],Q [uN]", "{d},{q}", 1e-6, 1e-6),
+    ("Position (mil);Force (kgf)", "{d};{q}", 25.4e-6, 9.80665),
+    ("Position (in)\tForce (lbf)", "{d}\t{q}", 25.4e-3, 4.4482216152605),
+    ("Weg in mm;Kraft in daN", "{d};{q}", 1e-3, 10.0),
+    ("# d_um,Q_N", "{d},{q}", 1e-6, 1.0),
+    ("Displacement [um] Friction force [N]", "{d} {q}", 1e-6, 1.0),
+    ("x [um],Normal force [N],Tangential force [N]", "{d},999,{q}", 1e-6, 1.0),
+    ("x_um,Fn_N,Ft_N", "{d},999,{q}", 1e-6, 1.0),
+    ("s [mm];F_N [N];F_T [N]", "{d};999;{q}", 1e-3, 1.0),
+    ("Weg;Querkraft;Normalkraft\nmm;N;kN", "{d};{q};9", 1e-3, 1.0),
+    ("Wear depth (um),Slip (um),Friction (N)", "9,{d},{q}", 1e-6, 1.0),
+    ("cycle_N,d_um,F_mN", "1,{d},{q}", 1e-6, 1e-3),
+    ("Range;10;20;30\nRig 7;;\nTime [s];x [um];v mm/s;F [N]", "1;{d};9;{q}", 1e-6, 1.0),
+    ("d [um];Q [N]", "{d};{q};", 1e-6, 1.0),
+]
+
+
+@pytest.mark.parametrize("head, row, length, force", HEADS)
+def test_heads_of_laboratories(tmp_path, head, row, length, force):
+    """Units in names, brackets and a second line; the tangential of several columns by its words."""
+    d, q = np.linspace(-3.0, 5.0, 30), np.linspace(40.0, 7.0, 30)
+    rows = [row.format(d=f"{a:.6f}", q=f"{b:.6f}") for a, b in zip(d, q)]
+    (tmp_path / "lab.csv").write_text("\n".join([head, *rows]), encoding="latin-1")
+    found = calibration.read("lab.csv")
+    assert found.displacement == pytest.approx(length * d, abs=1e-6 * length)
+    assert found.force == pytest.approx(force * q, abs=1e-6 * force)
+
+
+@pytest.mark.parametrize(
+    "head, rows, said",
+    [
+        ("s_mm,F_N,F_T", "1.5,2,3\n" * 30, "column F_T: has no unit of force"),
+        ("x [um],Normal force [N]", "1.5,2\n" * 30, "Normal force: is of the normal direction by its name"),
+        ("Wear depth (um),Friction (N)", "1.5,2\n" * 30, "Wear depth: is of the normal direction by its name"),
+        ("cycle_N,d_um,Q", "1,2,3\n" * 30, "column Q: has no unit of force"),
+        ("d um,Q N/mm", "1.5,2\n" * 30, "is a force per length, N/mm"),
+        ("Weg;Kraft\num;N/mm", "1,5;2\n" * 30, "is a force per length, N/mm"),
+        ("d [um],Q [N]\nmm,N", "1.5,2\n" * 30, "the line below states mm"),
+        ("t_s,d_um,Q_N", "1,2,3\n" * 30 + "2,3\n", "line 32: has 2 fields, the head has 3"),
+        ("t_s d_um Q_N", "1 2 3\n" * 30 + " 2 3\n", "line 32: has 2 fields, the head has 3"),
+        ("Zeit [s];Weg [um];Kraft [N]", "1;2\n" + "1;2;3\n" * 30, "line 2: has 2 fields, the line above it has 3"),
+        ("d [um];Q [N]", "1,5;2\n" * 30 + "1.5;2\n", "line 2: 1,5 has a comma, and 1.5 in line 32 a point"),
+        ("d [um];Q [N]", "1;2,345\n" * 30 + "2;987\n", "the comma of 2,345 may be one between thousands"),
+        ("a,d_um,b,Q_N", "1,050,2,046\n" * 30, "line 2: 050 is what stands behind a decimal comma"),
+    ],
+)
+def test_heads_and_rows_that_may_be_read_wrong_are_told(tmp_path, head, rows, said):
+    (tmp_path / "lab.csv").write_text(f"{head}\n{rows}")
+    with pytest.raises(Error, match="lab.csv") as error:
+        calibration.read("lab.csv")
+    assert said in str(error.value)
+
+
 def test_half_a_loop_is_none(fit, tmp_path):
     loop = twin(np.random.default_rng(3), 0.8)
     half = model.Loop(loop.displacement[:100], loop.force[:100], loop.rising[:100], N)
