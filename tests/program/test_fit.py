@@ -497,7 +497,7 @@ def test_each_file_has_the_push_of_its_load(fit, tmp_path):
     found = json.loads((tmp_path / "test.json").read_text())
     assert abs(found["friction"] - MU) < 3 * found["friction_sd"] < 0.05
     assert abs(found["rig_stiffness"] - rig) < 3 * found["rig_stiffness_sd"] < 0.2 * rig
-    assert "no numbers" in fit(*names, *words, "1kN")
+    assert "no numbers" in fit(*names, *words, "1kN", check=10)
 
 
 def test_a_shape_that_does_not_fit_is_said(fit, tmp_path):
@@ -513,7 +513,7 @@ def test_a_shape_that_does_not_fit_is_said(fit, tmp_path):
     assert "the shape does not fit: its compliance is not that of the loops within 1 %" in said
     assert found["scale"] == pytest.approx(2 ** (1 / 3), rel=0.05)
     assert abs(found["rig_stiffness"] - 1e8) < 3 * found["rig_stiffness_sd"]
-    said = fit(*words, "other.opts", "--rig", "100N/um")
+    said = fit(*words, "other.opts", "--rig", "100N/um", check=10)
     assert "the shape or the given rig does not fit" in said and "no numbers" in said
     assert "a part from 0 to below 1" in fit(*words, "ball.opts", "--shape-band", "x", check=2)
 
@@ -765,9 +765,11 @@ def test_what_is_not_known_is_not_written(fit, tmp_path):
     assert found["friction"] is None and not found["identifiable"] and 0.1 < found["friction_at_least"] < MU
     assert not (tmp_path / "test.opts").exists()
     write(tmp_path / "lab.csv", [twin(np.random.default_rng(5), 0.9, None, 2e8)])
-    said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "150N/um", "-o", "no", "--no-picture")
+    words = ("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "150N/um")
+    said = fit(*words, "-o", "no", "--no-picture", check=10)
     found = json.loads((tmp_path / "no.json").read_text())
     assert "no numbers" in said and "next:" in said and found["rig_stiffness"] is None and not found["identifiable"]
+    assert "the loops hold no numbers" in fit(*words, "--volume", "1e4um3", check=10)
 
 
 def test_wear_is_volume_over_energy(fit, tmp_path):
@@ -934,3 +936,78 @@ def test_scars_by_the_command(scars, fit, tmp_path):
     assert (tmp_path / "worn-scar.png").stat().st_size > 5000
     assert "needs --life" in fit(*words[:4], check=2)
     assert "--split: is for --scar" in fit("--split", *words[2:4], "--normal", "1kN", "x.csv", check=2)
+
+
+def with_start(path, name, coefficient, radius="6e-3"):
+    """The options of the test with other coefficients of the same ratio, or another radius."""
+    text = path.read_text().replace("1 1.9e-14", f"1 {coefficient * 1.9 / 2.9:.6g}")
+    name.write_text(text.replace("2 2.9e-14", f"2 {coefficient:.6g}").replace("_x 6e-3", f"_x {radius}"))
+    return name
+
+
+@pytest.mark.parametrize("start", [1e-16, 1.5e-14, 1e-10])
+def test_a_scar_does_not_depend_on_the_start(scars, fit, tmp_path, start):
+    """Its coefficient is beyond the range of 1.6 times the start, far below it, or its family leaves the grid."""
+    path, one = scars
+    x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(3), noise=2e-8)
+    rows = "".join(f"{1e3 * a + 7:.6f},{1e6 * b:.6f}\n" for a, b in zip(x, height))  # anywhere along x
+    (tmp_path / "profile.csv").write_text("x [mm],test [um]\n" + rows)
+    shape = with_start(path, tmp_path / "start.opts", start)
+    fit("--scar", "profile.csv", "--shape", shape, "--life", "18000", "-o", "worn", "--no-picture")
+    found = json.loads((tmp_path / "worn.json").read_text())
+    assert abs(found["wear_coefficient2"] - 2.9e-14) < 3 * found["wear_coefficient2_sd"] < 1e-15
+
+
+def test_a_scar_beyond_its_family_has_no_number(scars):
+    """Deeper or shallower than all scars: by the family of less and of more cycles."""
+    _, one = scars
+    x = np.arange(-0.30e-3, 0.3001e-3, 8e-6)
+    noise = 1e-8 * np.random.default_rng(5).standard_normal(x.size)
+    for part, end, said in ((0.5, 1, "deeper than all scars"), (8.0, -1, "shallower than all scars")):
+        product = part * one.product
+        depth = np.array([one.at(np.clip(k, one.product[0], one.product[-1]), one.x) for k in product])
+        height = noise - one.at(one.product[-3] if end > 0 else one.product[2], x)
+        found = calibration.fit_scar(replace(one, depth=depth, product=product), x, height)
+        assert found.end == end and said in found.doubt and np.isnan(found.coefficient)
+
+
+@pytest.mark.parametrize("radius, why", [("4e-3", "its shape is not that of the"), ("9e-3", "it is deeper than the")])
+def test_a_scar_of_another_shape_has_no_number(scars, fit, tmp_path, radius, why):
+    path, one = scars
+    x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(3), noise=2e-8)
+    rows = "".join(f"{1e3 * a:.6f},{1e6 * b:.6f}\n" for a, b in zip(x, height))
+    (tmp_path / "profile.csv").write_text("x [mm],test [um]\n" + rows)
+    shape = with_start(path, tmp_path / "other.opts", 2.9e-14, radius)
+    words = ("--scar", "profile.csv", "--shape", shape, "--life", "18000", "-o", "worn")
+    said = fit(*words, check=10)
+    assert f"no numbers: {why}" in said and "nan" not in said
+    assert json.loads((tmp_path / "worn.json").read_text())["wear_coefficient2"] is None
+    assert (tmp_path / "worn-scar.png").stat().st_size > 5000
+
+
+@pytest.mark.parametrize("truth, said", [(0.6, ""), (2.4, ""), (-0.1, "at most 0.0"), (500.0, "no minimum up to 5")])
+def test_a_ratio_of_wear_is_within_what_was_tried(scars, monkeypatch, truth, said):
+    """By misfits whose squares are a parabola of the ratio."""
+    path, one = scars
+    x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(3))
+    scar = calibration.fit_scar(one, x, height)
+
+    def fitted(shape, life, x, height, body, options):
+        ratio = options["wear_coefficient1"] / 2.9e-14
+        return replace(scar, misfit=1e-7 * np.sqrt(1.0 + 20.0 * (ratio - truth) ** 2)), one
+
+    monkeypatch.setattr(calibration.scars, "fit_profile", fitted)
+    found = calibration.split(path, 18000, x, height)
+    assert said in found.doubt and bool(said) is bool(found.doubt) and np.isnan(found.ratio) == bool(said)
+    assert said or found.ratio == pytest.approx(truth, rel=1e-6) and found.ratio_sd > 0.0
+
+
+@pytest.mark.parametrize("name, more", [("loss", {"loss": 0.3}), ("scale", {})])
+def test_what_ends_at_its_range_has_no_number(tmp_path, name, more):
+    """A loss of 0.3, where 0.2 is the most that is looked for; a contact 40 times as stiff as its shape."""
+    push = PUSH if more else replace(PUSH, displacement=40.0 * PUSH.displacement)
+    loop = twin(np.random.default_rng(2), None, 1.5, 1e12, noise=0.05 if more else 0.005, **more)
+    found = model.fit([loop], push, (name,))
+    assert name in found.ends and found.state == "rejected" and np.isnan(found.friction)
+    plain = model.fit([twin(np.random.default_rng(2), None, 1.5, 2e7, noise=0.005)], PUSH, (name,))
+    assert plain.ends == () and plain.state == "known"
