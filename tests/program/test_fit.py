@@ -810,7 +810,7 @@ def test_plans_are_printed_and_written(fit, tmp_path):
         (("lab.csv", "--normal", "1kN", "--shape", "none.opts"), 3, "none.opts"),
         (("none.csv", "--normal", "1kN", "--shape", "ball.opts"), 3, "none.csv"),
         (("lab.csv", "--normal", "1kN,2kN", "--shape", "ball.opts"), 2, "1 file: give one number"),
-        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20"), 0, ""),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20"), 10, "no numbers"),
         (
             ("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20N/furlong"),
             2,
