@@ -1289,10 +1289,11 @@ def _table(history):
     if isinstance(history, (str, os.PathLike)):
         need_regular(history)
         lines = [line.split("#")[0].strip() for line in Path(history).read_text(encoding="utf-8-sig").splitlines()]
-        lines = [re.split(r"\s*[,;]\s*|\s+", line) for line in lines if line]
-        columns, rows = [name.strip('"') for name in lines[0]], lines[1:]
-        if any(len(row) != len(columns) for row in rows):
-            raise ValueError(f"{history}: not all rows have {len(columns)} fields")
+        lines = [(n, re.split(r"\s*[,;]\s*|\s+", line)) for n, line in enumerate(lines, 1) if line]
+        columns, rows = [name.strip('"') for name in lines[0][1]], [row for _, row in lines[1:]]
+        for number, row in lines[1:]:
+            if len(row) != len(columns):
+                raise ValueError(f"{history}, line {number}: has {len(row)} fields, the head has {len(columns)}")
         return columns, np.array(rows, dtype=float)
     if not hasattr(history, "keys") or not all(isinstance(name, str) for name in history):
         raise TypeError("history: expected the name of a file, or {column: values}")

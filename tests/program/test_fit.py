@@ -497,7 +497,7 @@ def test_each_file_has_the_push_of_its_load(fit, tmp_path):
     found = json.loads((tmp_path / "test.json").read_text())
     assert abs(found["friction"] - MU) < 3 * found["friction_sd"] < 0.05
     assert abs(found["rig_stiffness"] - rig) < 3 * found["rig_stiffness_sd"] < 0.2 * rig
-    assert "no numbers" in fit(*names, *words, "1kN")
+    assert "no numbers" in fit(*names, *words, "1kN", check=10)
 
 
 def test_a_shape_that_does_not_fit_is_said(fit, tmp_path):
@@ -513,7 +513,7 @@ def test_a_shape_that_does_not_fit_is_said(fit, tmp_path):
     assert "the shape does not fit: its compliance is not that of the loops within 1 %" in said
     assert found["scale"] == pytest.approx(2 ** (1 / 3), rel=0.05)
     assert abs(found["rig_stiffness"] - 1e8) < 3 * found["rig_stiffness_sd"]
-    said = fit(*words, "other.opts", "--rig", "100N/um")
+    said = fit(*words, "other.opts", "--rig", "100N/um", check=10)
     assert "the shape or the given rig does not fit" in said and "no numbers" in said
     assert "a part from 0 to below 1" in fit(*words, "ball.opts", "--shape-band", "x", check=2)
 
@@ -642,6 +642,64 @@ def test_files_that_cannot_be_read_are_named(tmp_path, text, said):
     assert said in str(error.value)
 
 
+HEADS = [
+    ("Q_N,d_um", "{q},{d}", 1e-6, 1.0),
+    ("Displacement,Friction Force\n\u00b5m,N", "{d},{q}", 1e-6, 1.0),
+    ("Nr;Weg;Reibkraft\n-;[mm];[kN]", "1;{d};{q}", 1e-3, 1e3),
+    ("um,N", "{d},{q}", 1e-6, 1.0),
+    ("d [um],Q [uN]", "{d},{q}", 1e-6, 1e-6),
+    ("Position (mil);Force (kgf)", "{d};{q}", 25.4e-6, 9.80665),
+    ("Position (in)\tForce (lbf)", "{d}\t{q}", 25.4e-3, 4.4482216152605),
+    ("Weg in mm;Kraft in daN", "{d};{q}", 1e-3, 10.0),
+    ("# d_um,Q_N", "{d},{q}", 1e-6, 1.0),
+    ("Displacement [um] Friction force [N]", "{d} {q}", 1e-6, 1.0),
+    ("x [um],Normal force [N],Tangential force [N]", "{d},999,{q}", 1e-6, 1.0),
+    ("x_um,Fn_N,Ft_N", "{d},999,{q}", 1e-6, 1.0),
+    ("s [mm];F_N [N];F_T [N]", "{d};999;{q}", 1e-3, 1.0),
+    ("Weg;Querkraft;Normalkraft\nmm;N;kN", "{d};{q};9", 1e-3, 1.0),
+    ("Wear depth (um),Slip (um),Friction (N)", "9,{d},{q}", 1e-6, 1.0),
+    ("cycle_N,d_um,F_mN", "1,{d},{q}", 1e-6, 1e-3),
+    ("Range;10;20;30\nRig 7;;\nTime [s];x [um];v mm/s;F [N]", "1;{d};9;{q}", 1e-6, 1.0),
+    ("d [um];Q [N]", "{d};{q};", 1e-6, 1.0),
+]
+
+
+@pytest.mark.parametrize("head, row, length, force", HEADS)
+def test_heads_of_laboratories(tmp_path, head, row, length, force):
+    """Units in names, brackets and a second line; the tangential of several columns by its words."""
+    d, q = np.linspace(-3.0, 5.0, 30), np.linspace(40.0, 7.0, 30)
+    rows = [row.format(d=f"{a:.6f}", q=f"{b:.6f}") for a, b in zip(d, q)]
+    (tmp_path / "lab.csv").write_text("\n".join([head, *rows]), encoding="latin-1")
+    found = calibration.read("lab.csv")
+    assert found.displacement == pytest.approx(length * d, abs=1e-6 * length)
+    assert found.force == pytest.approx(force * q, abs=1e-6 * force)
+
+
+@pytest.mark.parametrize(
+    "head, rows, said",
+    [
+        ("s_mm,F_N,F_T", "1.5,2,3\n" * 30, "column F_T: has no unit of force"),
+        ("x [um],Normal force [N]", "1.5,2\n" * 30, "Normal force: is of the normal direction by its name"),
+        ("Wear depth (um),Friction (N)", "1.5,2\n" * 30, "Wear depth: is of the normal direction by its name"),
+        ("cycle_N,d_um,Q", "1,2,3\n" * 30, "column Q: has no unit of force"),
+        ("d um,Q N/mm", "1.5,2\n" * 30, "is a force per length, N/mm"),
+        ("Weg;Kraft\num;N/mm", "1,5;2\n" * 30, "is a force per length, N/mm"),
+        ("d [um],Q [N]\nmm,N", "1.5,2\n" * 30, "the line below states mm"),
+        ("t_s,d_um,Q_N", "1,2,3\n" * 30 + "2,3\n", "line 32: has 2 fields, the head has 3"),
+        ("t_s d_um Q_N", "1 2 3\n" * 30 + " 2 3\n", "line 32: has 2 fields, the head has 3"),
+        ("Zeit [s];Weg [um];Kraft [N]", "1;2\n" + "1;2;3\n" * 30, "line 2: has 2 fields, the line above it has 3"),
+        ("d [um];Q [N]", "1,5;2\n" * 30 + "1.5;2\n", "line 2: 1,5 has a comma, and 1.5 in line 32 a point"),
+        ("d [um];Q [N]", "1;2,345\n" * 30 + "2;987\n", "the comma of 2,345 may be one between thousands"),
+        ("a,d_um,b,Q_N", "1,050,2,046\n" * 30, "line 2: 050 is what stands behind a decimal comma"),
+    ],
+)
+def test_heads_and_rows_that_may_be_read_wrong_are_told(tmp_path, head, rows, said):
+    (tmp_path / "lab.csv").write_text(f"{head}\n{rows}")
+    with pytest.raises(Error, match="lab.csv") as error:
+        calibration.read("lab.csv")
+    assert said in str(error.value)
+
+
 def test_half_a_loop_is_none(fit, tmp_path):
     loop = twin(np.random.default_rng(3), 0.8)
     half = model.Loop(loop.displacement[:100], loop.force[:100], loop.rising[:100], N)
@@ -707,9 +765,11 @@ def test_what_is_not_known_is_not_written(fit, tmp_path):
     assert found["friction"] is None and not found["identifiable"] and 0.1 < found["friction_at_least"] < MU
     assert not (tmp_path / "test.opts").exists()
     write(tmp_path / "lab.csv", [twin(np.random.default_rng(5), 0.9, None, 2e8)])
-    said = fit("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "150N/um", "-o", "no", "--no-picture")
+    words = ("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "150N/um")
+    said = fit(*words, "-o", "no", "--no-picture", check=10)
     found = json.loads((tmp_path / "no.json").read_text())
     assert "no numbers" in said and "next:" in said and found["rig_stiffness"] is None and not found["identifiable"]
+    assert "the loops hold no numbers" in fit(*words, "--volume", "1e4um3", check=10)
 
 
 def test_wear_is_volume_over_energy(fit, tmp_path):
@@ -750,7 +810,7 @@ def test_plans_are_printed_and_written(fit, tmp_path):
         (("lab.csv", "--normal", "1kN", "--shape", "none.opts"), 3, "none.opts"),
         (("none.csv", "--normal", "1kN", "--shape", "ball.opts"), 3, "none.csv"),
         (("lab.csv", "--normal", "1kN,2kN", "--shape", "ball.opts"), 2, "1 file: give one number"),
-        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20"), 0, ""),
+        (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20"), 10, "no numbers"),
         (
             ("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20N/furlong"),
             2,
@@ -876,3 +936,78 @@ def test_scars_by_the_command(scars, fit, tmp_path):
     assert (tmp_path / "worn-scar.png").stat().st_size > 5000
     assert "needs --life" in fit(*words[:4], check=2)
     assert "--split: is for --scar" in fit("--split", *words[2:4], "--normal", "1kN", "x.csv", check=2)
+
+
+def with_start(path, name, coefficient, radius="6e-3"):
+    """The options of the test with other coefficients of the same ratio, or another radius."""
+    text = path.read_text().replace("1 1.9e-14", f"1 {coefficient * 1.9 / 2.9:.6g}")
+    name.write_text(text.replace("2 2.9e-14", f"2 {coefficient:.6g}").replace("_x 6e-3", f"_x {radius}"))
+    return name
+
+
+@pytest.mark.parametrize("start", [1e-16, 1.5e-14, 1e-10])
+def test_a_scar_does_not_depend_on_the_start(scars, fit, tmp_path, start):
+    """Its coefficient is beyond the range of 1.6 times the start, far below it, or its family leaves the grid."""
+    path, one = scars
+    x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(3), noise=2e-8)
+    rows = "".join(f"{1e3 * a + 7:.6f},{1e6 * b:.6f}\n" for a, b in zip(x, height))  # anywhere along x
+    (tmp_path / "profile.csv").write_text("x [mm],test [um]\n" + rows)
+    shape = with_start(path, tmp_path / "start.opts", start)
+    fit("--scar", "profile.csv", "--shape", shape, "--life", "18000", "-o", "worn", "--no-picture")
+    found = json.loads((tmp_path / "worn.json").read_text())
+    assert abs(found["wear_coefficient2"] - 2.9e-14) < 3 * found["wear_coefficient2_sd"] < 1e-15
+
+
+def test_a_scar_beyond_its_family_has_no_number(scars):
+    """Deeper or shallower than all scars: by the family of less and of more cycles."""
+    _, one = scars
+    x = np.arange(-0.30e-3, 0.3001e-3, 8e-6)
+    noise = 1e-8 * np.random.default_rng(5).standard_normal(x.size)
+    for part, end, said in ((0.5, 1, "deeper than all scars"), (8.0, -1, "shallower than all scars")):
+        product = part * one.product
+        depth = np.array([one.at(np.clip(k, one.product[0], one.product[-1]), one.x) for k in product])
+        height = noise - one.at(one.product[-3] if end > 0 else one.product[2], x)
+        found = calibration.fit_scar(replace(one, depth=depth, product=product), x, height)
+        assert found.end == end and said in found.doubt and np.isnan(found.coefficient)
+
+
+@pytest.mark.parametrize("radius, why", [("4e-3", "its shape is not that of the"), ("9e-3", "it is deeper than the")])
+def test_a_scar_of_another_shape_has_no_number(scars, fit, tmp_path, radius, why):
+    path, one = scars
+    x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(3), noise=2e-8)
+    rows = "".join(f"{1e3 * a:.6f},{1e6 * b:.6f}\n" for a, b in zip(x, height))
+    (tmp_path / "profile.csv").write_text("x [mm],test [um]\n" + rows)
+    shape = with_start(path, tmp_path / "other.opts", 2.9e-14, radius)
+    words = ("--scar", "profile.csv", "--shape", shape, "--life", "18000", "-o", "worn")
+    said = fit(*words, check=10)
+    assert f"no numbers: {why}" in said and "nan" not in said
+    assert json.loads((tmp_path / "worn.json").read_text())["wear_coefficient2"] is None
+    assert (tmp_path / "worn-scar.png").stat().st_size > 5000
+
+
+@pytest.mark.parametrize("truth, said", [(0.6, ""), (2.4, ""), (-0.1, "at most 0.0"), (500.0, "no minimum up to 5")])
+def test_a_ratio_of_wear_is_within_what_was_tried(scars, monkeypatch, truth, said):
+    """By misfits whose squares are a parabola of the ratio."""
+    path, one = scars
+    x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(3))
+    scar = calibration.fit_scar(one, x, height)
+
+    def fitted(shape, life, x, height, body, options):
+        ratio = options["wear_coefficient1"] / 2.9e-14
+        return replace(scar, misfit=1e-7 * np.sqrt(1.0 + 20.0 * (ratio - truth) ** 2)), one
+
+    monkeypatch.setattr(calibration.scars, "fit_profile", fitted)
+    found = calibration.split(path, 18000, x, height)
+    assert said in found.doubt and bool(said) is bool(found.doubt) and np.isnan(found.ratio) == bool(said)
+    assert said or found.ratio == pytest.approx(truth, rel=1e-6) and found.ratio_sd > 0.0
+
+
+@pytest.mark.parametrize("name, more", [("loss", {"loss": 0.3}), ("scale", {})])
+def test_what_ends_at_its_range_has_no_number(tmp_path, name, more):
+    """A loss of 0.3, where 0.2 is the most that is looked for; a contact 40 times as stiff as its shape."""
+    push = PUSH if more else replace(PUSH, displacement=40.0 * PUSH.displacement)
+    loop = twin(np.random.default_rng(2), None, 1.5, 1e12, noise=0.05 if more else 0.005, **more)
+    found = model.fit([loop], push, (name,))
+    assert name in found.ends and found.state == "rejected" and np.isnan(found.friction)
+    plain = model.fit([twin(np.random.default_rng(2), None, 1.5, 2e7, noise=0.005)], PUSH, (name,))
+    assert plain.ends == () and plain.state == "known"

@@ -29,6 +29,12 @@ def write(path, columns, rows):
     path.write_text("\n".join([columns, *(",".join(map(repr, row)) for row in rows)]))
 
 
+def test_a_row_of_a_history_that_lost_a_field_is_named(tmp_path):
+    (tmp_path / "h.csv").write_text("# pull\ntime,load_n,load_tx\n1,100,0\n2,100\n")
+    with pytest.raises(ValueError, match="h.csv, line 4: has 2 fields, the head has 3"):
+        package.contact._table(tmp_path / "h.csv")
+
+
 def test_history_has_the_bits_of_the_program(petsam, tmp_path):
     """Given as arrays and as the program's own file, which may have comments and other separators. Its columns, too."""
     write(tmp_path / "h.csv", COLUMNS, ROWS)

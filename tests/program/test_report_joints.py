@@ -174,7 +174,7 @@ def test_a_band_has_a_curve_for_each_assembly(tmp_path):
             ["case,exit_code,seconds [s]", "a,0,1"],
             "its first column is case: tables of petsam-joint begin with one of ",
         ),
-        (["alpha [1],frequency [Hz]", "1,2,3"], "row 1 has 3 values, and there are 2 columns"),
+        (["alpha [1],frequency [Hz]", "1,2,3"], "line 2: has 3 values, and there are 2 columns"),
         (["alpha [1],frequency [Hz]", "1,x"], "column frequency [Hz]: could not convert string to float: 'x'"),
         (["alpha [1]"], "no table: expected a line of heads, as name [unit], and lines of values"),
         ([], "no table"),

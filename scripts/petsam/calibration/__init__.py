@@ -12,7 +12,7 @@ loops       fit(): the model of a loop, its parameters, and what the loops do no
 series      cycles(), analyse(): cycles of a record, without drift, one by one and together
 planning    plan(): how well which strokes would give the friction
 runs        fit_contact(): parameters of any contact from numbers of its history, by full runs
-scars       family(), fit_scar(), split(): the coefficients of wear from the profile of a scar
+scars       fit_profile(), family(), fit_scar(), split(): the coefficients of wear from the profile of a scar
 results     what the command prints and writes; wear() from a volume
 """
 
@@ -22,11 +22,11 @@ from .push import Push, ball, of_shape
 from .reading import Record, read
 from .results import Wear, wear
 from .runs import ContactFit, fit_contact
-from .scars import Family, Scar, Split, family, fit_scar, split
+from .scars import Family, Scar, Split, family, fit_profile, fit_scar, split
 from .series import Cycles, Result, analyse, cycles
 
 __all__ = [
     "ContactFit", "Cycles", "Family", "Fit", "Loop", "Plan", "Push", "Record", "Result", "Scar", "Split", "Wear",
-    "analyse", "ball", "cycles", "family", "fit", "fit_contact", "fit_scar", "of_shape", "plan", "read", "split",
-    "wear",
+    "analyse", "ball", "cycles", "family", "fit", "fit_contact", "fit_profile", "fit_scar", "of_shape", "plan", "read",
+    "split", "wear",
 ]  # fmt: skip

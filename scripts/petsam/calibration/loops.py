@@ -33,8 +33,11 @@ STARTS = (0.999, 0.7, 0.3)  # parts of sliding from which the fit begins: from o
 # of the friction, from which it begins again where the best loops just slide, or just do not
 NEARBY = (0.94, 1.06, 1.15)
 PASSES = 3  # of a fit, each with the weights of the one before
-LEAST, MOST = 1e-4, 30.0  # coefficients of friction
 LOSING = 0.2  # the most loss that is looked for: more would be a loop of its own
+LEAST, MOST = 1e-4, 30.0  # coefficients of friction
+LOWEST = {"friction": LEAST, "compliance": 0.0, "loss": -LOSING, "scale": 0.05, "bend": -0.9}
+HIGHEST = {"friction": MOST, "loss": LOSING}
+END = 1e-3  # distance from such an end, over the scale, within which a parameter is at it
 TRIALS = 30  # steps of a pass at most: the next pass goes on, and a start that leads nowhere costs little
 FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
 LOSS = (0.0, 0.005)  # of a rig, if nothing is stated, and its standard deviation: clamped joints, load cells, lags
@@ -127,6 +130,8 @@ class Fit:
         What was fitted.
     curves : sequence
         Displacement (m) and force (N) of the closed loop of the fit, of each.
+    ends : tuple of str
+        Parameters at an end of their range, for which a fit is rejected.
     """
 
     friction: float
@@ -145,6 +150,7 @@ class Fit:
     correlation: dict = field(default_factory=dict)
     loops: Sequence = ()
     curves: Sequence = ()
+    ends: tuple = ()
 
     @property
     def identifiable(self) -> bool:
@@ -237,13 +243,17 @@ class _Problem:
         return np.array([*(shared.get(name, 0.05) for name in self.free), *own])
 
     def bounds(self):
-        lowest = dict(friction=LEAST, compliance=0.0, loss=-LOSING, scale=0.05, bend=-0.9)
-        highest = dict(friction=MOST, loss=LOSING)
         count = 3 * len(self.loops)
         return (
-            np.array([*(lowest.get(name, -np.inf) for name in self.free), *[-np.inf] * count]),
-            np.array([*(highest.get(name, np.inf) for name in self.free), *[np.inf] * count]),
+            np.array([*(LOWEST.get(name, -np.inf) for name in self.free), *[-np.inf] * count]),
+            np.array([*(HIGHEST.get(name, np.inf) for name in self.free), *[np.inf] * count]),
         )
+
+    def ends(self, values):
+        """Names of the parameters at an end of their range; of a compliance of 0 the stiffness has a lower bound."""
+        low, high = self.bounds()
+        near = np.minimum(values - low, high - values) < END * self.scales()
+        return tuple(name for name, at in zip(self.free, near) if at and name != "compliance")
 
     def start(self, sliding):
         """Parameters from which a fit begins: this part of sliding in the loop that is nearest to it."""
@@ -503,7 +513,12 @@ def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), p
         else:
             state = "weak" if ends[1] - ends[0] > WEAK * friction else "known"
             friction_sd = max(friction_sd, *(0.5 * abs(end - friction) for end in ends))
-    verdict = dict(friction_sd=friction_sd, friction_at_least=at_least, friction_range=ends, state=state)
+    at_ends = problem.ends(best.x)
+    if state == "not identifiable":  # a friction without an upper bound may be at the largest
+        at_ends = tuple(name for name in at_ends if name != "friction")
+    if at_ends:
+        state, at_least = "rejected", np.nan
+    verdict = dict(friction_sd=friction_sd, ends=at_ends, friction_at_least=at_least, friction_range=ends, state=state)
     correlation = {name: float(beside[k]) for k, name in enumerate(problem.free) if k}
     return _result(problem, best.x, sd, dict(verdict, neighbours=neighbours, correlation=correlation))
 

@@ -5,8 +5,8 @@ from typing import Optional
 
 import numpy as np
 
-from ..core.errors import Error, counted
-from .loops import CORRELATED
+from ..core.errors import Unsettled, counted
+from .loops import CORRELATED, HIGHEST, LOWEST
 from .push import Push, options_of
 from .series import Result
 
@@ -41,6 +41,12 @@ def lines(found: Result, push: Push) -> list[str]:
         f"push: {push.text}" + (f"; {push.datum}" if push.datum else ""),
         *found.notes,
     ]
+    if found.state == "rejected" and fit.ends:
+        out.append(
+            f"no numbers: {' and '.join(fit.ends)} at the end of what is looked for, {_range(fit.ends[0])}: look at "
+            "--normal, units, and the shape's radii and moduli"
+        )
+        return out
     if found.state == "rejected":
         out += [
             "no numbers: the loops are clockwise: in partial slip either a record backwards or a force that lags"
@@ -82,6 +88,12 @@ def lines(found: Result, push: Push) -> list[str]:
     return out
 
 
+def _range(name):
+    """What values of a parameter are looked for."""
+    low, high = LOWEST[name], HIGHEST.get(name)
+    return f"{low:g} to {high:g}" if high else f"{low:g} or more"
+
+
 def _friction_line(found):
     low, high = found.fit.friction_range
     if found.state == "changes":
@@ -99,8 +111,17 @@ def _friction_line(found):
     return text
 
 
-def _plain(value):
-    """A number for JSON, None where it is none."""
+def plain(value: Optional[float]) -> Optional[float]:
+    """A number for JSON, None where it is none.
+
+    Parameters
+    ----------
+    value : float or None
+
+    Returns
+    -------
+    float or None
+    """
     return float(value) if value is not None and np.isfinite(value) else None
 
 
@@ -146,11 +167,11 @@ def wear(found: Result, volume: float, band: float = 0.0, life: Optional[float] 
 
     Raises
     ------
-    Error
+    Unsettled
         If the model does not hold, and the energy is not that of the contact.
     """
     if found.state == "rejected":
-        raise Error("--volume: the loops hold no numbers, and their energy is not that of the contact alone")
+        raise Unsettled("--volume: the loops hold no numbers, and their energy is not that of the contact alone")
     numbers, energy = found.numbers, found.energy
     life = float(life if life else numbers[-1] - numbers[0] + 1.0)
     whole = np.arange(1.0, min(life, 1e6) + 1.0) * (life / min(life, 1e6))
@@ -203,16 +224,16 @@ def as_json(found: Result, worn: Optional[Wear] = None, body: str = "2") -> dict
     """
     fit = found.fit
     numbers = {
-        "friction": _plain(found.friction),
-        "friction_sd": _plain(found.friction_sd),
-        "friction_at_least": _plain(found.friction_at_least),
-        "friction_range": [_plain(one) for one in fit.friction_range] if found.state != "rejected" else None,
+        "friction": plain(found.friction),
+        "friction_sd": plain(found.friction_sd),
+        "friction_at_least": plain(found.friction_at_least),
+        "friction_range": [plain(one) for one in fit.friction_range] if found.state != "rejected" else None,
         "identifiable": bool(found.identifiable),
         "state": found.state,
         "regime": found.regime if found.state != "rejected" else None,
-        "sliding": _plain(found.sliding) if found.identifiable else None,
-        "rig_stiffness": _plain(found.rig_stiffness) if found.state != "rejected" else None,
-        "rig_stiffness_sd": _plain(found.rig_stiffness_sd) if found.state != "rejected" else None,
+        "sliding": plain(found.sliding) if found.identifiable else None,
+        "rig_stiffness": plain(found.rig_stiffness) if found.state != "rejected" else None,
+        "rig_stiffness_sd": plain(found.rig_stiffness_sd) if found.state != "rejected" else None,
         "contact_stiffness": found.contact_stiffness,
         "misfit": fit.misfit,
         "neighbours": fit.neighbours,
@@ -221,18 +242,13 @@ def as_json(found: Result, worn: Optional[Wear] = None, body: str = "2") -> dict
         **{name: value for name, (value, _) in fit.more.items() if found.state != "rejected"},
         "units": "N, m, J, 1/Pa",
         "cycles": [
-            {
-                "cycle": float(n),
-                "friction": _plain(f.friction),
-                "friction_sd": _plain(f.friction_sd),
-                "energy": float(e),
-            }
+            {"cycle": float(n), "friction": plain(f.friction), "friction_sd": plain(f.friction_sd), "energy": float(e)}
             for n, f, e in zip(found.numbers, found.each or [fit] * len(found.numbers), found.energy)
         ],
     }
     if worn:
-        numbers[f"wear_coefficient{body}"] = _plain(worn.coefficient)
-        numbers[f"wear_coefficient{body}_sd"] = _plain(worn.coefficient_sd)
+        numbers[f"wear_coefficient{body}"] = plain(worn.coefficient)
+        numbers[f"wear_coefficient{body}_sd"] = plain(worn.coefficient_sd)
         numbers[f"volume_over_energy{body}"] = worn.alpha
         numbers[f"volume_over_energy{body}_sd"] = worn.alpha_sd
     return numbers

@@ -34,6 +34,7 @@ LEAST = 1e-3  # of such a parameter, relative to its start; friction beyond the 
 POISSON = 0.499  # the largest Poisson's ratio that is tried
 RIG, OFFSET = "rig_compliance", "_offset"
 PULLED = {"disp_x": "load_tx", "disp_y": "load_ty"}  # displacements to which the rig adds, and the load that does
+BOUND = 1e-3  # distance from a bound, over the scale or the range, within which a value is at it
 SETTLED = 1e-4  # relative change of the sum of squares at which a fit ends: a small part of a deviation
 CLOSE = 1e-6  # and that of the parameters
 
@@ -50,10 +51,10 @@ class ContactFit:
         Of the errors, (parameters, parameters), in the order of values; NaN of a parameter that is not held.
     identifiable : dict
         {name: bool}, False where the deviation is above a tenth of the value and above half of what was known
-        beforehand, where the error goes with that of such a parameter (a correlation above 0.95), and of all where the
-        model does not hold.
+        beforehand, where the value is at one of its bounds, where the error goes with that of such a parameter (a
+        correlation above 0.95), and of all where the model does not hold or the fit has not converged.
     state : str
-        "known"; "rejected": the residuals are larger than three times the noise.
+        "known"; "rejected": the residuals are larger than three times the noise; "not converged".
     chi2 : float
         Sum of the squared residuals over their deviations, with what was known beforehand.
     freedom : int
@@ -64,6 +65,8 @@ class ContactFit:
         Of the Jacobian, "differences" or "passes back".
     runs, passes : int
         Runs of the contact, and passes back.
+    ends : tuple of str
+        Parameters whose best value is at one of its bounds: beyond it may be a better one.
     """
 
     values: dict
@@ -77,6 +80,7 @@ class ContactFit:
     way: str
     runs: int
     passes: int
+    ends: tuple = ()
 
     @property
     def misfit(self) -> float:
@@ -106,9 +110,13 @@ class ContactFit:
         lines[0] += f", {self.passes} passes back" if self.passes else ""
         if self.state == "rejected":
             lines.append(f"misfit {self.misfit:.3g} times the noise: the model does not hold")
+        if self.state == "not converged":
+            lines.append(f"not converged in {TRIALS} trials: start nearer, or give what is known")
         for name, value in self.values.items():
             if self.identifiable[name]:
                 lines.append(f"{name} {value:.5g} +- {self.sd[name]:.2g}")
+            elif self.state == "known" and name in self.ends:
+                lines.append(f"{name}: no number: ends at its bound, {value:.5g}: give wider bounds, or what is known")
             elif self.state == "known":
                 other, part = self.nearest(name)
                 beside = f", correlation {part:.3f} with {other}" if other else ""
@@ -380,11 +388,18 @@ def fit_contact(
             gtol=0.0, max_nfev=TRIALS,
         )  # fmt: skip
         numbers = problem.model(best.x)
-    return _result(problem, best, numbers)
+    ends = [name for name, at in zip(problem.names, _at_bounds(best.x, low, high)) if at]
+    return _result(problem, best, numbers, tuple(ends), best.status == 0)
 
 
-def _result(problem, best, numbers):
-    """The fit with its bands."""
+def _at_bounds(values, low, high):
+    """Whether values, over their scales, are at a bound."""
+    near = BOUND * np.minimum(1.0, high - low)
+    return (values - low < near) | (high - values < near)
+
+
+def _result(problem, best, numbers, ends=(), unsettled=False):
+    """The fit with its bands; the parameters at their bounds; whether the trials have not sufficed."""
     count, names = len(numbers), problem.names
     chi2, freedom = float(2.0 * best.cost), len(best.fun) - len(names)
     misfit = np.sqrt(chi2 / freedom) if freedom > 0 else 0.0
@@ -393,17 +408,17 @@ def _result(problem, best, numbers):
         jacobian[:count] /= misfit
     sd, correlation = _bands(jacobian, JOINED * problem.step)
     values, sd = best.x * problem.scales, sd * problem.scales
-    state = "rejected" if misfit > LARGE else "known"
+    state = "rejected" if misfit > LARGE else "not converged" if unsettled else "known"
     limits = [
         max(VAGUE * abs(value), 0.5 * problem.known.get(name, (0.0, 0.0))[1]) for name, value in zip(names, values)
     ]
-    vague = (sd > limits) | (state == "rejected")
+    vague = (sd > limits) | (state != "known") | np.isin(names, ends)
     vague |= np.any(vague & (np.abs(correlation) > ALIGNED), axis=1)
     held = {name: not one for name, one in zip(names, vague)}
     return ContactFit(
         dict(zip(names, map(float, values))), dict(zip(names, map(float, sd))), correlation, held, state, chi2,
         freedom, problem.measured.named(numbers), "passes back" if problem.slopes else "differences", problem.runs,
-        problem.passes,
+        problem.passes, tuple(ends),
     )  # fmt: skip
 
 

@@ -7,11 +7,12 @@
     petsam-fit --plan --normal 100N --shape sphere.opts --friction 0.6 --rig 20N/um --noise 20nm,1N
 
 A file has columns of displacement and force, named with their units: `Displacement (um);Friction force (N)`, x [mm],
-F [N]; decimals with point or comma, lost points as empty cells. Cycles are cut at the least displacement, drift and
-offset are removed. shape.opts has petsam's options of bodies and gap: one push of petsam serves all coefficients of
-friction (a ball's is in closed form). Where the loops do not hold the friction, a lower bound is printed, and where the
-model does not hold, no number at all. --scar finds the coefficient of wear from the profile of a scar, heights over x
-(x [mm],height [um]): shape.opts then has all of the test, with -history, -slide and coefficients from which it begins.
+d_um, or with the units in the line below; decimals with point or comma, lost points as empty cells. Cycles are cut at
+the least displacement, drift and offset are removed. shape.opts has petsam's options of bodies and gap: one push of
+petsam serves all coefficients of friction (a ball's is in closed form). Where the loops do not hold the friction, a
+lower bound is printed, and where the model does not hold, no number at all: the exit code is then 10. --scar finds the
+coefficient of wear from the profile of a scar, heights over x (x [mm],height [um]): shape.opts then has all of the
+test, with -history, -slide and coefficients from which it begins.
 
 -o NAME writes NAME.json, NAME-cycles.csv (friction, rig, energy of each cycle), NAME-friction.csv (for -wear_friction),
 where friction changes, NAME.opts, with which petsam computes the contact's loop, its history NAME-loop.csv,
@@ -25,8 +26,9 @@ import sys
 import numpy as np
 
 from ..calibration import planning, push, reading, results, scars, series
+from ..calibration.results import plain
 from ..core import words
-from ..core.errors import Error, Unusable, counted, short
+from ..core.errors import UNSETTLED, Error, Unusable, counted, short
 from ..core.files import need_replaceable, same
 from ..plot.measured import read_profiles
 from .line import Parser, add_choice, guarded, joined, quietly, word
@@ -239,7 +241,7 @@ def _measure(options, scar):
         print(results.worn_line(worn, options.body))
     if options.output:
         _write(options, found, pushes[0], worn, scar)
-    return 0
+    return UNSETTLED if found.state == "rejected" else 0
 
 
 def _peaks(options, records):
@@ -281,37 +283,44 @@ def _write(options, found, one, worn, scar):
 
 
 def _scar(options):
-    """The coefficient of wear from each profile of the file; the numbers of JSON."""
+    """The coefficient of wear from each profile of the file; the numbers of JSON, and the exit code."""
     x, profiles = read_profiles(options.scar)
-    one, found = scars.family(options.shape, options.life, options.body), {}
+    one, found = None, {}
     for name, height in profiles.items():
-        scar = scars.fit_scar(one, x, height)
-        print(
-            f"{options.scar}: {name}: body {options.body}: Archard's coefficient {scar.coefficient:.4g} +- "
-            f"{scar.coefficient_sd:.2g} 1/Pa; misfit {1e6 * scar.misfit:.3g} um, neighbours' correlation "
-            f"{scar.neighbours:.2f}, shift {1e6 * scar.shift:.3g} um"
-        )
+        scar, one = scars.fit_profile(options.shape, options.life, x, height, options.body, one=one)
+        print(f"{options.scar}: {name}: body {options.body}: {_scar_line(scar)}")
         found[name] = scar
     first, more = next(iter(found.values())), {}
+    doubts = [scar.doubt for scar in found.values()]
     if options.split:
         for name, scar in list(found.items())[:1]:
             parted = scars.split(options.shape, options.life, scar.x, scar.height, options.body)
-            print(
-                f"{options.scar}: {name}: coefficient of the other body over it {parted.ratio:.2g} +- "
-                f"{parted.ratio_sd:.2g}, by the shape of the scar"
-            )
-            more = {"wear_split": parted.ratio, "wear_split_sd": parted.ratio_sd}
+            ratio = f"{parted.ratio:.2g} +- {parted.ratio_sd:.2g}, by the shape of the scar"
+            ratio = f": no number: {parted.doubt}" if parted.doubt else f" {ratio}"
+            print(f"{options.scar}: {name}: coefficient of the other body over it{ratio}")
+            doubts.append(parted.doubt)
+            more = {"wear_split": plain(parted.ratio), "wear_split_sd": plain(parted.ratio_sd)}
     if options.output and not options.no_picture:
         from .. import plot
         from ..plot import saving
 
         saving.write(plot.scar_fit(found), options.output + "-scar.png", options.dpi)
         print(f"wrote {options.output}-scar.png")
-    return {
-        f"wear_coefficient{options.body}": first.coefficient,
-        f"wear_coefficient{options.body}_sd": first.coefficient_sd,
+    numbers = {
+        f"wear_coefficient{options.body}": plain(first.coefficient),
+        f"wear_coefficient{options.body}_sd": plain(first.coefficient_sd),
         **more,
     }
+    return numbers, UNSETTLED if any(doubts) else 0
+
+
+def _scar_line(scar):
+    """What is printed of a profile."""
+    number = f"Archard's coefficient {scar.coefficient:.4g} +- {scar.coefficient_sd:.2g} 1/Pa"
+    return (
+        f"{f'no numbers: {scar.doubt}' if scar.doubt else number}; misfit {1e6 * scar.misfit:.3g} um, neighbours' "
+        f"correlation {scar.neighbours:.2f}, shift {1e6 * scar.shift:.3g} um"
+    )
 
 
 def carry_out(options):
@@ -319,16 +328,16 @@ def carry_out(options):
     _outputs(options)
     if options.plan:
         return _plan(options)
-    worn = _scar(options) if options.scar else {}
+    worn, code = _scar(options) if options.scar else ({}, 0)
     if options.files:
-        return _measure(options, worn)
+        return _measure(options, worn) or code
     if options.output:
         with open(options.output + ".json", "w", encoding="utf-8") as file:
             json.dump({**worn, "units": "1/Pa"}, file, indent=1)
         print(f"wrote {options.output}.json")
-    return 0
+    return code
 
 
 def main():
-    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data."""
+    """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data, 10 for no numbers."""
     return guarded("petsam-fit", lambda: quietly(carry_out, arguments(sys.argv[1:])))

@@ -110,11 +110,11 @@ def _flush():
 
 
 def quietly(body, *given):
-    """Returns 0 after body(*given), without warnings of numbers that overflow and of letters that a font lacks."""
+    """Returns the exit code of body(*given), 0 of none, without warnings of numbers that overflow and of letters that a
+    font lacks."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        body(*given)
-    return 0
+        return body(*given) or 0
 
 
 def guarded(command, body):

@@ -6,7 +6,7 @@ import importlib
 import os
 import sys
 
-USAGE, FILE, UNBALANCED = 2, 3, 11  # exit codes, as in petsam
+USAGE, FILE, UNSETTLED, UNBALANCED = 2, 3, 10, 11  # exit codes, as in petsam
 LINE = 4000  # maximum characters of a message
 
 
@@ -24,6 +24,12 @@ class Unusable(Error):
     """An option or a value that cannot be used, has no effect, or leaves nothing: bad usage."""
 
     code = USAGE
+
+
+class Unsettled(Error):
+    """Data that hold no numbers: nothing has converged."""
+
+    code = UNSETTLED
 
 
 class NoEquilibrium(Error):

@@ -56,12 +56,14 @@ def write_csv(path, columns, form=repr):
 
 def read_csv(path):
     """The columns of a file of write_csv(), whose meanings are empty; raises Error where it is none."""
-    heads, *rows = [row for row in csv.reader(lines_of(text_of(path))) if row] or [[]]
+    reader = csv.reader(lines_of(text_of(path)))
+    (_, heads), *numbered = [(reader.line_num, row) for row in reader if row] or [(1, [])]
+    rows = [row for _, row in numbered]
     if not rows:
         raise Error(f"{path}: no table: expected a line of heads, as name [unit], and lines of values")
-    for k, row in enumerate(rows, 1):
+    for line, row in numbered:
         if len(row) != len(heads):
-            raise Error(f"{path}: row {k} has {len(row)} values, and there are {len(heads)} columns")
+            raise Error(f"{path}: line {line}: has {len(row)} values, and there are {len(heads)} columns")
     return [Column(*split(text), "", _values(path, text, values)) for text, values in zip(heads, zip(*rows))]
 
 

@@ -10,8 +10,10 @@ LENGTHS = {
     "meter": 1.0, "metre": 1.0, "cm": 1e-2, "centimeter": 1e-2, "centimetre": 1e-2, "millimeter": 1e-3,
     "millimetre": 1e-3, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "micrometer": 1e-6, "micrometre": 1e-6, "micron": 1e-6,
     "nanometer": 1e-9, "nanometre": 1e-9, "pm": 1e-12, "picometer": 1e-12, "picometre": 1e-12, "angstrom": 1e-10,
-    "\u00c5": 1e-10, "in": 0.0254, "inch": 0.0254,
+    "\u00c5": 1e-10, "in": 0.0254, "inch": 0.0254, "mil": 2.54e-5,
 }  # fmt: skip
+KGF = 9.80665  # N
+MICRO = "\u00b5", "\u03bc"  # its sign in Latin-1, and the Greek letter
 OTHERS = {
     "Hz": {"Hz": 1.0, "kHz": 1e3, "1/s": 1.0},
     "m2": {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6, "um2": 1e-12},
@@ -27,6 +29,17 @@ OTHERS = {
         "MPam^1/2": 1e6,
         "Pa sqrt(m)": 1.0,
         "MPa sqrt(m)": 1e6,
+    },
+    "N": {
+        "N": 1.0,
+        "newton": 1.0,
+        "Newton": 1.0,
+        "uN": 1e-6,
+        "nN": 1e-9,
+        "daN": 10.0,
+        "kgf": KGF,
+        "gf": 1e-3 * KGF,
+        "lbf": 0.45359237 * KGF,
     },
     "J": {"J": 1.0, "mJ": 1e-3, "uJ": 1e-6, "nJ": 1e-9},
     "J/m": {"J/m": 1.0, "mJ/m": 1e-3},
@@ -47,6 +60,8 @@ def of(unit):
 def size(name, unit="m"):
     """The size of a unit in that of SI, as 1e-3 of "mm"; of one with a factor, as 1e-4 of "0.1mm"; None if unknown."""
     known, name = of(unit), name.strip()
+    for sign in MICRO:
+        name = name if name in known else name.replace(sign, "u")
     if name not in known and len(name) > PLURAL and name.endswith("s"):
         name = name[:-1]
     if name in known:

@@ -60,7 +60,7 @@ def scar_fit(found):
     figure, panel = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
     for (name, scar), tint in zip(found.items(), colors(len(found))):
         panel.plot(1e3 * scar.x, 1e6 * scar.height, ".", color=tint, markersize=4.0, label=name)
-        text = f"{scar.coefficient:.3g} +- {scar.coefficient_sd:.2g} 1/Pa"
+        text = "no numbers" if scar.doubt else f"{scar.coefficient:.3g} +- {scar.coefficient_sd:.2g} 1/Pa"
         panel.plot(1e3 * scar.x, 1e6 * scar.curve, color=tint, linewidth=1.0, label=text)
     panel.set(xlabel="x, mm", ylabel="height, µm")
     panel.legend(loc="best", fontsize=8)
