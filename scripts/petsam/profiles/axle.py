@@ -209,7 +209,8 @@ class Axle:
     settings : Settings, optional
         Materials, cells and limits.
     left : tuple of Track and Wheelset, optional
-        Rail and wheel of the left side, as right ones, where they differ.
+        Rail and wheel of the left side, as right ones, where they differ, in their nominal radius, too. The height z of
+        a Position is 0 where the right wheel has its nominal one.
     """
 
     def __init__(
@@ -221,10 +222,9 @@ class Axle:
         left: Optional[tuple[Track, Wheelset]] = None,
     ) -> None:
         both = (rail, wheel), left or (rail, wheel)
-        if left is not None and (left[1].radius != wheel.radius or left[0].curvature != rail.curvature):
-            raise Unusable(
-                "left: its nominal radius and the track's curvature are those of the right side: give equal ones"
-            )
+        if left is not None and left[0].curvature != rail.curvature:
+            raise Unusable("left: the track's curvature is that of the right side: give equal ones")
+        both = both[0], (both[1][0], both[1][1].of_radius(wheel.radius))
         self.pairs = [Pair(*one, friction, side, settings, extrapolate=False) for one, side in zip(both, SIDES)]
         self.wheel, self.settings = wheel, self.pairs[0].settings
         for track, one in both:

@@ -5,7 +5,7 @@ The wheel's radius is r(y) = radius + z(y), y along the axle from the wheelset's
 """
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Optional
 
@@ -14,11 +14,18 @@ import numpy as np
 from ..core.errors import Error, Unusable
 from .pose import Position
 from .profile import Profile, ProfileWarning
-from .section import STEP, Section, fine, path, visible
+from .section import FLANGE, STEP, Section, fine, path, visible
 
 GAUGES = (0.05, 4.0)  # m
 DEEPEST = 0.05  # m: gauge heights
 STRONGEST = 0.2  # rad: cant, 1:5
+OUTWARD, INWARD = 0.02, 0.1  # rad by which a rail's head may lean away from the middle, and towards it
+TWICE = 0.6  # of the cant: a head that leans by so much without it was drawn or measured in its place
+HALF = 5e-3  # m: of the chord by which the slope of a head is found, which noise does not change
+TURNS = 3  # of the head to its own axes
+SHALLOW = 3e-3  # m below the top: both sides of a head are seen down to there where its lean is judged
+TIP = (0.0, 0.05)  # m from a flange's back to its tip
+USUAL = (0.008, 0.025)  # m: the same of most flanges
 
 
 def _need(value, what, low, high, cure):
@@ -52,8 +59,69 @@ def _need_gauge_face(profile, points, level):
     if z[y > middle].max(initial=-np.inf) > level > z[y < middle].max(initial=-np.inf):
         raise Error(
             f"{profile.name}: the rail reaches the gauge height on the field side alone, at greater y: the profile is "
-            "mirrored; give mirror=True to read() of the rail, or mirror.y = 1 in the file, or take mirrored()"
+            f"mirrored; {profile.taken.other_y(profile.kind)}"
         )
+
+
+def _lean(section, depth):
+    """Inclination of a rail's head away from the middle, rad: its slope in the middle of its width at a depth below the
+    top, or where the shorter side ends, in the head's own axes; None where a side is not seen."""
+    lean = 0.0
+    for _ in range(TURNS):
+        c, s = np.cos(lean), np.sin(lean)
+        y, z = c * section.y + s * section.z, c * section.z - s * section.y
+        k = int(np.argmin(z))
+        down = min(depth, float(np.ptp(z[: k + 1])), float(np.ptp(z[k:])))
+        if down < SHALLOW:
+            return None
+        deep = z >= z[k] + down
+        middle = 0.5 * (y[int(np.flatnonzero(deep[: k + 1])[-1])] + y[k + int(np.flatnonzero(deep[k:])[0])])
+        near = abs(y - middle) < 2.0 * HALF
+        lean += float(np.arctan2(np.diff(np.interp(middle + np.array([-HALF, HALF]), y[near], z[near]))[0], 2.0 * HALF))
+    return lean
+
+
+def _doubt_lean(profile, section, cant, depth):
+    """Warns of a rail whose head leans away from the middle, far towards it, or by its cant without it."""
+    lean = _lean(section, depth)
+    if lean is None or cant < 0.0:  # a negative cant has its own warning
+        return
+    own = lean + cant
+    if own > OUTWARD:
+        text = f"away from the middle by {_ratio(own)}: is it mirrored? {profile.taken.other_y(profile.kind)}"
+    elif cant > 0.0 and -own > max(TWICE * cant, OUTWARD):
+        text = (
+            f"towards the middle by {_ratio(own)} in its points, and by {_ratio(lean)} with the cant: is it canted "
+            "twice? Measured in its place, it is read without cant="
+        )
+    elif lean < -INWARD:
+        text = (
+            f"towards the middle by {_ratio(lean)}, more than 1:10: check whether it is turned, and take it "
+            "without cant= if it was measured in its place"
+        )
+    else:
+        return
+    warnings.warn(f"{profile.name}: the rail's head leans {text}", ProfileWarning, stacklevel=4)
+
+
+def _ratio(angle):
+    return f"1:{abs(1.0 / np.tan(angle)):.2g}"
+
+
+def _need_back(profile, section, position):
+    """Raises Unusable for a wheel whose flange is not beside the back that is stated."""
+    low = int(np.argmax(section.z))
+    tip = float(section.y[low])
+    if section.z[low] - np.median(section.z) < FLANGE or TIP[0] < tip - position < TIP[1]:
+        return
+    cure = "give flange_position, y of the flange's back in the profile"
+    for back, name in ((0.0, "0mm: y counts from the back"), (-0.07, "-70mm, as of S1002")):
+        if USUAL[0] < tip - back < USUAL[1]:
+            cure = f"give flange_position {name}"
+    raise Unusable(
+        f"flange_position {position:g}: {profile.name}: the flange's tip is at y = {1e3 * tip:.4g} mm of the profile, "
+        f"{1e3 * (tip - position):.4g} mm beside this back, usually 8 to 25 mm: {cure}"
+    )
 
 
 def _top(section):
@@ -100,7 +168,8 @@ class Track:
 
     Notes
     -----
-    A ProfileWarning is issued of a cant that leans away from the middle.
+    A ProfileWarning is issued of a cant that leans away from the middle, and of a head that leans so, leans far
+    towards the middle, or leans by the cant without it.
     """
 
     profile: Profile
@@ -121,7 +190,7 @@ class Track:
                 ProfileWarning,
                 stacklevel=3,
             )
-        self.section  # noqa: B018  fails early
+        _doubt_lean(self.profile, self.section, self.cant, self.gauge_height)
 
     @cached_property
     def section(self) -> Section:
@@ -187,7 +256,9 @@ class Track:
         -------
         Track
         """
-        return Track(self.profile, self.gauge, self.gauge_height, self.cant, -self.curvature)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ProfileWarning)  # they were issued of this track
+            return Track(self.profile, self.gauge, self.gauge_height, self.cant, -self.curvature)
 
 
 @dataclass(frozen=True, eq=False)
@@ -312,6 +383,8 @@ class Wheelset:
         y of the flange's back in the profile, m: -0.07 of S1002.
     tape_line : float, optional
         y of the tape line in the profile, m, where the radius is the nominal one.
+    excess : float
+        m by which the wheel is larger than this radius there, as the left one of a wheelset with two radii.
 
     Raises
     ------
@@ -325,6 +398,7 @@ class Wheelset:
     flange_back: float = 1.36
     flange_position: float = -0.07
     tape_line: Optional[float] = None
+    excess: float = 0.0
 
     def __post_init__(self) -> None:
         _need_kind(self.profile, "wheel", "Wheelset")
@@ -334,6 +408,7 @@ class Wheelset:
         )
         _need(self.flange_position, "flange_position", -1.0, 1.0, "expected y of the flange's back in the profile, m")
         section = visible(self.profile)
+        _need_back(self.profile, section, self.flange_position)
         if self.tape_line is not None and not section.first <= self.tape_line <= section.last:
             raise Error(f"tape_line {self.tape_line:g}: the profile is from {section.first:g} to {section.last:g} m")
         if not 0.5 * self.radius < self.section.z.min() + self.radius:
@@ -344,7 +419,7 @@ class Wheelset:
         """The visible part: z, 0 at the nominal radius, over y along the axle from the wheelset's middle."""
         section = visible(self.profile)
         down = 0.0 if self.tape_line is None else float(section.height(np.array(self.tape_line)))
-        return section.moved(self.offset, -down)
+        return section.moved(self.offset, self.excess - down)
 
     @cached_property
     def line(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -352,6 +427,22 @@ class Wheelset:
         section = self.section
         y = np.linspace(section.first, section.last, int(np.ceil((section.last - section.first) / STEP)) + 1)
         return y, section.height(y), section.slope(y)
+
+    def of_radius(self, radius: float) -> "Wheelset":
+        """The same wheel with another nominal radius to count from: that of the other wheel of its wheelset.
+
+        Parameters
+        ----------
+        radius : float
+            m.
+
+        Returns
+        -------
+        Wheelset
+        """
+        return (
+            self if radius == self.radius else replace(self, radius=radius, excess=self.radius - radius + self.excess)
+        )
 
     @property
     def offset(self) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 from ..core import units
 from ..core.errors import Error, short, there_are
 from ..core.files import lines_of, text_of
+from .columns import weights_of
 from .profile import KINDS, Profile, ProfileWarning
 
 NUMBERS = {
@@ -141,7 +142,7 @@ def _profile(path, found):
     kept = _within(y, given["bound.y.min"], given["bound.y.max"]) & _within(
         z, given["bound.z.min"], given["bound.z.max"]
     )
-    y, z, weights = y[kept], z[kept], table[kept, 2] if table.shape[1] > 2 else None
+    y, z, weights = y[kept], z[kept], weights_of(path, table[kept])
     y, z = (1.0 - 2.0 * given["mirror.y"]) * y, (1.0 - 2.0 * given["mirror.z"]) * z
     order = slice(None, None, -1 if given["inversion"] else 1)
     scale = 1.0 / given["units.len.f"]
