@@ -867,6 +867,51 @@ def test_numbers_out_of_range_are_errors(tmp_path, value, column):
         profiles.read(tmp_path / "rail.txt", "rail", "mm", "down")
 
 
+@pytest.mark.parametrize("weight", ["1e308", "1e-320", "1e12"])
+def test_weights_out_of_range_are_errors(tmp_path, weight):
+    rows = [f"{y:g} {0.001 * y * y:g} 1" for y in np.linspace(-30, 30, 61)]
+    rows[7] = rows[7][:-1] + weight
+    (tmp_path / "rail.txt").write_text("\n".join(rows))
+    with pytest.raises(Error, match="weights from .*: give numbers near 1"):
+        profiles.read(tmp_path / "rail.txt", "rail", "mm", "down")
+
+
+def test_mutated_files_are_read_or_errors(tmp_path):
+    """Numbers replaced, lines exchanged and left out, of each reader: no other exception, and no number out of range."""
+    random = np.random.default_rng(8)
+    words = ["1e308", "-1e308", "1e400", "nan", "0", "-0", "1e-320", "x", ";", ",", "=", "9" * 400, "1e154", "!", "-"]
+    rail = profiles.uic60()
+    rows = [f"{1e3 * y:.4f} {1e3 * z:.4f} 1.5" for y, z in zip(rail.y[::20], rail.z[::20])]
+    texts = {"one.txt": "\n".join(rows), "one.prr": SIMPACK.format(keys=KEYS, points="\n".join(rows)),
+             "one.ban": STATED.format(more="ColumnDef=X,Y,A") + "\n".join(rows)}  # fmt: skip
+    read = 0
+    for _ in range(400):
+        name = random.choice(list(texts))
+        lines = texts[name].split("\n")
+        for _ in range(random.integers(1, 4)):
+            k, j = random.integers(len(lines), size=2)
+            fields = lines[k].split(" ")
+            fields[random.integers(len(fields))] = random.choice(words)
+            change = random.integers(4)
+            if change == 0:
+                lines[k], lines[j] = lines[j], lines[k]
+            elif change == 1:
+                del lines[k]
+            else:
+                lines[k] = " ".join(fields)
+        (tmp_path / name).write_text("\n".join(lines))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            warnings.simplefilter("ignore", profiles.ProfileWarning)
+            try:
+                found = profiles.read(tmp_path / name, "rail", *([] if name == "one.prr" else ["mm", "down"]))
+            except Error:
+                continue
+        read += 1
+        assert np.isfinite([found.y, found.z]).all() and np.abs([found.y, found.z]).max() < 10.0
+    assert read > 20
+
+
 # ---------------------------------------------------------------- traps
 
 

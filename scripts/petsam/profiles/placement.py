@@ -71,10 +71,10 @@ def _lean(section, depth):
         c, s = np.cos(lean), np.sin(lean)
         y, z = c * section.y + s * section.z, c * section.z - s * section.y
         k = int(np.argmin(z))
-        down = min(depth, float(np.ptp(z[: k + 1])), float(np.ptp(z[k:])))
+        down = min(depth, *(float(np.max(part - z[k])) for part in (z[: k + 1], z[k:])))
         if down < SHALLOW:
             return None
-        deep = z >= z[k] + down
+        deep = z - z[k] >= down
         middle = 0.5 * (y[int(np.flatnonzero(deep[: k + 1])[-1])] + y[k + int(np.flatnonzero(deep[k:])[0])])
         near = abs(y - middle) < 2.0 * HALF
         lean += float(np.arctan2(np.diff(np.interp(middle + np.array([-HALF, HALF]), y[near], z[near]))[0], 2.0 * HALF))

@@ -11,6 +11,7 @@ KINDS = ("rail", "wheel")
 FEWEST = 5  # points that a smoothing spline needs
 WIDTHS = (10e-3, 1.0)  # m: no profile is narrower or wider
 FARTHEST = 10.0  # m: no profile is deeper, or farther from its origin
+LIGHTEST = 1e-9  # weight, and of two weights their ratio
 BACK = -0.8  # cosine of the angle between two chords below which points go back
 ASTRAY = -0.5  # the same where a chord is as long as a hole
 FOLD = 0.5e-3  # m: points that step back by no more are removed
@@ -83,6 +84,8 @@ class Profile:
             raise Error(f"{self.name}: y, z and weights have {len(y)}, {len(z)} and {len(weights)} numbers")
         if not (np.isfinite(y).all() and np.isfinite(z).all() and np.isfinite(weights).all() and (weights > 0).all()):
             raise Error(f"{self.name}: expected finite numbers, and weights above 0")
+        if len(weights) and not (LIGHTEST < weights.min() and weights.max() < weights.min() / LIGHTEST):
+            raise Error(f"{self.name}: weights from {weights.min():g} to {weights.max():g}: give numbers near 1")
         self._need_small(y, z)
         new = np.concatenate([[True], np.hypot(np.diff(y), np.diff(z)) > 0.0]) if len(y) else np.ones(0, bool)
         if new.sum() < FEWEST:

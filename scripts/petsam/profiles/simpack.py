@@ -135,7 +135,12 @@ def _profile(path, found):
     """The profile of what a file states, its keys applied in their order."""
     given = {**NUMBERS, **found.given}
     table = np.array(found.points)
-    table = table[_far_enough(table, given["point.dist.min"])]
+    with np.errstate(all="ignore"):  # numbers that are too large are named by Profile
+        return _moved(path, found.kind, table[_far_enough(table, given["point.dist.min"])], given)
+
+
+def _moved(path, kind, table, given):
+    """The profile of points after shift, rotation, bounds, mirroring, inversion and units."""
     y, z = table[:, 0] + given["shift.y"], table[:, 1] + given["shift.z"]
     angle = given["rotate"] / given["units.ang.f"]
     y, z = y * np.cos(angle) - z * np.sin(angle), y * np.sin(angle) + z * np.cos(angle)
@@ -147,7 +152,7 @@ def _profile(path, found):
     order = slice(None, None, -1 if given["inversion"] else 1)
     scale = 1.0 / given["units.len.f"]
     return Profile(
-        scale * y[order], scale * z[order], found.kind, None if weights is None else weights[order], name=str(path)
+        scale * y[order], scale * z[order], kind, None if weights is None else weights[order], name=str(path)
     )
 
 
