@@ -877,7 +877,7 @@ def test_weights_out_of_range_are_errors(tmp_path, weight):
 
 
 def test_mutated_files_are_read_or_errors(tmp_path):
-    """Numbers replaced, lines exchanged and left out, of each reader: no other exception, and no number out of range."""
+    """Numbers replaced, lines exchanged and left out, of each reader: no other exception, no number out of range."""
     random = np.random.default_rng(8)
     words = ["1e308", "-1e308", "1e400", "nan", "0", "-0", "1e-320", "x", ";", ",", "=", "9" * 400, "1e154", "!", "-"]
     rail = profiles.uic60()
@@ -974,6 +974,39 @@ def test_a_rail_without_its_field_side_lies_as_the_whole_one():
     whole, part = (profiles.Track(one) for one in (profiles.uic60(), without_field_side(profiles.uic60())))
     y = np.linspace(0.72, 0.76, 9)
     assert part.section.height(y) == pytest.approx(whole.section.height(y), abs=1e-7)
+
+
+@pytest.mark.parametrize("cant", [0.0, 0.025])
+@pytest.mark.parametrize("make", [
+    lambda profile, cant, place=None: profiles.Track(profile, 1.435, 0.014, cant, gauge_position=place),
+    lambda profile, cant, place=None: profiles.Roller(profile.turned(-cant), 0.5, 1.435, 0.014, place),
+], ids=["track", "roller"])  # fmt: skip
+def test_a_rail_cut_above_its_gauge_face_lies_by_a_point_of_it(make, cant):
+    """The part lies as the whole one, by y or by y and z of its point there, and elsewhere behind a warning."""
+    rail = profiles.uic60()
+    keep = rail.z < 9e-3
+    part = Profile(rail.y[keep] + 0.1, rail.z[keep] + 0.02, "rail")
+    whole = make(rail, cant).section
+    turned = part.turned(-cant)
+    aside, above = (turned.y - rail.turned(-cant).y[keep])[0], (turned.z - rail.turned(-cant).z[keep])[0]
+    face = 0.7175 - (whole.first - visible(rail.turned(-cant)).first) + aside
+    top = float(visible(rail.turned(-cant)).height(whole.y[500] - 0.7175 + face - aside) - whole.z[500]) + above
+    y = np.linspace(0.73, 0.77, 9)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = make(part, cant, (face, top)).section
+        assert found.height(y) == pytest.approx(whole.height(y), abs=2e-7)
+        found = make(part, cant, face).section
+        assert found.slope(y) == pytest.approx(whole.slope(y), abs=2e-5)
+    with pytest.warns(
+        profiles.ProfileWarning, match="above the gauge height of 14 mm.*gauge_height within it, or gauge_pos"
+    ):
+        found = make(part, cant).section
+    assert abs(found.slope(0.75) - whole.slope(0.75)) > 1e-3
+    with pytest.raises(Error, match="gauge_position: expected y, or y and z"):
+        make(part, cant, (1.0, 2.0, 3.0))
+    with pytest.raises(Error, match="gauge_position: expected y, or y and z"):
+        make(part, cant, -36.0)
 
 
 @pytest.mark.parametrize("trap", list(TRAPS))

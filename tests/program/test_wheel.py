@@ -16,6 +16,7 @@ from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehi
 from petsam.profiles import batch as batches
 from petsam.profiles.conicity import equivalent_conicity
 from petsam.profiles.positions import Case
+from petsam.profiles.section import visible
 from petsam.profiles.wearing import Law, depth_rates, rows_of
 
 pytestmark = pytest.mark.filterwarnings("ignore:patch at:UserWarning")
@@ -833,6 +834,27 @@ def test_a_cure_that_was_given_is_not_named(run, tmp_path, kind, words, message)
     given = list(BASE)
     given[given.index(f"--{kind}") + 1] = path
     assert message in run(*given, "--unit", "mm", *words, *ONE, "--y", "0", check=3)
+
+
+def test_a_rail_without_a_gauge_face_in_the_command(run, tmp_path):
+    rail = profiles.uic60()
+    keep = rail.z < 9e-3
+    path = columns(tmp_path / "rail.txt", replace(rail, y=rail.y[keep], z=rail.z[keep], weights=None))
+    given = ["--wheel", "s1002", "--rail", path, *BASE[4:], *ONE, "--y", "0", "--unit", "mm", "--z", "down"]
+    told = "give a --gauge-height within it, or --gauge-position, y of the gauge face in the profile"
+    assert told in run(*given)
+    shift = 1e3 * (profiles.Track(rail, cant=0.025).section.first - visible(rail.turned(-0.025)).first)
+    for place in (
+        f"{717.5 - shift:.6f}mm",
+        f"{717.5 - shift:.6f}mm,{1e3 * visible(rail.turned(-0.025)).z.min():.6f}mm",
+    ):
+        text = run(*given, f"--gauge-position={place}")
+        assert "gauge" not in text
+        assert float(re.search(r"right y +(\S+) mm", text)[1]) == pytest.approx(750.608, abs=0.01)
+    assert "argument --gauge-position: 1,2,3: expected y, or y and z" in run(
+        *given, "--gauge-position", "1,2,3", check=2
+    )
+    assert "--gauge-position: expected y, or y and z" in run(*given, "--gauge-position=-36", check=2)
 
 
 def test_unit_and_direction_of_each_file(run, tmp_path):

@@ -56,12 +56,13 @@ WIDE, POINTS = 8e-3, 81  # m and number of displacements of the rigid geometry
 JUMPS = 10  # of the profile over the distance
 BUILT = ("s1002", "uic60")
 KINDS = ("wheel", "rail")
+PLACE = "y, or y and z, of a point in the rail's profile: -36mm or -36mm,0mm"
 BOTH = "; of wheel and rail --z WHEEL,RAIL"  # where their files differ
 # quantities of petsam.profiles, and their options
 OPTIONS = {
     **{name.replace("-", "_"): f"--{name}" for name in (
-        "gauge", "gauge-height", "cant", "radius", "friction", "cell", "y", "yaw", "load", "lateral", "offset",
-        "height", "distance", "jumps", "law", "speed",
+        "gauge", "gauge-height", "gauge-position", "cant", "radius", "friction", "cell", "y", "yaw", "load", "lateral",
+        "offset", "height", "distance", "jumps", "law", "speed",
     )},
     "coefficient": "--wear",
 }  # fmt: skip
@@ -174,6 +175,8 @@ def _profiles(one):
     group.add_argument("--gauge", type=_length("a length: 1435mm"), default=1.435, metavar="L", help="(1435mm)")
     group.add_argument("--gauge-height", type=_length("a length: 14mm"), default=0.014, metavar="L",
                        help="depth below the rails' tops where the gauge counts (14mm)")  # fmt: skip
+    group.add_argument("--gauge-position", type=word(words.numbers, PLACE, "m", count=(1, 2)), metavar="Y[,Z]",
+                       help="y in the rail's profile that is at half the gauge, and z at its top, instead")  # fmt: skip
     group.add_argument("--curve", type=_length("a radius, positive to the right: 300m"), metavar="R",
                        help="radius of a curve, positive to the right (straight)")  # fmt: skip
     group.add_argument("--radius", type=word(radii), default=(0.46, 0.46), metavar="L",
@@ -335,6 +338,7 @@ def _optioned(error):
         ("smoothed(0.004)", "--smooth 4mm"), ("smoothed(0.008)", "--smooth 8mm"),
         ("unit='mm'", "--unit mm"), ("z='down' or z='up'", "--z down or --z up"),
         ("check gauge", "check --gauge"), ("give height,", "give --height,"),
+        ("give a gauge_height", "give a --gauge-height"), ("or gauge_position", "or --gauge-position"),
         ("flange_position", "--flange-position"), ("flange_back", "--flange-back"),
     ):  # fmt: skip
         text = text.replace(old, new)
@@ -357,7 +361,7 @@ def _vehicle(options):
     curvature = 0.0 if options.curve is None else 1.0 / options.curve
     placed = [
         (
-            profiles.Track(rail, options.gauge, options.gauge_height, options.cant, curvature),
+            profiles.Track(rail, options.gauge, options.gauge_height, options.cant, curvature, options.gauge_position),
             profiles.Wheelset(wheel, radius, options.flange_back, options.flange_position),
         )
         for rail, wheel, radius in sides

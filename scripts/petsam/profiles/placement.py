@@ -1,23 +1,26 @@
 """Rails, rollers and wheels in their places in the track, and the functions that are 0 on their surfaces.
 
-A rail is turned by its cant, its top moved to z = 0, and its innermost point within the gauge height to y = gauge/2.
+A rail is turned by its cant, its top moved to z = 0, and its innermost point within the gauge height to y = gauge/2; or
+a given point of it to there.
 The wheel's radius is r(y) = radius + z(y), y along the axle from the wheelset's middle.
 """
 
 import warnings
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Optional
+from typing import Optional, Union
 
 import numpy as np
 
 from ..core.errors import Error, Unusable
 from .pose import Position
-from .profile import Profile, ProfileWarning
+from .profile import FARTHEST, Profile, ProfileWarning
 from .section import FLANGE, STEP, Section, fine, path, visible
 
+Place = Union[None, float, tuple[float, float]]
 GAUGES = (0.05, 4.0)  # m
 DEEPEST = 0.05  # m: gauge heights
+SHORT = 1e-4  # m of a gauge height that a gauge face may lack
 STRONGEST = 0.2  # rad: cant, 1:5
 OUTWARD, INWARD = 0.02, 0.1  # rad by which a rail's head may lean away from the middle, and towards it
 TWICE = 0.6  # of the cant: a head that leans by so much without it was drawn or measured in its place
@@ -41,11 +44,16 @@ def _need_kind(profile, kind, name):
         raise Error(f"{profile.name}: is the profile of a {profile.kind}: {name} takes that of a {kind}")
 
 
-def _to_gauge(profile, gauge, gauge_height):
-    """Shift along y to the gauge, and height of the top, of a profile."""
+def _to_gauge(profile, gauge, gauge_height, position):
+    """Shift along y to the gauge, and height of the top, of a profile; by a point (y, z) or y of it, where given."""
+    section = visible(profile)
+    if position is not None:
+        given = np.atleast_1d(np.asarray(position, dtype=float))
+        if given.shape not in ((1,), (2,)) or not (np.abs(given) < FARTHEST).all():
+            raise Unusable("gauge_position: expected y, or y and z, of a point in the profile, m")
+        return 0.5 * gauge - float(given[0]), float(given[1]) if len(given) > 1 else _top(section), section
     curve = path(profile)
     points = curve(fine(curve))
-    section = visible(profile)
     top = _top(section)
     _need_gauge_face(profile, points, top + gauge_height)
     inner = points[points[:, 1] <= top + gauge_height, 0]
@@ -124,6 +132,21 @@ def _need_back(profile, section, position):
     )
 
 
+def _doubt_gauge_face(profile, cant, gauge_height, position):
+    """Warns of a profile that ends on its gauge side before it reaches the gauge height: its end is taken."""
+    turned = profile.turned(-cant)
+    k = int(np.argmin(turned.z))
+    depth = float((turned.z - turned.z[k])[turned.y <= turned.y[k]].max())
+    if position is None and depth < gauge_height - SHORT:
+        warnings.warn(
+            f"{profile.name}: ends {1e3 * depth:.3g} mm below its top on the gauge side, above the gauge height of "
+            f"{1e3 * gauge_height:.3g} mm: its innermost point is taken for the gauge face; give a gauge_height within "
+            "it, or gauge_position, y of the gauge face in the profile",
+            ProfileWarning,
+            stacklevel=4,
+        )
+
+
 def _top(section):
     """Height of the highest point, between the points by a parabola, m."""
     k = int(np.argmin(section.z))
@@ -160,6 +183,9 @@ class Track:
         place.
     curvature : float
         Of the track, 1/m, positive to the right.
+    gauge_position : float or tuple of float, optional
+        y of the profile, turned by its cant, that lies at half the gauge, or y and z of a point that lies there at
+        z = 0, m: of a profile without a gauge face, instead of gauge_height.
 
     Raises
     ------
@@ -168,8 +194,8 @@ class Track:
 
     Notes
     -----
-    A ProfileWarning is issued of a cant that leans away from the middle, and of a head that leans so, leans far
-    towards the middle, or leans by the cant without it.
+    A ProfileWarning is issued of a cant that leans away from the middle, of a head that leans so, leans far towards the
+    middle, or leans by the cant without it, and of a gauge side that ends above the gauge height.
     """
 
     profile: Profile
@@ -177,6 +203,7 @@ class Track:
     gauge_height: float = 0.014
     cant: float = 0.0
     curvature: float = 0.0
+    gauge_position: Place = None
     roller_radius = np.inf
 
     def __post_init__(self) -> None:
@@ -190,12 +217,15 @@ class Track:
                 ProfileWarning,
                 stacklevel=3,
             )
+        self.section  # noqa: B018  fails early
+        _doubt_gauge_face(self.profile, self.cant, self.gauge_height, self.gauge_position)
         _doubt_lean(self.profile, self.section, self.cant, self.gauge_height)
 
     @cached_property
     def section(self) -> Section:
         """The rail's visible part in the track."""
-        shift, top, section = _to_gauge(self.profile.turned(-self.cant), self.gauge, self.gauge_height)
+        turned = self.profile.turned(-self.cant)
+        shift, top, section = _to_gauge(turned, self.gauge, self.gauge_height, self.gauge_position)
         return section.moved(shift, -top)
 
     def surface(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -258,7 +288,7 @@ class Track:
         """
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ProfileWarning)  # they were issued of this track
-            return Track(self.profile, self.gauge, self.gauge_height, self.cant, -self.curvature)
+            return replace(self, curvature=-self.curvature)
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,17 +303,24 @@ class Roller:
         Nominal radius, m.
     gauge, gauge_height : float
         See Track; the height counts from the profile's highest point.
+    gauge_position : float or tuple of float, optional
+        See Track; of y and z, the roller has its nominal radius at z.
 
     Raises
     ------
     Error
         If a number is not of this quantity in this unit, or the profile cannot be seen from a wheel.
+
+    Notes
+    -----
+    A ProfileWarning is issued of a gauge side that ends above the gauge height.
     """
 
     profile: Profile
     radius: float
     gauge: float = 1.435
     gauge_height: float = 0.014
+    gauge_position: Place = None
 
     def __post_init__(self) -> None:
         _need_kind(self.profile, "rail", "Roller")
@@ -291,6 +328,7 @@ class Roller:
         _need(self.gauge, "gauge", *GAUGES, "expected the distance of the rollers' inner faces, m, such as 1.435")
         _need(self.gauge_height, "gauge_height", 0.0, DEEPEST, "expected a depth below the top, m, as 0.014")
         self.section  # noqa: B018  fails early
+        _doubt_gauge_face(self.profile, 0.0, self.gauge_height, self.gauge_position)
 
     @property
     def roller_radius(self) -> float:
@@ -300,8 +338,8 @@ class Roller:
     @cached_property
     def section(self) -> Section:
         """The roller's visible part in the track."""
-        shift, _, section = _to_gauge(self.profile, self.gauge, self.gauge_height)
-        return section.moved(shift, 0.0)
+        shift, top, section = _to_gauge(self.profile, self.gauge, self.gauge_height, self.gauge_position)
+        return section.moved(shift, -top if np.size(self.gauge_position) > 1 else 0.0)
 
     def surface(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Height z of the roller's surface, m.
