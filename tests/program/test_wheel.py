@@ -824,6 +824,17 @@ def test_y_from_another_back_is_an_error_with_its_cure(run, tmp_path, shift, wor
     assert re.search(message, text)
 
 
+@pytest.mark.parametrize("shift", [5.0, -4.0, 0.0])
+def test_a_back_a_little_beside_the_stated_one_is_named(run, tmp_path, shift):
+    wheel = profiles.s1002()
+    path = columns(tmp_path / "wheel.txt", replace(wheel, y=wheel.y + 1e-3 * shift))
+    given = ["--wheel", path, *BASE[2:], "--unit", "mm", "--z", "down", *ONE, "--y", "0"]
+    cure = f"{shift - 70:.4g}mm"
+    assert (f"give --flange-position {cure}" in run(*given)) == bool(shift)
+    text = run(*given, f"--flange-position={cure}")
+    assert "flange" not in text and re.search(r"right y +750\.6", text)
+
+
 @pytest.mark.parametrize(("kind", "words", "message"), [
     ("wheel", ["--z", "up"], "is its z down? give --z down"),
     ("rail", ["--z", "down,up"], "is its z down? give --z down"),

@@ -15,7 +15,7 @@ import numpy as np
 from ..core.errors import Error, Unusable
 from .pose import Position
 from .profile import FARTHEST, Profile, ProfileWarning
-from .section import FLANGE, STEP, Section, fine, path, visible
+from .section import FLANGE, STEEPEST, STEP, Section, fine, path, visible
 
 Place = Union[None, float, tuple[float, float]]
 GAUGES = (0.05, 4.0)  # m
@@ -29,6 +29,7 @@ TURNS = 3  # of the head to its own axes
 SHALLOW = 3e-3  # m below the top: both sides of a head are seen down to there where its lean is judged
 TIP = (0.0, 0.05)  # m from a flange's back to its tip
 USUAL = (0.008, 0.025)  # m: the same of most flanges
+BESIDE = 2e-3  # m from the flange's back in a profile to the one that is stated
 
 
 def _need(value, what, low, high, cure):
@@ -142,6 +143,22 @@ def _doubt_gauge_face(profile, cant, gauge_height, position):
             f"{profile.name}: ends {1e3 * depth:.3g} mm below its top on the gauge side, above the gauge height of "
             f"{1e3 * gauge_height:.3g} mm: its innermost point is taken for the gauge face; give a gauge_height within "
             "it, or gauge_position, y of the gauge face in the profile",
+            ProfileWarning,
+            stacklevel=4,
+        )
+
+
+def _doubt_back(profile, position):
+    """Warns of a wheel whose profile goes round its flange to a back at another y than is stated."""
+    curve = path(profile)
+    s = fine(curve)
+    k = int(np.argmin(curve(s)[:, 0]))
+    along, down = curve(s[k], 1)
+    back = float(curve(s[k])[0])
+    if abs(down) > STEEPEST * abs(along) and abs(back - position) > BESIDE:
+        warnings.warn(
+            f"{profile.name}: the flange's back is at y = {1e3 * back:.4g} mm of the profile, and flange_position is "
+            f"{1e3 * position:.4g} mm: give flange_position {1e3 * back:.4g}mm, unless the flange's back is elsewhere",
             ProfileWarning,
             stacklevel=4,
         )
@@ -427,8 +444,12 @@ class Wheelset:
     Raises
     ------
     Error
-        If a number is not of this quantity in this unit, or the profile cannot be seen from a rail: one with its flange
-        on the field side, or pointing up.
+        If a number is not of this quantity in this unit, the flange's tip is far from its back, or the profile cannot
+        be seen from a rail: one with its flange on the field side, or pointing up.
+
+    Notes
+    -----
+    A ProfileWarning is issued of a profile that goes round its flange to a back at another y.
     """
 
     profile: Profile
@@ -447,6 +468,7 @@ class Wheelset:
         _need(self.flange_position, "flange_position", -1.0, 1.0, "expected y of the flange's back in the profile, m")
         section = visible(self.profile)
         _need_back(self.profile, section, self.flange_position)
+        _doubt_back(self.profile, self.flange_position)
         if self.tape_line is not None and not section.first <= self.tape_line <= section.last:
             raise Error(f"tape_line {self.tape_line:g}: the profile is from {section.first:g} to {section.last:g} m")
         if not 0.5 * self.radius < self.section.z.min() + self.radius:
