@@ -823,6 +823,167 @@ def test_what_simpack_states_is_not_stated_twice(tmp_path):
         profiles.read(simpack(tmp_path, "units.len.f = 1000\napprox.smooth = 0.5"))
 
 
+# ---------------------------------------------------------------- MiniProf, folds, order
+
+STATED = "ProgramName=MiniProf for Windows\nDate=01-02-2020\n{more}\n\n"
+FREE = "a line\n1 2\n01-02-2020\n\nrail 60E1\n17\n"
+
+
+def miniprof(path, profile, head, columns=2, turn=1.0):
+    """A file of MiniProf with angles and curvatures beside the points."""
+    y, z = 1e3 * profile.y, turn * 1e3 * profile.z
+    more = np.arange(len(y)) - 5.0
+    np.savetxt(path, np.column_stack([y, z, more, more, more])[:, :columns], "%.6f", "\t", header=head, comments="")
+    text = path.read_text()
+    path.write_text(text.replace(head + "\n", head, 1))
+    return path
+
+
+@pytest.mark.parametrize(("head", "columns"), [
+    (STATED.format(more="ColumnDef=X,Y"), 2), (STATED.format(more="ColumnDef=X,Y,A"), 3),
+    (STATED.format(more="ColumnDef=X,Y,A,C,K\nXYPoints=1339"), 5), (STATED.format(more="Operator="), 2),
+    (FREE, 2), (FREE, 3), (FREE, 5),
+])  # fmt: skip
+def test_files_of_miniprof(tmp_path, head, columns):
+    """The points, and of a rail the direction of z in which its head is convex."""
+    made = profiles.s1002()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        wheel = profiles.read(miniprof(tmp_path / "new.whl", made, head, columns), "wheel")
+        assert wheel.y == pytest.approx(made.y, abs=1e-9) and wheel.z == pytest.approx(made.z, abs=1e-9)
+        head = head.replace("XYPoints=1339", f"XYPoints={len(profiles.uic60().y)}")
+        for turn in (1.0, -1.0):
+            rail = profiles.read(miniprof(tmp_path / "new.BAN", profiles.uic60(), head, columns, turn), "rail")
+            assert rail.z == pytest.approx(profiles.uic60().z, abs=1e-9)
+
+
+def test_a_file_of_miniprof_is_found_by_its_header(tmp_path):
+    path = miniprof(tmp_path / "new.txt", profiles.uic60(), STATED.format(more="ColumnDef=X,Y,A"), 3)
+    assert profiles.read(path, "rail").z == pytest.approx(profiles.uic60().z, abs=1e-9)
+
+
+@pytest.mark.parametrize(("text", "message"), [
+    ("ColumnDef=Y,Z\n\n0 0\n", r"one.ban:1: ColumnDef=Y,Z: expected one of X,Y, X,Y,A"),
+    ("ColumnDef=X,Y\n\n0 0 1\n", r"one.ban:3: 3 numbers: expected 2"),
+    ("ColumnDef=X,Y\n\n0 0\n0,1 2\n", r"one.ban:4: 0,1 2: .*; decimals have a point"),
+    ("ColumnDef=X,Y\nXYPoints=7\n\n0 0\n1 1\n", r"one.ban:2: XYPoints=7: the file has 2 points: is it cut off"),
+    ("ColumnDef=X,Y\n", "one.ban: no points"), ("", "one.ban: no points"), ("\n" * 9, "one.ban: no points"),
+    ("a\nb\nc\nd\ne\nf\n1 2\n3 x\n", "one.ban:8: 3 x: expected the numbers of a point"),
+    ("a\nb\nc\nd\ne\nf\n1 2 3 4\n", "one.ban:7: 4 numbers: expected 2, 3 or 5"),
+])  # fmt: skip
+def test_faults_of_miniprof_have_their_line(tmp_path, text, message):
+    (tmp_path / "one.ban").write_text(text)
+    with pytest.raises(Error, match=message):
+        profiles.read(tmp_path / "one.ban", "rail")
+    with pytest.raises(Error, match="give kind='rail'"):
+        profiles.read(tmp_path / "one.ban")
+
+
+@pytest.mark.parametrize("values", [-1.0, 0.0])
+def test_a_third_column_without_weights_is_not_used(tmp_path, values):
+    rail = profiles.uic60()
+    third = np.full(len(rail.y), 2.0)
+    third[7] = values
+    np.savetxt(tmp_path / "rail.txt", np.column_stack([1e3 * rail.y, 1e3 * rail.z, third]))
+    with pytest.warns(profiles.ProfileWarning, match="the third column is not used: its values down to"):
+        found = profiles.read(tmp_path / "rail.txt", "rail", "mm", "down")
+    assert (found.weights == 1.0).all()
+
+
+def written(path, y, z):
+    np.savetxt(path, 1e3 * np.column_stack([y, z]), "%.6f")
+    return path
+
+
+@pytest.mark.parametrize("back", [1, 4])
+def test_small_folds_are_removed_and_named(tmp_path, back):
+    """Points 0.1 mm apart that go back: the profile is that without them."""
+    rail = profiles.uic60()
+    k = len(rail.y) // 2
+    order = np.r_[0 : k + 1, k - 1 : k - back - 1 : -1, k + 1 : len(rail.y)]
+    with pytest.warns(
+        profiles.ProfileWarning, match=rf"{back} points? removed that step back.*0.{back} mm.*at most 0.5 mm"
+    ):
+        found = profiles.read(written(tmp_path / "rail.txt", rail.y[order], rail.z[order]), "rail", "mm", "down")
+    assert found.y == pytest.approx(rail.y, abs=1e-9)
+
+
+JUMPS = {
+    "swapped far": lambda n: np.r_[0 : n // 2, n // 2 + 40, n // 2 : n // 2 + 40, n // 2 + 41 : n],
+    "second part first": lambda n: np.r_[n // 2 : n, 0 : n // 2],
+    "second part first, backwards": lambda n: np.r_[n // 2 : n, 0 : n // 2][::-1],
+    "three parts": lambda n: np.r_[0 : n // 3, 2 * n // 3 : n, n // 3 : 2 * n // 3],
+    "twice": lambda n: np.r_[0:n, 0:n], "shuffled": lambda n: np.random.default_rng(1).permutation(n),
+    "to and fro": lambda n: np.r_[0:n, n - 2 : n // 2 : -1],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", ["wheel", "rail"])
+@pytest.mark.parametrize("jump", JUMPS)
+def test_points_that_jump_back_are_errors(tmp_path, jump, kind):
+    one = profiles.s1002() if kind == "wheel" else profiles.uic60()
+    order = JUMPS[jump](len(one.y))
+    path = written(tmp_path / "one.txt", one.y[order], one.z[order])
+    with pytest.raises(Error, match="go back there|twice|begin and end|above its visible part: sort"):
+        found = profiles.read(path, kind, "mm", "down")
+        profiles.Track(found) if kind == "rail" else profiles.Wheelset(found, 0.46)
+
+
+@pytest.mark.parametrize("value", ["1e308", "-1e308", "1e200", "1e20", "5e5"])
+@pytest.mark.parametrize("column", [0, 1])
+def test_numbers_out_of_range_are_errors(tmp_path, value, column):
+    rows = [[f"{y:g}", f"{0.001 * y * y:g}"] for y in np.linspace(-30, 30, 61)]
+    rows[20][column] = value
+    (tmp_path / "rail.txt").write_text("\n".join(map(" ".join, rows)))
+    with pytest.raises(Error, match="check its unit of length"):
+        profiles.read(tmp_path / "rail.txt", "rail", "mm", "down")
+
+
+@pytest.mark.parametrize("weight", ["1e308", "1e-320", "1e12"])
+def test_weights_out_of_range_are_errors(tmp_path, weight):
+    rows = [f"{y:g} {0.001 * y * y:g} 1" for y in np.linspace(-30, 30, 61)]
+    rows[7] = rows[7][:-1] + weight
+    (tmp_path / "rail.txt").write_text("\n".join(rows))
+    with pytest.raises(Error, match="weights from .*: give numbers near 1"):
+        profiles.read(tmp_path / "rail.txt", "rail", "mm", "down")
+
+
+def test_mutated_files_are_read_or_errors(tmp_path):
+    """Numbers replaced, lines exchanged and left out, of each reader: no other exception, no number out of range."""
+    random = np.random.default_rng(8)
+    words = ["1e308", "-1e308", "1e400", "nan", "0", "-0", "1e-320", "x", ";", ",", "=", "9" * 400, "1e154", "!", "-"]
+    rail = profiles.uic60()
+    rows = [f"{1e3 * y:.4f} {1e3 * z:.4f} 1.5" for y, z in zip(rail.y[::20], rail.z[::20])]
+    texts = {"one.txt": "\n".join(rows), "one.prr": SIMPACK.format(keys=KEYS, points="\n".join(rows)),
+             "one.ban": STATED.format(more="ColumnDef=X,Y,A") + "\n".join(rows)}  # fmt: skip
+    read = 0
+    for _ in range(400):
+        name = random.choice(list(texts))
+        lines = texts[name].split("\n")
+        for _ in range(random.integers(1, 4)):
+            k, j = random.integers(len(lines), size=2)
+            fields = lines[k].split(" ")
+            fields[random.integers(len(fields))] = random.choice(words)
+            change = random.integers(4)
+            if change == 0:
+                lines[k], lines[j] = lines[j], lines[k]
+            elif change == 1:
+                del lines[k]
+            else:
+                lines[k] = " ".join(fields)
+        (tmp_path / name).write_text("\n".join(lines))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            warnings.simplefilter("ignore", profiles.ProfileWarning)
+            try:
+                found = profiles.read(tmp_path / name, "rail", *([] if name == "one.prr" else ["mm", "down"]))
+            except Error:
+                continue
+        read += 1
+        assert np.isfinite([found.y, found.z]).all() and np.abs([found.y, found.z]).max() < 10.0
+    assert read > 20
+
+
 # ---------------------------------------------------------------- traps
 
 
@@ -885,6 +1046,39 @@ def test_a_rail_without_its_field_side_lies_as_the_whole_one():
     whole, part = (profiles.Track(one) for one in (profiles.uic60(), without_field_side(profiles.uic60())))
     y = np.linspace(0.72, 0.76, 9)
     assert part.section.height(y) == pytest.approx(whole.section.height(y), abs=1e-7)
+
+
+@pytest.mark.parametrize("cant", [0.0, 0.025])
+@pytest.mark.parametrize("make", [
+    lambda profile, cant, place=None: profiles.Track(profile, 1.435, 0.014, cant, gauge_position=place),
+    lambda profile, cant, place=None: profiles.Roller(profile.turned(-cant), 0.5, 1.435, 0.014, place),
+], ids=["track", "roller"])  # fmt: skip
+def test_a_rail_cut_above_its_gauge_face_lies_by_a_point_of_it(make, cant):
+    """The part lies as the whole one, by y or by y and z of its point there, and elsewhere behind a warning."""
+    rail = profiles.uic60()
+    keep = rail.z < 9e-3
+    part = Profile(rail.y[keep] + 0.1, rail.z[keep] + 0.02, "rail")
+    whole = make(rail, cant).section
+    turned = part.turned(-cant)
+    aside, above = (turned.y - rail.turned(-cant).y[keep])[0], (turned.z - rail.turned(-cant).z[keep])[0]
+    face = 0.7175 - (whole.first - visible(rail.turned(-cant)).first) + aside
+    top = float(visible(rail.turned(-cant)).height(whole.y[500] - 0.7175 + face - aside) - whole.z[500]) + above
+    y = np.linspace(0.73, 0.77, 9)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = make(part, cant, (face, top)).section
+        assert found.height(y) == pytest.approx(whole.height(y), abs=2e-7)
+        found = make(part, cant, face).section
+        assert found.slope(y) == pytest.approx(whole.slope(y), abs=2e-5)
+    with pytest.warns(
+        profiles.ProfileWarning, match="above the gauge height of 14 mm.*gauge_height within it, or gauge_pos"
+    ):
+        found = make(part, cant).section
+    assert abs(found.slope(0.75) - whole.slope(0.75)) > 1e-3
+    with pytest.raises(Error, match="gauge_position: expected y, or y and z"):
+        make(part, cant, (1.0, 2.0, 3.0))
+    with pytest.raises(Error, match="gauge_position: expected y, or y and z"):
+        make(part, cant, -36.0)
 
 
 @pytest.mark.parametrize("trap", list(TRAPS))

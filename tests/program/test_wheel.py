@@ -16,6 +16,7 @@ from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehi
 from petsam.profiles import batch as batches
 from petsam.profiles.conicity import equivalent_conicity
 from petsam.profiles.positions import Case
+from petsam.profiles.section import visible
 from petsam.profiles.wearing import Law, depth_rates, rows_of
 
 pytestmark = pytest.mark.filterwarnings("ignore:patch at:UserWarning")
@@ -272,6 +273,34 @@ def test_the_steepest_place_is_that_of_the_standard(vehicle):
     face = derailing.flange(vehicle.wheel)
     assert face.angle == pytest.approx(np.radians(70.0), abs=2e-3)
     assert face.y == pytest.approx(-39.76e-3, abs=2e-4)
+
+
+def with_face(profile, depth, slope):
+    """A wheel with the rim's outer face beyond its tread."""
+    k = np.arange(1, int(depth / 2.5e-4) + 1) * 2.5e-4
+    return replace(profile, y=np.r_[profile.y, profile.y[-1] + k / slope], z=np.r_[profile.z, profile.z[-1] - k],
+                   weights=None)  # fmt: skip
+
+
+def scratched(profile, y, depth=2e-4, half=1.5e-4):
+    return replace(profile, z=profile.z - depth * np.maximum(0.0, 1.0 - abs(profile.y - y) / half), weights=None)
+
+
+@pytest.mark.parametrize("wheel", [
+    with_face(profiles.s1002(), 2e-3, 3.1), with_face(profiles.s1002(), 40e-3, 8.0),
+    with_face(profiles.s1002(), 5e-3, 1.5),
+    scratched(profiles.s1002(), 0.02), scratched(profiles.s1002(), -0.045), scratched(profiles.s1002(), -0.036, 1e-4),
+], ids=["face", "deep face", "chamfer", "on the tread", "on the flange", "in the root"])  # fmt: skip
+def test_the_steepest_place_is_between_tip_and_tread(vehicle, wheel):
+    plain, found = (derailing.flange(profiles.Wheelset(one, 0.46)) for one in (profiles.s1002(), wheel))
+    assert found.angle == pytest.approx(plain.angle, abs=2e-3) and found.y == pytest.approx(plain.y, abs=1e-4)
+
+
+def test_a_face_alone_is_no_flange():
+    wheel = profiles.s1002()
+    keep = wheel.y > -0.02
+    tread = replace(wheel, y=wheel.y[keep], z=wheel.z[keep], weights=None)
+    assert derailing.flange(profiles.Wheelset(with_face(tread, 20e-3, 5.0), 0.46)) is None
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -834,6 +863,131 @@ def test_mistakes_of_profiles_are_errors_with_their_cure(run, tmp_path, name):
     assert message in text and len(text.splitlines()) == 1
 
 
+def canted(path, cant=0.025, **given):
+    return columns(path, profiles.uic60().turned(-cant), **given)
+
+
+@pytest.mark.parametrize(("given", "words", "message"), [
+    (dict(mirror=-1.0), [], "away from the middle by 1:40: is it mirrored? give --mirror rail"),
+    (dict(mirror=-1.0), ["--cant", "1:40"], "away from the middle by 1:40: is it mirrored? give --mirror rail"),
+    (dict(), ["--mirror", "rail"], "away from the middle by 1:40: is it mirrored? omit --mirror rail"),
+    (dict(cant=0.05), ["--cant", "1:20"], "is it canted twice? Measured in its place, it is read without --cant"),
+    (dict(), ["--cant", "1:40"], "by 1:20 with the cant: is it canted twice?"),
+    (dict(cant=0.11), [], "more than 1:10: check whether it is turned, and take it without --cant"),
+    (dict(), [], ""), (dict(cant=0.0), ["--cant", "1:40"], ""), (dict(cant=0.05), [], ""), (dict(cant=0.0), [], ""),
+])  # fmt: skip
+def test_a_rail_that_leans_the_wrong_way_is_named(run, tmp_path, given, words, message):
+    path = canted(tmp_path / "rail.txt", **given)
+    text = run("--wheel", "s1002", "--rail", path, "--unit", "mm", "--z", "down", *words, *ONE, "--y", "0", "--cell",
+               "0.5mm", "--cores", 1)  # fmt: skip
+    assert message in text and ("leans" in text) == bool(message)
+
+
+def test_noise_does_not_make_a_rail_lean():
+    rail = profiles.uic60()
+    noisy = replace(rail, z=rail.z + 1e-5 * np.random.default_rng(5).normal(size=len(rail.z)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        profiles.Track(noisy, cant=0.025)
+
+
+@pytest.mark.parametrize(("shift", "words", "message"), [
+    (70.0, [], "--flange-position -0.07: .*85.01 mm beside this back.*: give --flange-position 0mm"),
+    (130.0, [], "give --flange-position, y of the flange's back in the profile"),
+    (0.0, ["--flange-position", "0mm"], "give --flange-position -70mm, as of S1002"),
+])  # fmt: skip
+def test_y_from_another_back_is_an_error_with_its_cure(run, tmp_path, shift, words, message):
+    wheel = profiles.s1002()
+    path = columns(tmp_path / "wheel.txt", replace(wheel, y=wheel.y + 1e-3 * shift))
+    text = run("--wheel", path, *BASE[2:], "--unit", "mm", "--z", "down", *words, *ONE, "--y", "0", check=2)
+    assert re.search(message, text)
+
+
+@pytest.mark.parametrize("shift", [5.0, -4.0, 0.0])
+def test_a_back_a_little_beside_the_stated_one_is_named(run, tmp_path, shift):
+    wheel = profiles.s1002()
+    path = columns(tmp_path / "wheel.txt", replace(wheel, y=wheel.y + 1e-3 * shift))
+    given = ["--wheel", path, *BASE[2:], "--unit", "mm", "--z", "down", *ONE, "--y", "0"]
+    cure = f"{shift - 70:.4g}mm"
+    assert (f"give --flange-position {cure}" in run(*given)) == bool(shift)
+    text = run(*given, f"--flange-position={cure}")
+    assert "flange" not in text and re.search(r"right y +750\.6", text)
+
+
+@pytest.mark.parametrize(("kind", "words", "message"), [
+    ("wheel", ["--z", "up"], "is its z down? give --z down"),
+    ("rail", ["--z", "down,up"], "is its z down? give --z down"),
+    ("wheel", ["--z", "down", "--mirror", "wheel"], "is mirrored; omit --mirror wheel"),
+])  # fmt: skip
+def test_a_cure_that_was_given_is_not_named(run, tmp_path, kind, words, message):
+    path = columns(tmp_path / "profile.txt", profiles.s1002() if kind == "wheel" else profiles.uic60())
+    given = list(BASE)
+    given[given.index(f"--{kind}") + 1] = path
+    assert message in run(*given, "--unit", "mm", *words, *ONE, "--y", "0", check=3)
+
+
+def test_a_rail_without_a_gauge_face_in_the_command(run, tmp_path):
+    rail = profiles.uic60()
+    keep = rail.z < 9e-3
+    path = columns(tmp_path / "rail.txt", replace(rail, y=rail.y[keep], z=rail.z[keep], weights=None))
+    given = ["--wheel", "s1002", "--rail", path, *BASE[4:], *ONE, "--y", "0", "--unit", "mm", "--z", "down"]
+    told = "give a --gauge-height within it, or --gauge-position, y of the gauge face in the profile"
+    assert told in run(*given)
+    shift = 1e3 * (profiles.Track(rail, cant=0.025).section.first - visible(rail.turned(-0.025)).first)
+    for place in (
+        f"{717.5 - shift:.6f}mm",
+        f"{717.5 - shift:.6f}mm,{1e3 * visible(rail.turned(-0.025)).z.min():.6f}mm",
+    ):
+        text = run(*given, f"--gauge-position={place}")
+        assert "gauge" not in text
+        assert float(re.search(r"right y +(\S+) mm", text)[1]) == pytest.approx(750.608, abs=0.01)
+    assert "argument --gauge-position: 1,2,3: expected y, or y and z" in run(
+        *given, "--gauge-position", "1,2,3", check=2
+    )
+    assert "--gauge-position: expected y, or y and z" in run(*given, "--gauge-position=-36", check=2)
+
+
+def test_unit_and_direction_of_each_file(run, tmp_path):
+    wheel = columns(tmp_path / "wheel.txt", profiles.s1002(), scale=1e3 / 25.4)
+    rail = columns(tmp_path / "rail.txt", profiles.uic60(), turn=-1.0)
+    given = ["--wheel", wheel, "--rail", rail, *BASE[4:], *ONE, "--y", "2mm"]
+    mixed, plain = run(*given, "--unit", "in,mm", "--z", "down,up"), run(*BASE, *ONE, "--y", "2mm")
+    lateral = [float(re.search(r"lateral force (\S+) N", text)[1]) for text in (mixed, plain)]
+    assert lateral[0] == pytest.approx(lateral[1], rel=2e-3)
+    assert "argument --z: sideways: expected down or up" in run(*given, "--unit", "mm", "--z", "down,sideways", check=2)
+
+
+def test_two_radii_of_cones_roll_evenly_beside_the_middle():
+    """Cones of the slope e: upright and with equal rolling radii where the wheelset is aside by their half difference
+    over 2 e; a cone of a larger radius is one that is moved along its axle."""
+    y = np.linspace(-0.07, 0.06, 400)
+    arc = np.linspace(-0.2, 0.2, 400)
+    rail = profiles.Track(Profile(0.15 * np.sin(arc), 0.15 * (1.0 - np.cos(arc)), "rail"), gauge=1.435)
+    cone = profiles.Wheelset(Profile(y, -0.05 * y, "wheel"), 0.46)
+    moved = profiles.Wheelset(Profile(y + 0.04, -0.05 * y, "wheel"), 0.46)
+    found = []
+    for left in (replace(cone, radius=0.462), moved):
+        with profiles.Axle(rail, cone, 0.3, COARSE, left=(rail, left)) as axle:
+            found.append(profiles.geometry(axle, [0.0, 0.01, 0.02]))
+    one, other = found
+    assert one.radius_difference[-1] == pytest.approx(0.0, abs=1e-8) and one.roll[-1] == pytest.approx(0.0, abs=1e-8)
+    assert one.radius_difference[0] < -1.9e-3
+    assert one.radii == pytest.approx(other.radii, abs=3e-6) and one.z == pytest.approx(other.z, abs=1e-7)
+
+
+def test_radii_of_both_sides_in_the_command(run, tmp_path):
+    """LEFT,RIGHT mirrored, and equal radii as one; worn wheels have one radius."""
+    lateral = []
+    for radii in ("460mm,461mm", "461mm,460mm"):
+        text = run(*BASE, *ONE, "--y", "0", "--radius", radii)
+        lateral.append(float(re.search(r"lateral force (\S+) N", text)[1]))
+    assert lateral[0] == pytest.approx(-lateral[1], rel=1e-3) and lateral[0] > 100.0
+    assert run(*BASE, *ONE, "--y", "0", "--radius", "460mm,460mm") == run(*BASE, *ONE, "--y", "0")
+    text = run(*BASE, *ONE, "--y", "0", "--radius", "460mm,461mm", "--wear", "1e-14", check=2)
+    assert "one length to --radius" in text
+    assert "expected a length, or two of LEFT,RIGHT" in run(*BASE, *ONE, "--y", "0", "--radius", "1,2,3", check=2)
+
+
 @pytest.mark.parametrize("kind", ["wheel", "rail"])
 def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
     profile = profiles.s1002() if kind == "wheel" else profiles.uic60()
@@ -858,7 +1012,7 @@ def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
         (["--yaw", "2"], "expected rad", 2),
         (["--yaw", "0.3"], "yaw 0.3 rad is 17.2 degrees", None),
         (["--radius", "460"], "expected the wheel's nominal radius, m, such as 0.46", 2),
-        (["--flange-position", "70mm"], "check --gauge, --flange-back", 2),
+        (["--flange-position", "70mm"], "125 mm beside this back, usually 8 to 25 mm: give --flange-position -70mm", 2),
         (["--y", "3"], "--y 3: expected a displacement in m", 2),
         (["--smooth", "1m"], "--smooth 1: UIC60: wavelength 1: expected a length (m) above 0", 2),
         (["--smooth=-1mm"], "argument --smooth: -1mm: expected a length above 0", 2),

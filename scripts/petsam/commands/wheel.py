@@ -6,8 +6,8 @@
     petsam-wheel --wheel s1002 --rail uic60 --cant 1:40 --table vehicle.csv --distance 100000km --wear 1e-14 -o life
 
 Axes: x forward, y to the right, z down; y = 0 is the middle of the track. Both wheels and both rails have one profile,
-the left ones as mirror images. Profiles are s1002, uic60, files of SIMPACK (.prw, .prr), or columns y and z, whose unit
-and direction of z --unit and --z give; y is towards the field side.
+the left ones as mirror images. Profiles are s1002, uic60, files of SIMPACK (.prw, .prr) or MiniProf (.whl, .ban, .mpt),
+or columns y and z, whose unit and direction of z --unit and --z give; y is towards the field side.
 
 Height and roll follow from the axle load and the balance of moments about x, the lateral force from y, or y from
 --lateral. A table is a text with a head of names with units, y [mm],yaw [mrad],speed [km/h],load [kN],weight, and a
@@ -18,8 +18,8 @@ is found. Without a pitch rate the wheelset rolls freely: without torque about i
 
 The residual is what is left of the balance of forces or moments, relative to the axle load.
 
-Where left and right differ, --wheel and --rail take LEFT,RIGHT, each with y to its field side. Materials are names, as
-steel, or Young's modulus and Poisson's ratio, 210GPa,0.3.
+Where left and right differ, --wheel, --rail and --radius take LEFT,RIGHT, profiles with y to the field side. Materials
+are names, as steel, or Young's modulus and Poisson's ratio, 210GPa,0.3.
 
 A wheel is derailed where its contact is beyond the steepest place of its flange, towards the tip, and may climb where
 Y/Q, its lateral over its vertical force, is above Nadal's limit (tan d - mu)/(1 + mu tan d) of the steepest place. A
@@ -56,11 +56,14 @@ EVERY = 2.0  # s between two lines of progress
 WIDE, POINTS = 8e-3, 81  # m and number of displacements of the rigid geometry
 JUMPS = 10  # of the profile over the distance
 BUILT = ("s1002", "uic60")
+KINDS = ("wheel", "rail")
+PLACE = "y, or y and z, of a point in the rail's profile: -36mm or -36mm,0mm"
+BOTH = "; of wheel and rail --z WHEEL,RAIL"  # where their files differ
 # quantities of petsam.profiles, and their options
 OPTIONS = {
     **{name.replace("-", "_"): f"--{name}" for name in (
-        "gauge", "gauge-height", "cant", "radius", "friction", "cell", "y", "yaw", "load", "lateral", "offset",
-        "height", "distance", "jumps", "law", "speed",
+        "gauge", "gauge-height", "gauge-position", "cant", "radius", "friction", "cell", "y", "yaw", "load", "lateral",
+        "offset", "height", "distance", "jumps", "law", "speed",
     )},
     "coefficient": "--wear",
 }  # fmt: skip
@@ -131,6 +134,27 @@ def profile_names(text):
     return left.strip(), right.strip()
 
 
+def pair(text, form, one):
+    """The two values of WHEEL,RAIL or LEFT,RIGHT, or of one for both; `one` reads a value."""
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) > 2 or not all(parts):
+        raise words.WordError(text, form)
+    return tuple(one(part) for part in (parts if len(parts) == 2 else 2 * parts))
+
+
+def direction(text):
+    """Direction of z in a file."""
+    if text not in ("down", "up"):
+        raise words.WordError(text, "down or up, or two of WHEEL,RAIL")
+    return text
+
+
+def radii(text):
+    """Nominal radii of the left and the right wheel, m."""
+    form = "a length, or two of LEFT,RIGHT: 460mm"
+    return tuple(2 * words.numbers(text, form, "m", count=(1, 2)))[:2]
+
+
 def _length(form):
     return word(words.number, form, "m")
 
@@ -139,9 +163,11 @@ def _profiles(one):
     group = one.add_argument_group("profiles")
     for name, made, ending in (("wheel", "s1002", ".prw"), ("rail", "uic60", ".prr")):
         group.add_argument(f"--{name}", required=True, type=word(profile_names), metavar="PROFILE",
-                           help=f"{made}, a file {ending}, or columns y and z; or LEFT,RIGHT")  # fmt: skip
-    group.add_argument("--unit", metavar="UNIT", help="unit of length of columns: mm")
-    group.add_argument("--z", choices=("down", "up"), help="direction of z in the files; of columns it must be given")
+                           help=f"{made}, a file {ending} or of MiniProf, columns y and z; or LEFT,RIGHT")  # fmt: skip
+    group.add_argument("--unit", type=word(pair, "a unit of length, mm, or two of WHEEL,RAIL", str), metavar="UNIT",
+                       help="unit of length of columns: mm; or WHEEL,RAIL")  # fmt: skip
+    group.add_argument("--z", type=word(pair, "down or up, or two of WHEEL,RAIL", direction), metavar="down|up",
+                       help="direction of z in the files, or WHEEL,RAIL; of columns it must be given")  # fmt: skip
     group.add_argument("--mirror", choices=("wheel", "rail", "both"), help="profiles whose y is to the gauge side")
     group.add_argument("--smooth", type=word(words.number, "a length above 0: 4mm", "m", words.positive), metavar="L",
                        help="smooth measured profiles: 4mm for 1 um of noise, 8mm for 5 um")  # fmt: skip
@@ -150,9 +176,12 @@ def _profiles(one):
     group.add_argument("--gauge", type=_length("a length: 1435mm"), default=1.435, metavar="L", help="(1435mm)")
     group.add_argument("--gauge-height", type=_length("a length: 14mm"), default=0.014, metavar="L",
                        help="depth below the rails' tops where the gauge counts (14mm)")  # fmt: skip
+    group.add_argument("--gauge-position", type=word(words.numbers, PLACE, "m", count=(1, 2)), metavar="Y[,Z]",
+                       help="y in the rail's profile that is at half the gauge, and z at its top, instead")  # fmt: skip
     group.add_argument("--curve", type=_length("a radius, positive to the right: 300m"), metavar="R",
                        help="radius of a curve, positive to the right (straight)")  # fmt: skip
-    group.add_argument("--radius", type=_length("a length: 460mm"), default=0.46, metavar="L", help="of wheels (460mm)")
+    group.add_argument("--radius", type=word(radii), default=(0.46, 0.46), metavar="L",
+                       help="nominal, of both wheels, or LEFT,RIGHT (460mm)")  # fmt: skip
     group.add_argument("--flange-back", type=_length("a length: 1360mm"), default=1.36, metavar="L",
                        help="distance of the backs of both flanges (1360mm)")  # fmt: skip
     group.add_argument("--flange-position", type=_length("a length: -70mm"), default=-0.07, metavar="L",
@@ -243,8 +272,8 @@ def arguments(given):
         for name in ("law", "distance"):
             if getattr(options, name) is not None:
                 parser.error(f"--{name}: needs --wear, the coefficient of wear")
-    elif options.wheel[0] != options.wheel[1] or options.rail[0] != options.rail[1]:
-        parser.error("--wear: both sides wear alike: give one profile to --wheel and to --rail")
+    elif _unlike(options):
+        parser.error("--wear: both sides wear alike: give one profile to --wheel and to --rail, one length to --radius")
     if options.jumps is not None and options.distance is None:
         parser.error("--jumps: needs --distance")
     return options
@@ -292,8 +321,9 @@ def _read(options, kind, side):
     else:
         simpack = name.lower().endswith((".prr", ".prw"))
         mirror = options.mirror in (kind, "both")
+        unit, z = (given and given[KINDS.index(kind)] for given in (options.unit, options.z))
         with _named(f"--{kind}"):
-            found = profiles.read(name, kind, None if simpack else options.unit, options.z, mirror)
+            found = profiles.read(name, kind, None if simpack else unit, z, mirror)
     if not options.smooth:
         return found
     with _named(f"--smooth {options.smooth:g}"):
@@ -304,12 +334,14 @@ def _optioned(error):
     """A message of the profiles with the command's options in place of Python's arguments."""
     text = str(error)
     for old, new in (
-        ("read(..., z='up') turns it over", "give --z up"), ("mirror=True to read() of the rail", "--mirror rail"),
-        ("mirror=True to read()", "--mirror wheel"),
+        ("read(..., z='up') turns it over", f"give --z up{BOTH}"),
+        ("read(..., z='down') turns it over", f"give --z down{BOTH}"), ("without cant=", "without --cant"),
+        *((f"mirror=True {to} read() of the {kind}", f"--mirror {kind}") for to in ("to", "of") for kind in KINDS),
         (", or mirror.y = 1 in the file, or take mirrored()", ", or mirror.y = 1 in the file"),
         ("smoothed(0.004)", "--smooth 4mm"), ("smoothed(0.008)", "--smooth 8mm"),
         ("unit='mm'", "--unit mm"), ("z='down' or z='up'", "--z down or --z up"),
         ("check gauge", "check --gauge"), ("give height,", "give --height,"),
+        ("give a gauge_height", "give a --gauge-height"), ("or gauge_position", "or --gauge-position"),
         ("flange_position", "--flange-position"), ("flange_back", "--flange-back"),
     ):  # fmt: skip
         text = text.replace(old, new)
@@ -325,16 +357,17 @@ def _vehicle(options):
     """Rails and wheels."""
     from .. import profiles
 
-    sides = [(_read(options, "rail", k), _read(options, "wheel", k)) for k in ((1, 0) if _unlike(options) else (1,))]
+    sides = [(_read(options, "rail", k), _read(options, "wheel", k), options.radius[k])
+             for k in ((1, 0) if _unlike(options) else (1,))]  # fmt: skip
     if options.curve is not None and not abs(options.curve) >= 10.0:
         raise Unusable(f"--curve {options.curve:g}: expected the radius in m, at least 10, positive to the right")
     curvature = 0.0 if options.curve is None else 1.0 / options.curve
     placed = [
         (
-            profiles.Track(rail, options.gauge, options.gauge_height, options.cant, curvature),
-            profiles.Wheelset(wheel, options.radius, options.flange_back, options.flange_position),
+            profiles.Track(rail, options.gauge, options.gauge_height, options.cant, curvature, options.gauge_position),
+            profiles.Wheelset(wheel, radius, options.flange_back, options.flange_position),
         )
-        for rail, wheel in sides
+        for rail, wheel, radius in sides
     ]
     given = {name: getattr(options, f"{name}_material") for name in ("rail", "wheel")}
     bodies = {name: profiles.Material(*numbers) for name, numbers in given.items() if numbers}
@@ -345,7 +378,7 @@ def _vehicle(options):
 
 def _unlike(options):
     """Whether left and right differ."""
-    return any(left != right for left, right in (options.wheel, options.rail))
+    return any(left != right for left, right in (options.wheel, options.rail, options.radius))
 
 
 def _states(options):

@@ -51,6 +51,7 @@ def _section(axes, vehicle, found, result, sign):
     """Rail, wheel and patches of a side, mm; the wheel is turned by the roll."""
     sides = [(vehicle.rail, vehicle.wheel), vehicle.left or (vehicle.rail, vehicle.wheel)]
     rail, wheel = sides[0 if sign > 0.0 else 1]
+    wheel = wheel.of_radius(vehicle.wheel.radius)
     section = rail.section
     axes.plot(1e3 * sign * section.y, 1e3 * section.z, color="0.35", label="rail")
     y, z = sign * wheel.section.y, wheel.section.z + wheel.radius

@@ -6,7 +6,7 @@
     found = profiles.solve(rail, wheel, profiles.Position(y=2e-3, yaw=4.8e-3, speed=2.0), force=10e3, friction=0.3)
     print(found.force, [(patch.y, patch.angle, patch.n, patch.p_max) for patch in found.patches])
 
-read        a Profile from a file of SIMPACK (.prr, .prw) or from columns
+read        a Profile from a file of SIMPACK (.prr, .prw), of MiniProf (.whl, .ban, .mpt) or from columns
 s1002       the wheel profile of UIC 510-2, by its formula; uic60, the rail's head by its arcs
 Track       a rail profile in its place; Roller: a roller of a test rig instead
 Wheelset    a wheel profile in its place
@@ -16,7 +16,7 @@ geometry    contact points and rolling radii of rigid wheels over y; equivalent_
 solve       one position: Result with its patches; Pair solves several positions with the same two profiles
 
 profile     points of a profile, its smoothing, turning and mirror image
-reading     which reader a file needs; simpack, columns: the readers
+reading     which reader a file needs; simpack, miniprof, columns: the readers
 standard    profiles by the formulas of their standards
 section     the visible part of a profile as a function z(y)
 placement   rails, rollers and wheels in their places; their level functions

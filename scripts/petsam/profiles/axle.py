@@ -217,7 +217,8 @@ class Axle:
     settings : Settings, optional
         Materials, cells and limits.
     left : tuple of Track and Wheelset, optional
-        Rail and wheel of the left side, as right ones, where they differ.
+        Rail and wheel of the left side, as right ones, where they differ, in their nominal radius, too. The height z of
+        a Position is 0 where the right wheel has its nominal one.
     rolling : str
         Pitch rate of positions without one: free, that without torque about the axle, at which the wheelset is neither
         driven nor braked; or radii, the speed over the mean of the rolling radii.
@@ -236,10 +237,9 @@ class Axle:
             raise Unusable(f"rolling {rolling!r}: expected {' or '.join(ROLLINGS)}")
         self.rolling = rolling
         both = (rail, wheel), left or (rail, wheel)
-        if left is not None and (left[1].radius != wheel.radius or left[0].curvature != rail.curvature):
-            raise Unusable(
-                "left: its nominal radius and the track's curvature are those of the right side: give equal ones"
-            )
+        if left is not None and left[0].curvature != rail.curvature:
+            raise Unusable("left: the track's curvature is that of the right side: give equal ones")
+        both = both[0], (both[1][0], both[1][1].of_radius(wheel.radius))
         self.pairs = [Pair(*one, friction, side, settings, extrapolate=False) for one, side in zip(both, SIDES)]
         self.wheel, self.settings = wheel, self.pairs[0].settings
         for track, one in both:

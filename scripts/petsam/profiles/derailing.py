@@ -13,9 +13,11 @@ import numpy as np
 
 from .placement import Wheelset
 from .result import Result
-from .section import FLANGE, STEEP
+from .section import FLANGE, STEEP, STEP
 
 PLANE = 0.01  # rad below the steepest angle that still count as the steepest place
+ABOVE = 2e-3  # m: the flange's face ends so near to the height of the tread
+SCRATCH = 1e-3  # m along the face: scratches narrower than half of it do not count
 STATES = ("on rail", "may climb", "derailed")
 
 
@@ -69,12 +71,24 @@ def flange(wheel: Wheelset) -> Optional[Flange]:
     """
     y, z, slope = wheel.line
     tip = int(np.argmax(z))
-    face = slope[tip:]
-    if z[tip] - z[-1] < FLANGE or -face.min() < STEEP:
+    tread = float(np.median(z[tip:]))
+    if z[tip] - tread < FLANGE:
         return None
-    angles = np.arctan(-face)
+    end = tip + int(np.argmax(z[tip:] < tread + ABOVE))
+    places, angles = _face(y[tip:end], z[tip:end], slope[tip:end])
+    if angles.max() < math.atan(STEEP):
+        return None
     first = int(np.flatnonzero(angles >= angles.max() - PLANE)[0])
-    return Flange(float(y[tip + first]) - wheel.offset, float(angles.max()))
+    return Flange(float(places[first]) - wheel.offset, float(angles.max()))
+
+
+def _face(y, z, slope):
+    """Places y and angles of a flange's face in equal steps along it, without scratches: medians over a short way."""
+    way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(y), np.diff(z)))])
+    even = np.linspace(0.0, way[-1], int(np.ceil(way[-1] / STEP)) + 1)
+    half = int(round(0.5 * SCRATCH / STEP))
+    angles = np.pad(np.interp(even, way, np.arctan(-slope)), half, mode="edge")
+    return np.interp(even, way, y), np.median(np.lib.stride_tricks.sliding_window_view(angles, 2 * half + 1), axis=1)
 
 
 @dataclass(frozen=True)

@@ -1,24 +1,35 @@
 """Rails, rollers and wheels in their places in the track, and the functions that are 0 on their surfaces.
 
-A rail is turned by its cant, its top moved to z = 0, and its innermost point within the gauge height to y = gauge/2.
+A rail is turned by its cant, its top moved to z = 0, and its innermost point within the gauge height to y = gauge/2; or
+a given point of it to there.
 The wheel's radius is r(y) = radius + z(y), y along the axle from the wheelset's middle.
 """
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Optional
+from typing import Optional, Union
 
 import numpy as np
 
 from ..core.errors import Error, Unusable
 from .pose import Position
-from .profile import Profile, ProfileWarning
-from .section import STEP, Section, fine, path, visible
+from .profile import FARTHEST, Profile, ProfileWarning
+from .section import FLANGE, STEEPEST, STEP, Section, fine, path, visible
 
+Place = Union[None, float, tuple[float, float]]
 GAUGES = (0.05, 4.0)  # m
 DEEPEST = 0.05  # m: gauge heights
+SHORT = 1e-4  # m of a gauge height that a gauge face may lack
 STRONGEST = 0.2  # rad: cant, 1:5
+OUTWARD, INWARD = 0.02, 0.1  # rad by which a rail's head may lean away from the middle, and towards it
+TWICE = 0.6  # of the cant: a head that leans by so much without it was drawn or measured in its place
+HALF = 5e-3  # m: of the chord by which the slope of a head is found, which noise does not change
+TURNS = 3  # of the head to its own axes
+SHALLOW = 3e-3  # m below the top: both sides of a head are seen down to there where its lean is judged
+TIP = (0.0, 0.05)  # m from a flange's back to its tip
+USUAL = (0.008, 0.025)  # m: the same of most flanges
+BESIDE = 2e-3  # m from the flange's back in a profile to the one that is stated
 
 
 def _need(value, what, low, high, cure):
@@ -34,11 +45,16 @@ def _need_kind(profile, kind, name):
         raise Error(f"{profile.name}: is the profile of a {profile.kind}: {name} takes that of a {kind}")
 
 
-def _to_gauge(profile, gauge, gauge_height):
-    """Shift along y to the gauge, and height of the top, of a profile."""
+def _to_gauge(profile, gauge, gauge_height, position):
+    """Shift along y to the gauge, and height of the top, of a profile; by a point (y, z) or y of it, where given."""
+    section = visible(profile)
+    if position is not None:
+        given = np.atleast_1d(np.asarray(position, dtype=float))
+        if given.shape not in ((1,), (2,)) or not (np.abs(given) < FARTHEST).all():
+            raise Unusable("gauge_position: expected y, or y and z, of a point in the profile, m")
+        return 0.5 * gauge - float(given[0]), float(given[1]) if len(given) > 1 else _top(section), section
     curve = path(profile)
     points = curve(fine(curve))
-    section = visible(profile)
     top = _top(section)
     _need_gauge_face(profile, points, top + gauge_height)
     inner = points[points[:, 1] <= top + gauge_height, 0]
@@ -52,7 +68,99 @@ def _need_gauge_face(profile, points, level):
     if z[y > middle].max(initial=-np.inf) > level > z[y < middle].max(initial=-np.inf):
         raise Error(
             f"{profile.name}: the rail reaches the gauge height on the field side alone, at greater y: the profile is "
-            "mirrored; give mirror=True to read() of the rail, or mirror.y = 1 in the file, or take mirrored()"
+            f"mirrored; {profile.taken.other_y(profile.kind)}"
+        )
+
+
+def _lean(section, depth):
+    """Inclination of a rail's head away from the middle, rad: its slope in the middle of its width at a depth below the
+    top, or where the shorter side ends, in the head's own axes; None where a side is not seen."""
+    lean = 0.0
+    for _ in range(TURNS):
+        c, s = np.cos(lean), np.sin(lean)
+        y, z = c * section.y + s * section.z, c * section.z - s * section.y
+        k = int(np.argmin(z))
+        down = min(depth, *(float(np.max(part - z[k])) for part in (z[: k + 1], z[k:])))
+        if down < SHALLOW:
+            return None
+        deep = z - z[k] >= down
+        middle = 0.5 * (y[int(np.flatnonzero(deep[: k + 1])[-1])] + y[k + int(np.flatnonzero(deep[k:])[0])])
+        near = abs(y - middle) < 2.0 * HALF
+        lean += float(np.arctan2(np.diff(np.interp(middle + np.array([-HALF, HALF]), y[near], z[near]))[0], 2.0 * HALF))
+    return lean
+
+
+def _doubt_lean(profile, section, cant, depth):
+    """Warns of a rail whose head leans away from the middle, far towards it, or by its cant without it."""
+    lean = _lean(section, depth)
+    if lean is None or cant < 0.0:  # a negative cant has its own warning
+        return
+    own = lean + cant
+    if own > OUTWARD:
+        text = f"away from the middle by {_ratio(own)}: is it mirrored? {profile.taken.other_y(profile.kind)}"
+    elif cant > 0.0 and -own > max(TWICE * cant, OUTWARD):
+        text = (
+            f"towards the middle by {_ratio(own)} in its points, and by {_ratio(lean)} with the cant: is it canted "
+            "twice? Measured in its place, it is read without cant="
+        )
+    elif lean < -INWARD:
+        text = (
+            f"towards the middle by {_ratio(lean)}, more than 1:10: check whether it is turned, and take it "
+            "without cant= if it was measured in its place"
+        )
+    else:
+        return
+    warnings.warn(f"{profile.name}: the rail's head leans {text}", ProfileWarning, stacklevel=4)
+
+
+def _ratio(angle):
+    return f"1:{abs(1.0 / np.tan(angle)):.2g}"
+
+
+def _need_back(profile, section, position):
+    """Raises Unusable for a wheel whose flange is not beside the back that is stated."""
+    low = int(np.argmax(section.z))
+    tip = float(section.y[low])
+    if section.z[low] - np.median(section.z) < FLANGE or TIP[0] < tip - position < TIP[1]:
+        return
+    cure = "give flange_position, y of the flange's back in the profile"
+    for back, name in ((0.0, "0mm: y counts from the back"), (-0.07, "-70mm, as of S1002")):
+        if USUAL[0] < tip - back < USUAL[1]:
+            cure = f"give flange_position {name}"
+    raise Unusable(
+        f"flange_position {position:g}: {profile.name}: the flange's tip is at y = {1e3 * tip:.4g} mm of the profile, "
+        f"{1e3 * (tip - position):.4g} mm beside this back, usually 8 to 25 mm: {cure}"
+    )
+
+
+def _doubt_gauge_face(profile, cant, gauge_height, position):
+    """Warns of a profile that ends on its gauge side before it reaches the gauge height: its end is taken."""
+    turned = profile.turned(-cant)
+    k = int(np.argmin(turned.z))
+    depth = float((turned.z - turned.z[k])[turned.y <= turned.y[k]].max())
+    if position is None and depth < gauge_height - SHORT:
+        warnings.warn(
+            f"{profile.name}: ends {1e3 * depth:.3g} mm below its top on the gauge side, above the gauge height of "
+            f"{1e3 * gauge_height:.3g} mm: its innermost point is taken for the gauge face; give a gauge_height within "
+            "it, or gauge_position, y of the gauge face in the profile",
+            ProfileWarning,
+            stacklevel=4,
+        )
+
+
+def _doubt_back(profile, position):
+    """Warns of a wheel whose profile goes round its flange to a back at another y than is stated."""
+    curve = path(profile)
+    s = fine(curve)
+    k = int(np.argmin(curve(s)[:, 0]))
+    along, down = curve(s[k], 1)
+    back = float(curve(s[k])[0])
+    if abs(down) > STEEPEST * abs(along) and abs(back - position) > BESIDE:
+        warnings.warn(
+            f"{profile.name}: the flange's back is at y = {1e3 * back:.4g} mm of the profile, and flange_position is "
+            f"{1e3 * position:.4g} mm: give flange_position {1e3 * back:.4g}mm, unless the flange's back is elsewhere",
+            ProfileWarning,
+            stacklevel=4,
         )
 
 
@@ -92,6 +200,9 @@ class Track:
         place.
     curvature : float
         Of the track, 1/m, positive to the right.
+    gauge_position : float or tuple of float, optional
+        y of the profile, turned by its cant, that lies at half the gauge, or y and z of a point that lies there at
+        z = 0, m: of a profile without a gauge face, instead of gauge_height.
 
     Raises
     ------
@@ -100,7 +211,8 @@ class Track:
 
     Notes
     -----
-    A ProfileWarning is issued of a cant that leans away from the middle.
+    A ProfileWarning is issued of a cant that leans away from the middle, of a head that leans so, leans far towards the
+    middle, or leans by the cant without it, and of a gauge side that ends above the gauge height.
     """
 
     profile: Profile
@@ -108,6 +220,7 @@ class Track:
     gauge_height: float = 0.014
     cant: float = 0.0
     curvature: float = 0.0
+    gauge_position: Place = None
     roller_radius = np.inf
 
     def __post_init__(self) -> None:
@@ -122,11 +235,14 @@ class Track:
                 stacklevel=3,
             )
         self.section  # noqa: B018  fails early
+        _doubt_gauge_face(self.profile, self.cant, self.gauge_height, self.gauge_position)
+        _doubt_lean(self.profile, self.section, self.cant, self.gauge_height)
 
     @cached_property
     def section(self) -> Section:
         """The rail's visible part in the track."""
-        shift, top, section = _to_gauge(self.profile.turned(-self.cant), self.gauge, self.gauge_height)
+        turned = self.profile.turned(-self.cant)
+        shift, top, section = _to_gauge(turned, self.gauge, self.gauge_height, self.gauge_position)
         return section.moved(shift, -top)
 
     def surface(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -187,7 +303,9 @@ class Track:
         -------
         Track
         """
-        return Track(self.profile, self.gauge, self.gauge_height, self.cant, -self.curvature)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ProfileWarning)  # they were issued of this track
+            return replace(self, curvature=-self.curvature)
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,17 +320,24 @@ class Roller:
         Nominal radius, m.
     gauge, gauge_height : float
         See Track; the height counts from the profile's highest point.
+    gauge_position : float or tuple of float, optional
+        See Track; of y and z, the roller has its nominal radius at z.
 
     Raises
     ------
     Error
         If a number is not of this quantity in this unit, or the profile cannot be seen from a wheel.
+
+    Notes
+    -----
+    A ProfileWarning is issued of a gauge side that ends above the gauge height.
     """
 
     profile: Profile
     radius: float
     gauge: float = 1.435
     gauge_height: float = 0.014
+    gauge_position: Place = None
 
     def __post_init__(self) -> None:
         _need_kind(self.profile, "rail", "Roller")
@@ -220,6 +345,7 @@ class Roller:
         _need(self.gauge, "gauge", *GAUGES, "expected the distance of the rollers' inner faces, m, such as 1.435")
         _need(self.gauge_height, "gauge_height", 0.0, DEEPEST, "expected a depth below the top, m, as 0.014")
         self.section  # noqa: B018  fails early
+        _doubt_gauge_face(self.profile, 0.0, self.gauge_height, self.gauge_position)
 
     @property
     def roller_radius(self) -> float:
@@ -229,8 +355,8 @@ class Roller:
     @cached_property
     def section(self) -> Section:
         """The roller's visible part in the track."""
-        shift, _, section = _to_gauge(self.profile, self.gauge, self.gauge_height)
-        return section.moved(shift, 0.0)
+        shift, top, section = _to_gauge(self.profile, self.gauge, self.gauge_height, self.gauge_position)
+        return section.moved(shift, -top if np.size(self.gauge_position) > 1 else 0.0)
 
     def surface(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Height z of the roller's surface, m.
@@ -312,12 +438,18 @@ class Wheelset:
         y of the flange's back in the profile, m: -0.07 of S1002.
     tape_line : float, optional
         y of the tape line in the profile, m, where the radius is the nominal one.
+    excess : float
+        m by which the wheel is larger than this radius there, as the left one of a wheelset with two radii.
 
     Raises
     ------
     Error
-        If a number is not of this quantity in this unit, or the profile cannot be seen from a rail: one with its flange
-        on the field side, or pointing up.
+        If a number is not of this quantity in this unit, the flange's tip is far from its back, or the profile cannot
+        be seen from a rail: one with its flange on the field side, or pointing up.
+
+    Notes
+    -----
+    A ProfileWarning is issued of a profile that goes round its flange to a back at another y.
     """
 
     profile: Profile
@@ -325,6 +457,7 @@ class Wheelset:
     flange_back: float = 1.36
     flange_position: float = -0.07
     tape_line: Optional[float] = None
+    excess: float = 0.0
 
     def __post_init__(self) -> None:
         _need_kind(self.profile, "wheel", "Wheelset")
@@ -334,6 +467,8 @@ class Wheelset:
         )
         _need(self.flange_position, "flange_position", -1.0, 1.0, "expected y of the flange's back in the profile, m")
         section = visible(self.profile)
+        _need_back(self.profile, section, self.flange_position)
+        _doubt_back(self.profile, self.flange_position)
         if self.tape_line is not None and not section.first <= self.tape_line <= section.last:
             raise Error(f"tape_line {self.tape_line:g}: the profile is from {section.first:g} to {section.last:g} m")
         if not 0.5 * self.radius < self.section.z.min() + self.radius:
@@ -344,7 +479,7 @@ class Wheelset:
         """The visible part: z, 0 at the nominal radius, over y along the axle from the wheelset's middle."""
         section = visible(self.profile)
         down = 0.0 if self.tape_line is None else float(section.height(np.array(self.tape_line)))
-        return section.moved(self.offset, -down)
+        return section.moved(self.offset, self.excess - down)
 
     @cached_property
     def line(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -352,6 +487,22 @@ class Wheelset:
         section = self.section
         y = np.linspace(section.first, section.last, int(np.ceil((section.last - section.first) / STEP)) + 1)
         return y, section.height(y), section.slope(y)
+
+    def of_radius(self, radius: float) -> "Wheelset":
+        """The same wheel with another nominal radius to count from: that of the other wheel of its wheelset.
+
+        Parameters
+        ----------
+        radius : float
+            m.
+
+        Returns
+        -------
+        Wheelset
+        """
+        return (
+            self if radius == self.radius else replace(self, radius=radius, excess=self.radius - radius + self.excess)
+        )
 
     @property
     def offset(self) -> float:

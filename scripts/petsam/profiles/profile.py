@@ -1,16 +1,20 @@
 """The points of a profile in its own axes: y to the field side, z down, m."""
 
 from dataclasses import dataclass, field, replace
-from typing import Optional
+from typing import NamedTuple, Optional
 
 import numpy as np
 
-from ..core.errors import Error, Unusable
+from ..core.errors import Error, Unusable, counted
 
 KINDS = ("rail", "wheel")
 FEWEST = 5  # points that a smoothing spline needs
 WIDTHS = (10e-3, 1.0)  # m: no profile is narrower or wider
-
+FARTHEST = 10.0  # m: no profile is deeper, or farther from its origin
+LIGHTEST = 1e-9  # weight, and of two weights their ratio
+BACK = -0.8  # cosine of the angle between two chords below which points go back
+ASTRAY = -0.5  # the same where a chord is as long as a hole
+FOLD = 0.5e-3  # m: points that step back by no more are removed
 
 SPARSE = (10.0, 5e-3)  # distance of two points, over the median and in m, that may be a hole
 NOISY = 1e-7  # m: median distance to the profile without waves shorter than SHORT
@@ -19,6 +23,25 @@ SHORT = 4e-3  # m
 
 class ProfileWarning(UserWarning):
     """Profiles or their places can be computed, but may not be intended."""
+
+
+class Taken(NamedTuple):
+    """How read() took a file: the direction of z in it, and whether y was mirrored; messages name the other way."""
+
+    z: str = "down"
+    mirror: bool = False
+
+    @property
+    def other_z(self) -> str:
+        """The end of a message about a profile upside down."""
+        other = "up" if self.z == "down" else "down"
+        return f"is its z {other}? read(..., z='{other}') turns it over"
+
+    def other_y(self, kind: str) -> str:
+        """The cure of a profile that is mirrored."""
+        if self.mirror:
+            return f"omit mirror=True of read() of the {kind}"
+        return f"give mirror=True to read() of the {kind}, or mirror.y = 1 in the file, or take mirrored()"
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +58,8 @@ class Profile:
         Weights of the points in smoothed(), (n,); 1 by default.
     name : str
         The name in messages: of a profile that was read, its file.
+    taken : Taken
+        How its file was read, for messages.
 
     Raises
     ------
@@ -48,6 +73,7 @@ class Profile:
     kind: str
     weights: Optional[np.ndarray] = field(default=None, repr=False)
     name: str = "profile"
+    taken: Taken = field(default=Taken(), repr=False)
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
@@ -58,15 +84,26 @@ class Profile:
             raise Error(f"{self.name}: y, z and weights have {len(y)}, {len(z)} and {len(weights)} numbers")
         if not (np.isfinite(y).all() and np.isfinite(z).all() and np.isfinite(weights).all() and (weights > 0).all()):
             raise Error(f"{self.name}: expected finite numbers, and weights above 0")
+        if len(weights) and not (LIGHTEST < weights.min() and weights.max() < weights.min() / LIGHTEST):
+            raise Error(f"{self.name}: weights from {weights.min():g} to {weights.max():g}: give numbers near 1")
+        self._need_small(y, z)
         new = np.concatenate([[True], np.hypot(np.diff(y), np.diff(z)) > 0.0]) if len(y) else np.ones(0, bool)
         if new.sum() < FEWEST:
             raise Error(f"{self.name}: {new.sum()} points: a profile has at least {FEWEST}")
         for name, values in (("y", y[new]), ("z", z[new]), ("weights", weights[new])):
             values.setflags(write=False)
             object.__setattr__(self, name, values)
-        width = float(np.ptp(self.y))
+
+    def _need_small(self, y, z):
+        """Raises Error for a width or a place that no profile has in m."""
+        if len(y) < FEWEST:
+            return
+        with np.errstate(over="ignore"):
+            width, farthest = float(np.ptp(y)), float(max(np.abs(y).max(), np.abs(z).max()))
         if not WIDTHS[0] <= width <= WIDTHS[1]:
             raise Error(f"{self.name}: is {width:g} m wide: check its unit of length")
+        if farthest > FARTHEST:
+            raise Error(f"{self.name}: has a point {farthest:.3g} m from its origin: check its unit of length")
 
     def doubts(self) -> list[str]:
         """Reasons for which the points may not be the profile: holes between them, and noise.
@@ -90,6 +127,50 @@ class Profile:
                 f"high: smoothed({SHORT:g}) removes it, with 5 um of noise smoothed({2 * SHORT:g})"
             )
         return found
+
+    def need_forward(self) -> None:
+        """Raises Error where points go or jump back along the profile."""
+        steps = np.diff(np.column_stack([self.y, self.z]), axis=0)
+        length = np.hypot(*steps.T)
+        steps /= length[:, None]
+        turn = np.sum(steps[1:] * steps[:-1], axis=1)
+        long = length > max(SPARSE[0] * np.median(length), SPARSE[1])
+        back = np.flatnonzero((turn < BACK) | (turn < ASTRAY) & (long[1:] | long[:-1]))
+        if len(back):
+            k = back[0] + 1
+            raise Error(
+                f"{self.name}: point {k + 1}, y = {self.y[k]:.6g} m, z = {self.z[k]:.6g} m: the points go back there: "
+                "sort them along the profile, and remove folds"
+            )
+
+    def without_folds(self) -> tuple["Profile", str]:
+        """The profile without points that step back a little, as those of a probe that trembles do.
+
+        Returns
+        -------
+        Profile
+            Without the points that lie up to 0.5 mm behind one before them.
+        str
+            A sentence about them; empty where there are none.
+        """
+        points = np.column_stack([self.y, self.z])
+        kept, farthest = [0, 1], 0.0
+        for k in range(2, len(points)):
+            ahead = points[kept[-1]] - points[kept[-2]]
+            step = points[k] - points[kept[-1]]
+            along, length = float(ahead @ step) / float(np.hypot(*ahead)), float(np.hypot(*step))
+            if 0.0 < length <= FOLD and along < BACK * length:
+                farthest = max(farthest, -along)
+            elif length > 0.0:
+                kept.append(k)
+        count = len(points) - len(kept)
+        if not count or not farthest:
+            return self, ""
+        text = (
+            f"{self.name}: {counted(count, 'point')} removed that step back along the profile, by up to "
+            f"{1e3 * farthest:.2g} mm (at most {1e3 * FOLD:g} mm is removed)"
+        )
+        return replace(self, y=self.y[kept], z=self.z[kept], weights=np.asarray(self.weights)[kept]), text
 
     @property
     def lengths(self) -> np.ndarray:

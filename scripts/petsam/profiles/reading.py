@@ -1,12 +1,13 @@
-"""Reads a profile from a file of SIMPACK or of columns."""
+"""Reads a profile from a file of SIMPACK, of MiniProf or of columns."""
 
 import os
 import warnings
+from dataclasses import replace
 from typing import Optional, Union
 
 from ..core.errors import Error
-from . import columns, simpack
-from .profile import Profile, ProfileWarning
+from . import columns, miniprof, simpack
+from .profile import Profile, ProfileWarning, Taken
 
 SIMPACK = {".prr": "rail", ".prw": "wheel"}
 
@@ -23,13 +24,15 @@ def read(
     Parameters
     ----------
     path : path
-        A file of SIMPACK (.prr, .prw), or columns y, z and a weight or none.
+        A file of SIMPACK (.prr, .prw), of MiniProf (.whl, .ban, .mpt, or with a line ColumnDef), or columns y, z and a
+        weight or none.
     kind : str, optional
         rail or wheel; files of SIMPACK state it.
     unit : str, optional
-        Unit of length of columns: mm, m, in, ...; files of SIMPACK state it.
+        Unit of length of columns: mm, m, in, ...; files of SIMPACK state it, those of MiniProf are in mm.
     z : str, optional
-        Direction of z of columns, down or up; in files of SIMPACK it is down, and up turns one over that has it up.
+        Direction of z of columns, down or up; in files of SIMPACK and wheels of MiniProf it is down, and up turns one
+        over that has it up; of rails of MiniProf it is found.
     mirror : bool
         True: y has the other sign than in the file, for a file whose y is not to the field side.
 
@@ -40,25 +43,34 @@ def read(
     Raises
     ------
     Error
-        If something is not stated or states twice what differs, or the file cannot be read; with file and line.
+        If something is not stated or states twice what differs, points go or jump back, or the file cannot be read;
+        with file and line.
     MissingFile
         If there is no such file.
 
     Notes
     -----
-    A ProfileWarning is issued of holes between the points, and of noise.
+    A ProfileWarning is issued of holes between the points, of noise, and of points that step back by up to 0.5 mm,
+    which are removed.
     """
-    found = _read(os.fspath(path), kind, unit, z, mirror)
-    for text in found.doubts():
+    found, folds = _read(os.fspath(path), kind, unit, z, mirror).without_folds()
+    found.need_forward()
+    for text in filter(None, [folds, *found.doubts()]):
         warnings.warn(text, ProfileWarning, stacklevel=2)
     return found
 
 
 def _read(name, kind, unit, z, mirror):
-    stated = SIMPACK.get(os.path.splitext(name)[1].lower())
-    if stated is None:
+    if SIMPACK.get(os.path.splitext(name)[1].lower()):
+        found = _simpack(name, kind, unit, z)
+    elif miniprof.is_one(name):
+        found = miniprof.read(name, kind or "", unit or "", z or "")
+    else:
         found = columns.read(name, kind or "", unit or "", z or "")
-        return found.mirrored() if mirror else found
+    return replace(found.mirrored(), taken=Taken(found.taken.z, True)) if mirror else found
+
+
+def _simpack(name, kind, unit, z):
     if unit is not None:
         raise Error(f"{name}: unit={unit!r}: a file of SIMPACK has its unit in units.len.f: omit it")
     if z not in (None, "down", "up"):
@@ -68,6 +80,4 @@ def _read(name, kind, unit, z, mirror):
         raise Error(
             f"{name}: states the profile of a {found.kind}, and not of a {kind}: omit kind, or take another file"
         )
-    if z == "up":
-        found = Profile(found.y, -found.z, found.kind, found.weights, found.name)
-    return found.mirrored() if mirror else found
+    return replace(found, z=-found.z, taken=Taken("up")) if z == "up" else found

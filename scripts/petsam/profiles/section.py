@@ -17,7 +17,7 @@ STEP = 25e-6  # m: of the points of z(y)
 FINE = 10e-6  # m: of the search along the chord length
 STEEPEST = 11.0  # slope beyond which a profile does not count as visible
 HIDDEN = 1e-4  # m by which a point outside the visible part may lie before it
-BACK = -0.8  # cosine of the angle between two chords below which points go back
+TWICE, ENDS = 1e-3, 1e-3  # m from the visible part to points of a second one, and from its ends
 DEEP = 1e-3  # m by which a rail's head must be hollow, at least, to be taken for one upside down
 FLANGE = 0.01  # m by which a flange stands out of the tread, at least
 STEEP = 1.0  # slope of a flange, at least
@@ -173,7 +173,7 @@ def visible(profile: Profile) -> Section:
     Error
         If other parts of the profile lie before it: a profile that is folded, unsorted or upside down.
     """
-    _need_forward(profile)
+    profile.need_forward()
     curve = path(profile)
     s = fine(curve)
     tangent = curve(s, 1)
@@ -182,21 +182,9 @@ def visible(profile: Profile) -> Section:
         raise Error(f"{profile.name}: no part is seen from the other body: are its points sorted along the profile?")
     section = _section(curve, s[first : last + 1])
     _need_unfolded(profile, section)
+    _need_single(profile, section, curve, (s[first], s[last]))
     (_need_head if profile.kind == "rail" else _need_flange_inside)(profile, section)
     return section
-
-
-def _need_forward(profile):
-    """Raises Error where points go back along the profile."""
-    steps = np.diff(np.column_stack([profile.y, profile.z]), axis=0)
-    steps /= np.hypot(*steps.T)[:, None]
-    back = np.flatnonzero(np.sum(steps[1:] * steps[:-1], axis=1) < BACK)
-    if len(back):
-        k = back[0] + 1
-        raise Error(
-            f"{profile.name}: point {k + 1}, y = {profile.y[k]:.6g} m, z = {profile.z[k]:.6g} m: the points go back "
-            "there: sort them along the profile, and remove folds"
-        )
 
 
 def _longest(good):
@@ -232,13 +220,30 @@ def _need_unfolded(profile, section):
         )
 
 
+def _need_single(profile, section, curve, limits):
+    """Raises Error where the points pass twice along the visible part, or begin and end within it."""
+    points = curve(curve.x)
+    y, z = points.T
+    apart = (curve.x < limits[0]) | (curve.x > limits[1])
+    twice = apart & (y > section.first + ENDS) & (y < section.last - ENDS) & (abs(z - section.height(y)) < TWICE)
+    if twice.any():
+        raise Error(
+            f"{profile.name}: the points pass y = {y[np.argmax(twice)]:.6g} m twice: give each place once, sorted "
+            "along the profile"
+        )
+    step = max(np.median(np.diff(curve.x)), ENDS)
+    if np.hypot(*(points[0] - points[-1])) < 2.0 * step and (limits[0] < step or limits[1] > curve.x[-1] - step):
+        raise Error(
+            f"{profile.name}: the points begin and end at y = {y[0]:.6g} m, in the visible part: sort them from one "
+            "side to the other"
+        )
+
+
 def _need_head(profile, section):
     """Raises Error for a rail whose head is hollow."""
     hollow = float(section.z.max() - max(section.z[0], section.z[-1]))
     if hollow > DEEP:
-        raise Error(
-            f"{profile.name}: the rail's head is hollow by {hollow:.3g} m: is its z up? read(..., z='up') turns it over"
-        )
+        raise Error(f"{profile.name}: the rail's head is hollow by {hollow:.3g} m: {profile.taken.other_z}")
 
 
 def _need_flange_inside(profile, section):
@@ -246,12 +251,15 @@ def _need_flange_inside(profile, section):
     tread = float(np.median(section.z))
     low, high = (int(pick(section.z)) for pick in (np.argmax, np.argmin))
     down, up = section.z[low] - tread, tread - section.z[high]
+    field = section.y[low] > 0.5 * (section.first + section.last)
+    if down > FLANGE and _steep(section, low) and not field:
+        return  # what is deeper than the flange on the other side is the rim's outer face
     if up > max(FLANGE, down) and _steep(section, high):
-        raise Error(f"{profile.name}: the wheel's flange points up: is its z up? read(..., z='up') turns it over")
-    if down > FLANGE and _steep(section, low) and section.y[low] > 0.5 * (section.first + section.last):
+        raise Error(f"{profile.name}: the wheel's flange points up: {profile.taken.other_z}")
+    if down > FLANGE and _steep(section, low):
         raise Error(
-            f"{profile.name}: the wheel's flange is on the field side, at greater y: the profile is mirrored; give "
-            "mirror=True to read(), or mirror.y = 1 in the file, or take mirrored()"
+            f"{profile.name}: the wheel's flange is on the field side, at greater y: the profile is mirrored; "
+            f"{profile.taken.other_y(profile.kind)}"
         )
 
 

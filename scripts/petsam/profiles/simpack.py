@@ -14,6 +14,7 @@ import numpy as np
 from ..core import units
 from ..core.errors import Error, short, there_are
 from ..core.files import lines_of, text_of
+from .columns import weights_of
 from .profile import KINDS, Profile, ProfileWarning
 
 NUMBERS = {
@@ -134,19 +135,24 @@ def _profile(path, found):
     """The profile of what a file states, its keys applied in their order."""
     given = {**NUMBERS, **found.given}
     table = np.array(found.points)
-    table = table[_far_enough(table, given["point.dist.min"])]
+    with np.errstate(all="ignore"):  # numbers that are too large are named by Profile
+        return _moved(path, found.kind, table[_far_enough(table, given["point.dist.min"])], given)
+
+
+def _moved(path, kind, table, given):
+    """The profile of points after shift, rotation, bounds, mirroring, inversion and units."""
     y, z = table[:, 0] + given["shift.y"], table[:, 1] + given["shift.z"]
     angle = given["rotate"] / given["units.ang.f"]
     y, z = y * np.cos(angle) - z * np.sin(angle), y * np.sin(angle) + z * np.cos(angle)
     kept = _within(y, given["bound.y.min"], given["bound.y.max"]) & _within(
         z, given["bound.z.min"], given["bound.z.max"]
     )
-    y, z, weights = y[kept], z[kept], table[kept, 2] if table.shape[1] > 2 else None
+    y, z, weights = y[kept], z[kept], weights_of(path, table[kept])
     y, z = (1.0 - 2.0 * given["mirror.y"]) * y, (1.0 - 2.0 * given["mirror.z"]) * z
     order = slice(None, None, -1 if given["inversion"] else 1)
     scale = 1.0 / given["units.len.f"]
     return Profile(
-        scale * y[order], scale * z[order], found.kind, None if weights is None else weights[order], name=str(path)
+        scale * y[order], scale * z[order], kind, None if weights is None else weights[order], name=str(path)
     )
 
 
