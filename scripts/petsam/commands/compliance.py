@@ -227,6 +227,9 @@ def parser():
         choices=("own", "calculix"),
         help="what assembles it: petsam, or CalculiX (own; elements C3D8I: calculix)",
     )
+    method.add_argument(
+        "--keep-elements", action="store_true", help="keep linear elements, which make a body too stiff (raised)"
+    )
     method.add_argument("--coarse-mesh", metavar="NAME", help="a coarser one, to estimate the error of the mesh")
     method.add_argument(
         "--depth", type=word(length), metavar="Z", help="of the stress points (the patch's smaller width)"
@@ -276,6 +279,7 @@ def settings(options):
         degree=options.degree,
         method=options.method,
         stiffness=options.stiffness,
+        keep_elements=options.keep_elements,
         depth=options.depth,
         stress=options.stress,
         coarse=options.coarse_mesh,
@@ -311,6 +315,8 @@ def description(found):
         f"half-space  E = {body.young:.6g} Pa, nu = {body.poisson:.6g}",
         *(["body 1      E = {:.6g} Pa, nu = {:.6g}".format(*body.other)] if body.other else []),
     ]
+    if body.mesh.told:
+        lines.insert(0, f"elements    {body.mesh.told}")
     for one in found.bodies:
         lines += _patch(one)
     if len(found.bodies) > 1:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import Error, short
 from ..core.progress import Progress, quiet
-from . import bolts, boxes, checks, cutoff, deck, foreign, images, modes, parts, section, several, stresses
+from . import bolts, boxes, checks, cutoff, deck, elements, foreign, images, modes, parts, section, several, stresses
 from . import cases as load_cases
 from .basis import Patch
 from .cards import folded
@@ -93,7 +93,8 @@ class Model:
         self.settings, self.units = settings, units
         self.path, self.checksum, self.deck = opened(source, settings)
         path = self.path
-        mesh = self.deck.mesh
+        mesh = self.deck.mesh if settings.keep_elements else elements.raised(self.deck.mesh)
+        self.told = elements.told(self.deck.mesh, mesh)
         if mesh.normal is not None:
             section.need_settings(settings, path)
         mesh.nodes = mesh.nodes * units.length
@@ -102,7 +103,7 @@ class Model:
             block.density *= units.density
         deck.need_set(mesh.surfaces, settings.contact, "surface", path)
         held = [deck.need_set(mesh.node_sets, name, "node set", path) for name in settings.supports]
-        self.supported = np.unique(np.concatenate([np.zeros(0, dtype=int), *held]))
+        self.supported = elements.covered(mesh, np.concatenate([np.zeros(0, dtype=int), *held]))
         symmetric = [deck.need_set(mesh.node_sets, name, "node set", path) for name in settings.symmetry]
         for name, nodes in zip(settings.symmetry, symmetric):
             if not np.setdiff1d(nodes, self.supported).size:
@@ -116,9 +117,9 @@ class Model:
         origin, x, z = (list(settings.frame) + [None, None])[:3]
         self.frame = frame_of(np.array(origin) * units.length, x, z, outward, mesh.normal)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
-        planes = np.concatenate([np.zeros(0, dtype=int), *symmetric])
+        self.planes = [self._plane(name, nodes) for name, nodes in zip(settings.symmetry, symmetric)]
+        planes = np.concatenate([np.zeros(0, dtype=int), *(nodes for nodes, _ in self.planes)])
         self.doubts = load_cases.need_supports(self.deck, self.mesh, self.frame, units, self.supported, planes)
-        self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(settings.symmetry, symmetric)]
         self.patches = [self._patch(center) for center in settings.centers]
         several.need_apart(self.patches)
         self.patch = self.patches[0]
@@ -202,15 +203,15 @@ class Model:
             checks.need_inside(part.mesh, patch, part.contact)
         return all(plane)
 
-    def _normal(self, name, nodes):
-        """Normal of a plane of symmetry in the frame's coordinates."""
+    def _plane(self, name, nodes):
+        """Nodes of a plane of symmetry, and its normal in the frame's coordinates."""
         x = self.mesh.nodes[nodes]
         if self.mesh.normal is not None:  # a line of nodes is a plane along y
             x = np.concatenate([x, x + np.ptp(x) * self.mesh.normal])
         normal = plane_normal(x)
         if normal is None:
             raise Error(f"{self.path}: node set {name} of --symmetry is not a plane: name the nodes of one plane")
-        return normal
+        return elements.covered(self.mesh, nodes), normal
 
 
 def choose(model, plane):

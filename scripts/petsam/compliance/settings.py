@@ -74,6 +74,8 @@ class Settings:
         "auto", "image" or "cutoff".
     stiffness : str or None
         "own", "calculix" or None (own, for elements that petsam assembles).
+    keep_elements : bool
+        Whether linear elements stay linear, instead of becoming quadratic ones.
     depth : float or None
         Depth of the stress points, m; None: twice the smaller half width.
     stress : bool
@@ -102,6 +104,7 @@ class Settings:
     degree: int | tuple = 6
     method: str = "auto"
     stiffness: str | None = None
+    keep_elements: bool = False
     depth: float | None = None
     stress: bool = True
     coarse: object = None
