@@ -347,6 +347,8 @@ def _patch(body):
     if "degree_change" in body.checks:
         lower = basis.written(basis.reduced(body.patch.degree, 2))
         lines.append(f"            degree {lower} changes the correction by {body.checks['degree_change']:.1e}")
+    if body.mesh_error is not None:
+        lines.append(f"            the mesh makes an error of about {body.mesh_error:.1e} of the compliance")
     if "mesh_change" in body.checks:
         lines.append(f"            the coarser mesh changes the compliance by {body.checks['mesh_change']:.1e}")
     lines += [

@@ -33,8 +33,8 @@ def edges(mesh):
 
 
 def raised(mesh, every=False):
-    """The mesh with quadratic elements for its linear ones, of the same numbers and faces; every: for C3D8I, too. New
-    nodes follow the others, and have no number."""
+    """The mesh with quadratic elements for its linear ones, of the same numbers and faces; every: for C3D8I, too, where
+    they are alone. New nodes follow the others, and have no number."""
     kinds = {**RAISED, **(INCOMPATIBLE if every or linear(mesh) else {})}
     wanted = [block for block in mesh.blocks if block.kind in kinds]
     if not wanted:
@@ -59,6 +59,11 @@ def raised(mesh, every=False):
         for block in mesh.blocks
     ]
     return replace(mesh, nodes=nodes, blocks=blocks)
+
+
+def quadratic(mesh):
+    """True for a mesh without linear elements, C3D8I among them."""
+    return not any(block.kind in RAISED or block.kind in INCOMPATIBLE for block in mesh.blocks)
 
 
 def told(given, used):
