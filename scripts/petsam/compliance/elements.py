@@ -22,7 +22,7 @@ def linear(mesh):
 
 
 def edges(mesh):
-    """Ends (n, 2), the lower index first, and middle nodes (n) of the edges of a mesh's quadratic elements, each once."""
+    """Ends (n, 2), the lower index first, and middle nodes (n) of the edges of quadratic elements, each once."""
     ends, middles = [np.zeros((0, 2), dtype=int)], [np.zeros(0, dtype=int)]
     for block in mesh.blocks:
         local, corners = block.shape.edges, block.shape.corners

@@ -9,7 +9,20 @@ import numpy as np
 from ..core.errors import Error, short
 from ..core.progress import Progress, quiet
 from . import (
-    bolts, boxes, checks, cutoff, deck, elements, foreign, images, mesherror, modes, parts, section, several, stresses
+    bolts,
+    boxes,
+    checks,
+    cutoff,
+    deck,
+    elements,
+    foreign,
+    images,
+    mesherror,
+    modes,
+    parts,
+    section,
+    several,
+    stresses,
 )  # fmt: skip
 from . import cases as load_cases
 from .basis import Patch
@@ -216,7 +229,9 @@ class Model:
         normal = plane_normal(x)
         if normal is None:
             raise Error(f"{self.path}: node set {name} of --symmetry is not a plane: name the nodes of one plane")
-        return elements.covered(self.mesh, nodes), normal
+        off = np.abs((self.mesh.nodes[self.supported] - self.mesh.nodes[nodes].mean(axis=0)) @ normal)
+        held = self.supported[off <= images.FLAT * np.ptp(self.mesh.nodes, axis=0).max()]
+        return elements.covered(self.mesh, np.union1d(nodes, held)), normal
 
 
 def choose(model, plane):

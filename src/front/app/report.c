@@ -403,7 +403,7 @@ static PetscErrorCode Say(SamReport r, const SamSimulationEvent *news)
 /* Prints the numbers with their errors, and the cost of these. */
 static PetscErrorCode PrintErrors(SamReport r, const SamErrorTable *t)
 {
-  const double total  = MPI_Wtime() - r->start;
+  const double total             = MPI_Wtime() - r->start;
   PetscBool    shown[SAM_CAUSES] = {PETSC_TRUE, PETSC_TRUE};
 
   PetscFunctionBegin;
@@ -451,10 +451,10 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
   if (!reached)
     (void)snprintf(wanted, sizeof(wanted), "-accuracy %.3g %% is not reached: ", 100 * (double)r->accuracy->error);
   if (!reached) {
-    const char *const given = worst->cause == SAM_CAUSE_STEPS ? "the steps are given" : "the layers are given";
-    const char *const cure  = worst->cause == SAM_CAUSE_CELLS ? "a smaller -accuracy chooses finer cells" : given;
+    static const char *const cure[SAM_CAUSES] = {"a smaller -accuracy chooses finer cells", "the steps are given",
+                                                 "the layers are given", "the compliance is given"};
 
-    (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit ? r->accuracy->limit : cure);
+    (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit ? r->accuracy->limit : cure[worst->cause]);
   }
   (void)snprintf(text, sizeof(text), "%sthe maximum error is %s, of %s, by the %s%s", wanted,
                  SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause], limit);
