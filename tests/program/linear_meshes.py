@@ -33,7 +33,7 @@ BODIES = {  # kind; planes in x, (y,) z; a point with the coordinates of the hel
     "cube, tetrahedra": ("C3D4", CUBE, LOW, 0.8, 0.3),
     "cube, wedges": ("C3D6", CUBE, LOW, 1.0, 0.3),
     "column": ("C3D8", (even(-0.5, 0.5, 2), even(-1, 1, 4), even(0, 3, 6)), (None, None, 3), 0.2, 0.3),
-    "column, tetrahedra": ("C3D4", (even(-0.5, 0.5, 4), even(-1, 1, 6), even(0, 2, 6)), LOW, 0.4, 0.3),
+    "column, tetrahedra": ("C3D4", (even(-0.5, 0.5, 4), even(-1, 1, 8), even(0, 2, 8)), LOW, 0.4, 0.3),
     "plate": ("C3D8", (even(-3, 3, 8), even(-2, 2, 6), even(0, 1, 2)), (-3, None, None), 1.0, 0.3),
     "plate, tetrahedra": ("C3D4", (even(-3, 3, 8), even(-2, 2, 6), even(0, 1, 2)), (-3, None, None), 1.0, 0.3),
     "layer": ("C3D8", (even(-2, 2, 8), even(-2, 2, 8), even(0, 1, 2)), (None, None, 1), 1.0, 0.3),
@@ -108,7 +108,7 @@ def lap(folder, name, times=0, **more):
     import laps
 
     path = Path(folder) / "lap.inp"
-    laps.Lap.made(4e-3 / 2**times, 3 * 2**times).write(path)
+    laps.Lap.made(2e-3 / 2**times, 3 * 2**times).write(path)
     path.write_text("\n".join(linear(path.read_text().splitlines())) + "\n")
     frame = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
     given = dict(pair="CONTACT1", units="mm", frame=frame, supports="CLAMP", degree=(8, 0), **more)

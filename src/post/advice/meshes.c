@@ -1,9 +1,10 @@
 /*
   Errors of numbers by the finite elements of bodies' compliances: their displacements miss a known part of what the body
   is displaced beyond the half-space (compliance.c). Where the displacement is given, the load misses as much times the
-  tangent stiffness, which is 1.5 times the mean one at most, as Hertz's is; area and peak pressure grow less than the
-  load, and the energy of slip as the third power of the shear force at most. Half of the load's work by that part of the
-  displacement is stored, of at least 2/5 of the load times the displacement, as Hertz's.
+  tangent stiffness, which is 1.5 times the mean one of Hertz's contact, and twice that of a thin layer on a rigid base;
+  area and peak pressure grow less than the load, and the energy of slip as the third power of the shear force at most.
+  Half of the load's work by that part of the displacement is stored, of at least a third of the load times the
+  displacement, as that of such a layer.
 */
 #include "adviceimpl.h"
 #include <petsam/private/compliance.h>
@@ -12,9 +13,9 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define TANGENT 1.5  /* tangent stiffness of a sphere on a half-space by its mean one */
-#define ENERGY  3    /* power of the shear force that the energy of partial slip grows with */
-#define STORED  1.25 /* relative to the error of the displacement by N */
+#define TANGENT 2   /* tangent stiffness by the mean one, at most */
+#define ENERGY  3   /* power of the shear force that the energy of partial slip grows with */
+#define STORED  1.5 /* error of the stored energy by that of the displacement, at most */
 
 void SamAdviceMeshes(SamAdvice *a)
 {
