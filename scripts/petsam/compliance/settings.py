@@ -81,7 +81,7 @@ class Settings:
     stress : bool
         Whether there are any stress points.
     coarse : path or meshio.Mesh, optional
-        A coarser mesh, to estimate the error of the mesh.
+        A coarser mesh, which tells how much it changes the compliance.
     materials : tuple or None
         (young, poisson, density) of a mesh that has none (foreign.py).
     ccx : str

@@ -99,6 +99,6 @@ def read(group: Any) -> Errors:
     texts = {name: [decoded(value) for value in group[name][:]] for name in ("name", "unit", "cause")}
     none = [0.0] * len(texts["name"])  # of causes that files of earlier versions do not have
     numbers = {name: group[name][:].tolist() if name in group else none for name in NUMBERS}
-    columns = {**texts, **numbers}
+    columns: dict[str, list] = {**texts, **numbers}
     names = columns.pop("name")
     return Errors((name, NumberError(**{key: of[k] for key, of in columns.items()})) for k, name in enumerate(names))
