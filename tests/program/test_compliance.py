@@ -870,3 +870,14 @@ def test_the_error_of_the_mesh_is_that_of_another_compliance(given, petsam, laye
         (one, told), (other, _) = found[0][name], found[1][name]
         true = abs(other / one - 1.0)
         assert 0.9 * true < told < 4.0 * true, name
+
+
+def test_a_displacement_that_is_0_by_symmetry_has_no_error_of_the_mesh(petsam, layer, tmp_path):
+    file = layer(1, 6)
+    with h5py.File(file, "a") as f:
+        f["mesh_error"] = 0.5
+    shear = dict(friction=0.3, load_n=0.004, load_tx=6e-4, steps=2)
+    words = {**SPHERE, **bodies(2), **shear, "body2_compliance": file}
+    said = petsam(words, "-errors", "companion", "-output", tmp_path / "f.h5").stderr
+    (line,) = [one for one in said.splitlines() if "error by the mesh: " in one]
+    assert "disp_z " in line and "disp_x " in line and "disp_y" not in line

@@ -28,6 +28,8 @@
 #include <petscdt.h>
 #include <string.h>
 
+#define SLIGHT 1e-3 /* load relative to the largest one, below which it is next to nothing */
+
 enum { TOGETHER = 4, FACTORS = SAM_COMPLIANCE_DEGREE + TOGETHER };
 
 static const double turned[2][3] = {{1, -1, -1}, {1, 1, 1}};
@@ -381,26 +383,38 @@ static PetscErrorCode DeclareLoads(SamElasticity e, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns c_k'D c_l, the work of a body's tractions in direction k by the displacements of those in direction l. */
+static double WorkOf(SamCompliance of, const Coefficients c, PetscInt k, PetscInt l)
+{
+  double work = 0;
+
+  for (PetscInt m = 0; m < of->modes; m++) {
+    const double *row = SamComplianceRow(of, k, m) + l * of->modes;
+
+    for (PetscInt n = 0; n < of->modes; n++) work += c[k][m] * row[n] * c[l][n];
+  }
+  return work;
+}
+
 /*
-  Adds the errors of the displacements by the mesh of a body, with the sums c of its tractions: the part error of c'D c/F
-  for each direction, by which its load F displaces the body beyond the half-space.
+  Adds the errors of the displacements by the mesh of a body, with the sums c of its tractions: the part error of what
+  they displace it by beyond the half-space, c_k'D c/F_k for direction k with the load F_k, unless that is next to
+  nothing.
 */
 static void AddErrors(SamCompliance of, const Coefficients c, SamState state)
 {
-  const double side = sqrt(4 * of->half[0] * of->half[1]);
+  double load[3] = {0}, most = 0;
 
+  for (PetscInt m = 0; m < of->modes; m++)
+    for (int k = 0; k < 3 && !of->power[m][0] && !of->power[m][1]; k++)
+      load[k] = fabs(c[k][m]) * sqrt(4 * of->half[0] * of->half[1]);
+  for (int k = 0; k < 3; k++) most = PetscMax(most, load[k]);
   for (PetscInt k = 0; k < 3; k++) {
-    double work = 0, load = 0;
+    double work = 0;
 
-    for (PetscInt m = 0; m < of->modes; m++) {
-      const double *row = SamComplianceRow(of, k, m) + k * of->modes;
-
-      if (!of->power[m][0] && !of->power[m][1]) load = fabs(c[k][m]) * side;
-      for (PetscInt n = 0; n < of->modes; n++) work += c[k][m] * row[n] * c[k][n];
-    }
-    if (load > 0)
-      *SamStateNumbers(state, SamStateFindNumber(state, SamComplianceMesh[k]), SAM_TRIED) +=
-        of->error * fabs(work) / load;
+    if (!(load[k] > SLIGHT * most)) continue;
+    for (PetscInt l = 0; l < 3; l++) work += fabs(WorkOf(of, c, k, l));
+    *SamStateNumbers(state, SamStateFindNumber(state, SamComplianceMesh[k]), SAM_TRIED) += of->error * work / load[k];
   }
 }
 
