@@ -848,3 +848,36 @@ def test_degrees_may_differ_along_the_axes(solve, tmp_path):
     with h5py.File(r.path) as f:
         load = f["history/body2_case_wave_load"][-1]
     assert load == pytest.approx(np.sum(r.pressure * wave) * side**2, rel=1e-5)
+
+
+@pytest.mark.parametrize("given", ["load_n", "disp_z"])
+def test_the_error_of_the_mesh_is_that_of_another_compliance(given, petsam, layer, tmp_path):
+    """As a run with the compliance that has this error; a cause of its own, with a warning above 5 %."""
+    part, found = 0.1, []
+    value = {"load_n": 0.004, "disp_z": 0.003}[given]
+    for factor in (1.0, 1.0 + part):
+        file = layer(1, 6, factor)
+        with h5py.File(file, "a") as f:
+            f["mesh_error"] = part
+        words = {**SPHERE, **bodies(2), "load_n": None, given: value, "body2_compliance": file}
+        run = petsam(words, "-errors", "companion", "-output", tmp_path / "f.h5")
+        with h5py.File(tmp_path / "f.h5") as f:
+            rows = {name.decode(): k for k, name in enumerate(f["errors/name"][:])}
+            found.append({name: (f["errors/value"][k], f["errors/by_mesh"][k]) for name, k in rows.items()})
+    assert "by mesh" in run.stdout and "warning: error by the mesh: " in run.stderr
+    sought = ["disp_z"] if given == "load_n" else ["load_n", "contact_area", "pressure_max"]
+    for name in [*sought, "stored_energy"]:
+        (one, told), (other, _) = found[0][name], found[1][name]
+        true = abs(other / one - 1.0)
+        assert 0.9 * true < told < 4.0 * true, name
+
+
+def test_a_displacement_that_is_0_by_symmetry_has_no_error_of_the_mesh(petsam, layer, tmp_path):
+    file = layer(1, 6)
+    with h5py.File(file, "a") as f:
+        f["mesh_error"] = 0.5
+    shear = dict(friction=0.3, load_n=0.004, load_tx=6e-4, steps=2)
+    words = {**SPHERE, **bodies(2), **shear, "body2_compliance": file}
+    said = petsam(words, "-errors", "companion", "-output", tmp_path / "f.h5").stderr
+    (line,) = [one for one in said.splitlines() if "error by the mesh: " in one]
+    assert "disp_z " in line and "disp_x " in line and "disp_y" not in line

@@ -206,10 +206,10 @@ def test_the_command_reads_physical_groups_of_gmsh(compliance, tmp_path):  # noq
 def test_elements_that_no_deck_has_are_named():
     meshio = pytest.importorskip("meshio", reason="meshio is not installed")
     given = meshio.Mesh(np.zeros((5, 3)), [("pyramid", np.arange(5)[None])])
-    with pytest.raises(petsam.Error, match="elements of type pyramid are not supported: use tetra, tetra10"):
+    with pytest.raises(petsam.Error, match="elements of type pyramid are not supported: use hexahedron20, tetra10"):
         petsam.compliance.of_mesh(given, 1.0, *STEEL, contact="a", supports="b")
     flat = meshio.Mesh(np.zeros((3, 3)), [("line", np.arange(2)[None])])
-    with pytest.raises(petsam.Error, match="has no solid elements: use tetra, .*, or triangle, .* for a section"):
+    with pytest.raises(petsam.Error, match="has no solid elements: use hexahedron20, .*, or quad8, .* for a section"):
         petsam.compliance.of_mesh(flat, 1.0, *STEEL, contact="a", supports="b")
     skin = meshio.Mesh(np.vstack([np.zeros(3), np.eye(3)]), [("triangle", np.array([[0, 1, 2], [0, 1, 3]]))])
     with pytest.raises(petsam.Error, match="the nodes of a section are in no plane of two axes"):

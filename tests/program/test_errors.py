@@ -47,7 +47,8 @@ def test_python_reads_errors_as_a_table(petsam, tmp_path, loop):
     assert list(found) == list(expected) and not package.open("none.h5").errors
     for name, row in found.items():
         assert row.unit == expected[name]["unit"].decode() and row.cause == expected[name]["cause"].decode()
-        for column in ("value", "error", "by_cells", "by_steps", "by_layers", "factor", "half", "quarter", "other"):
+        causes = ("by_cells", "by_steps", "by_layers", "by_mesh")
+        for column in ("value", "error", *causes, "factor", "half", "quarter", "other"):
             np.testing.assert_equal(getattr(row, column), expected[name][column])
     assert re.fullmatch(r"\S+ J \+-\S+ %", str(found["dissipated_energy"]))
     found.to_csv("errors.csv")

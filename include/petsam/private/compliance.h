@@ -30,6 +30,7 @@ struct _n_SamCompliance {
   double   young, poisson;     /* constants of the half-space, Pa, 1 */
   double   young1, poisson1;   /* those of body 1 if the compliance is that of a pair; else NaN */
   double   center[2], half[2]; /* centre and half widths of the patch, m */
+  double   error;              /* of the matrix by the mesh of the body, relative to it; 0: it is not known */
   double   datum;              /* of a section in plane strain: its half-plane's, m; 0: in three dimensions */
   PetscInt modes, degree, power[SAM_COMPLIANCE_MODES][2];
   PetscInt cases;
@@ -46,6 +47,9 @@ struct _n_SamCompliance {
   SamComplianceMoveDatum - makes the matrix that of a half-plane with another datum. Not collective.
 */
 PETSC_INTERN void SamComplianceMoveDatum(SamCompliance compliance, double datum);
+/* SamComplianceMesh - the numbers of a step that have the errors of the displacements in x, y and z by the meshes of the
+   bodies, m; only a contact with such bodies has them. */
+PETSC_INTERN const char *const SamComplianceMesh[3];
 /* SamComplianceOptions - the options of both bodies, without dash. */
 PETSC_INTERN const char *const SamComplianceOptions[2];
 /*

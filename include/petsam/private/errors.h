@@ -4,9 +4,9 @@
 
 #include <petsam/private/baseimpl.h>
 
-/* SamCause - what causes an error: the width of the cells, the length of the load steps, or the thickness of the layers
-   of a body that yields. */
-typedef enum { SAM_CAUSE_CELLS, SAM_CAUSE_STEPS, SAM_CAUSE_LAYERS, SAM_CAUSES } SamCause;
+/* SamCause - what causes an error: the width of the cells, the length of the load steps, the thickness of the layers of
+   a body that yields, or the finite elements of a body's compliance. */
+typedef enum { SAM_CAUSE_CELLS, SAM_CAUSE_STEPS, SAM_CAUSE_LAYERS, SAM_CAUSE_MESH, SAM_CAUSES } SamCause;
 PETSC_EXTERN const char *const SamCauseNames[SAM_CAUSES];
 
 /* SamDoubt - an error of a number by a cause. */

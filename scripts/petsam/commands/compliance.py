@@ -6,12 +6,14 @@
     petsam-compliance --mesh lap.inp --units mm --contact LOWER --pair UPPER --fixed CLAMP --patch 36mm,20mm \\
         --degree 12,6 --bolt B1=TOP_WASHER,BOTTOM_WASHER:8mm --modes 12 --sensor TIP=1234 -o lap.h5
 
-Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials.
-The stiffness is assembled here, that of C3D8I by CalculiX. The contact is on the patch, a rectangle about --center in
-the plane z = 0 of the frame, whose z points into the body; it lies on the surface --contact. The body is held at the
-nodes of --fixed; the nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. The
-frame of the contact is that of body 2: x, y and z are right-handed, with z into body 2 and y = z x x. A load case is a
-step of the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside it.
+Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials. The
+stiffness is assembled here, that of C3D8I by CalculiX. Linear elements (C3D8, C3D4, CPE4 and others) make a body too
+stiff: they become quadratic ones on straight edges. The error by the mesh is estimated and stored. The contact is on
+the patch, a rectangle about --center in the plane z = 0 of the frame, whose z points into the body; it lies on the
+surface --contact. The body is held at the nodes of --fixed; the nodes of --symmetry do not leave their plane: of half
+of a body whose halves are loaded alike. The frame of the contact is that of body 2: x, y and z are right-handed, with z
+into body 2 and y = z x x. A load case is a step of the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without
+contact. Writes HDF5 and a picture beside it.
 
 Instead of a deck a file that the library meshio reads (of Gmsh, Abaqus, Nastran, Salome and others), with --young and
 --poisson or --material, and sets by their names, physical groups of Gmsh, too. Instead of a set or a surface a box
@@ -227,7 +229,10 @@ def parser():
         choices=("own", "calculix"),
         help="what assembles it: petsam, or CalculiX (own; elements C3D8I: calculix)",
     )
-    method.add_argument("--coarse-mesh", metavar="NAME", help="a coarser one, to estimate the error of the mesh")
+    method.add_argument(
+        "--keep-elements", action="store_true", help="keep linear elements, which make a body too stiff (raised)"
+    )
+    method.add_argument("--coarse-mesh", metavar="NAME", help="a coarser one: how much it changes the compliance")
     method.add_argument(
         "--depth", type=word(length), metavar="Z", help="of the stress points (the patch's smaller width)"
     )
@@ -276,6 +281,7 @@ def settings(options):
         degree=options.degree,
         method=options.method,
         stiffness=options.stiffness,
+        keep_elements=options.keep_elements,
         depth=options.depth,
         stress=options.stress,
         coarse=options.coarse_mesh,
@@ -311,6 +317,8 @@ def description(found):
         f"half-space  E = {body.young:.6g} Pa, nu = {body.poisson:.6g}",
         *(["body 1      E = {:.6g} Pa, nu = {:.6g}".format(*body.other)] if body.other else []),
     ]
+    if body.mesh.told:
+        lines.insert(0, f"elements    {body.mesh.told}")
     for one in found.bodies:
         lines += _patch(one)
     if len(found.bodies) > 1:
@@ -341,6 +349,8 @@ def _patch(body):
     if "degree_change" in body.checks:
         lower = basis.written(basis.reduced(body.patch.degree, 2))
         lines.append(f"            degree {lower} changes the correction by {body.checks['degree_change']:.1e}")
+    if body.mesh_error is not None:
+        lines.append(f"            the mesh makes an error of about {body.mesh_error:.1e} of the compliance")
     if "mesh_change" in body.checks:
         lines.append(f"            the coarser mesh changes the compliance by {body.checks['mesh_change']:.1e}")
     lines += [

@@ -11,6 +11,8 @@ basis         polynomials on the patch
 halfspace     fields of these as tractions on a half-space; halfplane: of a section's
 shapes        elements of CalculiX
 mesh          boundary, Gauss points, places of points
+elements      linear elements raised to quadratic ones
+mesherror     error by the mesh
 deck          reading of CalculiX decks
 foreign       meshes of meshio
 boxes         sets by coordinates

@@ -35,7 +35,8 @@ def of_deck(
         Called with a text on what is being computed, and how far: print, for example.
     **more
         The other fields of settings.Settings: units="mm", frame=((0, 0, 0), (1, 0, 0)), centers=[(0, 0)], degree=6,
-        symmetry=set, cases={name: step}, coarse=deck, method="auto", stiffness="own", depth=m, stress=True; of a pair
+        symmetry=set, cases={name: step}, coarse=deck, method="auto", stiffness="own", keep_elements=False, depth=m,
+        stress=True; of a pair
         pair=surface, bolts={name: (surface 1, surface 2, diameter in m, modulus in Pa)}, modes=12,
         sensors={name: node}, free=True.
 

@@ -13,6 +13,7 @@ import numpy as np
 from ..core.errors import Error, short, there_are
 from .cards import folded, number_of, trimmed
 from .checks import deviation
+from .elements import new_edges
 from .images import FLAT
 from .keywords import CURES, WITHOUT, need_parameters, need_supported
 from .remainder import scatter
@@ -103,6 +104,16 @@ class Loads:
             for direction in (one for one in TYPES[kind] if one <= 3):
                 self.along[nodes, direction - 1] = True
 
+    def follow_edges(self):
+        """Lets the new middle nodes of raised elements move linearly between two ends that *BOUNDARY names."""
+        ends, middles = new_edges(self.mesh)
+        prescribed, moved = self.prescribed.reshape(-1, 3), self.moved.reshape(-1, 3)
+        both = np.all(prescribed[ends, 0], axis=1)
+        ends, middles = ends[both], middles[both]
+        prescribed[middles] = True
+        moved[middles] = moved[ends].mean(axis=1)
+        self.along[middles] = np.all(self.along[ends], axis=1)
+
     def _range(self, card, line):
         """First and last direction; rotations may be held, as solid elements have none."""
         first = number_of(card, line[1], int, line)
@@ -144,6 +155,7 @@ def _take(found, cards):
                 getattr(found, card.name.lower())(card, trimmed(line))
             except IndexError:
                 raise Error(f"{line.place}: a line of *{card.name} has too few values: complete it") from None
+    found.follow_edges()
 
 
 def need_supports(deck, mesh, frame, units, fixed, symmetric):

@@ -25,10 +25,10 @@ ENDINGS = (
     ".vtu", ".xdmf", ".xml",
 )  # fmt: skip
 SOLIDS = {
-    "tetra": "C3D4", "tetra10": "C3D10", "wedge": "C3D6", "wedge15": "C3D15", "hexahedron": "C3D8",
-    "hexahedron20": "C3D20",
+    "hexahedron20": "C3D20", "tetra10": "C3D10", "wedge15": "C3D15", "hexahedron": "C3D8", "tetra": "C3D4",
+    "wedge": "C3D6",
 }  # fmt: skip
-PLANE = {"triangle": "CPE3", "quad": "CPE4", "triangle6": "CPE6", "quad8": "CPE8"}  # of meshes without solids
+PLANE = {"quad8": "CPE8", "triangle6": "CPE6", "quad": "CPE4", "triangle": "CPE3"}  # of meshes without solids
 CORNERS = {"line": 2, "line3": 2, "triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}  # of faces
 FLAT = ("vertex", *CORNERS)  # cells that only name nodes and faces
 TAGS = ("gmsh:physical", "medit:ref")  # numbers of groups, as data of the cells

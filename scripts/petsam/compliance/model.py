@@ -2,13 +2,28 @@
 
 import hashlib
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..core.errors import Error, short
 from ..core.progress import Progress, quiet
-from . import bolts, boxes, checks, cutoff, deck, foreign, images, modes, parts, section, several, stresses
+from . import (
+    bolts,
+    boxes,
+    checks,
+    cutoff,
+    deck,
+    elements,
+    foreign,
+    images,
+    mesherror,
+    modes,
+    parts,
+    section,
+    several,
+    stresses,
+)  # fmt: skip
 from . import cases as load_cases
 from .basis import Patch
 from .cards import folded
@@ -47,6 +62,7 @@ class Body:
     other: tuple = None  # moduli of body 1 of a pair
     modes: object = None
     definite: object = None
+    mesh_error: float = None  # relative, of the compliance
     datum: float | None = None  # m, of a section
 
     @property
@@ -87,13 +103,16 @@ def opened(source, settings):
 class Model:
     """The mesh in the frame's coordinates, in SI units, with its supports and its contact surface."""
 
-    def __init__(self, source, settings):
-        """source: the name of a deck or of a file that meshio reads, or a meshio.Mesh."""
+    def __init__(self, source, settings, quadratic=False):
+        """source: the name of a deck or of a file that meshio reads, or a meshio.Mesh; quadratic: with no linear
+        elements, whatever the settings say."""
         units = UNITS[settings.units]
         self.settings, self.units = settings, units
         self.path, self.checksum, self.deck = opened(source, settings)
         path = self.path
-        mesh = self.deck.mesh
+        kept = settings.keep_elements and not quadratic
+        mesh = self.deck.mesh if kept else elements.raised(self.deck.mesh, quadratic)
+        self.told = elements.told(self.deck.mesh, mesh)
         if mesh.normal is not None:
             section.need_settings(settings, path)
         mesh.nodes = mesh.nodes * units.length
@@ -102,7 +121,7 @@ class Model:
             block.density *= units.density
         deck.need_set(mesh.surfaces, settings.contact, "surface", path)
         held = [deck.need_set(mesh.node_sets, name, "node set", path) for name in settings.supports]
-        self.supported = np.unique(np.concatenate([np.zeros(0, dtype=int), *held]))
+        self.supported = elements.covered(mesh, np.concatenate([np.zeros(0, dtype=int), *held]))
         symmetric = [deck.need_set(mesh.node_sets, name, "node set", path) for name in settings.symmetry]
         for name, nodes in zip(settings.symmetry, symmetric):
             if not np.setdiff1d(nodes, self.supported).size:
@@ -116,9 +135,9 @@ class Model:
         origin, x, z = (list(settings.frame) + [None, None])[:3]
         self.frame = frame_of(np.array(origin) * units.length, x, z, outward, mesh.normal)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
-        planes = np.concatenate([np.zeros(0, dtype=int), *symmetric])
+        self.planes = [self._plane(name, nodes) for name, nodes in zip(settings.symmetry, symmetric)]
+        planes = np.concatenate([np.zeros(0, dtype=int), *(nodes for nodes, _ in self.planes)])
         self.doubts = load_cases.need_supports(self.deck, self.mesh, self.frame, units, self.supported, planes)
-        self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(settings.symmetry, symmetric)]
         self.patches = [self._patch(center) for center in settings.centers]
         several.need_apart(self.patches)
         self.patch = self.patches[0]
@@ -202,15 +221,17 @@ class Model:
             checks.need_inside(part.mesh, patch, part.contact)
         return all(plane)
 
-    def _normal(self, name, nodes):
-        """Normal of a plane of symmetry in the frame's coordinates."""
+    def _plane(self, name, nodes):
+        """Nodes of a plane of symmetry, and its normal in the frame's coordinates."""
         x = self.mesh.nodes[nodes]
         if self.mesh.normal is not None:  # a line of nodes is a plane along y
             x = np.concatenate([x, x + np.ptp(x) * self.mesh.normal])
         normal = plane_normal(x)
         if normal is None:
             raise Error(f"{self.path}: node set {name} of --symmetry is not a plane: name the nodes of one plane")
-        return normal
+        off = np.abs((self.mesh.nodes[self.supported] - self.mesh.nodes[nodes].mean(axis=0)) @ normal)
+        held = self.supported[off <= images.FLAT * np.ptp(self.mesh.nodes, axis=0).max()]
+        return elements.covered(self.mesh, np.union1d(nodes, held)), normal
 
 
 def choose(model, plane):
@@ -340,6 +361,9 @@ def computed(source, settings, command="", say=quiet, every=0.0):
     bodies = _bodies(model, found, method, command)
     bodies[0].remarks = remarks
     _add_cases(bodies, model, loads, (solver, found), progress)
+    missing = _missing(source, model, (solver, found), (method, plane), progress)
+    for body, own in zip(bodies, _own(model.patches)):
+        body.mesh_error = mesherror.relative(body.patch, missing[own, own], body.compliance)
     if settings.stress and len(model.patches) == 1:
         progress.begin("stresses")
         bodies[0].stress = _stress(model, found, bodies[0].cases)
@@ -350,12 +374,28 @@ def computed(source, settings, command="", say=quiet, every=0.0):
     return several.joined(bodies, checks.symmetric(found.compliance)) if len(bodies) > 1 else Compliance(bodies)
 
 
+def _missing(source, model, solution, how, progress):
+    """An estimate of what the compliance lacks by the mesh; the solution is a solver and what it has found, `how` the
+    method and whether the surfaces are plane."""
+    (solver, found), difference = solution, 0.0
+    if not elements.quadratic(model.mesh):
+        model, kept = Model(source, replace(model.settings, stiffness=None), quadratic=True), found.compliance
+        found, solver, _ = remainder(model, *how, progress)
+        difference = found.compliance - kept
+    progress.begin("the error by the mesh")
+    return mesherror.missed(model.mesh, solver, found.displacement) + difference
+
+
+def _own(patches):
+    """Slices of the rows of the compliance of each patch."""
+    ends = np.cumsum([0, *(3 * patch.count for patch in patches)])
+    return [slice(*pair) for pair in zip(ends[:-1], ends[1:])]
+
+
 def _bodies(model, found, method, command):
     """A Body for each patch, examined, with its own part of the compliance."""
-    bodies, first = [], 0
-    fields = found.fields
-    for patch in model.patches:
-        own = slice(first, first := first + 3 * patch.count)
+    bodies, fields = [], found.fields
+    for patch, own in zip(model.patches, _own(model.patches)):
         body = Body(
             fields.young,
             fields.poisson,

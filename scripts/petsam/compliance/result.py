@@ -113,10 +113,12 @@ def _patches(found):
         ]
     columns.append(Column("functions", "1", "polynomials", [float(one.patch.count) for one in bodies]))
     names = dict.fromkeys(name for one in bodies for name in one.checks)
-    return columns + [
+    columns += [
         Column(name, "1", name.replace("_", " "), [float(one.checks.get(name, np.nan)) for one in bodies])
         for name in names
     ]
+    text = "estimated error of the compliance by the mesh, relative to it"
+    return [*columns, Column("mesh_error", "1", text, [float(one.mesh_error) for one in bodies])]
 
 
 def _cases(found):

@@ -74,12 +74,14 @@ class Settings:
         "auto", "image" or "cutoff".
     stiffness : str or None
         "own", "calculix" or None (own, for elements that petsam assembles).
+    keep_elements : bool
+        Whether linear elements stay linear, instead of becoming quadratic ones.
     depth : float or None
         Depth of the stress points, m; None: twice the smaller half width.
     stress : bool
         Whether there are any stress points.
     coarse : path or meshio.Mesh, optional
-        A coarser mesh, to estimate the error of the mesh.
+        A coarser mesh, which tells how much it changes the compliance.
     materials : tuple or None
         (young, poisson, density) of a mesh that has none (foreign.py).
     ccx : str
@@ -102,6 +104,7 @@ class Settings:
     degree: int | tuple = 6
     method: str = "auto"
     stiffness: str | None = None
+    keep_elements: bool = False
     depth: float | None = None
     stress: bool = True
     coarse: object = None

@@ -130,6 +130,16 @@ class Shape:
         """True for an element of a section."""
         return self.family.nodes.shape[1] == 2
 
+    @property
+    def edges(self):
+        """Ends (n, 2) of the edges by local nodes, in the order of their middle nodes; none of a linear element."""
+        place, pairs = self.family.nodes, list(itertools.combinations(range(self.corners), 2))
+        found = [
+            next(pair for pair in pairs if np.allclose(place[list(pair)].mean(axis=0), middle))
+            for middle in place[self.corners :]
+        ]
+        return np.array(found, dtype=int).reshape(-1, 2)
+
     def face_family(self, face):
         """Shape functions of a face by its number from 0."""
         count = len(self.faces[face])
@@ -172,12 +182,12 @@ _TET4, _TET10 = Family(_TET, _total(3, 1)), Family(_middles(_TET, _TET_EDGES), _
 _WEDGE6, _WEDGE15 = Family(_WEDGE, _WEDGE_LINEAR), Family(_middles(_WEDGE, _WEDGE_EDGES), _WEDGE_SQUARE)
 
 SHAPES = {
-    "C3D8": Shape(_HEX8, 8, _faces(_HEX_FACES, []), _cube, 2, _HEX8),
     "C3D20": Shape(_HEX20, 8, _faces(_HEX_FACES, _HEX_EDGES), _cube, 3, _HEX8),
-    "C3D4": Shape(_TET4, 4, _faces(_TET_FACES, []), _tetrahedron, 2, _TET4),
     "C3D10": Shape(_TET10, 4, _faces(_TET_FACES, _TET_EDGES), _tetrahedron, 3, _TET4),
-    "C3D6": Shape(_WEDGE6, 6, _faces(_WEDGE_FACES, []), wedge_rule, 2, _WEDGE6),
     "C3D15": Shape(_WEDGE15, 6, _faces(_WEDGE_FACES, _WEDGE_EDGES), wedge_rule, 3, _WEDGE6),
+    "C3D8": Shape(_HEX8, 8, _faces(_HEX_FACES, []), _cube, 2, _HEX8),
+    "C3D4": Shape(_TET4, 4, _faces(_TET_FACES, []), _tetrahedron, 2, _TET4),
+    "C3D6": Shape(_WEDGE6, 6, _faces(_WEDGE_FACES, []), wedge_rule, 2, _WEDGE6),
 }
 
 
@@ -187,15 +197,16 @@ def _edges(ring, middle):
 
 
 SECTIONS = {
-    "CPE3": Shape(TRIANGLE3, 3, _edges(_RING3, False), simplex_rule, 1, TRIANGLE3),
-    "CPE4": Shape(QUAD4, 4, _edges(_RING4, False), square_rule, 2, QUAD4),
-    "CPE6": Shape(TRIANGLE6, 3, _edges(_RING3, True), simplex_rule, 3, TRIANGLE3),
     "CPE8": Shape(QUAD8, 4, _edges(_RING4, True), square_rule, 3, QUAD4),
+    "CPE6": Shape(TRIANGLE6, 3, _edges(_RING3, True), simplex_rule, 3, TRIANGLE3),
+    "CPE4": Shape(QUAD4, 4, _edges(_RING4, False), square_rule, 2, QUAD4),
+    "CPE3": Shape(TRIANGLE3, 3, _edges(_RING3, False), simplex_rule, 1, TRIANGLE3),
 }
 SHAPES.update(SECTIONS)
-KINDS = {
-    **{name: name for name in SHAPES},
-    "C3D8I": "C3D8",
-    "C3D20R": "C3D20",
-    "CPE8R": "CPE8",
-}  # element types of CalculiX and the shapes they have
+LIKE = {"C3D20R": "C3D20", "C3D8I": "C3D8", "CPE8R": "CPE8"}  # of other integration, or with more modes
+KINDS = {  # element types of CalculiX and the shapes they have: the ones to use first
+    name: LIKE.get(name, name)
+    for name in (
+        "C3D20", "C3D20R", "C3D10", "C3D15", "C3D8I", "C3D8", "C3D4", "C3D6", "CPE8", "CPE8R", "CPE6", "CPE4", "CPE3"
+    )
+}  # fmt: skip

@@ -115,6 +115,11 @@ class Solver:
         """Values of the free unknowns by forces on them."""
         return self.factor.solve(force)
 
+    def freed(self, among):
+        """Displacements (3 n) by the unknowns, as columns, that may move without all of the body moving rigidly; among:
+        mask of the unknowns that may be held against that where nothing else is."""
+        return self.moves.tocsc()
+
     def balanced(self, force):
         """The forces (3 n, columns) that deform the body."""
         return force
@@ -150,12 +155,20 @@ class Floating(Solver):
         fixed = np.zeros(len(motions), dtype=bool)
         fixed[isostatic(motions) if hold is None else hold] = True
         super().__init__(matrix, nodes, fixed)
-        self.isostatic = self.moves
+        self.isostatic, self.motions = self.moves, motions
         self.moves = sparse.identity(len(motions), format="csr")
         self.fixed, self.held = np.zeros_like(fixed), np.zeros(0, dtype=int)
         gram = motions.T @ (mass @ motions)
         self.rigid = linalg.solve_triangular(np.linalg.cholesky(gram), motions.T, lower=True).T
         self.inertia = mass @ self.rigid
+
+    def freed(self, among):
+        """All but as many unknowns as hold the bodies, in the order of the factorization."""
+        kept = np.ones(len(among), dtype=bool)
+        kept[np.flatnonzero(among)[isostatic(self.motions[among])]] = False
+        order = self.isostatic.tocsc().indices
+        order = np.concatenate([order, np.setdiff1d(np.arange(len(among)), order)])
+        return sparse.identity(len(among), format="csc")[:, order[kept[order]]]
 
     def balanced(self, force):
         """A f: with the inertia of the rigid motions, in equilibrium."""

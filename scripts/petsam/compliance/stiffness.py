@@ -18,7 +18,7 @@ from ..core import environment
 from ..core.errors import Error, Missing, one_line
 
 OWN = (  # element types that are assembled here
-    "C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20", "C3D20R", "CPE3", "CPE4", "CPE6", "CPE8", "CPE8R",
+    "C3D20", "C3D20R", "C3D10", "C3D15", "C3D8", "C3D4", "C3D6", "CPE8", "CPE8R", "CPE6", "CPE4", "CPE3",
 )  # fmt: skip
 CCX = "ccx"
 MODES = 9  # incompatible modes of an element C3D8I

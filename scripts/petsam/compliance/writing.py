@@ -41,6 +41,7 @@ def _fill(file, found):
     if body.other:
         file.attrs.update(young1=body.other[0], poisson1=body.other[1])
     if several:
+        put("mesh_error", max(one.mesh_error for one in found.bodies), "1", "the largest one of the patches")
         _put_coupling(put, found)
     if body.bolts:
         _put_bolts(file, put, body)
@@ -66,6 +67,8 @@ def _put_patch(group, body):
         group["rigid/compliance"].attrs["components"] = rigid.COMPONENTS
     if body.stress:
         _put_stress(put, body)
+    if body.mesh_error is not None:
+        put("mesh_error", body.mesh_error, "1", "estimated error of the compliance by the mesh, relative to it")
     for name, value in body.checks.items():
         put(f"checks/{name}", value, "1", name.replace("_", " "))
 

@@ -11,6 +11,7 @@ NUMBERS = {
     "by_cells": "the part of it by the cells",
     "by_steps": "the part of it by the steps",
     "by_layers": "the part of it by the layers of bodies that yield",
+    "by_mesh": "the part of it by the finite elements of bodies' compliances",
     "factor": "factor of narrower cells, more steps or more layers for an error of 4 %",
     "half": "the number on half the cells",
     "quarter": "the number on a quarter of the cells",
@@ -30,10 +31,10 @@ class NumberError(NamedTuple):
         Its unit.
     error : float
         Error relative to the number; NaN: unknown.
-    by_cells, by_steps, by_layers : float
+    by_cells, by_steps, by_layers, by_mesh : float
         The parts of it.
     cause : str
-        The largest part: "cells", "steps" or "layers".
+        The largest part: "cells", "steps", "layers" or "mesh".
     factor : float
         How many times narrower cells, or more steps, make that part 4 %.
     half, quarter, other : float
@@ -46,6 +47,7 @@ class NumberError(NamedTuple):
     by_cells: float
     by_steps: float
     by_layers: float
+    by_mesh: float
     cause: str
     factor: float
     half: float
@@ -95,7 +97,8 @@ def read(group: Any) -> Errors:
     if group is None:
         return Errors()
     texts = {name: [decoded(value) for value in group[name][:]] for name in ("name", "unit", "cause")}
-    numbers = {name: group[name][:].tolist() for name in NUMBERS}
-    columns = {**texts, **numbers}
+    none = [0.0] * len(texts["name"])  # of causes that files of earlier versions do not have
+    numbers = {name: group[name][:].tolist() if name in group else none for name in NUMBERS}
+    columns: dict[str, list] = {**texts, **numbers}
     names = columns.pop("name")
     return Errors((name, NumberError(**{key: of[k] for key, of in columns.items()})) for k, name in enumerate(names))

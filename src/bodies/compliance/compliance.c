@@ -28,6 +28,8 @@
 #include <petscdt.h>
 #include <string.h>
 
+#define SLIGHT 1e-3 /* load relative to the largest one, below which it is next to nothing */
+
 enum { TOGETHER = 4, FACTORS = SAM_COMPLIANCE_DEGREE + TOGETHER };
 
 static const double turned[2][3] = {{1, -1, -1}, {1, 1, 1}};
@@ -334,13 +336,33 @@ static PetscErrorCode AddOffset(SamElasticity e, SamConditions conditions, SamSt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Declares the conjugate load of each case: the work of the tractions for a unit of its factor. */
+const char *const SamComplianceMesh[3] = {"disp_x_mesh", "disp_y_mesh", "disp_z_mesh"};
+
+/* True if the error of a body by its mesh is known. */
+static PetscBool HasError(SamElasticity e)
+{
+  const Bodies *data = (const Bodies *)e->data;
+
+  return (data->of[0] && data->of[0]->error > 0) || (data->of[1] && data->of[1]->error > 0) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Declares the errors by meshes, and the conjugate load of each case: the work of the tractions for a unit of its
+   factor. */
 static PetscErrorCode DeclareLoads(SamElasticity e, SamState state)
 {
   char     name[64];
   PetscInt id;
 
   PetscFunctionBegin;
+  for (int k = 0; k < 3 && HasError(e); k++) {
+    const SamStateNumber error = {.name  = SamComplianceMesh[k],
+                                  .unit  = "m",
+                                  .text  = "error of a displacement by the meshes of the bodies",
+                                  .kind  = SAM_NUMBER_REAL,
+                                  .count = 1};
+
+    PetscCall(SamStateDeclareNumber(state, &error, &id));
+  }
   for (PetscInt b = 0; b < 2; b++) {
     const SamCompliance c = ((const Bodies *)e->data)->of[b];
 
@@ -361,6 +383,41 @@ static PetscErrorCode DeclareLoads(SamElasticity e, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns c_k'D c_l, the work of a body's tractions in direction k by the displacements of those in direction l. */
+static double WorkOf(SamCompliance of, const Coefficients c, PetscInt k, PetscInt l)
+{
+  double work = 0;
+
+  for (PetscInt m = 0; m < of->modes; m++) {
+    const double *row = SamComplianceRow(of, k, m) + l * of->modes;
+
+    for (PetscInt n = 0; n < of->modes; n++) work += c[k][m] * row[n] * c[l][n];
+  }
+  return work;
+}
+
+/*
+  Adds the errors of the displacements by the mesh of a body, with the sums c of its tractions: the part error of what
+  they displace it by beyond the half-space, c_k'D c/F_k for direction k with the load F_k, unless that is next to
+  nothing.
+*/
+static void AddErrors(SamCompliance of, const Coefficients c, SamState state)
+{
+  double load[3] = {0}, most = 0;
+
+  for (PetscInt m = 0; m < of->modes; m++)
+    for (int k = 0; k < 3 && !of->power[m][0] && !of->power[m][1]; k++)
+      load[k] = fabs(c[k][m]) * sqrt(4 * of->half[0] * of->half[1]);
+  for (int k = 0; k < 3; k++) most = PetscMax(most, load[k]);
+  for (PetscInt k = 0; k < 3; k++) {
+    double work = 0;
+
+    if (!(load[k] > SLIGHT * most)) continue;
+    for (PetscInt l = 0; l < 3; l++) work += fabs(WorkOf(of, c, k, l));
+    *SamStateNumbers(state, SamStateFindNumber(state, SamComplianceMesh[k]), SAM_TRIED) += of->error * work / load[k];
+  }
+}
+
 /*
   Computes these loads, sum t.v dA over the contact: t acts on body 2, and v is the displacement of body 2 minus that of
   body 1 by the case. Both the sums of a body's tractions and its case are in the body's frame.
@@ -375,13 +432,16 @@ static PetscErrorCode SumLoads(SamElasticity e, SamState state, Vec pressure, Ve
   PetscCall(VecGetArrayRead(pressure, &t[0]));
   PetscCall(VecGetArrayRead(shear, &t[1]));
   t[2] = t[1] + e->grid->cells;
+  for (int k = 0; k < 3 && HasError(e); k++)
+    *SamStateNumbers(state, SamStateFindNumber(state, SamComplianceMesh[k]), SAM_TRIED) = 0;
   for (PetscInt b = 0; b < 2; b++) {
     const SamCompliance c = ((const Bodies *)e->data)->of[b];
     Coefficients        sums;
 
-    if (!c || !c->cases) continue;
+    if (!c || !(c->cases || c->error > 0)) continue;
     PetscCall(Collect(e, c, NORMAL, t, sums));
     PetscCall(Collect(e, c, TANGENTIAL, t + 1, sums));
+    if (c->error > 0) AddErrors(c, (const double(*)[SAM_COMPLIANCE_MODES])sums, state);
     for (PetscInt l = 0; l < c->cases; l++) {
       double load = 0;
 
@@ -595,9 +655,11 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   if (Couples(c)) e->traits.coupled = PETSC_TRUE;
   if (c->cases) {
     e->ops.conditions = AddConditions;
-    e->ops.declare    = DeclareLoads;
     e->ops.displace   = AddOffset;
-    e->ops.advance    = SumLoads;
+  }
+  if (c->cases || c->error > 0) {
+    e->ops.declare = DeclareLoads;
+    e->ops.advance = SumLoads;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -426,6 +426,21 @@ static PetscErrorCode ReadOther(SamFile f, SamCompliance c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Reads the error by the mesh; files of earlier versions have none. */
+static PetscErrorCode ReadError(SamFile f, SamCompliance c, const Choice *from)
+{
+  Shape scalar = {0, {0}, 0};
+  char  name[64];
+
+  PetscFunctionBegin;
+  (void)snprintf(name, sizeof(name), "%s/mesh_error", from->group);
+  if (H5Lexists(f->id, name, H5P_DEFAULT) <= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ReadDataset(f, name, &scalar, &c->error));
+  PetscCheck(c->error >= 0, f->comm, SAM_ERR_FILE, "-%s %s: %s is %.6g: expected 0 or more: make the file anew",
+             f->option, f->filename, name, c->error);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Look(SamFile f, const void *question, void *answer)
 {
   Reading *const reading = (Reading *)answer;
@@ -447,6 +462,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscCall(ReadOther(f, c));
   PetscCall(FindPatch(f, &reading->from));
   PetscCall(ReadBasis(f, c, &reading->from));
+  PetscCall(ReadError(f, c, &reading->from));
   PetscCheck(version != SECTION || (c->datum >= c->half[0] && isfinite(c->datum)), f->comm, SAM_ERR_FILE,
              "-%s %s: the attribute datum is %.6g: expected at least half of the patch's width, %.6g m", f->option,
              f->filename, c->datum, c->half[0]);

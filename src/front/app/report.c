@@ -403,17 +403,19 @@ static PetscErrorCode Say(SamReport r, const SamSimulationEvent *news)
 /* Prints the numbers with their errors, and the cost of these. */
 static PetscErrorCode PrintErrors(SamReport r, const SamErrorTable *t)
 {
-  const double total  = MPI_Wtime() - r->start;
-  int          causes = SAM_CAUSE_LAYERS;
+  const double total             = MPI_Wtime() - r->start;
+  PetscBool    shown[SAM_CAUSES] = {PETSC_TRUE, PETSC_TRUE};
 
   PetscFunctionBegin;
   if (r->quiet || !t->count) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < t->count; k++)
-    if (t->row[k].of[SAM_CAUSE_LAYERS] > 0) causes = SAM_CAUSES;
+    for (int c = 0; c < SAM_CAUSES; c++)
+      if (t->row[k].of[c] > 0) shown[c] = PETSC_TRUE;
   PetscCall(PetscPrintf(r->comm,
                         "\n  errors of the last numbers, by runs %s (%.0f %% of the time)\n    %-22s %14s %10s",
                         t->runs, 100 * t->seconds / total, "", "", "error"));
-  for (int c = 0; c < causes; c++) PetscCall(PetscPrintf(r->comm, "  by %-6s", SamCauseNames[c]));
+  for (int c = 0; c < SAM_CAUSES; c++)
+    if (shown[c]) PetscCall(PetscPrintf(r->comm, "  by %-6s", SamCauseNames[c]));
   for (PetscInt k = 0; k < t->count; k++) {
     const SamErrorRow *row = &t->row[k];
     char               name[SAM_ERROR_NAME + 24], part[1 + SAM_CAUSES][SAM_ERROR_TEXT];
@@ -424,7 +426,8 @@ static PetscErrorCode PrintErrors(SamReport r, const SamErrorTable *t)
     if (row->of[SAM_CAUSE_STEPS] == 0 && isnan(row->run[SAM_RUN_OTHER]))
       (void)snprintf(part[2], sizeof(part[2]), "none");
     PetscCall(PetscPrintf(r->comm, "\n    %-22s %14.6g", name, row->value));
-    for (int c = 0; c < 1 + causes; c++) PetscCall(PetscPrintf(r->comm, " %10s", part[c]));
+    for (int c = 0; c < 1 + SAM_CAUSES; c++)
+      if (!c || shown[c - 1]) PetscCall(PetscPrintf(r->comm, " %10s", part[c]));
   }
   PetscCall(PetscPrintf(r->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -448,10 +451,10 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
   if (!reached)
     (void)snprintf(wanted, sizeof(wanted), "-accuracy %.3g %% is not reached: ", 100 * (double)r->accuracy->error);
   if (!reached) {
-    const char *const given = worst->cause == SAM_CAUSE_STEPS ? "the steps are given" : "the layers are given";
-    const char *const cure  = worst->cause == SAM_CAUSE_CELLS ? "a smaller -accuracy chooses finer cells" : given;
+    static const char *const cure[SAM_CAUSES] = {"a smaller -accuracy chooses finer cells", "the steps are given",
+                                                 "the layers are given", "the compliance is given"};
 
-    (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit ? r->accuracy->limit : cure);
+    (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit ? r->accuracy->limit : cure[worst->cause]);
   }
   (void)snprintf(text, sizeof(text), "%sthe maximum error is %s, of %s, by the %s%s", wanted,
                  SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause], limit);

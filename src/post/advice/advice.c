@@ -287,7 +287,9 @@ static const struct {
                {CONTACT, Bodies},
                {CONTACT, Images},
                {CONTACT, Size},
+               {CONTACT, SamAdviceMeshes},
                {WORN, Cells},
+               {WORN, SamAdviceMeshes},
                {WORN, SamAdviceStroke}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)

@@ -111,6 +111,8 @@ PETSC_INTERN PetscErrorCode SamAdviceWornStick(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddYielding(SamAdvice *advice);
 PETSC_INTERN void           SamAdviceYielding(SamAdvice *advice);
 PETSC_INTERN PetscBool      SamAdviceCountsCells(SamAdvice *advice);
+/* SamAdviceMeshes - advises on numbers by the error of a body's compliance by its mesh (meshes.c). Collective. */
+PETSC_INTERN void SamAdviceMeshes(SamAdvice *advice);
 /*
   Advice before the first step (expected.c): YieldingSize of a contact of bodies that yield; Idle: values that act on
   nothing; Lengths in another unit than the grid's. Collective.

@@ -7,7 +7,7 @@
 #define SEVERAL 8 /* most numbers, */
 #define REASONS 3 /* and most reasons that a line names */
 
-const char *const SamCauseNames[SAM_CAUSES] = {"cells", "steps", "layers"};
+const char *const SamCauseNames[SAM_CAUSES] = {"cells", "steps", "layers", "mesh"};
 
 const char *SamErrorWrite(double error, char text[], size_t size)
 {

@@ -143,6 +143,7 @@ PetscErrorCode SamAdviceTell(SamAdvice *a)
     if (factor > 0 && cause == SAM_CAUSE_STEPS) WriteSteps(a, factor, cure);
     if (factor > 0 && cause == SAM_CAUSE_LAYERS)
       (void)snprintf(cure, sizeof(cure), ": use %.2g times as many -yield_layers", SamAdviceRoundUp(factor));
+    if (cause == SAM_CAUSE_MESH) (void)snprintf(cure, sizeof(cure), ": give petsam-compliance a finer mesh");
     SamAdviceSay(a, "", "error by the %s: %s%s", SamCauseNames[cause], numbers, cure);
   }
   PetscCall(a->error);

@@ -205,7 +205,7 @@ static PetscBool Knows(SamErrors e, SamCause cause)
 {
   const SamCompanion *half = &e->companion[SAM_RUN_HALF], *other = &e->companion[SAM_RUN_OTHER];
 
-  if (half->fault[0] || cause == SAM_CAUSE_LAYERS) return PETSC_FALSE;
+  if (half->fault[0] || cause >= SAM_CAUSE_LAYERS) return PETSC_FALSE;
   return cause == SAM_CAUSE_CELLS || (other->run && !other->fault[0]) ? PETSC_TRUE : PETSC_FALSE;
 }
 
