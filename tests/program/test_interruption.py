@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import conftest
+from petsam.results import Results
 from support import FIELDS, SPHERE, flatten
 
 # a load that goes on changing, so that every step has its own fields
@@ -318,3 +319,25 @@ def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder
             assert f["history/time"][:steps].tolist() == [k + 1.0 for k in range(steps)]
             assert all(len(column[:]) >= steps for column in f["history"].values())
     assert tried > 10
+
+
+@pytest.mark.parametrize("more", [dict(errors="companion"), dict(errors="none", gradient="energy,swt@50um")])
+def test_no_write_of_the_tables_at_the_end_harms_the_steps(deadly, folder, more):
+    """Their names are in the file before its first step, as HDF5 changes an index of names in place, piece by piece."""
+    (folder / "history.csv").write_text("\n".join((folder / "history.csv").read_text().splitlines()[:13]) + "\n")
+    options = dict(more, grid_n=10, output_flush=0)  # with a warning of so few cells
+    die(deadly, folder, options, DIE_LOG="log")
+    lines = (folder / "log").read_text().split()
+    ends = [k for k, line in enumerate(lines, 1) if line == "0"]  # the superblock is the last of each flush
+    with h5py.File(folder / "out" / "out.h5") as f:
+        assert len(f["errors/name"]) and len(f["warnings"]) if "errors" in f else len(f["gradient"]) == 2
+        named = sorted(f)
+    for n in range(ends[-4] + 1, len(lines) + 1, 3):  # after the last step: two tables, and the mark of the end
+        _, code = die(deadly, folder, options, DIE_AT=str(n))
+        assert code == -signal.SIGKILL
+        with h5py.File(folder / "out" / "out.h5") as f:
+            assert sorted(f) == named, n
+            assert all(len(f[name][:]) >= 12 for name in (*FIELDS, "time")), n
+            assert all(len(column[:]) >= 12 for column in f["history"].values()), n
+        with Results(folder / "out" / "out.h5") as results:
+            assert len(results.steps) >= 12 and set(results.gradients) <= {"energy", "swt@50um"}, n

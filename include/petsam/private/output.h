@@ -29,6 +29,8 @@ typedef struct {
   SamContact  contact;      /* contact whose state gives the fields and /history; borrowed */
   SamState    cycles;       /* state whose numbers give a second series; borrowed */
   const char *cycles_name;  /* group of the second series; borrowed; NULL: none */
+  PetscBool   errors;       /* true: errors of the numbers will be written */
+  const char *gradients;    /* names of the numbers whose gradients will be written, by commas; borrowed; NULL: none */
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (the usual fields, no compression, chunks of 1024 x 256 cells,
@@ -88,19 +90,20 @@ PETSC_INTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal tim
 */
 PETSC_INTERN PetscErrorCode SamOutputWriteCycle(SamOutput output);
 /*
-  SamOutputWriteErrors - writes all waiting steps, then the group /errors with the rows of a table: names, units,
-  values, errors, their causes and factors. Collective. Errors: as SamOutputWriteStep().
+  SamOutputWriteErrors - writes all waiting steps, then the rows of a table into the group /errors: names, units,
+  values, errors, their causes and factors. Collective. Errors: as SamOutputWriteStep(); PETSC_ERR_ORDER for a file
+  without that group.
 */
 PETSC_INTERN PetscErrorCode SamOutputWriteErrors(SamOutput output, const SamErrorTable *table);
 /*
-  SamOutputWriteWarnings - writes all waiting steps, then the dataset /warnings, once. Collective. Errors: as
+  SamOutputWriteWarnings - writes all waiting steps, then the rows of /warnings. Collective. Errors: as
   SamOutputWriteStep().
 */
 #define SAM_WARNING_TEXT 640 /* most bytes of a warning in the results */
 PETSC_INTERN PetscErrorCode SamOutputWriteWarnings(SamOutput output, PetscInt count,
                                                    const char texts[][SAM_WARNING_TEXT]);
 /*
-  SamOutputWriteGradient - writes all waiting steps, then the group /gradient/NAME with what a gradient has found:
+  SamOutputWriteGradient - writes all waiting steps, then what a gradient has found, into the settings' group /gradient/NAME:
   the wanted derivatives by gap and friction in each cell, by each step's loads, and numbers as attributes. Collective.
   Errors: as SamOutputWriteStep().
 */

@@ -92,13 +92,14 @@ def read(group: Any) -> Errors:
     Returns
     -------
     Errors
-        None of None.
+        None of None, or of a run that did not reach its end.
     """
     if group is None:
         return Errors()
-    texts = {name: [decoded(value) for value in group[name][:]] for name in ("name", "unit", "cause")}
-    none = [0.0] * len(texts["name"])  # of causes that files of earlier versions do not have
-    numbers = {name: group[name][:].tolist() if name in group else none for name in NUMBERS}
+    rows = min(len(column) for column in group.values())  # 0: the run did not reach its end
+    texts = {name: [decoded(value) for value in group[name][:rows]] for name in ("name", "unit", "cause")}
+    none = [0.0] * rows  # of causes that files of earlier versions do not have
+    numbers = {name: group[name][:rows].tolist() if name in group else none for name in NUMBERS}
     columns: dict[str, list] = {**texts, **numbers}
     names = columns.pop("name")
     return Errors((name, NumberError(**{key: of[k] for key, of in columns.items()})) for k, name in enumerate(names))

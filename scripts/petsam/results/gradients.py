@@ -98,6 +98,8 @@ def read(group: Optional[h5py.Group]) -> dict[str, Gradient]:
     """
     found = {}
     for name, of in () if group is None else group.items():
+        if not {"value", "residual", "borders"} <= of.attrs.keys() or any(data is None for data in of.values()):
+            continue  # the run ended before this one was written
         numbers = {key: float(value) for key, value in of.attrs.items() if key != "units"}
         numbers |= {key: data[:] for key, data in of.items() if data.ndim == 1}
         gap, friction = (of[key][:] if key in of else None for key in ("gap", "friction"))

@@ -77,23 +77,38 @@ static PetscErrorCode WriteFields(SamOutput o, hid_t group, SamGradient g)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamOutputCreateGradients(SamOutput o)
+{
+  char **names;
+  int    count;
+  hid_t  all;
+
+  PetscFunctionBegin;
+  if (!o->set.gradients || !o->set.gradients[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrToArray(o->set.gradients, ',', &count, &names));
+  all = SamFileNote(o->f, H5Gcreate2(o->f->id, "gradient", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  for (int k = 0; k < count; k++)
+    (void)SamFileNote(o->f, H5Gclose(H5Gcreate2(all, names[k], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)));
+  (void)SamFileNote(o->f, H5Gclose(all));
+  PetscCall(PetscStrToArrayDestroy(count, names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputAppendGradient(SamOutput o, SamGradient g, const char name[])
 {
   static const char *const numbers[] = {"value", "residual", "borders"};
   const char              *one;
-  hid_t                    all, group;
+  char                     path[256];
+  hid_t                    group;
 
   PetscFunctionBegin;
-  all   = H5Lexists(o->f->id, "gradient", H5P_DEFAULT) > 0
-            ? SamFileNote(o->f, H5Gopen2(o->f->id, "gradient", H5P_DEFAULT))
-            : SamFileNote(o->f, H5Gcreate2(o->f->id, "gradient", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  group = SamFileNote(o->f, H5Gcreate2(all, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  (void)snprintf(path, sizeof(path), "/gradient/%s", name);
+  group = SamFileNote(o->f, H5Gopen2(o->f->id, path, H5P_DEFAULT));
   SamFileWriteTextAttribute(o->f, group, "units", SamGradientUnit(g));
   for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); k++) PetscCall(WriteNumber(o, group, g, numbers[k]));
   for (PetscInt k = 0; (one = SamGradientNumber(g, k)); k++)
     if (SamGradientHas(g, one)) PetscCall(WriteNumber(o, group, g, one));
   PetscCall(WriteFields(o, group, g));
   (void)SamFileNote(o->f, H5Gclose(group));
-  (void)SamFileNote(o->f, H5Gclose(all));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

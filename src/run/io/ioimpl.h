@@ -61,13 +61,20 @@ PETSC_INTERN PetscErrorCode SamOutputAppendFrames(SamOutput output, PetscBool pr
 PETSC_INTERN void SamOutputAppendNumbers(SamOutput output, hid_t dataset, hid_t type, hsize_t index, hsize_t count,
                                          hsize_t n, const void *numbers);
 
-/* SamOutputAppendGradient - creates the group /gradient/NAME (gradienttable.c). Notes its failures. Collective. */
-PETSC_INTERN PetscErrorCode SamOutputAppendGradient(SamOutput output, SamGradient gradient, const char name[]);
-/* SamOutputAppendErrors - creates the group /errors (errortable.c). Notes its failures. Collective. */
+/*
+  Tables that are written at the end of a run, whose names are created with the file, see errortable.c. All note their
+  failures. Collective.
+  SamOutputCreateTables - creates the dataset /warnings and, if the settings want errors, the group /errors, without rows.
+  SamOutputAppendErrors, SamOutputAppendWarnings - write their rows.
+  SamOutputCreateGradients - creates the groups /gradient/NAME of the settings, without contents (gradienttable.c).
+  SamOutputAppendGradient - writes what a gradient has found into its group.
+*/
+PETSC_INTERN void           SamOutputCreateTables(SamOutput output);
 PETSC_INTERN PetscErrorCode SamOutputAppendErrors(SamOutput output, const SamErrorTable *table);
-/* SamOutputAppendWarnings - creates the dataset /warnings (errortable.c). Notes its failures. Collective. */
 PETSC_INTERN PetscErrorCode SamOutputAppendWarnings(SamOutput output, PetscInt count,
-                                                    const char texts[][SAM_WARNING_TEXT]);
+                                                    const char rows[][SAM_WARNING_TEXT]);
+PETSC_INTERN PetscErrorCode SamOutputCreateGradients(SamOutput output);
+PETSC_INTERN PetscErrorCode SamOutputAppendGradient(SamOutput output, SamGradient gradient, const char name[]);
 
 #define SAM_IDENTITY "results-%016" PRIx64 /* identity of a file, as text */
 

@@ -338,6 +338,8 @@ PetscErrorCode SamOutputCreateLayout(SamOutput o)
   PetscFunctionBegin;
   PetscCall(CreateFields(o));
   for (PetscInt k = 0; k < SAM_SERIES; k++) CreateSeries(o, (SamSeries)k);
+  SamOutputCreateTables(o);
+  PetscCall(SamOutputCreateGradients(o));
   CreateVTK(o);
   NameStresses(o);
   SamFileWriteOrigin(o->f, "Partial-slip contact of elastic bodies", "petsam");

@@ -287,6 +287,7 @@ PetscErrorCode SamOutputWriteCycle(SamOutput o)
 PetscErrorCode SamOutputWriteErrors(SamOutput o, const SamErrorTable *table)
 {
   PetscFunctionBegin;
+  PetscCheck(o->set.errors, o->grid->comm, PETSC_ERR_ORDER, "The file has no table of errors");
   PetscCall(BeginApart(o, 0));
   PetscCall(SamOutputAppendErrors(o, table));
   PetscCall(End(o));

@@ -46,7 +46,7 @@ SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, cons
     const double vx = in * qx[i] + w * ax, vy = in * qy[i] + w * (a1 + a2 * xi), n2 = vx * vx + vy * vy;
 
     beyond += n2 > b * b ? 1 : 0;
-    value += 0.5 * n2 / (w + (1 - in));
+    value += 0.5 * n2 / (w > 0 ? w : 1); /* a cell of weight 0 adds a constant */
     scale += fabs(vx) + fabs(vy);
     x += vx;
     y += vy;
@@ -67,7 +67,7 @@ SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, cons
       const double px = s * vx, py = s * vy, gxx = w * (s - g * vx * vx), gxy = -w * g * vx * vy,
                    gyy = w * (s - g * vy * vy);
 
-      value += (n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2) / (w + (1 - in));
+      value += (n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2) / (w > 0 ? w : 1);
       scale += fabs(px) + fabs(py);
       SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
     }

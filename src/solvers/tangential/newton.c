@@ -36,6 +36,12 @@
 #include "newtonimpl.h"
 #include <math.h>
 
+/*
+  |s|/(c b) from which a cell turns at once, if the error, which counts such a cell by its bound, is at most SURE: then
+  the others cannot bring it to stick
+*/
+#define TURNS 8
+#define SURE  0.1
 /* A direction's least descent, relative to that of the preconditioned residual */
 #define DESCENT 0.1
 /*
@@ -74,6 +80,11 @@
 #define OPEN       2
 #define PATIENCE   10
 #define STAGNATION 100
+/* The same on a coarse grid, whose solution is only a start, and the most iterations there */
+#define COARSE_STAGNATION 20
+#define COARSE_MOST       100
+/* Most times that a motion which the fit did not determine makes the errors before it meaningless */
+#define REOPENS 5
 
 typedef SamNewton Work;
 
@@ -186,6 +197,7 @@ static PetscErrorCode Advance(Work *w, double t)
   SamRow         run;
 
   PetscFunctionBegin;
+  w->turns_from = u->error <= SURE ? TURNS * u->self * TURNS * u->self : PETSC_INFINITY;
   for (PetscInt sweep = 0; sweep < SWEEPS; sweep++) {
     PetscCall(ChooseSets(w, sweep ? 0 : t, a, &space, &most));
     SamFrameSolve(u->frame, w->gram, space.slip, a);
@@ -354,19 +366,21 @@ static PetscErrorCode Refresh(Work *w)
 
 static SamSolverReason Reason(const Work *w, PetscInt stagnant)
 {
-  const SamStickSlip *u = &w->base;
+  const SamStickSlip *u    = &w->base;
+  const PetscInt      most = u->level->finest ? STAGNATION : COARSE_STAGNATION;
 
   if (!isfinite(u->error)) return SAM_SOLVER_DIVERGED_NAN;
   if (Error(w) <= u->level->rtol) return SAM_SOLVER_CONVERGED_RTOL;
   if (SamLevelAtMaxIterations(u->solver, u->level)) return SAM_SOLVER_DIVERGED_ITS;
-  return stagnant > STAGNATION ? SAM_SOLVER_DIVERGED_STAGNATED : SAM_SOLVER_ITERATING;
+  if (!u->level->finest && w->iterations >= COARSE_MOST) return SAM_SOLVER_DIVERGED_ITS;
+  return stagnant > most ? SAM_SOLVER_DIVERGED_STAGNATED : SAM_SOLVER_ITERATING;
 }
 
 /*
   Adds the correction of the projected gradient to the motion if that lowers the error, or is so large that the fit
   cannot have determined it: if cells slip along one line, as at nu = 0, and few stick, the residual does not depend on
   the distance. Then all cells seem to slip, and no shear would change that. `best` is the least error so far, which
-  means nothing after that.
+  means nothing after that; but not for ever, as each time the count of iterations without progress begins anew.
 */
 static PetscErrorCode Shift(Work *w, double *best)
 {
@@ -383,12 +397,14 @@ static PetscErrorCode Shift(Work *w, double *best)
     for (PetscInt c = 0; c < 3; c++) u->motion[c] += motion[c];
     PetscCall(ChooseSets(w, 0, motion, &space, &most));
     PetscCall(Advance(w, 0));
-    if (u->error < error || (attempt == 0 && fabs(motion[0]) + fabs(motion[1]) + fabs(motion[2]) > OPEN * unit)) {
-      *best = u->error;
+    if (u->error < error) break;
+    if (attempt == 0 && fabs(motion[0]) + fabs(motion[1]) + fabs(motion[2]) > OPEN * unit) {
+      if (w->reopened++ < REOPENS) *best = u->error;
       break;
     }
     for (PetscInt c = 0; c < 3; c++) motion[c] = -motion[c];
   }
+  *best = PetscMin(*best, u->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -432,6 +448,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscCall(Step(w, &best));
   if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(LONGER * best, 1 / FOLLOW), FOLLOW));
   PetscCall(Refresh(w));
+  w->iterations++;
   PetscCall(SamLevelIterated(u->solver, u->level, u->error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -8,8 +8,8 @@
 typedef struct {
   SamStickSlip base;
   double      *trial;          /* admissible shear, Pa */
-  float       *normal;         /* q/|q| where a cell slips, 0 where it sticks */
-  float       *weight;         /* the preconditioner's w; 0 outside of the contact */
+  float       *normal;         /* q/|q| where a cell slips, 0 where it sticks, -s/|s| where it turns */
+  float       *weight;         /* the preconditioner's w; 0 where a cell turns, and outside of the contact */
   float       *r, *z;          /* residual -P s; direction */
   float       *step, *u;       /* last step, and C times it */
   float       *xi;             /* xi of the columns */
@@ -19,7 +19,10 @@ typedef struct {
   double       along, bend;    /* r.P step; P step.L P step */
   double       size;           /* |step|^2 */
   double       alpha;          /* length of the trial */
+  double       turns_from;     /* |s|^2/b^2 from which a cell that does not slip turns, (m/Pa)^2 */
   PetscBool    whole;          /* the next step has length 1, as the shear is not admissible */
+  PetscInt     iterations;     /* of this solve */
+  PetscInt     reopened;       /* number of times that the motion was found not to be determined by the fit */
   double       work;           /* frictional work: sum of -s.q where cells slip, m Pa */
   double       reach;          /* largest eigenvalue of C in units of c: about the square root of the number of cells */
   double       rounding;       /* bound of the rounding of s/c, in the 2-norm, Pa */

@@ -4,6 +4,7 @@
   Each is vectorised; sums over cells are local variables, and rows are added up by the caller in twice the digits, so
   that the results do not depend on the number of ranks. In a cell that slips, `normal` is the unit vector along its
   shear, and P subtracts a vector's component along it; in a cell that sticks, `normal` is zero, and P changes nothing.
+  In a cell that turns, `normal` is the unit vector against its slip, the weight is zero, and P makes all vectors zero.
 */
 #include "newtonimpl.h"
 #include <math.h>
@@ -23,7 +24,7 @@ SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double
   double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict sx = u->s + row.first,
                    *restrict sy = sx + cells;
   float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first;
-  const double motion_x = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2];
+  const double motion_x = SamFrameX(a, row.eta), a1 = a[1], a2 = a[2], turns_from = w->turns_from;
   double most = 0, x = 0, y = 0, turn = 0, hxx = 0, hxy = 0, hyy = 0, xi_hxy = 0, xi_hyy = 0, xi2_hyy = 0, work = 0;
 
 #pragma omp simd reduction(+ : x, y, turn, hxx, hxy, hyy, xi_hxy, xi_hyy, xi2_hyy, work) reduction(max : most)
@@ -34,9 +35,11 @@ SAM_VECTORIZED double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double
                  power = bx * ax + cy * ay;
     const double yx = ax - ease * bx, yy = ay - ease * cy, outside = yx * yx + yy * yy >= b * b ? 1 : 0,
                  near = ax * ax + ay * ay >= NEAR * NEAR * b * b ? 1 : 0, slips = outside * near * (power < 0 ? 1 : 0);
-    const double scale = slips / sqrt(ax * ax + ay * ay + (1 - slips)), ex = scale * ax, ey = scale * ay,
-                 part = ex * bx + ey * cy;
-    const double h = in / (1 - inverse * part * scale), px = in * bx - part * ex, py = in * cy - part * ey;
+    const double s2 = bx * bx + cy * cy, turns = in * (1 - slips) * (s2 > turns_from * b * b ? 1 : 0),
+                 moves = in * (1 - turns), back = turns / sqrt(s2 + (1 - turns));
+    const double scale = slips / sqrt(ax * ax + ay * ay + (1 - slips)), ex = scale * ax - back * bx,
+                 ey = scale * ay - back * cy, part = moves * (ex * bx + ey * cy);
+    const double h = moves / (1 - inverse * part * scale), px = moves * bx - part * ex, py = moves * cy - part * ey;
     const double hx = h * px, hy = h * py, gxx = h * (1 - ex * ex), gxy = -h * ex * ey, gyy = h * (1 - ey * ey);
     const double largest = fabs(px) > fabs(py) ? fabs(px) : fabs(py);
 
@@ -93,7 +96,7 @@ SAM_VECTORIZED void SamNewtonResidualRow(const SamNewton *w, SamRow row, double 
     const double x = sx[i] - ax, y = sy[i] - a1 - a2 * (row.xi0 + (double)i * row.dxi), b = bound[i],
                  q2    = qx[i] * qx[i] + qy[i] * qy[i];
     const double slips = nx[i] * nx[i] + ny[i] * ny[i] > 0.5f ? 1 : 0,
-                 part = slips * (x * qx[i] + y * qy[i]) / (q2 + (1 - slips)), unit = b > 0 ? -inverse_unit : 0;
+                 part = slips * (x * qx[i] + y * qy[i]) / (q2 > 0 ? q2 : 1), unit = weight[i] > 0 ? -inverse_unit : 0;
     const float  vx = (float)(unit * (x - part * qx[i])), vy = (float)(unit * (y - part * qy[i]));
     const double yx = qx[i] - inverse * x, yy = qy[i] - inverse * y, n2 = yx * yx + yy * yy,
                  scale = SamDiscScale(n2, b);
@@ -175,7 +178,7 @@ SAM_VECTORIZED void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const 
 }
 
 /*
-  Moves slipping cells beyond their circles, as far as their slip in units of c, but at least to twice their bound. The
+  Moves cells that turn to where they are opposite to their slip, and slipping cells beyond their circles, as far as their slip in units of c, but at least to twice their bound. The
   projection, which restores equilibrium by a common shift, then leaves them on the circle. Otherwise it would pull half
   of them inside, and convergence would be linear instead of quadratic. It also turns them as far as a change of the
   motion would.
@@ -192,8 +195,9 @@ SAM_VECTORIZED void SamNewtonTrialRow(const SamNewton *w, SamRow row, double alp
 
 #pragma omp simd
   for (int i = 0; i < row.count; i++) {
-    const double x = qx[i] + unit_q * (double)zx[i], y = qy[i] + unit_q * (double)zy[i],
-                 slips = nx[i] * nx[i] + ny[i] * ny[i] > 0.5f ? 1 : 0;
+    const double slips = nx[i] * nx[i] + ny[i] * ny[i] > 0.5f ? 1 : 0, turns = weight[i] > 0 ? 0 : slips * b[i];
+    const double x  = turns > 0 ? turns * (double)nx[i] : qx[i] + unit_q * (double)zx[i],
+                 y  = turns > 0 ? turns * (double)ny[i] : qy[i] + unit_q * (double)zy[i];
     const double in = weight[i] > 0 ? 1 : 0, far = 1 / ((double)(weight[i] * weight[i]) + (1 - in)),
                  push  = far > 2 ? far : 2;
     const double scale = 1 + slips * (b[i] * push / sqrt(x * x + y * y + (1 - slips)) - 1);
@@ -260,7 +264,8 @@ SAM_VECTORIZED void SamNewtonGradientRow(const SamNewton *w, SamRow row)
   const double        inverse = 1 / u->self;
   const double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict sx = u->s + row.first,
                          *restrict sy = sx + cells;
-  const float *restrict weight        = w->weight + row.first;
+  const float *restrict weight = w->weight + row.first, *restrict nx = w->normal + row.first, *restrict ny = nx + cells;
+  const double *restrict b = u->bound + row.first;
   double *restrict vx = w->trial + row.first, *restrict vy = vx + cells;
   float *restrict h = w->z + row.first;
 
@@ -268,9 +273,10 @@ SAM_VECTORIZED void SamNewtonGradientRow(const SamNewton *w, SamRow row)
   for (int i = 0; i < row.count; i++) {
     const float  g      = weight[i] * weight[i];
     const double length = inverse * (double)g;
+    const int    turns  = weight[i] <= 0 && nx[i] * nx[i] + ny[i] * ny[i] > 0.5f;
 
     h[i]  = g;
-    vx[i] = qx[i] - length * sx[i];
-    vy[i] = qy[i] - length * sy[i];
+    vx[i] = turns ? b[i] * (double)nx[i] : qx[i] - length * sx[i];
+    vy[i] = turns ? b[i] * (double)ny[i] : qy[i] - length * sy[i];
   }
 }
