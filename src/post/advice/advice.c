@@ -26,6 +26,7 @@
   half on 2; on a tenth of a cell the pressure is a thousandth of Hertz's. Its approach is right to 8 % down to 1.5 cells.
 */
 #define NO_CONTACT  4
+#define UNKNOWN     0.999 /* told as unknown; a more special reason, with an error of 1, precedes this one */
 #define NO_APPROACH 1.5
 /* Part of the period above which the contact of a round body is affected by its periodic images */
 #define CROWDED 0.25
@@ -170,7 +171,7 @@ static void Unresolved(SamAdvice *a, double more, const char zones[])
                                             : "",
                  shear > 0 ? " shear_max stick_area slip_max dissipated_energy" : "");
   if (a->closed) (void)snprintf(closed, sizeof(closed), ", %.2g in closed form", (double)a->across);
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, more, names, SAM_ADVICE_ACROSS "%s", zones, (double)extent->across,
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, UNKNOWN, more, names, SAM_ADVICE_ACROSS "%s", zones, (double)extent->across,
                extent->across == 1 ? "" : "s", closed);
 }
 
