@@ -20,20 +20,12 @@
   all numbers of 9 random contacts were within 2 % of their limit unless a slip zone was narrow.
 */
 #define FEW_CLOSED 14
-/*
-  Spots of fewer cells across are no contact but a load on cells, whose width is their size: of nothing but the given
-  load anything is known. The area of a sphere's contact is wrong by up to 16 % on 4 cells, by half on 3, its pressure by
-  half on 2; on a tenth of a cell the pressure is a thousandth of Hertz's. Its approach is right to 8 % down to 1.5 cells.
-*/
-#define NO_CONTACT  4
-#define UNKNOWN     0.999 /* told as unknown; a more special reason, with an error of 1, precedes this one */
-#define NO_APPROACH 1.5
 /* Part of the period above which the contact of a round body is affected by its periodic images */
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius suggests that the radius is in another unit. */
 #define FLATTEST 1e-3
 #define NARROW   0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
-#define BORDER   4    /* margin in cells of a sufficient grid */
+#define BORDER   4    /* margin in cells of a sufficient grid; a narrower contact is none */
 #define SAME     2    /* cells by which two widths, one counted and one computed, may differ */
 #define ABSURD   4096 /* number of cells per row that wrong units may ask for */
 #define BLIND    0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
@@ -150,7 +142,13 @@ static int Fewest(const SamAdvice *a)
   return a->closed && !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? FEW_CLOSED : SAM_ADVICE_CELLS;
 }
 
-/* Returns the width in cells of the spots with half of the contact, or of a narrower contact in closed form. */
+/*
+  Returns the width in cells of the spots with half of the contact, or of a narrower contact in closed form.
+
+  Below BORDER it is no contact but a load on cells, whose width is their size: of nothing but the given load anything
+  is known. The area of a sphere's contact is wrong by up to 16 % on 4 cells, by half on 3, its pressure by half on 2;
+  on a tenth of a cell the pressure is a thousandth of Hertz's. The approach is right to 8 % down to 2 cells, SAME.
+*/
 static double WidthOf(const SamAdvice *a)
 {
   return (double)PetscMin(a->extent.half_across, a->across);
@@ -166,13 +164,14 @@ static void Unresolved(SamAdvice *a, double more, const char zones[])
 
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "shear_max", &shear);
   (void)snprintf(names, sizeof(names), "contact_area pressure_max%s%s",
-                 !force                     ? " load_n"
-                 : WidthOf(a) < NO_APPROACH ? " disp_z"
-                                            : "",
+                 !force              ? " load_n"
+                 : WidthOf(a) < SAME ? " disp_z"
+                                     : "",
                  shear > 0 ? " shear_max stick_area slip_max dissipated_energy" : "");
   if (a->closed) (void)snprintf(closed, sizeof(closed), ", %.2g in closed form", (double)a->across);
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, UNKNOWN, more, names, SAM_ADVICE_ACROSS "%s", zones, (double)extent->across,
-               extent->across == 1 ? "" : "s", closed);
+  /* a more special reason, with an error of 1, precedes this one */
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 - PETSC_SQRT_MACHINE_EPSILON, more, names, SAM_ADVICE_ACROSS "%s", zones,
+               (double)extent->across, extent->across == 1 ? "" : "s", closed);
 }
 
 /*
@@ -190,7 +189,7 @@ static void Cells(SamAdvice *a)
   const PetscBool sharp  = fabs(extent->change) > (a->worn ? SAM_ADVICE_WORN_PEAK : SAM_DOUBT_LARGE) && !extent->finer;
   const double    change = fabs((double)extent->change), more = (fewest + SAME) / (double)a->across;
   const double    error                  = change * (a->worn ? SAM_DOUBT_LARGE / SAM_ADVICE_WORN_PEAK : 1);
-  const PetscBool none                   = few && WidthOf(a) < NO_CONTACT;
+  const PetscBool none                   = few && WidthOf(a) < BORDER;
   const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
   char            zones[SAM_ADVICE_TEXT] = "";
 
