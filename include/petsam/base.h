@@ -125,7 +125,7 @@ PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char
   meaning; " or -" separates alternatives. `excludes`: options, separated by commas, that cannot be given with this one.
   For a boolean, `needs` and `excludes` apply only if it is true. `missing`: the purpose of an option that is required
   (if the options that it needs are given) unless it has a default. `recorded`: a stopped run can only continue with the
-  same value.
+  same value. `loosest`: the largest value of a tolerance (0: any), and `beyond`: what is wrong with larger ones.
 
   See also: SamOptionsRead(), SamOptionsReal().
 */
@@ -150,6 +150,8 @@ typedef struct {
   PetscInt      least, most, size;
   const char   *words, *unit, *needs, *excludes, *missing;
   PetscBool     recorded;
+  PetscReal     loosest;
+  const char   *beyond;
 } SamOptionRow;
 
 #define SAM_OPTION_ROWS(rows) (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* the row count and the table */

@@ -507,7 +507,7 @@ int petsam_gradient_record(petsam_contact *c, int on);
           of     - parameters, separated by commas: names of petsam_get_gradient(), gap,load_tx,body1_young say, or
                    parameters of the shape, gap_radius1 say; NULL: all but the moduli and the shape, and
                    those by wear if the bodies wear
-          rtol   - relative residual of the systems that are solved, such as 1e-4 (1)
+          rtol   - relative residual of the systems that are solved, such as 1e-4, at most 0.01 (1)
   Out:    steps  - number of recorded steps
           unit   - that of the number, until the next call; NULL: not wanted
 

@@ -1058,7 +1058,7 @@ class Contact:
         steps : slice, optional
             The steps, from 0; None: all for the energy and parameters of a cycle, else the last.
         rtol : float
-            Relative residual of the systems that are solved.
+            Relative residual of the systems that are solved, at most 0.01.
 
         Returns
         -------

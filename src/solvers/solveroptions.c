@@ -44,6 +44,10 @@ static PetscErrorCode DescribeOthers(SamSolver s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Largest tolerance: at it, areas of Cattaneo's contact are wrong by 2 %, its energy by 3 %; at 0.9 both are twice as
+   large, or 0. */
+#define LOOSEST 0.01
+
 /* Values that options set, except the type */
 typedef struct {
   PetscReal rtol;
@@ -56,7 +60,8 @@ PetscErrorCode SamSolverSetFromOptions(SamSolver s)
   SamOptions   from;
   Settings     set;
   SamOptionRow rows[] = {
-    {"rtol", NULL, SAM_OPTION_REAL, offsetof(Settings, rtol), .range = SAM_RANGE_PART},
+    {"rtol", NULL, SAM_OPTION_REAL, offsetof(Settings, rtol), .range = SAM_RANGE_PART, .loosest = LOOSEST,
+     .beyond = "areas and the dissipated energy are wrong by per cents"},
     {"max_it", "maximum iterations on the finest grid; 0: default of the type", SAM_OPTION_INT,
      .member = offsetof(Settings, max_it)},
     {"levels", "number of nested grids; 0: default of the type", SAM_OPTION_INT, .member = offsetof(Settings, levels)},

@@ -1,9 +1,12 @@
 """Checkpoints: what goes on from one is what would have come without it; a wrong or damaged one is refused."""
 
+import contextlib
 import os
 import re
 import shutil
 import signal
+import time
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -309,6 +312,54 @@ def test_TERM_stops_like_USR1(launcher, folder, petsam, ranks):
     assert run.returncode == 75 and f"stopped after step {last} of {STEPS}" in err, err
     petsam(CASE, ON, ranks=ranks)
     assert steps(folder / "out.h5") == STEPS
+
+
+def wait_for_handlers(run, ranks):
+    """Waits until all ranks catch the signals; returns the libraries that the last one has loaded."""
+    wanted = sum(1 << (number - 1) for number in (signal.SIGUSR1, signal.SIGUSR2, signal.SIGTERM))
+    end = time.time() + 20
+    while time.time() < end and run.poll() is None:
+        with contextlib.suppress(FileNotFoundError):
+            own = [Path(f"/proc/{one}") for one in conftest.processes(run, ranks)]
+            names = [(one / "comm").read_text().strip() for one in own]
+            masks = [int(re.search(r"SigCgt:\s*(\w+)", (one / "status").read_text())[1], 16) for one in own]
+            if names == ["petsam"] * ranks and all(mask & wanted == wanted for mask in masks):
+                return (own[-1] / "maps").read_text()
+    raise AssertionError("no handlers")
+
+
+@pytest.mark.parametrize("number, code", [("USR1", 75), ("TERM", 75), ("USR2", 0)])
+@pytest.mark.parametrize("ranks, delay", [(1, 0), (1, 0.05), (1, 0.1), (1, 0.15), (2, 0), (2, 0.1)])
+def test_a_signal_before_the_options_are_read_counts(launcher, folder, ranks, delay, number, code):
+    write_history(folder, 200)
+    run = conftest.start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)
+    wait_for_handlers(run, ranks)
+    time.sleep(delay)
+    send(run, ranks, getattr(signal, "SIG" + number))
+    _, err = run.communicate(timeout=60)
+    assert run.returncode == code and (folder / "state.h5").exists(), err
+
+
+def test_signals_are_caught_before_mpi_starts(launcher, folder):
+    """What a run has loaded when it catches them; of several runs, as this process may look late."""
+    for _ in range(20):
+        run = conftest.start(launcher, folder, [CASE], 1)
+        libraries = wait_for_handlers(run, 1)
+        run.communicate(timeout=60)
+        if "/mca_" not in libraries:  # parts of MPI
+            return
+    raise AssertionError("MPI has started each time")
+
+
+@pytest.mark.parametrize("delay", [0, 0.01, 0.05])
+def test_TERM_before_the_options_are_read_ends_a_run_without_checkpoints(launcher, folder, delay):
+    write_history(folder, 1000)
+    run = conftest.start(launcher, folder, [CASE], 1)
+    wait_for_handlers(run, 1)
+    time.sleep(delay)
+    send(run, 1, signal.SIGTERM)
+    run.communicate(timeout=60)
+    assert run.returncode == -signal.SIGTERM
 
 
 def test_TERM_ends_a_run_without_checkpoints(launcher, folder):

@@ -847,7 +847,7 @@ def test_refusals():
     ):
         with pytest.raises(petsam.Error, match="neighbouring"):
             contact.gradient("energy", None, steps)
-    for rtol, words in (("1e-4", "expected a number"), (None, "expected a number"), (0, "between 0 and 1")):
+    for rtol, words in (("1e-4", "expected a number"), (None, "expected a number"), (0, "> 0 and"), (0.02, "<= 0.01")):
         with pytest.raises(petsam.Error, match=words):
             contact.gradient("energy", rtol=rtol)
     found = contact.gradient("energy")

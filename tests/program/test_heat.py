@@ -134,6 +134,51 @@ def test_temperatures_are_sums_of_cells(tmp_path):
     assert np.allclose(difference[there], 1e-6 * heat_2[there], atol=1e-6 * abs(difference).max() + 1e-9)
 
 
+PIN = dict(
+    body1="steel", body2="steel", gap_type="sphere", gap_radius1=0.2, gap_radius2="inf", load_n=100, friction=0.3,
+    grid_n=32, grid_size=1.6e-3, heat="steady",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "speeds, change, powers",
+    [
+        ((0, 5), dict(disp_x=30e-6), (150, 8.89e-4)),
+        ((-2, -3), dict(load_tx=0), (30, 0)),
+        ((1.5, 0.5), dict(elasticity="plane", load_n=1000, grid_size=2e-4, disp_x=None, load_tx=100), (300, None)),
+        ((5, 5), dict(disp_x=30e-6), None),
+        ((0, 0), dict(disp_x=30e-6), None),
+        ((0, -29.5e-6), dict(disp_x=30e-6), None),
+    ],
+)
+def test_speeds_that_contradict_the_slip_are_told(petsam, speeds, change, powers):
+    """Surfaces that do not roll slip by the difference of the speeds: mu N v."""
+    done = petsam(PIN, dict(body1_speed=speeds[0], body2_speed=speeds[1], **change))
+    told = re.search(
+        r"differ by (\S+) m/s, with which friction makes (\S+) W\S*, but the slip .* makes (\S+) W", done.stderr
+    )
+    assert bool(told) == bool(powers), done.stderr
+    if powers:
+        assert float(told[1]) == pytest.approx(abs(speeds[1] - speeds[0]))
+        assert float(told[2]) == pytest.approx(powers[0], rel=1e-2)
+        assert powers[1] is None or float(told[3]) == pytest.approx(powers[1], rel=1e-2, abs=1e-9)
+
+
+def test_a_history_prints_its_hottest_step(petsam, tmp_path):
+    """A pin slides at 5 m/s, and then at 2.5 m/s: the first row builds up shear, the second one has mu N v."""
+    rows = (2e-5, -1e-4), (4e-5, -2e-4), (8e-5, -3e-4)
+    case = dict(PIN, body2_speed=5, output="pin.h5", **history(tmp_path / "pin.csv", "time,disp_x", *rows))
+    done = petsam(case)
+    told = re.search(
+        r"  heat +at most (\S+) K in contact, in step 2, by (\S+) W of friction \((\S+) % into body 1, (\S+) %",
+        done.stdout,
+    )
+    assert float(told[2]) == pytest.approx(150, rel=1e-3)
+    assert float(told[3]) + float(told[4]) == pytest.approx(100, abs=0.11) and float(told[4]) > 80
+    assert "step 3: -body1_speed and -body2_speed differ by 5 m/s" in done.stderr
+    assert float(told[1]) == pytest.approx(package.open(tmp_path / "pin.h5")["temperature_max"].max(), rel=1e-3)
+
+
 def test_standing_bodies_share_by_their_conductivities(tmp_path):
     case = dict(
         gap_type="sphere", gap_radius1=0.02, gap_radius2="inf", load_n=50, load_tx=20, friction=0.5, grid_n=33,

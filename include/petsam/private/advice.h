@@ -21,12 +21,13 @@ PETSC_INTERN double SamAdviceRoundUp(double x);
 
 /* SamExtent - the size of a contact. */
 typedef struct {
-  PetscInt  zones;   /* number of zones of contact, connected by the sides of cells, as contact_spots; 0: no contact */
-  PetscReal across;  /* width of the narrow zones in cells: SamGridMeasureZones() with part = 0.1 */
-  PetscBool whole;   /* the widest zone spans the grid */
-  PetscReal half[2]; /* half widths of the bounding rectangle of the contact, m */
-  PetscReal change;  /* relative change of the peak pressure on cells half as wide: SamAdviceMeasurePeak() */
-  PetscInt  finer;   /* factor by which the cells must be narrower to resolve the peak; 0: not even 16384 in a row do */
+  PetscInt  zones;  /* number of zones of contact, connected by the sides of cells, as contact_spots; 0: no contact */
+  PetscReal across; /* width of the narrow zones in cells: SamGridMeasureZones() with part = 0.1 */
+  PetscReal half_across; /* the same of the zones that hold half of the contact's cells */
+  PetscBool whole;       /* the widest zone spans the grid */
+  PetscReal half[2];     /* half widths of the bounding rectangle of the contact, m */
+  PetscReal change;      /* relative change of the peak pressure on cells half as wide: SamAdviceMeasurePeak() */
+  PetscInt  finer; /* factor by which the cells must be narrower to resolve the peak; 0: not even 16384 in a row do */
 } SamExtent;
 #define SAM_LARGEST_ROW 16384 /* most cells in a row of a grid that is advised */
 

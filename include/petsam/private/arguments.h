@@ -6,9 +6,13 @@
 
 #define SAM_ARGUMENTS_FILES 64 /* maximum number of options files */
 
+/* Where an option is given; options files are numbered from 1. */
+enum { SAM_SOURCE_LINE = 0, SAM_SOURCE_ENVIRONMENT = -1, SAM_SOURCE_TEXT = -2 };
+
 /* SamArgument - a given option. */
 typedef struct {
-  char *name, *place; /* without dash; in a file "file, line n: ", else "" */
+  char *name, *value, *place; /* without dash; "": none; in a file "file, line n: ", else "" */
+  int   source;
 } SamArgument;
 
 typedef struct _n_SamArguments {
@@ -24,8 +28,8 @@ typedef struct _n_SamArguments {
 
 /*
   SamArgumentsExamine - removes -help, with the words after it, and -version from the command line, and examines the
-  rest, the options files and PETSC_OPTIONS for words that PETSc would ignore, files at which it would wait for ever or
-  crash, and options that load code or start programs. After a mistake nothing is left for PETSc to read. It must be
+  rest, the options files and PETSC_OPTIONS for words that PETSc would ignore, options that are given twice in one of
+  these, files at which it would wait for ever or crash, and options that load code or start programs. After a mistake nothing is left for PETSc to read. It must be
   called between MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.
 */
 PETSC_EXTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);

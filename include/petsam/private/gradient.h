@@ -6,6 +6,9 @@
 #include <petsam/gap.h>
 #include <petsam/private/life.h>
 
+/* Largest tolerance of its systems: at 0.1, derivatives of a fretting loop are wrong by 10 % */
+#define SAM_GRADIENT_LOOSEST 0.01
+
 /*
   SamGradient - the recorded steps of a contact, and the derivatives of a number of them by all parameters, in one pass
   back over the steps. The sets of cells in contact, stick and slip are frozen: their borders do not move to first

@@ -5,7 +5,10 @@
 */
 #include "program.h"
 #include "report.h"
+#include <petsam/private/contact.h>
 #include <petsam/private/edges.h>
+#include <petsam/private/state.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -183,6 +186,38 @@ static PetscErrorCode PrintSlip(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamReportKeepHeat(SamReport r, SamContact contact)
+{
+  SamReportHeat heat = {.step = r->number + 1};
+  SamState      state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(contact, &state));
+  heat.power = SamReportNumber(state, "heat_power");
+  heat.share = SamReportNumber(state, "heat_share_2");
+  heat.most  = SamReportNumber(state, "temperature_max");
+  if (!isnan(heat.most) && (!r->heat.step || heat.most > r->heat.most)) r->heat = heat;
+  if (r->heat.step == heat.step) r->heat_unit = SamStateUnitOf(state, "heat_power");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Prints the heat of the hottest of several steps; a single one has told it. */
+static PetscErrorCode PrintHeat(SamReport r)
+{
+  const SamReportHeat *h           = &r->heat;
+  char                 divided[64] = "";
+
+  PetscFunctionBegin;
+  if (!h->step || r->steps < 2) PetscFunctionReturn(PETSC_SUCCESS);
+  if (h->share >= 0 && h->share <= 1) /* else the bodies heat or cool each other */
+    (void)snprintf(divided, sizeof(divided), " (%.1f %% into body 1, %.1f %% into body 2)", 100 * (1 - h->share),
+                   100 * h->share);
+  PetscCall(PetscPrintf(r->comm,
+                        "  %-10s  at most %.4g K in contact, in step %" PetscInt_FMT ", by %.4g %s of friction%s\n",
+                        "heat", h->most, h->step, h->power, r->heat_unit, divided));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintFiles(SamReport r)
 {
   PetscFunctionBegin;
@@ -252,6 +287,7 @@ PetscErrorCode SamReportClosing(SamReport r)
   PetscCall(PrintEdges(r));
   PetscCall(PrintEnergy(r));
   PetscCall(PrintSlip(r));
+  PetscCall(PrintHeat(r));
   if (r->offer > 0)
     PetscCall(PetscPrintf(r->comm,
                           "  %-10s  of all numbers by -errors companion, which adds about %.0f %% of the time\n",

@@ -112,16 +112,21 @@ static void ReturnLargeFields(void)
 #endif
 }
 
-/* Signals at which PETSc would print a trace though the program has no error; nohup ignores one of them */
-static const int usual[] = {SIGHUP, SIGQUIT, SIGTERM, SIGPIPE, SIGURG};
+/* Signals at which PETSc would print a trace though the program has no error; nohup ignores one of them, and a program
+   may catch some */
+static const int usual[] = {SIGHUP, SIGQUIT, SIGTERM, SIGPIPE, SIGURG, SIGUSR1, SIGUSR2};
 enum { USUAL = sizeof(usual) / sizeof(usual[0]) };
 
-/* Starts PETSc, which leaves these signals as they were. Returns its error code. */
+/* Starts PETSc, which leaves these signals as they were; those that come meanwhile wait. Returns its error code. */
 static PetscErrorCode StartPetsc(int *argc, char ***argv)
 {
   struct sigaction before[USUAL];
   PetscErrorCode   code;
+  sigset_t         wait, mask;
 
+  (void)sigemptyset(&wait);
+  for (int k = 0; k < USUAL; k++) (void)sigaddset(&wait, usual[k]);
+  (void)sigprocmask(SIG_BLOCK, &wait, &mask);
   for (int k = 0; k < USUAL; k++) (void)sigaction(usual[k], NULL, &before[k]);
   code = PetscOptionsCreateDefault();
   if (!code) code = PetscOptionsSetValue(NULL, "-skip_petscrc", NULL); /* no file without a name given by the user */
@@ -130,6 +135,7 @@ static PetscErrorCode StartPetsc(int *argc, char ***argv)
   if (!code) code = PetscInitialize(argc, argv, NULL, NULL);
   if (!code) code = PetscOptionsClearValue(NULL, "-skip_petscrc");
   for (int k = 0; k < USUAL; k++) (void)sigaction(usual[k], &before[k], NULL);
+  (void)sigprocmask(SIG_SETMASK, &mask, NULL);
   return code;
 }
 

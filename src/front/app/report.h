@@ -37,6 +37,12 @@ typedef struct {
   PetscInt  step;
 } SamReportWorst;
 
+/* The frictional power, W, its part into body 2, and the maximum temperature, K, of a step from 1; 0: there is none */
+typedef struct {
+  PetscInt step;
+  double   power, share, most;
+} SamReportHeat;
+
 /*
   SamReport - reports a run on stdout, and warnings and failures of steps on stderr, both from rank 0. Order of calls:
   Create, Banner, News, Closing, Destroy.
@@ -68,6 +74,8 @@ struct _n_SamReport {
   SamExtent      extent;      /* of the contact in step `extent_step`, */
   PetscInt       extent_step; /* from 1; 0: unknown */
   SamSlip        slip;        /* of all steps; unknown without steps */
+  SamReportHeat  heat;        /* of the hottest step, */
+  const char    *heat_unit;   /* and the unit of its power */
   PetscBool      edge_told;   /* true once a contact at the grid's edge, which is allowed, has been reported */
   /* lines of steps that are not in the results yet */
   PetscBool holds; /* lines wait */
@@ -106,6 +114,8 @@ PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, 
 /* SamReportClosing - prints times by part and largest residuals, if asked for, files written, time and memory used.
    Collective. */
 PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
+/* SamReportKeepHeat - notes the heat of a step with a solution if it is the hottest so far. Collective. */
+PETSC_INTERN PetscErrorCode SamReportKeepHeat(SamReport report, SamContact contact);
 
 /* ---- the parts ---- */
 

@@ -34,8 +34,8 @@ static PetscErrorCode Compute(petsam_contact *c, const char name[], int first, i
 
   PetscFunctionBegin;
   PetscCall(GetRecorded(c, &g));
-  PetscCheck(rtol > 0 && rtol < 1, c->comm, SAM_ERR_USER, "the gradient of %s: rtol %.6g: expected between 0 and 1",
-             name, rtol);
+  PetscCheck(rtol > 0 && rtol <= SAM_GRADIENT_LOOSEST, c->comm, SAM_ERR_USER,
+             "the gradient of %s: rtol %.6g: expected a number > 0 and <= %.6g", name, rtol, SAM_GRADIENT_LOOSEST);
   PetscCall(SamGradientCompute(g, name, range, of, (PetscReal)rtol));
   *steps = (int)SamGradientGetSteps(g);
   if (unit) *unit = SamGradientUnit(g);

@@ -106,24 +106,43 @@ static void CheckWord(SamArguments *a, const char where[], const char word[])
   if (!IsOption(word)) Complain(a, SAM_ERR_USER, "%s%.160s: expected an option: it begins with a dash", where, word);
 }
 
-/* Keeps an option and its place. */
-static void Keep(SamArguments *a, const char option[], const char where[])
+/*
+  Rejects an option that its source gives a second time, in any case of letters: PETSc would take the last value without
+  a word. Each of several options files counts. A program may append to its own text, where the last value counts.
+*/
+static void CheckTwice(SamArguments *a, const char where[], const SamArgument *one)
+{
+  for (int k = 0; k < a->givens && one->source != SAM_SOURCE_TEXT; k++) {
+    const SamArgument *other = &a->given[k];
+    const char        *line  = strrchr(other->place, ','); /* of the same file */
+
+    if (other->source != one->source || strcasecmp(other->name, one->name) || !strcasecmp(one->name, "options_file"))
+      continue;
+    Complain(a, SAM_ERR_USER, "%s-%.48s%s%.48s: given twice, as -%.48s%s%.48s%s%.*s too: remove one of them", where,
+             one->name, one->value[0] ? " " : "", one->value, other->name, other->value[0] ? " " : "", other->value,
+             line ? " in" : "", line ? (int)strcspn(line + 1, ":") : 0, line ? line + 1 : "");
+  }
+}
+
+/* Keeps an option, its value, which may be NULL, and its place. */
+static void Keep(SamArguments *a, int source, const char where[], const char option[], const char value[])
 {
   SamArgument *more = (SamArgument *)realloc(a->given, (size_t)(a->givens + 1) * sizeof(*more));
-  SamArgument  one  = {strdup(option), strdup(where)};
+  SamArgument  one  = {strdup(option + 1), strdup(value ? value : ""), strdup(source > 0 ? where : ""), source};
 
   if (!more) return;
-  a->given          = more;
+  a->given = more;
+  CheckTwice(a, where, &one);
   more[a->givens++] = one;
 }
 
-static void ExamineWords(SamArguments *a, const char where[], int count, char **words)
+static void ExamineWords(SamArguments *a, int source, const char where[], int count, char **words)
 {
   for (int k = 0; k < count; k++) {
     const char *option = words[k], *value = k + 1 < count && !IsOption(words[k + 1]) ? words[k + 1] : NULL;
 
     CheckWord(a, where, option);
-    Keep(a, option + 1, "");
+    Keep(a, source, where, option, value);
     ExamineOption(a, where, option, value, 0);
     if (value) k++;
   }
@@ -131,8 +150,8 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
 
 /* ---- files ---- */
 
-/* Examines a line of an options file: an option and its value, or a comment. */
-static void ExamineLine(SamArguments *a, const char where[], char line[], int depth)
+/* Examines a line of the options file of this number: an option and its value, or a comment. */
+static void ExamineLine(SamArguments *a, int source, const char where[], char line[], int depth)
 {
   char *words[3];
   int   count = Split(line, words, 3);
@@ -141,15 +160,16 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
     if (words[k][0] == '#') count = k; /* the rest is a comment */
   if (!count || strchr("!%", words[0][0])) return;
   CheckWord(a, where, words[0]);
-  Keep(a, words[0] + 1, where);
+  Keep(a, source, where, words[0], count > 1 ? words[1] : NULL);
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
 
 static void ExamineLines(SamArguments *a, const char where[], const char name[], FILE *file, int depth)
 {
-  char   *line = NULL;
-  size_t  size = 0;
-  ssize_t length;
+  const int source = a->count;
+  char     *line   = NULL;
+  size_t    size   = 0;
+  ssize_t   length;
 
   for (long number = 1; !a->code && (length = getline(&line, &size, file)) >= 0; number++) {
     char place[600];
@@ -157,7 +177,7 @@ static void ExamineLines(SamArguments *a, const char where[], const char name[],
     (void)snprintf(place, sizeof(place), "%s%s, line %ld: ", where, name, number);
     if (memchr(line, '\0', (size_t)length))
       Complain(a, SAM_ERR_USER, "%sa byte of value 0: an options file is plain text: save it as UTF-8", place);
-    ExamineLine(a, place, line, depth);
+    ExamineLine(a, source, place, line, depth);
   }
   free(line);
 }
@@ -202,13 +222,13 @@ static void SeparateEnvironment(void)
 }
 
 /* Examines the words of a text; NULL: no text. */
-static void ExamineText(SamArguments *a, const char where[], const char text[])
+static void ExamineText(SamArguments *a, int source, const char where[], const char text[])
 {
   const size_t most  = text ? strlen(text) / 2 + 1 : 0;
   char        *copy  = text ? strdup(text) : NULL;
   char       **words = most ? (char **)malloc(most * sizeof(*words)) : NULL;
 
-  if (copy && words) ExamineWords(a, where, Split(copy, words, (int)most), words);
+  if (copy && words) ExamineWords(a, source, where, Split(copy, words, (int)most), words);
   free(words);
   free(copy);
 }
@@ -266,7 +286,7 @@ void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *a)
 
   memset(a, 0, sizeof(*a));
   (void)MPI_Comm_rank(comm, &rank);
-  if (rank == 0) ExamineText(a, "", text);
+  if (rank == 0) ExamineText(a, SAM_SOURCE_TEXT, "", text);
   TellAll(comm, a);
 }
 
@@ -280,8 +300,8 @@ void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
   SeparateEnvironment();
   (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) {
-    ExamineWords(a, "", *argc - 1, *argv + 1);
-    ExamineText(a, "PETSC_OPTIONS: ", getenv("PETSC_OPTIONS"));
+    ExamineWords(a, SAM_SOURCE_LINE, "", *argc - 1, *argv + 1);
+    ExamineText(a, SAM_SOURCE_ENVIRONMENT, "PETSC_OPTIONS: ", getenv("PETSC_OPTIONS"));
   }
   TellAll(MPI_COMM_WORLD, a);
   if (!a->code) return;
@@ -296,6 +316,7 @@ void SamArgumentsFree(SamArguments *a)
   for (int k = 0; k < a->count; k++) free(a->files[k]);
   for (int k = 0; k < a->givens; k++) {
     free(a->given[k].name);
+    free(a->given[k].value);
     free(a->given[k].place);
   }
   free(a->given);

@@ -451,6 +451,9 @@ static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, 
     (void)snprintf(other, sizeof(other), "%.*s", (int)strcspn(next, ","), next);
     PetscCall(SamOptionsExclude(from, row->name, other, "give one of them"));
   }
+  PetscCheck(!(row->loosest > 0 && *(const PetscReal *)member > row->loosest), from->comm, SAM_ERR_USER,
+             "-%s%s %.6g: the limit is %.6g, beyond which %s: give less", SamOptionsPrefix(from), row->name,
+             (double)*(const PetscReal *)member, (double)row->loosest, row->beyond);
   if (row->missing && has)
     PetscCall(SamOptionsRequire(from, given || HasDefault(row, member), row->name, row->missing));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -398,6 +398,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
     (void)snprintf(step->failed, sizeof(step->failed), "%s", h->failed[0] ? h->failed : failed);
   PetscCall(SamBalanceGetLoads(step->grid, SAM_BALANCE_NORMAL, heat, power)); /* sums over the area, W */
   PetscCall(FindTimeless(law, step));
+  PetscCall(SamHeatLawKeepPowers(law, step, power[0]));
   PetscCall(SamBalanceGetLoads(step->grid, SAM_BALANCE_NORMAL, into_body[1], into));
   PetscCall(FindMaximum(step, surface, &numbers[MAXIMUM]));
   numbers[POWER] = (double)power[0];
@@ -438,7 +439,6 @@ static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t siz
   double            clipped = h->clipped ? 1 : 0;
 
   PetscFunctionBegin;
-  (void)state;
   text[0] = '\0';
   PetscCall(SamMax(law->grid->comm, 1, &clipped));
   if (clipped > 0)
@@ -450,6 +450,8 @@ static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t siz
     (void)snprintf(text, size,
                    "the first step has no duration, so that its frictional work makes no heat: give the first row of "
                    "the history a time above 0");
+  else
+    SamHeatLawAdviseSpeeds(h, SamStateUnitOf(state, "heat_power"), text, size);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -24,6 +24,7 @@ typedef struct {
   PetscBool   solving;        /* between the beginning of a step and its end */
   PetscBool   clipped;        /* the last bound would have had friction below 0 in a cell of this rank */
   PetscBool   timeless;       /* there is frictional work in a step without duration */
+  double      power[2];       /* of the last step: by its slip, and by the difference of the speeds; W */
   SamExpander expander[2];    /* NULL: not created yet, or no expansion; [1] may be [0], for equal conduction */
   SamMixing   mixing;         /* of the thermal displacements; NULL: not created yet */
   PetscInt    passes;         /* in which they have been found in this step */
@@ -56,6 +57,12 @@ PETSC_INTERN PetscErrorCode SamHeatLawBeginExpansion(SamLaw law);
 PETSC_INTERN PetscErrorCode SamHeatLawKeepExpansion(SamLaw law, SamLawStep *step, const Vec into[2]);
 PETSC_INTERN PetscErrorCode SamHeatLawViewExpansion(SamLaw law, SamState state, PetscViewer viewer);
 PETSC_INTERN PetscErrorCode SamHeatLawDestroyExpansion(SamLaw law);
+/*
+  SamHeatLawKeepPowers - keeps the power of a solved step, W, and that by the bodies' speeds. Collective.
+  SamHeatLawAdviseSpeeds - writes a warning if they differ; `unit`: theirs. Not collective (heatpower.c).
+*/
+PETSC_INTERN PetscErrorCode SamHeatLawKeepPowers(SamLaw law, const SamLawStep *step, PetscReal power);
+PETSC_INTERN void           SamHeatLawAdviseSpeeds(const SamHeatLaw *h, const char unit[], char text[], size_t size);
 /* SamHeatLawPrepare - creates the operators at their first use. Collective. */
 PETSC_INTERN PetscErrorCode SamHeatLawPrepare(SamLaw law);
 /* SamHeatLawBound - the law's method `bound`: the change of friction by temperature (heatbound.c). Collective. */

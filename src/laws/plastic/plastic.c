@@ -118,7 +118,8 @@ static const SamOptionRow rows[] = {
   {"yield_first", "thickness of the first layer, 0: half a cell", SAM_OPTION_REAL, offsetof(Plastic, first),
    .range = SAM_RANGE_NONNEGATIVE, .unit = "m", .recorded = PETSC_TRUE, YIELDING},
   {"yield_rtol", "tolerance of the plastic strain, relative to the strain at yield", SAM_OPTION_REAL,
-   offsetof(Plastic, rtol), .range = SAM_RANGE_PART, YIELDING}};
+   offsetof(Plastic, rtol), .range = SAM_RANGE_PART, YIELDING, .loosest = LOOSEST,
+   .beyond = "the plastic work is wrong by per cents"}};
 
 static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
 static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
@@ -258,9 +259,6 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
     *asked      = PETSC_TRUE;
     law->option = yielding[b];
   }
-  PetscCheck(x->rtol <= LOOSEST, from->comm, SAM_ERR_USER,
-             "-%syield_rtol %.6g: the limit is %.6g, beyond which the plastic work is wrong by per cents: give less",
-             SamOptionsPrefix(from), (double)x->rtol, LOOSEST);
   law->bytes = BYTES * x->layers * BodiesOf(x);
   PetscCall(SetLayers(x, law, from));
   for (PetscInt b = 0; b < 2; b++) {
