@@ -80,7 +80,8 @@
 #define SHEAR    2.5   /* largest error of the shear, relative to that of the energy, if N is applied in one step, */
 #define SEVERAL  8     /* and number of steps in which it is small */
 #define MAKING   0.33  /* part of the work of slip that is too much before cells touch, */
-#define MADE     0.1   /* and part of it that more steps turn into energy, at most */
+#define MADE     0.1   /* part of it that more steps turn into energy, at most, */
+#define WIDER    0.2   /* and that by which the width of the ring is estimated */
 #define LESS     0.25  /* the same, relative to the energy, with enough steps; it falls like 1/steps^(1/FALLS) */
 #define FALLS    0.75
 #define MERGING  1.2   /* error of the shear times the number of steps in which N and T of rough surfaces grow */
@@ -296,16 +297,17 @@ static void Long(SamAdvice *a)
 /*
   Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. The energy of a ring grows like
   the third power of its width, and the shear where it ends like the root of the width: so the energy that more steps
-  make tells how much wider the ring is. Measured on spheres with beta/mu of 0.3 to 1.3 on 64 to 300 cells in 1 to 12
-  steps against 48: the energy that was missing was 0.006 to 0.09 of the work before cells touch. The area of stick was
-  wrong by 0.4 to 38 %, the estimate is 0.3 to 58 %; the shear by up to 18 %, the estimate up to twice as much.
+  make tells how much wider the ring is. Measured on spheres with beta/mu of 0.3 to 1.3 and on a rigid one, on 48 to 300
+  cells in 1 to 12 steps against 48 or more: the energy that was missing was 0.006 to 0.09 of the work before cells
+  touch. The area of stick was wrong by 0.4 to 47 %, and the shear by 0.1 to 18 %; the estimates are one to three times
+  the larger ones of these errors.
 */
 static void Few(SamAdvice *a)
 {
   static const char why[] = "%.0f %% of the slip while N grows is before cells touch";
   const SamSlip    *slip  = &a->slip;
-  const double      all = slip->before_touch + slip->energy, wider = cbrt(1 + MADE * slip->before_touch / slip->energy);
-  const double      factor = pow(slip->before_touch / (LESS * slip->energy), FALLS), part = slip->before_touch / all;
+  const double all = slip->before_touch + slip->energy, wider = cbrt(1 + WIDER * slip->before_touch / slip->energy);
+  const double factor = pow(slip->before_touch / (LESS * slip->energy), FALLS), part = slip->before_touch / all;
 
   if (slip->coupling > 0 || !(slip->energy > NOTHING * slip->work && slip->before_touch > MAKING * all)) return;
   SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, part, factor, "dissipated_energy", why, 100 * part);

@@ -6,8 +6,8 @@
   the steps are of first order. If the cells must be more than twice as narrow, or the steps more than twice as many, a
   finer trial follows; where a trial costs little, until the errors on the chosen grid itself are small enough.
 
-  A number whose error finer cells leave as it is, in two trials that follow each other, asks for no more of them; nor
-  does one whose error stays unknown.
+  A number whose error finer cells hardly lower, in two trials that follow each other, asks for no more of them; nor does
+  one whose error stays unknown.
 */
 #include "accuracyimpl.h"
 #include <petsam/private/grid.h>
@@ -20,7 +20,8 @@
 #define AT_ONCE    4.0   /* most times by which cells become narrower from one trial to the next */
 #define STALLS     2     /* finer trials with the same error of a number, after which it asks for no finer ones: */
 #define FINER      1.5   /* cells so many times narrower, */
-#define FALLS      0.8   /* and a larger part of the error that is left */
+#define SLOW       0.5   /* and errors that fall more slowly than with this power of the width; */
+#define AGAIN      1.6   /* after the first, cells become narrower so many times */
 #define UNKNOWN    0.995 /* error from which on nothing is known (SamErrorWrite()) */
 #define SAME       0.1   /* relative changes of the grid's width and place that are no reason for another trial */
 
@@ -47,26 +48,25 @@ static double Narrower(const SamErrorRow *row, double wanted)
   return pow(error / wanted, 1 / order);
 }
 
-/* True if the error of a number by a cause is not lowered by finer cells, or more steps: once more than STALLS times. */
-static PetscBool Stalls(SamTask *task, const SamErrorRow *row, SamCause cause, double fineness)
+/* Returns the number of finer trials that hardly lowered the error of a number by a cause. */
+static PetscInt CountStalls(SamTask *task, const SamErrorRow *row, SamCause cause, double fineness)
 {
   const double error = row->of[cause] < UNKNOWN ? row->of[cause] : 1;
   SamWatch    *w     = task->watch;
 
   while (w < task->watch + task->watched && !(w->cause == cause && !strcmp(w->name, row->name))) w++;
   if (w == task->watch + task->watched) {
-    if (task->watched == (PetscInt)PETSC_STATIC_ARRAY_LENGTH(task->watch)) return PETSC_FALSE;
-    task->watched++;
+    task->watched++; /* the table has fewer rows than there is room */
     *w = (SamWatch){.cause = cause};
     (void)snprintf(w->name, sizeof(w->name), "%s", row->name);
+  } else if (!(fineness > FINER * w->fineness)) {
+    return w->stalls;
+  } else {
+    w->stalls = error > w->error * pow(fineness / w->fineness, -SLOW) ? w->stalls + 1 : 0;
   }
-  if (w->fineness > 0 && fineness > FINER * w->fineness)
-    w->stalls = error > FALLS * w->error ? w->stalls + 1 : 0;
-  else if (w->fineness > 0)
-    return w->stalls >= STALLS ? PETSC_TRUE : PETSC_FALSE;
   w->fineness = fineness;
   w->error    = error;
-  return w->stalls >= STALLS ? PETSC_TRUE : PETSC_FALSE;
+  return w->stalls;
 }
 
 /* Gets how many times narrower the cells must be, and how many times more steps there must be, for all numbers whose
@@ -86,10 +86,12 @@ static void Demand(SamTask *task, const SamChoice *c, const SamTrial *t, double 
 
     if (!SamTaskConcerns(task->asked, row->name)) continue;
     for (int n = 0; n < 2; n++) {
-      if (Stalls(task, row, n ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS, fineness[n]) && more[n] > 1)
+      const PetscInt stalls = CountStalls(task, row, n ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS, fineness[n]);
+
+      if (stalls >= STALLS && more[n] > 1)
         *stuck = PETSC_TRUE;
       else if (n == 0 || more[n] > 1)
-        factor[n] = PetscMax(factor[n], more[n]);
+        factor[n] = PetscMax(factor[n], stalls > 0 ? PetscMin(more[n], AGAIN) : more[n]);
     }
   }
 }

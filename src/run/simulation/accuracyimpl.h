@@ -14,7 +14,7 @@ typedef struct {
 } SamChoice;
 
 /* SamWatch - the error of a number by a cause on the finest cells, or most steps, so far; `stalls`: number of finer
-   trials that did not lower it. */
+   trials that hardly lowered it. */
 typedef struct {
   char     name[SAM_ERROR_NAME];
   SamCause cause;
@@ -29,7 +29,7 @@ typedef struct {
   PetscInt           axes;
   PetscInt           few, most; /* cells along the shorter side: of the first grid; most along any side */
   PetscInt           watched;
-  SamWatch           watch[2 * SAM_ERROR_ROWS];
+  SamWatch           watch[4 * SAM_ERROR_ROWS];
   double             seconds, work; /* time of the last trial (s), and its cells times steps */
 } SamTask;
 
