@@ -139,7 +139,7 @@ def test_slip_is_mindlin(solve, ratio):
 
 
 def test_dissipated_energy_is_work_of_slip(solve):
-    """Of the bound where cells slip; what the solver leaves of the slip of others, against their shear, is its error."""
+    """Of the bound where cells slip; the solver leaves others a little slip, against their shear."""
     case = cattaneo(256, 0.6)
     s = solve(case)
     bound, size = case["friction"] * s.pressure, np.hypot(s.shear_x, s.shear_y)

@@ -232,7 +232,7 @@ SINGULAR |= dict(gap_type="sphere", gap_radius1=0.108, gap_radius2="inf", load_n
 
 @pytest.mark.parametrize("case", [WEAK, SINGULAR])
 def test_dissimilar_bodies_under_n_alone_end_soon(petsam, case):
-    """Where slip is in a ring of a small part of a cell, no grid tells it; its energy is next to nothing, and no row."""
+    """Slip is in a ring of a small part of a cell, which no grid tells; its energy is next to nothing, and no row."""
     run = petsam(case, "-accuracy", "1%", "-output", "own.h5")
     grid, trials = chosen(run.stdout)
     assert int(grid["grid_n"]) < 600 and trials <= 4
