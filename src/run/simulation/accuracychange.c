@@ -6,8 +6,7 @@
   the steps are of first order. If the cells must be more than twice as narrow, or the steps more than twice as many, a
   finer trial follows; where a trial costs little, until the errors on the chosen grid itself are small enough.
 
-  A number whose error finer cells hardly lower, in two trials that follow each other, asks for no more of them; nor does
-  one whose error stays unknown.
+  A number whose error two finer trials hardly lower asks for no more of them; nor does one whose error stays unknown.
 */
 #include "accuracyimpl.h"
 #include <petsam/private/grid.h>
@@ -48,7 +47,8 @@ static double Narrower(const SamErrorRow *row, double wanted)
   return pow(error / wanted, 1 / order);
 }
 
-/* Returns the number of finer trials that hardly lowered the error of a number by a cause. */
+/* Returns the number of finer trials since the one with the best error of a number by a cause, for its fineness; errors
+   wander from grid to grid. One that is nearly as small as asked is always within reach. */
 static PetscInt CountStalls(SamTask *task, const SamErrorRow *row, SamCause cause, double fineness)
 {
   const double error = row->of[cause] < UNKNOWN ? row->of[cause] : 1;
@@ -59,14 +59,15 @@ static PetscInt CountStalls(SamTask *task, const SamErrorRow *row, SamCause caus
     task->watched++; /* the table has fewer rows than there is room */
     *w = (SamWatch){.cause = cause};
     (void)snprintf(w->name, sizeof(w->name), "%s", row->name);
-  } else if (!(fineness > FINER * w->fineness)) {
+  } else if (!(fineness > FINER * w->finest)) {
     return w->stalls;
-  } else {
-    w->stalls = error > w->error * pow(fineness / w->fineness, -SLOW) ? w->stalls + 1 : 0;
+  } else if (error > NEAR * (double)task->asked->error && error > w->error * pow(fineness / w->fineness, -SLOW)) {
+    w->finest = fineness;
+    return ++w->stalls;
   }
-  w->fineness = fineness;
-  w->error    = error;
-  return w->stalls;
+  w->fineness = w->finest = fineness;
+  w->error                = error;
+  return w->stalls        = 0;
 }
 
 /* Gets how many times narrower the cells must be, and how many times more steps there must be, for all numbers whose

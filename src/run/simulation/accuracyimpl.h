@@ -13,12 +13,12 @@ typedef struct {
   PetscReal width[2], center[2];
 } SamChoice;
 
-/* SamWatch - the error of a number by a cause on the finest cells, or most steps, so far; `stalls`: number of finer
-   trials that hardly lowered it. */
+/* SamWatch - the best error of a number by a cause, in the trial with so many cells per m, or steps per row; `stalls`:
+   number of trials up to the finest that were no better for their fineness. */
 typedef struct {
   char     name[SAM_ERROR_NAME];
   SamCause cause;
-  double   fineness, error;
+  double   fineness, error, finest;
   PetscInt stalls;
 } SamWatch;
 
