@@ -299,8 +299,8 @@ static void Long(SamAdvice *a)
   the third power of its width, and the shear where it ends like the root of the width: so the energy that more steps
   make tells how much wider the ring is. Measured on spheres with beta/mu of 0.3 to 1.3 and on a rigid one, on 48 to 300
   cells in 1 to 12 steps against 48 or more: the energy that was missing was 0.006 to 0.09 of the work before cells
-  touch. The area of stick was wrong by 0.4 to 47 %, and the shear by 0.1 to 18 %; the estimates are one to three times
-  the larger ones of these errors.
+  touch. The area of stick was wrong by 0.4 to 47 %, and the shear by 0.1 to 18 %. WIDER was chosen on
+  these same spheres, by the errors of the stick area of the rigid one; on others it is not checked.
 */
 static void Few(SamAdvice *a)
 {
