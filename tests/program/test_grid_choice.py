@@ -220,7 +220,28 @@ def test_what_no_grid_resolves_ends_the_trials(petsam, sphere_alone):
     run = petsam({**sphere_alone, "load_tx": 99.9999}, "-accuracy", "2%")
     assert chosen(run.stdout)[1] == 3
     says = "-accuracy 2 % is not reached: the maximum error is unknown, of stick_area"
-    assert any(says in line and line.endswith("; finer cells do not lower it") for line in run.complaint)
+    (line,) = [line for line in run.complaint if says in line]
+    assert "; finer cells do not lower it; " in line and re.search(r"; \d of \d+ numbers have reached it$", line)
+
+
+WEAK = dict(body1_young=116e9, body1_poisson=0.24, body2_young=39e9, body2_poisson=0.2, friction=0.66)
+WEAK |= dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", load_n=500)
+SINGULAR = dict(body1_young=9.96e9, body1_poisson=0.39, body2_young=8.92e9, body2_poisson=0.329, friction=0.618)
+SINGULAR |= dict(gap_type="sphere", gap_radius1=0.108, gap_radius2="inf", load_n=23.4)
+
+
+@pytest.mark.parametrize("case", [WEAK, SINGULAR])
+def test_dissimilar_bodies_under_n_alone_end_soon(petsam, case):
+    """Slip is in a ring of a small part of a cell, which no grid tells; its energy is next to nothing, and no row."""
+    run = petsam(case, "-accuracy", "1%", "-output", "own.h5")
+    grid, trials = chosen(run.stdout)
+    assert int(grid["grid_n"]) < 600 and trials <= 4
+    told, own = errors("own.h5"), last("own.h5")
+    assert "dissipated_energy" not in told and own["dissipated_energy"] < 1e-6 * own["load_n"] * own["disp_z"]
+    petsam(case, "-grid_n", "200", "-grid_size", grid["grid_size"], "-output", "other.h5")
+    assert abs(last("other.h5")["stick_area"] / own["stick_area"] - 1) < told["stick_area"] < 0.03
+    (line,) = [line for line in run.complaint if "-accuracy 1 % is not reached: " in line]
+    assert "shear_max" in line and re.search(r"; \d of 7 numbers have reached it$", line)
 
 
 def test_an_accuracy_beyond_all_grids_is_told_with_what_can_be_reached(petsam, sphere_alone):

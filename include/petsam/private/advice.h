@@ -92,7 +92,9 @@ typedef struct {
   PetscBool joined;       /* true: the normal load has begun to grow */
   double    coupling;     /* coupling over friction if N of dissimilar bodies grows in one step; else 0 */
   double    before_touch; /* extra work of slip if the cells of dissimilar bodies had touched before each step, J */
-  PetscInt  growing;      /* number of steps in which cells come into contact */
+  PetscInt  growing;      /* number of steps in which cells come into contact, */
+  double    grown;        /* and fraction of the cells in contact that stick after the last one */
+  double    normal;       /* N times the approach after the last step, J */
   double    share;        /* largest T over mu N before the first reversal */
   double    first;        /* energy of the first branch once it has ended, J; 0: not yet */
   SamRing   ring;         /* the slip of dissimilar bodies while N grows */

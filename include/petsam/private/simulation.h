@@ -209,7 +209,8 @@ PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
   SamAccuracyRefuse - refuses these options for a contact whose steps are given one by one. Collective. Errors:
   SAM_ERR_USER.
   SamAccuracyWorst - returns the row with the maximum error of the numbers that it concerns, borrowed; NULL: there is
-  none. Not collective (accuracy.c).
+  none. SamAccuracyWriteMissed - writes the other numbers than the row `but` whose errors are too large, with their
+  causes, and how many have reached the accuracy; each part begins with "; ". Neither is collective (accuracy.c).
 */
 #define SAM_ACCURACY_NAMES 512
 typedef struct {
@@ -228,5 +229,7 @@ PETSC_EXTERN PetscErrorCode     SamAccuracyChoose(const SamOptions *from, const 
                                                   SamAccuracy *accuracy);
 PETSC_INTERN PetscErrorCode     SamAccuracyRefuse(const SamOptions *from);
 PETSC_EXTERN const SamErrorRow *SamAccuracyWorst(const SamAccuracy *accuracy, const SamErrorTable *table);
+PETSC_EXTERN void               SamAccuracyWriteMissed(const SamAccuracy *accuracy, const SamErrorTable *table,
+                                                       const SamErrorRow *but, char text[], size_t size);
 
 #endif

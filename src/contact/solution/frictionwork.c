@@ -18,11 +18,11 @@ static void FrictionRow(const Fields *f, const SamIncrement *increment, ptrdiff_
     const ptrdiff_t k      = first + i;
     const double    length = hypot(sx[i], sy[i]);
     double          share[2];
+    const double    work = SamIncrementGetWork(increment, k, share);
 
-    (void)SamIncrementGetCellMotion(increment, k, share);
     if (f->path) f->path[k] = length;
     if (f->pressed) f->pressed[k] = SamIncrementMix(share, increment->at_before.p, increment->at_now.p, k) * length;
-    if (f->work) f->work[k] = SamIncrementMix(share, increment->at_before.b, increment->at_now.b, k) * length;
+    if (f->work) f->work[k] = work;
   }
 }
 

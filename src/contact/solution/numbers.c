@@ -8,7 +8,7 @@
   Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of
   the tractions on the displacements, and the frictional work of this step. A cell works under a mean of the bounds
   before and after the step that depends on how it slid (SamIncrementGetCellMotion()), which makes the sum over steps
-  second order with the slip of step/direction.c. In the first step, and in steady rolling, it is -sum q.ds dA.
+  second order with the slip of step/direction.c.
 */
 enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, BEFORE_TOUCH, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* the last two are stored as squares */
@@ -39,8 +39,7 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
     const SamCellState state = SamCellStateOf(p[k], q[k], q[l], b[k]);
     double             share[2];
 
-    if (increment->solutions[0] && SamIncrementGetCellMotion(increment, k, share) != SAM_CELL_MOTION_NONE)
-      sums[DISSIPATED] += SamIncrementMix(share, increment->at_before.b, b, k) * hypot(dx[i], dy[i]);
+    sums[DISSIPATED] += SamIncrementGetWork(increment, k, share);
     if (increment->solutions[1]->rule == SAM_RULE_TOUCHING)
       sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
     if (state == SAM_CELL_OPEN) continue;
@@ -50,9 +49,6 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
     sums[CONTACT] += 1;
     sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
     sums[STORED] += 0.5 * (p[k] * v->u_z[k] + q[k] * v->u_t[k] + q[l] * v->u_t[l]);
-    if (increment->solutions[0]) continue;
-    (void)SamIncrementGetCellMotion(increment, k, share);
-    sums[DISSIPATED] -= (share[1] > 0 ? share[1] : 1) * (q[k] * dx[i] + q[l] * dy[i]);
   }
 }
 

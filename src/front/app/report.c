@@ -443,8 +443,8 @@ void SamReportSetAccuracy(SamReport r, const SamAccuracy *accuracy)
 static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
 {
   const SamErrorRow *worst = r->accuracy ? SamAccuracyWorst(r->accuracy, t) : NULL;
-  char               error[SAM_ERROR_TEXT], wanted[SAM_ERROR_TEXT + 32] = "", limit[80] = "", text[256];
-  PetscBool          reached;
+  char      error[SAM_ERROR_TEXT], wanted[SAM_ERROR_TEXT + 32] = "", limit[96] = "", missed[480] = "", text[768];
+  PetscBool reached;
 
   PetscFunctionBegin;
   if (!worst) PetscFunctionReturn(PETSC_SUCCESS);
@@ -452,13 +452,16 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
   if (!reached)
     (void)snprintf(wanted, sizeof(wanted), "-accuracy %.3g %% is not reached: ", 100 * (double)r->accuracy->error);
   if (!reached) {
-    static const char *const cure[SAM_CAUSES] = {"a smaller -accuracy chooses finer cells", "the steps are given",
+    static const char *const cure[SAM_CAUSES] = {"a smaller -accuracy chooses finer cells",
+                                                 "the steps are given, as by -steps or in a single row",
                                                  "the layers are given", "the compliance is given"};
 
     (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit ? r->accuracy->limit : cure[worst->cause]);
+    SamAccuracyWriteMissed(r->accuracy, t, worst, missed, sizeof(missed));
   }
-  (void)snprintf(text, sizeof(text), "%sthe maximum error is %s, of %s, by the %s%s", wanted,
-                 SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause], limit);
+  (void)snprintf(text, sizeof(text), "%sthe maximum error is %s, of %s, by the %s%s%s", wanted,
+                 SamErrorWrite(worst->error, error, sizeof(error)), worst->name, SamCauseNames[worst->cause], limit,
+                 missed);
   if (!reached)
     PetscCall(Say(r, &(SamSimulationEvent){.kind = SAM_NOTIFY_ADVICE, .text = text, .setting = ""}));
   else if (!r->quiet)

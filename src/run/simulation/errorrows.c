@@ -58,8 +58,8 @@ double SamErrorsLeast(SamSimulation s, const SamStateNumber *number)
 
   if (rigid >= 0 && (!strcmp(unit, "m") || !strcmp(unit, "rad")))
     return (s->start.loads[rigid] ? 1e-3 : 1) * l->approach / (strcmp(unit, "rad") ? 1 : PetscMax(length, 1e-300));
-  if (!strcmp(unit, "J")) return 1e-6 * l->load * l->approach;
-  if (!strcmp(unit, "J/m")) return 1e-6 * l->load; /* per rolled distance */
+  if (!strcmp(unit, "J")) return SAM_ENERGY_NONE * l->load * l->approach;
+  if (!strcmp(unit, "J/m")) return SAM_ENERGY_NONE * l->load; /* per rolled distance */
   if (!strcmp(unit, "m2")) return 1e-3 * l->area;
   if (!strcmp(unit, "Pa")) return 1e-4 * l->pressure;
   if (!strcmp(unit, "m")) return 1e-5 * l->approach;
