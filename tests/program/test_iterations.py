@@ -1,5 +1,7 @@
 """Products with the influence operator: few, whatever the grid (the counts of method.md)."""
 
+import os
+import re
 import sys
 from pathlib import Path
 
@@ -8,8 +10,10 @@ import numpy as np
 import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "bench"))
+from conftest import PROGRAM, environment
+from petsam.results import Results
 from problem import rough_plane  # noqa: E402
-from support import PUNCH, ball, bodies, few, slide_limit, sliding_pair
+from support import PUNCH, ball, bodies, few, finished, flatten, slide_limit, sliding_pair
 
 
 @pytest.mark.parametrize("n", [256, 512, pytest.param(1024, marks=pytest.mark.slow), (509, 330)])
@@ -79,6 +83,29 @@ def test_tangential_products_of_force_with_torque_at_512_at_most_25(solve, arm, 
 )
 def test_tangential_products_of_a_punch_at_most_25(solve, load):
     assert solve(PUNCH, dict(grid_n=256), load)["tangential_applies"] <= 25
+
+
+@pytest.mark.parametrize("friction, part, size", [(0.1, 0.9, 2.2e-3), (0.4, 0.8, 1.9e-3)])
+def test_tangential_products_of_dissimilar_bodies_at_512_at_most_45(solve, friction, part, size):
+    """54 and 56 if cells at the edge that coarse grids leave without shear count as sticking."""
+    case = ball(512, young=210e9, poisson=0.3, body2_young=70e9, friction=friction, load_n=1000.0, grid_size=size)
+    case.update(gap_radius1=0.2, gap_radius2=0.2, load_tx=part * friction * 1000, errors="none", output_fields="none")
+    assert solve(case)["tangential_applies"] <= 45
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") < 16e9, reason="needs 13 GB of memory")
+def test_the_largest_grid_needs_few_products_and_the_memory_of_its_head(launcher, tmp_path):
+    """Cells that its coarse grids left without shear held up 4096 x 4096 cells there for ever."""
+    case = ball(8192, young=210e9, poisson=0.3, friction=0.1, load_n=1000.0, grid_size=2e-3, output="out.h5")
+    case.update(gap_radius1=0.2, gap_radius2=0.2, load_tx=60.0, errors="none", output_fields="none")
+    command = [*launcher, "-n", "2", str(PROGRAM), *flatten([case])]
+    text = finished(command, cwd=tmp_path, env=environment(), timeout=1200).stdout
+    with Results(tmp_path / "out.h5") as results:
+        assert results["tangential_applies"][-1] <= 35 and results["normal_applies"][-1] <= 15
+        assert results["disp_x"][-1] == pytest.approx(4.163119e-07, rel=1e-6)  # as on 512 x 512 cells
+    expected, used = re.search(r"about ([0-9.]+) GB per rank", text), re.search(r"memory ([0-9.]+) GB of", text)
+    assert float(used[1]) == pytest.approx(float(expected[1]), rel=0.1)
 
 
 @pytest.mark.slow
