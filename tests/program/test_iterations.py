@@ -85,12 +85,11 @@ def test_tangential_products_of_a_punch_at_most_25(solve, load):
     assert solve(PUNCH, dict(grid_n=256), load)["tangential_applies"] <= 25
 
 
-@pytest.mark.parametrize("friction, part, size", [(0.1, 0.9, 2.2e-3), (0.4, 0.8, 1.9e-3)])
-def test_tangential_products_of_dissimilar_bodies_at_512_at_most_45(solve, friction, part, size):
-    """54 and 56 if cells at the edge that coarse grids leave without shear count as sticking."""
-    case = ball(512, young=210e9, poisson=0.3, body2_young=70e9, friction=friction, load_n=1000.0, grid_size=size)
-    case.update(gap_radius1=0.2, gap_radius2=0.2, load_tx=part * friction * 1000, errors="none", output_fields="none")
-    assert solve(case)["tangential_applies"] <= 45
+def test_tangential_products_of_dissimilar_bodies_at_512_at_most_40(solve):
+    """54 if cells at the edge that coarse grids leave without shear count as sticking."""
+    case = ball(512, young=210e9, poisson=0.3, friction=0.1, load_n=1000.0, grid_size=2.2e-3, errors="none")
+    case.update(body2_young=70e9, body2_poisson=0.33, gap_radius1=0.2, gap_radius2=0.2, load_tx=90.0)
+    assert solve(case)["tangential_applies"] <= 40
 
 
 @pytest.mark.slow
