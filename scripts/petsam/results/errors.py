@@ -81,13 +81,15 @@ class Errors(dict, Tabled):
         ]
 
 
-def read(group: Any) -> Errors:
+def read(group: Any, closed: bool = True) -> Errors:
     """The errors of a file that is open.
 
     Parameters
     ----------
     group : h5py.Group or None
         Its group /errors.
+    closed : bool
+        False: the run may have been killed while it wrote them.
 
     Returns
     -------
@@ -96,6 +98,15 @@ def read(group: Any) -> Errors:
     """
     if group is None:
         return Errors()
+    try:
+        return _of(group)
+    except (OSError, RuntimeError):
+        if closed:
+            raise
+        return Errors()
+
+
+def _of(group: Any) -> Errors:
     rows = min(len(column) for column in group.values())  # 0: the run did not reach its end
     texts = {name: [decoded(value) for value in group[name][:rows]] for name in ("name", "unit", "cause")}
     none = [0.0] * rows  # of causes that files of earlier versions do not have

@@ -101,7 +101,7 @@ class Results(Fields, Viewed):
         self._held = self._count_saved()  # saved steps of this file alone
         self.times = self.times[: self._held]
         self.warnings = self._texts("warnings")
-        self.gradients = gradients.read(self.file.get("gradient"))
+        self.gradients = gradients.read(self.file.get("gradient"), self.parameters.get("closed", 1))
         if "friction_file" not in self.parameters:
             _ = self.parameters["friction"]  # which every other file has
         self.before = int(self.parameters.get("branch_step", 0))
@@ -112,7 +112,7 @@ class Results(Fields, Viewed):
         attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
         self._fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
         self._later, self._places = [], [(0, k) for k in range(self.times.size)]
-        self.errors = errors.read(self.file.get("errors"))
+        self.errors = errors.read(self.file.get("errors"), self.parameters.get("closed", 1))
         self.wear, self.wear_units = Named(self.path, {}), {}
         if "wear" in self.file:
             self.wear, self.wear_units = self._read_table("wear")
@@ -126,7 +126,12 @@ class Results(Fields, Viewed):
             return []
         if getattr(data, "ndim", None) != 1 or data.dtype.kind != "S" or data.size > WHOLE:
             raise ValueError(f"/{name} is not a row of texts")
-        return [decoded(one) for one in data[:].tolist()]
+        try:
+            return [decoded(one) for one in data[:].tolist()]
+        except (OSError, RuntimeError):
+            if self.parameters.get("closed", 1):
+                raise
+            return []  # the run was killed while it wrote them
 
     def _count_saved(self):
         """Number of saved steps; those that are in all fields, where a run was killed as it wrote another one."""

@@ -83,13 +83,28 @@ def _text(value):
     return decoded(value) if isinstance(value, bytes) else str(value)
 
 
-def read(group: Optional[h5py.Group]) -> dict[str, Gradient]:
+def _one(name: str, of: h5py.Group) -> Optional[Gradient]:
+    """The gradient in a group; None: the run ended before it was written."""
+    if not {"value", "residual", "borders"} <= of.attrs.keys() or any(data is None for data in of.values()):
+        return None
+    numbers = {key: float(value) for key, value in of.attrs.items() if key != "units"}
+    numbers |= {key: data[:] for key, data in of.items() if data.ndim == 1}
+    gap, friction = (of[key][:] if key in of else None for key in ("gap", "friction"))
+    borders = int(numbers.pop("borders"))
+    return Gradient(
+        name, numbers.pop("value"), gap, friction, numbers, borders, numbers.pop("residual"), _text(of.attrs["units"])
+    )
+
+
+def read(group: Optional[h5py.Group], closed: bool = True) -> dict[str, Gradient]:
     """The gradients of a results file.
 
     Parameters
     ----------
     group : h5py.Group, optional
         /gradient; None: the file has none.
+    closed : bool
+        False: the run may have been killed while it wrote one of them, which is left out.
 
     Returns
     -------
@@ -98,13 +113,12 @@ def read(group: Optional[h5py.Group]) -> dict[str, Gradient]:
     """
     found = {}
     for name, of in () if group is None else group.items():
-        if not {"value", "residual", "borders"} <= of.attrs.keys() or any(data is None for data in of.values()):
-            continue  # the run ended before this one was written
-        numbers = {key: float(value) for key, value in of.attrs.items() if key != "units"}
-        numbers |= {key: data[:] for key, data in of.items() if data.ndim == 1}
-        gap, friction = (of[key][:] if key in of else None for key in ("gap", "friction"))
-        found[name] = Gradient(
-            name, numbers.pop("value"), gap, friction, numbers, int(numbers.pop("borders")),
-            numbers.pop("residual"), _text(of.attrs["units"]),
-        )  # fmt: skip
+        try:
+            one = _one(name, of)
+        except (OSError, RuntimeError):
+            if closed:
+                raise
+            one = None
+        if one is not None:
+            found[name] = one
     return found
