@@ -29,8 +29,9 @@ typedef struct _n_SamArguments {
 /*
   SamArgumentsExamine - removes -help, with the words after it, and -version from the command line, and examines the
   rest, the options files and PETSC_OPTIONS for words that PETSc would ignore, options that are given twice in one of
-  these, files at which it would wait for ever or crash, and options that load code or start programs. After a mistake nothing is left for PETSc to read. It must be
-  called between MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.
+  these, files at which it would wait for ever or crash, and options that load code or start programs. After a mistake
+  nothing is left for PETSc to read. It must be called between MPI_Init() and PetscInitialize(). Collective over
+  MPI_COMM_WORLD.
 */
 PETSC_EXTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);
 /*

@@ -47,8 +47,10 @@ struct _n_SamCompliance {
   SamComplianceMoveDatum - makes the matrix that of a half-plane with another datum. Not collective.
 */
 PETSC_INTERN void SamComplianceMoveDatum(SamCompliance compliance, double datum);
-/* SamComplianceMesh - the numbers of a step that have the errors of the displacements in x, y and z by the meshes of the
-   bodies, m; only a contact with such bodies has them. */
+/*
+  SamComplianceMesh - the numbers of a step that have the errors of the displacements in x, y and z by the meshes of the
+  bodies, m; only a contact with such bodies has them.
+*/
 PETSC_INTERN const char *const SamComplianceMesh[3];
 /* SamComplianceOptions - the options of both bodies, without dash. */
 PETSC_INTERN const char *const SamComplianceOptions[2];

@@ -103,9 +103,9 @@ PETSC_INTERN PetscErrorCode SamOutputWriteErrors(SamOutput output, const SamErro
 PETSC_INTERN PetscErrorCode SamOutputWriteWarnings(SamOutput output, PetscInt count,
                                                    const char texts[][SAM_WARNING_TEXT]);
 /*
-  SamOutputWriteGradient - writes all waiting steps, then what a gradient has found, into the settings' group /gradient/NAME:
-  the wanted derivatives by gap and friction in each cell, by each step's loads, and numbers as attributes. Collective.
-  Errors: as SamOutputWriteStep().
+  SamOutputWriteGradient - writes all waiting steps, then what a gradient has found, into the settings' group
+  /gradient/NAME: the wanted derivatives by gap and friction in each cell, by each step's loads, and numbers as
+  attributes. Collective. Errors: as SamOutputWriteStep().
 */
 PETSC_INTERN PetscErrorCode SamOutputWriteGradient(SamOutput output, SamGradient gradient, const char name[]);
 /*

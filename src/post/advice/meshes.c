@@ -1,9 +1,9 @@
 /*
-  Errors of numbers by the finite elements of bodies' compliances: their displacements miss a known part of what the body
-  is displaced beyond the half-space (compliance.c). Where the displacement is given, the load misses as much times the
-  tangent stiffness, which is 1.5 times the mean one of Hertz's contact, and twice that of a thin layer on a rigid base;
-  area and peak pressure grow less than the load, and the energy of slip as the third power of the shear force at most.
-  Half of the load's work by that part of the displacement is stored, of at least a third of the load times the
+  Errors of numbers by the finite elements of bodies' compliances: their displacements miss a known part of what the
+  body is displaced beyond the half-space (compliance.c). Where the displacement is given, the load is that of a larger
+  one: it grows with its power 1.5 in Hertz's contact, and with its square at most, in that of a thin layer on a rigid
+  base. Area and peak pressure grow less than the load, and the energy of slip as the third power of the shear force at
+  most. Half of the load's work by that part of the displacement is stored, of at least a third of the load times the
   displacement, as that of such a layer.
 */
 #include "adviceimpl.h"
@@ -12,10 +12,6 @@
 #include <petsam/private/contact.h>
 #include <petsam/private/state.h>
 #include <math.h>
-
-#define TANGENT 2   /* tangent stiffness by the mean one, at most */
-#define ENERGY  3   /* power of the shear force that the energy of partial slip grows with */
-#define STORED  1.5 /* error of the stored energy by that of the displacement, at most */
 
 void SamAdviceMeshes(SamAdvice *a)
 {
@@ -27,19 +23,19 @@ void SamAdviceMeshes(SamAdvice *a)
     const double   moved = fabs((double)a->step->rigid[c]);
     SamState       state;
     PetscInt       id;
-    double         error;
+    double         error, load;
 
     a->error = SamContactGetState(a->setup->contact, &state);
     id       = a->error ? -1 : SamStateFindNumber(state, SamComplianceMesh[k]);
     if (id < 0 || !(moved > 0)) continue;
     error = *SamStateReadNumbers(state, id) / moved;
-    if (k == 2) SamDoubtsAdd(&a->doubts, SAM_CAUSE_MESH, STORED * error, 0, "stored_energy", why);
+    load  = k == 2 ? pow(1 + error, 2) - 1 : error;
+    if (k == 2) SamDoubtsAdd(&a->doubts, SAM_CAUSE_MESH, (1. / 2) / (1. / 3) * error, 0, "stored_energy", why);
     if (a->step->control.force[c]) {
       SamDoubtsAdd(&a->doubts, SAM_CAUSE_MESH, error, 0, SamComponentNameOf(c, SAM_BY_RIGID), why);
     } else {
-      SamDoubtsAdd(&a->doubts, SAM_CAUSE_MESH, k == 2 ? TANGENT * error : error, 0, SamComponentNameOf(c, SAM_BY_LOAD),
-                   why);
-      SamDoubtsAdd(&a->doubts, SAM_CAUSE_MESH, (k == 2 ? TANGENT : ENERGY) * error, 0,
+      SamDoubtsAdd(&a->doubts, SAM_CAUSE_MESH, load, 0, SamComponentNameOf(c, SAM_BY_LOAD), why);
+      SamDoubtsAdd(&a->doubts, SAM_CAUSE_MESH, k == 2 ? load : pow(1 + error, 3) - 1, 0,
                    k == 2 ? "contact_area pressure_max" : "dissipated_energy slip_max", why);
     }
   }

@@ -64,7 +64,8 @@ PETSC_INTERN void SamOutputAppendNumbers(SamOutput output, hid_t dataset, hid_t 
 /*
   Tables that are written at the end of a run, whose names are created with the file, see errortable.c. All note their
   failures. Collective.
-  SamOutputCreateTables - creates the dataset /warnings and, if the settings want errors, the group /errors, without rows.
+  SamOutputCreateTables - creates the dataset /warnings and, if the settings want errors, the group /errors, without
+  rows.
   SamOutputAppendErrors, SamOutputAppendWarnings - write their rows.
   SamOutputCreateGradients - creates the groups /gradient/NAME of the settings, without contents (gradienttable.c).
   SamOutputAppendGradient - writes what a gradient has found into its group.

@@ -1,10 +1,10 @@
 /*
   -accuracy: the way from one trial to the next.
 
-  A trial tells where contact is, and, by its errors, how many times narrower the cells must be: with the difference d to
-  half the cells, and D between these and a quarter, the order is p = log2(D/d), from 1 to that of the number. Errors by
-  the steps are of first order. If the cells must be more than twice as narrow, or the steps more than twice as many, a
-  finer trial follows; where a trial costs little, until the errors on the chosen grid itself are small enough.
+  A trial tells where contact is, and, by its errors, how many times narrower the cells must be: with the difference d
+  to half the cells, and D between these and a quarter, the order is p = log2(D/d), from 1 to that of the number. Errors
+  by the steps are of first order. If the cells must be more than twice as narrow, or the steps more than twice as many,
+  a finer trial follows; where a trial costs little, until the errors on the chosen grid itself are small enough.
 
   A number whose error two finer trials hardly lower asks for no more of them; nor does one whose error stays unknown.
 */

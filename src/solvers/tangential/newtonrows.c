@@ -178,10 +178,10 @@ SAM_VECTORIZED void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const 
 }
 
 /*
-  Moves cells that turn to where they are opposite to their slip, and slipping cells beyond their circles, as far as their slip in units of c, but at least to twice their bound. The
-  projection, which restores equilibrium by a common shift, then leaves them on the circle. Otherwise it would pull half
-  of them inside, and convergence would be linear instead of quadratic. It also turns them as far as a change of the
-  motion would.
+  Moves cells that turn to where they are opposite to their slip, and slipping cells beyond their circles, as far as
+  their slip in units of c, but at least to twice their bound. The projection, which restores equilibrium by a common
+  shift, then leaves them on the circle. Otherwise it would pull half of them inside, and convergence would be linear
+  instead of quadratic. It also turns them as far as a change of the motion would.
 */
 SAM_VECTORIZED void SamNewtonTrialRow(const SamNewton *w, SamRow row, double alpha)
 {
