@@ -26,7 +26,8 @@
 #define UNKNOWN    0.995 /* error from which on nothing is known (SamErrorWrite()) */
 #define AFFORDED   60.0  /* s: a run of more is not for a number whose error is unknown or falls slowly, */
 #define DEAR       20.0  /* nor for another one if it takes so many times longer than all trials so far */
-#define SAME       0.1   /* relative changes of the grid's width and place that are no reason for another trial */
+#define BEYOND     5.0 /* other errors so many times larger than asked do not become as small on finer cells, either */
+#define SAME       0.1 /* relative changes of the grid's width and place that are no reason for another trial */
 
 /* Returns the error of a number by the steps: that to twice as many is half of it, that to half as many the whole. */
 static double ErrorBySteps(const SamErrorRow *row, PetscInt steps)
@@ -85,13 +86,14 @@ static double RestOf(const SamTask *task, const SamErrorRow *row)
   return row->of[SAM_CAUSE_LAYERS] + row->of[SAM_CAUSE_MESH] + (task->steps ? 0 : row->of[SAM_CAUSE_STEPS]);
 }
 
-/* Returns how small the error of a number by the cells must be. On few cells the rest of it is often too large. */
+/* Returns how small the error of a number by the cells must be. The rest of it falls on finer
+   cells, too, but not from BEYOND times as much as asked; on few cells it is often too large. */
 static double LeftFor(const SamTask *task, const SamChoice *c, const SamErrorRow *row, double by_steps)
 {
   const double asked = (double)task->asked->error, left = asked - PetscMin(by_steps, 0.5 * asked);
   const double n = (double)PetscMin(c->n[0], c->n[task->axes - 1]);
 
-  return n < NEAR * (double)task->few ? left : PetscMax(left, RestOf(task, row));
+  return n < NEAR * (double)task->few || RestOf(task, row) < BEYOND * asked ? left : PetscMax(left, RestOf(task, row));
 }
 
 /* Returns how many times narrower than this cells become in the next trial. */
