@@ -86,8 +86,8 @@ static double RestOf(const SamTask *task, const SamErrorRow *row)
   return row->of[SAM_CAUSE_LAYERS] + row->of[SAM_CAUSE_MESH] + (task->steps ? 0 : row->of[SAM_CAUSE_STEPS]);
 }
 
-/* Returns how small the error of a number by the cells must be. The rest of it falls on finer
-   cells, too, but not from BEYOND times as much as asked; on few cells it is often too large. */
+/* Returns how small the error of a number by the cells must be. The rest of it falls on finer cells, too, but
+   not from BEYOND times as much as asked; on few cells it is often too large. */
 static double LeftFor(const SamTask *task, const SamChoice *c, const SamErrorRow *row, double by_steps)
 {
   const double asked = (double)task->asked->error, left = asked - PetscMin(by_steps, 0.5 * asked);

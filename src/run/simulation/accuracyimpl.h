@@ -14,8 +14,8 @@ typedef struct {
 } SamChoice;
 
 /* SamWatch - the best error of a number by a cause, in the trial with so many cells per m, or steps per row; `stalls`:
-   number of trials up to the finest that were no better for their fineness; `order`: power of the fineness with which the
-   error fell to the last trial from the best one before; 0: unknown. */
+   number of trials up to the finest that were no better for their fineness; `order`: power of the fineness with which
+   the error fell to the last trial from the best one before; 0: unknown. */
 typedef struct {
   char     name[SAM_ERROR_NAME];
   SamCause cause;
