@@ -373,6 +373,21 @@ def test_stick_of_few_steps_is_told_by_the_width_of_the_ring(petsam, tmp_path, p
         assert true < 1.2 * told.get("stick_area", 0.05) < 0.4 and told["dissipated_energy"] > 0.35, (steps, true)
 
 
+@pytest.mark.parametrize("friction", [0.09, 0.12])
+def test_stick_and_shear_of_very_few_steps_are_covered(petsam, tmp_path, friction):
+    """The ring of slip is too wide then: its error is no larger than the ring, however small its energy is."""
+    pair_of = dict(STEEL, grid_n=64, friction=friction)
+    numbers = {}
+    for steps in (48, 3, 1):
+        done = petsam(pair_of, dict(steps=steps, output="out.h5", overwrite=True))
+        with h5py.File(tmp_path / "out.h5") as f:
+            numbers[steps] = {name: f[f"history/{name}"][-1] for name in ("stick_area", "shear_max")}
+        told = doubts(done, "steps")[1]
+        for name, least in ("stick_area", 1 / 3), ("shear_max", 0):
+            true = abs(numbers[48][name] / numbers[steps][name] - 1)
+            assert steps == 48 or least * told[name] < true < told[name], (steps, name, true, told[name])
+
+
 def energy_of(petsam, tmp_path, steps, share):
     """The dissipated energy of a rigid sphere as N grows, and T with it; its estimated error, also as it is printed."""
     load = share * RIGID["friction"] * RIGID["load_n"]

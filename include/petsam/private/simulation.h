@@ -213,14 +213,15 @@ PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
   causes, and how many have reached the accuracy; each part begins with "; ". Neither is collective (accuracy.c).
 */
 #define SAM_ACCURACY_NAMES 512
+#define SAM_ACCURACY_LIMIT 128
 typedef struct {
-  PetscReal   error;                       /* largest relative error of the numbers; 0: any */
-  char        numbers[SAM_ACCURACY_NAMES]; /* their names, separated by commas; empty: all that have an error */
-  char        grid[8];                     /* "auto" if -grid is given */
-  char        chosen[256];                 /* the chosen options; empty: none */
-  const char *limit;                       /* why the errors cannot become smaller; NULL: they can */
-  PetscInt    trials;
-  double      seconds; /* time that the trials took, s */
+  PetscReal error;                       /* largest relative error of the numbers; 0: any */
+  char      numbers[SAM_ACCURACY_NAMES]; /* their names, separated by commas; empty: all that have an error */
+  char      grid[8];                     /* "auto" if -grid is given */
+  char      chosen[256];                 /* the chosen options; empty: none */
+  char      limit[SAM_ACCURACY_LIMIT];   /* why errors do not become as small as asked; empty: they can */
+  PetscInt  trials;
+  double    seconds; /* time that the trials took, s */
   /* if not NULL, receives a line about each trial */
   PetscErrorCode (*tell)(const char text[]);
   const char *const *later; /* names, with -, of the options that the program reads after the choice, ended by NULL */

@@ -443,7 +443,7 @@ void SamReportSetAccuracy(SamReport r, const SamAccuracy *accuracy)
 static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
 {
   const SamErrorRow *worst = r->accuracy ? SamAccuracyWorst(r->accuracy, t) : NULL;
-  char      error[SAM_ERROR_TEXT], wanted[SAM_ERROR_TEXT + 32] = "", limit[96] = "", missed[480] = "", text[768];
+  char      error[SAM_ERROR_TEXT], wanted[SAM_ERROR_TEXT + 32] = "", limit[160] = "", missed[480] = "", text[768];
   PetscBool reached;
 
   PetscFunctionBegin;
@@ -456,7 +456,7 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
                                                  "the steps are given, as by -steps or in a single row",
                                                  "the layers are given", "the compliance is given"};
 
-    (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit ? r->accuracy->limit : cure[worst->cause]);
+    (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit[0] ? r->accuracy->limit : cure[worst->cause]);
     SamAccuracyWriteMissed(r->accuracy, t, worst, missed, sizeof(missed));
   }
   (void)snprintf(text, sizeof(text), "%sthe maximum error is %s, of %s, by the %s%s%s", wanted,

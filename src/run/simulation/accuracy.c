@@ -389,8 +389,10 @@ static PetscErrorCode TryNext(const SamOptions *from, const SamArguments *argume
   a->trials++;
   PetscCall(Tell(task, c, trial, a));
   task->seconds = MPI_Wtime() - began;
-  task->work    = WorkOf(c);
-  SamTaskChange(task, trial, c, last, &a->limit);
+  PetscCall(SamMax(from->comm, 1, &task->seconds)); /* all processes choose alike */
+  task->work = WorkOf(c);
+  task->spent += task->seconds;
+  SamTaskChange(task, trial, c, last, a->limit);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

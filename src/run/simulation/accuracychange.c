@@ -6,7 +6,9 @@
   by the steps are of first order. If the cells must be more than twice as narrow, or the steps more than twice as many,
   a finer trial follows; where a trial costs little, until the errors on the chosen grid itself are small enough.
 
-  A number whose error two finer trials hardly lower asks for no more of them; nor does one whose error stays unknown.
+  A number whose error two finer trials hardly lower asks for no more of them; nor does one whose error stays unknown,
+  nor, once the order shown by the trials tells so, one that would take much longer than all trials so far. Cells lower
+  a number's error to the part that is not theirs, as of given steps: much less of their own is of no use.
 */
 #include "accuracyimpl.h"
 #include <petsam/private/grid.h>
@@ -22,7 +24,10 @@
 #define SLOW       0.5   /* and errors that fall more slowly than with this power of the width; */
 #define AGAIN      1.6   /* after the first, cells become narrower so many times */
 #define UNKNOWN    0.995 /* error from which on nothing is known (SamErrorWrite()) */
-#define SAME       0.1   /* relative changes of the grid's width and place that are no reason for another trial */
+#define AFFORDED   60.0  /* s: a run of more is not for a number whose error is unknown or falls slowly, */
+#define DEAR       20.0  /* nor for another one if it takes so many times longer than all trials so far */
+#define BEYOND     5.0 /* other errors so many times larger than asked do not become as small on finer cells, either */
+#define SAME       0.1 /* relative changes of the grid's width and place that are no reason for another trial */
 
 /* Returns the error of a number by the steps: that to twice as many is half of it, that to half as many the whole. */
 static double ErrorBySteps(const SamErrorRow *row, PetscInt steps)
@@ -47,9 +52,9 @@ static double Narrower(const SamErrorRow *row, double wanted)
   return pow(error / wanted, 1 / order);
 }
 
-/* Returns the number of finer trials since the one with the best error of a number by a cause, for its fineness; errors
-   wander from grid to grid. One that is nearly as small as asked is always within reach. */
-static PetscInt CountStalls(SamTask *task, const SamErrorRow *row, SamCause cause, double fineness)
+/* Follows the error of a number by a cause: counts the finer trials since the one with the best error for its fineness;
+   errors wander from grid to grid. One that is nearly as small as asked is always within reach. */
+static const SamWatch *Follow(SamTask *task, const SamErrorRow *row, SamCause cause, double fineness)
 {
   const double error = row->of[cause] < UNKNOWN ? row->of[cause] : 1;
   SamWatch    *w     = task->watch;
@@ -60,39 +65,90 @@ static PetscInt CountStalls(SamTask *task, const SamErrorRow *row, SamCause caus
     *w = (SamWatch){.cause = cause};
     (void)snprintf(w->name, sizeof(w->name), "%s", row->name);
   } else if (!(fineness > FINER * w->finest)) {
-    return w->stalls;
-  } else if (error > NEAR * (double)task->asked->error && error > w->error * pow(fineness / w->fineness, -SLOW)) {
-    w->finest = fineness;
-    return ++w->stalls;
+    return w;
+  } else {
+    w->order = PetscMax(SLOW, log(w->error / error) / log(fineness / w->fineness));
+    if (error > NEAR * (double)task->asked->error && error > w->error * pow(fineness / w->fineness, -SLOW)) {
+      w->finest = fineness;
+      w->stalls++;
+      return w;
+    }
   }
   w->fineness = w->finest = fineness;
   w->error                = error;
-  return w->stalls        = 0;
+  w->stalls               = 0;
+  return w;
+}
+
+/* Returns the part of a number's error that no choice lowers. */
+static double RestOf(const SamTask *task, const SamErrorRow *row)
+{
+  return row->of[SAM_CAUSE_LAYERS] + row->of[SAM_CAUSE_MESH] + (task->steps ? 0 : row->of[SAM_CAUSE_STEPS]);
+}
+
+/* Returns how small the error of a number by the cells must be. The rest of it falls on finer cells, too, but
+   not from BEYOND times as much as asked; on few cells it is often too large. */
+static double LeftFor(const SamTask *task, const SamChoice *c, const SamErrorRow *row, double by_steps)
+{
+  const double asked = (double)task->asked->error, left = asked - PetscMin(by_steps, 0.5 * asked);
+  const double n = (double)PetscMin(c->n[0], c->n[task->axes - 1]);
+
+  return n < NEAR * (double)task->few || RestOf(task, row) < BEYOND * asked ? left : PetscMax(left, RestOf(task, row));
+}
+
+/* Returns how many times narrower than this cells become in the next trial. */
+static double NextOf(double factor)
+{
+  return PetscMin(factor > NEAR ? factor / NEAR : factor, AT_ONCE);
+}
+
+/* True if a number asks for too long runs, for cells that are so many times narrower; writes why. */
+static PetscBool IsDear(const SamTask *task, const SamChoice *c, const SamErrorRow *row, const SamWatch *w, double more,
+                        double left, char why[], size_t size)
+{
+  const PetscBool blind = w->stalls > 0 || !(row->of[SAM_CAUSE_CELLS] < UNKNOWN) ? PETSC_TRUE : PETSC_FALSE;
+  const double    next  = w->stalls > 0 ? PetscMin(more, AGAIN) : NextOf(more);
+  const double    n     = (double)PetscMax(c->n[0], c->n[task->axes - 1]);
+  const double    all   = w->order > 0 ? pow(row->of[SAM_CAUSE_CELLS] / left, 1 / w->order) : more,
+               factor   = blind ? next : PetscMin(all, (double)task->most / n),
+               seconds  = task->seconds * pow(factor, task->axes);
+
+  if (!task->number || !(w->order > 0 && more > 1 && seconds > AFFORDED)) return PETSC_FALSE;
+  if (blind)
+    (void)snprintf(why, size, "finer cells hardly lower it");
+  else if (all * n > (double)task->most)
+    (void)snprintf(why, size, "%s would need more than -grid_n %" PetscInt_FMT, row->name, task->most);
+  else
+    (void)snprintf(why, size, "%s would need about -grid_n %.0f, and %.2g min", row->name, all * n, seconds / 60);
+  return blind || all * n > (double)task->most || seconds > DEAR * task->spent ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Gets how many times narrower the cells must be, and how many times more steps there must be, for all numbers whose
-   errors these lower; `stuck`: true if there are others with too large an error. */
-static void Demand(SamTask *task, const SamChoice *c, const SamTrial *t, double factor[2], PetscBool *stuck)
+   errors these lower; `why`: the reason if there are others with too large an error, or empty. */
+static void Demand(SamTask *task, const SamChoice *c, const SamTrial *t, double factor[2], char why[], size_t size)
 {
   const double asked       = (double)task->asked->error,
                fineness[2] = {(double)c->n[0] / (double)c->width[0], (double)c->steps};
 
   factor[0] = factor[1] = 0;
-  *stuck                = PETSC_FALSE;
+  why[0]                = '\0';
   for (PetscInt k = 0; k < t->table.count; k++) {
     const SamErrorRow *row     = &t->table.row[k];
     const double       part    = task->steps ? ErrorBySteps(row, c->steps) : 0;
-    const double       left    = asked - (part > 0 ? PetscMin(part, 0.5 * asked) : 0);
+    const double       left    = LeftFor(task, c, row, part);
     const double       more[2] = {Narrower(row, left), !(part < UNKNOWN) ? AT_ONCE : part / (0.5 * asked)};
 
     if (!SamTaskConcerns(task->asked, row->name)) continue;
     for (int n = 0; n < 2; n++) {
-      const PetscInt stalls = CountStalls(task, row, n ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS, fineness[n]);
+      const SamWatch *w = Follow(task, row, n ? SAM_CAUSE_STEPS : SAM_CAUSE_CELLS, fineness[n]);
+      char            dear[SAM_ACCURACY_LIMIT];
 
-      if (stalls >= STALLS && more[n] > 1)
-        *stuck = PETSC_TRUE;
+      if (w->stalls >= STALLS && more[n] > 1)
+        (void)snprintf(why, size, "finer cells do not lower it");
+      else if (n == 0 && IsDear(task, c, row, w, more[0], left, dear, sizeof(dear)))
+        (void)snprintf(why, size, "%s", dear);
       else if (n == 0 || more[n] > 1)
-        factor[n] = PetscMax(factor[n], stalls > 0 ? PetscMin(more[n], AGAIN) : more[n]);
+        factor[n] = PetscMax(factor[n], w->stalls > 0 ? PetscMin(more[n], AGAIN) : more[n]);
     }
   }
 }
@@ -144,13 +200,14 @@ static PetscBool Moves(const SamTask *task, const SamChoice *was, const SamChoic
   return PETSC_FALSE;
 }
 
-void SamTaskChange(SamTask *task, const SamTrial *t, SamChoice *c, PetscBool *last, const char **limit)
+void SamTaskChange(SamTask *task, const SamTrial *t, SamChoice *c, PetscBool *last, char limit[])
 {
   const SamChoice was = *c;
-  PetscBool       cheap, near, stuck;
+  PetscBool       cheap, near;
   double          factor[2];
 
-  *last = PETSC_FALSE;
+  *last    = PETSC_FALSE;
+  limit[0] = '\0';
   if (t->status == SAM_STATUS_EDGE_CONTACT && !t->failed && task->size) {
     for (PetscInt k = 0; k < task->axes; k++) c->width[k] *= 1.6;
     return;
@@ -162,11 +219,10 @@ void SamTaskChange(SamTask *task, const SamTrial *t, SamChoice *c, PetscBool *la
   *last = t->failed || t->status != SAM_STATUS_CONVERGED || !t->touched ? PETSC_TRUE : PETSC_FALSE;
   if (*last) return; /* the run tells why */
   if (task->size) Fit(task, t, c);
-  Demand(task, &was, t, factor, &stuck);
-  if (stuck && factor[0] <= 1 && factor[1] <= 1) {
-    *c     = was;
-    *last  = PETSC_TRUE;
-    *limit = "finer cells do not lower it";
+  Demand(task, &was, t, factor, limit, SAM_ACCURACY_LIMIT);
+  if (limit[0] && factor[0] <= 1 && factor[1] <= 1) {
+    *c    = was;
+    *last = PETSC_TRUE;
     return;
   }
   cheap = (double)was.n[0] * (double)was.n[1] * (double)t->steps <= CHEAP ? PETSC_TRUE : PETSC_FALSE;
@@ -177,13 +233,12 @@ void SamTaskChange(SamTask *task, const SamTrial *t, SamChoice *c, PetscBool *la
     return;
   }
   *last = near && !cheap ? PETSC_TRUE : PETSC_FALSE;
-  for (int k = 0; k < 2; k++)
-    factor[k] = near ? factor[k] : PetscMin(factor[k] > NEAR ? factor[k] / NEAR : factor[k], AT_ONCE);
+  for (int k = 0; k < 2; k++) factor[k] = near ? factor[k] : NextOf(factor[k]);
   factor[0] = PetscMax(factor[0], 1); /* numbers may wander from grid to grid: none is coarser than what was tried */
   if (task->number) Refine(task, &was, factor[0], c);
   Divide(task, factor[1], c);
   if (c->n[0] == was.n[0] && c->n[1] == was.n[1] && c->steps == was.steps && !Moves(task, &was, c)) {
-    *last  = PETSC_TRUE;
-    *limit = "-accuracy can choose no finer grid and no more steps";
+    *last = PETSC_TRUE;
+    (void)snprintf(limit, SAM_ACCURACY_LIMIT, "-accuracy can choose no finer grid and no more steps");
   }
 }

@@ -14,11 +14,12 @@ typedef struct {
 } SamChoice;
 
 /* SamWatch - the best error of a number by a cause, in the trial with so many cells per m, or steps per row; `stalls`:
-   number of trials up to the finest that were no better for their fineness. */
+   number of trials up to the finest that were no better for their fineness; `order`: power of the fineness with which
+   the error fell to the last trial from the best one before; 0: unknown. */
 typedef struct {
   char     name[SAM_ERROR_NAME];
   SamCause cause;
-  double   fineness, error, finest;
+  double   fineness, error, finest, order;
   PetscInt stalls;
 } SamWatch;
 
@@ -31,6 +32,7 @@ typedef struct {
   PetscInt           watched;
   SamWatch           watch[4 * SAM_ERROR_ROWS];
   double             seconds, work; /* time of the last trial (s), and its cells times steps */
+  double             spent;         /* time of all trials, s */
 } SamTask;
 
 /* SamTrial - what a trial found. */
@@ -49,11 +51,11 @@ typedef struct {
   Collective. Errors: SAM_ERR_USER (accuracybegin.c).
   SamTaskConcerns - returns true if -accuracy concerns the number of this name (accuracy.c).
   SamTaskChange - changes the choice by what a trial on it found; `last`: it is the one to run; `limit`: set to the
-  reason if the errors cannot become smaller (accuracychange.c). Neither is collective.
+  reason if errors do not become as small as asked, of SAM_ACCURACY_LIMIT characters; empty if they do
+  (accuracychange.c). Neither is collective.
 */
 PETSC_INTERN PetscErrorCode SamTaskBegin(SamSimulation simulation, SamTask *task, SamChoice *choice);
 PETSC_INTERN PetscBool      SamTaskConcerns(const SamAccuracy *asked, const char name[]);
-PETSC_INTERN void           SamTaskChange(SamTask *task, const SamTrial *trial, SamChoice *choice, PetscBool *last,
-                                          const char **limit);
+PETSC_INTERN void SamTaskChange(SamTask *task, const SamTrial *trial, SamChoice *choice, PetscBool *last, char limit[]);
 
 #endif
