@@ -58,7 +58,6 @@
 #define ALIKE    1e-6  /* smaller couplings of bodies, or relative changes of a load, count as none */
 #define REVERSED 1.02  /* increase of the part of cells that stick, relative to the step before, at a reversal */
 #define ROUNDING 1e-16 /* energy, relative to the normal work, that is rounding of the shear */
-#define UNPUSHED 1e-9  /* the same that is of no interest where nothing is pushed; SAM_ENERGY_NONE while N grows */
 #define NOTHING  1e-6  /* energy, relative to the tangential work, that counts as none */
 #define LITTLE   1e-4  /* the same of dissimilar bodies while N grows: less is that of single cells */
 #define SLIVER   1e-3  /* the same if N and T grow in proportion; cut cells cause such energies */
@@ -79,12 +78,10 @@
 #define HIGHER   0.9   /* shear of a narrow zone, relative to the largest found, above which it may be larger */
 #define SHEAR    2.5   /* largest error of the shear, relative to that of the energy, if N is applied in one step, */
 #define SEVERAL  8     /* and number of steps in which it is small */
-#define MAKING   0.33  /* part of the work of slip that is too much before cells touch, */
-#define MADE     0.1   /* part of it that more steps turn into energy, at most, */
-#define WIDE     0.55  /* part of the ring of slip that is too much in very few steps, */
-#define HALVES   5     /* and ratio of that work to the energy for half of this */
+#define MAKING   0.33  /* part of the work of slip that is too much before cells touch */
 #define LESS     0.25  /* the same, relative to the energy, with enough steps; it falls like 1/steps^(1/FALLS) */
 #define FALLS    0.75
+#define WIDE     0.55  /* part of the ring of slip that is too much in very few steps */
 #define MERGING  1.2   /* error of the shear times the number of steps in which N and T of rough surfaces grow */
 #define TILTED   0.003 /* displacement by tilting over the approach, from which on it counts */
 #define ONCE     0.75  /* part of the largest normal load that counts as all of it */
@@ -301,7 +298,7 @@ static void Long(SamAdvice *a)
   the shear at the end of the ring is mu p there, and p of a sphere the root of that part, the maximum shear is too
   large by 1 - sqrt(1 - f). Measured on spheres with beta/mu of 0.8, 1, 1.15 and 1.3, on 128 cells in 1, 4 and 12
   steps against 64, with the work x before cells touch, relative to the energy: f was 0.02, 0.06, 0.17, 0.24, 0.4 at x
-  = 0.5, 1.4, 3.6, 6.9, 30, no more beyond, and is estimated as WIDE x/(x + HALVES). The energy that was missing was
+  = 0.5, 1.4, 3.6, 6.9, 30, no more beyond, and is estimated as WIDE x/(x + 4). The energy that was missing was
   0.006 to 0.1 x.
 */
 static void Few(SamAdvice *a)
@@ -309,7 +306,7 @@ static void Few(SamAdvice *a)
   static const char why[]  = "%.0f %% of the slip while N grows is before cells touch";
   const SamSlip    *slip   = &a->slip;
   const double      all    = slip->before_touch + slip->energy;
-  const double      ring   = WIDE * slip->before_touch / (slip->before_touch + HALVES * slip->energy);
+  const double      ring   = WIDE * LESS * slip->before_touch / (LESS * slip->before_touch + slip->energy);
   const double      factor = pow(slip->before_touch / (LESS * slip->energy), FALLS), part = slip->before_touch / all;
 
   if (slip->coupling > 0 || !(slip->energy > NOTHING * slip->work && slip->before_touch > MAKING * all)) return;
@@ -412,10 +409,11 @@ static PetscErrorCode GetStrained(const SamSetup *s, const SamStep *step, double
 */
 static void ForgetNothing(SamSlip *slip, double normal, PetscBool pushed, Numbers *n)
 {
-  const double grows = normal - slip->normal, most = (double)n->energy + MADE * PetscMax(n->before_touch, 0);
+  const double grows = n->touching > 0 ? normal - slip->normal : normal,
+               most  = (double)n->energy + LESS * PetscMax(n->before_touch, 0);
 
-  if ((double)n->energy < (pushed ? ROUNDING : UNPUSHED) * normal) n->energy = 0;
-  if (!pushed && n->touching > 0 && most < SAM_ENERGY_NONE * grows) n->energy = n->before_touch = 0;
+  if ((double)n->energy < ROUNDING * normal) n->energy = 0;
+  if (!pushed && most < SAM_ENERGY_NONE * grows) n->energy = n->before_touch = 0;
   slip->normal = normal > 0 ? normal : 0; /* apart, the approach is unknown */
 }
 
