@@ -1079,6 +1079,9 @@ def test_a_rail_cut_above_its_gauge_face_lies_by_a_point_of_it(make, cant):
         make(part, cant, (1.0, 2.0, 3.0))
     with pytest.raises(Error, match="gauge_position: expected y, or y and z"):
         make(part, cant, -36.0)
+    for place in (face + 0.072, (face - 0.064, top), 0.0):  # of the field side, of another unit, of another origin
+        with pytest.warns(profiles.ProfileWarning, match="gauge_position .*the rail's top is at y = .*: check it"):
+            make(part, cant, place)
 
 
 @pytest.mark.parametrize("trap", list(TRAPS))
