@@ -912,6 +912,25 @@ def test_a_scar_without_unworn_surface_is_refused(scars):
     assert level.coefficient == pytest.approx(2.2e-14, rel=1e-4)
 
 
+def test_a_profile_that_rises_is_no_scar(scars, fit, tmp_path):
+    """Depths, a profile upside down on a slope, and one that rises over its unworn level; noise without a scar may."""
+    path, one = scars
+    chance = np.random.default_rng(4)
+    x, height = profile(one, 2.5e-14 * 18000, chance, noise=2e-8)
+    for heights, level in ((-height, True), (0.05 * x - height, True), (one.at(2.5e-14 * 18000, x), False)):
+        with pytest.raises(Error, match="rises between its ends, by up to .* um, and a scar is negative"):
+            calibration.fit_scar(one, x, heights, level=level)
+    for _ in range(20):
+        assert calibration.fit_scar(one, x, 1e-8 * chance.standard_normal(x.size)).doubt
+    for spoilt in (np.where(x > 2e-4, np.nan, height), height[:4]):
+        with pytest.raises(Error, match="finite numbers, of more than 6 points: leave out lost ones"):
+            calibration.fit_scar(one, x, spoilt)
+    rows = "".join(f"{1e3 * a:.6f},{-1e6 * b:.6f}\n" for a, b in zip(x, height))
+    (tmp_path / "depths.csv").write_text("x [mm],test [um]\n" + rows)
+    said = fit("--scar", "depths.csv", "--shape", path, "--life", "18000", check=3)
+    assert "a scar is negative: are these depths? Reverse the sign of the heights" in said
+
+
 def test_a_shape_with_an_accuracy_is_refused_unless_it_is_a_ball(fit, tmp_path):
     """No grid resolves the stick zone of a push to gross slip."""
     bodies = "-body1 steel\n-body2 steel\n-accuracy 1%\n"

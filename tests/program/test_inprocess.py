@@ -6,6 +6,7 @@ import pytest
 
 import compliances
 import petsam as package
+from petsam import contact
 from support import ROOT
 from test_embed import CASE as EMBEDDED
 from test_embed import run_python
@@ -32,7 +33,7 @@ def write(path, columns, rows):
 def test_a_row_of_a_history_that_lost_a_field_is_named(tmp_path):
     (tmp_path / "h.csv").write_text("# pull\ntime,load_n,load_tx\n1,100,0\n2,100\n")
     with pytest.raises(ValueError, match="h.csv, line 4: has 2 fields, the head has 3"):
-        package.contact._table(tmp_path / "h.csv")
+        contact._table(tmp_path / "h.csv")
 
 
 def test_history_has_the_bits_of_the_program(petsam, tmp_path):

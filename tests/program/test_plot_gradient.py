@@ -82,7 +82,19 @@ def test_plane_problems_have_curves(draw, plane, path, tmp_path):
 
 def test_a_file_without_gradients_is_named(draw, solve):
     code, (error,) = draw("--gradient", solve(ball(n=24), dict(load_tx=20.0)).path)
-    assert code == 3 and "has no gradient by gap and friction" in error
+    assert code == 3 and "has no gradient by gap and friction: use petsam -gradient NAME" in error
+
+
+def test_a_file_of_a_run_that_was_killed_before_its_gradients_is_named(draw, path, tmp_path):
+    shutil.copy(path, tmp_path / "killed.h5")
+    with h5py.File(tmp_path / "killed.h5", "r+") as file:
+        file.attrs["closed"] = 0
+        for name in list(file["gradient"]):
+            del file["gradient"][name]
+    code, (error,) = draw("--gradient", tmp_path / "killed.h5")
+    assert code == 3 and "a run writes to it, or was killed, and derivatives come at its end" in error
+    with library.open(tmp_path / "killed.h5") as results:
+        assert results.gradients == {} and len(results.history["time"])
 
 
 def test_a_derivative_that_is_0_everywhere_has_the_middle_colour(solve):

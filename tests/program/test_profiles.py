@@ -842,6 +842,7 @@ def miniprof(path, profile, head, columns=2, turn=1.0):
 @pytest.mark.parametrize(("head", "columns"), [
     (STATED.format(more="ColumnDef=X,Y"), 2), (STATED.format(more="ColumnDef=X,Y,A"), 3),
     (STATED.format(more="ColumnDef=X,Y,A,C,K\nXYPoints=1339"), 5), (STATED.format(more="Operator="), 2),
+    (STATED.format(more="ColumnDef=X, Y, A, C"), 4), (STATED.format(more="ColumnDef=X,Y,C"), 3),
     (FREE, 2), (FREE, 3), (FREE, 5),
 ])  # fmt: skip
 def test_files_of_miniprof(tmp_path, head, columns):
@@ -863,7 +864,11 @@ def test_a_file_of_miniprof_is_found_by_its_header(tmp_path):
 
 
 @pytest.mark.parametrize(("text", "message"), [
-    ("ColumnDef=Y,Z\n\n0 0\n", r"one.ban:1: ColumnDef=Y,Z: expected one of X,Y, X,Y,A"),
+    ("ColumnDef=Y,Z\n\n0 0\n", "one.ban:1: ColumnDef=Y,Z: expected X,Y, and others"),
+    ("ColumnDef=Y,X\n\n0 0\n", "one.ban:1: ColumnDef=Y,X: expected X,Y"),
+    ("ColumnDef=X,Y,A,C\n\n0 0 1\n", "one.ban:3: 3 numbers: expected 4"),
+    ("0 0\n1 1\n" * 9, "one.ban:1: 0 0: the numbers of a point, in the first 6 lines, which are the header"),
+    ("0,0,3\n" * 6 + "1,1,3\n", "name a file without one as columns, .txt"),
     ("ColumnDef=X,Y\n\n0 0 1\n", r"one.ban:3: 3 numbers: expected 2"),
     ("ColumnDef=X,Y\n\n0 0\n0,1 2\n", r"one.ban:4: 0,1 2: .*; decimals have a point"),
     ("ColumnDef=X,Y\nXYPoints=7\n\n0 0\n1 1\n", r"one.ban:2: XYPoints=7: the file has 2 points: is it cut off"),
@@ -1079,6 +1084,9 @@ def test_a_rail_cut_above_its_gauge_face_lies_by_a_point_of_it(make, cant):
         make(part, cant, (1.0, 2.0, 3.0))
     with pytest.raises(Error, match="gauge_position: expected y, or y and z"):
         make(part, cant, -36.0)
+    for place in (face + 0.072, (face - 0.064, top), 0.0):  # of the field side, of another unit, of another origin
+        with pytest.warns(profiles.ProfileWarning, match="gauge_position .*the rail's top is at y = .*: check it"):
+            make(part, cant, place)
 
 
 @pytest.mark.parametrize("trap", list(TRAPS))

@@ -212,6 +212,19 @@ def test_points_on_a_grid_are_a_map(surface, tmp_path, name):
     assert "--size 12um,16um" in surface("z.csv", *UM, check=3)[0]
 
 
+@pytest.mark.parametrize("units, factor, says", [
+    ("m", 1e-6, "1.2e-05m,1.6e-05m"), ("mm", 1e-3, "0.012mm,0.016mm"), ("nm", 1.0, "12um,16um"),
+    ("m", 1.0, "12um,16um"),
+])  # fmt: skip
+def test_the_size_that_is_proposed_for_points_is_one_that_instruments_measure(surface, tmp_path, units, factor, says):
+    """In the unit of the heights if it may be: what is proposed can be given, and agrees with the points."""
+    text(tmp_path / "z.csv", POINTS * [factor, factor, 1e-6], separator=";")
+    words = ["z.csv", "--body", 2, "--units", units, "--no-picture"]
+    for more in ([], ["--size", "7.3mm"]):
+        assert f"--size {says}" in surface(*words, *more, check=3)[0]
+    surface(*words, "--size", says)
+
+
 @pytest.mark.parametrize("name", ["scattered", "doubled", "profile"])
 def test_the_library_makes_no_map_of_a_list_either(surface, tmp_path, name):
     pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")

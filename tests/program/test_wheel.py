@@ -1064,6 +1064,8 @@ def test_pictures_show_what_was_found(vehicle, axle):
 
 @pytest.mark.parametrize("fault, text", [
     ("hole", "no points from y"), ("noise", "--smooth 4mm removes it"), ("inches", "check its unit of length"),
+    ("spike", "lies 30 um beside a smooth curve through its neighbours"), ("dent", "lies 19.6 um beside"),
+    ("two", "lies 60 um beside"),
 ])  # fmt: skip
 def test_doubtful_points_are_named(tmp_path, capsys, fault, text):
     rail = profiles.uic60()
@@ -1073,6 +1075,9 @@ def test_doubtful_points_are_named(tmp_path, capsys, fault, text):
         y, z = y[keep], z[keep]
     if fault == "noise":
         z = z + 5e-6 * np.random.default_rng(3).normal(size=len(z))
+    for name, places, height in (("spike", [600], -3e-5), ("dent", [450], 2e-5), ("two", [650, 730], -6e-5)):
+        if fault == name:
+            z[places] += height
     if fault == "inches":
         y, z = y / 25.4, z / 25.4
     path = tmp_path / "rail.txt"
@@ -1101,7 +1106,34 @@ def test_doubtful_points_are_named(tmp_path, capsys, fault, text):
 
 
 def test_sound_points_raise_no_doubt():
-    assert not profiles.s1002().doubts() and not profiles.uic60().doubts()
+    """Nor do they with few points, and rounded to 0.01 mm there is noise, but no false point."""
+    for one in (profiles.s1002(), profiles.uic60()):
+        assert not any(Profile(one.y[::k], one.z[::k], one.kind).doubts() for k in (1, 5, 10, 20))
+        rough = Profile(one.y, np.round(one.z, 5), one.kind)
+        noisy = Profile(one.y, one.z + 5e-6 * np.random.default_rng(1).normal(size=len(one.z)), one.kind)
+        assert not any("beside a smooth curve" in text for found in (rough, noisy) for text in found.doubts())
+
+
+@pytest.mark.parametrize("y, length, doubtful", [("0mm", "8mm", True), ("5mm", "4mm", True), ("3mm", "2mm", False)])
+def test_smoothing_that_changes_the_pressure_is_named(capsys, y, length, doubtful):
+    """Profiles without noise, whose pressure without smoothing is 683, 2143 and 1261 MPa."""
+    given = [
+        "--wheel",
+        "s1002",
+        "--rail",
+        "uic60",
+        "--cant",
+        "1:40",
+        *ONE,
+        "--y",
+        y,
+        "--cell",
+        "1mm",
+        "--smooth",
+        length,
+    ]
+    wheel.carry_out(wheel.arguments(given))
+    assert (f"--smooth {length}: position 1: p_max is" in capsys.readouterr().err) == doubtful
 
 
 @pytest.mark.parametrize("head, words, text", [

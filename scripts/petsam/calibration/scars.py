@@ -32,6 +32,7 @@ END = 0.01  # relative distance from the end of a range, within which a number i
 INDEPENDENT = 3.0  # independent points for each parameter, below which residuals are correlated over the scar
 MATTERS = 0.02  # misfit over depth, below which that does not matter
 HELD = 0.5  # deviation over the coefficient, above which that is not identifiable
+RISES = 5.0  # times the noise of its ends by which a profile lies above the line through them, if it is no scar
 SIDES = 3  # points beyond the scar, on each side, that hold the height of the unworn surface
 
 
@@ -201,10 +202,10 @@ def fit_scar(one: Family, x, height, tilt: bool = True, level: bool = True) -> S
     Raises
     ------
     Error
-        If the profile has no unworn surface on both sides of the scar, which depth and height of the surface need.
+        If the profile has no unworn surface on both sides of the scar, which depth and height of the surface need, or
+        rises where the scar should be.
     """
-    x, height = (np.asarray(values, dtype=float) for values in (x, height))
-    x, height = x[np.argsort(x)], height[np.argsort(x)]
+    x, height = _sound(x, height, level)
     optimize = library("scipy.optimize")
     scale = float(np.ptp(height))
     width = float(np.ptp(one.x))
@@ -248,12 +249,36 @@ def fit_scar(one: Family, x, height, tilt: bool = True, level: bool = True) -> S
     )  # fmt: skip
 
 
+def _line(x, height, level):
+    """Heights of the line through the ends of a profile, and of how many points each end is."""
+    outer = max(SIDES, len(x) // 10)
+    ends = [(np.mean(values[:outer]), np.mean(values[-outer:])) for values in (x, height)]
+    return np.interp(x, *ends) if level else np.zeros(len(x)), outer
+
+
+def _sound(x, height, level):
+    """A profile in the order of its x; raises Error where it is none, or rises where the scar should be."""
+    x, height = (np.asarray(values, dtype=float) for values in (x, height))
+    if x.ndim != 1 or x.shape != height.shape or len(x) <= 2 * SIDES or not np.isfinite([x, height]).all():
+        raise Error(
+            f"the profile: expected x and as many heights, finite numbers, of more than {2 * SIDES} points: leave out "
+            "lost ones"
+        )
+    x, height = x[np.argsort(x)], height[np.argsort(x)]
+    line, outer = _line(x, height, level)
+    noise = np.sqrt(0.5 * np.mean(np.diff(height) ** 2) / outer)
+    if np.mean(height - line) > RISES * noise:
+        raise Error(
+            f"the profile rises between its ends, by up to {1e6 * np.max(height - line):.3g} um, and a scar is "
+            "negative: are these depths? Reverse the sign of the heights"
+        )
+    return x, height
+
+
 def _begin(one, x, height, level):
     """Coefficient times cycles by the volume of a profile below the line through its ends, and its shift by the middle
     of its lower half."""
-    outer = max(SIDES, len(x) // 10)
-    ends = [(np.mean(values[:outer]), np.mean(values[-outer:])) for values in (x, height)]
-    line = np.interp(x, *ends) if level else np.zeros(len(x))
+    line, _ = _line(x, height, level)
     deep = one.depth[-1] - 0.5 * one.depth[-1].max()
     lower = np.clip(line - height - 0.5 * np.max(line - height), 0.0, None)
     place = np.average(x, weights=lower) if lower.any() else 0.0
@@ -318,7 +343,7 @@ def fit_profile(
     Error
         See family() and fit_scar().
     """
-    start = None
+    start, (x, height) = None, _sound(x, height, True)
     for last in [False] * (WIDENINGS - 1) + [True]:
         try:
             one = one or family(shape, life, body, options, start)

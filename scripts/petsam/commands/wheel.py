@@ -50,6 +50,7 @@ from ..core.progress import Progress
 from ..profiles import derailing
 from .line import Parser, add_choice, guarded, joined, word
 
+SMOOTHED = 0.03  # change of the largest pressure by half the smoothing without a remark
 ROLL = 1e-3  # rad by which the roll of a table may differ without a remark
 SHOWN = 12  # positions whose patches are printed, and failures
 EVERY = 2.0  # s between two lines of progress
@@ -486,6 +487,8 @@ def _print(options, found, table):
     ):
         _warn(f"{text} (see the column note)")
     _compare_roll(options, found)
+    if options.smooth:
+        _doubt_smoothing(options, found)
 
 
 def _print_patch(row):
@@ -504,6 +507,33 @@ def _climbing(row):
         f"; {row['state'].upper()}: Y/Q {row['y_over_q']:.3f}, Nadal's limit {row['nadal']:.3f} at the flange's "
         f"steepest place, {here:.3f} at this angle"
     )
+
+
+def _highest(found):
+    """The largest maximum pressure of all positions, Pa, and the position; 0 and None without one."""
+    rows = {column.name: column.values for column in found.table()}
+    solved = [(p, number) for p, number in zip(rows["p_max"], rows["position"]) if p is not None and np.isfinite(p)]
+    return max(solved, default=(0.0, None))
+
+
+def _doubt_smoothing(options, found):
+    """Warns where the largest pressure is another one with half the smoothing: it takes the profiles' own curvatures
+    away, or leaves some of their noise."""
+    from .. import profiles
+
+    highest, number = _highest(found)
+    if number is None:
+        return
+    half = argparse.Namespace(**{**vars(options), "smooth": 0.5 * options.smooth})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        other, _ = _highest(profiles.solve_all(_vehicle(half), [found.states[number - 1]], 1))
+    if other and abs(other / highest - 1.0) > SMOOTHED:
+        _warn(
+            f"--smooth {1e3 * options.smooth:g}mm: position {number}: p_max is {highest / 1e6:.4g} MPa, and "
+            f"{other / 1e6:.4g} MPa with half of it: smoothing flattens curves of the profiles, too, and noise that is "
+            "left raises pressures: their error is of the order of this difference; measure with less noise"
+        )
 
 
 def _compare_roll(options, found):

@@ -115,14 +115,20 @@ def _curve(panel, one, values, length):
     return ""
 
 
+def _need_drawn(one):
+    """Error for a file without a gradient that may be drawn."""
+    if drawn(one):
+        return
+    cure = "use petsam -gradient NAME, without -gradient_of, or with both"
+    if not one.parameters.get("closed", 1):
+        cure = "a run writes to it, or was killed, and derivatives come at its end: let it end"
+    raise Error(f"{one.path}: --gradient: has no gradient by gap and friction: {cure}")
+
+
 def gradient(files, whole=False):
     """Changes by the gap (left) and by friction (right), of every gradient of every file."""
     for one in files:
-        if not drawn(one):
-            raise Error(
-                f"{one.path}: --gradient: has no gradient by gap and friction: use petsam -gradient NAME, without "
-                "-gradient_of, or with both"
-            )
+        _need_drawn(one)
         if one.is_plane != files[0].is_plane:
             raise Error(f"{one.path}: --gradient: plane problems do not go into a picture of others")
     data = [_read(one, each, whole) for one in files for each in drawn(one)]

@@ -1,7 +1,7 @@
 """Profiles of MiniProf: .whl of wheels, .ban of rails, .mpt of both.
 
 Two layouts: lines Name=value, of which ColumnDef names the columns of the points, or six free lines. Then each line has
-the numbers of a point: X and Y, the place across the track and the height, angle A, curvature C and K, which are not
+the numbers of a point: X and Y, the place across the track and the height, and others, as the angle A, which are not
 used. Lengths are in mm. Heights of wheels are down; those of rails are down or up.
 """
 
@@ -17,7 +17,6 @@ from .columns import DIRECTIONS, fields_of
 from .profile import KINDS, Profile, Taken
 
 ENDINGS = (".whl", ".ban", ".mpt")
-COLUMNS = ("X,Y", "X,Y,A", "X,Y,A,C,K")
 FREE = 6  # lines
 STATED = re.compile(r"\s*([A-Za-z][\w .]*?)\s*=(.*)")  # Name=value
 
@@ -94,23 +93,22 @@ def _points(path):
     count = None
     if stated.get("columndef"):
         number, text = stated["columndef"]
-        columns = ",".join(one.strip().upper() for one in text.split(","))
-        if columns not in COLUMNS:
-            raise Error(f"{path}:{number}: ColumnDef={short(text)}: expected one of {', '.join(COLUMNS)}")
-        count = columns.count(",") + 1
+        columns = [one.strip().upper() for one in text.split(",")]
+        if columns[:2] != ["X", "Y"]:
+            raise Error(f"{path}:{number}: ColumnDef={short(text)}: expected X,Y, and others after them or none")
+        count = len(columns)
     rows = []
     for number, line in enumerate(lines[first:], first + 1):
         if not line.strip():
             continue
         fields = fields_of(line)
-        if not all(re.fullmatch(units.NUMBER, one) for one in fields):
+        if not _numbers(line):
             cure = "; decimals have a point" if "," in line else ""
             raise Error(f"{path}:{number}: {short(line.strip())}: expected the numbers of a point{cure}")
         count = count or len(fields)
-        if len(fields) != count or count not in (2, 3, 5):
-            raise Error(
-                f"{path}:{number}: {len(fields)} numbers: expected {count if count in (2, 3, 5) else '2, 3 or 5'}"
-            )
+        known = count if stated.get("columndef") or count in (2, 3, 5) else "2, 3 or 5"
+        if len(fields) != known:
+            raise Error(f"{path}:{number}: {len(fields)} numbers: expected {known}")
         rows.append([*map(float, fields[:2])])
     if not rows:
         raise Error(f"{path}: no points")
@@ -127,10 +125,27 @@ def _header(path, lines):
         if found:
             stated[found[1].lower()] = k + 1, found[2].strip()
         elif line.strip() and (stated or k >= FREE):
+            if not stated:
+                _need_header(path, lines)
             return stated, k
     if stated:
         raise Error(f"{path}: no points")
     return stated, min(FREE, len(lines))
+
+
+def _need_header(path, lines):
+    """Raises Error where the free lines of the header are points."""
+    if all(len(_numbers(line)) > 1 for line in lines[:FREE]):
+        raise Error(
+            f"{path}:1: {short(lines[0].strip())}: the numbers of a point, in the first {FREE} lines, which are the "
+            "header: name a file without one as columns, .txt, or give it these lines"
+        )
+
+
+def _numbers(line):
+    """The words of a line, if all are numbers; else none."""
+    fields = fields_of(line)
+    return fields if all(re.fullmatch(units.NUMBER, one) for one in fields) else []
 
 
 def _need_all(path, stated, count):

@@ -29,6 +29,7 @@ TURNS = 3  # of the head to its own axes
 SHALLOW = 3e-3  # m below the top: both sides of a head are seen down to there where its lean is judged
 TIP = (0.0, 0.05)  # m from a flange's back to its tip
 USUAL = (0.008, 0.025)  # m: the same of most flanges
+FACE = (0.005, 0.06)  # m from a rail's top to its gauge face, along y
 BESIDE = 2e-3  # m from the flange's back in a profile to the one that is stated
 
 
@@ -134,11 +135,22 @@ def _need_back(profile, section, position):
 
 
 def _doubt_gauge_face(profile, cant, gauge_height, position):
-    """Warns of a profile that ends on its gauge side before it reaches the gauge height: its end is taken."""
+    """Warns of a profile that ends on its gauge side before it reaches the gauge height: its end is taken; and of a
+    given position where no rail has its gauge face."""
     turned = profile.turned(-cant)
     k = int(np.argmin(turned.z))
+    if position is not None:
+        aside = float(turned.y[k]) - float(np.ravel(position)[0])
+        if not FACE[0] < aside < FACE[1]:
+            warnings.warn(
+                f"gauge_position {1e3 * np.ravel(position)[0]:.4g} mm: {profile.name}: the rail's top is at y = "
+                f"{1e3 * turned.y[k]:.4g} mm, a gauge face usually 20 to 50 mm from it, towards smaller y: check it",
+                ProfileWarning,
+                stacklevel=4,
+            )
+        return
     depth = float((turned.z - turned.z[k])[turned.y <= turned.y[k]].max())
-    if position is None and depth < gauge_height - SHORT:
+    if depth < gauge_height - SHORT:
         warnings.warn(
             f"{profile.name}: ends {1e3 * depth:.3g} mm below its top on the gauge side, above the gauge height of "
             f"{1e3 * gauge_height:.3g} mm: its innermost point is taken for the gauge face; give a gauge_height within "

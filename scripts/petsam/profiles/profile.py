@@ -19,6 +19,11 @@ FOLD = 0.5e-3  # m: points that step back by no more are removed
 SPARSE = (10.0, 5e-3)  # distance of two points, over the median and in m, that may be a hole
 NOISY = 1e-7  # m: median distance to the profile without waves shorter than SHORT
 SHORT = 4e-3  # m
+ASIDE = 5e-6  # m: a point that lies so far beside the cubic through two neighbours on each side may be a false one,
+CORNER = (
+    20.0  # 1/m: if that is more than the widest step between them, squared, times this, as at changes of curvature,
+)
+MOST = 5.0, 95.0  # and than this factor times this percentile of all such distances
 
 
 class ProfileWarning(UserWarning):
@@ -106,7 +111,7 @@ class Profile:
             raise Error(f"{self.name}: has a point {farthest:.3g} m from its origin: check its unit of length")
 
     def doubts(self) -> list[str]:
-        """Reasons for which the points may not be the profile: holes between them, and noise.
+        """Reasons for which the points may not be the profile: holes between them, noise, and single false points.
 
         Returns
         -------
@@ -126,7 +131,28 @@ class Profile:
                 f"{self.name}: its heights vary by {1e6 * noise:.2g} um from point to point, which makes pressures too "
                 f"high: smoothed({SHORT:g}) removes it, with 5 um of noise smoothed({2 * SHORT:g})"
             )
+        aside, limit = self._aside()
+        if (aside > limit).any():
+            k = int(np.argmax(aside / limit)) + 2
+            found.append(
+                f"{self.name}: the point at y {1e3 * self.y[k]:.4g} mm, z {1e3 * self.z[k]:.4g} mm, lies "
+                f"{1e6 * aside[k - 2]:.3g} um beside a smooth curve through its neighbours, which makes pressures too "
+                "high: remove it, if it is a false one"
+            )
         return found
+
+    def _aside(self):
+        """Distances of all points but two at each end from the cubic through two neighbours on each side, m, and limits
+        above which they are doubtful."""
+        s, k = self.lengths, np.arange(2, len(self.y) - 2)
+        beside = k[:, None] + np.array([-2, -1, 1, 2])
+        t = s[beside] - s[k, None]
+        weights = np.stack(
+            [np.prod([t[:, j] / (t[:, j] - t[:, m]) for j in range(4) if j != m], axis=0) for m in range(4)], axis=1
+        )
+        found = np.hypot(*(values[k] - np.sum(weights * values[beside], axis=1) for values in (self.y, self.z)))
+        widest = np.diff(np.insert(t, 2, 0.0, axis=1), axis=1).max(axis=1)
+        return found, np.maximum(CORNER * widest**2, max(ASIDE, MOST[0] * np.percentile(found, MOST[1])))
 
     def need_forward(self) -> None:
         """Raises Error where points go or jump back along the profile."""

@@ -15,7 +15,7 @@ from ..core.hdf5 import DAMAGED
 from ..core.units import shown
 from . import words
 from .basics import SAME
-from .doubts import of_cells, of_size, of_stand_in
+from .doubts import WIDE, of_cells, of_size, of_stand_in
 from .maps import Map, new_map, turned
 from .readers import FORMATS, stated_of
 from .readers.hdf import EVEN, of_hdf5
@@ -24,6 +24,8 @@ from .readers.stated import How, Source
 from .tables import Form
 
 __all__ = ["FORMATS", "read", "read_hdf5"]
+
+SMALLEST = 1e-7  # m: few instruments measure a surface that is smaller
 
 
 @dataclass(frozen=True)
@@ -109,12 +111,16 @@ def _need_sides(path, stated, given):
             )
 
 
-def _asked(spans):
-    """The option that gives a unit to lengths which a file states without one."""
-    return "--size " + ",".join(f"{span:.6g}um" for span in spans)
+def _asked(spans, unit):
+    """The option that gives a unit to lengths which a file states without one: that of the heights, um or m, whichever
+    first makes a size that instruments measure."""
+    table = unit_table.of("m")
+    own = [name for name, size in table.items() if unit is not None and np.isclose(size, unit, rtol=1e-9, atol=0.0)]
+    names = [name for name in (*own, "um", "m") if SMALLEST < max(spans) * table[name] < WIDE] or ["um"]
+    return "--size " + ",".join(f"{span:.6g}{names[0]}" for span in spans)
 
 
-def _need_spans(path, spans, given):
+def _need_spans(path, spans, given, unit):
     """Error where a given size is no multiple, by a unit, of the size that points x, y span in a unit they lack."""
     if not spans or not given:
         return
@@ -123,7 +129,7 @@ def _need_spans(path, spans, given):
         names = "points x, y, z" if len(spans) == 2 else "x"
         raise Error(
             f"{path}: its {names} span {' x '.join(f'{span:.6g}' for span in spans)}, which contradicts --size or "
-            f"--pixel, {' x '.join(map(shown, given))}: give these numbers with their unit, as in {_asked(spans)}"
+            f"--pixel, {' x '.join(map(shown, given))}: give these numbers with their unit, as in {_asked(spans, unit)}"
         )
 
 
@@ -132,7 +138,7 @@ def _need(path, family, quantity, unit, size, spans):
     how_large = "how large the surface is (--size X[,Y] or --pixel DX[,DY])"
     if spans:
         how_large = (
-            f"in which unit its x and y are (they span {' x '.join(f'{s:.6g}' for s in spans)}: {_asked(spans)})"
+            f"in which unit its x and y are (they span {' x '.join(f'{s:.6g}' for s in spans)}: {_asked(spans, unit)})"
         )
     lacking = [
         text
@@ -218,15 +224,15 @@ def _overruled(stated, values, unit, wanted):
     return stated._replace(size=None, sides=(None, None), center=None, remarks=(*stated.remarks, said))
 
 
-def _sized(path, stated, values, wanted):
+def _sized(path, stated, values, wanted, unit):
     """Size of the map, or None where neither the file nor an option states it."""
     flat = len(values) == 1
     _need_sides(path, stated, wanted)
-    _need_spans(path, stated.spans, wanted)
+    _need_spans(path, stated.spans, wanted, unit)
     said = stated.size
     if said is None and stated.spans and all(stated.sides[: len(stated.spans)]):
         said = stated.sides[: len(stated.spans)]  # of a header
-        _need_spans(path, stated.spans, said)
+        _need_spans(path, stated.spans, said, unit)
     if flat and said is None and stated.sides[0]:
         said = stated.sides[:1]
     size = _agreed(path, said[:1] if flat and said else said, wanted, "--size or --pixel")
@@ -256,7 +262,7 @@ def _combined(path, stated, family, given):
         values = np.where(values == missing, np.nan, values)
     wanted = _wanted(path, stated, values, given)
     stated = _overruled(stated, values, unit, wanted)
-    size = _sized(path, stated, values, wanted)
+    size = _sized(path, stated, values, wanted, unit)
     _need(path, family, quantity, unit, size, stated.spans)
     one = new_map(values * (-unit if given.depths else unit), size, quantity, path, stated.center or (0.0, 0.0))
     top, remarks = (False, []) if one.is_profile else _top(path, stated, given.first_row)

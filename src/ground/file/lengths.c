@@ -17,7 +17,8 @@ static const struct {
              {" nm nanometer nanometre ", 1e-9},
              {" pm picometer picometre ", 1e-12},
              {" angstrom \u00c5 ", 1e-10},
-             {" in inch ", 0.0254}};
+             {" in inch ", 0.0254},
+             {" mil ", 2.54e-5}};
 
 /* Heights are positive outward, so heights of both bodies reduce the separation. */
 static const struct {
