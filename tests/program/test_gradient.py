@@ -167,7 +167,7 @@ def test_the_first_of_steps_that_grow_without_tangential_loads():
     for name in ("energy", "disp_x"):
         found = run(np.zeros(6))[0].gradient(name, rtol=1e-10)["load_tx"]
         for row in (0, 1, 3):
-            both = [run(size * (np.arange(6) == row))[0].gradient(name, rtol=0.1).value for size in (1e-3, -1e-3)]
+            both = [run(size * (np.arange(6) == row))[0].gradient(name, rtol=0.01).value for size in (1e-3, -1e-3)]
             assert found[row] == pytest.approx((both[0] - both[1]) / 2e-3, rel=1e-4, abs=1e-4 * abs(found).max()), row
 
 
@@ -394,7 +394,7 @@ class Problem:
         for sign in (1, -1):
             change = self.changed(parameter, sign * size)
             contact, works = record(self.contact(change)[0], change.get("history", self.history))
-            both.append(works.sum() if name == "energy" else contact.gradient(name, None, steps, rtol=0.1).value)
+            both.append(works.sum() if name == "energy" else contact.gradient(name, None, steps, rtol=0.01).value)
         return (both[0] - both[1]) / (2 * size)
 
 
@@ -594,7 +594,7 @@ def check_number(number, steps, history, within, wide=1, **given):
         size *= wide
         start = 0.3 if name == "friction" else 0.0
         both = [
-            stressed(history, **given, **{name: start + sign * size})[0].gradient(number, None, steps, rtol=0.1).value
+            stressed(history, **given, **{name: start + sign * size})[0].gradient(number, None, steps, rtol=0.01).value
             for sign in (1, -1)
         ]
         derivative = (
@@ -696,7 +696,7 @@ def test_stresses_by_the_moduli(number):
 
     found = run().gradient(number, petsam.gradient.MODULI, rtol=1e-10)
     for name in petsam.gradient.MODULI:
-        both = [run(**{name: size}).gradient(number, ["load_n"], rtol=0.1).value for size in (2e-6, -2e-6)]
+        both = [run(**{name: size}).gradient(number, ["load_n"], rtol=0.01).value for size in (2e-6, -2e-6)]
         difference = (both[0] - both[1]) / 4e-6
         assert found[name] * UNLIKE[name] == pytest.approx(difference, rel=3e-5, abs=1e-6 * found.value), name
 
@@ -731,7 +731,7 @@ def test_bulk_stress_in_plane_strain(number):
     by |= {name: found[name] * UNLIKE[name] for name in UNLIKE}
     assert number == "energy" or abs(by["part"]) > 1e-3 * found.value
     for name, derivative in by.items():
-        both = [run(**{name: size})[0].gradient(number, rtol=0.1).value for size in (1e-6, -1e-6)]
+        both = [run(**{name: size})[0].gradient(number, rtol=0.01).value for size in (1e-6, -1e-6)]
         assert derivative == pytest.approx((both[0] - both[1]) / 2e-6, rel=3e-5, abs=1e-6 * found.value), name
 
 
@@ -918,7 +918,9 @@ def test_parameters_of_the_shape(shape):
         if value in ("inf", 0.0):
             assert value == 0.0 or found[name] == 0.0
             continue
-        both = [run(**{name: value * (1 + size)}).gradient("energy", ["gap"], rtol=0.1).value for size in (2e-6, -2e-6)]
+        both = [
+            run(**{name: value * (1 + size)}).gradient("energy", ["gap"], rtol=0.01).value for size in (2e-6, -2e-6)
+        ]
         assert found[name] * value == pytest.approx((both[0] - both[1]) / 4e-6, rel=1e-4, abs=1e-6 * found.value), name
     with pytest.raises(petsam.Error, match="expected gap,friction"):
         run(gap_of, gap_type="flat", **{name: None for name in names}).gradient("energy", names)

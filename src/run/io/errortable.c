@@ -11,9 +11,9 @@
 
 /* The columns of /errors */
 enum { TEXTS = 3, NUMBERS = 10 };
-static const SamLabel texts[TEXTS]     = {{"name", NULL, "name of the number"},
-                                          {"unit", NULL, "unit of the number"},
-                                          {"cause", NULL, "cause of the larger part of the error"}},
+static const SamLabel texts[TEXTS]     = {{"name", "1", "name of the number"},
+                                          {"unit", "1", "unit of the number"},
+                                          {"cause", "1", "cause of the larger part of the error"}},
                       numbers[NUMBERS] = {
                         {"value", NULL, "the number; of what each step adds to, the sum over the steps of this run"},
                         {"error", "1", "estimated error relative to the number"},
@@ -60,7 +60,7 @@ static void WriteColumn(SamOutput o, hid_t group, const SamLabel *label, size_t 
   if (bytes) (void)H5Tclose(type);
 }
 
-static const SamLabel warnings = {"warnings", NULL, "warnings of the run"};
+static const SamLabel warnings = {"warnings", "1", "warnings of the run"};
 
 void SamOutputCreateTables(SamOutput o)
 {
