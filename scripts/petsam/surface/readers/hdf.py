@@ -88,6 +88,8 @@ def of_hdf5(path, dataset, bare=False, lengths=True):
             name = chosen(path, shapes, "--dataset")
             remarks = told(name, shapes)
         data = file.get(name)
+        if data is None and not dataset:
+            raise Error(f"{path}: no dataset height or separation; {ANOTHER}")
         if not isinstance(data, h5py.Dataset) or data.ndim != 2 or data.dtype.kind not in REAL:
             cure = ANOTHER if bare else listed(contents(file), "--dataset") if lengths else "give it that name"
             raise Error(f"{path}: has no dataset /{name} of shape (ny, nx); {cure}")
