@@ -402,8 +402,9 @@ def test_wear_ends_with_contact_of_what_stuck_from_the_first(petsam, tmp_path):
     assert np.abs(p / exact - 1)[np.abs(x) < 0.9 * c].max() < 5e-3
 
 
-def test_energies_of_the_closing_lines_are_per_metre(petsam):
-    said = petsam(CYLINDER, dict(load_tx=0.5 * MU * N, steps=4)).stdout
+def test_energies_of_the_closing_lines_are_per_metre(petsam, tmp_path):
+    (tmp_path / "push.csv").write_text(f"time,load_tx\n1,0\n2,{0.5 * MU * N}\n")
+    said = petsam(CYLINDER, dict(history="push.csv", steps=4)).stdout
     assert re.search(r"^  energy +\S+ J/m dissipated", said, re.M) and " J " not in said
 
 

@@ -108,7 +108,8 @@ def test_a_compliance_has_lines_of_its_parts(block, compliance):  # noqa: F811
     assert lines[:3] == ["stiffness", "factorization", "half-space fields"] and lines[-1] == "stresses"
     faces = [re.fullmatch(rf"half-space fields on (\d+) of (\d+) faces({LEFT})?", one) for one in lines]
     last = [one for one in faces if one][-1]
-    assert last[1] == last[2] and not last[3] and re.fullmatch(r"\d+ solutions", lines[-2])
+    assert last[1] == last[2] and not last[3] and re.fullmatch(r"\d+ solutions", lines[-3])
+    assert lines[-2] == "the error by the mesh"
 
 
 # ---------------------------------------------------------------- before the work
