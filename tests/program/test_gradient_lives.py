@@ -97,7 +97,7 @@ def test_wear_simulations_beside_differences(name):
     for parameter, (change, size) in changes.items():
         both = [live(case, **change(sign * size))[0] for sign in (1, -1)]
         for number, one in found.items():
-            values = [contact.gradient(number, rtol=0.1).value for contact in both]
+            values = [contact.gradient(number, rtol=0.01).value for contact in both]
             difference = (values[0] - values[1]) / (2 * size)
             scale = max(abs(difference), 1e-2 * abs(one.value) if parameter != "gap" else 0)
             assert abs(derivatives[number][parameter] - difference) < 1e-4 * scale or one.borders, (number, parameter)

@@ -164,9 +164,9 @@ static void Unresolved(SamAdvice *a, double more, const char zones[])
 
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "shear_max", &shear);
   (void)snprintf(names, sizeof(names), "contact_area pressure_max%s%s",
-                 !force              ? " load_n"
-                 : WidthOf(a) < SAME ? " disp_z"
-                                     : "",
+                 !force                                      ? " load_n"
+                 : WidthOf(a) < SAME && extent->zones < SAME ? " disp_z" /* of several spots it is that of heights */
+                                                             : "",
                  shear > 0 ? " shear_max stick_area slip_max dissipated_energy" : "");
   if (a->closed) (void)snprintf(closed, sizeof(closed), ", %.2g in closed form", (double)a->across);
   /* a more special reason, with an error of 1, precedes this one */
