@@ -9,6 +9,7 @@ from support import SPHERE, closed, hertz, slide_limit
 
 USUAL = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state"}
 SCALES = {"x", "y", "time", "point", "coordinate"}
+OTHERS = SCALES | {"warnings"}  # datasets beside the fields
 NAMES = "pressure,pressure_center,shear_center_x,contact_edge,stick_edge"
 SLIP = dict(SPHERE, body1_poisson=0.0, body2_poisson=0.0, grid_n=90, output_fields=NAMES)
 
@@ -25,7 +26,7 @@ def cattaneo(share, **more):
 
 def fields(path):
     with h5py.File(path, "r") as file:
-        return {name for name in file if isinstance(file[name], h5py.Dataset)} - SCALES
+        return {name for name in file if isinstance(file[name], h5py.Dataset)} - OTHERS
 
 
 def test_usual_fields_are_saved_unless_others_are_asked_for(petsam, tmp_path):
