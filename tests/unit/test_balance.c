@@ -237,6 +237,50 @@ static void test_weighted_projection_is_the_nearest_shear_in_its_metric(void **s
   }
 }
 
+/* Every fifth cell has weight 0: it keeps its shear, inside its disc or on it, and the others carry what is left. */
+static void test_cells_of_weight_0_keep_their_shear(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_GRIDS; k++) {
+    SamGrid       grid  = Grid(k);
+    Vec           bound = NewPressure(grid, 3), known = NewShear(grid, bound, 4, 0.9), x = NewRandom(grid, 2, 7);
+    float        *weight = (float *)calloc((size_t)grid->cells + 1, sizeof(*weight));
+    PetscReal     loads[3];
+    SamBalance    b;
+    SamFrame      f;
+    double       *a, size, moved = 0;
+    const double *radius, *kept;
+    PetscBool     found;
+
+    sam_call(SamBalanceGetLoads(grid, SAM_BALANCE_TANGENTIAL, known, loads));
+    b = Balance(SAM_BALANCE_TANGENTIAL, 7, loads);
+    sam_call(SamFrameSet(&f, grid, &b));
+    sam_call(VecGetArray(x, &a));
+    sam_call(VecGetArrayRead(bound, &radius));
+    sam_call(VecGetArrayRead(known, &kept));
+    for (PetscInt c = 0; c < 2 * grid->cells; c++) {
+      const PetscBool keeps = (c % grid->cells + grid->row_start * grid->nx) % 5 == 0;
+
+      weight[c % grid->cells] = keeps ? 0 : 1;
+      if (keeps) a[c] = kept[c];
+    }
+    sam_call(SamFrameProjectTangential(&f, NULL, radius, weight, PETSC_TRUE, a, NULL, &found));
+    for (PetscInt c = 0; c < 2 * grid->cells; c++)
+      if (weight[c % grid->cells] <= 0) moved = PetscMax(moved, fabs(a[c] - kept[c]));
+    sam_call(SamMax(grid->comm, 1, &moved));
+    sam_call(VecRestoreArrayRead(known, &kept));
+    sam_call(VecRestoreArrayRead(bound, &radius));
+    sam_call(VecRestoreArray(x, &a));
+    sam_assert(found);
+    sam_assert_close(moved, 0, exact);
+    AssertAdmissible(grid, SAM_BALANCE_TANGENTIAL, bound, x);
+    sam_assert_close(Imbalance(grid, &b, x, &size), 0, exact);
+    free(weight);
+    sam_destroy(&x, &bound, &known);
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
 static void test_normal_projection_keeps_to_its_mask(void **state)
 {
   (void)state;
@@ -610,6 +654,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_normal_projection_is_the_nearest_admissible_pressure),
     cmocka_unit_test(test_tangential_projection_is_the_nearest_admissible_shear),
     cmocka_unit_test(test_weighted_projection_is_the_nearest_shear_in_its_metric),
+    cmocka_unit_test(test_cells_of_weight_0_keep_their_shear),
     cmocka_unit_test(test_normal_projection_keeps_to_its_mask),
     cmocka_unit_test(test_impossible_normal_loads_are_found),
     cmocka_unit_test(test_a_shear_with_nan_is_not_projected),

@@ -30,7 +30,8 @@ static const float *Ones(void)
 /*
   Computes for at most SAM_CHUNK cells of a row v = field + w phi a, its projection x = D(v) onto the disc, and the
   derivative h of D times w. The second loop, with roots and divisions, runs only if a cell lies beyond its disc;
-  `slips`: one does, so that the first loop would find the same.
+  `slips`: one does, so that the first loop would find the same. A cell of weight 0 keeps its shear, whose work on the
+  motion is its part of the dual, but for a constant.
 */
 SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, const double *restrict qy,
                                      const double *restrict bound, const float *restrict weight, const double a[3],
@@ -46,7 +47,7 @@ SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, cons
     const double vx = in * qx[i] + w * ax, vy = in * qy[i] + w * (a1 + a2 * xi), n2 = vx * vx + vy * vy;
 
     beyond += n2 > b * b ? 1 : 0;
-    value += 0.5 * n2 / (w > 0 ? w : 1); /* a cell of weight 0 adds a constant */
+    value += w > 0 ? 0.5 * n2 / w : vx * ax + vy * (a1 + a2 * xi);
     scale += fabs(vx) + fabs(vy);
     x += vx;
     y += vy;
@@ -67,7 +68,7 @@ SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, cons
       const double px = s * vx, py = s * vy, gxx = w * (s - g * vx * vx), gxy = -w * g * vx * vy,
                    gyy = w * (s - g * vy * vy);
 
-      value += (n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2) / (w > 0 ? w : 1);
+      value += w > 0 ? (n2 > b * b ? b * size - 0.5 * b * b : 0.5 * n2) / w : px * ax + py * (a1 + a2 * xi);
       scale += fabs(px) + fabs(py);
       SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi);
     }
