@@ -45,6 +45,9 @@ ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-
 
 LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/front/app/*" ! -path "src/front/examine/*"))
 PROGRAMS := petsam petsam-stress
+# the scripts: petsam-plot, and links to it, one for the command of each application
+LINKS := $(patsubst scripts/petsam/apps/%/command.py,petsam-%,$(sort $(wildcard scripts/petsam/apps/*/command.py)))
+TOOLS := petsam-plot $(LINKS)
 APP_SRC := $(filter-out $(PROGRAMS:%=src/front/app/%.c),$(sort $(wildcard src/front/app/*.c src/front/app/*/*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
 APP_OBJ := $(APP_SRC:%.c=$(B)/obj/%.o)
@@ -65,8 +68,11 @@ HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(PROGRAMS:%=$(B)/bin/%) $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so $(EXAMINE) ## build the program and the libraries
+all: $(PROGRAMS:%=$(B)/bin/%) $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so $(EXAMINE) $(LINKS:%=scripts/%) ## build the program and the libraries
 	@mkdir -p $(B)/run # where the commands of the pages write
+
+$(LINKS:%=scripts/%):
+	$(Q)ln -s petsam-plot $@
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -216,7 +222,7 @@ check-readmes: all bench-programs $(B)/venv/tests-done ## run the commands in th
 
 # the format of the sources; the tests' environment has the formatters in fixed versions
 C_SOURCES := $(shell find src include tests examples -name '*.[ch]')
-PYTHON_SOURCES := scripts examples tests scripts/petsam-compliance scripts/petsam-fatigue scripts/petsam-fit scripts/petsam-joint scripts/petsam-loads scripts/petsam-plot scripts/petsam-study scripts/petsam-surface scripts/petsam-wheel
+PYTHON_SOURCES := scripts examples tests scripts/petsam-plot
 format: $(B)/venv/tests-done ## format C and Python by .clang-format and .ruff.toml
 	@$(B)/venv/bin/clang-format -i $(C_SOURCES)
 	@$(B)/venv/bin/ruff format -q $(PYTHON_SOURCES)
@@ -250,6 +256,7 @@ install: all pages ## install program, library, headers, petsam.pc, scripts, exa
 	for f in $(HEADERS); do install -D -m 644 $$f $(DESTDIR)$(prefix)/$$f || exit 1; done
 	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lfftw3f_mpi -lfftw3f -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
 	for f in $(SHARED); do install -D -m $$(test -x $$f && echo 755 || echo 644) $$f $(share)/$$f || exit 1; done
+	for f in $(LINKS); do ln -sf petsam-plot $(share)/scripts/$$f || exit 1; done
 	for f in $(TOOLS); do ln -sf ../share/petsam/scripts/$$f $(DESTDIR)$(prefix)/bin/$$f || exit 1; done
 	for f in $(MANUAL); do install -D -m 644 $$f $(share)/$$f || exit 1; done
 	install -m 644 LICENSE CITATION.cff $(share)
@@ -258,7 +265,6 @@ install: all pages ## install program, library, headers, petsam.pc, scripts, exa
 	  install -D -m 644 scripts/maintain/tools.bash $(DESTDIR)$(prefix)/share/bash-completion/completions/$$f || exit 1; done
 
 # man pages and bash's completions, from what the programs say of themselves; `make install PAGES=` where they cannot run
-TOOLS := $(notdir $(wildcard scripts/petsam-*))
 PAGES := $(foreach p,$(PROGRAMS),man/man1/$p.1 bash-completion/completions/$p) $(TOOLS:%=man/man1/%.1)
 
 pages: $(PAGES:%=$(B)/share/%) ## make the man pages, the completions of options, and, in a clone, the tables of options in the manual

@@ -15,8 +15,8 @@ import sys
 
 import numpy as np
 
-from petsam.commands.line import fail
 from petsam.core.errors import Error, Missing
+from petsam.core.line import fail
 
 
 def relative_l2(numerical, exact):

@@ -4,7 +4,7 @@ import argparse
 import os
 import subprocess
 
-from petsam.compliance.stiffness import model_lines, numbers
+from petsam.apps.compliance.stiffness import model_lines, numbers
 
 
 def deck_lines(title, mesh, surface):

@@ -1,4 +1,5 @@
-"""What `make wheel` adds to pyproject.toml: the files in data/ (scripts/packaging/wheel.py) and the platform.
+"""What pyproject.toml cannot say: the scripts, petsam-plot and its links, one for each application; and what
+`make wheel` adds, the files in data/ (scripts/packaging/wheel.py) and the platform.
 
 Without the variable PETSAM_WHEEL, as by `pip install ./scripts`, the package is pure Python.
 """
@@ -14,4 +15,8 @@ for path in sorted(Path("data").rglob("*")) if platform else ():
     if path.is_file():
         places.setdefault(str(path.parent.relative_to("data")), []).append(str(path))
 
-setup(data_files=list(places.items()), options={"bdist_wheel": {"plat_name": platform}} if platform else {})
+setup(
+    scripts=sorted(str(path) for path in Path().glob("petsam-*") if path.is_file()),
+    data_files=list(places.items()),
+    options={"bdist_wheel": {"plat_name": platform}} if platform else {},
+)

@@ -15,8 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from petsam.compliance.mesh import grid_mesh
-from petsam.compliance.stiffness import numbers
+from petsam.apps.compliance.mesh import grid_mesh
+from petsam.apps.compliance.stiffness import numbers
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fe-comparison"))
 from surface import nodal_forces, read_dat  # noqa: E402

@@ -12,9 +12,9 @@ import numpy as np
 from full import body_mesh
 from mesh import STEEL, beam
 
-from petsam.compliance.mesh import grid_mesh
-from petsam.compliance.solve import Solver
-from petsam.compliance.stiffness import stiffness
+from petsam.apps.compliance.mesh import grid_mesh
+from petsam.apps.compliance.solve import Solver
+from petsam.apps.compliance.stiffness import stiffness
 
 HALF = 1.5  # mm, of the loaded square
 POINTS = 6  # Gauss points along the side of a face

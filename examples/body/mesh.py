@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from petsam.compliance.mesh import grid_mesh
+from petsam.apps.compliance.mesh import grid_mesh
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
 from decks import deck_lines, write_deck  # noqa: E402

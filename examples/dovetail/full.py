@@ -19,7 +19,7 @@ import h5py
 import numpy as np
 from mesh import BELOW, BEYOND, THICKNESS, TITANIUM, Body, graded, nearest, strip
 
-from petsam.compliance.stiffness import numbers
+from petsam.apps.compliance.stiffness import numbers
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fe-comparison"))
 from surface import nodal_forces  # noqa: E402

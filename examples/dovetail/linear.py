@@ -16,10 +16,10 @@ import h5py
 import numpy as np
 from mesh import BELOW, BEYOND, THICKNESS, Body, graded, nearest, strip
 
-from petsam.compliance.basis import Patch
-from petsam.compliance.halfspace import cell_compliance
-from petsam.compliance.solve import Solver
-from petsam.compliance.stiffness import stiffness
+from petsam.apps.compliance.basis import Patch
+from petsam.apps.compliance.halfspace import cell_compliance
+from petsam.apps.compliance.solve import Solver
+from petsam.apps.compliance.stiffness import stiffness
 
 HALF = (0.8, 1.4)  # mm, of the loaded rectangle
 CELLS = 40  # of it, each way, for the half-space

@@ -24,10 +24,10 @@ import numpy as np
 from mesh import BELOW, FLANK, TITANIUM, Body
 
 import petsam
-from petsam.commands.line import fail
-from petsam.compliance.mesh import Block, Mesh
-from petsam.compliance.section import oriented
-from petsam.compliance.stiffness import assembled, numbers
+from petsam.apps.compliance.mesh import Block, Mesh
+from petsam.apps.compliance.section import oriented
+from petsam.apps.compliance.stiffness import assembled, numbers
+from petsam.core.line import fail
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
 import comparison  # noqa: E402

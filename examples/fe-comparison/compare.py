@@ -28,7 +28,7 @@ import numpy as np
 import model
 import surface as results_of_calculix
 from petsam.closed import Bodies, Spheres
-from petsam.commands.line import fail
+from petsam.core.line import fail
 
 PACKAGE = "calculix-ccx"
 HALF_WIDTH = 1.5  # of petsam's grids in contact radii, as in Table 1

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import petsam
-from petsam.lives.strength import swt
+from petsam.apps.fatigue.strength import swt
 from petsam.plot.style import COLORS, frame, logarithmic, plt, save
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share

@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 
 import petsam
-from petsam.commands.line import fail
+from petsam.core.line import fail
 from petsam.plot.style import CLOSED, COLORS, STYLE, frame, plt, points, save
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share

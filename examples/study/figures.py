@@ -14,10 +14,10 @@ import h5py
 import numpy as np
 
 import petsam
+from petsam.apps.study.runs import RESULTS
 from petsam.closed import Spheres, cattaneo_stick_radius
 from petsam.closed.loop import partial_loop_energy
 from petsam.plot.style import CLOSED, COLORS, frame, plt, points, save
-from petsam.study.runs import RESULTS
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
 import comparison  # noqa: E402

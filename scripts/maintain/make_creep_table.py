@@ -15,10 +15,10 @@ import time
 
 import numpy as np
 
-from petsam.commands.line import fail
+from petsam.apps.wheel import creeptable
+from petsam.apps.wheel.creep import CreepTable
 from petsam.core.errors import Error
-from petsam.profiles import creeptable
-from petsam.profiles.creep import CreepTable
+from petsam.core.line import fail
 
 
 def parser():

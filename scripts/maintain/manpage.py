@@ -9,24 +9,15 @@
 
 import re
 import sys
+from pathlib import Path
 
 import options
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from petsam import apps, plot  # noqa: E402
+
 TITLES = {"history": "LOAD HISTORIES", "exit codes": "EXIT STATUS"}
-SEE_ALSO = {
-    "petsam": "petsam-stress petsam-compliance petsam-fatigue petsam-fit petsam-joint petsam-loads petsam-plot "
-    "petsam-study petsam-surface petsam-wheel",
-    "petsam-stress": "petsam petsam-fatigue petsam-plot",
-    "petsam-compliance": "petsam petsam-stress",
-    "petsam-fatigue": "petsam-stress petsam-plot petsam-study",
-    "petsam-fit": "petsam petsam-plot",
-    "petsam-joint": "petsam-surface petsam",
-    "petsam-loads": "petsam petsam-compliance",
-    "petsam-plot": "petsam petsam-stress petsam-study petsam-fatigue",
-    "petsam-study": "petsam petsam-stress petsam-plot",
-    "petsam-surface": "petsam petsam-joint",
-    "petsam-wheel": "petsam petsam-plot",
-}
+SEE_ALSO = {"petsam": ("petsam-stress",), "petsam-stress": ("petsam",)}  # of the programs in C; others have records
 WIDTH = 70  # columns of commands
 OPTION = re.compile(r' +(?=--?[a-z])(?=(?:[^"]*"[^"]*")*[^"]*$)')  # where a command may be broken: not in a quotation
 
@@ -104,6 +95,14 @@ def without_idle_paragraphs(lines):
     return [line for before, line, after in pairs if line != ".PP" or not (before[:3] in heads or after[:3] in starts)]
 
 
+def see_also(program):
+    """The programs that a page names: those that it says, and those that name it."""
+    named = {**SEE_ALSO, **{one.command: one.see for one in (plot.PART, *apps.records()) if one.command}}
+    others = {one for one, names in named.items() if program in names}
+    own = [one for one in named[program] if one in named]
+    return [*own, *sorted(others.difference(own))]
+
+
 def page(described):
     """The lines of the page of a program."""
     program, usage = described["program"], described["usage"].split("\n\n", 2)
@@ -119,7 +118,7 @@ def page(described):
         lines += [line for option in group.options for line in option_lines(option)]
     for name, text in texts.items():
         lines += [f'.SH "{escape(TITLES.get(name, name.upper()))}"', *paragraphs(text)]
-    others = ", ".join(f"{name}(1)" for name in SEE_ALSO[program].split())
+    others = ", ".join(f"{name}(1)" for name in see_also(program))
     return without_idle_paragraphs([*lines, '.SH "SEE ALSO"', escape(others)])
 
 

@@ -2,100 +2,34 @@
 
     python3 scripts/maintain/modules.py > build/python.md
 
-It reads the sources and imports nothing, so that it needs none of the package's libraries. Names of the package itself
-are those of petsam.__all__, of petsam.plot and packages such as petsam.joint those that they list, and of other modules
-all functions and classes without a leading underscore. A class has the methods of its bases in the package, too.
+It reads the sources, and imports of the package only what needs no library: the records of its parts. Names of the
+package itself are those of petsam.__all__, of a part those of its record, and of other modules all functions and
+classes without a leading underscore. A class has the methods of its bases in the package, too.
 """
 
 import ast
 import re
+import sys
 from functools import cache
 from pathlib import Path
 
 import functions
 
 PACKAGE = Path(__file__).resolve().parents[1] / "petsam"
+sys.path.insert(0, str(PACKAGE.parent))
+import petsam  # noqa: E402
+from petsam import apps, plot  # noqa: E402
+
 # names of the package that users meet first, in the order of work; the others follow, errors and warnings at the end
 FIRST = ("open", "run", "Contact", "Element", "Results", "Snapshot", "Stresses", "Study")
 # classes of which users get objects from those, by their modules
-OBTAINED = {"contact": ("Step", "Cycle")}
-# modules in the order of the page; of a folder the modules that its __init__.py represents
-MODULES = (
-    "results.errors",
-    "results.cycles",
-    "results.sliding",
-    "plot.pictures",
-    "plot.reports",
-    "plot.of_joints",
-    "plot.of_compliance",
-    "plot.of_lives",
-    "plot.of_loads",
-    "plot.of_profiles",
-    "plot.of_surface",
-    "joint.interfaces",
-    "joint.conductance",
-    "joint.structure",
-    "joint.pair",
-    "joint.backbone",
-    "joint.band",
-    "joint.balance",
-    "joint.wear",
-    "joint.damper",
-    "compliance.calls",
-    "compliance.settings",
-    "compliance.result",
-    "gradient",
-    "uncertainty",
-    "heat.friction",
-    "heat.partition",
-    "loads.reading",
-    "loads.resultants",
-    "loads.forces",
-    "profiles.profile",
-    "profiles.reading",
-    "profiles.standard",
-    "profiles.placement",
-    "profiles.pose",
-    "profiles.contacts",
-    "profiles.positions",
-    "profiles.result",
-    "profiles.axle",
-    "profiles.spectrum",
-    "profiles.batch",
-    "profiles.conicity",
-    "profiles.wearing",
-    "profiles.creep",
-    "surface.reading",
-    "surface.maps",
-    "study.jobs",
-    "study.cases",
-    "study.reading",
-    "study.tables",
-    "lives.spectrum",
-    "lives.stresses",
-    "lives.materials",
-    "lives.strength",
-    "lives.evaluation",
-    "lives.cracks",
-    "core.materials",
-    "closed.materials",
-    "closed.sphere",
-    "closed.ellipse",
-    "closed.stress",
-    "closed.loop",
-    "closed.spence",
-    "closed.punch",
-    "closed.plane",
-)
-# packages that list what users call, and the constant of their __init__.py that has the names
-LISTING = {
-    "compliance": "__all__",
-    "joint": "__all__",
-    "loads": "_HOMES",
-    "profiles": "_HOMES",
-    "study": "__all__",
-    "surface": "_HOMES",
-}
+OBTAINED = {"contact.inprocess": ("Step", "Cycle")}
+# modules before and behind the parts, in the order of the page
+BEFORE = ("results.errors", "results.cycles", "results.sliding", "contact.gradient", "contact.uncertainty")
+BEHIND = (
+    "core.materials", "closed.materials", "closed.sphere", "closed.ellipse", "closed.stress", "closed.loop",
+    "closed.spence", "closed.punch", "closed.plane",
+)  # fmt: skip
 PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")
@@ -104,7 +38,9 @@ COLUMNS = re.compile(r"\S {2,}\S")  # of a table in a docstring
 
 @cache
 def tree_of(module):
-    return ast.parse((PACKAGE / (module.replace(".", "/") + ".py")).read_text(encoding="utf-8"))
+    path = PACKAGE / module.replace(".", "/")
+    path = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    return ast.parse(path.read_text(encoding="utf-8"))
 
 
 def definitions(tree):
@@ -116,17 +52,6 @@ def definitions(tree):
 def public(module):
     """Returns the public functions and classes of a module by name; pictures and classes as users meet them."""
     return {name: whole(module, looking(module, node)) for name, node in definitions(tree_of(module)).items()}
-
-
-def called(module):
-    """Returns those that users call: of some packages the names that these list."""
-    found, (folder, _, last) = public(module), module.partition(".")
-    listed = list(found)
-    if folder == "plot":
-        listed = literal(tree_of("plot/__init__"), "_HOMES")[last]
-    elif folder in LISTING:
-        listed = [name for name in literal(tree_of(f"{folder}/__init__"), LISTING[folder]) if name in found]
-    return {name: found[name] for name in listed}
 
 
 def looking(module, node):
@@ -159,29 +84,51 @@ def origin(module, name):
     return None
 
 
-def literal(tree, name):
-    """Returns the value of a constant of a module."""
-    for node in tree.body:
-        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == name:
-            return ast.literal_eval(node.value)
-    raise ValueError(f"no constant {name}")
-
-
 def package_names():
     """Returns the functions and classes of petsam.__all__: name to (module, definition), in the order of the page."""
-    tree = tree_of("__init__")
-    homes = {name: home.lstrip(".") for name, home in literal(tree, "_HOMES").items()}
-    for node in tree.body:
+    homes = {name: home.lstrip(".") for name, home in petsam._HOMES.items()}
+    for node in tree_of("__init__").body:
         if isinstance(node, ast.ImportFrom):
             homes.update({alias.name: node.module for alias in node.names})
-    names = [
-        name
-        for name in literal(tree, "__all__")
-        if name not in (*literal(tree, "_PARTS"), *literal(tree, "_OF_RESULTS"))
-    ]
+    names = [name for name in petsam.__all__ if name not in petsam._PARTS]
     names.sort(key=lambda name: (FIRST.index(name) if name in FIRST else len(FIRST), name))
     modules = {name: homes.get(name, "__init__") for name in names}
     return {name: (module, public(module)[name]) for name, module in modules.items()}
+
+
+def face(module):
+    """Returns the name by which users call a module."""
+    known = {home.lstrip("."): name for name, home in petsam._PARTS.items()}
+    return "petsam." + known.get(module, module.removeprefix("apps."))
+
+
+def chosen(part, homes):
+    """Returns those names of a part, {module: names}, that are functions and classes: {name: definition}."""
+    within = part.package.partition(".")[2]
+    pairs = [(f"{within}.{module}", name) for module, names in homes.items() if module for name in names]
+    return {name: public(module)[name] for module, name in pairs if name in public(module)}
+
+
+def of_part(part):
+    """Returns the headings of a part, and of each the first docstring and {name: definition}: its own list, and modules
+    that it lists as a whole."""
+    within = part.package.partition(".")[2]
+    found = {f"petsam.{part.name}.{name}": node for name, node in chosen(part, part.names).items()}
+    if part is plot.PART:
+        for one in apps.records():
+            found.update({f"petsam.plot.{name}": node for name, node in chosen(one, one.pictures).items()})
+    whole = {f"petsam.{part.name}": (about(f"{within}/__init__"), found)}
+    return {**whole, **dict(of_module(f"{within}.{name}") for name in part.names.get("", ()))}
+
+
+def of_module(module):
+    """Returns the heading of a module, and its first docstring with {name: definition} of all that it defines."""
+    found = {f"{face(module)}.{name}": node for name, node in public(module).items()}
+    return face(module), (about(module), found)
+
+
+def about(module):
+    return ast.get_docstring(tree_of(module)).split("\n\n")[0]
 
 
 def signature(name, node):
@@ -264,13 +211,11 @@ def listed():
     """Returns the contents of the page: headings, and of each the first docstring and {name: definition}."""
     package = {f"petsam.{name}": node for name, (_, node) in package_names().items()}
     for module, names in OBTAINED.items():
-        package.update({f"petsam.{module}.{name}": definitions(tree_of(module))[name] for name in names})
-    parts = {"petsam": (ast.get_docstring(tree_of("__init__")).split("\n\n")[0], package)}
-    for module in MODULES:
-        tree = tree_of(module)
-        found = {f"petsam.{module}.{name}": node for name, node in called(module).items()}
-        parts[f"petsam.{module}"] = (ast.get_docstring(tree).split("\n\n")[0], found)
-    return parts
+        package.update({f"petsam.contact.{name}": definitions(tree_of(module))[name] for name in names})
+    parts = {"petsam": (about("__init__"), package), **dict(map(of_module, BEFORE))}
+    for part in (plot.PART, *apps.records()):
+        parts.update(of_part(part))
+    return {**parts, **dict(map(of_module, BEHIND))}
 
 
 def undocumented():

@@ -1,5 +1,5 @@
-# Completion of the long options of petsam-compliance, petsam-fatigue, petsam-fit, petsam-joint, petsam-loads, petsam-plot, petsam-study,
-# petsam-surface and petsam-wheel and of their words, for bash: from what they say by --help, asked for once in a shell. All else is completed as a file's name.
+# Completion of the long options of petsam-plot and the other scripts and of their words, for bash: from what they say by
+# --help, asked for once in a shell. All else is completed as a file's name. `make install` installs it by each name.
 
 _petsam_tool()
 {
@@ -23,4 +23,4 @@ _petsam_tool()
     mapfile -t COMPREPLY < <(compgen -W "${BASH_REMATCH[1]//,/ }" -- "$current")
   fi
 }
-complete -o default -F _petsam_tool petsam-compliance petsam-fatigue petsam-fit petsam-joint petsam-loads petsam-plot petsam-study petsam-surface petsam-wheel
+complete -o default -F _petsam_tool "${BASH_SOURCE[0]##*/}"

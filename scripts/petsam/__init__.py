@@ -4,33 +4,25 @@
     results = petsam.open("sphere.h5")
     print(results.history["stick_area"][-1], results.field("pressure").max())
 
-Contact         a contact in this process: steps, stiffness, fields, stresses, fatigue (contact.py)
-run             a run of the program, whose results it returns (running.py)
-open            reading of files (results/): Results of petsam, Stresses of petsam-stress, the Study of petsam-study
-results         what open() returns; cycles of a load history and their energies, regimes of slip
-cycles          results.cycles, and
-sliding         results.sliding: regime, energy ratio, sliding ratio of a cycle; slip amplitudes
-Element         a contact as a force element of a time integration or of a static solver (joint/element.py)
-joint           contact stiffness and damping of rough interfaces per area; joints in a structure
-profiles        wheel and rail: patches, creepages and forces from two profiles
-calibration     friction, rig stiffness, wear from measured loops: petsam-fit
-conduction      thermal and electrical conductance of contacts: conduction.of(contact, lam1, lam2)
+Contact         a contact in this process: steps, stiffness, fields, stresses, fatigue
+run             a run of the program, whose results it returns
+Element         a contact as a force element of a time integration or of a static solver
+open            reading of files: Results of petsam, Stresses of petsam-stress, the Study of petsam-study
+results         what open() returns
+cycles          cycles of a load history and their energies: results.cycles, and
+sliding         regime, energy ratio, sliding ratio of a cycle; slip amplitudes: results.sliding
+contact         contacts, and what is asked of them; of these
 gradient        derivatives of a number of a history by all parameters: Contact.gradient(); for optimisers
 uncertainty     standard deviation of such a number by roughness and parameters, and their shares
-heat            temperatures by the friction of a cycle at a frequency: heat.work(results).temperatures(50)
 closed          closed-form solutions of contact mechanics
 materials       constants of materials by name
-lives           lives, safety factors, short cracks: petsam-fatigue
-loads           load histories from the contact forces of a structural analysis: petsam-loads
-plot            pictures by name, of files and of what the parts above have found: petsam-plot
-study           many runs from a table: petsam-study
-compliance      real bodies from finite elements: petsam-compliance
-surface         measured surfaces into petsam's HDF5: petsam-surface
-core            what all parts share: errors, files, HDF5, units, search for petsam and its libraries
-commands        the command lines of the programs petsam-plot, petsam-study, ...
+plot            pictures by name, of files and of what applications have found: petsam-plot
+apps            the applications, petsam.joint, petsam.wheel and others: petsam.apps.records() tells what each is for
+core            what all parts share: errors, files, HDF5, units, command lines, search for petsam and its libraries
 
 Importing this package alone needs only the standard library: each part imports its libraries when it is used, and is
-available by its name, petsam.cycles or petsam.closed.plane, without a separate import.
+available by its name, petsam.cycles or petsam.closed.plane, without a separate import. An application is called as its
+command: petsam.joint is that of petsam-joint.
 """
 
 import importlib
@@ -45,7 +37,8 @@ if TYPE_CHECKING:
     from typing import Any, Optional, Union
 
     from . import closed
-    from .contact import (
+    from .contact.element import Element
+    from .contact.inprocess import (
         AdviceWarning,
         Contact,
         ContactError,
@@ -57,14 +50,13 @@ if TYPE_CHECKING:
         PrescribedError,
         WearWarning,
     )  # fmt: skip
+    from .contact.running import run
     from .core import materials
-    from .joint.element import Element
     from .results import cycles
     from .results.file import Results
     from .results.snapshot import Snapshot
     from .results.stresses import Stresses
     from .results.studies import Study
-    from .running import run
 
 __all__ = [
     "AdviceWarning",
@@ -94,50 +86,52 @@ __all__ = [
 
 # names that need libraries; their modules are imported at their first use
 _HOMES = {
-    "AdviceWarning": ".contact",
-    "Contact": ".contact",
-    "ContactError": ".contact",
-    "CycleWarning": ".contact",
-    "EdgeContact": ".contact",
-    "EdgeContactWarning": ".contact",
-    "Element": ".joint.element",
-    "NoEquilibrium": ".contact",
-    "NotConverged": ".contact",
-    "PrescribedError": ".contact",
+    **dict.fromkeys(
+        (
+            "AdviceWarning", "Contact", "ContactError", "CycleWarning", "EdgeContact", "EdgeContactWarning",
+            "NoEquilibrium", "NotConverged", "PrescribedError", "WearWarning",
+        ),
+        ".contact.inprocess",
+    ),
+    "Element": ".contact.element",
     "Results": ".results.file",
     "Snapshot": ".results.snapshot",
     "Stresses": ".results.stresses",
     "Study": ".results.studies",
-    "WearWarning": ".contact",
-    "run": ".running",
+    "run": ".contact.running",
+}  # fmt: skip
+# parts with a name here, and where they are; the applications are found by their folders
+_PARTS = {
+    **{name: "." + name for name in ("apps", "closed", "contact", "core", "plot", "results")},
+    **{name: ".contact." + name for name in ("gradient", "uncertainty")},
+    **{name: ".results." + name for name in ("cycles", "sliding")},
+    "materials": ".core.materials",
 }
 
-_PARTS = (
-    "calibration", "closed", "compliance", "conduction", "gradient", "heat", "joint", "lives", "loads", "materials",
-    "plot", "profiles", "results", "study", "surface", "uncertainty",
-)  # fmt: skip
-_OF_RESULTS = ("cycles", "sliding")  # parts of results with a name of their own
+
+def _applications():
+    return importlib.import_module(".apps", __name__)
 
 
 def __getattr__(name):
-    if name == "materials":
-        return importlib.import_module(".core.materials", __name__)
-    if name in _PARTS or name == "core":
-        return importlib.import_module("." + name, __name__)
-    if name in _OF_RESULTS:
-        return importlib.import_module(".results." + name, __name__)
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(_HOMES[name], __name__), name)
+    if name in _HOMES:
+        return getattr(importlib.import_module(_HOMES[name], __name__), name)
+    if name in _PARTS:
+        return importlib.import_module(_PARTS[name], __name__)
+    if not name.startswith("_") and name in _applications().names():
+        return importlib.import_module(".apps." + name, __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-# for methods of packages below plot
+# for packages below plot and the applications
+_shown.provide("applications", lambda: _applications().records)
 _shown.provide("report", lambda: __getattr__("plot").report)
 _shown.provide("view", lambda: __getattr__("plot").view)
 
 
 def __dir__():
-    return sorted({*__all__, *_PARTS, *_OF_RESULTS, "__doc__", "__file__", "__name__", "__version__"})
+    listed = {*__all__, *_PARTS, *_applications().names()} - {"contact", "core"}
+    return sorted({*listed, "__doc__", "__file__", "__name__", "__version__"})
 
 
 def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any":

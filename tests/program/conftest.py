@@ -290,7 +290,7 @@ def call(tmp_path, monkeypatch, capfd):
 @pytest.fixture
 def draw(call):
     """draw(*words): exit code and messages of petsam-plot."""
-    from petsam.commands import plot as command
+    from petsam.plot import command
 
     return lambda *words: call("petsam-plot", command.main, *words)
 
@@ -316,7 +316,7 @@ def closing():
 @pytest.fixture
 def joint_command(tmp_path, monkeypatch, capsys):
     """joint_command(action, *words, check=0): what petsam-joint prints; its complaint where it fails."""
-    from petsam.commands import joint as command
+    from petsam.apps.joint import command
 
     monkeypatch.chdir(tmp_path)
 

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.sparse.linalg import eigsh, splu
 
 import sections
-from petsam.compliance import halfplane
+from petsam.apps.compliance import halfplane
 
 YOUNG, POISSON, DENSITY = 210e9, 0.3, 7800.0
 HEIGHT, LAP, LENGTH, WASHER = 12.7e-3, 30e-3, 150e-3, 8e-3

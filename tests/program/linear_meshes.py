@@ -10,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 
-import petsam.compliance
-from petsam.compliance import mesherror, stiffness
-from petsam.compliance.mesh import Block, Mesh
+import petsam.apps.compliance
+from petsam.apps.compliance import mesherror, stiffness
+from petsam.apps.compliance.mesh import Block, Mesh
 
 TETS = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
 PARTS = {"C3D8": (tuple(range(8)),), "C3D6": ((0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7)), "C3D4": TETS,

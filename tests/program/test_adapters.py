@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.joint.adapters.tmdsimpy import Force
+from petsam.apps.joint.adapters.tmdsimpy import Force
 from test_element import LIMIT, LOAD, MASS, element, sphere
 
 pytestmark = pytest.mark.filterwarnings("ignore::petsam.AdviceWarning")
@@ -100,7 +100,7 @@ def test_the_oscillator_in_pyharm(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYHARM_CONTEXT_FILE", str(tmp_path / "context.json"))
     harm = pytest.importorskip("pyHarm")
-    from petsam.joint.adapters import pyharm
+    from petsam.apps.joint.adapters import pyharm
 
     one, stiffness, full = element()
     stuck, viscous = np.sqrt(stiffness / MASS), 0.02

@@ -22,8 +22,8 @@ from scipy.spatial import cKDTree
 import compliances
 import petsam
 from petsam import joint
-from petsam.commands.compliance import arguments, carry_out
-from petsam.compliance import basis, model, modes, rigid, stiffness
+from petsam.apps.compliance import basis, model, modes, rigid, stiffness
+from petsam.apps.compliance.command import arguments, carry_out
 from support import ROOT
 
 pytestmark = [
@@ -439,7 +439,7 @@ def test_a_band_has_its_assemblies_and_their_scatter(tmp_path):
 
 def test_a_band_ends_where_its_assemblies_do(monkeypatch):
     """Of three amplitudes two have a solution as given, one without friction; vibrated is at the larger of the two."""
-    module, shaken, ends = sys.modules["petsam.joint.band"], [], iter((2, 1, 2))
+    module, shaken, ends = sys.modules["petsam.apps.joint.bands"], [], iter((2, 1, 2))
     numbers = {name: np.ones(3) for name in ("amplitude", "frequency", "damping")}
 
     def backbone(structure, amplitudes, sensor):

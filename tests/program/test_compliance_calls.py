@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.compliance import mesh
-from petsam.compliance.settings import place
+from petsam.apps.compliance import mesh
+from petsam.apps.compliance.settings import place
 from test_compliance_command import ALWAYS, BOTTOM, GRID, bricks, compliance, written  # noqa: F401
 from test_compliance_pair import HELD, PAIR, both, light
 

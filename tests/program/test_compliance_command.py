@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.compliance import cases, deck, mesh, model, stiffness
+from petsam.apps.compliance import cases, deck, mesh, model, stiffness
 from test_compliance_tool import EVEN, clamped, needs_calculix
 from test_plot import pixels
 
@@ -35,7 +35,7 @@ def bricks(edges=(GRID, GRID, GRID + 2.0), sets=BOTTOM, moduli=(1.0, 0.3)):
 @pytest.fixture
 def compliance(tmp_path, monkeypatch, capfd):
     """compliance(*words, check=0): lines on stdout of petsam-compliance, or those on stderr where it fails."""
-    from petsam.commands import compliance as command
+    from petsam.apps.compliance import command
 
     monkeypatch.chdir(tmp_path)
 
@@ -138,7 +138,7 @@ def test_a_coarser_mesh_estimates_the_error(compliance, block, tmp_path):
 
 
 def test_coarser_mesh_is_read_before_the_work_on_the_fine_one(compliance, block, tmp_path, monkeypatch):
-    from petsam.compliance import model
+    from petsam.apps.compliance import model
 
     monkeypatch.setattr(model, "remainder", None)  # a call of it would be another error
     (tmp_path / "coarse.inp").write_text("*NODE\n1, 0, 0, 0\n")
@@ -234,7 +234,7 @@ def test_forces_on_nodes_are_given_to_each_node_of_a_set(tmp_path):
 
 def test_stresses_below_a_pressure_are_the_reference_numbers():
     """p = 1/2 on the patch of the block 4 x 4 x 4 with 8^3 bricks, at (0, 0, 0.5)."""
-    from petsam.compliance import basis, halfspace, stresses
+    from petsam.apps.compliance import basis, halfspace, stresses
 
     patch = basis.Patch((0.0, 0.0), (1.0, 1.0), 0)
     body = clamped(EVEN, EVEN, EVEN + 2.0)
@@ -285,7 +285,7 @@ def test_coarse_elements_beside_the_patch_are_rejected(compliance, block):
 
 
 def test_an_asymmetric_compliance_is_rejected():
-    from petsam.compliance import checks
+    from petsam.apps.compliance import checks
 
     with pytest.raises(checks.Error, match="asymmetric by 0.0.*limit 0.0001: use a finer mesh"):
         checks.symmetric(np.array([[1.0, 1e-3], [0.0, 1.0]]))

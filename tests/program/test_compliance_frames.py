@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from petsam import loads
-from petsam.compliance import mesh, solve, stiffness
+from petsam.apps.compliance import mesh, solve, stiffness
 from test_compliance_command import ALWAYS, bricks, compliance, written  # noqa: F401
 
 WORDS = ["--fixed", "BOTTOM", *ALWAYS, "--degree", "3", "--no-stress"]

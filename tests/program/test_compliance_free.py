@@ -6,10 +6,9 @@ import pytest
 from scipy import linalg
 
 from petsam import joint
-from petsam.commands import compliance as command
-from petsam.compliance import bolts, cases, images, model, modes, solve, stiffness
-from petsam.compliance.halfspace import opposite, projected
-from petsam.joint import sweep
+from petsam.apps.compliance import bolts, cases, command, images, model, modes, solve, stiffness
+from petsam.apps.compliance.halfspace import opposite, projected
+from petsam.apps.joint import sweep
 from test_compliance_command import compliance  # noqa: F401
 from test_compliance_pair import (
     FRAME,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import linalg
 
-from petsam.compliance import basis, bolts, checks, halfspace, mesh, modes, stiffness
+from petsam.apps.compliance import basis, bolts, checks, halfspace, mesh, modes, stiffness
 from test_compliance_command import compliance  # noqa: F401
 from test_compliance_tool import CCX, needs_calculix
 

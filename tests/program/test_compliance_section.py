@@ -7,7 +7,7 @@ import pytest
 import petsam as package
 import sections
 from conftest import PROGRAM, execute
-from petsam.compliance import basis, checks, deck, halfplane, stiffness
+from petsam.apps.compliance import basis, checks, deck, halfplane, stiffness
 from support import assert_same, l2
 from test_compliance_command import compliance  # noqa: F401
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from petsam.compliance import basis, checks, cutoff, halfspace, images, mesh, remainder, solve, stiffness
-from petsam.compliance.shapes import simplex_rule
+from petsam.apps.compliance import basis, checks, cutoff, halfspace, images, mesh, remainder, solve, stiffness
+from petsam.apps.compliance.shapes import simplex_rule
 from petsam.core.errors import Error
 
 CCX = os.environ.get("CCX", "ccx")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.conduction import Body, conduct, spots
+from petsam.apps.conduction import Body, conduct, spots
 from petsam.core.errors import Error
 from support import SPHERE, bodies
 

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam import profiles
+from petsam.apps.wheel import creep, creepcases, creeptable
 from petsam.core.progress import quiet
-from petsam.profiles import creep, creepcases, creeptable
 from support import ROOT
 
 HERE = ROOT / "tests" / "program"
@@ -34,7 +33,7 @@ def file(folder):
 
 @pytest.fixture(scope="module")
 def table(file):
-    return profiles.CreepTable.open(file)
+    return petsam.wheel.CreepTable.open(file)
 
 
 @pytest.fixture(scope="module")
@@ -339,13 +338,13 @@ def test_forces_are_continuous_around_spin_alone(table):
 
 
 def test_falling_friction(table):
-    law = profiles.FallingFriction(0.33, 0.14, 1.25)
+    law = petsam.wheel.FallingFriction(0.33, 0.14, 1.25)
     assert law(np.array([0.0, 1.25, 1e6])) == pytest.approx([0.33, 0.235, 0.14])
     sliding = dict(load=LOAD, half_axes=(4e-3, 4e-3), creepages=(0.2, 0.0, 0.0), friction=law)
     slow, fast = (table.forces(**sliding, speed=v).force[0] / LOAD for v in (0.0, 6.25))
     assert slow == pytest.approx(0.33, rel=2e-3) and fast == pytest.approx(0.235, rel=2e-3)
     with pytest.raises(petsam.Error, match="expected two coefficients of friction"):
-        profiles.FallingFriction(0.1, 0.2, 1.0)
+        petsam.wheel.FallingFriction(0.1, 0.2, 1.0)
 
 
 def test_slip_is_the_root_of_the_mean_square():
@@ -393,14 +392,14 @@ def test_damaged_files_are_rejected(tmp_path, file, program, spoil, words):
     done = subprocess.run([program, bad], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and words in done.stderr and str(bad) in done.stderr and "make" in done.stderr
     with pytest.raises(petsam.Error, match=words):
-        profiles.CreepTable.open(bad)
+        petsam.wheel.CreepTable.open(bad)
 
 
 def test_missing_file(tmp_path, program):
     done = subprocess.run([program, tmp_path / "none"], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "none: cannot be read" in done.stderr
     with pytest.raises(FileNotFoundError):
-        profiles.CreepTable.open(tmp_path / "none")
+        petsam.wheel.CreepTable.open(tmp_path / "none")
 
 
 def test_an_interrupted_table_is_completed(folder, tmp_path, file):

@@ -242,7 +242,7 @@ def test_what_is_no_cycle_is_named(draw, path, words, code, says):
 @pytest.fixture
 def study(call, launcher, monkeypatch):
     """study(*words): exit code and messages of petsam-study in tmp_path."""
-    from petsam.commands import study as command
+    from petsam.apps.study import command
 
     monkeypatch.setenv("PETSAM", str(PETSAM))
     monkeypatch.setenv("MPIRUN", " ".join(launcher))

@@ -8,8 +8,7 @@ import pytest
 
 import petsam
 from kinds import decks
-from petsam.commands import compliance as command
-from petsam.compliance import deck, keywords, mesh, model, stiffness
+from petsam.apps.compliance import command, deck, keywords, mesh, model, stiffness
 from test_compliance_command import ALWAYS, BOTTOM, PARTS, bricks, compliance, read_text, written  # noqa: F401
 from test_compliance_pair import HELD, both, pair, write  # noqa: F401
 from test_compliance_tool import needs_calculix
@@ -79,7 +78,7 @@ def test_names_in_quotation_marks_that_differ_in_case_are_rejected(tmp_path):
 
 
 def test_options_files_of_a_study_that_differ_in_one_letter_are_two(tmp_path):
-    from petsam.study import cases
+    from petsam.apps.study import cases
 
     (tmp_path / "a").write_bytes("-gap_file h\u00f6he\n".encode("latin-1"))
     (tmp_path / "b").write_bytes("-gap_file h\u00e4he\n".encode("latin-1"))

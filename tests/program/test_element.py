@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 
 import compliances
 import petsam
-from petsam.compliance import basis, rigid
+from petsam.apps.compliance import basis, rigid
 from test_backbone import FRICTION, LOAD, shear, sphere
 
 pytestmark = pytest.mark.filterwarnings("ignore::petsam.AdviceWarning")

@@ -8,15 +8,15 @@ import h5py
 import numpy as np
 import pytest
 
+import petsam
 import petsam as package
-from petsam import calibration
-from petsam.calibration import loops as model
-from petsam.commands import fit as command
+from petsam.apps.fit import command
+from petsam.apps.fit import loops as model
 from petsam.core.errors import Error
 
 STEEL = {"body1_young": 210e9, "body1_poisson": 0.3, "body2_young": 210e9, "body2_poisson": 0.3}
 N, R, MU, MIDDLE = 1000.0, 0.1, 0.6, 0.5
-PUSH = calibration.ball(N, R, STEEL)
+PUSH = petsam.fit.ball(N, R, STEEL)
 SHAPE = "-gap_type sphere\n-gap_radius1 0.1\n-gap_radius2 inf\n-grid_n 96\n-grid_size 2.6mm # wide enough\n" + "".join(
     f"-{name} {value!r}\n" for name, value in STEEL.items()
 )
@@ -91,7 +91,7 @@ def test_a_ball_s_push_and_loop_have_their_closed_forms():
 def test_the_push_of_petsam_is_that_of_the_closed_form(tmp_path):
     """Another option makes it no plain ball: it is computed. Closed form: Poisson's ratio makes 0.1 %."""
     (tmp_path / "other.opts").write_text(SHAPE + "-normal_rtol 1e-10\n")
-    computed, closed = calibration.of_shape("other.opts", N), calibration.of_shape("ball.opts", N)
+    computed, closed = petsam.fit.of_shape("other.opts", N), petsam.fit.of_shape("ball.opts", N)
     assert "petsam" in computed.text and "closed form" in closed.text
     assert np.array_equal(closed.displacement, PUSH.displacement)
     at = np.interp(closed.force, computed.force, computed.displacement)
@@ -177,7 +177,7 @@ def test_three_amplitudes_hold_more_than_one():
 def test_a_plan_has_the_bands_of_twins():
     """Of one loop of 200 points; published tables of this model: 10, 2.2 and 0.057 %."""
     for rig, expected in ((2e7, (0.10, 0.025, 5.7e-4)), (2e8, (0.022, 0.0059, 5.6e-4))):
-        found = calibration.plan(PUSH, MU, rig, cycles=1)
+        found = petsam.fit.plan(PUSH, MU, rig, cycles=1)
         rows = dict(zip(found.loops, found.deviation))
         for name, sd in zip(("0.6 of sliding", "0.9 of sliding", "1.5 times the sliding stroke"), expected):
             assert rows[name][0] == pytest.approx(sd, rel=0.06), name
@@ -185,8 +185,8 @@ def test_a_plan_has_the_bands_of_twins():
         three = rows["0.3 of sliding and 0.6 of sliding and 0.9 of sliding"]
         assert three[0] < rows["0.9 of sliding"][0] and three[1] < 0.6 * rows["0.9 of sliding"][1]
     assert found.advice().startswith("the friction to 2 % takes ")
-    assert calibration.plan(PUSH, MU, 2e8, cycles=9).deviation == pytest.approx(found.deviation / 3.0, rel=1e-9)
-    none = calibration.plan(PUSH, MU, 1e6, noise=(1e-4, 300.0), cycles=1)
+    assert petsam.fit.plan(PUSH, MU, 2e8, cycles=9).deviation == pytest.approx(found.deviation / 3.0, rel=1e-9)
+    none = petsam.fit.plan(PUSH, MU, 1e6, noise=(1e-4, 300.0), cycles=1)
     assert none.advice().startswith("none of these loops")
 
 
@@ -229,10 +229,10 @@ def test_files_of_laboratories(tmp_path, head, form, comma):
     if comma:
         start, body = path.read_text().rsplit(")" if ")" in head else "N\n", 1)
         path.write_text(start + (")" if ")" in head else "N\n") + body.replace(".", ","))
-    record = calibration.read(path)
+    record = petsam.fit.read(path)
     assert record.displacement == pytest.approx(np.tile(loops[0].displacement, 3), abs=1e-11)
     assert record.force == pytest.approx(np.tile(loops[0].force, 3), abs=1e-4)
-    found = calibration.analyse([calibration.cycles(record, N)], [PUSH])
+    found = petsam.fit.analyse([petsam.fit.cycles(record, N)], [PUSH])
     assert found.friction == pytest.approx(MU, rel=3e-3)
 
 
@@ -240,15 +240,15 @@ def test_other_units_signs_and_courses(tmp_path):
     """A force of the other sign and a loop recorded backwards are turned, and told; lost points cost their cycle."""
     loops = [twin(np.random.default_rng(k), None, 1.5) for k in range(4)]
     write(tmp_path / "plain.csv", loops)
-    plain = calibration.read("plain.csv")
+    plain = petsam.fit.read("plain.csv")
     lines = (tmp_path / "plain.csv").read_text().splitlines()
     body = [line.split(",") for line in lines[1:]]
     turned = [f"{float(d) / 1e3},{-float(q) / 1e3}" for d, q in body[::-1]]
     (tmp_path / "turned.csv").write_text("\n".join(["x [mm],F [kN]", *turned]))
     body[250][1] = ""
     (tmp_path / "lost.csv").write_text("\n".join([lines[0], *map(",".join, body)]))
-    cycles = {name: calibration.cycles(calibration.read(f"{name}.csv"), N) for name in ("plain", "turned", "lost")}
-    found = {name: calibration.analyse([one], [PUSH], scale=1.0) for name, one in cycles.items()}
+    cycles = {name: petsam.fit.cycles(petsam.fit.read(f"{name}.csv"), N) for name in ("plain", "turned", "lost")}
+    found = {name: petsam.fit.analyse([one], [PUSH], scale=1.0) for name, one in cycles.items()}
     assert not cycles["plain"].notes and len(cycles["plain"].loops) == 4 and plain.time is None
     assert "its sign is turned" in cycles["turned"].notes[0] and "clockwise" in cycles["turned"].notes[1]
     assert cycles["turned"].turned and not cycles["plain"].turned
@@ -263,7 +263,7 @@ def test_noise_of_the_displacement_bends_no_loop(tmp_path):
     for seed in range(4):
         chance = np.random.default_rng(seed)
         write(tmp_path / "lab.csv", [twin(chance, 0.95, None, 2e7, noise=0.03) for _ in range(10)])
-        one = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+        one = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
         found.append((one.friction - MU) / one.friction_sd)
     assert np.abs(found).max() < 2.5 and np.abs(np.mean(found)) < 1.3
 
@@ -279,7 +279,7 @@ def test_the_displacement_of_a_cycle_is_smoothed_without_its_corners(tmp_path, k
         d = -np.cos(2.0 * np.pi * phase) + (0.05 * np.cos(6.0 * np.pi * phase) if kind == "distorted sine" else 0.0)
     noisy = model.Loop(d + 0.03 * chance.standard_normal(2000), d, phase < up, N)
     write(tmp_path / "lab.csv", [replace(noisy, displacement=1e-6 * noisy.displacement)], form="{:.7f},{:.7f}")
-    loops = calibration.cycles(calibration.read("lab.csv"), N).loops
+    loops = petsam.fit.cycles(petsam.fit.read("lab.csv"), N).loops
     assert len(loops) >= 8
     left = [1e6 * one.displacement - one.force for one in loops]  # the force is the displacement without noise
     assert np.std(np.concatenate([part - part.mean() for part in left])) < 0.03 / 3
@@ -291,18 +291,18 @@ def test_noise_of_the_displacement_makes_no_loop_stick(tmp_path):
     for seed in (2, 5, 7, 8):
         chance = np.random.default_rng(seed)
         write(tmp_path / "lab.csv", [twin(chance, None, 1.02, 2e7, noise=0.03) for _ in range(12)])
-        found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+        found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
         assert found.state == "known" and abs(found.friction - MU) < 3 * found.friction_sd < 0.02 * MU, seed
 
 
 def test_spikes_are_left_out(tmp_path):
     chance = np.random.default_rng(5)
     write(tmp_path / "lab.csv", [twin(chance, None, 1.5, 2e7) for _ in range(5)])
-    record = calibration.read("lab.csv")
+    record = petsam.fit.read("lab.csv")
     record.force[[70, 333, 712]] += 2000.0
     record.displacement[[170, 533]] -= 3e-4
-    cycles = calibration.cycles(record, N)
-    found = calibration.analyse([cycles], [PUSH])
+    cycles = petsam.fit.cycles(record, N)
+    found = petsam.fit.analyse([cycles], [PUSH])
     assert "points far from both neighbours" in cycles.notes[0] and len(cycles.loops) == 5
     assert abs(found.friction - MU) < 3 * found.friction_sd < 0.003
 
@@ -312,8 +312,8 @@ def test_a_loss_of_the_rig_is_in_the_band(tmp_path):
     for seed, part, stroke in ((1, 0.6, None), (2, 0.8, None), (3, None, 1.8), (4, None, 1.3)):
         chance = np.random.default_rng(seed)
         write(tmp_path / "lab.csv", [twin(chance, part, stroke, 3e7, 0.003, loss=0.005) for _ in range(6)])
-        files = [calibration.cycles(calibration.read("lab.csv"), N)]
-        found, without = (calibration.analyse(files, [PUSH], scale=1.0, **loss) for loss in ({}, {"loss": 0.0}))
+        files = [petsam.fit.cycles(petsam.fit.read("lab.csv"), N)]
+        found, without = (petsam.fit.analyse(files, [PUSH], scale=1.0, **loss) for loss in ({}, {"loss": 0.0}))
         assert found.identifiable and abs(found.friction - MU) < 2.5 * found.friction_sd, (part, stroke)
         wrong = without.state == "rejected" or abs(without.friction - MU) > 4 * without.friction_sd
         assert wrong, (part, stroke)
@@ -326,7 +326,7 @@ def test_bands_hold_the_truth_of_rigs_that_lose(tmp_path, part, stroke, rig):
     for _ in range(20):
         lost = 0.005 * chance.standard_normal()
         write(tmp_path / "lab.csv", [twin(chance, part, stroke, rig, loss=lost)])
-        found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+        found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
         for name, truth in (("friction", MU), ("rig_stiffness", rig)):
             deviation = getattr(found, f"{name}_sd")
             low, high = found.fit.friction_range if name == "friction" and found.state == "weak" else (np.nan, np.nan)
@@ -366,7 +366,7 @@ def test_a_loss_that_loops_contradict_is_found_by_them(fit, tmp_path):
 
 def ball_of(normal, radius):
     """The push of a ball that is not that of the options."""
-    return calibration.ball(normal, radius, STEEL)
+    return petsam.fit.ball(normal, radius, STEEL)
 
 
 def recorded(path, chance, push, half, rig=2e7, noise=0.003, count=4, **more):
@@ -379,7 +379,7 @@ def recorded(path, chance, push, half, rig=2e7, noise=0.003, count=4, **more):
         for _ in range(count)
     ]
     write(path, noisy)
-    return calibration.cycles(calibration.read(path), push.normal)
+    return petsam.fit.cycles(petsam.fit.read(path), push.normal)
 
 
 def beside(found, rig):
@@ -409,7 +409,7 @@ def test_a_wrong_radius_is_in_the_bands(tmp_path, kind):
             half = half or np.interp(part * MU * normal, curve.force, curve.displacement)
             files.append(recorded(tmp_path / "lab.csv", chance, push, half, rig))
             pushes.append(ball_of(normal, factor * R))
-        found, certain = (calibration.analyse(files, pushes, **one) for one in ({}, {"scale": 1.0}))
+        found, certain = (petsam.fit.analyse(files, pushes, **one) for one in ({}, {"scale": 1.0}))
         assert max(beside(found, rig)) < 3.0 or found.notes, (kind, seed, factor)
         assert found.state != "rejected"
         wrong += certain.state == "rejected" or max(beside(certain, rig)) > 4.0
@@ -420,7 +420,7 @@ def test_a_wrong_radius_is_in_the_bands(tmp_path, kind):
 def of_power(exponent, normal):
     """The push of a contact whose stiffness goes like the normal load to this power; at N it is the ball's."""
     part = normal / N
-    return calibration.Push(normal, part * PUSH.force, part ** (1.0 - exponent) * PUSH.displacement)
+    return petsam.fit.Push(normal, part * PUSH.force, part ** (1.0 - exponent) * PUSH.displacement)
 
 
 def at_three_loads(path, chance, exponent, rig, low, high):
@@ -449,7 +449,7 @@ def test_several_loads_hold_friction_and_rig(tmp_path, exponent, low, high):
         chance = np.random.default_rng(300 + seed)
         rig = 10 ** chance.uniform(7.5, 8.3)
         files = at_three_loads(tmp_path / "lab.csv", chance, exponent, rig, low, high)
-        found = calibration.analyse(files, pushes_of(exponent))
+        found = petsam.fit.analyse(files, pushes_of(exponent))
         assert found.state == "known" and not any("shape" in note for note in found.notes)
         asides.append(beside(found, rig))
     assert np.max(asides) < 3.0 and np.all(np.sum(np.array(asides) < 2.0, axis=0) >= 8)
@@ -462,7 +462,7 @@ def test_a_wrong_exponent_over_loads_gives_no_number(tmp_path, truth, given):
         chance = np.random.default_rng(300 + seed)
         rig = 10 ** chance.uniform(7.5, 8.3)
         files = at_three_loads(tmp_path / "lab.csv", chance, truth, rig, 0.6, 0.95)
-        found = calibration.analyse(files, pushes_of(given))
+        found = petsam.fit.analyse(files, pushes_of(given))
         assert found.state == "rejected" and np.isnan(found.friction) and np.isnan(found.rig_stiffness), seed
 
 
@@ -478,7 +478,7 @@ def test_a_stiffness_that_is_no_power_of_the_load_is_in_the_bands(tmp_path):
             curve = model.Backbone(rough, MU, 1.0 / rig)
             half = np.interp(chance.uniform(0.7, 0.95) * MU * push.normal, curve.force, curve.displacement)
             files.append(recorded(tmp_path / "lab.csv", chance, rough, half, rig, 0.002))
-        found = calibration.analyse(files, pushes_of(1 / 3))
+        found = petsam.fit.analyse(files, pushes_of(1 / 3))
         assert found.state == "known" and max(beside(found, rig)) < 2.5, seed
 
 
@@ -539,22 +539,22 @@ def test_a_loss_that_is_not_separated_is_said_and_has_a_wider_band(tmp_path):
         curve = model.Backbone(PUSH, MU, 1.0 / 3e7)
         half = np.interp(part * MU * N, curve.force, curve.displacement)
         files = [recorded(tmp_path / "lab.csv", chance, PUSH, half, 3e7, 0.004, 2, loss=lost)]
-        found = calibration.analyse(files, [PUSH])
+        found = petsam.fit.analyse(files, [PUSH])
         assert beside(found, 3e7)[0] < 3.0 and not found.friction_at_least > MU
         if any("do not separate a loss of the rig from the friction" in note for note in found.notes):
             said += 1
-            stated = calibration.analyse(files, [PUSH], loss=(0.0, 0.005))
+            stated = petsam.fit.analyse(files, [PUSH], loss=(0.0, 0.005))
             assert found.fit.more["loss"][1] > 1.1 * stated.fit.more["loss"][1]
     assert said >= 2
     slides = [recorded(tmp_path / "lab.csv", chance, PUSH, 8e-5, 2e7)]
-    assert not calibration.analyse(slides, [PUSH]).notes
+    assert not petsam.fit.analyse(slides, [PUSH]).notes
 
 
 def test_a_lean_that_a_loss_hides_is_rejected(tmp_path):
     chance = np.random.default_rng(3)
     write(tmp_path / "lab.csv", [twin(chance, None, 1.8, 3e7, 0.003, lean=3e5) for _ in range(6)])
-    files = [calibration.cycles(calibration.read("lab.csv"), N)]
-    found, leaning = calibration.analyse(files, [PUSH]), calibration.analyse(files, [PUSH], ("lean",))
+    files = [petsam.fit.cycles(petsam.fit.read("lab.csv"), N)]
+    found, leaning = petsam.fit.analyse(files, [PUSH]), petsam.fit.analyse(files, [PUSH], ("lean",))
     assert found.state == "rejected" and np.isnan(found.friction)
     assert abs(leaning.friction - MU) < 3 * leaning.friction_sd
 
@@ -567,8 +567,8 @@ def test_noise_alone_turns_no_loop(tmp_path):
     ]
     assert max(signed) > 0.0 > sum(signed)
     write(tmp_path / "lab.csv", loops)
-    cycles = calibration.cycles(calibration.read("lab.csv"), N)
-    assert not cycles.turned and calibration.analyse([cycles], [PUSH]).state != "rejected"
+    cycles = petsam.fit.cycles(petsam.fit.read("lab.csv"), N)
+    assert not cycles.turned and petsam.fit.analyse([cycles], [PUSH]).state != "rejected"
 
 
 def test_a_rig_beside_a_weakly_known_friction_has_its_range(tmp_path):
@@ -587,7 +587,7 @@ def test_a_friction_that_grows_within_cycles_has_that_in_its_bands(tmp_path):
         force = np.where(rise.rising, rise.force, fall.force)
         loops.append(model.Loop(rise.displacement, force, rise.rising, N))
     write(tmp_path / "lab.csv", loops)
-    found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+    found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
     if found.state == "changes":
         for k, one in enumerate(found.each):
             assert frictions[k] - one.friction_sd < one.friction < frictions[k + 1] + one.friction_sd
@@ -601,8 +601,8 @@ def test_small_clockwise_loops_have_no_number(tmp_path):
     loop = twin(np.random.default_rng(5), 0.6, None, 2e7)
     late = model.Loop(loop.displacement, np.roll(loop.force, 2), loop.rising, N)
     write(tmp_path / "lab.csv", [late] * 4)
-    cycles = calibration.cycles(calibration.read("lab.csv"), N)
-    found = calibration.analyse([cycles], [PUSH])
+    cycles = petsam.fit.cycles(petsam.fit.read("lab.csv"), N)
+    found = petsam.fit.analyse([cycles], [PUSH])
     assert cycles.turned and found.state == "rejected" and np.isnan(found.friction)
 
 
@@ -610,7 +610,7 @@ def test_a_growing_stroke_is_no_change_of_friction(tmp_path):
     chance = np.random.default_rng(6)
     loops = [twin(chance, None, stroke, 2e7) for stroke in (0.9, 1.0, 1.1, 1.3, 1.6)]
     write(tmp_path / "lab.csv", loops)
-    found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+    found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
     assert found.state == "known" and abs(found.friction - MU) < 3 * found.friction_sd
 
 
@@ -635,10 +635,10 @@ def test_a_growing_stroke_is_no_change_of_friction(tmp_path):
 def test_files_that_cannot_be_read_are_named(tmp_path, text, said):
     (tmp_path / "lab.csv").write_text(text)
     if said is None:
-        assert calibration.read("lab.csv").displacement[0] == 1e-6
+        assert petsam.fit.read("lab.csv").displacement[0] == 1e-6
         return
     with pytest.raises(Error, match="lab.csv") as error:
-        calibration.read("lab.csv")
+        petsam.fit.read("lab.csv")
     assert said in str(error.value)
 
 
@@ -670,7 +670,7 @@ def test_heads_of_laboratories(tmp_path, head, row, length, force):
     d, q = np.linspace(-3.0, 5.0, 30), np.linspace(40.0, 7.0, 30)
     rows = [row.format(d=f"{a:.6f}", q=f"{b:.6f}") for a, b in zip(d, q)]
     (tmp_path / "lab.csv").write_text("\n".join([head, *rows]), encoding="latin-1")
-    found = calibration.read("lab.csv")
+    found = petsam.fit.read("lab.csv")
     assert found.displacement == pytest.approx(length * d, abs=1e-6 * length)
     assert found.force == pytest.approx(force * q, abs=1e-6 * force)
 
@@ -696,7 +696,7 @@ def test_heads_of_laboratories(tmp_path, head, row, length, force):
 def test_heads_and_rows_that_may_be_read_wrong_are_told(tmp_path, head, rows, said):
     (tmp_path / "lab.csv").write_text(f"{head}\n{rows}")
     with pytest.raises(Error, match="lab.csv") as error:
-        calibration.read("lab.csv")
+        petsam.fit.read("lab.csv")
     assert said in str(error.value)
 
 
@@ -841,7 +841,7 @@ def test_options_that_do_not_fit_are_named(fit, tmp_path, words, code, said):
 
 def test_a_result_is_a_table_and_a_picture(tmp_path):
     write(tmp_path / "lab.csv", [twin(np.random.default_rng(k), None, 2.0, 2e7) for k in range(3)])
-    found = calibration.analyse([calibration.cycles(calibration.read("lab.csv"), N)], [PUSH])
+    found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
     names = [column.name for column in found.table()]
     assert names == ["cycle", "friction", "friction_sd", "compliance", "compliance_sd", "energy"]
     assert found.state == "known" and found.identifiable and abs(found.friction - MU) < 3 * found.friction_sd
@@ -866,7 +866,7 @@ def scars(tmp_path_factory):
     rows = "".join(f"{k + 1},{25e-6 * np.cos(2 * np.pi * k / 16):.9g}\n" for k in range(17))
     (folder / "stroke.csv").write_text("time,disp_x\n" + rows)
     (folder / "cylinder.opts").write_text(CYLINDER.replace("stroke.csv", str(folder / "stroke.csv")))
-    return folder / "cylinder.opts", calibration.family(folder / "cylinder.opts", 18000)
+    return folder / "cylinder.opts", petsam.fit.family(folder / "cylinder.opts", 18000)
 
 
 def profile(one, product, chance, r=0.5, noise=1e-7):
@@ -895,7 +895,7 @@ def test_bands_of_scars_hold_the_truth(scars):
     chance, inside, deviations = np.random.default_rng(4), 0, []
     for _ in range(30):
         truth = chance.uniform(0.3, 1.0) * 2.9e-14
-        found = calibration.fit_scar(one, *profile(one, truth * 18000, chance))
+        found = petsam.fit.fit_scar(one, *profile(one, truth * 18000, chance))
         deviations.append((found.coefficient - truth) / found.coefficient_sd)
         inside += abs(deviations[-1]) < 2
         assert found.shift == pytest.approx(4e-6, abs=2e-5) and found.tilt == pytest.approx(3e-4, abs=8e-4)
@@ -907,8 +907,8 @@ def test_a_scar_without_unworn_surface_is_refused(scars):
     x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(4))
     inner = np.abs(x) < 0.22e-3
     with pytest.raises(Error, match="no unworn surface on both sides"):
-        calibration.fit_scar(one, x[inner], height[inner])
-    level = calibration.fit_scar(one, x[inner], -one.at(2.2e-14 * 18000, x[inner]), level=False)
+        petsam.fit.fit_scar(one, x[inner], height[inner])
+    level = petsam.fit.fit_scar(one, x[inner], -one.at(2.2e-14 * 18000, x[inner]), level=False)
     assert level.coefficient == pytest.approx(2.2e-14, rel=1e-4)
 
 
@@ -919,12 +919,12 @@ def test_a_profile_that_rises_is_no_scar(scars, fit, tmp_path):
     x, height = profile(one, 2.5e-14 * 18000, chance, noise=2e-8)
     for heights, level in ((-height, True), (0.05 * x - height, True), (one.at(2.5e-14 * 18000, x), False)):
         with pytest.raises(Error, match="rises between its ends, by up to .* um, and a scar is negative"):
-            calibration.fit_scar(one, x, heights, level=level)
+            petsam.fit.fit_scar(one, x, heights, level=level)
     for _ in range(20):
-        assert calibration.fit_scar(one, x, 1e-8 * chance.standard_normal(x.size)).doubt
+        assert petsam.fit.fit_scar(one, x, 1e-8 * chance.standard_normal(x.size)).doubt
     for spoilt in (np.where(x > 2e-4, np.nan, height), height[:4]):
         with pytest.raises(Error, match="finite numbers, of more than 6 points: leave out lost ones"):
-            calibration.fit_scar(one, x, spoilt)
+            petsam.fit.fit_scar(one, x, spoilt)
     rows = "".join(f"{1e3 * a:.6f},{-1e6 * b:.6f}\n" for a, b in zip(x, height))
     (tmp_path / "depths.csv").write_text("x [mm],test [um]\n" + rows)
     said = fit("--scar", "depths.csv", "--shape", path, "--life", "18000", check=3)
@@ -986,7 +986,7 @@ def test_a_scar_beyond_its_family_has_no_number(scars):
         product = part * one.product
         depth = np.array([one.at(np.clip(k, one.product[0], one.product[-1]), one.x) for k in product])
         height = noise - one.at(one.product[-3] if end > 0 else one.product[2], x)
-        found = calibration.fit_scar(replace(one, depth=depth, product=product), x, height)
+        found = petsam.fit.fit_scar(replace(one, depth=depth, product=product), x, height)
         assert found.end == end and said in found.doubt and np.isnan(found.coefficient)
 
 
@@ -1009,14 +1009,14 @@ def test_a_ratio_of_wear_is_within_what_was_tried(scars, monkeypatch, truth, sai
     """By misfits whose squares are a parabola of the ratio."""
     path, one = scars
     x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(3))
-    scar = calibration.fit_scar(one, x, height)
+    scar = petsam.fit.fit_scar(one, x, height)
 
     def fitted(shape, life, x, height, body, options):
         ratio = options["wear_coefficient1"] / 2.9e-14
         return replace(scar, misfit=1e-7 * np.sqrt(1.0 + 20.0 * (ratio - truth) ** 2)), one
 
-    monkeypatch.setattr(calibration.scars, "fit_profile", fitted)
-    found = calibration.split(path, 18000, x, height)
+    monkeypatch.setattr(petsam.fit.scars, "fit_profile", fitted)
+    found = petsam.fit.split(path, 18000, x, height)
     assert said in found.doubt and bool(said) is bool(found.doubt) and np.isnan(found.ratio) == bool(said)
     assert said or found.ratio == pytest.approx(truth, rel=1e-6) and found.ratio_sd > 0.0
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import least_squares
 
 import petsam
-from petsam.calibration import fit_contact, runs
+from petsam.apps.fit import fit_contact, runs
 
 OPTIONS = dict(
     body1_young=210e9, body1_poisson=0.3, body2_young=115e9, body2_poisson=0.32, gap_type="sphere", gap_radius1=0.05,

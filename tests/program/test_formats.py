@@ -9,7 +9,7 @@ import pytest
 import scipy.io
 
 import petsam
-from petsam.surface import levels, spikes
+from petsam.apps.surface import levels, spikes
 from support import ROOT, assert_close
 from test_scans import smooth
 from test_surface import stored, surface  # noqa: F401 - a fixture
@@ -416,7 +416,7 @@ def test_empty_last_columns_are_left_out(tmp_path, empty):
 
 
 def test_offsets_of_rows_go_and_the_tilt_stays():
-    from petsam.surface.maps import new_map
+    from petsam.apps.surface.maps import new_map
 
     values = smooth(128) * 1e-7 + 3e-7 * np.arange(128)[:, None] / 128
     offsets = 2e-7 * np.random.default_rng(1).normal(size=(128, 1))
@@ -495,7 +495,7 @@ def test_a_map_is_processed_and_drawn_without_a_command(tmp_path):
 
 
 def test_no_reader_knows_a_command_line():
-    for path in (ROOT / "scripts/petsam/surface").rglob("*.py"):
+    for path in (ROOT / "scripts/petsam/apps/surface").rglob("*.py"):
         assert "options." not in path.read_text() and "argparse" not in path.read_text(), path
 
 

@@ -6,7 +6,7 @@ import pytest
 
 import petsam
 from petsam import heat
-from petsam.heat import friction, kernels
+from petsam.apps.heat import friction, kernels
 
 PERIOD = 4.0
 FRETTING = dict(

@@ -12,7 +12,7 @@ import pytest
 
 import petsam
 from petsam import joint
-from petsam.joint import elements, windows
+from petsam.apps.joint import elements, windows
 from petsam.plot.style import COLORS, plt
 from support import bodies
 

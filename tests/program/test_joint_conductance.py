@@ -12,7 +12,7 @@ import pytest
 
 import petsam
 from petsam import joint
-from petsam.joint import conductance
+from petsam.apps.joint import conductance
 from support import bodies
 from test_joint import STEEL, waves, write
 

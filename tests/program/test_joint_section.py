@@ -12,7 +12,7 @@ import petsam
 import sections
 from conftest import PROGRAM, execute
 from petsam import joint
-from petsam.compliance import bolts, halfplane
+from petsam.apps.compliance import bolts, halfplane
 from test_compliance_command import compliance  # noqa: F401
 
 pytestmark = [

@@ -6,8 +6,8 @@ import pytest
 
 import linear_meshes
 import sections
-from petsam.compliance import elements, mesh, mesherror, model
-from petsam.compliance.settings import settings
+from petsam.apps.compliance import elements, mesh, mesherror, model
+from petsam.apps.compliance.settings import settings
 from test_compliance_command import ALWAYS, BOTTOM, GRID, SUPPORT, compliance, written  # noqa: F401
 
 FAR = GRID + 2.0

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.commands import plot as command
+from petsam.plot import command
 from support import ball
 
 CASE = dict(ball(32), grid_n=(32, 30), load_tx=20.0, steps=3, output_every=2)

@@ -9,13 +9,12 @@ import pytest
 
 import conftest
 import petsam
-from petsam.commands import fatigue as command
+from petsam.apps.fatigue import command, cracks, evaluation, materials, strength
+from petsam.apps.fatigue.stresses import Cycle
+from petsam.apps.study.expressions import Expander
 from petsam.core.errors import Error
-from petsam.lives import cracks, evaluation, materials, strength
-from petsam.lives.stresses import Cycle
 from petsam.plot import saving
 from petsam.plot.style import plt
-from petsam.study.expressions import Expander
 from support import ball, slide_limit, table_of
 
 STRESS = conftest.PROGRAM.with_name("petsam-stress")
@@ -224,14 +223,14 @@ def test_the_error_of_the_tractions_goes_on_into_lives_and_factors(fatigue, fold
         assert low < high
         assert f"({low:.4g} to {high:.4g} by {100 * error:.2g} % of the tractions)" in out
     assert "of the tractions" not in fatigue("--material", "m.yaml", "-o", "p.png", "low.h5")
-    assert petsam.lives.lives(folder / "low.h5", CONSTANTS).bounds["swt"] == [None]
+    assert petsam.fatigue.lives(folder / "low.h5", CONSTANTS).bounds["swt"] == [None]
 
 
 def test_lives_from_python_are_those_of_the_command(fatigue, folder, tmp_path):
     """Of names of files or of Stresses, constants as numbers, words or a file."""
     fatigue("--material", "m.yaml", "--csv", "both.csv", "--counts", "1e5,20", "--no-picture", "low.h5", "high.h5")
     files = [folder / "low.h5", folder / "high.h5"]
-    found = petsam.lives.lives(files, folder / "m.yaml", counts=[1e5, 20])
+    found = petsam.fatigue.lives(files, folder / "m.yaml", counts=[1e5, 20])
     found.to_csv(tmp_path / "both.csv")
     assert (tmp_path / "both.csv").read_text() == (folder / "both.csv").read_text()
     swt = [petsam.open(file).field("swt") for file in files]
@@ -241,20 +240,20 @@ def test_lives_from_python_are_those_of_the_command(fatigue, folder, tmp_path):
     words = {name: value for name, value in WEAK.items() if name != "young"} | {
         "sigma_f": f"{WEAK['sigma_f'] / 1e6!r}MPa"
     }
-    one = petsam.lives.lives(petsam.open(files[1]), words, criteria=["swt"], below=(0.0, 0.0), quantities=["swt"])
+    one = petsam.fatigue.lives(petsam.open(files[1]), words, criteria=["swt"], below=(0.0, 0.0), quantities=["swt"])
     assert [column.name for column in one.table()] == ["file", "x", "y", "z", "swt", "life_swt"]
     assert abs(one.lines[0][1].x) < 1e-4 and not one.cracks
     assert one.least["swt"][0].value == pytest.approx(found.least["swt"][1].value)
     assert len(petsam.plot.lives(one).axes) == 2
     with pytest.raises(Error, match="counts: 2 files need"):
-        petsam.lives.lives(files, words, counts=[1.0])
+        petsam.fatigue.lives(files, words, counts=[1.0])
     assert repr(one) == "Lives(swt of high; line below the point nearest to --at)"
-    assert petsam.lives.lives(files[1], words, criteria="swt").values.keys() == {"swt"}
+    assert petsam.fatigue.lives(files[1], words, criteria="swt").values.keys() == {"swt"}
     for nothing in ([], None, 5, [5]):
         with pytest.raises(Error, match="expected a file of petsam-stress"):
-            petsam.lives.lives(nothing, words)
+            petsam.fatigue.lives(nothing, words)
     with pytest.raises(Error, match="sigma_f 900 Pa is outside"):
-        petsam.lives.lives(files, dict(sigma_f=900))
+        petsam.fatigue.lives(files, dict(sigma_f=900))
 
 
 def test_the_picture_has_the_given_resolution(fatigue, folder):

@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.commands import compliance as compliance_command
-from petsam.commands import loads as command
-from petsam.compliance import frames
+from petsam.apps.compliance import command as compliance_command
+from petsam.apps.compliance import frames
+from petsam.apps.loads import command, doubts, resultants
+from petsam.apps.loads.forces import Forces
 from petsam.core.errors import Error, Unusable
-from petsam.loads import doubts, resultants
-from petsam.loads.forces import Forces
 from support import ROOT
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 import conftest
+import petsam
 import petsam as package
 import support
-from petsam import calibration, joint, materials
-from petsam.commands import compliance as compliance_command
+from petsam import joint, materials
+from petsam.apps.compliance import command as compliance_command
+from petsam.apps.fatigue import materials as constants
 from petsam.core import declared, options, words
-from petsam.lives import materials as constants
 from support import SPHERE, assert_same, bodies
 from test_joint import waves
 
@@ -220,7 +221,7 @@ def test_the_shape_of_a_fit_takes_names(tmp_path):
     (tmp_path / "moduli.opts").write_text(
         shape + "-body1_young 210e9 -body1_poisson 0.3 -body2_young 110e9 -body2_poisson 0.342\n"
     )
-    one, other = (calibration.of_shape(tmp_path / f"{name}.opts", 1000.0) for name in ("named", "moduli"))
+    one, other = (petsam.fit.of_shape(tmp_path / f"{name}.opts", 1000.0) for name in ("named", "moduli"))
     assert np.array_equal(one.displacement, other.displacement) and "closed form" in one.text
 
 

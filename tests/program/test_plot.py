@@ -11,9 +11,8 @@ import pytest
 
 import petsam as package
 from petsam import cycles, sliding
-from petsam.commands import plot as command
 from petsam.core.errors import Error
-from petsam.plot import crossings, fields, loops, series
+from petsam.plot import command, crossings, fields, loops, series
 from petsam.plot.units import scale
 from petsam.results import Results
 from support import ROOT, SPHERE, ball, finished, history, slide_limit

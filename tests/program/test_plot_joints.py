@@ -6,10 +6,10 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import petsam
-from petsam.compliance import bolts
-from petsam.joint.backbone import COLUMNS, Backbone
-from petsam.joint.band import Band
-from petsam.joint.wear import Wear
+from petsam.apps.compliance import bolts
+from petsam.apps.joint.backbones import COLUMNS, Backbone
+from petsam.apps.joint.bands import Band
+from petsam.apps.joint.wearing import Wear
 from petsam.plot.fields import STATES
 from petsam.results.fields import OPEN, SLIP, STICK
 from test_backbone import OPTIONS, PRELOAD, pair_file

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.commands import plot_arguments as arguments
-from petsam.commands import plot_uses as uses
-from petsam.plot import loops, series
+from petsam.plot import arguments, loops, series, uses
 from petsam.results.stresses import Stresses
 from petsam.results.studies import Study
 from support import ball, history, slide_limit

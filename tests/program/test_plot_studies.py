@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import petsam
+from petsam.apps.study.cases import Case
+from petsam.apps.study.tables import write_hdf5
 from petsam.plot import tables
 from petsam.results.studies import Study
-from petsam.study.cases import Case
-from petsam.study.tables import write_hdf5
 
 pytestmark = pytest.mark.usefixtures("closing")
 

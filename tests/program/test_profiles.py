@@ -1,4 +1,4 @@
-"""petsam.profiles: closed solutions of arcs, published results of CONTACT, brute force, symmetry, files with faults.
+"""petsam.wheel: closed solutions of arcs, published results of CONTACT, brute force, symmetry, files with faults.
 
 CONTACT's numbers are those of its published examples (Manchester benchmark, S1002 on UIC60): with profiles made by the
 standards' formulas here, and with the files of the benchmark where PETSAM_PROFILES names their folder.
@@ -13,21 +13,21 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, fsolve, minimize_scalar
 
-from petsam import profiles
+import petsam
+from petsam.apps.wheel import Position, Profile, Settings, contacts
+from petsam.apps.wheel.gap import separation
+from petsam.apps.wheel.locus import locus
+from petsam.apps.wheel.patches import Place, _turned, search
+from petsam.apps.wheel.pose import Frame
+from petsam.apps.wheel.positions import REACH, Case
+from petsam.apps.wheel.section import visible
 from petsam.closed.ellipse import hertz_ellipse
-from petsam.contact import AdviceWarning
+from petsam.contact.inprocess import AdviceWarning
 from petsam.core.errors import Error, MissingFile
-from petsam.profiles import Position, Profile, Settings, contacts
-from petsam.profiles.gap import separation
-from petsam.profiles.locus import locus
-from petsam.profiles.patches import Place, _turned, search
-from petsam.profiles.pose import Frame
-from petsam.profiles.positions import REACH, Case
-from petsam.profiles.section import visible
 
 pytestmark = pytest.mark.filterwarnings("ignore:patch at:petsam.contact.AdviceWarning")
 
-STEEL = profiles.Material(2 * 82e9 * 1.28, 0.28)
+STEEL = petsam.wheel.Material(2 * 82e9 * 1.28, 0.28)
 SETTINGS = Settings(STEEL, STEEL)
 FOLDER = os.environ.get("PETSAM_PROFILES")
 
@@ -73,7 +73,7 @@ def position(case):
 @pytest.fixture(scope="module")
 def made():
     """S1002 and UIC60 by their formulas, in place."""
-    return profiles.Track(profiles.uic60(), cant=0.025), profiles.Wheelset(profiles.s1002(), 0.46)
+    return petsam.wheel.Track(petsam.wheel.uic60(), cant=0.025), petsam.wheel.Wheelset(petsam.wheel.s1002(), 0.46)
 
 
 @pytest.fixture(scope="module")
@@ -81,8 +81,8 @@ def files():
     """The files of the benchmark, in place; the rail is canted in its file."""
     if not FOLDER:
         pytest.skip("PETSAM_PROFILES names no folder with MBench_S1002_v3.prw and MBench_UIC60_v3.prr")
-    rail, wheel = (profiles.read(Path(FOLDER) / f"MBench_{name}") for name in ("UIC60_v3.prr", "S1002_v3.prw"))
-    return profiles.Track(rail), profiles.Wheelset(wheel, 0.46)
+    rail, wheel = (petsam.wheel.read(Path(FOLDER) / f"MBench_{name}") for name in ("UIC60_v3.prr", "S1002_v3.prw"))
+    return petsam.wheel.Track(rail), petsam.wheel.Wheelset(wheel, 0.46)
 
 
 # ---------------------------------------------------------------- closed solutions
@@ -100,13 +100,13 @@ ARCS = [
 def test_two_arcs_are_hertz(rail, wheel, t, force, pressure):
     """sin d = t/(R_r + R_w), curvatures 1/R_r + 1/R_w across and cos d/r along, spin sin d/r."""
     angle = np.arcsin(t / (rail + wheel))
-    track = profiles.Track(arc("rail", rail, 0.03), 2 * (0.75 - 0.03), 0.014)
-    wheelset = profiles.Wheelset(arc("wheel", wheel, 0.06, t), 0.46, 1.5, 0.0)
+    track = petsam.wheel.Track(arc("rail", rail, 0.03), 2 * (0.75 - 0.03), 0.014)
+    wheelset = petsam.wheel.Wheelset(arc("wheel", wheel, 0.06, t), 0.46, 1.5, 0.0)
     # centres of both arcs on one line, at the distance R_r + R_w
     touch = (rail + wheel) * (1 - np.cos(angle))
     depth = 20e-6 / np.cos(angle)
     settings = Settings(STEEL, STEEL, cell=1e-4)
-    found = profiles.solve(track, wheelset, Position(z=touch + depth, speed=1.0), None, 0.3, "right", settings)
+    found = petsam.wheel.solve(track, wheelset, Position(z=touch + depth, speed=1.0), None, 0.3, "right", settings)
     (patch,) = found.patches
     assert found.touch == pytest.approx(touch, abs=2e-9)
     assert patch.approach == pytest.approx(20e-6, rel=2e-4)
@@ -124,13 +124,13 @@ def test_two_arcs_are_hertz(rail, wheel, t, force, pressure):
 
 
 @pytest.mark.parametrize("yaw", [0.0, -0.3])
-@pytest.mark.filterwarnings("ignore::petsam.profiles.profile.ProfileWarning")
+@pytest.mark.filterwarnings("ignore::petsam.apps.wheel.profile.ProfileWarning")
 def test_a_sphere_on_a_plane(yaw):
     """CONTACT: N 97,220, p_max 2906 at 0.16 mm; yawed, x 59.104, y 191.07, without creep along its own x."""
-    track = profiles.Track(flat("rail"), 0.34)
-    wheelset = profiles.Wheelset(arc("wheel", 0.1, 0.05), 0.1, 0.4, 0.0)
+    track = petsam.wheel.Track(flat("rail"), 0.34)
+    wheelset = petsam.wheel.Wheelset(arc("wheel", 0.1, 0.05), 0.1, 0.4, 0.0)
     speeds = dict(speed=2 * np.cos(yaw), vy=2 * np.sin(yaw), pitch_rate=-2 / 0.1)
-    (patch,) = profiles.solve(track, wheelset, Position(z=0.16e-3, yaw=yaw, **speeds), settings=SETTINGS).patches
+    (patch,) = petsam.wheel.solve(track, wheelset, Position(z=0.16e-3, yaw=yaw, **speeds), settings=SETTINGS).patches
     assert (patch.x, patch.y) == pytest.approx((-0.2 * np.sin(yaw), 0.2 * np.cos(yaw)), abs=1e-7)
     assert patch.n == pytest.approx(4 / 3 * SETTINGS.modulus * np.sqrt(0.1 * 0.16e-3**3), rel=2e-4)
     assert patch.n == pytest.approx(97220, rel=1e-3)
@@ -142,10 +142,10 @@ def test_a_sphere_on_a_plane(yaw):
 
 def test_a_cylinder_on_a_crowned_roller():
     """1/133.33 + 1/400 = 1/100 mm: that of the sphere; equal surface speeds, no creep."""
-    roller = profiles.Roller(arc("rail", 0.1, 0.03), 0.4, 0.34)
-    wheelset = profiles.Wheelset(flat("wheel"), 0.4 / 3, 0.4, 0.0)
+    roller = petsam.wheel.Roller(arc("rail", 0.1, 0.03), 0.4, 0.34)
+    wheelset = petsam.wheel.Wheelset(flat("wheel"), 0.4 / 3, 0.4, 0.0)
     surface = dict(pitch_rate=-15.0, roller_rate=15.0 * (0.4 / 3) / 0.4)
-    (patch,) = profiles.solve(roller, wheelset, Position(z=0.16e-3, **surface), settings=SETTINGS).patches
+    (patch,) = petsam.wheel.solve(roller, wheelset, Position(z=0.16e-3, **surface), settings=SETTINGS).patches
     assert patch.n == pytest.approx(4 / 3 * SETTINGS.modulus * np.sqrt(0.1 * 0.16e-3**3), rel=2e-4)
     assert patch.n == pytest.approx(97190, rel=2e-4)  # CONTACT
     assert patch.p_max == pytest.approx(2901e6, rel=1e-3)
@@ -161,10 +161,10 @@ def test_a_cylinder_on_a_crowned_roller():
 )
 def test_discs_with_equal_surface_speeds_have_no_creepage(radius, other, depth, side):
     """Equal ones by symmetry; unlike ones, since each rolls with its own undeformed radius."""
-    roller = profiles.Roller(arc("rail", 0.3, 0.02), radius, 0.36)
-    wheelset = profiles.Wheelset(arc("wheel", 0.3, 0.02), other, 0.4, 0.0)
+    roller = petsam.wheel.Roller(arc("rail", 0.3, 0.02), radius, 0.36)
+    wheelset = petsam.wheel.Wheelset(arc("wheel", 0.3, 0.02), other, 0.4, 0.0)
     where = Position(z=depth, roller_rate=2.0 / radius, pitch_rate=-2.0 / other)
-    (patch,) = profiles.solve(roller, wheelset, where, side=side).patches
+    (patch,) = petsam.wheel.solve(roller, wheelset, where, side=side).patches
     assert patch.speed == pytest.approx(2.0, rel=1e-9)
     assert (patch.creep_x, patch.creep_s) == pytest.approx((0.0, 0.0), abs=1e-12)
     assert np.hypot(patch.fx, patch.fs) < 1e-9 * patch.n and patch.t_gamma < 1e-12 * patch.n
@@ -172,11 +172,11 @@ def test_discs_with_equal_surface_speeds_have_no_creepage(radius, other, depth, 
 
 def test_equal_discs_exchanged_pull_the_other_way():
     """The faster of two equal discs drives the other one: with both rates exchanged by as much, of the other sign."""
-    roller = profiles.Roller(arc("rail", 0.3, 0.02), 0.3, 0.36)
-    wheelset = profiles.Wheelset(arc("wheel", 0.3, 0.02), 0.3, 0.4, 0.0)
+    roller = petsam.wheel.Roller(arc("rail", 0.3, 0.02), 0.3, 0.36)
+    wheelset = petsam.wheel.Wheelset(arc("wheel", 0.3, 0.02), 0.3, 0.4, 0.0)
     rates = (6.0, -6.002), (6.002, -6.0)
     one, other = (
-        profiles.solve(roller, wheelset, Position(z=5e-5, roller_rate=first, pitch_rate=second)).patches[0]
+        petsam.wheel.solve(roller, wheelset, Position(z=5e-5, roller_rate=first, pitch_rate=second)).patches[0]
         for first, second in rates
     )
     assert one.creep_x == pytest.approx(2.0 * 0.002 / 12.002, rel=1e-9)
@@ -192,18 +192,18 @@ ROLLERS = {
 }
 
 
-@pytest.mark.filterwarnings("ignore::petsam.profiles.profile.ProfileWarning")
+@pytest.mark.filterwarnings("ignore::petsam.apps.wheel.profile.ProfileWarning")
 @pytest.mark.parametrize("case", ROLLERS)
 def test_contact_on_rollers(case):
     """A cylinder on a crowned roller (6), yawed by 0.3 (7), and a crown on a cone (10)."""
     rate, *wanted = ROLLERS[case]
-    crown = profiles.Roller(arc("rail", 0.1, 0.03), 0.4, 0.14 if case == 7 else 0.34)
-    cone = profiles.Roller(flat("rail", slope=np.tan(0.2)), 0.4, 0.34)
+    crown = petsam.wheel.Roller(arc("rail", 0.1, 0.03), 0.4, 0.14 if case == 7 else 0.34)
+    cone = petsam.wheel.Roller(flat("rail", slope=np.tan(0.2)), 0.4, 0.34)
     roller, profile = (cone, arc("wheel", 0.1, 0.05)) if case == 10 else (crown, flat("wheel"))
-    wheelset = profiles.Wheelset(profile, 0.13333333, 0.0 if case == 7 else 0.4, 0.0)
+    wheelset = petsam.wheel.Wheelset(profile, 0.13333333, 0.0 if case == 7 else 0.4, 0.0)
     place = {6: dict(z=0.16e-3), 7: dict(z=0.16e-3, y=0.1, yaw=-0.3, vy=-29.552021e-3), 10: dict(z=-1.87e-3)}[case]
     where = Position(pitch_rate=-0.75, roller_rate=rate, **place)
-    (patch,) = profiles.solve(roller, wheelset, where, settings=SETTINGS).patches
+    (patch,) = petsam.wheel.solve(roller, wheelset, where, settings=SETTINGS).patches
     xi, eta, phi, n, fx, fs, mn = wanted
     assert patch.creep_x == pytest.approx(xi, abs=2e-7 if case == 10 else 1e-10)  # of the cone: y 0.1 um aside
     assert patch.creep_s == pytest.approx(eta, abs=1e-11)
@@ -217,11 +217,11 @@ def test_contact_on_rollers(case):
 @pytest.mark.parametrize("curvature, rate", [(0.1, 0.0), (0.0, 0.3), (0.1, 0.3)])
 def test_a_sphere_rolls_freely_in_a_curve_and_under_a_yaw_rate(curvature, rate):
     """At y the rail passes with V (1 - k y), the wheel moves with V - y times the yaw rate."""
-    track = profiles.Track(flat("rail"), 0.34, curvature=curvature)
-    wheelset = profiles.Wheelset(arc("wheel", 0.1, 0.05), 0.1, 0.4, 0.0)
+    track = petsam.wheel.Track(flat("rail"), 0.34, curvature=curvature)
+    wheelset = petsam.wheel.Wheelset(arc("wheel", 0.1, 0.05), 0.1, 0.4, 0.0)
     passing = 2.0 * (1 - curvature * 0.2) - rate * 0.2
     where = Position(z=1e-6, speed=2.0, yaw_rate=rate, pitch_rate=-passing / 0.1)
-    (patch,) = profiles.solve(track, wheelset, where, settings=Settings(STEEL, STEEL, cell=2e-5)).patches
+    (patch,) = petsam.wheel.solve(track, wheelset, where, settings=Settings(STEEL, STEEL, cell=2e-5)).patches
     assert patch.speed == pytest.approx(passing, rel=1e-5)
     assert (patch.creep_x, patch.creep_s) == pytest.approx((0.0, 0.0), abs=3e-5)
     assert patch.creep_spin == pytest.approx(-(2.0 * curvature + rate) / passing, rel=1e-5)
@@ -229,11 +229,13 @@ def test_a_sphere_rolls_freely_in_a_curve_and_under_a_yaw_rate(curvature, rate):
 
 def test_a_crown_on_a_conical_roller():
     """A cone of 0.2 rad: curvatures 1/R across, cos d (1/r + 1/rho) along, spin sin d (1/r + 1/rho)."""
-    roller = profiles.Roller(flat("rail", slope=np.tan(0.2)), 0.4, 0.34)
-    wheelset = profiles.Wheelset(arc("wheel", 0.1, 0.05), 0.4 / 3, 0.4, 0.0)
-    still = profiles.solve(roller, wheelset, Position(z=-0.01, roller_rate=5.0, pitch_rate=-15.0), settings=SETTINGS)
+    roller = petsam.wheel.Roller(flat("rail", slope=np.tan(0.2)), 0.4, 0.34)
+    wheelset = petsam.wheel.Wheelset(arc("wheel", 0.1, 0.05), 0.4 / 3, 0.4, 0.0)
+    still = petsam.wheel.solve(
+        roller, wheelset, Position(z=-0.01, roller_rate=5.0, pitch_rate=-15.0), settings=SETTINGS
+    )
     deep = Position(z=still.touch + 0.16e-3, roller_rate=5.0, pitch_rate=-15.0)
-    (patch,) = profiles.solve(roller, wheelset, deep, settings=SETTINGS).patches
+    (patch,) = petsam.wheel.solve(roller, wheelset, deep, settings=SETTINGS).patches
     assert patch.angle == pytest.approx(0.2, abs=1e-9)
     assert patch.y == pytest.approx(0.2 - 0.1 * np.sin(0.2), abs=3e-5)
     radius = 0.4 / 3 - 0.1 * (1 - np.cos(0.2))
@@ -250,8 +252,8 @@ def test_a_crown_on_a_conical_roller():
 
 def test_a_free_wheelset_has_the_pitch_rate_of_the_benchmark(files):
     """Its first case, at 20 kN: the wheelset rolls without torque; xi and Fx of CONTACT."""
-    with profiles.Axle(*files, settings=SETTINGS) as axle:
-        found = axle.solve(Position(speed=2.0), profiles.Load(20e3))
+    with petsam.wheel.Axle(*files, settings=SETTINGS) as axle:
+        found = axle.solve(Position(speed=2.0), petsam.wheel.Load(20e3))
     assert found.position.pitch_rate == pytest.approx(CASES[1][3], abs=5e-8)
     (patch,) = found.left.patches
     assert patch.creep_x == pytest.approx(LEFT[1][2], abs=5e-9)
@@ -262,8 +264,8 @@ def test_a_free_wheelset_of_made_profiles_has_nearly_this_pitch_rate(made):
     """By the mean of the rolling radii it is 6e-5 away, the approach over the radius."""
     rates = []
     for rolling in "free", "radii":
-        with profiles.Axle(*made, settings=SETTINGS, rolling=rolling) as axle:
-            rates.append(axle.solve(Position(speed=2.0), profiles.Load(20e3)).position.pitch_rate)
+        with petsam.wheel.Axle(*made, settings=SETTINGS, rolling=rolling) as axle:
+            rates.append(axle.solve(Position(speed=2.0), petsam.wheel.Load(20e3)).position.pitch_rate)
     assert rates[0] == pytest.approx(CASES[1][3], rel=1e-5)
     assert rates[1] / rates[0] - 1.0 > 5e-5
 
@@ -281,7 +283,7 @@ def test_left_wheel_by_formulas_is_that_of_contact(made, case):
     """The rail of the benchmark differs from the formula's by up to 0.04 mm beside its top, y by 12 um here.
 
     Case 1, whose overlap has two lobes, moves by 37 um: see the next test."""
-    found = profiles.solve(*made, position(case), 10e3, 0.3, "left", SETTINGS)
+    found = petsam.wheel.solve(*made, position(case), 10e3, 0.3, "left", SETTINGS)
     (patch,) = found.patches
     y, angle, *numbers = LEFT[case]
     assert 1e3 * patch.y == pytest.approx(y, abs=0.013)
@@ -297,7 +299,7 @@ def test_left_wheel_by_formulas_is_that_of_contact(made, case):
 
 @pytest.mark.parametrize("case", list(CASES))
 def test_left_wheel_of_the_files_is_that_of_contact(files, case):
-    found = profiles.solve(*files, position(case), 10e3, 0.3, "left", SETTINGS)
+    found = petsam.wheel.solve(*files, position(case), 10e3, 0.3, "left", SETTINGS)
     (patch,) = found.patches
     expected = LEFT[case]
     assert 1e3 * patch.y == pytest.approx(expected[0], abs=6e-3 if case in (3, 7, 13, 17) else 2e-3)
@@ -312,7 +314,7 @@ def test_left_wheel_of_the_files_is_that_of_contact(files, case):
 
 
 def test_right_wheel_at_the_flange_of_the_files_is_that_of_contact(files):
-    found = profiles.solve(*files, position(13), 10e3, 0.3, "right", SETTINGS)
+    found = petsam.wheel.solve(*files, position(13), 10e3, 0.3, "right", SETTINGS)
     (patch,) = found.patches
     assert row(patch)[:8] == pytest.approx(
         (725.137, -0.4176, 5.077e-3, 1.580e-2, 8.744e-4, 9709, -880.0, -2775), rel=5e-4
@@ -323,7 +325,7 @@ def test_right_wheel_at_the_flange_of_the_files_is_that_of_contact(files):
 
 def test_two_regions_on_one_grid_of_the_files(files):
     """CONTACT with the full influence, d_comb = 7.99."""
-    (patch,) = profiles.solve(*files, position(11), 10e3, 0.3, "right", SETTINGS).patches
+    (patch,) = petsam.wheel.solve(*files, position(11), 10e3, 0.3, "right", SETTINGS).patches
     assert row(patch)[5:10] == pytest.approx((9619, -798.1, -2735, 0.02797, 1590), rel=1.1e-3)
     assert patch.mn == pytest.approx(-0.9336, rel=0.012)
 
@@ -334,7 +336,7 @@ def test_two_turned_patches_of_the_files_with_friction_by_angle(files):
     def friction(angle):
         return np.interp(np.degrees(angle), [-20, -10], [0.2, 0.3])
 
-    low, high = profiles.solve(*files, position(11), 10e3, friction, "right", settings).patches
+    low, high = petsam.wheel.solve(*files, position(11), 10e3, friction, "right", settings).patches
     assert (1e3 * high.y, high.angle, high.n) == pytest.approx((736.768, -0.2480, 1536), rel=8e-3)
     assert (1e3 * high.y, 1e3 * low.y) == pytest.approx((736.768, 726.598), abs=1e-3)
     assert (low.angle, low.n, low.fx, low.fs) == pytest.approx((-0.2930, 8244, -637.2, -1805), rel=2.5e-3)
@@ -343,11 +345,11 @@ def test_two_turned_patches_of_the_files_with_friction_by_angle(files):
 def test_all_speeds_cant_curve_and_tape_line_of_the_files(files):
     """CONTACT's program on an input of ours."""
     rail, wheel = files
-    track = profiles.Track(rail.profile, cant=0.025, curvature=1 / 300)
+    track = petsam.wheel.Track(rail.profile, cant=0.025, curvature=1 / 300)
     where = Position(
         y=4e-3, roll=0.002, yaw=-0.006, speed=2.0, vy=8e-3, vz=3e-3, roll_rate=0.004, yaw_rate=-0.05, pitch_rate=-4.33
     )
-    found = profiles.solve(track, replace(wheel, tape_line=0.0), where, 30e3, 0.3, "right", SETTINGS)
+    found = petsam.wheel.solve(track, replace(wheel, tape_line=0.0), where, 30e3, 0.3, "right", SETTINGS)
     (patch,) = found.patches
     assert 1e3 * found.z == pytest.approx(-1.2502, abs=1e-4)
     assert row(patch) == pytest.approx(
@@ -397,8 +399,8 @@ def test_locus_is_the_lowest_line_of_the_wheel(made, roll, yaw):
 
 def test_locus_on_a_roller_is_where_the_normals_agree():
     """The point of the wheel that is nearest to the roller at given y, by search."""
-    roller = profiles.Roller(arc("rail", 0.3, 0.03), 0.5, 0.34)
-    wheel = profiles.Wheelset(arc("wheel", 0.4, 0.05), 0.46, 0.4, 0.0)
+    roller = petsam.wheel.Roller(arc("rail", 0.3, 0.03), 0.5, 0.34)
+    wheel = petsam.wheel.Wheelset(arc("wheel", 0.4, 0.05), 0.46, 0.4, 0.0)
     rotation = Position(roll=0.004, yaw=0.05).rotation
     line = locus(roller, wheel, rotation, 0.0)
     point = surface_of(wheel, rotation, np.array([0.0, 0.0, -0.46]))
@@ -441,9 +443,9 @@ def test_gap_is_that_of_the_points_on_both_surfaces(made):
 
 def test_cells_beyond_a_profile_have_a_large_gap(made):
     """A rail that ends in the middle of the contact: its end would be held on and touch."""
-    kept = profiles.uic60().y < 0.0
-    rail = profiles.Track(Profile(profiles.uic60().y[kept], profiles.uic60().z[kept], "rail"))
-    wheel = profiles.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
+    kept = petsam.wheel.uic60().y < 0.0
+    rail = petsam.wheel.Track(Profile(petsam.wheel.uic60().y[kept], petsam.wheel.uic60().z[kept], "rail"))
+    wheel = petsam.wheel.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
     frame = Frame(np.eye(3), np.array([0.0, 0.0, -0.46]))
     found = search(rail, 0.46, locus(rail, wheel, np.eye(3), 0.0))
     place = found.place(found.regions(found.touch + 2e-5)[0])
@@ -484,12 +486,12 @@ def test_a_solution_does_not_depend_on_the_place_of_its_grid():
 
 def test_left_and_right_are_mirror_images(made):
     """Forces are equal and opposite across, for the same track seen in a mirror."""
-    rail, wheel = profiles.Track(made[0].profile, cant=0.025, curvature=0.002), made[1]
+    rail, wheel = petsam.wheel.Track(made[0].profile, cant=0.025, curvature=0.002), made[1]
     where = Position(y=-2e-3, roll=2e-4, yaw=3e-3, speed=2.0, vy=1e-3, yaw_rate=0.01)
     mirror = Position(y=2e-3, roll=-2e-4, yaw=-3e-3, speed=2.0, vy=-1e-3, yaw_rate=-0.01)
-    seen = profiles.Track(made[0].profile, cant=0.025, curvature=-0.002)
-    one = profiles.solve(rail, wheel, where, 20e3, 0.3, "left", SETTINGS)
-    other = profiles.solve(seen, wheel, mirror, 20e3, 0.3, "right", SETTINGS)
+    seen = petsam.wheel.Track(made[0].profile, cant=0.025, curvature=-0.002)
+    one = petsam.wheel.solve(rail, wheel, where, 20e3, 0.3, "left", SETTINGS)
+    other = petsam.wheel.solve(seen, wheel, mirror, 20e3, 0.3, "right", SETTINGS)
     assert one.force == pytest.approx(other.force * (1, -1, 1), rel=1e-12)
     for name in ("y", "angle", "creep_s", "creep_spin", "fs", "mn"):
         assert getattr(one.patches[0], name) == -getattr(other.patches[0], name)
@@ -497,7 +499,7 @@ def test_left_and_right_are_mirror_images(made):
 
 
 def test_one_force_of_a_given_height_is_that_of_the_height_of_a_given_force(made):
-    with profiles.Pair(*made, settings=SETTINGS) as pair:
+    with petsam.wheel.Pair(*made, settings=SETTINGS) as pair:
         found = pair.solve(Position(y=3e-3, yaw=2e-3, speed=2.0), 50e3)
         again = pair.solve(Position(y=3e-3, yaw=2e-3, speed=2.0, z=found.z))
     assert found.force[2] == pytest.approx(50e3, rel=1e-5)
@@ -514,11 +516,11 @@ def bumps(distance, tilt=0.0):
 
 def test_two_ridges_far_apart_are_two_contacts():
     """Each is that of a ridge alone; the sum carries the force."""
-    wheel = profiles.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
-    two = profiles.Track(bumps(0.02), 2 * 0.73)
-    found = profiles.solve(two, wheel, Position(speed=2.0), 10e3, settings=SETTINGS)
-    alone = profiles.Track(arc("rail", 0.05, 0.009), 2 * 0.741)
-    one = profiles.solve(alone, wheel, Position(speed=2.0), 5e3, settings=SETTINGS)
+    wheel = petsam.wheel.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
+    two = petsam.wheel.Track(bumps(0.02), 2 * 0.73)
+    found = petsam.wheel.solve(two, wheel, Position(speed=2.0), 10e3, settings=SETTINGS)
+    alone = petsam.wheel.Track(arc("rail", 0.05, 0.009), 2 * 0.741)
+    one = petsam.wheel.solve(alone, wheel, Position(speed=2.0), 5e3, settings=SETTINGS)
     assert len(found.patches) == 2 and found.force[2] == pytest.approx(10e3, rel=1e-5)
     assert [patch.n for patch in found.patches] == pytest.approx([one.patches[0].n] * 2, rel=2e-4)
     assert [patch.p_max for patch in found.patches] == pytest.approx([one.patches[0].p_max] * 2, rel=2e-4)
@@ -526,8 +528,8 @@ def test_two_ridges_far_apart_are_two_contacts():
 
 def test_patches_that_merge_have_turned_towards_each_other():
     """Angles of two grids just above the separation are that of the one grid just below."""
-    wheel = profiles.Wheelset(arc("wheel", -0.4, 0.03), 0.46, 1.5, 0.0)
-    track, where = profiles.Track(bumps(0.016), 2 * 0.73), Position(speed=2.0, roll=2e-4)
+    wheel = petsam.wheel.Wheelset(arc("wheel", -0.4, 0.03), 0.46, 1.5, 0.0)
+    track, where = petsam.wheel.Track(bumps(0.016), 2 * 0.73), Position(speed=2.0, roll=2e-4)
     case = search(track, 0.46, locus(track, wheel, where.rotation, 0.0))
     z = case.touch + 6e-5
     (left, right) = case.regions(z)
@@ -535,7 +537,7 @@ def test_patches_that_merge_have_turned_towards_each_other():
 
     def solved(separation, combination):
         settings = Settings(STEEL, STEEL, separation=separation, combination=combination)
-        return profiles.solve(track, wheel, replace(where, z=z), settings=settings).patches
+        return petsam.wheel.solve(track, wheel, replace(where, z=z), settings=settings).patches
 
     apart, joined, free = (
         solved(distance * f, g * distance) for f, g in ((0.999999, 0.5), (1.000001, 0.5), (0.4, 0.3))
@@ -558,8 +560,8 @@ def test_the_angles_of_three_patches_are_continuous_where_two_merge():
 
 def test_regions_that_carry_nothing_are_left_out():
     """The second ridge lies 40 um lower: up to 4 nm of overlap it does not count."""
-    track = profiles.Track(bumps(0.02, 0.002), 2 * 0.73)
-    wheel = profiles.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
+    track = petsam.wheel.Track(bumps(0.02, 0.002), 2 * 0.73)
+    wheel = petsam.wheel.Wheelset(flat("wheel"), 0.46, 1.5, 0.0)
     found = search(track, 0.46, locus(track, wheel, np.eye(3), 0.0))
     second = found.gap[found.y > 0.75].min()
     assert second - found.touch == pytest.approx(40e-6, rel=1e-3)
@@ -569,11 +571,11 @@ def test_regions_that_carry_nothing_are_left_out():
 def test_beyond_the_limit_of_nadal_no_height_gives_the_force(made):
     """The tangential force carries the wheel where it climbs at 70 degrees with friction 1."""
     with pytest.raises(Error, match="force 10000 N: no height gives it: at the angle -1.22.*give z"):
-        profiles.solve(*made, Position(y=7e-3, yaw=-0.02, vy=0.2, speed=2.0), 10e3, 1.0, settings=SETTINGS)
+        petsam.wheel.solve(*made, Position(y=7e-3, yaw=-0.02, vy=0.2, speed=2.0), 10e3, 1.0, settings=SETTINGS)
 
 
 def test_the_table_of_a_result(made, tmp_path):
-    found = profiles.solve(*made, Position(speed=2.0, y=2e-3, yaw=4e-3), 10e3, settings=SETTINGS)
+    found = petsam.wheel.solve(*made, Position(speed=2.0, y=2e-3, yaw=4e-3), 10e3, settings=SETTINGS)
     columns = {column.name: column for column in found.table()}
     assert columns["n"].unit == "N" and columns["n"].values == [found.patches[0].n]
     found.to_csv(tmp_path / "patches.csv")
@@ -582,7 +584,7 @@ def test_the_table_of_a_result(made, tmp_path):
 
 def test_forces_are_those_of_pressure_and_friction(made):
     """Sums over the cells; in full sliding the shear is mu times the normal force."""
-    (patch,) = profiles.solve(*made, Position(speed=2.0, y=2e-3, yaw=8e-3), 10e3, 0.25, settings=SETTINGS).patches
+    (patch,) = petsam.wheel.solve(*made, Position(speed=2.0, y=2e-3, yaw=8e-3), 10e3, 0.25, settings=SETTINGS).patches
     assert patch.n == pytest.approx(patch.pressure.sum() * 2e-4**2, rel=1e-9)
     assert patch.stick_cells == 0 and patch.fs < 0 < patch.creep_s, (patch.fs, patch.creep_s)
     assert np.hypot(patch.fx, patch.fs) == pytest.approx(0.25 * patch.n, rel=2e-3)
@@ -625,8 +627,8 @@ def test_smoothing_restores_the_pressure_of_a_noisy_profile(made):
     pressures = []
     for length in (None, 8e-3):
         a, b = (rail, wheel) if length is None else (rail.smoothed(length), wheel.smoothed(length))
-        pair = profiles.Track(a, cant=0.025), profiles.Wheelset(b, 0.46)
-        found = profiles.solve(*pair, position(5), 10e3, 0.3, "left", SETTINGS)
+        pair = petsam.wheel.Track(a, cant=0.025), petsam.wheel.Wheelset(b, 0.46)
+        found = petsam.wheel.solve(*pair, position(5), 10e3, 0.3, "left", SETTINGS)
         pressures.append(max(patch.p_max for patch in found.patches))
     assert pressures[0] > 1500e6
     assert pressures[1] == pytest.approx(466e6, rel=0.06)
@@ -634,7 +636,7 @@ def test_smoothing_restores_the_pressure_of_a_noisy_profile(made):
 
 def test_the_wheel_of_the_standard():
     """S1002: zones meet, the tread's cone is 1:15, the flange 28 mm deep and inclined by 70 degrees."""
-    section = visible(profiles.s1002())
+    section = visible(petsam.wheel.s1002())
     assert section.height(np.array(0.0)) == pytest.approx(0.0, abs=1e-9)
     assert section.slope(np.array(0.05)) == pytest.approx(-1 / 15, abs=1e-7)
     assert section.z.max() == pytest.approx(28e-3, abs=1e-6)
@@ -645,7 +647,7 @@ def test_the_wheel_of_the_standard():
 
 def test_the_rail_of_the_standard():
     """UIC60: 72 mm wide 14 mm below its top, arcs of 300, 80 and 13 mm."""
-    profile = profiles.uic60()
+    profile = petsam.wheel.uic60()
     section = visible(profile)
     assert profile.z.min() == 0.0 and np.interp(14.1e-3, profile.z[profile.y > 0], profile.y[profile.y > 0]) == (
         pytest.approx(36e-3, abs=2e-5)
@@ -668,7 +670,7 @@ def test_places_of_rail_and_wheel():
     last = 0.5 * np.pi - np.arctan(1 / 20)
     end = centre + 13 * np.array([np.sin(last), -np.cos(last)])
     for cant in (0.02, 0.0, 0.025):
-        section = profiles.Track(profiles.uic60(), 1.435, 0.02, cant).section
+        section = petsam.wheel.Track(petsam.wheel.uic60(), 1.435, 0.02, cant).section
         top = section.y[section.z.argmin()]
         assert section.height(np.linspace(top - 5e-5, top + 5e-5, 1001)).min() == pytest.approx(0.0, abs=1e-11)
         c, s = np.cos(cant), np.sin(cant)
@@ -680,7 +682,7 @@ def test_places_of_rail_and_wheel():
         assert top == pytest.approx(0.7175 + 1e-3 * apart, abs=1.3e-5)  # points of the section are 25 um apart
     middle = top - 0.3 * np.sin(0.025)
     assert section.slope(np.array(middle)) == pytest.approx(-np.tan(0.025), rel=2e-3)  # the field side rises
-    wheel = profiles.Wheelset(profiles.s1002(), 0.46, 1.36, -0.07, tape_line=0.01).section
+    wheel = petsam.wheel.Wheelset(petsam.wheel.s1002(), 0.46, 1.36, -0.07, tape_line=0.01).section
     assert wheel.last == pytest.approx(0.68 + 0.07 + 0.06, abs=1e-9)
     assert wheel.height(np.array(0.76)) == pytest.approx(0.0, abs=1e-12)
 
@@ -729,7 +731,7 @@ units.ang.f = 57.29577951308232"""
 
 def test_all_keys_of_simpack_in_their_order(tmp_path):
     points = [(*point, 1.0 + k) for k, point in enumerate(POINTS)]
-    found = profiles.read(simpack(tmp_path, KEYS, points))
+    found = petsam.wheel.read(simpack(tmp_path, KEYS, points))
     table = np.delete(np.array(points), 1, axis=0)  # nearer than 0.1 to the first
     moved = table[:, :2] + (2.0, -1.0)
     c, s = np.cos(np.radians(10)), np.sin(np.radians(10))
@@ -743,9 +745,9 @@ def test_all_keys_of_simpack_in_their_order(tmp_path):
 
 
 def test_simpack_mirrors_z(tmp_path):
-    found = profiles.read(simpack(tmp_path, "mirror.z = 1\nunits.len.f = 1000"))
+    found = petsam.wheel.read(simpack(tmp_path, "mirror.z = 1\nunits.len.f = 1000"))
     assert found.z == pytest.approx([-1e-3 * z for _, z in POINTS])
-    turned = profiles.read(tmp_path / "rail.prr", z="up", mirror=True)
+    turned = petsam.wheel.read(tmp_path / "rail.prr", z="up", mirror=True)
     assert (turned.y, turned.z) == (pytest.approx([-1e-3 * y for y, _ in POINTS]), pytest.approx(-found.z))
 
 
@@ -771,7 +773,7 @@ FAULTS = [
 @pytest.mark.parametrize("changes, message", FAULTS)
 def test_faults_of_simpack_files_have_their_line(tmp_path, changes, message):
     with pytest.raises(Error, match=message):
-        profiles.read(simpack(tmp_path, **changes))
+        petsam.wheel.read(simpack(tmp_path, **changes))
 
 
 def test_columns_with_unit_and_direction(tmp_path):
@@ -781,7 +783,7 @@ def test_columns_with_unit_and_direction(tmp_path):
     ):
         path = tmp_path / "rail.txt"
         path.write_text(text)
-        found = profiles.read(path, kind="rail", unit="mm", z="up")
+        found = petsam.wheel.read(path, kind="rail", unit="mm", z="up")
         assert found.y == pytest.approx([-0.03, -0.015, 0, 0.015, 0.03])
         assert found.z == pytest.approx([4e-3, 1e-3, 0, 1.1e-3, 4.4e-3])
     assert list(found.weights) == [1, 2, 1, 1, 1]
@@ -808,19 +810,19 @@ def test_faults_of_columns(tmp_path, text, given, message):
     path = tmp_path / "rail.txt"
     path.write_text(text)
     with pytest.raises(Error, match=message):
-        profiles.read(path, **given)
+        petsam.wheel.read(path, **given)
 
 
 def test_what_simpack_states_is_not_stated_twice(tmp_path):
     path = simpack(tmp_path, "units.len.f = 1000")
     with pytest.raises(Error, match="unit='mm': a file of SIMPACK has its unit"):
-        profiles.read(path, unit="mm")
+        petsam.wheel.read(path, unit="mm")
     with pytest.raises(Error, match="states the profile of a rail, and not of a wheel"):
-        profiles.read(path, kind="wheel")
+        petsam.wheel.read(path, kind="wheel")
     with pytest.raises(MissingFile):
-        profiles.read(tmp_path / "none.prr")
-    with pytest.warns(profiles.ProfileWarning, match="approx.smooth is not used"):
-        profiles.read(simpack(tmp_path, "units.len.f = 1000\napprox.smooth = 0.5"))
+        petsam.wheel.read(tmp_path / "none.prr")
+    with pytest.warns(petsam.wheel.ProfileWarning, match="approx.smooth is not used"):
+        petsam.wheel.read(simpack(tmp_path, "units.len.f = 1000\napprox.smooth = 0.5"))
 
 
 # ---------------------------------------------------------------- MiniProf, folds, order
@@ -847,20 +849,20 @@ def miniprof(path, profile, head, columns=2, turn=1.0):
 ])  # fmt: skip
 def test_files_of_miniprof(tmp_path, head, columns):
     """The points, and of a rail the direction of z in which its head is convex."""
-    made = profiles.s1002()
+    made = petsam.wheel.s1002()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        wheel = profiles.read(miniprof(tmp_path / "new.whl", made, head, columns), "wheel")
+        wheel = petsam.wheel.read(miniprof(tmp_path / "new.whl", made, head, columns), "wheel")
         assert wheel.y == pytest.approx(made.y, abs=1e-9) and wheel.z == pytest.approx(made.z, abs=1e-9)
-        head = head.replace("XYPoints=1339", f"XYPoints={len(profiles.uic60().y)}")
+        head = head.replace("XYPoints=1339", f"XYPoints={len(petsam.wheel.uic60().y)}")
         for turn in (1.0, -1.0):
-            rail = profiles.read(miniprof(tmp_path / "new.BAN", profiles.uic60(), head, columns, turn), "rail")
-            assert rail.z == pytest.approx(profiles.uic60().z, abs=1e-9)
+            rail = petsam.wheel.read(miniprof(tmp_path / "new.BAN", petsam.wheel.uic60(), head, columns, turn), "rail")
+            assert rail.z == pytest.approx(petsam.wheel.uic60().z, abs=1e-9)
 
 
 def test_a_file_of_miniprof_is_found_by_its_header(tmp_path):
-    path = miniprof(tmp_path / "new.txt", profiles.uic60(), STATED.format(more="ColumnDef=X,Y,A"), 3)
-    assert profiles.read(path, "rail").z == pytest.approx(profiles.uic60().z, abs=1e-9)
+    path = miniprof(tmp_path / "new.txt", petsam.wheel.uic60(), STATED.format(more="ColumnDef=X,Y,A"), 3)
+    assert petsam.wheel.read(path, "rail").z == pytest.approx(petsam.wheel.uic60().z, abs=1e-9)
 
 
 @pytest.mark.parametrize(("text", "message"), [
@@ -879,19 +881,19 @@ def test_a_file_of_miniprof_is_found_by_its_header(tmp_path):
 def test_faults_of_miniprof_have_their_line(tmp_path, text, message):
     (tmp_path / "one.ban").write_text(text)
     with pytest.raises(Error, match=message):
-        profiles.read(tmp_path / "one.ban", "rail")
+        petsam.wheel.read(tmp_path / "one.ban", "rail")
     with pytest.raises(Error, match="give kind='rail'"):
-        profiles.read(tmp_path / "one.ban")
+        petsam.wheel.read(tmp_path / "one.ban")
 
 
 @pytest.mark.parametrize("values", [-1.0, 0.0])
 def test_a_third_column_without_weights_is_not_used(tmp_path, values):
-    rail = profiles.uic60()
+    rail = petsam.wheel.uic60()
     third = np.full(len(rail.y), 2.0)
     third[7] = values
     np.savetxt(tmp_path / "rail.txt", np.column_stack([1e3 * rail.y, 1e3 * rail.z, third]))
-    with pytest.warns(profiles.ProfileWarning, match="the third column is not used: its values down to"):
-        found = profiles.read(tmp_path / "rail.txt", "rail", "mm", "down")
+    with pytest.warns(petsam.wheel.ProfileWarning, match="the third column is not used: its values down to"):
+        found = petsam.wheel.read(tmp_path / "rail.txt", "rail", "mm", "down")
     assert (found.weights == 1.0).all()
 
 
@@ -903,13 +905,13 @@ def written(path, y, z):
 @pytest.mark.parametrize("back", [1, 4])
 def test_small_folds_are_removed_and_named(tmp_path, back):
     """Points 0.1 mm apart that go back: the profile is that without them."""
-    rail = profiles.uic60()
+    rail = petsam.wheel.uic60()
     k = len(rail.y) // 2
     order = np.r_[0 : k + 1, k - 1 : k - back - 1 : -1, k + 1 : len(rail.y)]
     with pytest.warns(
-        profiles.ProfileWarning, match=rf"{back} points? removed that step back.*0.{back} mm.*at most 0.5 mm"
+        petsam.wheel.ProfileWarning, match=rf"{back} points? removed that step back.*0.{back} mm.*at most 0.5 mm"
     ):
-        found = profiles.read(written(tmp_path / "rail.txt", rail.y[order], rail.z[order]), "rail", "mm", "down")
+        found = petsam.wheel.read(written(tmp_path / "rail.txt", rail.y[order], rail.z[order]), "rail", "mm", "down")
     assert found.y == pytest.approx(rail.y, abs=1e-9)
 
 
@@ -926,12 +928,12 @@ JUMPS = {
 @pytest.mark.parametrize("kind", ["wheel", "rail"])
 @pytest.mark.parametrize("jump", JUMPS)
 def test_points_that_jump_back_are_errors(tmp_path, jump, kind):
-    one = profiles.s1002() if kind == "wheel" else profiles.uic60()
+    one = petsam.wheel.s1002() if kind == "wheel" else petsam.wheel.uic60()
     order = JUMPS[jump](len(one.y))
     path = written(tmp_path / "one.txt", one.y[order], one.z[order])
     with pytest.raises(Error, match="go back there|twice|begin and end|above its visible part: sort"):
-        found = profiles.read(path, kind, "mm", "down")
-        profiles.Track(found) if kind == "rail" else profiles.Wheelset(found, 0.46)
+        found = petsam.wheel.read(path, kind, "mm", "down")
+        petsam.wheel.Track(found) if kind == "rail" else petsam.wheel.Wheelset(found, 0.46)
 
 
 @pytest.mark.parametrize("value", ["1e308", "-1e308", "1e200", "1e20", "5e5"])
@@ -941,7 +943,7 @@ def test_numbers_out_of_range_are_errors(tmp_path, value, column):
     rows[20][column] = value
     (tmp_path / "rail.txt").write_text("\n".join(map(" ".join, rows)))
     with pytest.raises(Error, match="check its unit of length"):
-        profiles.read(tmp_path / "rail.txt", "rail", "mm", "down")
+        petsam.wheel.read(tmp_path / "rail.txt", "rail", "mm", "down")
 
 
 @pytest.mark.parametrize("weight", ["1e308", "1e-320", "1e12"])
@@ -950,14 +952,14 @@ def test_weights_out_of_range_are_errors(tmp_path, weight):
     rows[7] = rows[7][:-1] + weight
     (tmp_path / "rail.txt").write_text("\n".join(rows))
     with pytest.raises(Error, match="weights from .*: give numbers near 1"):
-        profiles.read(tmp_path / "rail.txt", "rail", "mm", "down")
+        petsam.wheel.read(tmp_path / "rail.txt", "rail", "mm", "down")
 
 
 def test_mutated_files_are_read_or_errors(tmp_path):
     """Numbers replaced, lines exchanged and left out, of each reader: no other exception, no number out of range."""
     random = np.random.default_rng(8)
     words = ["1e308", "-1e308", "1e400", "nan", "0", "-0", "1e-320", "x", ";", ",", "=", "9" * 400, "1e154", "!", "-"]
-    rail = profiles.uic60()
+    rail = petsam.wheel.uic60()
     rows = [f"{1e3 * y:.4f} {1e3 * z:.4f} 1.5" for y, z in zip(rail.y[::20], rail.z[::20])]
     texts = {"one.txt": "\n".join(rows), "one.prr": SIMPACK.format(keys=KEYS, points="\n".join(rows)),
              "one.ban": STATED.format(more="ColumnDef=X,Y,A") + "\n".join(rows)}  # fmt: skip
@@ -979,9 +981,9 @@ def test_mutated_files_are_read_or_errors(tmp_path):
         (tmp_path / name).write_text("\n".join(lines))
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            warnings.simplefilter("ignore", profiles.ProfileWarning)
+            warnings.simplefilter("ignore", petsam.wheel.ProfileWarning)
             try:
-                found = profiles.read(tmp_path / name, "rail", *([] if name == "one.prr" else ["mm", "down"]))
+                found = petsam.wheel.read(tmp_path / name, "rail", *([] if name == "one.prr" else ["mm", "down"]))
             except Error:
                 continue
         read += 1
@@ -1020,27 +1022,36 @@ def folded(profile):
 
 TRAPS = {
     "mirrored wheel": (
-        lambda: profiles.Wheelset(profiles.s1002().mirrored(), 0.46),
+        lambda: petsam.wheel.Wheelset(petsam.wheel.s1002().mirrored(), 0.46),
         "flange is on the field side.*mirror=True",
     ),
-    "wheel upside down": (lambda: profiles.Wheelset(upside_down(profiles.s1002()), 0.46), "flange points up.*z='up'"),
+    "wheel upside down": (
+        lambda: petsam.wheel.Wheelset(upside_down(petsam.wheel.s1002()), 0.46),
+        "flange points up.*z='up'",
+    ),
     "mirrored rail": (
-        lambda: profiles.Track(without_field_side(profiles.uic60()).mirrored()),
+        lambda: petsam.wheel.Track(without_field_side(petsam.wheel.uic60()).mirrored()),
         "gauge height on the field side alone.*mirror=True",
     ),
-    "rail upside down": (lambda: profiles.Track(upside_down(profiles.uic60())), "hollow.*z='up'"),
-    "unsorted": (lambda: profiles.Track(swapped(profiles.uic60())), "point 20[0-3], y = .* go back there: sort"),
-    "folded": (lambda: profiles.Track(folded(profiles.uic60())), "above its visible part: sort"),
+    "rail upside down": (lambda: petsam.wheel.Track(upside_down(petsam.wheel.uic60())), "hollow.*z='up'"),
+    "unsorted": (
+        lambda: petsam.wheel.Track(swapped(petsam.wheel.uic60())),
+        "point 20[0-3], y = .* go back there: sort",
+    ),
+    "folded": (lambda: petsam.wheel.Track(folded(petsam.wheel.uic60())), "above its visible part: sort"),
     "unit": (lambda: Profile([0, 1, 2, 3, 4], [0] * 5, "rail"), "4 m wide: check its unit"),
-    "gauge in mm": (lambda: profiles.Track(profiles.uic60(), 1435), "gauge 1435: .*m, such as 1.435"),
-    "height in mm": (lambda: profiles.Track(profiles.uic60(), 1.435, 14), "gauge_height 14"),
-    "cant as a ratio": (lambda: profiles.Track(profiles.uic60(), cant=40), "cant 40: expected rad: 1:40 is 0.025"),
-    "radius in mm": (lambda: profiles.Wheelset(profiles.s1002(), 460), "radius 460: .*m, such as 0.46"),
+    "gauge in mm": (lambda: petsam.wheel.Track(petsam.wheel.uic60(), 1435), "gauge 1435: .*m, such as 1.435"),
+    "height in mm": (lambda: petsam.wheel.Track(petsam.wheel.uic60(), 1.435, 14), "gauge_height 14"),
+    "cant as a ratio": (
+        lambda: petsam.wheel.Track(petsam.wheel.uic60(), cant=40),
+        "cant 40: expected rad: 1:40 is 0.025",
+    ),
+    "radius in mm": (lambda: petsam.wheel.Wheelset(petsam.wheel.s1002(), 460), "radius 460: .*m, such as 0.46"),
     "yaw in degrees": (lambda: Position(yaw=1.4), "yaw 1.4: expected rad"),
     "y in mm": (lambda: Position(y=2.0), "y 2: expected a displacement in m"),
     "turning": (lambda: Position(speed=2.0, pitch_rate=4.3), "rolls forward has a negative one"),
     "rail as wheel": (
-        lambda: profiles.Wheelset(profiles.uic60(), 0.46),
+        lambda: petsam.wheel.Wheelset(petsam.wheel.uic60(), 0.46),
         "profile of a rail: Wheelset takes that of a wheel",
     ),
     "cell": (lambda: Settings(cell=0.2), "cell 0.2: expected the width of a cell in m"),
@@ -1048,19 +1059,19 @@ TRAPS = {
 
 
 def test_a_rail_without_its_field_side_lies_as_the_whole_one():
-    whole, part = (profiles.Track(one) for one in (profiles.uic60(), without_field_side(profiles.uic60())))
+    whole, part = (petsam.wheel.Track(one) for one in (petsam.wheel.uic60(), without_field_side(petsam.wheel.uic60())))
     y = np.linspace(0.72, 0.76, 9)
     assert part.section.height(y) == pytest.approx(whole.section.height(y), abs=1e-7)
 
 
 @pytest.mark.parametrize("cant", [0.0, 0.025])
 @pytest.mark.parametrize("make", [
-    lambda profile, cant, place=None: profiles.Track(profile, 1.435, 0.014, cant, gauge_position=place),
-    lambda profile, cant, place=None: profiles.Roller(profile.turned(-cant), 0.5, 1.435, 0.014, place),
+    lambda profile, cant, place=None: petsam.wheel.Track(profile, 1.435, 0.014, cant, gauge_position=place),
+    lambda profile, cant, place=None: petsam.wheel.Roller(profile.turned(-cant), 0.5, 1.435, 0.014, place),
 ], ids=["track", "roller"])  # fmt: skip
 def test_a_rail_cut_above_its_gauge_face_lies_by_a_point_of_it(make, cant):
     """The part lies as the whole one, by y or by y and z of its point there, and elsewhere behind a warning."""
-    rail = profiles.uic60()
+    rail = petsam.wheel.uic60()
     keep = rail.z < 9e-3
     part = Profile(rail.y[keep] + 0.1, rail.z[keep] + 0.02, "rail")
     whole = make(rail, cant).section
@@ -1076,7 +1087,7 @@ def test_a_rail_cut_above_its_gauge_face_lies_by_a_point_of_it(make, cant):
         found = make(part, cant, face).section
         assert found.slope(y) == pytest.approx(whole.slope(y), abs=2e-5)
     with pytest.warns(
-        profiles.ProfileWarning, match="above the gauge height of 14 mm.*gauge_height within it, or gauge_pos"
+        petsam.wheel.ProfileWarning, match="above the gauge height of 14 mm.*gauge_height within it, or gauge_pos"
     ):
         found = make(part, cant).section
     assert abs(found.slope(0.75) - whole.slope(0.75)) > 1e-3
@@ -1085,7 +1096,7 @@ def test_a_rail_cut_above_its_gauge_face_lies_by_a_point_of_it(make, cant):
     with pytest.raises(Error, match="gauge_position: expected y, or y and z"):
         make(part, cant, -36.0)
     for place in (face + 0.072, (face - 0.064, top), 0.0):  # of the field side, of another unit, of another origin
-        with pytest.warns(profiles.ProfileWarning, match="gauge_position .*the rail's top is at y = .*: check it"):
+        with pytest.warns(petsam.wheel.ProfileWarning, match="gauge_position .*the rail's top is at y = .*: check it"):
             make(part, cant, place)
 
 
@@ -1118,29 +1129,29 @@ def test_traps_of_a_solution_are_errors(made, trap):
     given, message = SOLVED[trap]
     where, rest = given["where"], {name: value for name, value in given.items() if name != "where"}
     with pytest.raises(Error, match=message):
-        profiles.solve(*made, where, **rest)
+        petsam.wheel.solve(*made, where, **rest)
 
 
 def test_a_wheel_above_the_rail_has_no_patches(made):
-    found = profiles.solve(*made, Position(speed=2.0, z=-1e-3))
+    found = petsam.wheel.solve(*made, Position(speed=2.0, z=-1e-3))
     assert found.patches == () and list(found.force) == [0, 0, 0]
     assert found.overlap < 0 and found.touch == pytest.approx(0.18e-3, abs=0.01e-3)
 
 
 def test_doubtful_places_are_warnings():
-    with pytest.warns(profiles.ProfileWarning, match="leans away from the middle"):
-        profiles.Track(profiles.uic60(), cant=-0.025)
-    with pytest.warns(profiles.ProfileWarning, match="yaw 0.3 rad is 17.2 degrees"):
+    with pytest.warns(petsam.wheel.ProfileWarning, match="leans away from the middle"):
+        petsam.wheel.Track(petsam.wheel.uic60(), cant=-0.025)
+    with pytest.warns(petsam.wheel.ProfileWarning, match="yaw 0.3 rad is 17.2 degrees"):
         Position(yaw=0.3)
 
 
 def test_a_contact_cut_by_the_end_of_a_profile_is_a_warning(made):
     """The contact is within the profile, and its edge warning is that of petsam."""
-    rail = profiles.uic60()
+    rail = petsam.wheel.uic60()
     kept = rail.y < -0.005
-    cut = profiles.Track(Profile(rail.y[kept], rail.z[kept], "rail"), cant=0.025)
-    with pytest.warns(profiles.ProfileWarning, match="reaches the end of a visible profile"):
-        found = profiles.solve(cut, made[1], Position(speed=2.0), 50e3)
+    cut = petsam.wheel.Track(Profile(rail.y[kept], rail.z[kept], "rail"), cant=0.025)
+    with pytest.warns(petsam.wheel.ProfileWarning, match="reaches the end of a visible profile"):
+        found = petsam.wheel.solve(cut, made[1], Position(speed=2.0), 50e3)
     (patch,) = found.patches
     touched = patch.grid_s[(patch.pressure > 0).any(axis=1)]
     assert patch.y + touched.max() * np.cos(patch.angle) <= cut.section.last + 1e-4
@@ -1148,18 +1159,18 @@ def test_a_contact_cut_by_the_end_of_a_profile_is_a_warning(made):
 
 def test_a_conformal_contact_is_a_warning():
     """A ridge of 13 mm in a groove of 13.3 mm."""
-    track = profiles.Track(arc("rail", 0.013, 0.011), 2 * 0.739)
-    wheel = profiles.Wheelset(arc("wheel", -0.0133, 0.012), 0.46, 1.5, 0.0)
-    with pytest.warns(profiles.ConformalWarning, match="differs by 0.[2-9].* rad .* conformal"):
-        profiles.solve(track, wheel, Position(speed=2.0), 50e3, settings=SETTINGS)
+    track = petsam.wheel.Track(arc("rail", 0.013, 0.011), 2 * 0.739)
+    wheel = petsam.wheel.Wheelset(arc("wheel", -0.0133, 0.012), 0.46, 1.5, 0.0)
+    with pytest.warns(petsam.wheel.ConformalWarning, match="differs by 0.[2-9].* rad .* conformal"):
+        petsam.wheel.solve(track, wheel, Position(speed=2.0), 50e3, settings=SETTINGS)
     with warnings.catch_warnings():
-        warnings.simplefilter("error", profiles.ConformalWarning)
-        profiles.solve(track, wheel, Position(speed=2.0), 10.0, settings=SETTINGS)
+        warnings.simplefilter("error", petsam.wheel.ConformalWarning)
+        petsam.wheel.solve(track, wheel, Position(speed=2.0), 10.0, settings=SETTINGS)
 
 
 def test_cells_that_do_not_resolve_a_contact_are_a_warning(made):
     with pytest.warns(AdviceWarning, match="patch at y = .*: error by the cells: .*: try a smaller cell"):
-        profiles.solve(*made, Position(speed=2.0), 10e3, settings=Settings(cell=2e-3))
+        petsam.wheel.solve(*made, Position(speed=2.0), 10e3, settings=Settings(cell=2e-3))
 
 
 # ---------------------------------------------------------------- the part of the line that counts
@@ -1167,17 +1178,17 @@ def test_cells_that_do_not_resolve_a_contact_are_a_warning(made):
 
 def narrow():
     """A wheel whose ends are over the rail."""
-    track = profiles.Track(arc("rail", 0.08, 0.03), 2 * (0.75 - 0.03), 0.014)
-    return track, profiles.Wheelset(arc("wheel", 0.3, 0.0203), 0.46, 1.5, 0.0)
+    track = petsam.wheel.Track(arc("rail", 0.08, 0.03), 2 * (0.75 - 0.03), 0.014)
+    return track, petsam.wheel.Wheelset(arc("wheel", 0.3, 0.0203), 0.46, 1.5, 0.0)
 
 
 @pytest.mark.parametrize("case", ["track", "roller", "narrow"])
 def test_the_part_near_the_contact_has_the_regions_of_the_whole_line(made, case):
     rail, wheel = narrow() if case == "narrow" else made
-    rail = profiles.Roller(profiles.uic60(), 0.5) if case == "roller" else rail
+    rail = petsam.wheel.Roller(petsam.wheel.uic60(), 0.5) if case == "roller" else rail
     rng = np.random.default_rng(5)
     parts = 0
-    with profiles.Pair(rail, wheel) as pair:
+    with petsam.wheel.Pair(rail, wheel) as pair:
         for y, roll, yaw in rng.uniform(-1, 1, (24, 3)) * (8e-3, 3e-3, 0.03):
             case = Case(pair, Position(y=y, roll=roll, yaw=yaw, speed=20.0))
             whole = case._whole()
@@ -1192,8 +1203,8 @@ def test_the_part_near_the_contact_has_the_regions_of_the_whole_line(made, case)
 
 def test_the_gap_of_two_arcs_along_a_leaning_normal_is_closed():
     """By the distances of a line from both centres, (0.75, 0.08) and (0.77, -0.3) m."""
-    track = profiles.Track(arc("rail", 0.08, 0.03), 2 * (0.75 - 0.03), 0.014)
-    wheelset = profiles.Wheelset(arc("wheel", 0.3, 0.06, 0.02), 0.46, 1.5, 0.0)
+    track = petsam.wheel.Track(arc("rail", 0.08, 0.03), 2 * (0.75 - 0.03), 0.014)
+    wheelset = petsam.wheel.Wheelset(arc("wheel", 0.3, 0.06, 0.02), 0.46, 1.5, 0.0)
     place = Place(np.array([0.0, 0.757, 1e-3]), 0.12, np.zeros(2), np.zeros(2), 1.0, False)
     s = np.linspace(-8e-3, 8e-3, 41)
     found, _ = separation(track, wheelset, Frame(np.eye(3), np.array([0.0, 0.0, -0.46])), place, np.zeros(1), s)
@@ -1205,7 +1216,7 @@ def test_the_gap_of_two_arcs_along_a_leaning_normal_is_closed():
 
 
 def test_a_deep_overlap_is_searched_along_the_whole_line(made):
-    with profiles.Pair(*made, settings=Settings(cell=1e-3)) as pair:
+    with petsam.wheel.Pair(*made, settings=Settings(cell=1e-3)) as pair:
         case = Case(pair, Position(y=2e-3, speed=20.0))
         assert any(case.search.cut)
         deep = case.at(case.search.touch + 4.0 * REACH)

@@ -9,9 +9,9 @@ import pytest
 
 import petsam
 from petsam import joint
+from petsam.apps.joint.pair import contents
 from petsam.core import progress
 from petsam.core.progress import Progress, clock
-from petsam.joint.pair import contents
 from test_backbone import OPTIONS, PRELOAD, pair_file
 from test_compliance_command import block, compliance  # noqa: F401  (fixtures)
 
@@ -63,7 +63,7 @@ def test_short_works_have_no_lines(monkeypatch):
 def lines_of(command, monkeypatch, *words):
     """Lines of progress of petsam-joint."""
     lines = []
-    monkeypatch.setattr(petsam.commands.joint, "_tell", lines.append)
+    monkeypatch.setattr(petsam.apps.joint.command, "_tell", lines.append)
     command(*words)
     return lines
 
@@ -154,7 +154,7 @@ def ends(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.parametrize("action", STRUCTURE)
 def test_joint_judges_its_output_first(action, pair, ends, unbegun):
-    from petsam.commands import joint as command
+    from petsam.apps.joint import command
 
     unbegun((command, "Pair"), (command, "contents"))
     said = ends(command, action, *PAIR, *STRUCTURE[action], "-o", "none/out")
@@ -162,7 +162,7 @@ def test_joint_judges_its_output_first(action, pair, ends, unbegun):
 
 
 def test_stiffness_judges_its_output_first(tmp_path, ends, unbegun):
-    from petsam.commands import joint as command
+    from petsam.apps.joint import command
 
     unbegun((command, "interface"))
     words = ("stiffness", "scan.h5", "--pressure", "1MPa", "--friction", 0.3, "--body1", "steel", "--body2", "steel")
@@ -170,7 +170,7 @@ def test_stiffness_judges_its_output_first(tmp_path, ends, unbegun):
 
 
 def test_compliance_judges_its_output_first(ends, unbegun):
-    from petsam.commands import compliance as command
+    from petsam.apps.compliance import command
 
     unbegun((command.model, "computed"))
     words = ("--mesh", "block.inp", "--contact", "TOP", "--fixed", "BOTTOM", "--patch", "2mm")
@@ -179,7 +179,7 @@ def test_compliance_judges_its_output_first(ends, unbegun):
 
 
 def test_fatigue_judges_its_output_first(ends, unbegun):
-    from petsam.commands import fatigue as command
+    from petsam.apps.fatigue import command
 
     unbegun((command, "Stresses"), (command.spectrum, "lives"))
     for words in (("-o", "none/out.png"), ("--csv", "none/out.csv")):
@@ -187,7 +187,7 @@ def test_fatigue_judges_its_output_first(ends, unbegun):
 
 
 def test_study_judges_its_folder_first(tmp_path, ends, unbegun):
-    from petsam.commands import study as command
+    from petsam.apps.study import command
 
     unbegun((command, "Study"))
     (tmp_path / "cases.csv").write_text("friction\n0.1\n")
@@ -198,7 +198,7 @@ def test_study_judges_its_folder_first(tmp_path, ends, unbegun):
 
 @pytest.mark.parametrize("action", STRUCTURE)
 def test_joint_judges_sensors_and_bolts_before_any_is_tightened(action, pair, ends, unbegun):
-    from petsam.commands import joint as command
+    from petsam.apps.joint import command
 
     unbegun((command, "Pair"))
     given = STRUCTURE[action]
@@ -227,21 +227,20 @@ def test_steps_of_load_cases_are_judged_before_the_work(block, compliance, monke
 
 def test_lives_are_judged_before_the_work(monkeypatch):
     """A quantity of the line and a constant that are missing."""
-    from petsam import lives
 
-    monkeypatch.setattr(lives.evaluation, "lives", None)
+    monkeypatch.setattr(petsam.fatigue.evaluation, "lives", None)
     grid = dict(x=np.zeros(1), y=np.zeros(1), z=np.arange(3.0))
-    cycle = lives.stresses.Cycle({**grid, "time": np.zeros(1), "swt": np.ones((1, 3, 1, 1))})
+    cycle = petsam.fatigue.stresses.Cycle({**grid, "time": np.zeros(1), "swt": np.ones((1, 3, 1, 1))})
     with pytest.raises(petsam.Error, match="has no mises"):
-        lives.lives(cycle, {}, quantities="mises")
+        petsam.fatigue.lives(cycle, {}, quantities="mises")
     with pytest.raises(petsam.Error, match="swt: .*sigma_f"):
-        lives.lives(cycle, dict(young=2e11), criteria="swt")
+        petsam.fatigue.lives(cycle, dict(young=2e11), criteria="swt")
 
 
 def test_options_that_contradict_each_other_are_refused(ends):
-    from petsam.commands import compliance as bodies
-    from petsam.commands import fatigue
-    from petsam.commands import joint as joints
+    from petsam.apps.compliance import command as bodies
+    from petsam.apps.fatigue import command as fatigue
+    from petsam.apps.joint import command as joints
 
     words = ("stiffness", "scan.h5", "--pressure", "1MPa", "--friction", 0.3, "--body1", "steel", "--body2", "steel")
     assert "--area: is for NAME.json" in ends(joints, *words, "--area", "2mm2", code=2)

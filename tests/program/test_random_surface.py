@@ -6,12 +6,11 @@ import h5py
 import numpy as np
 import pytest
 
-from petsam.commands import surface as command
+from petsam.apps.surface import command, generation, reading
+from petsam.apps.surface.readers.instruments import Instrument
+from petsam.apps.surface.readers.stated import Stated
 from petsam.core.errors import Error
 from petsam.plot.style import plt
-from petsam.surface import generation, reading
-from petsam.surface.readers.instruments import Instrument
-from petsam.surface.readers.stated import Stated
 
 SIZE = (1e-3, 1e-3)
 

@@ -5,7 +5,6 @@ the first line on stderr, short, and nothing else stands there but where help is
 contact at the edge (12) and doubts (0) are told in one line as well, and the results are written.
 """
 
-import importlib
 import os
 import re
 import shlex
@@ -19,6 +18,7 @@ import numpy as np
 import pytest
 
 import compliances
+import petsam
 from conftest import PROGRAM, execute
 from support import SPHERE, words
 
@@ -268,7 +268,8 @@ def test_message_of_a_tool_is_one_line(call, prepared, monkeypatch, row):
     folder = prepared(row)
     monkeypatch.chdir(folder)
     before = stamps(folder)
-    command = importlib.import_module("petsam.commands." + row.program.partition("-")[2])
+    part = getattr(petsam, row.program.partition("-")[2]).PART
+    command = part.module("command")
     code, told = call(row.program, command.main, *row.words)
     assert code == row.code and len(told) == 1 and told[0].startswith(f"{row.program}: error: "), told
     assert all(text in told[0] for text in row.says) and "TRACEBACK" not in told[0], (row.says, told)

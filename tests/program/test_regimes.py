@@ -12,11 +12,11 @@ import petsam
 from conftest import PROGRAM as PETSAM
 from conftest import environment
 from petsam import sliding
-from petsam.lives import strength
+from petsam.apps.fatigue import strength
+from petsam.apps.study import cases as study_cases
+from petsam.apps.study.cases import Case
+from petsam.apps.study.tables import write_hdf5
 from petsam.plot import planes, tables
-from petsam.study import cases as study_cases
-from petsam.study.cases import Case
-from petsam.study.tables import write_hdf5
 from support import ROOT, ball, hertz, table_of, words
 
 pytestmark = pytest.mark.usefixtures("closing")

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.commands import joint as command
-from petsam.commands import plot as plot_command
-from petsam.joint.balance import RESPONSE, Response
-from petsam.joint.band import Band
-from petsam.joint.interfaces import Interface, Outcome
-from petsam.joint.wear import Wear
+from petsam.apps.joint import command
+from petsam.apps.joint.balance import RESPONSE, Response
+from petsam.apps.joint.bands import Band
+from petsam.apps.joint.interfaces import Interface, Outcome
+from petsam.apps.joint.wearing import Wear
+from petsam.plot import command as plot_command
 from test_plot_joints import FIRST, made
 from test_report_page import read, rows
 

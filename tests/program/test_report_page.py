@@ -13,9 +13,9 @@ import yaml
 
 import conftest
 import petsam
+from petsam.apps.study.cases import Case
+from petsam.apps.study.tables import write_hdf5
 from petsam.plot import frames, reports, sheets
-from petsam.study.cases import Case
-from petsam.study.tables import write_hdf5
 from support import ROOT, ball, history, slide_limit
 from test_plane import CYLINDER, N
 
@@ -416,7 +416,7 @@ def test_what_cannot_be_is_refused(draw, copy, tmp_path, words, code, says):
 
 def test_a_file_without_a_solution_is_refused_before_anything_is_drawn(draw, solve, tmp_path, monkeypatch):
     path = solve(dict(CASE, load_tx=5 * AMPLITUDE), check=11).path
-    monkeypatch.setattr("petsam.commands.plot.draw", lambda *_: pytest.fail("drawn"))
+    monkeypatch.setattr("petsam.plot.command.draw", lambda *_: pytest.fail("drawn"))
     code, [said] = draw("--report", "run.html", path)
     assert code == 3 and said.endswith("no step has a solution") and not list(tmp_path.glob("*.html"))
 

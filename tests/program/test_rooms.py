@@ -1,5 +1,5 @@
 """The floors of src/ use each other as src/README.md says: by the linker's symbols, a floor uses those below it only,
-and so does a room those that stand below it on its floor. The packages of scripts/petsam use each other as
+and so does a room those that stand below it on its floor. The storeys of scripts/petsam use each other as
 scripts/README.md says, by all imports, those within functions and those by a name in a text too.
 
 python3 tests/program/test_rooms.py [build]     prints the arrows and the circles
@@ -15,6 +15,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+from petsam import apps  # noqa: E402
+
 MOST = 3  # files, or modules, in a circle
 
 
@@ -173,13 +176,29 @@ def imports():
 
 
 def part(name):
-    """The package of a module; `.` for the modules beside the packages."""
-    first = name.split(".")[1]
-    return first if (PACKAGE / first).is_dir() else "."
+    """The storey of a module."""
+    return name.split(".")[1]
+
+
+def application(name):
+    """The application of a module; None of the storeys below."""
+    return name.split(".")[2] if part(name) == "apps" and name.count(".") > 1 else None
+
+
+def past_the_list():
+    """(module, other): imports of another application's modules, but of those that it lists."""
+    records = {one.name: one for one in apps.records()}
+    return [
+        (name, other)
+        for name, other in sorted(imports())
+        if application(other) not in (None, application(name))
+        and other.count(".") > 2
+        and other.split(".")[3] not in records[application(other)].names.get("", ())
+    ]
 
 
 def parts():
-    """The packages of the table, the highest first."""
+    """The storeys of the table, the highest first."""
     text = (ROOT / "scripts" / "README.md").read_text().partition("| package | what it does |")[2]
     return re.findall(r"^\| `([\w.]+)` \|", text.partition("\n\n")[0], re.M)
 
@@ -229,6 +248,10 @@ def test_no_package_uses_one_above_it():
     assert not upward, upward
 
 
+def test_applications_use_each_other_by_their_public_lists():
+    assert not past_the_list()
+
+
 def test_no_name_of_an_import_is_composed():
     found = {name: list(composed(path)) for name, path in modules().items() if name != "petsam"}
     assert not {name: texts for name, texts in found.items() if texts}
@@ -259,12 +282,20 @@ def test_modules_form_no_large_circle():
     assert not large, large
 
 
+OF_COMMANDS = (
+    ".command",
+    ".core.line",
+    ".plot.arguments",
+    ".plot.uses",
+)  # ends of the names of modules that read options
+
+
 def command_line_outside_commands():
-    """Options of a command line that modules outside of commands/ read."""
+    """Options of a command line that modules read which are not of a command."""
     return [
         f"{name}: {word}"
         for name, path in modules().items()
-        if name != "petsam" and part(name) != "commands"
+        if name != "petsam" and not name.endswith(OF_COMMANDS)
         for word in re.findall(
             r"\b(?:options|args)\.(?!items|get|update|values|keys)\w+|\bargparse\b", path.read_text(encoding="utf-8")
         )
@@ -272,7 +303,7 @@ def command_line_outside_commands():
 
 
 def test_numerics_know_no_command_line():
-    """Options of a command line are read in commands/ only: what computes takes values."""
+    """Options of a command line are read by commands only: what computes takes values."""
     found = command_line_outside_commands()
     assert not found, found
 

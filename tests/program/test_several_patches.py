@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from petsam import joint
-from petsam.compliance import basis, halfspace, several
-from petsam.compliance.remainder import Side
+from petsam.apps.compliance import basis, halfspace, several
+from petsam.apps.compliance.remainder import Side
 from test_compliance_command import compliance  # noqa: F401
 from test_compliance_pair import ALWAYS, FRAME, HELD, body, both, write
 

@@ -19,11 +19,11 @@ import pytest
 import petsam
 from conftest import PROGRAM as PETSAM
 from conftest import environment
-from petsam.commands import study as study_command
+from petsam.apps.study import cases as study_cases
+from petsam.apps.study import command as study_command
+from petsam.apps.study import runs as study_runs
+from petsam.apps.study.slurm import ranges
 from petsam.core.declared import PATHS
-from petsam.study import cases as study_cases
-from petsam.study import runs as study_runs
-from petsam.study.slurm import ranges
 from support import ROOT, ball, limit, slide_limit, table_of, words
 
 PROGRAM = ROOT / "scripts" / "petsam-study"

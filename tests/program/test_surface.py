@@ -7,10 +7,10 @@ import h5py
 import numpy as np
 import pytest
 
+from petsam.apps.surface import basics, filling, levels, maps, resampling
 from petsam.core import units, words
 from petsam.core.errors import Error
-from petsam.surface import basics, filling, levels, maps, resampling
-from petsam.surface.tables import Form, Text
+from petsam.core.texttable import Form, Text
 from support import ROOT, assert_close, assert_same, ball, hertz
 from test_plot import pixels
 
@@ -31,7 +31,7 @@ def surface(tmp_path, monkeypatch, capfd):
 
     warnings: whether there are some; None: that does not matter.
     """
-    from petsam.commands import surface as command
+    from petsam.apps.surface import command
 
     monkeypatch.chdir(tmp_path)
 

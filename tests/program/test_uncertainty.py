@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import minimize
 
 import petsam
-from petsam.uncertainty import Roughness, of
+from petsam.contact.uncertainty import Roughness, of
 
 BALL = dict(
     body1_young=210e9, body1_poisson=0.3, body2_young=115e9, body2_poisson=0.32, gap_type="flat", grid_n=32,

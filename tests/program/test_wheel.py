@@ -9,15 +9,16 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from petsam import plot, profiles
-from petsam.commands import wheel
+import petsam
+from petsam import plot
+from petsam.apps.wheel import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, derailing, wearing
+from petsam.apps.wheel import batch as batches
+from petsam.apps.wheel import command as wheel
+from petsam.apps.wheel.conicity import equivalent_conicity
+from petsam.apps.wheel.positions import Case
+from petsam.apps.wheel.section import visible
+from petsam.apps.wheel.wearing import Law, depth_rates, rows_of
 from petsam.core.errors import Error
-from petsam.profiles import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, derailing, wearing
-from petsam.profiles import batch as batches
-from petsam.profiles.conicity import equivalent_conicity
-from petsam.profiles.positions import Case
-from petsam.profiles.section import visible
-from petsam.profiles.wearing import Law, depth_rates, rows_of
 
 pytestmark = pytest.mark.filterwarnings("ignore:patch at:UserWarning")
 
@@ -30,7 +31,7 @@ ONE = ["--load", "100kN", "--speed", "20"]
 @pytest.fixture(scope="module")
 def vehicle():
     """S1002 on UIC60 with cant 1:40."""
-    track, one = profiles.Track(profiles.uic60(), cant=0.025), profiles.Wheelset(profiles.s1002(), 0.46)
+    track, one = petsam.wheel.Track(petsam.wheel.uic60(), cant=0.025), petsam.wheel.Wheelset(petsam.wheel.s1002(), 0.46)
     return Vehicle(track, one, 0.3, COARSE)
 
 
@@ -114,7 +115,7 @@ def test_left_and_right_are_mirror_images(axle):
 def test_numbers_are_continuous_over_y(vehicle):
     """Steps of 0.05 mm: changes vary little from step to step while the contact moves on without a jump."""
     y = np.arange(2.0e-3, 3.0e-3 + 1e-9, 5e-5)
-    batch = profiles.solve_all(vehicle, [State(Position(y=float(one), speed=20.0), LOAD) for one in y])
+    batch = petsam.wheel.solve_all(vehicle, [State(Position(y=float(one), speed=20.0), LOAD) for one in y])
     assert not batch.failures
     for name, most in (("ws_roll", 0.05), ("ws_z", 0.05), ("radius_difference", 0.05), ("ws_lateral", 0.15)):
         values = batch.of(name)
@@ -211,7 +212,7 @@ def work(found):
 @pytest.mark.parametrize("curvature", [0.0, 1.0 / 500.0])
 def test_a_wheelset_without_a_pitch_rate_rolls_without_torque(vehicle, curvature):
     """Neither driven nor braked: no torque about the axle, and all work of friction is that of the pulling force."""
-    rng, rail = np.random.default_rng(8), profiles.Track(profiles.uic60(), cant=0.025, curvature=curvature)
+    rng, rail = np.random.default_rng(8), petsam.wheel.Track(petsam.wheel.uic60(), cant=0.025, curvature=curvature)
     with replace(vehicle, rail=rail).axle() as axle:
         for _ in range(6):
             (y, yaw), load, speed = rng.uniform(-6e-3, 6e-3, 2), rng.uniform(2e4, 2e5), rng.uniform(1.0, 60.0)
@@ -287,25 +288,26 @@ def scratched(profile, y, depth=2e-4, half=1.5e-4):
 
 
 @pytest.mark.parametrize("wheel", [
-    with_face(profiles.s1002(), 2e-3, 3.1), with_face(profiles.s1002(), 40e-3, 8.0),
-    with_face(profiles.s1002(), 5e-3, 1.5),
-    scratched(profiles.s1002(), 0.02), scratched(profiles.s1002(), -0.045), scratched(profiles.s1002(), -0.036, 1e-4),
+    with_face(petsam.wheel.s1002(), 2e-3, 3.1), with_face(petsam.wheel.s1002(), 40e-3, 8.0),
+    with_face(petsam.wheel.s1002(), 5e-3, 1.5),
+    scratched(petsam.wheel.s1002(), 0.02), scratched(petsam.wheel.s1002(), -0.045),
+    scratched(petsam.wheel.s1002(), -0.036, 1e-4),
 ], ids=["face", "deep face", "chamfer", "on the tread", "on the flange", "in the root"])  # fmt: skip
 def test_the_steepest_place_is_between_tip_and_tread(vehicle, wheel):
-    plain, found = (derailing.flange(profiles.Wheelset(one, 0.46)) for one in (profiles.s1002(), wheel))
+    plain, found = (derailing.flange(petsam.wheel.Wheelset(one, 0.46)) for one in (petsam.wheel.s1002(), wheel))
     assert found.angle == pytest.approx(plain.angle, abs=2e-3) and found.y == pytest.approx(plain.y, abs=1e-4)
 
 
 def test_a_face_alone_is_no_flange():
-    wheel = profiles.s1002()
+    wheel = petsam.wheel.s1002()
     keep = wheel.y > -0.02
     tread = replace(wheel, y=wheel.y[keep], z=wheel.z[keep], weights=None)
-    assert derailing.flange(profiles.Wheelset(with_face(tread, 20e-3, 5.0), 0.46)) is None
+    assert derailing.flange(petsam.wheel.Wheelset(with_face(tread, 20e-3, 5.0), 0.46)) is None
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_wheel_on_its_tip_is_derailed(axle, sign):
-    with pytest.warns(profiles.DerailWarning, match="derailed: its contact is beyond the flange's steepest place"):
+    with pytest.warns(petsam.wheel.DerailWarning, match="derailed: its contact is beyond the flange's steepest place"):
         found = axle.solve(Position(y=sign * 7.8e-3, speed=20.0), LOAD)
     climb = found.climbs[0 if sign > 0.0 else 1]
     assert found.derailed and climb.state == "derailed" and climb.side == ("right" if sign > 0.0 else "left")
@@ -330,9 +332,9 @@ def test_derailment_and_its_neighbours_are_printed(run):
 
 def test_unlike_profiles_mirrored_give_mirrored_forces(vehicle):
     """Left and right exchanged, and the position mirrored."""
-    y, z = profiles.s1002().y, profiles.s1002().z
-    worn = profiles.Wheelset(Profile(y, z - 2e-4 * np.exp(-((y / 0.01) ** 2)), "wheel"), 0.46)
-    rail = profiles.Track(profiles.uic60(), cant=0.05)
+    y, z = petsam.wheel.s1002().y, petsam.wheel.s1002().z
+    worn = petsam.wheel.Wheelset(Profile(y, z - 2e-4 * np.exp(-((y / 0.01) ** 2)), "wheel"), 0.46)
+    rail = petsam.wheel.Track(petsam.wheel.uic60(), cant=0.05)
     new = vehicle.rail, vehicle.wheel
     with replace(vehicle, left=(rail, worn)).axle() as axle:
         one = axle.solve(Position(y=2e-3, yaw=1e-3, speed=20.0), LOAD)
@@ -347,7 +349,7 @@ def test_unlike_profiles_mirrored_give_mirrored_forces(vehicle):
 
 def test_left_and_right_profiles_in_the_command(run, tmp_path):
     """LEFT,RIGHT with a mirrored position gives the forces of RIGHT,LEFT."""
-    y, z = profiles.s1002().y, profiles.s1002().z
+    y, z = petsam.wheel.s1002().y, petsam.wheel.s1002().z
     path = columns(tmp_path / "worn.txt", Profile(y, z - 2e-4 * np.exp(-((y / 0.01) ** 2)), "wheel"))
     lateral = []
     for names, place in ((f"s1002,{path}", "2mm"), (f"{path},s1002", "-2mm")):
@@ -394,7 +396,7 @@ def test_weights_of_states_are_shares(vehicle):
     one = State(Position(speed=20.0), LOAD)
     assert wearing.shares([one, replace(one, weight=3.0)]) == pytest.approx([0.25, 0.75])
     with pytest.raises(Error, match="position 2: weight -1: expected a share of the distance"):
-        profiles.wear(vehicle, [one, replace(one, weight=-1.0)], 1e6, Law("energy", 1e-14), 2)
+        petsam.wheel.wear(vehicle, [one, replace(one, weight=-1.0)], 1e6, Law("energy", 1e-14), 2)
 
 
 def worn(rail, slope, play, inner):
@@ -408,7 +410,7 @@ def worn(rail, slope, play, inner):
     t = np.arange(1e-4, 0.03, 1e-4)
     tail = z[-1] - 0.025 * t + ((z[-1] - z[-2]) / 1e-4 + 0.025) * 4e-3 * (1.0 - np.exp(-t / 4e-3))
     points = np.concatenate([y, y[-1] + t]) - play - 0.75, np.concatenate([z, tail])
-    return profiles.Wheelset(Profile(*points, "wheel"), 0.46)
+    return petsam.wheel.Wheelset(Profile(*points, "wheel"), 0.46)
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -492,7 +494,7 @@ def test_a_part_of_the_contact_that_a_draft_does_not_have_is_found(vehicle):
     """A wheel with waves touches at two crests; the draft has one of them, and the edge of its grid is free."""
     y = np.linspace(-0.06, 0.06, 1201)
     waves = Profile(y, 6e-5 * np.cos(2.0 * np.pi * y / 6e-3), "wheel")
-    with Pair(vehicle.rail, profiles.Wheelset(waves, 0.46), 0.3, settings=Settings()) as pair:
+    with Pair(vehicle.rail, petsam.wheel.Wheelset(waves, 0.46), 0.3, settings=Settings()) as pair:
         case = Case(pair, Position(speed=20.0))
         z = case.search.touch + 7e-5
         whole, draft = case.at(z), case.draft(z)
@@ -602,7 +604,7 @@ def test_random_wheelsets_are_in_equilibrium_or_named(vehicle):
             rng.uniform(-5.5e-3, 5.5e-3, 16), rng.uniform(-0.05, 0.05, 16), rng.uniform(5e4, 2e5, 16)
         )
     ]
-    found = profiles.solve_all(vehicle, states)
+    found = petsam.wheel.solve_all(vehicle, states)
     table = {column.name: column.values for column in found.table()}
     for number, state in enumerate(states, 1):
         rows = [k for k, one in enumerate(table["position"]) if one == number]
@@ -630,8 +632,8 @@ def test_random_worn_wheelsets_are_in_equilibrium_and_mirror_images():
     rng, counts = np.random.default_rng(6), set()
     for _ in range(12):
         height = rng.uniform(3e-5, 2e-4)
-        wheelset = profiles.Wheelset(wavy(profiles.s1002(), rng, height), 0.46)
-        track = profiles.Track(wavy(profiles.uic60(), rng, height), cant=0.025)
+        wheelset = petsam.wheel.Wheelset(wavy(petsam.wheel.s1002(), rng, height), 0.46)
+        track = petsam.wheel.Track(wavy(petsam.wheel.uic60(), rng, height), cant=0.025)
         y, yaw, load = rng.uniform(-5e-3, 5e-3), rng.uniform(-0.05, 0.05), Load(rng.uniform(5e4, 2e5))
         with Vehicle(track, wheelset, 0.3, COARSE).axle() as axle:
             here = Position(y=float(y), yaw=float(yaw), speed=20.0)
@@ -649,7 +651,7 @@ def test_random_worn_wheelsets_are_in_equilibrium_and_mirror_images():
 
 def test_a_batch_does_not_depend_on_its_processes(vehicle):
     states = [State(Position(y=1e-4 * k, speed=20.0), LOAD) for k in range(12)]
-    one, two = (profiles.solve_all(vehicle, states, cores) for cores in (1, 2))
+    one, two = (petsam.wheel.solve_all(vehicle, states, cores) for cores in (1, 2))
     assert [column.values for column in one.table()] == [column.values for column in two.table()]
 
 
@@ -676,7 +678,7 @@ def test_conicity_is_that_of_the_integrated_motion():
 
 
 def test_rigid_wheels_touch_at_both_sides(axle):
-    shape = profiles.geometry(axle, [-4e-3, 0.0, 4e-3])
+    shape = petsam.wheel.geometry(axle, [-4e-3, 0.0, 4e-3])
     assert shape.radius_difference == pytest.approx(
         [-shape.radius_difference[2], 0.0, shape.radius_difference[2]], abs=1e-8
     )
@@ -712,7 +714,7 @@ def test_worn_places_are_those_in_contact(axle):
 def test_wear_takes_off_what_the_rates_say_and_has_an_error(vehicle):
     states = [State(Position(y=y, yaw=1e-3, speed=20.0), LOAD, weight) for y, weight in ((-2e-3, 1.0), (3e-3, 2.0))]
     law = Law("energy", 1e-14)
-    few = profiles.wear(vehicle, states, 5e6, law, 2)
+    few = petsam.wheel.wear(vehicle, states, 5e6, law, 2)
     profile, rates, failures = wearing.rates(vehicle, states, law)
     assert not failures and not few.failures
     area = float(np.sum(rates * np.gradient(profile.lengths))) * 5e6
@@ -723,7 +725,7 @@ def test_wear_takes_off_what_the_rates_say_and_has_an_error(vehicle):
     assert removed == pytest.approx(few.depth, abs=1e-12)
     assert (few.worn.z <= few.new.z + 1e-15).all()
     with pytest.raises(Error, match="takes off .* use at least"):
-        profiles.wear(vehicle, states, 5e9, law, 2)
+        petsam.wheel.wear(vehicle, states, 5e9, law, 2)
 
 
 def test_archard_with_full_sliding_is_energy_over_friction(axle):
@@ -846,7 +848,7 @@ MISTAKES = {
 @pytest.mark.parametrize("name", MISTAKES)
 def test_mistakes_of_profiles_are_errors_with_their_cure(run, tmp_path, name):
     kind, given, more, message = MISTAKES[name]
-    profile = profiles.s1002() if kind == "wheel" else profiles.uic60()
+    profile = petsam.wheel.s1002() if kind == "wheel" else petsam.wheel.uic60()
     order = given.get("order")
     if order == "folded":
         k = len(profile.y) // 2
@@ -864,7 +866,7 @@ def test_mistakes_of_profiles_are_errors_with_their_cure(run, tmp_path, name):
 
 
 def canted(path, cant=0.025, **given):
-    return columns(path, profiles.uic60().turned(-cant), **given)
+    return columns(path, petsam.wheel.uic60().turned(-cant), **given)
 
 
 @pytest.mark.parametrize(("given", "words", "message"), [
@@ -884,11 +886,11 @@ def test_a_rail_that_leans_the_wrong_way_is_named(run, tmp_path, given, words, m
 
 
 def test_noise_does_not_make_a_rail_lean():
-    rail = profiles.uic60()
+    rail = petsam.wheel.uic60()
     noisy = replace(rail, z=rail.z + 1e-5 * np.random.default_rng(5).normal(size=len(rail.z)))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        profiles.Track(noisy, cant=0.025)
+        petsam.wheel.Track(noisy, cant=0.025)
 
 
 @pytest.mark.parametrize(("shift", "words", "message"), [
@@ -897,7 +899,7 @@ def test_noise_does_not_make_a_rail_lean():
     (0.0, ["--flange-position", "0mm"], "give --flange-position -70mm, as of S1002"),
 ])  # fmt: skip
 def test_y_from_another_back_is_an_error_with_its_cure(run, tmp_path, shift, words, message):
-    wheel = profiles.s1002()
+    wheel = petsam.wheel.s1002()
     path = columns(tmp_path / "wheel.txt", replace(wheel, y=wheel.y + 1e-3 * shift))
     text = run("--wheel", path, *BASE[2:], "--unit", "mm", "--z", "down", *words, *ONE, "--y", "0", check=2)
     assert re.search(message, text)
@@ -905,7 +907,7 @@ def test_y_from_another_back_is_an_error_with_its_cure(run, tmp_path, shift, wor
 
 @pytest.mark.parametrize("shift", [5.0, -4.0, 0.0])
 def test_a_back_a_little_beside_the_stated_one_is_named(run, tmp_path, shift):
-    wheel = profiles.s1002()
+    wheel = petsam.wheel.s1002()
     path = columns(tmp_path / "wheel.txt", replace(wheel, y=wheel.y + 1e-3 * shift))
     given = ["--wheel", path, *BASE[2:], "--unit", "mm", "--z", "down", *ONE, "--y", "0"]
     cure = f"{shift - 70:.4g}mm"
@@ -920,20 +922,20 @@ def test_a_back_a_little_beside_the_stated_one_is_named(run, tmp_path, shift):
     ("wheel", ["--z", "down", "--mirror", "wheel"], "is mirrored; omit --mirror wheel"),
 ])  # fmt: skip
 def test_a_cure_that_was_given_is_not_named(run, tmp_path, kind, words, message):
-    path = columns(tmp_path / "profile.txt", profiles.s1002() if kind == "wheel" else profiles.uic60())
+    path = columns(tmp_path / "profile.txt", petsam.wheel.s1002() if kind == "wheel" else petsam.wheel.uic60())
     given = list(BASE)
     given[given.index(f"--{kind}") + 1] = path
     assert message in run(*given, "--unit", "mm", *words, *ONE, "--y", "0", check=3)
 
 
 def test_a_rail_without_a_gauge_face_in_the_command(run, tmp_path):
-    rail = profiles.uic60()
+    rail = petsam.wheel.uic60()
     keep = rail.z < 9e-3
     path = columns(tmp_path / "rail.txt", replace(rail, y=rail.y[keep], z=rail.z[keep], weights=None))
     given = ["--wheel", "s1002", "--rail", path, *BASE[4:], *ONE, "--y", "0", "--unit", "mm", "--z", "down"]
     told = "give a --gauge-height within it, or --gauge-position, y of the gauge face in the profile"
     assert told in run(*given)
-    shift = 1e3 * (profiles.Track(rail, cant=0.025).section.first - visible(rail.turned(-0.025)).first)
+    shift = 1e3 * (petsam.wheel.Track(rail, cant=0.025).section.first - visible(rail.turned(-0.025)).first)
     for place in (
         f"{717.5 - shift:.6f}mm",
         f"{717.5 - shift:.6f}mm,{1e3 * visible(rail.turned(-0.025)).z.min():.6f}mm",
@@ -948,8 +950,8 @@ def test_a_rail_without_a_gauge_face_in_the_command(run, tmp_path):
 
 
 def test_unit_and_direction_of_each_file(run, tmp_path):
-    wheel = columns(tmp_path / "wheel.txt", profiles.s1002(), scale=1e3 / 25.4)
-    rail = columns(tmp_path / "rail.txt", profiles.uic60(), turn=-1.0)
+    wheel = columns(tmp_path / "wheel.txt", petsam.wheel.s1002(), scale=1e3 / 25.4)
+    rail = columns(tmp_path / "rail.txt", petsam.wheel.uic60(), turn=-1.0)
     given = ["--wheel", wheel, "--rail", rail, *BASE[4:], *ONE, "--y", "2mm"]
     mixed, plain = run(*given, "--unit", "in,mm", "--z", "down,up"), run(*BASE, *ONE, "--y", "2mm")
     lateral = [float(re.search(r"lateral force (\S+) N", text)[1]) for text in (mixed, plain)]
@@ -962,13 +964,13 @@ def test_two_radii_of_cones_roll_evenly_beside_the_middle():
     over 2 e; a cone of a larger radius is one that is moved along its axle."""
     y = np.linspace(-0.07, 0.06, 400)
     arc = np.linspace(-0.2, 0.2, 400)
-    rail = profiles.Track(Profile(0.15 * np.sin(arc), 0.15 * (1.0 - np.cos(arc)), "rail"), gauge=1.435)
-    cone = profiles.Wheelset(Profile(y, -0.05 * y, "wheel"), 0.46)
-    moved = profiles.Wheelset(Profile(y + 0.04, -0.05 * y, "wheel"), 0.46)
+    rail = petsam.wheel.Track(Profile(0.15 * np.sin(arc), 0.15 * (1.0 - np.cos(arc)), "rail"), gauge=1.435)
+    cone = petsam.wheel.Wheelset(Profile(y, -0.05 * y, "wheel"), 0.46)
+    moved = petsam.wheel.Wheelset(Profile(y + 0.04, -0.05 * y, "wheel"), 0.46)
     found = []
     for left in (replace(cone, radius=0.462), moved):
-        with profiles.Axle(rail, cone, 0.3, COARSE, left=(rail, left)) as axle:
-            found.append(profiles.geometry(axle, [0.0, 0.01, 0.02]))
+        with petsam.wheel.Axle(rail, cone, 0.3, COARSE, left=(rail, left)) as axle:
+            found.append(petsam.wheel.geometry(axle, [0.0, 0.01, 0.02]))
     one, other = found
     assert one.radius_difference[-1] == pytest.approx(0.0, abs=1e-8) and one.roll[-1] == pytest.approx(0.0, abs=1e-8)
     assert one.radius_difference[0] < -1.9e-3
@@ -990,7 +992,7 @@ def test_radii_of_both_sides_in_the_command(run, tmp_path):
 
 @pytest.mark.parametrize("kind", ["wheel", "rail"])
 def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
-    profile = profiles.s1002() if kind == "wheel" else profiles.uic60()
+    profile = petsam.wheel.s1002() if kind == "wheel" else petsam.wheel.uic60()
     path = columns(tmp_path / "profile.txt", profile, mirror=-1.0, turn=-1.0)
     words = list(BASE)
     words[words.index(f"--{kind}") + 1] = path
@@ -1050,7 +1052,7 @@ def test_pictures_show_what_was_found(vehicle, axle):
     found = axle.solve(Position(y=3e-3, yaw=2e-3, speed=20.0), LOAD)
     figure = plot.wheels(vehicle, found)
     assert len([axes for axes in figure.axes if "wheel" in axes.get_title()]) == 2
-    shape = profiles.geometry(axle, np.linspace(-5e-3, 5e-3, 21))
+    shape = petsam.wheel.geometry(axle, np.linspace(-5e-3, 5e-3, 21))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         panels = plot.over_y(shape, None, [2e-3, 4e-3]).axes
@@ -1068,7 +1070,7 @@ def test_pictures_show_what_was_found(vehicle, axle):
     ("two", "lies 60 um beside"),
 ])  # fmt: skip
 def test_doubtful_points_are_named(tmp_path, capsys, fault, text):
-    rail = profiles.uic60()
+    rail = petsam.wheel.uic60()
     y, z = rail.y.copy(), rail.z.copy()
     if fault == "hole":
         keep = np.r_[0:300, 500 : len(y)]
@@ -1107,7 +1109,7 @@ def test_doubtful_points_are_named(tmp_path, capsys, fault, text):
 
 def test_sound_points_raise_no_doubt():
     """Nor do they with few points, and rounded to 0.01 mm there is noise, but no false point."""
-    for one in (profiles.s1002(), profiles.uic60()):
+    for one in (petsam.wheel.s1002(), petsam.wheel.uic60()):
         assert not any(Profile(one.y[::k], one.z[::k], one.kind).doubts() for k in (1, 5, 10, 20))
         rough = Profile(one.y, np.round(one.z, 5), one.kind)
         noisy = Profile(one.y, one.z + 5e-6 * np.random.default_rng(1).normal(size=len(one.z)), one.kind)
@@ -1144,6 +1146,6 @@ def test_positions_are_given_once(tmp_path, head, words, text):
     (tmp_path / "positions.csv").write_text(head + "\n" + ",".join("1" * len(head.split(","))) + "\n")
     given = dict(zip(words[::2], words[1::2], strict=True))
     with pytest.raises(Error, match=text):
-        profiles.read_positions(
+        petsam.wheel.read_positions(
             tmp_path / "positions.csv", 90e3 if "--load" in given else None, 20.0 if "--speed" in given else None
         )

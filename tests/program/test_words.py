@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from petsam.commands import joint, line
-from petsam.core import tables, units, words
+from petsam.apps.joint import command as joint
+from petsam.core import line, tables, units, words
 
 
 @pytest.mark.parametrize(

@@ -12,9 +12,9 @@ from common import TOOL, all_covered
 
 import petsam
 from petsam import joint
-from petsam.compliance.mesh import grid_mesh
-from petsam.compliance.stiffness import numbers
-from petsam.joint.structure import DISPLACEMENTS
+from petsam.apps.compliance.mesh import grid_mesh
+from petsam.apps.compliance.stiffness import numbers
+from petsam.apps.joint.structure import DISPLACEMENTS
 
 N, YOUNG, POISSON, FRICTION = 10e3, 210e9, 0.3, 0.2
 SMALL, LARGE = 1e-7, 5.5e-6

@@ -9,6 +9,5 @@ words=(CC="$PREFIX/bin/mpicc" OPT=-O3 CFLAGS="$CFLAGS -I$PREFIX/include" LDFLAGS
 make -j"${CPU_COUNT:-2}" "${words[@]}" install prefix="$PREFIX"
 
 # the commands of the Python package replace the links to share/petsam/scripts
-rm -f "$PREFIX"/bin/petsam-compliance "$PREFIX"/bin/petsam-fatigue "$PREFIX"/bin/petsam-fit "$PREFIX"/bin/petsam-joint "$PREFIX"/bin/petsam-loads "$PREFIX"/bin/petsam-plot "$PREFIX"/bin/petsam-study \
-    "$PREFIX"/bin/petsam-surface "$PREFIX"/bin/petsam-wheel
+for script in scripts/petsam-*; do rm -f "$PREFIX/bin/${script##*/}"; done
 "$PYTHON" -m pip install --no-deps --no-build-isolation ./scripts

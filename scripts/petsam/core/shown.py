@@ -1,12 +1,14 @@
-"""Methods of results whose functions are those of a package above: report() draws by petsam.plot.
+"""Functions of packages above: report() of results draws by petsam.plot, which draws what applications have found.
 
 A package may import those below it only. So the package's __init__.py, which names all, provides such functions here
-by provide(), and a method takes them by provided() when it is called.
+by provide(), and who needs one takes it by provided() when it is called.
 """
 
 import os
 from collections.abc import Callable
-from typing import Any, Union
+from typing import Any, Optional, Union
+
+from .part import Part
 
 _loaders: dict[str, Callable[[], Callable]] = {}
 
@@ -19,6 +21,16 @@ def provide(name: str, load: Callable[[], Callable]) -> None:
 def provided(name: str) -> Callable[..., Any]:
     """Returns the function of this name."""
     return _loaders[name]()
+
+
+def applications() -> list[Part]:
+    """Returns the records of all applications."""
+    return provided("applications")()
+
+
+def application_of(found: Any) -> Optional[Part]:
+    """Returns the record of the application whose class a result has; None of another."""
+    return next((one for one in applications() if type(found).__module__.startswith(one.package + ".")), None)
 
 
 class Shown:

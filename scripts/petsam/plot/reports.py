@@ -7,11 +7,12 @@ from typing import Any, Optional, Union
 
 from ..core.errors import Error
 from ..core.files import need_replaceable, same
+from ..core.shown import application_of
 from ..core.version import __version__
 from ..results.file import Results
 from ..results.stresses import Stresses
 from ..results.studies import Study
-from . import frames, joints, kinds, page, sheets
+from . import frames, kinds, page, sheets
 from .style import need_kind
 
 CITED = "petsam: partial-slip contact of elastic bodies by the semi-analytical method"
@@ -38,23 +39,24 @@ def report(results: Any, path: Union[str, os.PathLike], inputs: Optional[Mapping
 
     Parameters
     ----------
-    results : Results, Stresses, Study, or a result of petsam.joint
-        What petsam.open() returns; or a joint.Backbone, Band, Response, Wear or Interface.
+    results : Results, Stresses, Study, or what an application has found
+        What petsam.open() returns; or a result of an application that has reports, as a joint.Backbone.
     path : str
         Name of the page, which ends in .html; an older one is replaced.
     inputs : mapping, optional
-        {name: value} of inputs that a result of petsam.joint does not have itself.
+        {name: value} of inputs that a result of an application does not have itself.
 
     Raises
     ------
     Error
         If the page cannot be written, or no step has a solution.
     """
-    if isinstance(results, joints.RESULTS):
-        _of_joint(results, path, inputs or {})
+    application = application_of(results)
+    if application and application.report and isinstance(results, application.module(application.report).RESULTS):
+        _of_application(application, results, path, inputs or {})
         return
     if inputs:
-        raise Error("report: inputs are for results of petsam.joint; files have their own: remove them")
+        raise Error("report: inputs are for results of an application; files have their own: remove them")
     need(results, path)
     names = kinds.usual([results])
     write(results, path, {name: kinds.function(name, [results])(results) for name in names})
@@ -112,15 +114,16 @@ def write(results, path, figures, dpi=page.DPI):
     save(path, results.label, _parts(results, pictures))
 
 
-def _of_joint(found, path, inputs):
-    """Writes the page of a result of petsam.joint."""
+def _of_application(application, found, path, inputs):
+    """Writes the page of what an application has found."""
     path = page.name(os.fspath(path))
     need_replaceable(path)
     written = datetime.datetime.now().astimezone()
-    rows = [("Program", f"petsam-joint {__version__}"), ("Date", _date(written))]
-    title = joints.title(found)
+    rows = [("Program", f"{application.command} {__version__}"), ("Date", _date(written))]
+    module = application.module(application.report)
+    title = module.title(found)
     head = page.element("header", page.element("h1", title), page.terms(rows))
-    numbers, *others = joints.parts(found, inputs)
+    numbers, *others = module.parts(found, inputs)
     first = page.element("div", head, numbers, class_="many")  # on paper on one page
     save(path, title, [first, *others, _cited(__version__)])
 

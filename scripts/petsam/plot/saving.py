@@ -5,9 +5,8 @@ matplotlib is loaded when a picture is written, not before: a command reads its 
 
 from ..core.errors import Error
 from ..core.files import need_replaceable
+from ..core.line import DPI
 
-DPI = 150  # pixels per inch of a PNG: for the screen
-RANGE = (10, 1200)
 PIXELS = 300e6  # of a PNG at most: matplotlib holds them all
 
 

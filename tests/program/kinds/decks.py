@@ -21,8 +21,7 @@ import numpy as np
 import conftest  # noqa: F401
 import petsam
 from kinds import Outcome
-from petsam.commands import compliance as command
-from petsam.compliance import keywords, mesh, model, stiffness
+from petsam.apps.compliance import command, keywords, mesh, model, stiffness
 
 SECONDS, MEMORY = 60, 4 << 30
 OPTIONS = dict(trials=200)

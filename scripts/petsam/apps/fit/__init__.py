@@ -1,0 +1,39 @@
+"""Friction, rig stiffness, coefficients of wear and other parameters from measured loops; what loops a test needs.
+
+    shape = petsam.fit.of_shape("sphere.opts", normal=100)
+    loops = petsam.fit.cycles(petsam.fit.read("loops.csv"), normal=100)
+    found = petsam.fit.analyse([loops], [shape])
+    print(found.friction, found.friction_sd, found.rig_stiffness)
+    petsam.plot.fit(found).savefig("fit.png")
+
+reading     read(): a laboratory's file
+push        of_shape(), ball(): the displacement of one push, which serves all coefficients of friction
+loops       fit(): the model of a loop, its parameters, and what the loops do not hold
+series      cycles(), analyse(): cycles of a record, without drift, one by one and together
+planning    plan(): how well which strokes would give the friction
+runs        fit_contact(): parameters of any contact from numbers of its history, by full runs
+scars       fit_profile(), family(), fit_scar(), split(): the coefficients of wear from the profile of a scar
+results     what the command prints and writes; wear() from a volume
+"""
+
+from ...core.part import Part
+
+PART = Part(
+    __name__,
+    "friction, rig stiffness and wear from measured loops",
+    names={
+        "reading": ("Record", "read"),
+        "push": ("Push", "ball", "of_shape"),
+        "loops": ("Fit", "Loop", "fit"),
+        "series": ("Cycles", "Result", "analyse", "cycles"),
+        "planning": ("Plan", "plan"),
+        "runs": ("ContactFit", "fit_contact"),
+        "scars": ("Family", "Scar", "Split", "family", "fit_profile", "fit_scar", "split"),
+        "results": ("Wear", "wear"),
+    },
+    command="petsam-fit",
+    libraries=("numpy", "h5py", "matplotlib", "scipy"),
+    see=("petsam", "petsam-plot"),
+    pictures={"pictures": ("fit", "scar_fit")},
+)
+__all__, __getattr__, __dir__ = PART.face()

@@ -1,0 +1,252 @@
+"""A laboratory's file of loops: a table of displacement and force over time, or of the peaks of each cycle.
+
+Lines before the head are skipped. The head names columns with their units: `Displacement (um);Friction force (N)`,
+x [mm], F / N, d_um, or the line below it has the units; a comment just above the numbers may be one, too. Fields are
+separated by tabs, semicolons, commas or blanks; where they are not by commas, decimals may have them. All rows have as
+many fields as the head: one that has lost a field would have another's numbers.
+"""
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Optional
+
+import numpy as np
+
+from ...core import units
+from ...core.errors import Error, counted, short
+from ...core.files import lines_of, text_of
+from . import heads
+
+MISSING = ("", "nan", "n/a", "-", "--", "null", "none", "1.#qnan", "#n/a", "lost")
+NUMBER = re.compile(rf"{units.NUMBER}")
+COMMENTS = ("#", "%", "//")
+THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
+CUT = re.compile(r"[+-]?0\d+")  # no number begins so, but decimals do
+PEAK = re.compile(r"amplitude|\*|max|peak", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Record:
+    """What a file holds, in SI units; lost points are NaN.
+
+    Parameters
+    ----------
+    path : str
+    displacement, force : ndarray
+        (n,), m and N; of peaks the amplitudes of each cycle.
+    time : ndarray, optional
+        (n,), s.
+    cycle : ndarray, optional
+        (n,), the number of the cycle of each row.
+    energy : ndarray, optional
+        (n,), J, of peaks.
+    peaks : bool
+        The rows are cycles.
+    notes : list of str
+        What was done to the data.
+    """
+
+    path: str
+    displacement: np.ndarray
+    force: np.ndarray
+    time: Optional[np.ndarray] = None
+    cycle: Optional[np.ndarray] = None
+    energy: Optional[np.ndarray] = None
+    peaks: bool = False
+    notes: list = field(default_factory=list)
+
+
+def _cells(line, separator):
+    return [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
+
+
+def _separator(lines):
+    """What separates the fields: the first of tab, semicolon and comma that most lines have; else blanks."""
+    for one in "\t;,":
+        if sum(one in line for line in lines) > 0.6 * len(lines):
+            return one
+    return None
+
+
+def _split(lines, separator):
+    """The cells of lines."""
+    return [line.split() if separator is None else _cells(line, separator) for line in lines]
+
+
+def _number(text):
+    """The number of a cell, NaN of one that is missing; None of another text. A comma within a cell is no separator."""
+    text = text.strip().strip('"')
+    if text.lower() in MISSING:
+        return np.nan
+    text = text.replace(",", ".")
+    return float(text) if NUMBER.fullmatch(text) else None
+
+
+def _texts(row):
+    """Whether a row has texts, and no number."""
+    values = [_number(cell) for cell in row]
+    return None in values and all(value is None or np.isnan(value) for value in values)
+
+
+def _numbers(row):
+    """Whether a row has two numbers or more."""
+    return sum(bool(cell) and _number(cell) is not None for cell in row) >= 2
+
+
+def _ends(row, width):
+    """Whether a row has this many cells, or empty ones behind them."""
+    return len(row) >= width and not any(row[width:])
+
+
+def _head_cells(line, row, separator, width):
+    """The cells of a head: those of its row, or where blanks separate the names, whose words they separate, too, what
+    two blanks or a bracket end."""
+    if separator is not None or len(row) == width:
+        return row
+    for cells in (re.split(r"\s{2,}", line.strip()), re.findall(r"[^\[({]*[\[({][^\])}]*[\])}]", line)):
+        if len(cells) == width:
+            return [cell.strip() for cell in cells]
+    return row
+
+
+def _columns(path, lines, rows, separator):
+    """The columns, and the place of the first row of numbers."""
+    first = next((k for k, row in enumerate(rows) if _numbers(row) and not lines[k][2]), None)
+    if first is None:
+        raise Error(f"{path}: expected a head with names and units, and rows of numbers")
+    for k in range(first, len(rows)):  # numbers of an instrument's header have texts of another width above them
+        width = len(rows[k])
+        above = [_head_cells(lines[j][1], rows[j], separator, width) for j in range(max(0, k - 2), k)]
+        if not _numbers(rows[k]) or not above or not _ends(rows[k], len(above[-1])) or not _texts(above[-1]):
+            continue
+        names, below = above[-1], None
+        if all(map(heads.is_unit, names)) and any(heads.quantity(heads.bare(one))[0] in ("m", "N") for one in names):
+            named = len(above) == 2 and len(above[0]) == len(names) and _texts(above[0])
+            names, below = above[0] if named else [""] * len(names), names
+        return heads.columns(path, names, below), k
+    number, width = lines[first][0], len(rows[first])
+    if first and _texts(rows[first - 1]):
+        raise Error(
+            f"{path}, line {number}: has {counted(width, 'field')}, the line above it has {len(rows[first - 1])} "
+            f"({short(lines[first - 1][1].strip())}): name each column once, Displacement (um);Force (N), and separate "
+            "names and numbers alike"
+        )
+    raise Error(f"{path}: no line of names above the rows of numbers: name the columns, Displacement (um);Force (N)")
+
+
+def read(path, displacement: Optional[str] = None, force: Optional[str] = None) -> Record:
+    """Reads a laboratory's file.
+
+    Parameters
+    ----------
+    path : path
+    displacement, force : str, optional
+        Names of the columns, where several may be meant.
+
+    Returns
+    -------
+    Record
+
+    Raises
+    ------
+    Error
+        If the file is no such table, a column lacks its unit, or the force is one per length.
+    """
+    lines = _lines(path)
+    separator = _separator([line for _, line, comment in lines if not comment])
+    rows = _split([line for _, line, _ in lines], separator)
+    columns, start = _columns(path, lines, rows, separator)
+    body = [(number, row) for (number, _, comment), row in zip(lines[start:], rows[start:]) if not comment]
+    values, notes = _values(path, columns, body)
+    return _record(str(path), columns, values, displacement, force, notes)
+
+
+def _lines(path):
+    """Number, text and whether it is a comment, of the lines that are not empty; comments without their sign."""
+    found = []
+    for number, line in enumerate(lines_of(text_of(path)), 1):
+        mark = next((one for one in COMMENTS if line.lstrip().startswith(one)), "")
+        if line.strip(" \t#%/"):
+            found.append((number, line.lstrip().lstrip("#%/").strip() if mark else line, bool(mark)))
+    if sum(not comment for _, _, comment in found) < 2:
+        raise Error(f"{path}: expected a head with names and units, and rows of numbers")
+    return found
+
+
+def _values(path, columns, body):
+    """The numbers of the rows, NaN where there is none, and notes."""
+    width, used = len(columns), []
+    values = np.full((len(body), width), np.nan)
+    for i, (number, row) in enumerate(body):
+        if not _ends(row, width):
+            raise Error(
+                f"{path}, line {number}: has {counted(len(row), 'field')}, the head has {width}: mark a lost point by "
+                "an empty field or nan"
+            )
+        for k, cell in enumerate(row[:width]):
+            value = _number(cell)
+            if value is not None:
+                values[i, k] = value
+            if columns[k].si in ("m", "N"):  # others may be texts or dates
+                used.append((number, k, cell.strip('" ')))
+                if value is None:
+                    raise Error(f"{path}, line {number}: column {short(columns[k].name)}: {short(cell)} is no number")
+    return values, _check_signs(path, used)
+
+
+def _check_signs(path, used):
+    """Raises Error for numbers (line, column, cell) whose commas may be those between thousands, or separators; returns
+    notes of what is taken for granted."""
+    commas, points = ([one for one in used if sign in one[2]] for sign in ",.")
+    if commas and points:
+        raise Error(
+            f"{path}, line {commas[0][0]}: {short(commas[0][2])} has a comma, and {short(points[0][2])} in line "
+            f"{points[0][0]} a point: write all decimals alike, without signs between thousands"
+        )
+    notes = []
+    for k in sorted({k for _, k, _ in commas}):
+        own = [one for one in used if one[1] == k and one[2].lower() not in MISSING]
+        comma = [one for one in own if "," in one[2]]
+        plain = next((one for one in own if "," not in one[2] and _number(one[2])), None)
+        if not all(THOUSANDS.fullmatch(cell) for _, _, cell in comma):
+            continue
+        notes.append(f"the comma of {short(comma[0][2])} is taken for a decimal one")
+        if plain:
+            raise Error(
+                f"{path}, line {comma[0][0]}: the comma of {short(comma[0][2])} may be one between thousands, as "
+                f"{short(plain[2])} in line {plain[0]} has none: write the numbers without it"
+            )
+    cut = next((one for one in used if CUT.fullmatch(one[2])), None)
+    if cut:
+        raise Error(
+            f"{path}, line {cut[0]}: {short(cut[2])} is what stands behind a decimal comma: separate the fields by "
+            "semicolons"
+        )
+    return notes
+
+
+def _record(path, columns, values, displacement, force, notes):
+    found = {}
+    for what, given in (("displacement", displacement), ("force", force)):
+        one = heads.given(path, what, given, columns) if given else heads.choose(path, what, columns)
+        found[what] = (one.name, values[:, one.place] * one.size)
+        notes.append(f"{what}: {one.name} [{one.unit}]")
+    other = {one.si: values[:, one.place] * one.size for one in columns if one.fits("s") or one.fits("J")}
+    cycle = next((values[:, one.place] for one in columns if one.si == "" and "cycle" in one.name.lower()), None)
+    lost = int(np.sum(~np.isfinite(found["displacement"][1] + found["force"][1])))
+    if lost:
+        notes.append(f"{lost} rows have lost points")
+    peaks = all(PEAK.search(name) for name, _ in found.values())
+    known = np.isfinite(found["displacement"][1] + found["force"][1])
+    if known.sum() < (1 if peaks else 20):
+        raise Error(f"{path}: {int(known.sum())} rows of numbers are too few: a loop needs 20 points or more")
+    return Record(
+        path, found["displacement"][1], found["force"][1], other.get("s"), cycle, other.get("J"), peaks, notes
+    )  # fmt: skip
+
+
+def same_units(records: Sequence[Record]) -> bool:
+    """Whether all records are of peaks, or none is."""
+    return len({one.peaks for one in records}) < 2

@@ -1,0 +1,42 @@
+"""Joints: what a structural analysis needs of a contact, and the structure itself.
+
+interface   contact stiffness, damping and real contact area of a rough interface per area (interfaces.py)
+conductance of heat or current, beside that stiffness (conductance.py); its cards: decks.py
+structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
+backbone    frequency and damping of a mode over its amplitude (backbone.py)
+band        the same over the histories of assembly, and their scatter (band.py)
+wear        what wear does to them over the cycles of a vibration (wear.py)
+balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
+saved       tables of all these from CSV (saved.py)
+damper      under the platforms of turbine blades, pressed by its centrifugal force (damper.py)
+adapters    contacts in other programs of harmonic balance: tmdsimpy, pyHarm (adapters/)
+"""
+
+from ...core.part import Part
+
+PART = Part(
+    __name__,
+    "joints: stiffness and damping of interfaces, vibrating structures with contacts",
+    names={
+        "interfaces": ("Interface", "interface", "mirrored", "of_interface", "of_windows"),
+        "conductance": ("Conductors",),
+        "structure": ("NoSolution", "Patch", "Structure"),
+        "pair": ("Pair",),
+        "backbones": ("Backbone", "backbone", "shake"),
+        "sweep": ("BackboneWarning",),
+        "bands": ("Band", "band"),
+        "wearing": ("Wear", "wear"),
+        "balance": ("Response", "forced"),
+        "saved": ("Saved", "read"),
+        "damper": ("Damper", "damper"),
+    },
+    command="petsam-joint",
+    libraries=("numpy", "h5py", "matplotlib"),
+    see=("petsam-surface", "petsam"),
+    pictures={
+        "pictures": ("backbone", "band", "conductance", "interface", "joint_wear", "response", "saved", "slip_zones")
+    },
+    report="report",
+    tables=("pressure", "alpha", "assembly", "frequency", "cycles"),
+)
+__all__, __getattr__, __dir__ = PART.face()

@@ -1,0 +1,102 @@
+"""A picture of a load history: loads over time, the path of T, N, and the path of the contact's centre."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ...plot.style import COLORS, STYLE, curve, drawn, need_kind, note, plt
+from ...plot.symbols import scalar
+from ...plot.units import label, largest, plain, scale
+from ...results.file import Results
+from .resultants import History
+
+NODES = 4000  # that are drawn
+
+
+def _over_time(panel, found, names, unit):
+    """Loads over time, by their columns."""
+    for name, tint in zip(names, COLORS):
+        values = next(column.values for column in found.table() if column.name == name)
+        panel.plot(found.times, unit[0] * np.array(values), color=tint, label=scalar(name), **curve(found.times.size))
+    what = scalar(names[0]) if len(names) == 1 else "tangential force"
+    panel.set(xlabel=label("time", "s"), ylabel=label(what, unit[1]))
+    if len(names) > 1:
+        panel.legend()
+
+
+def _path(panel, x, y, unit, tint):
+    """A path in a plane, whose first point is marked."""
+    panel.plot(unit[0] * x, unit[0] * y, color=tint, **curve(x.size))
+    first = np.flatnonzero(np.isfinite(x))[:1]
+    panel.plot(
+        unit[0] * x[first], unit[0] * y[first], "o", color=tint, markersize=7, fillstyle="none", label="first row"
+    )
+
+
+def _center(panel, found):
+    """The path of the contact's centre over the nodes."""
+    unit = scale("m", largest([found.x[:, :2]]) or largest([found.center]))
+    few = found.x[:: max(1, len(found.x) // NODES)]
+    panel.plot(unit[0] * few[:, 0], unit[0] * few[:, 1], ".", color="0.75", markersize=2.5, label="nodes")
+    _path(panel, *found.center.T, unit, COLORS[3])
+    panel.set(xlabel=label("$x$", unit[1]), ylabel=label("$y$", unit[1]), title="centre of the contact")
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.legend()
+
+
+@drawn(STYLE, History)
+def loads(found: History) -> Figure:
+    """N, T_x and T_y over time, the path of T, and that of the contact's centre.
+
+    Parameters
+    ----------
+    found : loads.History
+        The history, of petsam.loads.history().
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    tangential = found.loads[:, 1:3]
+    shear, normal = scale("N", largest([tangential])), scale("N", largest([found.loads[:, 0]]))
+    figure, ((top, side), (low, last)) = plt.subplots(2, 2, figsize=(9.6, 7.4), layout="constrained")
+    _over_time(top, found, ["load_tx", "load_ty"], shear)
+    _over_time(low, found, ["load_n"], normal)
+    _path(side, *tangential.T, shear, COLORS[2])
+    side.set(xlabel=label(scalar("load_tx"), shear[1]), ylabel=label(scalar("load_ty"), shear[1]))
+    side.set_aspect("equal", adjustable="datalim")
+    side.legend()
+    _center(last, found)
+    note(figure, f"{plain(found.name)}: {found.x.shape[0]} nodes, forces on body {found.on[-1]} of the analysis")
+    return figure
+
+
+@drawn(STYLE)
+def loads_beside(found: History, results: Results) -> Figure:
+    """Pressure and shear of the analysis beside those of petsam, along y = 0 at the last saved step.
+
+    Parameters
+    ----------
+    found : loads.History
+        The history, of forces in a file with CPRESS.
+    results : Results
+        Of a run with this history.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    need_kind("loads_beside", [found], "History", lambda one: isinstance(one, History))
+    need_kind("loads_beside", [results], "Results", lambda one: isinstance(one, Results))
+    nodes, row = found.line(float(results.times[-1])), int(np.argmin(np.abs(results.y)))
+    shear = np.hypot(*(results.field(f"shear_{axis}", -1)[row] for axis in "xy"))
+    ours = {"pressure": results.field("pressure", -1)[row], "shear": shear}
+    length = scale("m", largest([nodes["x"]]))
+    figure, panels = plt.subplots(1, 2, figsize=(9.6, 4.0), layout="constrained")
+    for panel, name, symbol in zip(panels, ours, ("$p$", "$|q|$")):
+        unit = scale("Pa", largest([ours[name], nodes[name]]))
+        panel.plot(length[0] * results.x, unit[0] * ours[name], color=COLORS[0], label="petsam")
+        panel.plot(length[0] * nodes["x"], unit[0] * nodes[name], "o", color=COLORS[1], markersize=4, label="analysis")
+        panel.set(xlabel=label("$x$", length[1]), ylabel=label(f"{name} {symbol}", unit[1]))
+        panel.legend()
+    note(figure, f"{plain(found.name)}: along $y$ = 0, {plain(results.when(-1))}")
+    return figure

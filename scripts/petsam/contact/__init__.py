@@ -1,0 +1,25 @@
+"""Contacts: in this process, as runs of the program, and what is asked of them.
+
+inprocess    Contact: steps, stiffness, fields, stresses, fatigue
+running      run(): a run of the program, whose results it returns
+gradient     derivatives of a number of a history by all parameters
+uncertainty  standard deviation of such a number by roughness and parameters
+element      Element: a contact as a force element of a time integration or of a static solver
+"""
+
+from ..core.part import Part
+
+PART = Part(
+    __name__,
+    "contacts in this process and as runs of the program",
+    names={
+        "inprocess": (
+            "AdviceWarning", "Contact", "ContactError", "Cycle", "CycleWarning", "EdgeContact", "EdgeContactWarning",
+            "NoEquilibrium", "NotConverged", "PrescribedError", "Stiffness", "Step", "WearWarning",
+        ),
+        "running": ("run",),
+        "element": ("Element",),
+        "": ("gradient", "uncertainty"),
+    },
+)  # fmt: skip
+__all__, __getattr__, __dir__ = PART.face()

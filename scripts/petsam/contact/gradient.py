@@ -1,0 +1,560 @@
+"""Derivatives of a number of a load history by all of its parameters, in one pass back over its steps.
+
+    contact = petsam.Contact(...)
+    contact.record_gradient()
+    contact.run({"time": [0, 1, 2], "load_n": [100, 100, 100], "load_tx": [0, 20, -20]})
+    found = contact.gradient("energy")
+    found.value, found["gap"], found["friction"], found["load_tx"]
+
+The pass back is the library's (src/post/gradient). For optimisers, function() makes runs and passes back of parameters:
+
+    energy = petsam.gradient.function(options, history, "energy", ["friction", "load_tx"])
+    scipy.optimize.minimize(energy, [0.3, 1.0], jac=True)
+
+numbers() is the same without derivatives; positions() and mean() make functions of it that scatter less about those of
+fine grids; for_jax() and for_torch() make parts of programs from such functions that these libraries differentiate.
+"""
+
+import ctypes
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any, Callable, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.errors import Error, Unusable, counted, library, there_are
+from ..results.gradients import MODULI, Gradient
+
+if TYPE_CHECKING:
+    from .inprocess import Contact
+
+LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
+WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
+BULK = tuple(f"bulk{body}_stress_{name}" for body in (1, 2) for name in ("xx", "yy", "xy"))
+WEAR = ("wear_coefficient", "wear_energy")
+NUMBERS = ("energy", "wear_volume", *LOADS, *WAYS)  # that numbers() takes from a run that is not recorded
+USUAL = ("gap", "friction", *LOADS, *WAYS, *BULK, *WEAR)  # parameters of a gradient unless others are given
+OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (1, 2)))  # that function() may change
+SETTLES = 1e-8  # tolerance of the shear by which the direction of slip at mid step is found completely
+GOLDEN = (5**0.5 - 1) / 2
+IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
+NO_SECOND = "there are no second derivatives of a run"
+
+
+class OneSidedWarning(UserWarning):
+    """A gradient where cells are on the border of their set: it holds to one side."""
+
+
+def compute(
+    contact: "Contact", name: str, of: Optional[Sequence[str]], steps: tuple[int, int], rtol: float
+) -> Gradient:
+    """The gradient of the recorded steps of a contact.
+
+    Parameters
+    ----------
+    contact : Contact
+    name : str
+    of : sequence of str, optional
+        Parameters; None: all but those of the bodies and the shape.
+    steps : tuple of int
+        First and last step, -1: the usual ones.
+    rtol : float
+
+    Returns
+    -------
+    Gradient
+
+    Raises
+    ------
+    ContactError
+        If there is no such number, parameter or step.
+
+    Warns
+    -----
+    OneSidedWarning
+        If cells are on the border of their set.
+    """
+    count, unit, text = ctypes.c_int(), ctypes.c_char_p(), None if of is None else ",".join(of).encode()
+    contact._call(
+        "gradient", name.encode(), *steps, text, ctypes.c_double(rtol), ctypes.byref(count), ctypes.byref(unit)
+    )
+
+    def get(what, *shape):
+        found = np.empty(shape)
+        contact._call("get_gradient", what.encode(), found.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))
+        return found
+
+    def number(what):
+        return float(get(what, 1)[0])
+
+    cells, columns = (contact.rows, contact.n[0]), (*LOADS, *WAYS, *BULK)
+    wanted = USUAL if of is None else of
+    by_step = {one: get(one, count.value) for one in wanted if one in columns}
+    numbers = {one: values for one, values in by_step.items() if not np.isnan(values).all()}
+    for one in wanted:
+        if one not in ("gap", "friction", *columns):
+            with suppress(*([Error] if of is None else [])):  # by wear unless it is named only if the bodies wear
+                numbers[one] = number(one)
+    borders = int(number("borders"))
+    if borders:
+        warnings.warn(
+            f"gradient of {name}: {borders} cells are on the border of their set: it holds to one side",
+            OneSidedWarning,
+            stacklevel=3,
+        )
+    gap, friction = (get(one, *cells) if one in wanted else None for one in ("gap", "friction"))
+    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"), unit.value.decode())
+
+
+# ---------------------------------------------------------------- for optimisers
+
+
+def function(
+    options: Mapping[str, Any],
+    history: Any,
+    objective: Any,
+    parameters: Sequence[Any],
+    *,
+    gap: Optional[ArrayLike] = None,
+    scales: ArrayLike = 1.0,
+    rtol: float = 1e-6,
+) -> Callable[[ArrayLike], tuple[Any, np.ndarray]]:
+    """A function of parameters that returns a number and its derivatives: one run, and one pass back, for each call.
+
+    Parameters
+    ----------
+    options : mapping
+        The keywords of Contact; tangential_rtol is 1e-8 unless they have another: from there on the direction of slip
+        at mid step is found completely, whether steps are recorded or not.
+    history : path or mapping
+        As Contact.run() takes it.
+    objective : str, tuple or list
+        A number as Contact.gradient() takes it, (number, slice of steps), or a list of them.
+    parameters : sequence
+        For each value of x a name: friction, a modulus, wear_coefficient1, ..., or a column of the history, on which x
+        is a factor. Or a part of the gap: an array (ny, nx), times x; a function shape(x, y, value) of the cells'
+        centres; or a pair of this function and that of its derivative by the value. A function alone is
+        differentiated by a complex value: it must be analytic, without abs().
+    gap : array_like, optional
+        A part of the gap that stays, (ny, nx), m.
+    scales : array_like
+        The values of the parameters are x times these. Optimisers need an x whose values are alike in size.
+    rtol : float
+        Relative residual of the systems that are solved.
+
+    Returns
+    -------
+    callable
+        x -> (number, derivatives (parameters,)), as scipy.optimize.minimize(..., jac=True) takes it; of a list
+        x -> (numbers (objectives,), derivatives (objectives, parameters)), with a pass back for each number. Its
+        attribute shape is () or (objectives,).
+
+    Raises
+    ------
+    Error
+        If there is no derivative by a parameter, or parts of the gap meet others of the options; by the call, if x or
+        a part has another shape than it should, or a function is real for a complex value.
+    ContactError
+        By the call, if a step has no solution, as in gross slip, or the number has no derivative.
+    """
+    model = _Model(options, history, objective, parameters, gap, scales)
+    for name in model.names:
+        if name not in (*OPTIONS, *model.columns):
+            every = [*OPTIONS, *model.columns]
+            raise Unusable(f"parameter {name}: there is no derivative by it{there_are(name, every)}")
+    of = [*(["gap"] if model.shaped else []), *dict.fromkeys(_derivative(name) for name in model.names)]
+
+    def evaluate(x: ArrayLike) -> tuple[Any, np.ndarray]:
+        with model.solved(x, record=True) as (contact, _, parts):
+            found = [contact.gradient(name, of, steps, rtol) for name, steps in model.wanted]
+        by = [
+            [
+                np.sum(each.gap * part[1]) if part else _by_name(each, one, history)
+                for one, part in zip(parameters, parts)
+            ]
+            for each in found
+        ]
+        values, slopes = np.array([each.value for each in found]), np.reshape(by, (len(found), -1)) * scales
+        return (values, slopes) if model.several else (float(values[0]), slopes[0])
+
+    evaluate.shape = (len(model.wanted),) if model.several else ()
+    return evaluate
+
+
+def numbers(
+    options: Mapping[str, Any],
+    history: Any,
+    objective: Any,
+    parameters: Sequence[Any],
+    *,
+    gap: Optional[ArrayLike] = None,
+    scales: ArrayLike = 1.0,
+) -> Callable[[ArrayLike], Any]:
+    """A function of parameters that returns the numbers of function() without derivatives: one run for each call.
+
+    Parameters
+    ----------
+    options : mapping
+        As function() takes them.
+    history, gap, scales
+        As function() takes them.
+    objective : str, tuple or list
+        As function() takes it: energy, wear_volume, a load or a displacement.
+    parameters : sequence
+        As function() takes them, and any other option of Contact that is a number. A function of a shape may be real.
+
+    Returns
+    -------
+    callable
+        x -> number; of a list x -> numbers (objectives,).
+
+    Raises
+    ------
+    Error
+        If a run alone has no such number, or parts of the gap meet others of the options; by the call, if x or a part
+        has another shape than it should.
+    ContactError
+        By the call, if a step has no solution, or an option is rejected.
+    """
+    model = _Model(options, history, objective, parameters, gap, scales)
+    for name, _ in model.wanted:
+        if name not in NUMBERS:
+            raise Unusable(f"number {name}: it is none of a run alone{there_are(name, list(NUMBERS))}")
+
+    def evaluate(x: ArrayLike) -> Any:
+        with model.solved(x, record=False) as (_, steps, _):
+            values = np.array([_number(steps, name, part) for name, part in model.wanted])
+        return values if model.several else float(values[0])
+
+    return evaluate
+
+
+class _Model:
+    """The runs of function() and numbers(): what is wanted of them, and a contact with its steps for each x."""
+
+    def __init__(self, options, history, objective, parameters, gap, scales):
+        self.options, self.history = {"tangential_rtol": SETTLES, **options}, history
+        self.parameters, self.gap, self.scales = parameters, gap, scales
+        self.several = isinstance(objective, list)
+        self.wanted = [
+            (one, None) if isinstance(one, str) else one for one in (objective if self.several else [objective])
+        ]
+        if not _fits(scales, len(parameters)):
+            raise Unusable(f"scales = {scales!r}: give a number, or {counted(len(parameters), 'number')}")
+        named = isinstance(history, Mapping)
+        self.columns = [name for name in history if name in (*LOADS, *WAYS, *BULK)] if named else []
+        self.names = [one for one in parameters if isinstance(one, str)]
+        if not len(parameters) or not self.wanted:
+            raise Unusable("there are no parameters, or no numbers: give some of both")
+        for name in self.names:
+            if self.names.count(name) > 1:
+                raise Unusable(f"parameter {name} is listed twice")
+        self.shaped = gap is not None or len(self.names) < len(parameters)
+        for name, value in {**options, **dict.fromkeys(self.names, "a parameter")}.items():
+            if self.shaped and name.startswith("gap_") and (name, value) != ("gap_type", "flat"):
+                raise Unusable(f"{name} = {value}: parts of the gap replace it: use gap_type = flat alone")
+
+    @contextmanager
+    def solved(self, x, record):
+        """The contact of x, its steps, and for each parameter its part of the gap with the derivative, or None."""
+        if np.shape(x) != (len(self.parameters),):
+            raise Unusable(f"x has the shape {np.shape(x)}: give {counted(len(self.parameters), 'value')}")
+        pairs = list(zip(self.parameters, np.asarray(x, dtype=float) * self.scales))
+        given = {one: value for one, value in pairs if isinstance(one, str)}
+        changed = {one: value for one, value in given.items() if one not in self.columns}
+        with _made({**self.options, **changed}) as contact:
+            parts = [None if isinstance(one, str) else _part(contact, one, value, record) for one, value in pairs]
+            if self.shaped:
+                stays = 0.0 if self.gap is None else np.asarray(self.gap)
+                contact.gap = stays + sum(part[0] for part in parts if part)
+            if record:
+                contact.record_gradient()
+            factors = {one: given.get(one, 1.0) for one in self.columns}
+            scaled = self.history
+            if self.columns:
+                scaled = {one: np.asarray(values) * factors.get(one, 1.0) for one, values in self.history.items()}
+            yield contact, contact.run(scaled), parts
+
+
+def _fits(scales, count):
+    """Whether these are numbers, one or as many as parameters."""
+    try:
+        return np.asarray(scales, dtype=float).shape in ((), (count,))
+    except (TypeError, ValueError):
+        return False
+
+
+def _number(steps, name, part):
+    """A number of steps as Contact.gradient() has it."""
+    if name == "energy":
+        return sum(step.dissipated_energy for step in (steps if part is None else steps[part]))
+    chosen = steps[-1:] if part is None else steps[part]
+    if name == "wear_volume":
+        return sum(chosen[-1].numbers.get(f"wear_volume{body}", 0.0) for body in (1, 2))
+    return sum(getattr(step, name) for step in chosen)
+
+
+def positions(options: Mapping[str, Any], count: int) -> list[dict[str, Any]]:
+    """Options of a contact with its grid in several positions within a cell, for mean().
+
+    Parameters
+    ----------
+    options : mapping
+        The keywords of Contact.
+    count : int
+        Number of positions, the given one among them: points of a lattice that covers a cell evenly.
+
+    Returns
+    -------
+    list of dict
+
+    Raises
+    ------
+    Error
+        If the count is no number from 1 on, or as of Contact().
+    """
+    if not isinstance(count, int) or count < 1:
+        raise Unusable(f"count = {count!r}: give a number of positions of the grid, 1 or more")
+    with _made(options) as contact:
+        cells = [(np.mean(at), size / n) for at, size, n in zip((contact.x, contact.y), contact.size, contact.n)]
+    places = [(k / count, GOLDEN * k % 1.0) for k in range(1, count)]
+    moved = [[float(middle + part * cell) for (middle, cell), part in zip(cells, place)] for place in places]
+    return [dict(options), *({**options, "grid_center": center} for center in moved)]
+
+
+def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike], Any]:
+    """The mean of functions that function() or numbers() returns, as of positions() of a grid.
+
+    Where a cell changes its set the derivative jumps, so that the one of a grid scatters about that of fine grids. The
+    mean over 8 positions scatters by a fifth of that.
+
+    Parameters
+    ----------
+    functions : iterable of callable
+        Of the same parameters, which should not be arrays of cells: these would move with the grid.
+
+    Returns
+    -------
+    callable
+        x -> what one of them returns.
+
+    Raises
+    ------
+    Error
+        If there are none; by the call, if they return several shapes.
+    """
+    every = list(functions)
+    if not every:
+        raise Unusable("there are no functions: give some, of positions() of a grid")
+
+    def evaluate(x: ArrayLike) -> Any:
+        found = [one(x) for one in every]
+        shapes = {tuple(map(np.shape, one)) if isinstance(one, tuple) else np.shape(one) for one in found}
+        if len(shapes) > 1:
+            raise Unusable("the functions return numbers of several shapes: give those of the same numbers")
+        return (
+            tuple(sum(parts) / len(every) for parts in zip(*found))
+            if isinstance(found[0], tuple)
+            else sum(found) / len(every)
+        )
+
+    evaluate.shape = getattr(every[0], "shape", ())
+    return evaluate
+
+
+def for_jax(
+    evaluate: Callable[[ArrayLike], tuple[Any, np.ndarray]], shape: Optional[tuple[int, ...]] = None
+) -> Callable[[Any], Any]:
+    """A function that jax differentiates, of one that returns a number, or several, and the derivatives.
+
+    jax.grad, jax.value_and_grad, jax.jit, jax.jvp, jax.jacfwd, jax.jacrev and, one after the other, jax.vmap take it.
+    Value and derivatives come from one call of evaluate: a run, and a pass back for each number. There are no second
+    derivatives.
+
+    Parameters
+    ----------
+    evaluate : callable
+        x -> (number, derivatives), as function() returns it.
+    shape : tuple of int, optional
+        Of its numbers, () if it is one; None: as function() made it, otherwise one.
+
+    Returns
+    -------
+    callable
+        x (parameters,) -> number, or numbers, of double precision.
+
+    Raises
+    ------
+    Error
+        If jax, of which 0.4.35 is enough, is not installed; by a call, if it computes in single precision. An error of
+        a run reaches the caller as one of jax, which has its message.
+    """
+    jax = library("jax")
+    shape = getattr(evaluate, "shape", ()) if shape is None else tuple(shape)
+
+    def of_shape(x):
+        found = _doubles(evaluate)(x)
+        if found[0].shape != shape:
+            raise Unusable(f"the function returns numbers of the shape {found[0].shape}: give shape={found[0].shape}")
+        return found
+
+    @jax.custom_jvp
+    def run(x):
+        outcome = [jax.ShapeDtypeStruct(both, np.float64) for both in (shape, (*shape, *x.shape))]
+        return jax.pure_callback(of_shape, outcome, x, vmap_method="sequential")
+
+    @run.defjvp
+    def rejected(point, change):
+        raise Unusable(NO_SECOND)
+
+    @jax.custom_jvp
+    def value(x):
+        return run(x)[0]
+
+    @value.defjvp
+    def value_and_change(point, change):
+        number, slopes = run(*point)
+        return number, slopes @ change[0]
+
+    def differentiable(x):
+        if not jax.config.jax_enable_x64:
+            raise Unusable('jax computes in single precision: use jax.config.update("jax_enable_x64", True)')
+        return value(jax.numpy.asarray(x, np.float64))
+
+    return differentiable
+
+
+def for_torch(evaluate: Callable[[ArrayLike], tuple[Any, np.ndarray]]) -> Callable[[Any], Any]:
+    """A function that torch differentiates, of one that returns a number, or several, and the derivatives.
+
+    Value and derivatives come from one call of evaluate: a run, and a pass back for each number. There are no second
+    derivatives.
+
+    Parameters
+    ----------
+    evaluate : callable
+        x -> (number, derivatives), as function() returns it.
+
+    Returns
+    -------
+    callable
+        x, a tensor (parameters,) of torch.float64 -> a tensor of the number, or of the numbers.
+
+    Raises
+    ------
+    Error
+        If torch, of which 2.0 is enough, is not installed; by a call, if x has another precision.
+    """
+    torch = library("torch")
+
+    class Slopes(torch.autograd.Function):
+        generate_vmap_rule = True
+
+        @staticmethod
+        def forward(x, slopes):
+            return slopes.clone()
+
+        @staticmethod
+        def setup_context(ctx, inputs, output):
+            pass
+
+        @staticmethod
+        def backward(ctx, weight):
+            raise Unusable(NO_SECOND)
+
+    class Run(torch.autograd.Function):
+        @staticmethod
+        def forward(x):
+            return tuple(x.new_tensor(part) for part in _doubles(evaluate)(x.detach().cpu()))
+
+        @staticmethod
+        def setup_context(ctx, inputs, output):
+            ctx.mark_non_differentiable(output[1])
+            ctx.save_for_backward(*inputs, output[1])
+
+        @staticmethod
+        def backward(ctx, weight, _):
+            return torch.tensordot(weight, Slopes.apply(*ctx.saved_tensors), dims=weight.dim())
+
+    def differentiable(x):
+        if getattr(x, "dtype", None) is not torch.float64:
+            raise Unusable(
+                f"x is of {getattr(x, 'dtype', type(x).__name__)}: give a tensor of torch.float64, x.double()"
+            )
+        return Run.apply(x)[0]
+
+    return differentiable
+
+
+def _doubles(evaluate):
+    """The function with arrays of doubles, whatever array x is."""
+    return lambda x: tuple(np.asarray(part, dtype=float) for part in evaluate(np.asarray(x, dtype=float)))
+
+
+def whole(contact: "Contact") -> "Contact":
+    """The contact, if this process has all of its rows.
+
+    Parameters
+    ----------
+    contact : Contact
+
+    Returns
+    -------
+    Contact
+
+    Raises
+    ------
+    Error
+        If other ranks have rows of it.
+    """
+    if contact.rows != contact.n[1]:
+        raise Unusable(f"{contact.rows} of {contact.n[1]} rows are on this rank: use a contact without comm")
+    return contact
+
+
+def _made(options):
+    from .inprocess import Contact
+
+    return whole(Contact(**options))
+
+
+def _part(contact, shape, value, differentiate):
+    """A part of the gap, and its derivative by the value, which is None if it is not wanted."""
+    x, y = np.meshgrid(contact.x, contact.y)
+    if isinstance(shape, tuple):
+        return tuple(_cells(contact, one(x, y, value)) for one in shape)
+    if not callable(shape):
+        unit = _cells(contact, shape)
+        return value * unit, unit
+    if not differentiate:
+        return _cells(contact, shape(x, y, value)), None
+    step = IMAGINARY * (abs(value) or 1.0)
+    found = _cells(contact, shape(x, y, complex(value, step)))
+    if not np.iscomplexobj(found):
+        raise Unusable("a part of the gap is real for a complex value: give a pair, it and its derivative")
+    return found.real, found.imag / step
+
+
+def _cells(contact, values):
+    values, cells = np.asarray(values), (contact.rows, contact.n[0])
+    if values.shape != cells:
+        raise Unusable(f"a part of the gap has the shape {values.shape}: the grid has {cells}: use these")
+    return values
+
+
+def _derivative(name):
+    """The name of the derivative by a parameter: those by the coefficients of wear are of both bodies together."""
+    return name[:-1] if name[:-1] in WEAR else name
+
+
+def _by_name(found, name, history):
+    """The derivative by a number among the options, or by a factor on a column of the history."""
+    if name == "friction":
+        scales = history.get("friction_scale", 1.0) if isinstance(history, Mapping) else 1.0
+        return np.ravel(scales)[-1] * found.friction.sum()
+    if name in OPTIONS:
+        return found[_derivative(name)]
+    slopes, column = found[name], np.append(0.0, history[name])  # steps divide the change from row to row, from 0 on
+    return slopes @ np.interp(np.linspace(0, len(column) - 1, len(slopes) + 1)[1:], range(len(column)), column)

@@ -1,0 +1,142 @@
+"""What all command lines share: the parser, reading of words, the picture's options, errors and exit codes."""
+
+import argparse
+import difflib
+import os
+import re
+import sys
+import warnings
+
+from . import words
+from .errors import FILE, USAGE, Error, one_line
+
+DPI = 150  # pixels per inch of a PNG: for the screen
+RANGE = (10, 1200)
+UNEXPECTED = 1  # exit codes beside those of core/errors.py
+INTERRUPTED = 130
+TRACEBACK = "PETSAM_TRACEBACK"  # environment variable: print the traceback of an unexpected error
+
+
+def word(reader, *given, **options):
+    """A reader for argparse's type of one that takes a word first, and then these arguments, as those of core/words.py:
+    its errors become argparse's, which name the option."""
+
+    def read(text):
+        try:
+            return reader(text, *given, **options)
+        except Error as error:
+            raise argparse.ArgumentTypeError(str(error)) from error
+
+    return read
+
+
+def period(text):
+    """Duration and start (or None) of T or T,START, s."""
+    form = "a time above 0, or T,START: 20ms,1s"
+    first, *start = words.numbers(text, form, "s", count=(1, 2))
+    if not first > 0.0:
+        raise words.WordError(text, form)
+    return first, *(start or [None])
+
+
+def frame(text):
+    """A frame: an origin, a direction x and a direction z."""
+    form = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
+    parts = text.split(":")
+    if not 1 <= len(parts) <= 3:
+        raise words.WordError(text, form)
+    return tuple(tuple(words.numbers(part, form, count=3)) for part in parts)
+
+
+class Parser(argparse.ArgumentParser):
+    """A command line whose errors are printed in one line, without the usage before it."""
+
+    def error(self, message):
+        """Ends with the message; for an unknown option adds a similar one, if there is one."""
+        self.exit(fail(self.prog, f"{message}{self.meant(message)}; see {self.prog} --help", USAGE))
+
+    def meant(self, message):
+        """Returns an option similar to the first one that a message does not recognize."""
+        found = re.match(r"unrecognized arguments: --?([a-z][\w-]*)", message)
+        names = [name for name in self._option_string_actions if name.startswith("--")]
+        near = found and difflib.get_close_matches("--" + found[1].replace("_", "-"), names, 1)
+        return f": is {near[0]} meant?" if near else ""
+
+
+def joined(words, texts=()):
+    """Joins values that begin with a minus to their options, as argparse would take them for options: numbers, and any
+    word after the options of texts."""
+    found = []
+    for word in words:
+        before = found[-1] if found else ""
+        if before in texts or (re.match(r"-[\d.]", word) and re.fullmatch(r"--[a-z][a-z0-9-]*", before)):
+            found[-1] += "=" + word
+        else:
+            found.append(word)
+    return found
+
+
+def add_resolution(group):
+    """Adds --dpi to a group of options."""
+    form = "a whole number from {} to {}".format(*RANGE)
+    kind = word(words.integer, form, lambda value: RANGE[0] <= value <= RANGE[1])
+    text = "pixels per inch of a PNG, {} to {} ({}); journals ask for 300".format(*RANGE, DPI)
+    group.add_argument("--dpi", type=kind, default=DPI, metavar="N", help=text)
+
+
+def add_choice(group):
+    """Adds --no-picture, and --dpi, which has no meaning beside it."""
+    one = group.add_mutually_exclusive_group()
+    one.add_argument("--no-picture", action="store_true", help="draw none")
+    add_resolution(one)
+
+
+def fail(command, error, code=FILE):
+    """Prints the error of a command; returns the exit code."""
+    if isinstance(error, OSError) and not isinstance(error, Error):
+        error = f"{error.filename or 'writing'}: {error.strerror or error}"
+    print(f"{command}: error: {one_line(error)}", file=sys.stderr)
+    for line in getattr(error, "example", ()):
+        print("  " + line, file=sys.stderr)
+    return code
+
+
+def _flush():
+    """Flushes the output here, not when Python ends and errors could not be reported."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise
+
+
+def quietly(body, *given):
+    """Returns the exit code of body(*given), 0 of none, without warnings of numbers that overflow and of letters that a
+    font lacks."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return body(*given) or 0
+
+
+def guarded(command, body):
+    """Returns the exit code of body(), which is a command; unexpected errors end with a line, too."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:  # closed: the next opened file would get its number
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), "r" if number == 0 else "w"))
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")  # names of files may not be text
+    try:
+        try:
+            return body()
+        finally:
+            _flush()
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except (Error, OSError) as error:
+        return fail(command, error, getattr(error, "code", FILE))
+    except Exception as error:
+        if os.environ.get(TRACEBACK):
+            raise
+        text = f"unexpected {type(error).__name__}: {error} (set {TRACEBACK}=1 to see where)"
+        return fail(command, text, UNEXPECTED)

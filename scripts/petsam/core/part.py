@@ -1,0 +1,60 @@
+"""What a part of the package says about itself: its record.
+
+A part is a package that users know by its name, as petsam.plot or petsam.joint. Its __init__.py has its record, and
+imports nothing that needs a library; modules are imported when one of their names is first used:
+
+    PART = Part(__name__, "joints: stiffness, damping, frequencies", names={"structure": ("Patch", "Structure")})
+    __all__, __getattr__, __dir__ = PART.face()
+
+Launchers, man pages, completion, the tables that petsam-plot reads, pictures, reports and the reference of the package
+follow from the records.
+"""
+
+import importlib
+from collections.abc import Callable, Mapping
+from types import ModuleType
+from typing import Any, NamedTuple
+
+
+class Part(NamedTuple):
+    """The record of a part."""
+
+    package: str  # its name in Python: __name__
+    about: str  # what it is for, in a few words
+    names: Mapping[str, tuple[str, ...]] = {}  # what users call, by module; of an empty name modules themselves
+    command: str = ""  # the program whose main() is in command.py
+    libraries: tuple[str, ...] = ()  # that the program needs
+    see: tuple[str, ...] = ()  # programs that its man page names
+    pictures: Mapping[str, tuple[str, ...]] = {}  # functions that petsam.plot has, by module
+    report: str = ""  # module with RESULTS, title(found) and parts(found, inputs): the page of a result
+    tables: tuple[str, ...] = ()  # first columns of the CSV files that read() in the public list reads
+
+    @property
+    def name(self) -> str:
+        """The part's name, as users know it: petsam.NAME."""
+        return self.package.rpartition(".")[2]
+
+    @property
+    def listed(self) -> list[str]:
+        """The public list."""
+        return sorted(name for names in self.names.values() for name in names)
+
+    def module(self, name: str) -> ModuleType:
+        """Imports a module of the part."""
+        return importlib.import_module("." + name, self.package)
+
+    def find(self, name: str) -> Any:
+        """Returns what a name of the public list stands for."""
+        for module, names in self.names.items():
+            if name in names:
+                return getattr(self.module(module), name) if module else self.module(name)
+        raise AttributeError(f"module {self.package!r} has no attribute {name!r}")
+
+    def picture(self, name: str) -> Any:
+        """Returns a picture; None of a name that is none."""
+        home = next((module for module, names in self.pictures.items() if name in names), None)
+        return getattr(self.module(home), name) if home else None
+
+    def face(self) -> tuple[list[str], Callable[[str], Any], Callable[[], list[str]]]:
+        """Returns __all__, __getattr__ and __dir__ of the part's package."""
+        return self.listed, self.find, lambda: self.listed
