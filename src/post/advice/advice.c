@@ -154,8 +154,8 @@ static double WidthOf(const SamAdvice *a)
   return (double)PetscMin(a->extent.half_across, a->across);
 }
 
-/* Notes the numbers that are unknown of a contact of next to no cells. */
-static void Unresolved(SamAdvice *a, double more, const char zones[])
+/* Notes the numbers that are unknown of a contact of next to no cells; units: what is said where these may be wrong. */
+static void Unresolved(SamAdvice *a, double more, const char zones[], const char units[])
 {
   const SamExtent *extent = &a->extent;
   const PetscBool  force  = a->step->control.force[SAM_COMPONENT_N];
@@ -170,8 +170,8 @@ static void Unresolved(SamAdvice *a, double more, const char zones[])
                  shear > 0 ? " shear_max stick_area slip_max dissipated_energy" : "");
   if (a->closed) (void)snprintf(closed, sizeof(closed), ", %.2g in closed form", (double)a->across);
   /* a more special reason, with an error of 1, precedes this one */
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 - PETSC_SQRT_MACHINE_EPSILON, more, names, SAM_ADVICE_ACROSS "%s", zones,
-               (double)extent->across, extent->across == 1 ? "" : "s", closed);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 - PETSC_SQRT_MACHINE_EPSILON, more, names, SAM_ADVICE_ACROSS "%s%s",
+               zones, (double)extent->across, extent->across == 1 ? "" : "s", closed, units);
 }
 
 /*
@@ -191,14 +191,14 @@ static void Cells(SamAdvice *a)
   const double    error                  = change * (a->worn ? SAM_DOUBT_LARGE / SAM_ADVICE_WORN_PEAK : 1);
   const PetscBool none                   = few && WidthOf(a) < BORDER;
   const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
+  const char     *units                  = absurd ? ": check the units, N, m, Pa" : "";
   char            zones[SAM_ADVICE_TEXT] = "";
 
   if (extent->zones > 1)
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   if (few)
     SamDoubtsAdd(&a->guesses, SAM_CAUSE_CELLS, SAM_DOUBT_LARGE * fewest / (double)extent->across, more, "contact_area",
-                 SAM_ADVICE_ACROSS "%s", zones, (double)extent->across, extent->across == 1 ? "" : "s",
-                 absurd ? ": check the units, N, m, Pa" : "");
+                 SAM_ADVICE_ACROSS "%s", zones, (double)extent->across, extent->across == 1 ? "" : "s", units);
   if (sharp)
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 0, "pressure_max",
                  "pressure_max grows without limit on finer cells, as at a sharp edge");
@@ -206,7 +206,7 @@ static void Cells(SamAdvice *a)
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, none && error > SAM_DOUBT_LARGE ? 1 : error, (double)extent->finer,
                  "pressure_max", "pressure_max is about %.0f %% %s on cells half as wide", 100 * change,
                  extent->change > 0 ? "higher" : "lower");
-  if (none) Unresolved(a, more, zones); /* after the reason above, which then stands */
+  if (none) Unresolved(a, more, zones, units); /* after the reason above, which then stands */
 }
 
 /* Advises on heights in another unit, or tilted. If no surface has such heights, the grid is not questioned. */
