@@ -21,7 +21,7 @@ import petsam  # noqa: E402
 from petsam import apps, plot  # noqa: E402
 
 # names of the package that users meet first, in the order of work; the others follow, errors and warnings at the end
-FIRST = ("open", "run", "Contact", "Element", "Results", "Snapshot", "Stresses", "Study")
+FIRST = ("open", "run", "Contact", "Results", "Snapshot", "Stresses", "Study")
 # classes of which users get objects from those, by their modules
 OBTAINED = {"contact.inprocess": ("Step", "Cycle")}
 # modules before and behind the parts, in the order of the page

@@ -6,7 +6,6 @@
 
 Contact         a contact in this process: steps, stiffness, fields, stresses, fatigue
 run             a run of the program, whose results it returns
-Element         a contact as a force element of a time integration or of a static solver
 open            reading of files: Results of petsam, Stresses of petsam-stress, the Study of petsam-study
 results         what open() returns
 cycles          cycles of a load history and their energies: results.cycles, and
@@ -37,7 +36,6 @@ if TYPE_CHECKING:
     from typing import Any, Optional, Union
 
     from . import closed
-    from .contact.element import Element
     from .contact.inprocess import (
         AdviceWarning,
         Contact,
@@ -65,7 +63,6 @@ __all__ = [
     "CycleWarning",
     "EdgeContact",
     "EdgeContactWarning",
-    "Element",
     "Error",
     "Missing",
     "MissingFile",
@@ -93,7 +90,6 @@ _HOMES = {
         ),
         ".contact.inprocess",
     ),
-    "Element": ".contact.element",
     "Results": ".results.file",
     "Snapshot": ".results.snapshot",
     "Stresses": ".results.stresses",
@@ -120,6 +116,9 @@ def __getattr__(name):
         return importlib.import_module(_PARTS[name], __name__)
     if not name.startswith("_") and name in _applications().names():
         return importlib.import_module(".apps." + name, __name__)
+    for one in [] if name.startswith("_") else _applications().records():
+        if name in one.top:
+            return one.find(name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -130,7 +129,8 @@ _shown.provide("view", lambda: __getattr__("plot").view)
 
 
 def __dir__():
-    listed = {*__all__, *_PARTS, *_applications().names()} - {"contact", "core"}
+    tops = {name for one in _applications().records() for name in one.top}
+    listed = {*__all__, *_PARTS, *_applications().names(), *tops} - {"contact", "core"}
     return sorted({*listed, "__doc__", "__file__", "__name__", "__version__"})
 
 

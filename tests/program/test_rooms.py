@@ -291,7 +291,7 @@ OF_COMMANDS = (
 
 
 def command_line_outside_commands():
-    """Options of a command line that modules read which are not of a command."""
+    """Options of a command line that modules read which belong to no command."""
     return [
         f"{name}: {word}"
         for name, path in modules().items()

@@ -2,7 +2,7 @@
 
 A folder has __init__.py with its record (core/part.py), and whichever it needs of command.py, pictures.py, report.py
 and the modules that compute. It uses the storeys below (scripts/README.md), and of another application its public list
-only. petsam.NAME is petsam.apps.NAME; the program petsam-NAME is its command.
+only. petsam.joint is petsam.apps.joint, and the program petsam-joint its command.
 """
 
 import importlib

@@ -4,7 +4,6 @@ inprocess    Contact: steps, stiffness, fields, stresses, fatigue
 running      run(): a run of the program, whose results it returns
 gradient     derivatives of a number of a history by all parameters
 uncertainty  standard deviation of such a number by roughness and parameters
-element      Element: a contact as a force element of a time integration or of a static solver
 """
 
 from ..core.part import Part
@@ -18,7 +17,6 @@ PART = Part(
             "NoEquilibrium", "NotConverged", "PrescribedError", "Stiffness", "Step", "WearWarning",
         ),
         "running": ("run",),
-        "element": ("Element",),
         "": ("gradient", "uncertainty"),
     },
 )  # fmt: skip

@@ -22,6 +22,7 @@ class Part(NamedTuple):
     package: str  # its name in Python: __name__
     about: str  # what it is for, in a few words
     names: Mapping[str, tuple[str, ...]] = {}  # what users call, by module; of an empty name modules themselves
+    top: tuple[str, ...] = ()  # of these the names that petsam itself has, too
     command: str = ""  # the program whose main() is in command.py
     libraries: tuple[str, ...] = ()  # that the program needs
     see: tuple[str, ...] = ()  # programs that its man page names

@@ -6,6 +6,7 @@ structure   patches of contact in a linear structure (structure.py); pair: of a 
 backbone    frequency and damping of a mode over its amplitude (backbone.py)
 band        the same over the histories of assembly, and their scatter (band.py)
 wear        what wear does to them over the cycles of a vibration (wear.py)
+element     a contact as a force element of a time integration or of a static solver (element.py)
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
 saved       tables of all these from CSV (saved.py)
 damper      under the platforms of turbine blades, pressed by its centrifugal force (damper.py)
@@ -22,6 +23,7 @@ PART = Part(
         "conductance": ("Conductors",),
         "structure": ("NoSolution", "Patch", "Structure"),
         "pair": ("Pair",),
+        "element": ("Element",),
         "backbones": ("Backbone", "backbone", "shake"),
         "sweep": ("BackboneWarning",),
         "bands": ("Band", "band"),
@@ -36,6 +38,7 @@ PART = Part(
     pictures={
         "pictures": ("backbone", "band", "conductance", "interface", "joint_wear", "response", "saved", "slip_zones")
     },
+    top=("Element",),
     report="report",
     tables=("pressure", "alpha", "assembly", "frequency", "cycles"),
 )

@@ -628,7 +628,8 @@ def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
     normal_only: bool = False, cores: Optional[int] = 1, report: Optional[Callable[[int, int], object]] = None,
     estimate: Optional[Callable[[float], object]] = None, conductivity: Optional[ArrayLike] = None,
     electrical: bool = False, film: Union[float, ArrayLike, str, os.PathLike, None] = None,
-    gas: Optional[ArrayLike] = None, layers1: Optional[Sequence] = None, layers2: Optional[Sequence] = None, **bodies: Any,
+    gas: Optional[ArrayLike] = None, layers1: Optional[Sequence] = None, layers2: Optional[Sequence] = None,
+    **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a surface: a scan in a file, a map of petsam.surface, or an array.
 

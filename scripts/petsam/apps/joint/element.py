@@ -14,9 +14,9 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..apps.joint.structure import Patch, Structure
-from ..core.errors import Unusable
-from .inprocess import Contact
+from ...contact.inprocess import Contact
+from ...core.errors import Unusable
+from .structure import Patch, Structure
 
 
 class Element:
