@@ -73,7 +73,7 @@ def test_reference_has_every_name_of_the_package():
     import petsam
 
     text = modules.page()
-    names = set(petsam.__all__) - {*petsam._PARTS, *petsam._OF_RESULTS}
+    names = set(petsam.__all__) - {*petsam._PARTS}
     assert len(names) > 10 and {name for name in names if f"\n### petsam.{name}\n" not in text} == set()
     assert "\n```python\nContact.commit()\n```\n" in text and "\n```python\nCycles.energies\n```\n" in text
     assert "\n### petsam.closed.sphere.hertz_pressure\n" in text and "petsam.closed.sphere._" not in text
@@ -113,7 +113,7 @@ def test_classes_on_the_page_have_the_methods_of_their_bases():
     for name in ("Results.of_step", "Results.field", "Results.quantity", "Results.nearest", "Stresses.nearest"):
         assert f"\n#### {name}\n" in text, name
     assert "\n```python\nStresses.field(name: str, index: int=-1, " in text and "Results.between(first: " in text
-    assert "petsam.plot.pictures.life(*files: Results, xlim: Span=None, ylim: Span=None, width: " in text
+    assert "petsam.plot.life(*files: Results, xlim: Span=None, ylim: Span=None, width: " in text
 
 
 def test_pages_and_files_lie_as_in_the_repository_so_that_their_links_hold(staged):

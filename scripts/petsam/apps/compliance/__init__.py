@@ -42,7 +42,7 @@ PART = Part(
         "calls": ("of_deck", "of_mesh"),
         "settings": ("Bolt", "Settings"),
         "result": ("Compliance",),
-        "points": ("Points",),
+        "points": ("nodes_of",),
     },
     command="petsam-compliance",
     libraries=("numpy", "h5py", "matplotlib", "scipy"),

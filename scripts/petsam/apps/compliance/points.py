@@ -1,5 +1,8 @@
 """The nodes of a deck and their sets alone: of a deck of any analysis, with contact, ties, rigid bodies, shells."""
 
+import os
+from typing import Union
+
 import numpy as np
 
 from ...core.cards import folded
@@ -70,3 +73,19 @@ class Points(Reader):
             for local in faces.get(number, ()):
                 found.update(nodes[list(SHAPES[KINDS[kind]].faces[local])].tolist())
         return np.array(sorted(found), dtype=int)
+
+
+def nodes_of(path: Union[str, os.PathLike]) -> Points:
+    """Reads the nodes of a deck and their sets alone.
+
+    Parameters
+    ----------
+    path : path
+        The deck, of any analysis.
+
+    Returns
+    -------
+    Points
+        Nodes, node sets and element surfaces.
+    """
+    return Points(path)

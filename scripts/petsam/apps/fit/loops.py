@@ -18,7 +18,7 @@ Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Optional
+from typing import Any, Optional
 
 import numpy as np
 
@@ -85,7 +85,13 @@ class Loop:
         return float(abs(0.5 * np.sum(d * np.roll(q, -1) - np.roll(d, -1) * q)))
 
     def noise(self) -> tuple[float, float]:
-        """Noise of displacement and force, m and N, from second differences."""
+        """Noise of displacement and force, from second differences.
+
+        Returns
+        -------
+        tuple of float
+            Standard deviations, m and N.
+        """
         return self.given[:2] if self.given else (noise_of(self.displacement), noise_of(self.force))
 
 
@@ -460,7 +466,9 @@ def _solved(problem):
     return best, square, variance
 
 
-def fit(loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), profile: bool = True, **fixed) -> Fit:
+def fit(
+    loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), profile: bool = True, **fixed: Any
+) -> Fit:
     """Fits friction and the rig's compliance to one or several closed loops.
 
     Parameters

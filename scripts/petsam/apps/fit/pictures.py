@@ -1,12 +1,16 @@
 """Pictures of fitted loops: measured points and fit of the first and the last cycle, friction over the cycles."""
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.figure import Figure
 
 from ...plot.style import BARS, colors, plt
+from .scars import Scar
 from .series import Result
 
 
-def fit(found: Result):
+def fit(found: Result) -> Figure:
     """Measured loops with their fit, and friction and energy over the cycles.
 
     Parameters
@@ -15,7 +19,7 @@ def fit(found: Result):
 
     Returns
     -------
-    Figure
+    matplotlib.figure.Figure
     """
     several = len(found.numbers) > 1
     figure, axes = plt.subplots(1, 2 if several else 1, figsize=(10.0 if several else 5.6, 4.2), squeeze=False,
@@ -45,7 +49,7 @@ def fit(found: Result):
     return figure
 
 
-def scar_fit(found):
+def scar_fit(found: Mapping[str, Scar]) -> Figure:
     """Measured profiles of scars with their fits.
 
     Parameters
@@ -55,7 +59,7 @@ def scar_fit(found):
 
     Returns
     -------
-    Figure
+    matplotlib.figure.Figure
     """
     figure, panel = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
     for (name, scar), tint in zip(found.items(), colors(len(found))):

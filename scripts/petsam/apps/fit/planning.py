@@ -5,6 +5,7 @@ Nothing is measured yet: a friction, a rig, a noise and a number of points are a
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 
@@ -66,7 +67,13 @@ class Plan(Tabled):
         ]
 
     def advice(self) -> str:
-        """One sentence: the smallest loops that are good enough also if the rig loses energy."""
+        """The smallest loops that are good enough also if the rig loses energy.
+
+        Returns
+        -------
+        str
+            One sentence.
+        """
         good = [k for k in range(len(self.loops)) if self.deviation[k, :2].max() <= self.wanted]
         if not good:
             wanted = f"{100 * self.wanted:g} %"
@@ -79,7 +86,13 @@ class Plan(Tabled):
 
 
 def plan(
-    push: Push, friction: float, rig: float, noise=None, points: int = 200, cycles: int = 10, wanted: float = 0.02
+    push: Push,
+    friction: float,
+    rig: float,
+    noise: Optional[tuple[float, float]] = None,
+    points: int = 200,
+    cycles: int = 10,
+    wanted: float = 0.02,
 ) -> Plan:
     """Deviations of the friction for loops in partial and gross slip, and for several of them.
 

@@ -4,11 +4,12 @@ It serves all coefficients of friction (Jaeger's scaling): with mu the displacem
 bodies this is exact, for others within 0.06 % of the friction (their first cycles differ, later ones do not).
 """
 
+import os
 import shlex
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Optional
+from typing import Optional, Union
 
 import numpy as np
 
@@ -110,7 +111,7 @@ def options_of(path) -> dict[str, str]:
     return found
 
 
-def of_shape(path, normal: float, width: Optional[float] = None) -> Push:
+def of_shape(path: Union[str, os.PathLike], normal: float, width: Optional[float] = None) -> Push:
     """The push of the contact that an options file describes: of a ball on half-spaces in closed form, else by petsam.
 
     Parameters

@@ -7,10 +7,11 @@ many fields as the head: one that has lost a field would have another's numbers.
 """
 
 import csv
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Optional
+from typing import Optional, Union
 
 import numpy as np
 
@@ -136,7 +137,7 @@ def _columns(path, lines, rows, separator):
     raise Error(f"{path}: no line of names above the rows of numbers: name the columns, Displacement (um);Force (N)")
 
 
-def read(path, displacement: Optional[str] = None, force: Optional[str] = None) -> Record:
+def read(path: Union[str, os.PathLike], displacement: Optional[str] = None, force: Optional[str] = None) -> Record:
     """Reads a laboratory's file.
 
     Parameters

@@ -11,12 +11,14 @@ sqrt((1 + r)/(1 - r)). Where they are correlated over most of the scar, its shap
 with roughness of 10 to 20 um in length 18 to 50 independent points were left, of those of another radius 5 to 11.
 """
 
+import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Optional
+from typing import Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...core.errors import Error, library
 from .push import options_of
@@ -59,8 +61,21 @@ class Family:
     life: float
     body: str
 
-    def at(self, product: float, x) -> np.ndarray:
-        """Depth (m) at x (m), linear between the outputs over the logarithm of the product."""
+    def at(self, product: float, x: ArrayLike) -> np.ndarray:
+        """Depth, linear between the outputs over the logarithm of the product.
+
+        Parameters
+        ----------
+        product : float
+            Coefficient of wear times cycles, 1/Pa.
+        x : array_like
+            (n,), m.
+
+        Returns
+        -------
+        ndarray
+            (n,), m.
+        """
         place = np.interp(np.log(product), np.log(self.product), np.arange(len(self.product)))
         k = min(int(place), len(self.product) - 2)
         part = place - k
@@ -109,7 +124,11 @@ class _AtEdge(Error):
 
 
 def family(
-    shape, life: float, body: str = "2", options: Optional[Mapping] = None, start: Optional[float] = None
+    shape: Union[str, os.PathLike],
+    life: float,
+    body: str = "2",
+    options: Optional[Mapping] = None,
+    start: Optional[float] = None,
 ) -> Family:
     """The scars of a body by one wear simulation.
 
@@ -184,7 +203,7 @@ def _correlation(residuals, count):
     return min(0.99, (raw + part) / (1.0 - 1.5 * part))
 
 
-def fit_scar(one: Family, x, height, tilt: bool = True, level: bool = True) -> Scar:
+def fit_scar(one: Family, x: ArrayLike, height: ArrayLike, tilt: bool = True, level: bool = True) -> Scar:
     """Fits a profile.
 
     Parameters
@@ -320,7 +339,13 @@ def _doubt(one, end, beside, residuals, count, depth, relative):
 
 
 def fit_profile(
-    shape, life: float, x, height, body: str = "2", options: Optional[Mapping] = None, one: Optional[Family] = None
+    shape: Union[str, os.PathLike],
+    life: float,
+    x: ArrayLike,
+    height: ArrayLike,
+    body: str = "2",
+    options: Optional[Mapping] = None,
+    one: Optional[Family] = None,
 ) -> tuple[Scar, Family]:
     """Fits a profile by wear simulations whose scars are deep and shallow enough for it.
 
@@ -391,7 +416,14 @@ RATIOS = (0.02, 0.25, 0.5, 0.75, 1.0, 1.25)
 MOST_RATIO, GROWS = 40.0, 1.6  # the largest ratio that is tried, and by what the next one is larger
 
 
-def split(shape, life: float, x, height, body: str = "2", ratios=RATIOS) -> Split:
+def split(
+    shape: Union[str, os.PathLike],
+    life: float,
+    x: ArrayLike,
+    height: ArrayLike,
+    body: str = "2",
+    ratios: Sequence[float] = RATIOS,
+) -> Split:
     """Fits a profile for several ratios of the bodies' coefficients: where surfaces move past each other, the width of
     the scar of one tells of the wear of the other.
 

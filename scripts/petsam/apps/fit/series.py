@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Optional
+from typing import Any, Optional
 
 import numpy as np
 
@@ -343,7 +343,7 @@ def _mean(each, shape):
     return mean, float(np.hypot(own, common)), relative
 
 
-def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str] = (), **fixed) -> Result:
+def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str] = (), **fixed: Any) -> Result:
     """Friction and rig stiffness of the cycles of one or several files.
 
     Parameters

@@ -7,7 +7,7 @@ import numpy as np
 from ...core import units
 from ...core.cards import folded
 from ...core.errors import Error, Unusable, counted, short
-from ..compliance import Points
+from ..compliance import nodes_of
 from .forces import Forces
 
 EXAMPLES = {"length": "mm", "force": "N"}
@@ -147,7 +147,7 @@ def of_deck(given, path):
     """The Points of the deck of --deck."""
     if given.deck is None:
         raise Unusable(f"{path}: has no coordinates of its nodes: give the analysis's deck by --deck")
-    return Points(given.deck)
+    return nodes_of(given.deck)
 
 
 def add_sets(found, deck):

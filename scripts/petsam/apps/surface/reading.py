@@ -21,7 +21,7 @@ from .maps import Map, new_map, turned
 from .readers import FORMATS, stated_of
 from .readers.hdf import EVEN, of_hdf5
 from .readers.instruments import LIBRARY
-from .readers.stated import How, Source
+from .readers.stated import How, Source, Stated
 
 __all__ = ["FORMATS", "read", "read_hdf5"]
 
@@ -67,13 +67,41 @@ class Given:
         return "separation" if self.separation else self.body and f"height{self.body}"
 
 
-def read_hdf5(path, dataset=None, bare=False):
-    """The statements of an HDF5 file about a dataset; bare: axes without units are in m, as petsam takes lengths."""
+def read_hdf5(path: str | os.PathLike, dataset: str | None = None, bare: bool = False) -> Stated:
+    """Reads what an HDF5 file states of a map.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    dataset : str, optional
+        The dataset; where there is one map only, that one.
+    bare : bool
+        Axes without units are in m, as petsam takes lengths.
+
+    Returns
+    -------
+    Stated
+        Values, unit, quantity and size as they stand there.
+    """
     return _guarded(path, lambda: of_hdf5(path, dataset, bare))
 
 
-def read_values(path, dataset):
-    """Values of a map that are no lengths, (rows, columns), first row at the smallest y; in HDF5 of a dataset."""
+def read_values(path: str | os.PathLike, dataset: str) -> np.ndarray:
+    """Reads a map of values that are no lengths.
+
+    Parameters
+    ----------
+    path : path
+        The file, of any format.
+    dataset : str
+        The dataset of an HDF5 file.
+
+    Returns
+    -------
+    ndarray
+        (rows, columns), the first row at the smallest y.
+    """
     source = _guarded(path, lambda: Source(path, How(dataset=dataset, lengths=False)))
     stated, _ = _guarded(path, lambda: stated_of(source))
     values = np.array(stated.values, dtype=np.float64)
