@@ -6,7 +6,7 @@ import pytest
 
 import compliances
 import petsam as package
-from petsam import contact
+from petsam.contact import inprocess as contact
 from support import ROOT
 from test_embed import CASE as EMBEDDED
 from test_embed import run_python
@@ -644,7 +644,7 @@ def test_a_second_thread_waits_for_the_answers_of_the_first(tmp_path, inside, as
         BEGIN
         + f"""
 import threading, warnings
-from petsam import contact as module
+from petsam.contact import inprocess as module
 warnings.simplefilter("ignore")
 class Told:  # the lock, which tells that a thread has to wait for it
     def __init__(self, lock):

@@ -8,9 +8,9 @@ import pytest
 
 import petsam
 from petsam.apps.compliance import command as compliance_command
-from petsam.core import frames
 from petsam.apps.loads import command, doubts, resultants
 from petsam.apps.loads.forces import Forces
+from petsam.core import frames
 from petsam.core.errors import Error, Unusable
 from support import ROOT
 

@@ -18,7 +18,7 @@ import pytest
 
 import petsam as package
 from conftest import PROGRAM, environment
-from petsam import running
+from petsam.contact import running
 from support import ROOT, ball, slide_limit
 
 CASE = ball(n=32)

@@ -246,7 +246,7 @@ def _read(parser, given):
         "files",
         nargs="+",
         metavar="FILE.h5",
-        help="of petsam, petsam-stress or petsam-study; several are compared; for a report also a CSV of petsam-joint",
+        help="of petsam, petsam-stress or petsam-study; several are compared; also an application's table for a report",
     )
     for group in (_pictures, _quantities, _steps, _look):
         group(parser)

@@ -14,7 +14,7 @@
     petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles
     petsam-plot --scar --cycle -1 --measured 2:profile.csv life.h5     a measured profile beside body 2's
     petsam-plot --report run.html sphere.h5         a page: inputs, numbers, errors, check, history, pictures
-    petsam-plot --report joint.html joint.csv       a page of the table that petsam-joint -o joint has written
+    petsam-plot --report joint.html joint.csv       a page of a table that the command of an application has written
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop, if

@@ -1,0 +1,130 @@
+"""Applications: one more is found by its folder (tests/trials/apps), and one that is deleted leaves no gap."""
+
+import ast
+import shutil
+import sys
+
+import pytest
+
+import petsam
+from conftest import PROGRAM, environment
+from petsam import apps
+from support import ROOT, ball, finished, slide_limit
+
+CASE = ball(n=24)
+EVERY_MODULE = """
+import importlib, pkgutil, petsam
+for module in pkgutil.walk_packages(petsam.__path__, "petsam."):
+    importlib.import_module(module.name)
+for name in dir(petsam):
+    getattr(petsam, name)
+for name in dir(petsam.plot):
+    getattr(petsam.plot, name)
+"""
+
+
+@pytest.fixture(scope="module")
+def loop(tmp_path_factory):
+    """A file of two turns of a load."""
+    folder = tmp_path_factory.mktemp("loop")
+    load = 0.5 * slide_limit(CASE)[0]
+    rows = [f"{k},{CASE['load_n']},{load * turn}\n" for k, turn in enumerate((0, 1, -1, 1, -1, 1))]
+    (folder / "turns.csv").write_text("time,load_n,load_tx\n" + "".join(rows))
+    given = {name: value for name, value in CASE.items() if name != "load_n"}
+    petsam.run(**given, history=folder / "turns.csv", output=folder / "loop.h5").close()
+    return folder / "loop.h5"
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A copy of the scripts and the Makefile, in which applications come and go."""
+    shutil.copytree(ROOT / "scripts", tmp_path / "scripts", symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "include", tmp_path / "include")
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def trial(tree):
+    """A tree with the application petsam.one, whose script `make` has made."""
+    shutil.copytree(ROOT / "tests/trials/apps/one", tree / "scripts/petsam/apps/one")
+    ask(tree, "make", "-s", "scripts/petsam-one")
+    return tree
+
+
+def ask(tree, *words, check=0):
+    """What a command prints whose package is that of a tree."""
+    env = dict(environment(), PYTHONPATH=str(tree / "scripts"), PETSAM=str(PROGRAM), PYTHON=sys.executable)
+    done = finished(list(map(str, words)), check, env=env, cwd=tree)
+    return done.stdout + done.stderr
+
+
+def script(tree, *words, check=0):
+    return ask(tree, sys.executable, "-c", *words, check=check)
+
+
+def test_one_more_application_is_a_part_of_the_package(trial):
+    script(trial, "import petsam\nassert 'one' in dir(petsam) and 'settled' in dir(petsam.plot)\n"
+                  "assert petsam.one.settling and petsam.plot.settled and dir(petsam.one)")  # fmt: skip
+
+
+def test_one_more_application_has_a_command_a_table_and_a_page(trial, loop):
+    ask(trial, "scripts/petsam-one", loop, "-o", "settled")
+    head, *rows = (trial / "settled.csv").read_text().splitlines()
+    assert head == "settling_cycle [1],ratio [1]" and len(rows) == 2 and rows[-1].endswith(",1.0")
+    ask(trial, "scripts/petsam-plot", "--report", "settled.html", "settled.csv")
+    page = (trial / "settled.html").read_text()
+    assert "<h1>Settling</h1>" in page and "petsam-one" in page and "<figure>" in page
+    assert "petsam-one begin" in ask(trial, "scripts/petsam-plot", "--report", "x.html", wrong(trial), check=3)
+
+
+def wrong(tree):
+    path = tree / "wrong.csv"
+    path.write_text("a [1]\n1\n")
+    return path
+
+
+def test_one_more_application_is_in_the_manual(trial):
+    ask(trial, "make", "-s", "build/share/man/man1/petsam-one.1")
+    manual = (trial / "build/share/man/man1/petsam-one.1").read_text()
+    assert "settled.csv" in manual and "petsam\\-plot(1)" in manual.replace("petsam-plot(1)", "petsam\\-plot(1)")
+    assert "petsam-one" in ask(trial, sys.executable, "-c", "import sys; sys.path.insert(0, 'scripts/maintain')\n"
+                               "import manpage; print(manpage.see_also('petsam'))")  # fmt: skip
+    reference = ask(trial, sys.executable, "scripts/maintain/modules.py")
+    assert "\n### petsam.one.settling\n" in reference and "\n### petsam.plot.settled\n" in reference
+    assert "petsam-one" in installed(trial)
+
+
+def installed(tree):
+    """The scripts that `make install` puts into bin, with their completions."""
+    return ask(tree, "make", "-s", "--eval", "show: ; @echo $(TOOLS)", "show")
+
+
+@pytest.mark.parametrize("name", ["wheel", "fit", "joint"])
+def test_an_application_that_is_deleted_leaves_no_gap(tree, loop, name):
+    shutil.rmtree(tree / "scripts/petsam/apps" / name)
+    script(tree, EVERY_MODULE)
+    ask(tree, "scripts/petsam-plot", "--loop", "-o", "loop.png", loop)
+    ask(tree, "scripts/petsam-plot", "--report", "loop.html", loop)
+    ask(tree, sys.executable, "scripts/maintain/modules.py")
+    assert "no command of this name" in ask(tree, sys.executable, f"scripts/petsam-{name}", check=1)
+    assert f"petsam-{name}" not in installed(tree)
+
+
+def words_of(path):
+    """The texts and names of a source, without its docstrings."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+            node.body = node.body[1:] or [ast.Pass()]
+    return ast.unparse(tree)
+
+
+def test_nothing_below_names_an_application():
+    """But for files of petsam-study, which petsam.open() reads."""
+    names = [f"petsam{mark}{name}" for name in apps.names() for mark in ".-" if mark + name != "-study"]
+    package = ROOT / "scripts" / "petsam"
+    below = [path for path in package.rglob("*.py") if "apps" not in path.parts]
+    assert len(below) > 50
+    found = [(path.name, name) for path in below for name in names if name in words_of(path)]
+    assert not found
