@@ -34,7 +34,6 @@ import shlex
 import sys
 import time
 
-from ... import plot
 from ...core import materials, words
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
@@ -393,7 +392,9 @@ def carry_out(options, given):
             print(f"{PROGRAM}: {text}", file=sys.stderr)
     writing.write(found, options.output)
     if not options.no_picture:
-        write(plot.compliance(found), options.picture, options.dpi)
+        from . import pictures
+
+        write(pictures.compliance(found), options.picture, options.dpi)
     print(f"{options.output}: compliance of {options.mesh}")
     print("\n".join("  " + line for line in description(found) if "warning: " not in line))
     if not options.no_picture:

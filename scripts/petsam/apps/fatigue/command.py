@@ -210,9 +210,9 @@ def carry_out(options):
         found.to_csv(options.csv)
         print("wrote " + options.csv)
     if found.cycles[0].z.size > 1 and not options.no_picture:
-        from ... import plot
+        from . import pictures
 
-        saving.write(plot.lives(found), options.output, options.dpi)
+        saving.write(pictures.lives(found), options.output, options.dpi)
         print("wrote " + options.output)
     _warn(found.cycles)
 

@@ -274,10 +274,10 @@ def _write(options, found, one, worn, scar):
     if found.identifiable:
         wrote += results.write_options(found, one, options.shape, options.width, name, worn, options.body)
     if not options.no_picture:
-        from ... import plot
         from ...plot import saving
+        from . import pictures
 
-        saving.write(plot.fit(found), name + ".png", options.dpi)
+        saving.write(pictures.fit(found), name + ".png", options.dpi)
         wrote.append(name + ".png")
     print("wrote " + ", ".join(wrote))
 
@@ -301,10 +301,10 @@ def _scar(options):
             doubts.append(parted.doubt)
             more = {"wear_split": plain(parted.ratio), "wear_split_sd": plain(parted.ratio_sd)}
     if options.output and not options.no_picture:
-        from ... import plot
         from ...plot import saving
+        from . import pictures
 
-        saving.write(plot.scar_fit(found), options.output + "-scar.png", options.dpi)
+        saving.write(pictures.scar_fit(found), options.output + "-scar.png", options.dpi)
         print(f"wrote {options.output}-scar.png")
     numbers = {
         f"wear_coefficient{options.body}": plain(first.coefficient),

@@ -45,7 +45,6 @@ from functools import partial
 
 import numpy as np
 
-from ... import plot
 from ...contact.inprocess import AdviceWarning
 from ...core import materials, words
 from ...core.errors import Unusable, short
@@ -54,6 +53,7 @@ from ...core.line import Parser, add_resolution, guarded, joined, word
 from ...core.progress import Progress, to_stderr
 from ...plot import page
 from ...plot.saving import DPI, write
+from . import PART
 from .backbones import backbone
 from .balance import forced, need_steps
 from .bands import band
@@ -362,7 +362,7 @@ def _write_stiffness(args, result):
         ".json": lambda path: result.to_json(path, args.area or 1.0),
         ".inp": result.to_abaqus,
         "-calculix.inp": result.to_calculix,
-        ".png": lambda path: write(plot.interface(result), path, args.dpi),
+        ".png": lambda path: write(PART.picture("interface")(result), path, args.dpi),
     }
     for ending in _stiffness_files(args):
         ways[ending](args.output + ending)
@@ -387,7 +387,9 @@ def _recorded(kind):
 def _report(args, result):
     """Writes the page of --report, if it is given, with the options as inputs."""
     if args.report:
-        plot.report(result, args.report, _given(args, joined(sys.argv[1:])))
+        from ...plot.reports import report
+
+        report(result, args.report, _given(args, joined(sys.argv[1:])))
 
 
 def _given(args, given):
@@ -459,7 +461,7 @@ def _tell_tensions(pair, preload):
 def _write(args, result, picture):
     if args.output:
         result.to_csv(args.output + ".csv")
-        write(picture(result), args.output + ".png", args.dpi)
+        write(PART.picture(picture)(result), args.output + ".png", args.dpi)
 
 
 def _backbone(args):
@@ -477,9 +479,9 @@ def _backbone(args):
     _print(result, found)
     if args.degree_check:
         print(_degree_line(args, compute, pair, result))
-    _write(args, result, plot.backbone)
+    _write(args, result, "backbone")
     if args.output:
-        write(plot.slip_zones(result, bolts=pair.places), args.output + "-contact.png", args.dpi)
+        write(PART.picture("slip_zones")(result, bolts=pair.places), args.output + "-contact.png", args.dpi)
     _report(args, result)
     return 0
 
@@ -493,7 +495,7 @@ def _band(args):
         spread = dict(args.scatter or [])
         result = band(make, preload, args.amplitudes, sensor, spread, _progress("assembly"), **given)
     _print(result, found)
-    _write(args, result, plot.band)
+    _write(args, result, "band")
     _report(args, result)
     return 0
 
@@ -512,7 +514,7 @@ def _wear(args):
         given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension, report=_progress("vibration"))
         result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)
     _print(result, found)
-    _write(args, result, plot.joint_wear)
+    _write(args, result, "joint_wear")
     _report(args, result)
     return 0
 
@@ -539,7 +541,7 @@ def _response(args):
         result = forced(pair.structure, amplitude * driven, args.frequencies, sensor, **given)
     _tell_tensions(pair, preload)
     _print(result, found)
-    _write(args, result, plot.response)
+    _write(args, result, "response")
     _report(args, result)
     return 0
 

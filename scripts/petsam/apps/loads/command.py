@@ -161,10 +161,10 @@ def description(found):
 
 def carry_out(options):
     """Reads, sums, writes, draws and prints."""
-    from ... import plot
     from ...plot.saving import write
     from ...results.stresses import open_any as open_results
     from .. import loads
+    from . import pictures
 
     for _, _, output in options.wanted:
         pictures = [] if options.no_picture else [_picture(output)]
@@ -184,11 +184,11 @@ def carry_out(options):
         print(f"{output}: load history of {short(found.name)}, {options.file}")
         print("\n".join("  " + line for line in description(found)))
         if not options.no_picture:
-            write(plot.loads(found), _picture(output), options.dpi)
+            write(pictures.loads(found), _picture(output), options.dpi)
             print("wrote " + _picture(output))
         if options.compare:
             with open_results(options.compare) as results:
-                write(plot.loads_beside(found, results), _beside(output), options.dpi)
+                write(pictures.loads_beside(found, results), _beside(output), options.dpi)
             print("wrote " + _beside(output))
 
 

@@ -23,7 +23,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ... import plot
 from ...core import words
 from ...core.errors import Error, short
 from ...core.files import need_replaceable, same
@@ -361,7 +360,9 @@ def carry_out(options, words):
         raise Error(f"{one.name}: contains numbers that are too large")
     writing.write(one, options.output, shlex.join(["petsam-surface", *words]))
     if not options.no_picture:
-        write(plot.surface(one), options.picture, options.dpi)
+        from .pictures import surface
+
+        write(surface(one), options.picture, options.dpi)
     print(f"{options.output}: /{writing.dataset(one)}, {QUANTITIES[one.quantity]}, m")
     print("\n".join("  " + line for line in description(one)))
     if not options.no_picture:

@@ -551,26 +551,25 @@ def _compare_roll(options, found):
 
 def _picture(options, vehicle, found):
     """Writes NAME.png: of one position its patches, else numbers over y."""
-    from ... import plot
     from ...plot import saving
     from .. import wheel as profiles
+    from . import pictures
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         with vehicle.axle() as axle:
             if len(found.states) == 1:
-                figure = plot.wheels(vehicle, axle.solve(found.states[0].position, found.states[0].load))
+                figure = pictures.wheels(vehicle, axle.solve(found.states[0].position, found.states[0].load))
             else:
-                figure = plot.over_y(profiles.geometry(axle, np.linspace(-WIDE, WIDE, POINTS)), found)
+                figure = pictures.over_y(profiles.geometry(axle, np.linspace(-WIDE, WIDE, POINTS)), found)
     saving.write(figure, options.output + ".png", options.dpi)
 
 
 def _wear(options, vehicle, states, cores, endings):
     """Prints the wear and writes its files; their endings."""
-    from ... import plot
     from ...plot import saving
     from .. import wheel as profiles
-    from . import wearing
+    from . import pictures, wearing
 
     law = wearing.Law(options.law or "energy", options.wear)
     if options.distance is None:
@@ -593,7 +592,7 @@ def _wear(options, vehicle, states, cores, endings):
         return []
     tables.write_csv(options.output + "-wear.csv", columns)
     if "-wear.png" in endings:
-        saving.write(plot.worn_profile(worn), options.output + "-wear.png", options.dpi)
+        saving.write(pictures.worn_profile(worn), options.output + "-wear.png", options.dpi)
     return [ending for ending in endings if ending.startswith("-wear")]
 
 
