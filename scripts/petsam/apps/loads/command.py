@@ -167,8 +167,8 @@ def carry_out(options):
     from . import pictures
 
     for _, _, output in options.wanted:
-        pictures = [] if options.no_picture else [_picture(output)]
-        for name in [output, *pictures] + ([_beside(output)] if options.compare else []):
+        drawn = [] if options.no_picture else [_picture(output)]
+        for name in [output, *drawn] + ([_beside(output)] if options.compare else []):
             if any(same(name, path) for path in (options.file, options.deck, options.compare) if path):
                 raise Error(f"{name}: is an input file; choose another name by --output")
             need_replaceable(name)
