@@ -34,7 +34,7 @@ spectrum    table of positions
 batch       many positions in processes
 conicity    geometry of rigid wheels, equivalent conicity
 wearing     wear of a wheel's profile by a spectrum of positions
-creep       the table of creep forces of elliptic contacts, CreepTable; creeptable makes it from creepcases
+creep       the table of creep forces of elliptic contacts, CreepTable
 
 Axes: x forward, y to the right, z down; z = 0 is the plane on the rails' tops, y = 0 the middle of the track. Profiles
 have y to the field side and z down, of both bodies. SI units, angles in rad.
