@@ -10,7 +10,6 @@ element     a contact as a force element of a time integration or of a static so
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
 saved       tables of all these from CSV (saved.py)
 damper      under the platforms of turbine blades, pressed by its centrifugal force (damper.py)
-adapters    contacts in other programs of harmonic balance: tmdsimpy, pyHarm (adapters/)
 """
 
 from ...core.part import Part
