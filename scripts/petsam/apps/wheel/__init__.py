@@ -1,9 +1,9 @@
 """Wheel and rail: from two profiles to patches, creepages and forces at one position of a wheelset on its track.
 
-    from petsam import profiles
-    rail = profiles.Track(profiles.read("uic60.prr"), gauge=1.435, gauge_height=0.014)
-    wheel = profiles.Wheelset(profiles.read("s1002.prw"), radius=0.46, flange_back=1.36, flange_position=-0.07)
-    found = profiles.solve(rail, wheel, profiles.Position(y=2e-3, yaw=4.8e-3, speed=2.0), force=10e3, friction=0.3)
+    from petsam import wheel
+    rail = wheel.Track(wheel.read("uic60.prr"), gauge=1.435, gauge_height=0.014)
+    running = wheel.Wheelset(wheel.read("s1002.prw"), radius=0.46, flange_back=1.36, flange_position=-0.07)
+    found = wheel.solve(rail, running, wheel.Position(y=2e-3, yaw=4.8e-3, speed=2.0), force=10e3, friction=0.3)
     print(found.force, [(patch.y, patch.angle, patch.n, patch.p_max) for patch in found.patches])
 
 read        a Profile from a file of SIMPACK (.prr, .prw), of MiniProf (.whl, .ban, .mpt) or from columns
