@@ -11,6 +11,7 @@ import os
 import sys
 
 import numpy as np
+import underplatform
 
 import petsam
 from petsam import joint
@@ -37,7 +38,7 @@ BEYOND = {"marker": "$\\uparrow$", "markersize": 11, "linestyle": "none"}  # an 
 
 def damper(mass):
     """Damper of this mass."""
-    return joint.damper(
+    return underplatform.damper(
         mass, RADIUS, ANGLE, SPEED, ORBIT, FRICTION, crown=CROWN, body1="steel", body2="steel",
     )  # fmt: skip
 

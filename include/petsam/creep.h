@@ -8,7 +8,7 @@
 
   x is the rolling direction, y lies across it, z is the normal, right-handed. Creepages are the rigid slip of one body
   relative to the other, over the rolled distance, at the centre of the ellipse; a positive creepage gives a positive
-  force. In petsam.profiles they are those of the rail relative to the wheel, with z into the rail: the force on the
+  force. In petsam.wheel they are those of the rail relative to the wheel, with z into the rail: the force on the
   wheel is then (Fx, Fy), with the moment Mz, and that on the rail its opposite.
 
   Axes of the table: log(a/b), and the scaled creepages

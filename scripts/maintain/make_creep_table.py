@@ -13,9 +13,9 @@ import os
 import sys
 import time
 
+import creeptable
 import numpy as np
 
-from petsam.apps.wheel import creeptable
 from petsam.apps.wheel.creep import CreepTable
 from petsam.core.errors import Error
 from petsam.core.line import fail

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes from the programs' -help the tables of options in examples/manual/OPTIONS.md, INDEX.md, their index, and
-scripts/petsam/core/declared.py, units of options, the options that name files, and the table of materials.
+"""Writes from the programs' -help the tables of options in examples/manual/OPTIONS.md and, with units of options, the
+options that name files and the table of materials, scripts/petsam/core/declared.py.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
@@ -19,7 +19,6 @@ from options import groups_of, read_help
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "examples" / "manual" / "OPTIONS.md"
-INDEX = ROOT / "examples" / "manual" / "INDEX.md"
 DECLARED = ROOT / "scripts" / "petsam" / "core" / "declared.py"
 PROGRAMS = ["petsam", "petsam-stress"]
 MATERIALS = re.compile(r"<!-- materials -->\n.*?<!-- end -->", re.S)
@@ -92,23 +91,6 @@ def materials(described):
     return "<!-- materials -->\n" + "\n".join(lines) + "\n<!-- end -->"
 
 
-def index(text, groups):
-    """Returns the text of the index: every option with the heading above its table in the reference's text."""
-    entries = []
-    for found in TABLE.finditer(text):
-        program, group = found.groups()
-        heading = re.findall(r"^#+ (.*)$", text[: found.start()], re.M)[-1]
-        anchor = re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
-        entries += [(option.name, program, f"[{heading}](OPTIONS.md#{anchor})") for option in groups[program, group]]
-    rows = [f"| `{name}` | {program} | {link} |" for name, program, link in sorted(entries)]
-    return "\n".join([
-        "# Index of options", "",
-        "Every option by its name, and where [options](OPTIONS.md) explains it. `petsam -help NAME` prints one.", "",
-        "<!-- petsam: index, written by scripts/maintain/reference.py -->",
-        "| option | program | section |", "| --- | --- | --- |", *rows, "<!-- end -->", "",
-    ])  # fmt: skip
-
-
 def declared_materials(described):
     """Returns the lines of the module for the table of materials."""
     lines = ["# constants of materials: unit and meaning", "CONSTANTS = {"]
@@ -166,7 +148,7 @@ def main():
         groups.update({(program, group.name): group.options for group in groups_of(described)})
     reference = MATERIALS.sub(lambda _: materials(described), fill(REFERENCE.read_text(), groups))
     module = declared(described, groups)
-    for file, new in (REFERENCE, reference), (INDEX, index(reference, groups)), (DECLARED, module):
+    for file, new in (REFERENCE, reference), (DECLARED, module):
         if not arguments.check:
             file.write_text(new)
         elif new != file.read_text():

@@ -124,7 +124,7 @@ PARTS = (
             *(f"examples/reference/cases/{case}.md" for case in CASES),
         ),
     ),
-    ("Options and words", ("examples/manual/OPTIONS.md", "examples/manual/INDEX.md", "examples/manual/GLOSSARY.md")),
+    ("Options and words", ("examples/manual/OPTIONS.md", "examples/manual/GLOSSARY.md")),
     (
         "Python",
         ("scripts/PYTHON.md", "examples/study/README.md", *(f"examples/notebooks/{one}.md" for one in NOTEBOOKS)),

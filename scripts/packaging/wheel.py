@@ -112,7 +112,6 @@ def stage(build, libraries, tree):
     manual = [f"man/man1/{name}.1" for name in (*PROGRAMS, *scripts)]
     for page in (*manual, *(f"bash-completion/completions/{name}" for name in PROGRAMS)):
         copy(build / "share" / page, data / "share" / page)
-    shutil.copytree(ROOT / "scripts/slurm", data / "share/petsam/scripts/slurm")
     for name in ("LICENSE", "CITATION.cff"):
         copy(ROOT / name, data / "share/petsam" / name)
     return list(places)

@@ -10,13 +10,13 @@ open            reading of files: Results of petsam, Stresses of petsam-stress, 
 results         what open() returns
 cycles          cycles of a load history and their energies: results.cycles, and
 sliding         regime, energy ratio, sliding ratio of a cycle; slip amplitudes: results.sliding
-contact         contacts, and what is asked of them; of these
+contact         contacts, and what is computed of them; of these
 gradient        derivatives of a number of a history by all parameters: Contact.gradient(); for optimisers
 uncertainty     standard deviation of such a number by roughness and parameters, and their shares
 closed          closed-form solutions of contact mechanics
 materials       constants of materials by name
 plot            pictures by name, of files and of what applications have found: petsam-plot
-apps            the applications, petsam.joint, petsam.wheel and others: petsam.apps.records() tells what each is for
+apps            the applications, petsam.joint, petsam.wheel and others: petsam.apps.records() has their purposes
 core            what all parts share: errors, files, HDF5, units, command lines, search for petsam and its libraries
 
 Importing this package alone needs only the standard library: each part imports its libraries when it is used, and is

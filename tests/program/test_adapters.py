@@ -1,11 +1,16 @@
-"""A contact in other programs of harmonic balance: Mindlin's oscillator in tmdsimpy and pyHarm."""
+"""A contact in other programs of harmonic balance (examples/lap/adapters): Mindlin's oscillator in tmdsimpy, pyHarm."""
+
+import sys
 
 import numpy as np
 import pytest
 
 import petsam
-from petsam.apps.joint.adapters.tmdsimpy import Force
+from support import ROOT
 from test_element import LIMIT, LOAD, MASS, element, sphere
+
+sys.path.insert(0, str(ROOT / "examples" / "lap"))
+from adapters.tmdsimpy import Force  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::petsam.AdviceWarning")
 
@@ -100,7 +105,7 @@ def test_the_oscillator_in_pyharm(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYHARM_CONTEXT_FILE", str(tmp_path / "context.json"))
     harm = pytest.importorskip("pyHarm")
-    from petsam.apps.joint.adapters import pyharm
+    from adapters import pyharm
 
     one, stiffness, full = element()
     stuck, viscous = np.sqrt(stiffness / MASS), 0.02

@@ -27,7 +27,7 @@ from petsam.apps.compliance.command import arguments, carry_out
 from support import ROOT
 
 pytestmark = [
-    pytest.mark.filterwarnings(f"ignore::petsam.{name}") for name in ("joint.BackboneWarning", "AdviceWarning")
+    pytest.mark.filterwarnings(f"ignore::petsam.{name}") for name in ("apps.joint.BackboneWarning", "AdviceWarning")
 ]
 
 FRICTION, LOAD, RADIUS, YOUNG = 0.15, 700.0, 0.12, 200e9

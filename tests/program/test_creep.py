@@ -3,14 +3,19 @@ coefficients, full sliding in closed form, and petsam's own solutions."""
 
 import shutil
 import subprocess
+import sys
 
 import numpy as np
 import pytest
 
 import petsam
-from petsam.apps.wheel import creep, creepcases, creeptable
+from petsam.apps.wheel import creep
 from petsam.core.progress import quiet
 from support import ROOT
+
+sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
+import creepcases  # noqa: E402
+import creeptable  # noqa: E402
 
 HERE = ROOT / "tests" / "program"
 PLAN = creeptable.Plan((5, 7, 7, 5), (0.25, 4.0), 32, 0.25)

@@ -11,9 +11,12 @@ import petsam
 from petsam import joint
 from support import ROOT
 
+sys.path.insert(0, str(ROOT / "examples" / "damper"))
+import underplatform  # noqa: E402
+
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore::{name}")
-    for name in ("petsam.joint.BackboneWarning", "petsam.AdviceWarning", "RuntimeWarning")
+    for name in ("petsam.apps.joint.BackboneWarning", "petsam.AdviceWarning", "RuntimeWarning")
 ]
 MASS, CELLS = 8e-3, 24
 
@@ -133,8 +136,10 @@ def sum_of_forces(one, loads, friction=0.0):
 
 
 def test_units_are_those_of_their_texts():
-    one = joint.damper(**KINDS["ellipse"])
-    plain = joint.damper(10e-3, 5e-3, np.radians(35), 100 * np.pi, 0.5, 0.3, crown=1.5, body1="steel", body2="steel")
+    one = underplatform.damper(**KINDS["ellipse"])
+    plain = underplatform.damper(
+        10e-3, 5e-3, np.radians(35), 100 * np.pi, 0.5, 0.3, crown=1.5, body1="steel", body2="steel"
+    )
     for name in ("mass", "radius", "speed", "orbit", "friction", "crown", "force"):
         assert getattr(one, name) == pytest.approx(getattr(plain, name), rel=1e-14)
     assert one.angles == pytest.approx(plain.angles) and one.bodies == plain.bodies
@@ -142,7 +147,7 @@ def test_units_are_those_of_their_texts():
 
 def test_alike_platforms_bear_half_the_force_each():
     """F/2 over cos alpha; while both contacts slide over cos alpha +- mu sin alpha."""
-    one, alpha = joint.damper(**KINDS["ellipse"]), np.radians(35)
+    one, alpha = underplatform.damper(**KINDS["ellipse"]), np.radians(35)
     assert one.force == pytest.approx(10e-3 * 0.5 * (100 * np.pi) ** 2)
     assert one.loads == pytest.approx(np.full(2, one.force / (2 * np.cos(alpha))), rel=1e-12)
     for row, sign in zip(one.sliding, (1, -1)):
@@ -152,7 +157,7 @@ def test_alike_platforms_bear_half_the_force_each():
 
 @pytest.mark.parametrize("angle", [("20deg", "50deg"), (0.9, 0.3), "35deg"])
 def test_forces_on_a_damper_add_up_to_zero(angle):
-    one = joint.damper(**dict(KINDS["ellipse"], angle=angle, friction=0.2))
+    one = underplatform.damper(**dict(KINDS["ellipse"], angle=angle, friction=0.2))
     first, second = one.angles
     assert one.loads == pytest.approx(one.force * np.sin([second, first]) / np.sin(first + second), rel=1e-12)
     for loads, friction in ((one.loads, 0.0), (one.sliding[0], 0.2), (one.sliding[1], -0.2)):
@@ -161,7 +166,7 @@ def test_forces_on_a_damper_add_up_to_zero(angle):
 
 def test_friction_at_unlike_platforms_may_leave_no_sliding_outwards():
     """The flat one would have to pull."""
-    one = joint.damper(**dict(KINDS["ellipse"], angle=("5deg", "50deg")))
+    one = underplatform.damper(**dict(KINDS["ellipse"], angle=("5deg", "50deg")))
     assert np.all(np.isnan(one.sliding[0])) and np.all(one.sliding[1] > 0)
 
 
@@ -169,7 +174,7 @@ def test_friction_at_unlike_platforms_may_leave_no_sliding_outwards():
 @pytest.mark.parametrize("angle", ["35deg", ("25deg", "45deg")])
 def test_the_structure_is_in_equilibrium_and_has_the_modes_of_its_contacts(kind, angle):
     """Its preload has no shear and the computed loads; modes by the stiffness of both contacts."""
-    one = joint.damper(**dict(KINDS[kind], angle=angle))
+    one = underplatform.damper(**dict(KINDS[kind], angle=angle))
     found = one.structure(PLATES, OMEGA, 24)
     length = one.scale**2
     pressed = -found.loads.reshape(2, 2) * length
@@ -188,7 +193,7 @@ def test_the_structure_is_in_equilibrium_and_has_the_modes_of_its_contacts(kind,
 def test_contacts_are_those_of_hertz():
     """Half axes and pressure of an ellipse, closed and computed; of a line sqrt(4 P R/(pi E*)), 2 P/(pi a)."""
     modulus = 210e9 / 0.91 / 2
-    one = joint.damper(**KINDS["ellipse"])
+    one = underplatform.damper(**KINDS["ellipse"])
     closed = one.hertz[0]
     assert (closed.half_x, closed.half_y, closed.pressure) == pytest.approx(
         petsam.closed.ellipse.hertz_ellipse(one.loads[0], 5e-3, 1.5, modulus)[:3]
@@ -196,7 +201,7 @@ def test_contacts_are_those_of_hertz():
     with one.contact(0, 64) as contact:
         assert contact.try_step(load_n=one.loads[0]).disp_z == pytest.approx(closed.approach, rel=2e-3)
         assert contact.field("pressure").max() == pytest.approx(closed.pressure, rel=5e-3)
-    one = joint.damper(**KINDS["line"])
+    one = underplatform.damper(**KINDS["line"])
     load = one.loads[1] / 0.02
     line = one.hertz[1]
     assert line.half_x == pytest.approx(np.sqrt(4 * load * 5e-3 / (np.pi * modulus))) and line.half_y == 0.01
@@ -210,7 +215,7 @@ def test_a_long_line_is_the_same_damper_twice():
     """Twice the mass, the length and the blades: the same motion, and twice the energy."""
     found = []
     for factor in (1.0, 2.0):
-        one = joint.damper(**dict(KINDS["line"], mass=factor * 10e-3, length=factor * 0.02))
+        one = underplatform.damper(**dict(KINDS["line"], mass=factor * 10e-3, length=factor * 0.02))
         tip = one.scale * np.array([2.5, 0.0, 0.0, 0.0, 0.0]) / np.sqrt(factor)
         found.append(joint.backbone(one.structure(PLATES / np.sqrt(factor), OMEGA, 32), [2e-6], mode=2, sensor=tip))
         found[-1].numbers["energy"] *= one.length / factor
@@ -241,9 +246,9 @@ def test_a_long_line_is_the_same_damper_twice():
 )
 def test_a_mistake_is_named(change, says):
     with pytest.raises(petsam.Error, match=says):
-        joint.damper(**(KINDS["ellipse"] | change))
+        underplatform.damper(**(KINDS["ellipse"] | change))
 
 
 def test_platforms_need_two_displacements_each():
     with pytest.raises(petsam.Error, match=r"platforms: has the shape \(2, 2\): expected \(4, 2\)"):
-        joint.damper(**KINDS["ellipse"]).structure(PLATES[:2], OMEGA)
+        underplatform.damper(**KINDS["ellipse"]).structure(PLATES[:2], OMEGA)

@@ -1,4 +1,5 @@
-"""Functions of petsam.gradient in programs that jax or torch differentiate: chain rules beside central differences."""
+"""examples/gradient/differentiable.py: functions of petsam.gradient in programs that jax or torch differentiate; chain
+rules beside central differences."""
 
 import sys
 
@@ -6,6 +7,10 @@ import numpy as np
 import pytest
 
 import petsam
+from support import ROOT
+
+sys.path.insert(0, str(ROOT / "examples" / "gradient"))
+import differentiable  # noqa: E402
 
 BALL = dict(
     body1="steel", body2="Ti-6Al-4V", gap_type="flat", grid_n=32, grid_size=2.4e-3, friction=0.4, slip_direction="end",
@@ -82,14 +87,14 @@ def jax():
 def test_chain_rule_by_jax(jax, several, compiled):
     """Through the cosines of a profile, of one number and of a list, in one run."""
     model, one = Counted(["energy", "pressure_norm"] if several else "energy"), lambda number: number**2 / 1e-8
-    evaluate, whole = petsam.gradient.for_jax(model), joined if several else one
+    evaluate, whole = differentiable.for_jax(model), joined if several else one
     find = jax.value_and_grad(lambda at: whole(evaluate(jax.numpy.hstack(parameters(jax.numpy, at)))))
     beside_differences(model, whole, jax.jit(find) if compiled else find)
 
 
 def test_all_ways_of_jax(jax):
     """Jacobians both ways, of one point and of several; other precisions, and lists."""
-    evaluate = petsam.gradient.for_jax(polynomials, shape=(2,))
+    evaluate = differentiable.for_jax(polynomials, shape=(2,))
     exact = polynomials(X)[1]
     for way in (jax.jacrev, jax.jacfwd):
         assert np.allclose(way(evaluate)(X), exact) and np.allclose(jax.jit(way(evaluate))(X), exact)
@@ -101,12 +106,12 @@ def test_all_ways_of_jax(jax):
 
 
 def test_refusals_by_jax(jax):
-    evaluate = petsam.gradient.for_jax(polynomials, shape=(2,))
+    evaluate = differentiable.for_jax(polynomials, shape=(2,))
     with pytest.raises(petsam.Error, match="no second derivatives of a run"):
         jax.jacrev(jax.jacrev(evaluate))(X)
     with pytest.raises(Exception, match=r"numbers of the shape \(2,\): give shape=\(2,\)"):
-        petsam.gradient.for_jax(polynomials)(X)
-    model = petsam.gradient.for_jax(Counted("energy"))
+        differentiable.for_jax(polynomials)(X)
+    model = differentiable.for_jax(Counted("energy"))
     for x, words in (([0.4, 0, 0], r"x has the shape \(3,\): give 4 values"), ([0.1, 0, 0, 0], "gross slip")):
         with pytest.raises(Exception, match=words):
             model(x)
@@ -127,7 +132,7 @@ def torch():
 def test_chain_rule_by_torch(torch, several):
     """As by jax, by backward()."""
     model, one = Counted(["energy", "pressure_norm"] if several else "energy"), lambda number: number**2 / 1e-8
-    evaluate, whole = petsam.gradient.for_torch(model), joined if several else one
+    evaluate, whole = differentiable.for_torch(model), joined if several else one
 
     def find(heights):
         at = torch.tensor(heights, requires_grad=True)
@@ -141,7 +146,7 @@ def test_chain_rule_by_torch(torch, several):
 
 
 def test_all_ways_of_torch(torch):
-    evaluate, x = petsam.gradient.for_torch(polynomials), torch.tensor(X, requires_grad=True)
+    evaluate, x = differentiable.for_torch(polynomials), torch.tensor(X, requires_grad=True)
     assert torch.autograd.gradcheck(evaluate, (x,))
     assert torch.autograd.gradcheck(lambda at: (evaluate(torch.sin(at)) ** 2).sum(), (x,))
     exact = polynomials(X)[1]
@@ -150,7 +155,7 @@ def test_all_ways_of_torch(torch):
 
 
 def test_refusals_by_torch(torch):
-    evaluate = petsam.gradient.for_torch(polynomials)
+    evaluate = differentiable.for_torch(polynomials)
     for x, words in (
         (X, "x is of float64: give a tensor"),
         (torch.ones(3), "give a tensor of torch.float64, x.double"),
@@ -160,7 +165,7 @@ def test_refusals_by_torch(torch):
     with pytest.raises(petsam.Error, match="no second derivatives of a run"):
         torch.autograd.functional.hessian(lambda at: evaluate(at).sum(), torch.tensor(X))
     with pytest.raises(petsam.Error, match="gross slip"):
-        petsam.gradient.for_torch(Counted("energy"))(torch.tensor([0.1, 0, 0, 0], dtype=torch.float64))
+        differentiable.for_torch(Counted("energy"))(torch.tensor([0.1, 0, 0, 0], dtype=torch.float64))
 
 
 # ---------------------------------------------------------------- without them
@@ -170,4 +175,4 @@ def test_refusals_by_torch(torch):
 def test_missing_library(name, monkeypatch):
     monkeypatch.setitem(sys.modules, name, None)
     with pytest.raises(petsam.Error, match=f"{name} is not installed: .* -m pip install {name}"):
-        getattr(petsam.gradient, f"for_{name}")(polynomials)
+        getattr(differentiable, f"for_{name}")(polynomials)

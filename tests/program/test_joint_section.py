@@ -16,7 +16,7 @@ from petsam.apps.compliance import bolts, halfplane
 from test_compliance_command import compliance  # noqa: F401
 
 pytestmark = [
-    pytest.mark.filterwarnings(f"ignore::petsam.{name}") for name in ("joint.BackboneWarning", "AdviceWarning")
+    pytest.mark.filterwarnings(f"ignore::petsam.{name}") for name in ("apps.joint.BackboneWarning", "AdviceWarning")
 ]
 
 HALF, CELLS, DEGREE = 18e-3, 96, 12

@@ -46,6 +46,13 @@ def test_the_Python_package_and_its_wheel_have_the_version_of_the_headers():
     assert 'version = { attr = "petsam.core.version.__version__" }' in (ROOT / "scripts/pyproject.toml").read_text()
 
 
+def test_the_Python_package_takes_along_the_files_beside_its_modules():
+    data = tomllib.loads((ROOT / "scripts/pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]
+    taken = {f"{package.replace('.', '/')}/{name}" for package, names in data.items() for name in names}
+    files = [path.relative_to(ROOT / "scripts") for path in (ROOT / "scripts/petsam").rglob("*") if path.is_file()]
+    assert {str(path) for path in files if path.suffix not in (".py", ".pyc")} == taken
+
+
 def test_CITATION_has_what_a_citation_needs_and_README_tells_of_it():
     known = yaml.safe_load((ROOT / "CITATION.cff").read_text())
     assert {"cff-version", "message", "title", "version", "license", "authors"} <= set(known)

@@ -77,7 +77,7 @@ def pair(tmp_path):
     return tmp_path
 
 
-@pytest.mark.filterwarnings("ignore::petsam.joint.BackboneWarning", "ignore::petsam.AdviceWarning")
+@pytest.mark.filterwarnings("ignore::petsam.apps.joint.BackboneWarning", "ignore::petsam.AdviceWarning")
 def test_amplitudes_and_assemblies_are_counted(pair, joint_command, monkeypatch):
     words = (*PAIR, "--steps", 1, "--amplitudes")
     lines = lines_of(joint_command, monkeypatch, "backbone", *words, "1mm,2mm")
@@ -87,7 +87,7 @@ def test_amplitudes_and_assemblies_are_counted(pair, joint_command, monkeypatch)
     assert len(lines) == 5
 
 
-@pytest.mark.filterwarnings("ignore::petsam.joint.BackboneWarning", "ignore::petsam.AdviceWarning")
+@pytest.mark.filterwarnings("ignore::petsam.apps.joint.BackboneWarning", "ignore::petsam.AdviceWarning")
 def test_vibrations_of_wear_are_counted():
     """Two spans of cycles, in two parts each and in one, and the vibrations at the end."""
     steel = {f"body{k}_{name}": value for k in "12" for name, value in (("young", 2e11), ("poisson", 0.3))}

@@ -83,16 +83,6 @@ def test_units_are_declared_once_for_scripts():
     assert module["FOLLOWING"] == {"N": ("N", 0), "kN": ("N", 3), "Nm/m": ("N m/m", 0)}
 
 
-def test_the_index_has_every_option_with_the_heading_above_its_table():
-    text = "# All\n### The grid, cells\n<!-- petsam: B -->\n<!-- end -->\n### Last\n<!-- petsam: A -->\n<!-- end -->\n"
-    options = {group: [Option(name, "", "", None, [])] for group, name in (("B", "-z"), ("A", "-a"))}
-    rows = reference.index(text, {("petsam", group): one for group, one in options.items()}).splitlines()
-    assert rows[-3:-1] == [
-        "| `-a` | petsam | [Last](OPTIONS.md#last) |",
-        "| `-z` | petsam | [The grid, cells](OPTIONS.md#the-grid-cells) |",
-    ]
-
-
 @pytest.mark.parametrize("text", ["", "<!-- petsam: A -->\n<!-- end -->\n<!-- petsam: B -->\n<!-- end -->\n"])
 def test_a_group_without_a_table_and_a_table_without_a_group_are_errors(text):
     with pytest.raises(ValueError):

@@ -916,7 +916,7 @@ trap 'echo "$$ $RANDOM" >"$file"; exit 75' USR1
 
 @pytest.fixture
 def large(tmp_path, slurm):
-    """large(script): runs scripts/slurm/run.sbatch with a petsam that does script; exit code and requeues."""
+    """large(script): runs examples/study/run.sbatch with a petsam that does script; exit code and requeues."""
 
     def submit(script, *more, limit=False, **variables):
         executable(tmp_path / "bin" / "petsam", LARGE.format(tmp_path, script))
@@ -931,7 +931,7 @@ def large(tmp_path, slurm):
             "GRACE": "1",
             **variables,
         }
-        script, words = ROOT / "scripts/slurm/run.sbatch", ["-grid_n", "64", "-output", "big.h5", *more]
+        script, words = ROOT / "examples/study/run.sbatch", ["-grid_n", "64", "-output", "big.h5", *more]
         subprocess.run(
             ["sbatch", "--nodes=2", str(script), *words],
             cwd=tmp_path,

@@ -1,4 +1,4 @@
-"""Contacts: in this process, as runs of the program, and what is asked of them.
+"""Contacts: in this process, as runs of the program, and what is computed of them.
 
 inprocess    Contact: steps, stiffness, fields, stresses, fatigue
 running      run(): a run of the program, whose results it returns

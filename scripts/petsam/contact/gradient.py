@@ -12,7 +12,7 @@ The pass back is the library's (src/post/gradient). For optimisers, function() m
     scipy.optimize.minimize(energy, [0.3, 1.0], jac=True)
 
 numbers() is the same without derivatives; positions() and mean() make functions of it that scatter less about those of
-fine grids; for_jax() and for_torch() make parts of programs from such functions that these libraries differentiate.
+fine grids.
 """
 
 import ctypes
@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, Callable, Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import Error, Unusable, counted, library, there_are
+from ..core.errors import Error, Unusable, counted, there_are
 from ..results.gradients import MODULI, Gradient
 
 if TYPE_CHECKING:
@@ -40,7 +40,6 @@ OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (
 SETTLES = 1e-8  # tolerance of the shear by which the direction of slip at mid step is found completely
 GOLDEN = (5**0.5 - 1) / 2
 IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
-NO_SECOND = "there are no second derivatives of a run"
 
 
 class OneSidedWarning(UserWarning):
@@ -362,135 +361,6 @@ def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike
 
     evaluate.shape = getattr(every[0], "shape", ())
     return evaluate
-
-
-def for_jax(
-    evaluate: Callable[[ArrayLike], tuple[Any, np.ndarray]], shape: Optional[tuple[int, ...]] = None
-) -> Callable[[Any], Any]:
-    """A function that jax differentiates, of one that returns a number, or several, and the derivatives.
-
-    jax.grad, jax.value_and_grad, jax.jit, jax.jvp, jax.jacfwd, jax.jacrev and, one after the other, jax.vmap take it.
-    Value and derivatives come from one call of evaluate: a run, and a pass back for each number. There are no second
-    derivatives.
-
-    Parameters
-    ----------
-    evaluate : callable
-        x -> (number, derivatives), as function() returns it.
-    shape : tuple of int, optional
-        Of its numbers, () if it is one; None: as function() made it, otherwise one.
-
-    Returns
-    -------
-    callable
-        x (parameters,) -> number, or numbers, of double precision.
-
-    Raises
-    ------
-    Error
-        If jax, of which 0.4.35 is enough, is not installed; by a call, if it computes in single precision. An error of
-        a run reaches the caller as one of jax, which has its message.
-    """
-    jax = library("jax")
-    shape = getattr(evaluate, "shape", ()) if shape is None else tuple(shape)
-
-    def of_shape(x):
-        found = _doubles(evaluate)(x)
-        if found[0].shape != shape:
-            raise Unusable(f"the function returns numbers of the shape {found[0].shape}: give shape={found[0].shape}")
-        return found
-
-    @jax.custom_jvp
-    def run(x):
-        outcome = [jax.ShapeDtypeStruct(both, np.float64) for both in (shape, (*shape, *x.shape))]
-        return jax.pure_callback(of_shape, outcome, x, vmap_method="sequential")
-
-    @run.defjvp
-    def rejected(point, change):
-        raise Unusable(NO_SECOND)
-
-    @jax.custom_jvp
-    def value(x):
-        return run(x)[0]
-
-    @value.defjvp
-    def value_and_change(point, change):
-        number, slopes = run(*point)
-        return number, slopes @ change[0]
-
-    def differentiable(x):
-        if not jax.config.jax_enable_x64:
-            raise Unusable('jax computes in single precision: use jax.config.update("jax_enable_x64", True)')
-        return value(jax.numpy.asarray(x, np.float64))
-
-    return differentiable
-
-
-def for_torch(evaluate: Callable[[ArrayLike], tuple[Any, np.ndarray]]) -> Callable[[Any], Any]:
-    """A function that torch differentiates, of one that returns a number, or several, and the derivatives.
-
-    Value and derivatives come from one call of evaluate: a run, and a pass back for each number. There are no second
-    derivatives.
-
-    Parameters
-    ----------
-    evaluate : callable
-        x -> (number, derivatives), as function() returns it.
-
-    Returns
-    -------
-    callable
-        x, a tensor (parameters,) of torch.float64 -> a tensor of the number, or of the numbers.
-
-    Raises
-    ------
-    Error
-        If torch, of which 2.0 is enough, is not installed; by a call, if x has another precision.
-    """
-    torch = library("torch")
-
-    class Slopes(torch.autograd.Function):
-        generate_vmap_rule = True
-
-        @staticmethod
-        def forward(x, slopes):
-            return slopes.clone()
-
-        @staticmethod
-        def setup_context(ctx, inputs, output):
-            pass
-
-        @staticmethod
-        def backward(ctx, weight):
-            raise Unusable(NO_SECOND)
-
-    class Run(torch.autograd.Function):
-        @staticmethod
-        def forward(x):
-            return tuple(x.new_tensor(part) for part in _doubles(evaluate)(x.detach().cpu()))
-
-        @staticmethod
-        def setup_context(ctx, inputs, output):
-            ctx.mark_non_differentiable(output[1])
-            ctx.save_for_backward(*inputs, output[1])
-
-        @staticmethod
-        def backward(ctx, weight, _):
-            return torch.tensordot(weight, Slopes.apply(*ctx.saved_tensors), dims=weight.dim())
-
-    def differentiable(x):
-        if getattr(x, "dtype", None) is not torch.float64:
-            raise Unusable(
-                f"x is of {getattr(x, 'dtype', type(x).__name__)}: give a tensor of torch.float64, x.double()"
-            )
-        return Run.apply(x)[0]
-
-    return differentiable
-
-
-def _doubles(evaluate):
-    """The function with arrays of doubles, whatever array x is."""
-    return lambda x: tuple(np.asarray(part, dtype=float) for part in evaluate(np.asarray(x, dtype=float)))
 
 
 def whole(contact: "Contact") -> "Contact":

@@ -101,8 +101,8 @@ def petsam():
 
 
 def script(name):
-    """Returns the path of a script beside this package, or in a wheel."""
-    folders = (SCRIPTS, PREFIX / "share" / "petsam" / "scripts", PREFIX / "bin")
+    """Returns the path of a script beside this package, or where pip puts it."""
+    folders = (SCRIPTS, PREFIX / "bin")
     found = next((folder / name for folder in folders if (folder / name).exists()), None)
     if not found:
         raise Missing(f"{name} not found in {', '.join(map(str, folders))}; install petsam again")

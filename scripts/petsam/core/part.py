@@ -1,4 +1,4 @@
-"""What a part of the package says about itself: its record.
+"""The record of a part of the package: what it is for, its names, its command, its pictures.
 
 A part is a package that users know by its name, as petsam.plot or petsam.joint. Its __init__.py has its record, and
 imports nothing that needs a library; modules are imported when one of their names is first used:

@@ -9,8 +9,6 @@ wear        what wear does to them over the cycles of a vibration (wear.py)
 element     a contact as a force element of a time integration or of a static solver (element.py)
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
 saved       tables of all these from CSV (saved.py)
-damper      under the platforms of turbine blades, pressed by its centrifugal force (damper.py)
-adapters    contacts in other programs of harmonic balance: tmdsimpy, pyHarm (adapters/)
 """
 
 from ...core.part import Part
@@ -30,7 +28,6 @@ PART = Part(
         "wearing": ("Wear", "wear"),
         "balance": ("Response", "forced"),
         "saved": ("Saved", "read"),
-        "damper": ("Damper", "damper"),
     },
     command="petsam-joint",
     libraries=("numpy", "h5py", "matplotlib"),

@@ -1,4 +1,4 @@
-"""A study as Slurm jobs: an array of scripts/slurm/array.sbatch for each number of ranks, and a job that collects."""
+"""A study as Slurm jobs: an array of array.sbatch for each number of ranks, and a job that collects."""
 
 import os
 import re
@@ -8,6 +8,8 @@ import subprocess
 
 from ...core import environment
 from ...core.errors import Unusable, counted, short
+
+TASK = os.path.join(os.path.dirname(os.path.abspath(__file__)), "array.sbatch")  # of the array
 
 
 class SubmitError(Unusable):
@@ -69,7 +71,7 @@ def submit(study, cases, waiting, sbatch=""):
     """Submits the waiting cases of Jobs, at most its cores of ranks at once, and a job that writes the tables at the
     end; sbatch has more words for sbatch."""
     words, extra = _study_words(study), environment.split(sbatch, "--sbatch")
-    script, program = environment.script("slurm/array.sbatch"), environment.script("petsam-study")
+    program = environment.script("petsam-study")
     common = ["--", *study.words] if study.words else []
     log = "--output=" + os.path.join(study.directory, "slurm-%A_%a.out")
     jobs = []
@@ -84,7 +86,7 @@ def submit(study, cases, waiting, sbatch=""):
                 log,
                 f"--export=ALL,PETSAM_STUDY={program}",
                 *extra,
-                str(script),
+                TASK,
                 *words,
                 *common,
             ]

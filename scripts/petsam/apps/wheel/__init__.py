@@ -1,9 +1,9 @@
 """Wheel and rail: from two profiles to patches, creepages and forces at one position of a wheelset on its track.
 
-    from petsam import profiles
-    rail = profiles.Track(profiles.read("uic60.prr"), gauge=1.435, gauge_height=0.014)
-    wheel = profiles.Wheelset(profiles.read("s1002.prw"), radius=0.46, flange_back=1.36, flange_position=-0.07)
-    found = profiles.solve(rail, wheel, profiles.Position(y=2e-3, yaw=4.8e-3, speed=2.0), force=10e3, friction=0.3)
+    from petsam import wheel
+    rail = wheel.Track(wheel.read("uic60.prr"), gauge=1.435, gauge_height=0.014)
+    running = wheel.Wheelset(wheel.read("s1002.prw"), radius=0.46, flange_back=1.36, flange_position=-0.07)
+    found = wheel.solve(rail, running, wheel.Position(y=2e-3, yaw=4.8e-3, speed=2.0), force=10e3, friction=0.3)
     print(found.force, [(patch.y, patch.angle, patch.n, patch.p_max) for patch in found.patches])
 
 read        a Profile from a file of SIMPACK (.prr, .prw), of MiniProf (.whl, .ban, .mpt) or from columns
@@ -34,7 +34,7 @@ spectrum    table of positions
 batch       many positions in processes
 conicity    geometry of rigid wheels, equivalent conicity
 wearing     wear of a wheel's profile by a spectrum of positions
-creep       the table of creep forces of elliptic contacts, CreepTable; creeptable makes it from creepcases
+creep       the table of creep forces of elliptic contacts, CreepTable
 
 Axes: x forward, y to the right, z down; z = 0 is the plane on the rails' tops, y = 0 the middle of the track. Profiles
 have y to the field side and z down, of both bodies. SI units, angles in rad.

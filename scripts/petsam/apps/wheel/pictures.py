@@ -24,9 +24,9 @@ def wheels(vehicle: Vehicle, found: Equilibrium) -> Figure:
 
     Parameters
     ----------
-    vehicle : profiles.Vehicle
+    vehicle : petsam.wheel.Vehicle
         Rails and wheels.
-    found : profiles.Equilibrium
+    found : petsam.wheel.Equilibrium
         The solution.
 
     Returns
@@ -96,9 +96,9 @@ def over_y(shape: Geometry, batch: Optional[Batch] = None, amplitudes: Sequence[
 
     Parameters
     ----------
-    shape : profiles.conicity.Geometry
+    shape : conicity.Geometry
         Of rigid wheels, of petsam.wheel.geometry().
-    batch : profiles.batch.Batch, optional
+    batch : batch.Batch, optional
         A sweep over the lateral displacement.
     amplitudes : sequence of float
         Of the equivalent conicity, m.
@@ -151,7 +151,7 @@ def worn_profile(found: Worn) -> Figure:
 
     Parameters
     ----------
-    found : profiles.Worn
+    found : petsam.wheel.Worn
         Of petsam.wheel.wear().
 
     Returns

@@ -1,6 +1,6 @@
 """A contact as an element of pyHarm (pyharm-os, https://gitlab.com/drti/pyharm): Contact.
 
-from petsam.joint.adapters import pyharm
+from adapters import pyharm
 connector = {"type": "petsam", "connect": "beam", "element": element, "Q": Q}
 pyHarm.Maestro({"plugin": [pyharm.Contact], "connectors": {"joint": connector}, ...})
 """
@@ -8,7 +8,8 @@ pyHarm.Maestro({"plugin": [pyharm.Contact], "connectors": {"joint": connector}, 
 import numpy as np
 from pyHarm.Elements.ABCElement import ABCElement
 
-from ....core.errors import Unusable
+import petsam
+
 from .cycles import Cycles
 
 
@@ -29,7 +30,7 @@ class Contact(ABCElement):
         self.Q = np.atleast_2d(np.asarray(data["Q"], dtype=float))
         self.cycles, self.length = Cycles(data["element"]), 1.0
         if len(self.Q) != self.cycles.u.size:
-            raise Unusable(f"connector {name}: Q has the shape {self.Q.shape}: expected ({self.cycles.u.size}, N)")
+            raise petsam.Error(f"connector {name}: Q has the shape {self.Q.shape}: expected ({self.cycles.u.size}, N)")
 
     def __flag_update__(self, *_):
         self.flag_nonlinear = self.flag_AFT = True
@@ -43,7 +44,9 @@ class Contact(ABCElement):
         waves = len(expl_dofs[["harm", "cs"]].drop_duplicates())
         if self.indices.size != waves * self.Q.shape[1]:
             count = self.indices.size // waves
-            raise Unusable(f"connector {self.name}: Q has {self.Q.shape[1]} columns, and {self.sub} {count} of these")
+            raise petsam.Error(
+                f"connector {self.name}: Q has {self.Q.shape[1]} columns, and {self.sub} {count} of these"
+            )
 
     def adim(self, lc, wc):
         """Displacements are relative to the length lc."""
@@ -65,8 +68,3 @@ class Contact(ABCElement):
         self.J = -self.length * np.einsum("ia,winj,jb->wanb", self.Q, slope, self.Q).reshape(2 * (self.indices.size,))
         self.dJdom = np.zeros((self.indices.size, 1))
         return self.J, self.dJdom
-
-
-def extension():
-    """The element, for pyHarm's entry points."""
-    return [Contact]

@@ -15,9 +15,10 @@ elsewhere: a solver then needs more iterations and finds the same solution.
 
 import numpy as np
 
-from ....core.errors import Unusable
-from ..sweep import CYCLES, SETTLED
+import petsam
 
+SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
+CYCLES = 12  # largest number of cycles
 PER_WAVE = 4  # least samples of a period of the highest harmonic
 GRID = 256  # points among which a reversal is sought
 RISE = 8  # part of the samples of a cycle in which the contact goes from its preload to the cycle
@@ -44,7 +45,7 @@ class Cycles:
         """
         order = np.asarray(order)
         if samples < PER_WAVE * order.max():
-            raise Unusable(f"{samples} time samples: {order.max()} harmonics need {PER_WAVE * order.max()} or more")
+            raise petsam.Error(f"{samples} time samples: {order.max()} harmonics need {PER_WAVE * order.max()} or more")
         times = self._peak(coefficients, order) + 2.0 * np.pi * np.arange(samples + 1) / samples
         wave = waves(order, times)
         moved = wave @ coefficients

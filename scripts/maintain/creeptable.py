@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from typing import Optional
 
 import numpy as np
+from creepcases import Rolling, linear, sliding
 
-from ...core.errors import Error
-from ...core.progress import Progress, Say, to_stderr
-from .creep import LEAST, VERSION, CreepTable, angles, level, rounded, solved
-from .creepcases import Rolling, linear, sliding
+from petsam.apps.wheel.creep import LEAST, VERSION, CreepTable, angles, level, rounded, solved
+from petsam.core.errors import Error
+from petsam.core.progress import Progress, Say, to_stderr
 
 CASES = 60  # of the table's own error
 FINE = 128  # least cells for Kalker's coefficients

@@ -10,8 +10,8 @@ import warnings
 
 import numpy as np
 
-from ...closed.ellipse import hertz_radii
-from ...contact.inprocess import AdviceWarning, Contact
+from petsam.closed.ellipse import hertz_radii
+from petsam.contact.inprocess import AdviceWarning, Contact
 
 SHEAR, PEAK, LENGTH = 82e9, 800e6, 1e-3  # Pa: G, maximum pressure; m: c
 FRICTION = 0.3

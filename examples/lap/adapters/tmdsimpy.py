@@ -1,13 +1,14 @@
 """A contact as a non-linear force of tmdsimpy (https://github.com/tmd-lab/tmdsimpy): Force.
 
-from petsam.joint.adapters.tmdsimpy import Force
+from adapters.tmdsimpy import Force
 system = tmdsimpy.VibrationSystem(M, K, ab=[0, 0])
 system.add_nl_force(Force(element, Q))
 """
 
 import numpy as np
 
-from ....core.errors import Unusable
+import petsam
+
 from .cycles import Cycles
 
 HYSTERETIC = 1  # kind of force in tmdsimpy
@@ -29,7 +30,7 @@ class Force:
         self.T = self.Q.T if T is None else np.asarray(T, dtype=float)
         count = element.u.size
         if self.Q.shape[0] != count or self.T.shape != self.Q.T.shape:
-            raise Unusable(f"Q: has the shape {self.Q.shape}: expected ({count}, N), and T its transpose's")
+            raise petsam.Error(f"Q: has the shape {self.Q.shape}: expected ({count}, N), and T its transpose's")
         self._element, self.cycles = element, Cycles(element)
 
     def nl_force_type(self):
@@ -45,7 +46,7 @@ class Force:
     def force(self, U, update_hist=False):
         """Force (N,) at displacements from the preload in one step, and its derivative (N, N)."""
         if update_hist:
-            raise Unusable(
+            raise petsam.Error(
                 "update_hist: the preload of a contact is given by its own steps, before the Element is made"
             )
         moved = self._element.copy()

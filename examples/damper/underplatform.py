@@ -17,13 +17,12 @@ from typing import Any, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...closed.ellipse import Ellipse, hertz_ellipse
-from ...closed.materials import effective_modulus
-from ...contact.inprocess import Contact
-from ...core import units, words
-from ...core.errors import Unusable
-from .arguments import array, moduli, real
-from .structure import Patch, Structure
+import petsam
+from petsam import Contact, joint
+from petsam.apps.joint.arguments import array, moduli, real
+from petsam.closed import effective_modulus
+from petsam.closed.ellipse import Ellipse, hertz_ellipse
+from petsam.core import units, words
 
 FASTEST = 700.0  # m/s, that no turning rim of metal bears
 ROOM = 1.5  # half width of a contact's grid over its half axis
@@ -154,7 +153,7 @@ class Damper:
     def structure(
         self, platforms: ArrayLike, omega: ArrayLike, grid_n: Any = 48, grid_size: Any = None, damping: float = 0.0,
         coupling: Optional[ArrayLike] = None,
-    ) -> Structure:  # fmt: skip
+    ) -> joint.Structure:  # fmt: skip
         """The blades and the damper, pressed against their platforms, for backbone() and the other functions.
 
         The shear of the preload is zero, as if vibrations had settled the damper. The blades are at rest where the
@@ -188,13 +187,13 @@ class Damper:
         """
         omega, blades = array("omega", omega), array("platforms", platforms)
         if blades.shape != (4, omega.size):
-            raise Unusable(f"platforms: has the shape {blades.shape}: expected (4, {omega.size}), as omega")
+            raise petsam.Error(f"platforms: has the shape {blades.shape}: expected (4, {omega.size}), as omega")
         shapes = -self.scale * np.concatenate([axes @ two for axes, two in zip(self.axes, np.split(blades, 2))])
         rigid = self.scale * self.motions / np.sqrt(self.mass * np.array([1.0, 1.0, 0.5 * self.radius**2]))
         joined = shapes @ (shapes.T / omega[:, None] ** 2)
         if coupling is not None:
             joined = joined + self.scale**2 * array("coupling", coupling)
-        found = Structure(self._pressed(grid_n, grid_size), omega, shapes, joined, rigid, damping)
+        found = joint.Structure(self._pressed(grid_n, grid_size), omega, shapes, joined, rigid, damping)
         found.z, found.loads = (np.concatenate(parts) for parts in zip(*(patch.state() for patch in found.patches)))
         found.a = np.linalg.lstsq(rigid, found.z, rcond=None)[0]
         found.step(-np.concatenate([shapes.T, rigid.T]) @ found.loads)
@@ -212,7 +211,7 @@ class Damper:
             one.commit()
             one.try_step(load_n=load, disp_x=float(along @ place), friction_scale=0.0, **held)
             one.commit()
-            patches.append(Patch(one, ["disp_z", "disp_x"], held, ["disp_z"], name))
+            patches.append(joint.Patch(one, ["disp_z", "disp_x"], held, ["disp_z"], name))
         return patches
 
     def _resolved(self, friction):
@@ -274,12 +273,12 @@ def damper(  # noqa: PLR0913  (as the numbers of a damper)
         length=None if length is None else _value("length", length, "m"),
     )
     if np.isinf(given["crown"]) == (length is None):
-        raise Unusable("crown, length: give one of both: the crown of an ellipse, or the length of a line")
+        raise petsam.Error("crown, length: give one of both: the crown of an ellipse, or the length of a line")
     _need_bearable(given)
     bodies = moduli(bodies)
     for name in (f"body{k}_{one}" for k in "12" for one in ("young", "poisson")):
         if bodies.get(name) is None:
-            raise Unusable(f"{name}: give the bodies' materials, as body1='steel', or their moduli")
+            raise petsam.Error(f"{name}: give the bodies' materials, as body1='steel', or their moduli")
     return Damper(**given, bodies=bodies)
 
 
@@ -292,17 +291,19 @@ def _value(name, value, unit, most=None):
     try:
         return words.number(value, form, unit, good)
     except words.WordError as error:
-        raise Unusable(f"{name}: {error}") from None
+        raise petsam.Error(f"{name}: {error}") from None
 
 
 def _angles(angle):
     """Two angles, rad, of one or two of them."""
     given = [angle] if isinstance(angle, str) or np.ndim(angle) == 0 else list(angle)
     if len(given) not in (1, 2):
-        raise Unusable(f"angle: has {len(given)} values: expected one, or that of the left and of the right platform")
+        raise petsam.Error(
+            f"angle: has {len(given)} values: expected one, or that of the left and of the right platform"
+        )
     found = np.array([_value("angle", one, "rad") for one in given])
     if not np.all(found < 0.5 * np.pi):
-        raise Unusable(f"angle: {found.max():g} rad is no angle below a right one: give rad, or a text as '35deg'")
+        raise petsam.Error(f"angle: {found.max():g} rad is no angle below a right one: give rad, or a text as '35deg'")
     return np.broadcast_to(found, 2)
 
 
@@ -311,10 +312,10 @@ def _need_bearable(given):
     rim = given["speed"] * given["orbit"]
     if not rim <= FASTEST:
         speed = given["speed"]
-        raise Unusable(
+        raise petsam.Error(
             f"speed: {speed:g} rad/s move the damper at {rim:.3g} m/s: expected at most {FASTEST:g} m/s: "
             f"give rad/s ({speed:g} rpm are {speed * np.pi / 30.0:.4g} rad/s), or a text as '{speed:g}rpm'"
         )
     if np.arctan(given["friction"]) + given["angles"].mean() >= 0.5 * np.pi:
         told = " and ".join(f"{one:g}" for one in dict.fromkeys(np.degrees(given["angles"]).tolist()))
-        raise Unusable(f"friction {given['friction']:g}: the damper locks between platforms at {told} degrees")
+        raise petsam.Error(f"friction {given['friction']:g}: the damper locks between platforms at {told} degrees")
