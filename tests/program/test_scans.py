@@ -106,6 +106,7 @@ LISTS = {
     "scattered": np.random.default_rng(2).normal(size=(192, 3)), "profile": np.c_[X, np.sin(X)],
     "falling": np.c_[-X, X],
     "few of many": POINTS[::5], "two points": POINTS[:2, 1:], "doubled": np.r_[POINTS, POINTS[:1]],
+    "with colours": np.random.default_rng(4).normal(size=(192, 6)),
     "uneven": np.c_[X**1.1, Y, H.ravel()], "uneven profile": np.c_[np.arange(12.0) ** 2, H[0]],
 }  # fmt: skip
 GRIDS = {
