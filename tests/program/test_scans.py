@@ -142,7 +142,8 @@ ARRAYS = ["z.npy", "z.npz", "z.mat", "z.h5"]
 @pytest.mark.parametrize("file", ARRAYS)
 @pytest.mark.parametrize("name", LISTS)
 def test_an_array_of_points_is_no_map(surface, tmp_path, name, file):
-    for values in (LISTS[name], LISTS[name].T) if len(LISTS[name]) > 9 else ():
+    rows, columns = LISTS[name].shape
+    for values in ((LISTS[name], LISTS[name].T) if columns <= 3 else (LISTS[name],)) if rows > 9 else ():
         save(tmp_path / file, values)
         assert "a map has one line" in surface(file, *KNOWS, "-o", "o.h5", check=3)[0]
 
