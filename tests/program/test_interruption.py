@@ -302,11 +302,14 @@ def test_no_write_of_many_steps_harms_the_steps_before(deadly, folder):
     assert most >= 2
 
 
-@pytest.mark.parametrize("more", [dict(output_fields="none"), dict(output_every=1000)], ids=["none", "later"])
-def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder, more):
-    """Its space is reserved and, where its numbers fit into the chunks that are there, cut off again."""
+@pytest.mark.parametrize("more", [dict(output_fields="none"), dict(output_every=1000), dict(output_every=5)],
+                         ids=["none", "later", "some"])  # fmt: skip
+@pytest.mark.parametrize("flush", [0, 0.01])
+def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder, more, flush):
+    """Its space is reserved and, where its numbers fit into the chunks that are there, cut off again; steps that wait
+    are not told."""
     (folder / "history.csv").write_text("\n".join((folder / "history.csv").read_text().splitlines()[:13]) + "\n")
-    options = dict(more, output_flush=0)
+    options = dict(more, output_flush=flush)
     die(deadly, folder, options, DIE_LOG="log")
     writes = len((folder / "log").read_text().split())
     tried = 0

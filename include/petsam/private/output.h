@@ -77,7 +77,7 @@ PETSC_INTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[]
 */
 PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, PetscBool fields);
 PETSC_EXTERN PetscErrorCode SamOutputFlush(SamOutput output);
-/* SamOutputWaits - returns true if fields wait to be written. Not collective. */
+/* SamOutputWaits - returns true if steps wait to be written. Not collective. */
 PETSC_INTERN PetscBool SamOutputWaits(SamOutput output);
 /*
   SamOutputWriteFields - appends only the fields of a step whose numbers are already in the file; `time` (s) is that of

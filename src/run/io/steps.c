@@ -245,7 +245,7 @@ PetscErrorCode SamOutputFlush(SamOutput o)
 
 PetscBool SamOutputWaits(SamOutput o)
 {
-  return o->frames.count > 0 ? PETSC_TRUE : PETSC_FALSE;
+  return o->waits > 0 || o->frames.count > 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode SamOutputWriteStep(SamOutput o, PetscBool fields)

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-#define FLUSH        2.0 /* seconds that steps without fields may wait to be written */
-#define FLUSH_FIELDS 0.1 /* the same of steps with fields, whose lines wait, too */
+#define FLUSH        2.0 /* seconds that steps without fields may wait to be written, and their lines with them */
+#define FLUSH_FIELDS 0.1 /* the same of steps with fields */
 
 /* Rejects moments and rotations that the bodies do not have, and components that laws reject, by the name that the user
    gave. */
