@@ -43,6 +43,8 @@ BOOSTS = {
     "examples/lap/README.md": 5,
     "examples/joint/README.md": 5,
     "scripts/README.md": 3,
+    "examples/study/README.md": 3,
+    "examples/body/README.md": 3,
 }
 HIDDEN = "scripts/packaging/paper.md"  # from the search: it says briefly what all pages say
 MANUAL_BOOST = 3
@@ -60,6 +62,8 @@ PARTS = (
             "examples/README.md",
             "examples/manual/GALLERY.md",
             "examples/manual/RESULTS.md",
+            "examples/manual/PICTURES.md",
+            "examples/study/README.md",
             "examples/sphere/README.md",
             "examples/edges/README.md",
         ),
@@ -125,10 +129,7 @@ PARTS = (
         ),
     ),
     ("Options and words", ("examples/manual/OPTIONS.md", "examples/manual/GLOSSARY.md")),
-    (
-        "Python",
-        ("scripts/PYTHON.md", "examples/study/README.md", *(f"examples/notebooks/{one}.md" for one in NOTEBOOKS)),
-    ),
+    ("Python", ("scripts/PYTHON.md", *(f"examples/notebooks/{one}.md" for one in NOTEBOOKS))),
     ("C and other programs", ("examples/embed/README.md", "include/FUNCTIONS.md")),
     (
         "Developing",

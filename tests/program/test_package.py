@@ -82,10 +82,10 @@ def test_completion_shows_only_what_is_public(path):
         assert not own & names
 
 
-def test_the_snippets_of_the_page_of_the_scripts_run(path, tmp_path):
+def test_the_snippets_of_the_page_of_pictures_run(path, tmp_path):
     (tmp_path / "build/run").mkdir(parents=True)
     (tmp_path / "build/run/pad.h5").symlink_to(path)
-    blocks = re.findall(r"```python\n(.*?)```", (SCRIPTS / "README.md").read_text(), re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "examples/manual/PICTURES.md").read_text(), re.DOTALL)
     assert blocks
     for block in blocks:
         python("-c", f"import os\nos.chdir({str(tmp_path)!r})\n{block}")
