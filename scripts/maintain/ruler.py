@@ -6,7 +6,9 @@ tests/program/test_ruler.py holds the limits. Who brings a count down lowers its
 reason in the commit.
 """
 
+import json
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -24,6 +26,7 @@ LIMITS = {
     "modules in the largest circle of Python modules": (3, 3),
     "fitted or chosen numbers in advice": (125, 40),
     "options of a command line outside of commands": (0, 0),
+    "options in no example or page": (0, 0),
 }
 MATERIALS = r"\bSamBody(?:MaterialAt|Substrate|SubstrateTop|Count|Top|At)\("
 
@@ -45,6 +48,25 @@ def found(pattern, folder, but=()):
     return counts
 
 
+PAGES = (".md", ".sh", ".py", ".opts", ".csv", ".yaml", ".ipynb")
+
+
+def shown(option, text):
+    """True if a text gives an option: -option, option=, "option", or option: of a study."""
+    pattern = r"""(?<!\w)-NAME(?!\w)|(?<!\w)NAME=|["'`]NAME["'`]|^\s*NAME:"""
+    return bool(re.search(pattern.replace("NAME", option), text, re.M))
+
+
+def options_in_no_page(build):
+    """petsam's options that no example and no page shows, but for the tables made from the program."""
+    help_text = subprocess.run([build / "bin" / "petsam", "-help", "json"], capture_output=True, text=True, check=True)
+    options = [row["name"].lstrip("-") for group in json.loads(help_text.stdout)["groups"] for row in group["options"]]
+    pages = [path for path in sorted((ROOT / "examples").rglob("*")) if path.suffix in PAGES]
+    pages = [path for path in pages if path.name != "OPTIONS.md"] + [ROOT / "README.md", ROOT / "scripts" / "README.md"]
+    text = "\n".join(path.read_text(encoding="utf-8") for path in pages)
+    return [name for name in options if not shown(name, text)]
+
+
 def measure(build):
     """All counts, by name; build: the folder of the built program, whose symbols join the files."""
     import test_rooms as rooms
@@ -59,6 +81,7 @@ def measure(build):
         max(map(len, rooms.circles(rooms.imports())), default=1),
         sum(found(r"^#define [A-Z_0-9]+ +\(?-?[0-9.]", SRC / "post" / "advice").values()),
         len(rooms.command_line_outside_commands()),
+        len(options_in_no_page(build)),
     )
     return dict(zip(LIMITS, values, strict=True))
 

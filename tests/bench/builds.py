@@ -96,7 +96,7 @@ def plane(folder):
 
 
 def plastic(folder):
-    return dict(STEEL, body2_yield=600e6, body2_hardening_modulus=2e9, gap_type="sphere", gap_radius1=5e-3,
+    return dict(STEEL, body2_yield=600e6, body2_hardening="linear:2e9", gap_type="sphere", gap_radius1=5e-3,
                 gap_radius2="inf", grid_n=32, grid_size=0.5e-3, load_n=100, load_tx=12, steps=3)  # fmt: skip
 
 

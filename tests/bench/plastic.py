@@ -66,8 +66,8 @@ class Both:
     def petsam(self):
         options = (
             f"-body1_young inf -body1_poisson 0.3 -body2_young 1 -body2_poisson {POISSON} -gap_type sphere "
-            f"-gap_radius1 1 -gap_radius2 inf -body2_yield {YIELD} -body2_hardening linear "
-            f"-body2_hardening_modulus {HARDENING} -yield_depth {DEPTH} -yield_layers {self.args.layers} "
+            f"-gap_radius1 1 -gap_radius2 inf -body2_yield {YIELD} "
+            f"-body2_hardening linear:{HARDENING} -yield_depth {DEPTH} -yield_layers {self.args.layers} "
             f"-elasticity periodic -grid_n {self.args.cells} -grid_size {WIDTH} -load_n {LOAD * N_Y} -overwrite"
         )
         first = ["-yield_first", str(DEPTH / self.args.layers)]

@@ -35,7 +35,7 @@ LOAD = {False: 300.0, True: 2e5}  # N, N/m: half widths of 0.5 to 0.6 mm
 YIELD = {False: 4e8, True: 1e8}
 DISSIMILAR = dict(body2_young=70e9, body2_poisson=0.34)
 LAYER = dict(body2_layer_young=4e11, body2_layer_poisson=0.25, body2_layer_thickness=1e-4)
-HARDENING = dict(body2_hardening_modulus=5e9)
+HARDENING = dict(body2_hardening="linear:5e9")
 
 
 def cases(plane):

@@ -11,7 +11,7 @@ from support import SPHERE, doubts
 STEEL = {name: SPHERE[name] for name in ("body1_young", "body1_poisson", "body2_young", "body2_poisson")}
 BALL = dict(STEEL, gap_type="sphere", gap_radius1=5e-3, gap_radius2="inf", grid_n=32, grid_size=8e-3)
 ROLL = dict(STEEL, elasticity="plane", gap_type="curved", gap_radius1_x=5e-3, grid_n=64, grid_size=8e-3)
-HARDENS = dict(body2_hardening="linear", body2_hardening_modulus=2e9)
+HARDENS = dict(body2_hardening="linear:2GPa")
 YIELD = dict(body2_yield=4e8, yield_layers=8)
 COATING = dict(body2_layer_young=300e9, body2_layer_poisson=0.2, body2_layer_thickness=1e-5)
 

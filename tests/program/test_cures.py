@@ -68,7 +68,7 @@ def test_strain_along_a_line_is_advised_no_grid(petsam, tmp_path, hardens, shear
     rows = history(tmp_path / "rows.csv", "time,load_n,load_tx", (1.0, 1e6, 0.0), (2.0, 1e6, shear))
     case = dict(CYLINDER, **rows, grid_size=2.5e-3, grid_n=160, friction=0.5, body2_yield=4e8, steps=2)
     if hardens:
-        case.update(body2_hardening="linear", body2_hardening_modulus=hardens)
+        case.update(body2_hardening=f"linear:{hardens}")
     (said,) = [line for line in petsam(case).complaint if "falls within the first layers" in line]
     assert ("no grid bounds" in said) != advised
 

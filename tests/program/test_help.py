@@ -134,8 +134,7 @@ def test_beginning_of_two_topics_is_refused(petsam):
                 "-body1_surface_file",
                 "-body1_surface_dataset",
             ]
-            + [f"-body1_{name}" for name in ("yield", "hardening", "hardening_modulus", "voce_stress", "voce_rate")]
-            + [f"-body1_{name}" for name in ("swift_strain", "swift_exponent", "backstress")],
+            + [f"-body1_{name}" for name in ("yield", "hardening", "backstress")],
         ),
         ("restart", ["-restart"]),
         ("fft", ["-fft_effort", "-fft_exchange"]),

@@ -184,7 +184,7 @@ for kind in ("run", "live"):
 
 YIELDING = dict(
     CASE, body2_young=210e9, body2_poisson=0.3, grid_n=(16, 15), friction=0.3, body1_yield=2e8, body2_yield=1.5e8,
-    body2_hardening_modulus=1e9, yield_depth=6e-4, yield_layers=4,
+    body2_hardening="linear:1e9", yield_depth=6e-4, yield_layers=4,
 )  # fmt: skip
 
 

@@ -32,3 +32,19 @@ def test_comments_do_not_count(tmp_path):
     path = tmp_path / "one.c"
     path.write_text("/* SamBodyTop(b, 1) */ x = SamBodyTop(b, 2); /* more */\n")
     assert ruler.found(ruler.MATERIALS, tmp_path) == {path: 1}
+
+
+@pytest.mark.parametrize(
+    "text, shows",
+    [
+        ("-heat steady", True),
+        ("dict(heat=1)", True),
+        ('{"heat": 1}', True),
+        ("study:\n  heat: [steady]", True),
+        ("the heat of a contact", False),
+        ("-heat_resistance 1", False),
+        ("preheat=1", False),
+    ],
+)
+def test_a_page_shows_an_option_not_a_word(text, shows):
+    assert ruler.shown("heat", text) == shows

@@ -73,7 +73,7 @@ def test_periodic_sphere_is_that_of_tamaas(solve):
         grid_size=(period, period),
         grid_center=(period / 64, period / 64),
         yield_depth=4 * RADIUS,
-        body2_hardening_modulus=0.05,
+        body2_hardening="linear:0.05",
     )
     for layers, peak in (16, 1.95024), (32, 1.94379):
         assert numbers(all_steps(solve(sphere(32, layers, 3, **more))))[1] == pytest.approx(peak, abs=5e-5)
@@ -111,9 +111,9 @@ def test_two_equal_bodies_are_one_in_half_the_gap(solve):
 
 
 HARDENING = {
-    "linear": dict(body2_hardening_modulus=0.1),
-    "voce": dict(body2_hardening="voce", body2_voce_stress=3e-4, body2_voce_rate=2000),
-    "swift": dict(body2_hardening="swift", body2_swift_strain=1e-3, body2_swift_exponent=0.2),
+    "linear": dict(body2_hardening="linear:0.1"),
+    "voce": dict(body2_hardening="voce:3e-4,2000"),
+    "swift": dict(body2_hardening="swift:1e-3,0.2"),
     "backstresses": dict(body2_backstress="0.3,800,0.02,100"),
 }
 
@@ -146,7 +146,7 @@ def pushed(n, layers, path, parts, **more):
 
 def test_partial_slip_has_reference_numbers(solve, tmp_path):
     """Of a prototype with the shear along x alone, and with the images of its window, 4e-3 of the pressure."""
-    case = pushed(24, 15, tmp_path / "h.csv", (0, 0.2, 0.4, 0.6, 0.8), coupling="none", body2_hardening_modulus=0.02)
+    case = pushed(24, 15, tmp_path / "h.csv", (0, 0.2, 0.4, 0.6, 0.8), coupling="none", body2_hardening="linear:0.02")
     run = all_steps(solve(case))
     assert run["disp_x"][[1, 2, 4]] / APPROACH == pytest.approx([0.16346, 0.33901, 0.82354], rel=2e-3)
     assert run["pressure_max"][[0, 1, 2, 4]] / YIELD == pytest.approx([2.04541, 2.04156, 2.03050, 1.98404], rel=6e-3)
@@ -354,7 +354,7 @@ def test_numbers_that_are_too_small_are_named(petsam, solve):
 def test_strain_that_has_just_begun_is_warned_of(petsam, solve, above, warned):
     """A cylinder a little above the load of the first yield, in three layers; and far above it."""
     case = dict(
-        support.bodies(70e9, 0.34), body2_yield=230e6, body2_hardening_modulus=4e9, friction=0, gap_type="ellipsoid",
+        support.bodies(70e9, 0.34), body2_yield=230e6, body2_hardening="linear:4e9", friction=0, gap_type="ellipsoid",
         gap_radius_x=3.42e-3, gap_radius_y="inf", elasticity="plane_periodic", grid_n=178, grid_size=6.7e-4,
         load_n=39e3 * above, steps=2,
     )  # fmt: skip
@@ -417,7 +417,7 @@ def test_shear_by_plastic_strain_alone_is_warned_of(petsam, tmp_path):
 def test_peak_of_shear_that_would_yield_between_cells_is_warned_of(petsam, tmp_path):
     """No cell yields, where on half as wide ones some do."""
     case = dict(
-        support.bodies(210e9, 0.3), body1_young=70e9, body2_yield=165e6, body2_hardening_modulus=1e9, friction=0.6,
+        support.bodies(210e9, 0.3), body1_young=70e9, body2_yield=165e6, body2_hardening="linear:1e9", friction=0.6,
         gap_type="ellipsoid", gap_radius_x=0.0045, gap_radius_y="inf", elasticity="plane_periodic", grid_size=4.9e-4,
     )  # fmt: skip
     case.update(steps(tmp_path / "loads.csv", load_n=[15e3, 15e3], load_tx=[0, 3.4e3]))
@@ -463,6 +463,18 @@ def test_a_restart_names_the_body_that_yielded(petsam):
     assert "-body2_yield is given there, and not here" in done.complaint[0]
 
 
+@pytest.mark.parametrize("other", ["linear:2GPa", "voce:186MPa,223", "voce:187MPa,222", "swift:1e-3,0.2", "none"])
+def test_a_restart_with_another_hardening_is_rejected(petsam, other):
+    """The same hardening in another unit is the same."""
+    case = dict(
+        support.SPHERE, friction=0, body2_yield=6e8, body2_hardening="voce:186MPa,222", grid_n=16, yield_layers=4
+    )
+    petsam(case, dict(checkpoint="s.h5", checkpoint_every=1))
+    said = petsam(case, dict(restart="s.h5", body2_hardening=other), check=2).complaint[0]
+    assert "-body2_hardening" in said and "voce:186000000,222" in said
+    petsam(case, dict(restart="s.h5", body2_hardening="voce:0.186e9Pa,222.0"))
+
+
 def test_a_large_file_is_told_of_before_the_run(petsam):
     case = sphere(40, 32, output="r.h5", output_fields="plastic", steps=25, dry_run=True)
     line = re.search("file size.*", petsam(case).stdout).group()
@@ -491,7 +503,7 @@ def test_uniform_strain_of_a_periodic_body(solve):
     nu, shear, modulus, n = 0.3, 1 / 2.6, 0.05, 8
     for pressure in 2.5 * YIELD, 6 * YIELD:
         case = sphere(n, 4, gap_type="flat", gap_radius1=None, gap_radius2=None, elasticity="periodic")
-        case.update(grid_size=(1.0, 1.0), yield_depth=0.5, load_n=pressure, body2_hardening_modulus=modulus)
+        case.update(grid_size=(1.0, 1.0), yield_depth=0.5, load_n=pressure, body2_hardening=f"linear:{modulus}")
         found = all_steps(solve(case))
         mises = pressure * (1 - 2 * nu) / (1 - nu)
         relief = shear * (1 + nu) / (1 - nu)  # of mises by the uniaxial plastic strain
@@ -503,7 +515,7 @@ def test_uniform_flow_is_named(petsam):
     case = sphere(6, 3, gap_type="flat", gap_radius1=None, gap_radius2=None, elasticity="periodic", friction=0.9)
     case.update(grid_size=(1.0, 1.0), yield_depth=0.5, load_n=YIELD, load_tx=0.7 * YIELD)
     assert "a layer yields in all its cells" in petsam(case, check=10).complaint[0]
-    petsam(case, dict(body2_hardening_modulus=0.1))
+    petsam(case, dict(body2_hardening="linear:0.1"))
 
 
 # ---------------------------------------------------------------- plane strain
@@ -561,7 +573,7 @@ def test_strain_amid_a_row_is_far_from_its_ends(solve):
 
 def test_a_line_does_not_depend_on_its_window(solve, tmp_path):
     """Loads to and fro with bulk stress, which yy follows, on a grid three times as wide; wide periods come near."""
-    case = line(2.5 * YIELD, 48, friction=0.4, coupling="none", body2_hardening_modulus=0.02, yield_first=2e-4)
+    case = line(2.5 * YIELD, 48, friction=0.4, coupling="none", body2_hardening="linear:0.02", yield_first=2e-4)
     size, force = 1.6 * case.pop("grid_size"), case.pop("load_n")
     case["yield_depth"] = size
     columns = dict(load_n=[force] * 4, load_tx=[0, 0.3 * force, -0.3 * force, 0.2 * force])
@@ -628,7 +640,7 @@ def test_yielding_in_thick_layers_is_warned_of(petsam, layers, warned):
 @pytest.mark.parametrize("layers, error", [(16, 0.2), (32, 0.05), pytest.param(64, 0.05, marks=pytest.mark.slow)])
 def test_residual_stress_at_the_surface_settles(solve, tmp_path, layers, error):
     """CalculiX under the same pressures, 600 N on a ball of 10 mm and hardening of 2 GPa, has -308 MPa."""
-    case = dict(BALL, gap_radius1="10mm", body1_young="inf", body2_yield="800MPa", body2_hardening_modulus="2GPa")
+    case = dict(BALL, gap_radius1="10mm", body1_young="inf", body2_yield="800MPa", body2_hardening="linear:2GPa")
     case.update(grid_n=(41, 41), grid_size="1.2mm", output_fields="usual,plastic")
     loads = steps(tmp_path / "h.csv", load_n=(300, 600, 0))
     with h5py.File(solve({**case, **loads, "yield_layers": layers}).path) as f:
@@ -637,7 +649,7 @@ def test_residual_stress_at_the_surface_settles(solve, tmp_path, layers, error):
     assert surface == pytest.approx(-308e6, rel=error)
 
 
-@pytest.mark.parametrize("kind, most", [({}, 0.012), (dict(body2_hardening_modulus="20GPa"), 0.004)])
+@pytest.mark.parametrize("kind, most", [({}, 0.012), (dict(body2_hardening="linear:20GPa"), 0.004)])
 def test_plastic_work_does_not_depend_on_the_steps(solve, tmp_path, kind, most):
     """It is the yield stress times the strain, and its error is within what the step estimates."""
     works, estimates = [], []
@@ -655,7 +667,7 @@ def test_contacts_of_few_cells_yield(solve, tmp_path):
     """A cell or two move as a rigid body only, which the tangent of the contact takes off."""
     loads = steps(tmp_path / "h.csv", load_n=[1, 2, 3, 4])
     case = dict(BALL, body2_young="70GPa", grid_n=(32, 32), grid_size="1mm", body2_yield="100MPa")
-    case.update(body2_hardening_modulus="1GPa", yield_layers=12)
+    case.update(body2_hardening="linear:1GPa", yield_layers=12)
     run = all_steps(solve({**case, **loads}))
     assert 1 <= run["contact_cells"][0] <= 12 and np.all(np.diff(run["plastic_max"]) > 0)
 
@@ -696,7 +708,7 @@ def test_strain_below_slip_zones_narrower_than_two_cells_is_named(petsam, tmp_pa
     case = dict(
         body1_young=320e9, body1_poisson=0.34, body2_young=210e9, body2_poisson=0.3, elasticity="plane_periodic",
         gap_type="ellipsoid", gap_radius_x=0.0143, gap_radius_y="inf", grid_size=2.37e-3, friction=0.573,
-        body2_yield=320e6, body2_hardening="voce", body2_voce_stress=186e6, body2_voce_rate=222, steps=4,
+        body2_yield=320e6, body2_hardening="voce:186MPa,222", steps=4,
     )  # fmt: skip
     case.update(steps(tmp_path / "h.csv", load_n=[274.3e3, 274.3e3], load_tx=[0, 34.3e3]), grid_n=178)
     most, told = [], []
@@ -735,7 +747,7 @@ def test_shear_that_no_body_without_hardening_bears_is_named(petsam, tmp_path):
     done = petsam(case, check=10)
     said = re.search(r"the shear is ([\d.]+) times what the body bears without hardening", done.stderr)
     assert said and 1 < float(said[1]) < 5
-    petsam(dict(case, body2_hardening_modulus=20e9))
+    petsam(dict(case, body2_hardening="linear:20e9"))
 
 
 @pytest.mark.parametrize("friction", [0.4, 0.67])
@@ -771,7 +783,7 @@ def test_dent_of_dissimilar_bodies_does_not_depend_on_the_steps(petsam, tmp_path
     """The shear of one step was three times too large, as cells that stick were pushed into slip, and the dent 16 %."""
     case = dict(
         body1_young=600e9, body1_poisson=0.2, body2_young=210e9, body2_poisson=0.3, body2_yield=550e6,
-        body2_hardening_modulus=10e9, gap_type="ellipsoid", gap_radius_x=0.077, gap_radius_y="inf",
+        body2_hardening="linear:10e9", gap_type="ellipsoid", gap_radius_x=0.077, gap_radius_y="inf",
         elasticity="plane_periodic", grid_n=108, grid_size=0.0105, friction=0.5, load_n=1.5e6, output="o.h5",
     )  # fmt: skip
     told, dent = [], []

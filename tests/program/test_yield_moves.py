@@ -22,7 +22,7 @@ def field(results, name, step=-1):
 def moving(path, n=CELLS, **more):
     """A sphere on a body that hardens, with the columns of a history."""
     columns = {key: more.pop(key) for key in list(more) if isinstance(more[key], list)}
-    return sphere(n, 8, body2_hardening_modulus=0.01, output_fields="usual,plastic", **steps(path, **columns), **more)
+    return sphere(n, 8, body2_hardening="linear:0.01", output_fields="usual,plastic", **steps(path, **columns), **more)
 
 
 def test_a_rolling_ball_leaves_the_groove_of_a_sliding_one_without_friction(solve, tmp_path):
@@ -227,7 +227,7 @@ def flank(path, force, rows, **more):
         grid_n=48,
         grid_size=3.2e-4,
         body2_yield=stress,
-        body2_hardening_modulus=2e10,
+        body2_hardening="linear:2e10",
         yield_layers=12,
         friction=0.4,
         **support.history(path, "time,load_n,load_tx", *loads),
@@ -250,12 +250,12 @@ def test_a_life_of_a_body_that_yields_is_that_of_all_its_cycles(solve, tmp_path)
     assert every["plastic_max"][-1] > 1e-3
 
 
-@pytest.mark.parametrize("hardening, flows", [(None, True), (2e10, False)])
+@pytest.mark.parametrize("hardening, flows", [("none", True), ("linear:20GPa", False)])
 def test_jumps_are_short_while_a_body_goes_on_yielding(petsam, tmp_path, hardening, flows):
     """Without hardening the surface layer flows in each cycle, which then is computed; else the body shakes down."""
     wear = dict(wear_coefficient2=1e-13, wear_cycles=12, wear_rtol=1e-2, output=tmp_path / "life.h5")
     case = flank(tmp_path / "one.csv", 0.35, [0, *TURNS], **wear)
-    said = petsam(dict(case, body2_hardening_modulus=hardening)).complaint
+    said = petsam(dict(case, body2_hardening=hardening)).complaint
     assert any("it has not shaken down" in line for line in said) == flows
     jump = support.read_run(tmp_path / "life.h5")["wear/jump"][1:]
     assert np.all(jump == 1) == flows and jump.sum() == 12

@@ -17,10 +17,10 @@ static void test_paths_have_reference_ends(void **state)
   } paths[] = {{{.shear = SHEAR, .yield = YIELD},
                 {0.00275, 0.00518272996566, 0.0115991540126, 0.0171979545597},
                 {-36.07087705, -170.3648111}},
-               {{.shear = SHEAR, .yield = YIELD, .modulus = 2000},
+               {{.shear = SHEAR, .yield = YIELD, .hardening = {SAM_HARDENING_LINEAR, {2000}}},
                 {0.00272727272727, 0.00512506983565, 0.0114308343999, 0.0168850841905},
                 {-43.17766205, -189.0395256}},
-               {{.shear = SHEAR, .yield = YIELD, .hardening = SAM_HARDENING_SWIFT, .swift = {0.002, 0.15}},
+               {{.shear = SHEAR, .yield = YIELD, .hardening = {SAM_HARDENING_SWIFT, {0.002, 0.15}}},
                 {0.00258437714864, 0.00482390823881, 0.0107344587937, 0.0158193805225},
                 {-66.02864572, -233.5603198}},
                {{.shear = SHEAR, .yield = YIELD, .backstresses = 1, .back = {{10000, 0}}},
@@ -64,8 +64,7 @@ static void test_tangent_is_the_derivative(void **state)
 {
   const SamMises m             = {.shear        = SHEAR,
                                   .yield        = YIELD,
-                                  .hardening    = SAM_HARDENING_VOCE,
-                                  .voce         = {120, 80},
+                                  .hardening    = {SAM_HARDENING_VOCE, {120, 80}},
                                   .backstresses = 2,
                                   .back         = {{20000, 0}, {9000, 0}}};
   const double   before[PARTS] = {5e-3, -3e-3, -2e-3, 1e-3, 2e-3, -1e-3},

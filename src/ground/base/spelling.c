@@ -24,7 +24,17 @@ static const char *const renamed[][2] = {{"plastic_depth", "yield_depth"},
                                          {"plastic_first", "yield_first"},
                                          {"plastic_rtol", "yield_rtol"},
                                          {"body1_layer_stress", "body1_initial_stress"},
-                                         {"body2_layer_stress", "body2_initial_stress"}};
+                                         {"body2_layer_stress", "body2_initial_stress"},
+                                         {"body1_hardening_modulus", "body1_hardening"},
+                                         {"body1_voce_stress", "body1_hardening"},
+                                         {"body1_voce_rate", "body1_hardening"},
+                                         {"body1_swift_strain", "body1_hardening"},
+                                         {"body1_swift_exponent", "body1_hardening"},
+                                         {"body2_hardening_modulus", "body2_hardening"},
+                                         {"body2_voce_stress", "body2_hardening"},
+                                         {"body2_voce_rate", "body2_hardening"},
+                                         {"body2_swift_strain", "body2_hardening"},
+                                         {"body2_swift_exponent", "body2_hardening"}};
 
 /* PETSc ignores the case of letters in names; a dash within a name is a likely slip. */
 static char Plain(char c)

@@ -16,35 +16,42 @@
 
 double SamMisesYield(const SamMises *m, double p, double *slope)
 {
-  double value, unused;
+  const double *const k = m->hardening.constant;
+  double              value, unused;
 
   if (!slope) slope = &unused;
-  switch (m->hardening) {
+  switch (m->hardening.type) {
   case SAM_HARDENING_VOCE:
-    value  = m->voce[0] * exp(-m->voce[1] * p);
-    *slope = m->voce[1] * value;
-    return m->yield + m->voce[0] - value;
+    value  = k[0] * exp(-k[1] * p);
+    *slope = k[1] * value;
+    return m->yield + k[0] - value;
   case SAM_HARDENING_SWIFT:
-    value  = m->yield * pow(1 + p / m->swift[0], m->swift[1]);
-    *slope = m->swift[1] * value / (m->swift[0] + p);
+    value  = m->yield * pow(1 + p / k[0], k[1]);
+    *slope = k[1] * value / (k[0] + p);
     return value;
+  case SAM_HARDENING_LINEAR:
+    *slope = k[0];
+    return m->yield + k[0] * p;
   default:
-    *slope = m->modulus;
-    return m->yield + m->modulus * p;
+    *slope = 0;
+    return m->yield;
   }
 }
 
 /* Returns the integral of the yield stress from p = 0 on (Pa). */
 static double Integral(const SamMises *m, double p)
 {
-  switch (m->hardening) {
+  const double *const k = m->hardening.constant;
+
+  switch (m->hardening.type) {
   case SAM_HARDENING_VOCE:
-    return (m->yield + m->voce[0]) * p +
-           (m->voce[1] > 0 ? m->voce[0] * expm1(-m->voce[1] * p) / m->voce[1] : -m->voce[0] * p);
+    return (m->yield + k[0]) * p + (k[1] > 0 ? k[0] * expm1(-k[1] * p) / k[1] : -k[0] * p);
   case SAM_HARDENING_SWIFT:
-    return m->yield * m->swift[0] / (m->swift[1] + 1) * expm1((m->swift[1] + 1) * log1p(p / m->swift[0]));
+    return m->yield * k[0] / (k[1] + 1) * expm1((k[1] + 1) * log1p(p / k[0]));
+  case SAM_HARDENING_LINEAR:
+    return (m->yield + k[0] * p / 2) * p;
   default:
-    return (m->yield + m->modulus * p / 2) * p;
+    return m->yield * p;
   }
 }
 

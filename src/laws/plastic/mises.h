@@ -4,19 +4,25 @@
 
 #include "plasticimpl.h"
 
-typedef enum { SAM_HARDENING_LINEAR, SAM_HARDENING_VOCE, SAM_HARDENING_SWIFT } SamHardening;
-#define SAM_BACKSTRESSES 4 /* maximum number */
+#define SAM_BACKSTRESSES        4 /* maximum number */
+#define SAM_HARDENING_CONSTANTS 2
+#define SAM_HARDENING_TEXT      64 /* characters of an option */
+#define SAM_HARDENING_FORMS     "none, linear:H, voce:Q,B or swift:E0,N"
+
+/* SamHardening - how the yield stress grows: the kind, and its constants H (Pa); Q (Pa) and b; or e0 and n */
+typedef enum { SAM_HARDENING_NONE, SAM_HARDENING_LINEAR, SAM_HARDENING_VOCE, SAM_HARDENING_SWIFT } SamHardeningType;
+typedef struct {
+  SamHardeningType type;
+  double           constant[SAM_HARDENING_CONSTANTS];
+} SamHardening;
 
 /*
-  SamMises - a material that yields: the yield stress is Y + H p, Y + Q (1 - exp(-b p)), or Y (1 + p/e0)^n of the
+  SamMises - a material that yields: the yield stress is Y, Y + H p, Y + Q (1 - exp(-b p)), or Y (1 + p/e0)^n of the
   accumulated plastic strain p. Each backstress follows Armstrong and Frederick, dX = 2/3 C de - g X dp.
 */
 typedef struct {
   double       shear, yield; /* shear modulus and Y, Pa; infinite: never yields */
   SamHardening hardening;
-  double       modulus;  /* H, Pa */
-  double       voce[2];  /* Q (Pa), b */
-  double       swift[2]; /* e0, n */
   PetscInt     backstresses;
   double       back[SAM_BACKSTRESSES][2]; /* C (Pa), g */
 } SamMises;
@@ -34,6 +40,14 @@ typedef struct {
   double n[PARTS], along, across;
 } SamMisesTangent;
 
+/*
+  SamHardeningRead - reads the value of the option of this name, without dash and prefix, in one of SAM_HARDENING_FORMS.
+  Collective. Errors: SAM_ERR_USER with the option, its value and the form.
+  SamHardeningWrite - writes it in this form with SI units, so that the same text is the same hardening. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamHardeningRead(const SamOptions *from, const char option[], const char text[],
+                                             SamHardening *hardening);
+PETSC_INTERN void           SamHardeningWrite(const SamHardening *hardening, char text[], size_t size);
 /* SamMisesYield - returns the yield stress (Pa), and its derivative by p (NULL: not wanted). Not collective. */
 PETSC_INTERN double SamMisesYield(const SamMises *material, double p, double *slope);
 /*

@@ -15,7 +15,8 @@
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 
 typedef struct {
-  PetscReal    yield, modulus, voce_stress, voce_rate, swift_strain, swift_exponent;
+  PetscReal    yield;
+  char         hardens[SAM_HARDENING_TEXT]; /* value of the option, in one of SAM_HARDENING_FORMS */
   SamHardening hardening;
   PetscInt     count; /* number of values in `back`: C, g, C, g ... */
   PetscReal    back[2 * SAM_BACKSTRESSES];
@@ -82,29 +83,13 @@ static const Number OF_STRAIN[] = {LAYERS, LEFT, SURFACE};
     "body" #body "_" option, text, SAM_OPTION_REAL, offsetof(Plastic, material[body - 1].what), \
       .range = (range_), .recorded = PETSC_TRUE, __VA_ARGS__ \
   }
-/* A constant that only one kind of hardening has. */
-#define OF_HARDENING(body, word) \
-  .needs = "body" #body "_hardening " word, .missing = "required by -body" #body "_hardening " word
 #define MATERIAL_ROWS(body) \
   REAL_ROW(body, "yield", "yield stress: the body yields below its surface", yield, SAM_RANGE_POSITIVE_INF, \
            .unit = "Pa"), \
-    {"body" #body "_hardening", \
-     "hardening: linear, voce or swift", \
-     SAM_OPTION_ENUM, \
-     offsetof(Plastic, material[body - 1].hardening), \
-     .words = "linear,voce,swift", \
-     .needs = "body" #body "_yield"}, \
-    REAL_ROW(body, "hardening_modulus", "linear: slope of the yield stress", modulus, SAM_RANGE_NONNEGATIVE, \
-             .unit = "Pa", .needs = "body" #body "_yield", \
-             .excludes = "body" #body "_hardening voce,body" #body "_hardening swift"), \
-    REAL_ROW(body, "voce_stress", "voce: growth of the yield stress", voce_stress, SAM_RANGE_NONNEGATIVE, \
-             .unit = "Pa", OF_HARDENING(body, "voce")), \
-    REAL_ROW(body, "voce_rate", "voce: its rate by the plastic strain", voce_rate, SAM_RANGE_NONNEGATIVE, \
-             OF_HARDENING(body, "voce")), \
-    REAL_ROW(body, "swift_strain", "swift: strain e0 of Y (1 + p/e0)^n", swift_strain, SAM_RANGE_POSITIVE, \
-             OF_HARDENING(body, "swift")), \
-    REAL_ROW(body, "swift_exponent", "swift: exponent n", swift_exponent, SAM_RANGE_NONNEGATIVE, \
-             OF_HARDENING(body, "swift"))
+  { \
+    "body" #body "_hardening", "hardening: " SAM_HARDENING_FORMS " (H, Q in Pa)", SAM_OPTION_STRING, \
+      offsetof(Plastic, material[body - 1].hardens), .size = SAM_HARDENING_TEXT, .needs = "body" #body "_yield" \
+  }
 
 #define YIELDING .needs = "body1_yield or -body2_yield"
 
@@ -190,15 +175,17 @@ static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt b
 /* Rejects constants of a yielding body that are likely to be in other units. */
 static PetscErrorCode CheckUnits(SamLaw law, const SamOptions *from, PetscInt body)
 {
-  static const char *const modulus[2] = {"body1_hardening_modulus", "body2_hardening_modulus"};
-  static const char *const voce[2]    = {"body1_voce_stress", "body2_voce_stress"};
-  const Plastic *const     x          = (const Plastic *)law->data;
-  const Material *const    m          = &x->material[body];
+  static const char *const slope[2]  = {"body1_hardening: H =", "body2_hardening: H ="};
+  static const char *const growth[2] = {"body1_hardening: Q =", "body2_hardening: Q ="};
+  const Plastic *const     x         = (const Plastic *)law->data;
+  const Material *const    m         = &x->material[body];
+  const double             first     = m->hardening.constant[0];
 
   PetscFunctionBegin;
   PetscCall(CheckStress(law, from, body, yielding[body], (double)m->yield, SAM_MOST_STRENGTH));
-  PetscCall(CheckStress(law, from, body, modulus[body], (double)m->modulus, INFINITY));
-  PetscCall(CheckStress(law, from, body, voce[body], (double)m->voce_stress, SAM_MOST_STRENGTH));
+  if (m->hardening.type == SAM_HARDENING_LINEAR) PetscCall(CheckStress(law, from, body, slope[body], first, INFINITY));
+  if (m->hardening.type == SAM_HARDENING_VOCE)
+    PetscCall(CheckStress(law, from, body, growth[body], first, SAM_MOST_STRENGTH));
   for (PetscInt k = 0; k < m->count; k += 2)
     PetscCall(CheckStress(law, from, body, backstress[body], (double)m->back[k], INFINITY));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -230,15 +217,6 @@ static PetscErrorCode SetInitial(SamLaw law, const SamOptions *from, PetscInt bo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets the constants of other kinds of hardening to 0. */
-static void SetUnused(Material *m)
-{
-  PetscReal *const constants[] = {&m->voce_stress, &m->voce_rate, &m->swift_exponent};
-
-  for (size_t k = 0; k < sizeof(constants) / sizeof(constants[0]); k++)
-    if (isnan(*constants[k])) *constants[k] = 0;
-}
-
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
   Plastic *const x = (Plastic *)law->data;
@@ -254,7 +232,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
     PetscCheck(m->count % 2 == 0, from->comm, SAM_ERR_USER, "-%s%s: %" PetscInt_FMT " numbers: expected pairs C,g",
                SamOptionsPrefix(from), backstress[b], m->count);
     PetscCall(SamOptionsNeed(from, m->count > 0 && !SamPrintHelp(), backstress[b], yielding[b]));
-    SetUnused(m);
+    PetscCall(SamHardeningRead(from, hardened[b], m->hardens, &m->hardening));
     if (!isfinite(m->yield)) continue;
     *asked      = PETSC_TRUE;
     law->option = yielding[b];
@@ -278,10 +256,11 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *parameters)
   PetscFunctionBegin;
   PetscCall(SamParametersAddReals(parameters, "yield_layers", PETSC_TRUE, 1, &layers));
   for (PetscInt b = 0; b < 2; b++) {
-    const Material *m         = &x->material[b];
-    const PetscReal hardening = (PetscReal)m->hardening;
+    const Material *m = &x->material[b];
+    char            hardening[SAM_HARDENING_TEXT];
 
-    PetscCall(SamParametersAddReals(parameters, hardened[b], PETSC_TRUE, 1, &hardening));
+    SamHardeningWrite(&m->hardening, hardening, sizeof(hardening));
+    PetscCall(SamParametersAddText(parameters, hardened[b], PETSC_TRUE, hardening));
     if (m->count) PetscCall(SamParametersAddReals(parameters, backstress[b], PETSC_TRUE, m->count, m->back));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -294,9 +273,6 @@ static SamMises MaterialOf(const Material *from, const SamMaterial *elastic)
   SamMises m = {.shear        = (double)elastic->young / (2 * (1 + (double)elastic->poisson)),
                 .yield        = (double)from->yield,
                 .hardening    = from->hardening,
-                .modulus      = (double)from->modulus,
-                .voce         = {(double)from->voce_stress, (double)from->voce_rate},
-                .swift        = {(double)from->swift_strain, (double)from->swift_exponent},
                 .backstresses = from->count / 2};
 
   for (PetscInt k = 0; k < from->count; k++) m.back[k / 2][k % 2] = (double)from->back[k];
@@ -1058,8 +1034,7 @@ PetscErrorCode SamLawCreate_Plastic(SamLaw law)
   PetscFunctionBegin;
   PetscCall(PetscNew(&x));
   x->material[0].yield = x->material[1].yield = INFINITY;
-  for (PetscInt b = 0; b < 2; b++)
-    x->material[b].voce_stress = x->material[b].voce_rate = x->material[b].swift_exponent = NAN;
+  for (PetscInt b = 0; b < 2; b++) PetscCall(PetscStrncpy(x->material[b].hardens, "none", SAM_HARDENING_TEXT));
   x->rtol                 = 1e-6;
   x->layers               = 32;
   law->data               = x;

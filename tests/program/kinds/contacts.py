@@ -161,13 +161,9 @@ def hardening(rng, young, limit):
     kind = rng.choice(["perfect", "linear", "voce", "swift", "backstress"])
     return dict(
         perfect={},
-        linear=dict(body2_hardening_modulus=young * rng.uniform(0.005, 0.1)),
-        voce=dict(
-            body2_hardening="voce", body2_voce_stress=limit * rng.uniform(0.1, 1), body2_voce_rate=rng.uniform(10, 300)
-        ),
-        swift=dict(
-            body2_hardening="swift", body2_swift_strain=limit / young, body2_swift_exponent=rng.uniform(0.05, 0.3)
-        ),
+        linear=dict(body2_hardening=f"linear:{young * rng.uniform(0.005, 0.1)}"),
+        voce=dict(body2_hardening=f"voce:{limit * rng.uniform(0.1, 1)},{rng.uniform(10, 300)}"),
+        swift=dict(body2_hardening=f"swift:{limit / young},{rng.uniform(0.05, 0.3)}"),
         backstress=dict(body2_backstress=f"{young * rng.uniform(0.02, 0.2)},{rng.uniform(20, 400)}"),
     )[kind]
 

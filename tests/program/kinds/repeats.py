@@ -55,7 +55,7 @@ def film(rng, case, columns, folder):
 
 
 def strain(rng, case, columns, folder):
-    case.update(body2_yield=2.5e8, body2_hardening_modulus=2e9, yield_depth=8e-4, yield_layers=4)
+    case.update(body2_yield=2.5e8, body2_hardening="linear:2GPa", yield_depth=8e-4, yield_layers=4)
 
 
 def slide(rng, case, columns, folder):

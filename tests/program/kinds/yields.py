@@ -82,12 +82,13 @@ def written(folder, columns):
 
 def limit_of(material, strain):
     """The yield stress after an accumulated plastic strain."""
-    kind = material.get("hardening", "linear")
+    kind, numbers = material.get("hardening", "linear:0").split(":")
+    constants = [float(number) for number in numbers.split(",")]
     if kind == "voce":
-        return material["yield"] + material["voce_stress"] * (1 - np.exp(-material["voce_rate"] * strain))
+        return material["yield"] + constants[0] * (1 - np.exp(-constants[1] * strain))
     if kind == "swift":
-        return material["yield"] * (1 + strain / material["swift_strain"]) ** material["swift_exponent"]
-    return material["yield"] + material.get("hardening_modulus", 0.0) * strain
+        return material["yield"] * (1 + strain / constants[0]) ** constants[1]
+    return material["yield"] + constants[0] * strain
 
 
 def norm(tensor):
