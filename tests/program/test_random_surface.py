@@ -23,7 +23,7 @@ def spectrum_of(values, size=SIZE):
 
 
 def test_a_self_affine_surface_has_its_exponent_and_its_limits():
-    spectrum = generation.self_affine(0.7, 2e-4, 1e-5)
+    spectrum = self_affine(0.7, 2e-4, 1e-5)
     found = [spectrum_of(generation.heights(spectrum, (256, 256), SIZE, 1e-5, seed, 1e-6)) for seed in range(8)]
     q, power = found[0][0], np.mean([one for _, one in found], axis=0)
     inside = (q > 2 * np.pi / 2e-4 * 1.001) & (q < 2 * np.pi / 1e-5 * 0.999)
@@ -43,7 +43,7 @@ def test_a_table_gives_the_mean_square_height(tmp_path):
 
 
 def test_a_seed_is_a_surface_whatever_the_grid():
-    spectrum = generation.self_affine(0.8, 5e-4, 2e-5)
+    spectrum = self_affine(0.8, 5e-4, 2e-5)
     one, same, other = (generation.heights(spectrum, (128, 128), SIZE, 2e-5, seed, 1e-6) for seed in (3, 3, 4))
     assert one.tobytes() == same.tobytes() and abs(np.corrcoef(one.ravel(), other.ravel())[0, 1]) < 0.5
     fine = generation.heights(spectrum, (384, 384), SIZE, 2e-5, 3, 1e-6)
@@ -60,7 +60,7 @@ def test_heights_have_the_moments_that_are_given(moments):
     nodes, weights = np.polynomial.hermite_e.hermegauss(30)
     found = [np.sum(weights * function(nodes) ** k) / np.sqrt(2 * np.pi) for k in range(5)]
     assert found == pytest.approx([1, 0, 1, *moments], abs=1e-8)
-    spectrum = generation.self_affine(0.8, 1e-4, 2e-5)
+    spectrum = self_affine(0.8, 1e-4, 2e-5)
     of_seeds = []
     for seed in range(6):
         gauss = generation.heights(spectrum, (128, 128), SIZE, 2e-5, seed, 1e-6)
@@ -76,7 +76,7 @@ def test_heights_have_the_distribution_of_a_table(tmp_path):
     """A tenth of the points in the lower 3 um, the others on a plateau of 1 um."""
     (tmp_path / "abbott.txt").write_text("0 0\n3e-6 0.1\n4e-6 1\n")
     function = generation.distributed(str(tmp_path / "abbott.txt"))
-    gauss = generation.heights(generation.self_affine(0.8, 1e-4, 2e-5), (256, 256), SIZE, 2e-5, 1)
+    gauss = generation.heights(self_affine(0.8, 1e-4, 2e-5), (256, 256), SIZE, 2e-5, 1)
     values = generation.shaped(gauss, function)
     assert np.ptp(values) == pytest.approx(4e-6, rel=0.01)
     assert np.mean(values - values.min() < 3e-6) == pytest.approx(0.1, abs=0.01)
@@ -85,7 +85,7 @@ def test_heights_have_the_distribution_of_a_table(tmp_path):
 
 
 def test_skewness_changes_the_spectrum_little():
-    spectrum = generation.self_affine(0.8, 2e-4, 2e-5)
+    spectrum = self_affine(0.8, 2e-4, 2e-5)
     gauss = generation.heights(spectrum, (256, 256), SIZE, 2e-5, 2, 1e-6)
     (q, power), (_, of) = (
         spectrum_of(one) for one in (gauss, generation.shaped(gauss, generation.cubic(-0.8, 4.0), 1e-6))
@@ -131,7 +131,7 @@ def test_the_command_writes_a_surface(surface, tmp_path):
     assert code == 0 and not err and "heights of body 2" in out and "seed 7" in out and "-gap_rough_file r.h5" in out
     with h5py.File(tmp_path / "r.h5") as file:
         values = file["height"][:]
-    expected = generation.heights(generation.self_affine(0.8, 2e-4, 4e-5), (64, 64), SIZE, 4e-5, 7, 5e-7)
+    expected = generation.heights(self_affine(0.8, 2e-4, 4e-5), (64, 64), SIZE, 4e-5, 7, 5e-7)
     assert values == pytest.approx(expected, abs=1e-18)
     assert surface(*RANDOM, "--body", "1", "--no-picture", "-o", "r.h5")[1].startswith(
         "random surface: heights of body 1"
