@@ -495,7 +495,8 @@ def test_a_map_is_processed_and_drawn_without_a_command(tmp_path):
 
 
 def test_no_reader_knows_a_command_line():
-    for path in {*(ROOT / "scripts/petsam/apps/surface").rglob("*.py")} - {ROOT / "scripts/petsam/apps/surface/command.py"}:
+    folder = ROOT / "scripts/petsam/apps/surface"
+    for path in {*folder.rglob("*.py")} - {folder / "command.py"}:
         assert "options." not in path.read_text() and "argparse" not in path.read_text(), path
 
 

@@ -10,6 +10,7 @@ from petsam.apps.surface import command, generation, reading
 from petsam.apps.surface.readers.instruments import Instrument
 from petsam.apps.surface.readers.stated import Stated
 from petsam.core.errors import Error
+from petsam.core.roughness import self_affine
 from petsam.plot.style import plt
 
 SIZE = (1e-3, 1e-3)
