@@ -228,13 +228,34 @@ class Text:
             if number > self.form.skip_rows and line.strip() and not self.is_comment(line)
         ]
 
+    @cached_property
+    def every(self):
+        """Number, contents and whether it is a comment, of the lines that have more than the sign of one; comments are
+        without it, and without quotation marks."""
+        signs, found = "".join(self.form.comments), []
+        for number, line in enumerate(self.lines, 1):
+            comment = self.is_comment(line)
+            line = line.strip().lstrip(signs).replace('"', "").strip() if comment else line
+            found += [(number, line, comment)] if line.strip() else []
+        return found
+
+    @cached_property
+    def separator(self):
+        """What separates the words of most lines."""
+        signs = [split(line)[1] for _, line in self.kept]
+        usual = max(dict.fromkeys(signs), key=signs.count, default=None)
+        return "," if usual == '"' else usual
+
+    def words(self, number, line, separator):
+        """The words of a line between these separators."""
+        try:
+            return words_of(line, separator)
+        except ValueError as error:
+            raise Error(f"{self.path}: line {number}: {error}") from error
+
     def rows(self, separator):
         """Numbers of the lines kept, and their words between these separators."""
-        for number, line in self.kept:
-            try:
-                yield number, words_of(line, separator)
-            except ValueError as error:
-                raise Error(f"{self.path}: line {number}: {error}") from error
+        return [(number, self.words(number, line, separator)) for number, line in self.kept]
 
     @cached_property
     def decimal(self):
@@ -312,11 +333,16 @@ def bare(word):
     return _in_brackets(found) if found and not found["name"] else word
 
 
+def _is_unit(word):
+    """Whether a word is a unit, or a ratio of two, or stands in brackets."""
+    word, unit = word.strip(), bare(word)
+    ratio = unit.count("/") == 1 and all(measure(part)[0] for part in unit.split("/"))
+    return measure(unit)[0] is not None or ratio or word[:1] in ("[", "(", "{", "<") and word[-1] in "])}>"
+
+
 def are_units(words):
     """Whether all words are units, in brackets or not, and one of them is known."""
-    measures = [measure(bare(word))[0] for word in words]
-    bracketed = [word.strip()[:1] in ("[", "(", "{", "<") and word.strip()[-1] in "])}>" for word in words]
-    return any(measures) and all(si is not None or own for si, own in zip(measures, bracketed))
+    return any(measure(bare(word))[0] for word in words) and all(map(_is_unit, words))
 
 
 def head_of(word):
