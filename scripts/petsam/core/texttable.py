@@ -386,7 +386,7 @@ class Headed:
         The file.
     row, kind : str
         What a row is for, and what rows are of, for messages.
-    separators : str
+    separators : tuple of str, optional
         Those that may separate the words, the last one where the head has none; None for any, or blanks.
     text : Text, optional
         That of the file.
@@ -455,7 +455,7 @@ class Table(Headed):
             if name:
                 self.columns[name], self.units[name] = k, unit
             else:
-                self.others.append(one.word if measure(one.unit)[0] is None else one.name)
+                self.others.append(one.name if one.name and measure(one.unit)[0] is not None else one.word)
 
     def need(self, names, what):
         """Raises Error unless the columns are there."""
