@@ -19,7 +19,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 
 from . import units
-from .errors import Error, short
+from .errors import Error, counted, short
 from .files import lines_of, text_of
 
 COMMENTS = ("#", "%")  # of lines that never have numbers of the map
@@ -416,9 +416,8 @@ class Headed:
         """Number and words of each row below the head."""
         for number, words in self._rows:
             if len(words) != len(self.words):
-                raise Error(
-                    f"{self.path}: line {number} has {len(words)} words, line {self.head} has {len(self.words)} heads"
-                )
+                here, above = counted(len(words), "word"), counted(len(self.words), "head")
+                raise Error(f"{self.path}: line {number} has {here}, line {self.head} has {above}")
         if not self._rows:
             raise Error(f"{self.path}: has a head, but no lines of {self.kind} below it")
         return self._rows

@@ -91,11 +91,11 @@ def read_csv(path):
     try:
         # as in histories: spreadsheets write semicolons where the decimal sign is a comma
         table = Headed(path, "case", "cases", separators=(";", ","), text=text)
+        names = [_plain(name) for name in table.words]
+        _check_columns(path, table.head, names)
         rows = table.body
     except Error as error:
         raise TableError(str(error)) from error
-    names = [_plain(name) for name in table.words]
-    _check_columns(path, table.head, names)
     for number, words in rows:
         for word in words:
             _check_value(word, f"{path}, line {number}")
