@@ -33,7 +33,7 @@ THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
 QUOTED = re.compile(r'"[^"]*"')
 BRACKETED = re.compile(r"(?P<name>.*?)[\s,:]*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*)\)|\{(?P<c>[^}]*)\}|<(?P<d>[^>]*)>)")
 DIVIDED = re.compile(r"(?P<name>.*?)\s*/\s*(?P<a>\S+)")
-BEHIND = re.compile(r"(?P<name>.*[^\s_,.:;-])(?:[\s_,.:;-]+in)?[\s_,.:;-]+(?P<a>[^\s_,.:;-]+)", re.IGNORECASE)
+BEHIND = re.compile(r"(?P<name>.*?[^\s_,.:;-])(?:[\s_,.:;-]+in)?[\s_,.:;-]+(?P<a>[^\s_,.:;-]+)", re.IGNORECASE)
 ENGLISH = ("in",)  # units that are words, too: not taken from a name
 
 
@@ -116,15 +116,14 @@ def number_of(word, missing=()):
         return None
 
 
-def _decimal(lines):
-    """ "comma" where words between semicolons, tabs or quotation marks can only be numbers with decimal commas."""
+def _decimal(rows):
+    """ "comma" where numbers can only have decimal commas; rows: words, and whether no comma separates them."""
     found = False
-    for _, line in lines:
-        words, separator = split(line)
+    for words, sure in rows:
         numbers = [word for word in words if DECIMAL_COMMA.fullmatch(word)]
         if any("." in word and number_of(word) is not None for word in words):
             return None
-        if numbers and separator not in (";", "\t", '"'):
+        if numbers and not sure:
             return None
         found = found or not all(THOUSANDS.fullmatch(word) for word in numbers)
     return "comma" if found else None
@@ -260,7 +259,8 @@ class Text:
     @cached_property
     def decimal(self):
         """The decimal sign, "point" or "comma"; None for a point that nothing states."""
-        return self.form.decimal or _decimal(self.kept)
+        rows = (split(line) for _, line in self.kept)
+        return self.form.decimal or _decimal((words, separator in (";", "\t", '"')) for words, separator in rows)
 
     @cached_property
     def before(self):
@@ -412,6 +412,11 @@ class Headed:
             self.words = head_words(line, separator, len(self._rows[0][1]))
 
     @cached_property
+    def decimal(self):
+        """The decimal sign, "point" or "comma"; None for a point that nothing states."""
+        return self.text.form.decimal or _decimal((words, True) for _, words in self._rows)
+
+    @cached_property
     def body(self):
         """Number and words of each row below the head."""
         for number, words in self._rows:
@@ -447,8 +452,10 @@ class Table(Headed):
         below = self._rows.pop(0)[1] if len(below) == len(self.words) and are_units(below) else None
         self.columns, self.units, self.others = {}, {}, []
         for k, one in enumerate(heads_of(path, self.words, below)):
-            name, unit = (one.word, None) if known and _plain(one.word) in known else (one.name, one.unit)
-            name = name if known is None else known.get(_plain(name))
+            name, unit = one.name, one.unit
+            if known is not None:
+                whole = name != one.word and _plain(one.word) in known  # what looks like a unit is of the name
+                name, unit = known.get(_plain(one.word if whole else name)), None if whole else unit
             if name in self.columns:
                 raise Error(f"{path}: line {self.head}: two columns are {name}: remove one")
             if name:
@@ -479,10 +486,11 @@ class Table(Headed):
 
     def _number(self, line, words, name, place):
         word = words[place]
-        value = number_of(word.replace(",", ".") if self.text.decimal == "comma" else word)
+        value = number_of(word.replace(",", ".") if self.decimal == "comma" else word)
         if value is None or not np.isfinite(value):
             shown = short(word) or "an empty word"
-            raise Error(f"{self.path}: line {line}: {shown} in column {name} is no finite number: correct it")
+            cure = "write it with a decimal point" if DECIMAL_COMMA.fullmatch(word) else "correct it"
+            raise Error(f"{self.path}: line {line}: {shown} in column {name} is no finite number: {cure}")
         return value
 
 
