@@ -21,7 +21,7 @@ def _size(table, name):
 def read_profiles(path):
     """The profiles of a file: x (m), and heights (m) by name.
 
-    Lines that begin with # are comments. The first other line names the columns with their units, x first: x [mm],
+    As of every table of texts, with any separator. The first line names the columns with their units, x first: x [mm],
     test1 [um], ...; of a running band y. Heights are those of the worn surface over the unworn one: a scar is negative.
     """
     table = Table(path, None, "point", "numbers")
