@@ -318,15 +318,17 @@ def test_measured_profiles_stand_beside_the_scar_of_their_body(life, tmp_path):
 @pytest.mark.parametrize(
     "text, complaint",
     [
-        ("x [mm],y [um]\n", "expected a line of column names"),
+        ("x [mm],y [um]\n", "has a head, but no lines of numbers below it"),
+        ("x [mm],y [um]\n0,1\n", "expected a line of column names"),
+        ("x [mm],[um]\n0,1\n1,2\n", "line 1: column [um]: expected a name and a unit of length"),
         ("x,y [um]\n0,1\n1,2\n", "line 1: column x: expected a name and a unit of length"),
         ("z [mm],x [um]\n0,1\n1,2\n", "line 1: column z [mm]: expected x (or y) first"),
-        ("x [mm],y [um],y [mm]\n0,1,1\n1,2,2\n", "line 1: two columns have the same name"),
+        ("x [mm],y [um],y [mm]\n0,1,1\n1,2,2\n", "line 1: two columns are y: remove one"),
         ("x [m],y [um]\n5,1\n6,2\n", "beside the scar: check its unit"),
-        ("#\nx [mm],y [um]\n0,1\n1,a\n", "line 4: could not convert"),
-        ("x [mm],y [um]\n0,1\n1,nan\n", "line 3: expected 2 finite numbers"),
-        ("x [mm],y [um]\n0,1\n1,2,3\n", "line 3: expected 2 finite numbers"),
-        ("x [mm],y [um]\n0,1\n1_000,2\n", "line 3: expected 2 finite numbers"),
+        ("#\nx [mm],y [um]\n0,1\n1,a\n", "line 4: a in column y is no finite number"),
+        ("x [mm],y [um]\n0,1\n1,nan\n", "line 3: nan in column y is no finite number"),
+        ("x [mm],y [um]\n0,1\n1,2,3\n", "line 3 has 3 words, line 1 has 2 heads"),
+        ("x [mm],y [um]\n0,1\n1_000,2\n", "line 3: 1_000 in column x is no finite number"),
     ],
 )
 def test_a_measured_profile_that_is_none_is_named_with_its_line(draw, path, tmp_path, text, complaint):

@@ -1,14 +1,26 @@
-"""Tables in text files: one line per row, one word per number; errors name the line."""
+"""Tables in text files, of instruments, spreadsheets and other programs: the one reader of them.
+
+A text has lines, the first of which has number 1; errors name the file and the line. A line that begins with the sign
+of a comment is one; every other line that is not empty is a row: words between semicolons, tabs, commas or blanks, of
+which those in quotation marks may have these within. A word is a text or a number, with a decimal point or, where
+nothing else can be meant, a decimal comma; some words stand for a missing number.
+
+A head is the row that names the columns, each with its unit: x [mm], fx (N), F / N, d_um, Weg in mm, or with the units
+in the row below. Headed is a head and rows of as many words; Table is one whose words are numbers. Text.table is a map:
+rows of as many numbers each, and before them a header, in which anything may stand.
+"""
 
 import csv
 import re
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple, Optional
 
 import numpy as np
 
-from .errors import Error, short
-from .files import SAMPLE, decoded, lines_of
+from . import units
+from .errors import Error, counted, short
+from .files import lines_of, text_of
 
 COMMENTS = ("#", "%")  # of lines that never have numbers of the map
 # missing points as instruments and spreadsheets write them
@@ -18,8 +30,11 @@ MISSING = {
 OF_MICROSOFT = re.compile(r"[+-]?1[.,]#(?:qnan|snan|ind|inf)\d*")  # as its C library prints no number
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
 THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
-HEAD = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")  # x [mm], fx (N)
 QUOTED = re.compile(r'"[^"]*"')
+BRACKETED = re.compile(r"(?P<name>.*?)[\s,:]*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*)\)|\{(?P<c>[^}]*)\}|<(?P<d>[^>]*)>)")
+DIVIDED = re.compile(r"(?P<name>.*?)\s*/\s*(?P<a>\S+)")
+BEHIND = re.compile(r"(?P<name>.*?[^\s_,.:;-])(?:[\s_,.:;-]+in)?[\s_,.:;-]+(?P<a>[^\s_,.:;-]+)", re.IGNORECASE)
+ENGLISH = ("in",)  # units that are words, too: not taken from a name
 
 
 @dataclass(frozen=True)
@@ -30,20 +45,13 @@ class Form:
     skip_rows: int = 0
     skip_columns: int = 0
     missing: tuple = ()  # words of missing points, in small letters, beside the usual ones
+    comments: tuple = COMMENTS
+    behind: bool = False  # whether comments may stand behind words, too
 
 
-def _text(path):
-    """The file's text, whatever its header's letters are written in."""
-    with open(path, "rb") as file:
-        data = file.read()
-    text = decoded(data)
-    if "\0" in text[:SAMPLE]:
-        raise Error(f"{path}: is not a text, as it has bytes of 0: save it as a text in UTF-8")
-    return text
-
-
-def _separator(line):
-    """What separates the numbers of a line; None: white space."""
+def separator_of(line):
+    """What separates the words of a line; None: white space."""
+    line = QUOTED.sub("", line)
     return next((mark for mark in (";", "\t", ",") if mark in line), None)
 
 
@@ -54,37 +62,68 @@ def _has_decimal_commas(words, separator):
 
 def split(line, decimal=None):
     """The words of a line, and their separator, which commas within quotation marks are not."""
+    separator = separator_of(line.replace(",", "") if decimal == "comma" and '"' not in line else line)
     if '"' in line:
-        separator = _separator(QUOTED.sub("", line))
-        rows = list(csv.reader([line], delimiter=separator or " ", skipinitialspace=True))
-        words = [word.strip() for word in (rows[0] if rows else [])]
+        try:
+            words = words_of(line, separator)
+        except ValueError:  # the quotation mark is a letter
+            words = [word.strip() for word in line.split(separator)]
         return words, '"' if separator == "," and any(map(DECIMAL_COMMA.fullmatch, words)) else separator
-    separator = _separator(line.replace(",", "") if decimal == "comma" else line)
     if separator == "," and all(DECIMAL_COMMA.fullmatch(word) for word in line.split()) and len(line.split()) > 1:
         separator = None  # 0,1 0,2 0,3
-    return [word.strip() for word in line.split(separator)], separator
+    return words_of(line, separator), separator
 
 
-def _number(word, missing=()):
+def words_of(line, separator):
+    """The words of a line between these separators; ValueError of a quote that does not end on it."""
+    if '"' not in line:
+        return [word.strip() for word in line.split(separator)]
+    reader = csv.reader([line.strip(), ""], delimiter=separator or " ", skipinitialspace=True)
+    try:
+        words = [word.strip() for word in next(reader)]
+    except csv.Error as error:
+        raise ValueError(error) from error
+    if reader.line_num > 1:
+        raise ValueError("a quote is not closed on its line")
+    return words
+
+
+def head_words(line, separator, width):
+    """The words of a head above rows of so many words: where blanks separate them, names may have blanks, too, and are
+    what two blanks or a bracket end."""
+    words = words_of(line, separator)
+    if separator is None and len(words) != width:
+        for other in (re.split(r"\s{2,}", line.strip()), re.findall(r"[^\[({]*[\[({][^\])}]*[\])}]", line)):
+            if len(other) == width:
+                return [word.strip() for word in other]
+    return words
+
+
+def split_numbers(line):
+    """The words of a line of numbers alone, which several signs may separate: semicolons, blanks, or commas."""
+    words = re.split(r"[;\s]\s*|,\s+", line.strip())
+    return line.strip().split(",") if len(words) == 1 else [word for word in words if word]
+
+
+def number_of(word, missing=()):
     """A word as a number, NaN for a missing point; None for another text."""
     small = word.lower()
     if small in MISSING or small in missing or OF_MICROSOFT.fullmatch(small):
         return np.nan
     try:
-        return float(word)
+        return None if "_" in word else float(word)  # float() takes 1_000
     except ValueError:
         return None
 
 
-def _decimal(lines):
-    """ "comma" where words between semicolons, tabs or quotation marks can only be numbers with decimal commas."""
+def _decimal(rows):
+    """ "comma" where numbers can only have decimal commas; rows: words, and whether no comma separates them."""
     found = False
-    for _, line in lines:
-        words, separator = split(line)
+    for words, sure in rows:
         numbers = [word for word in words if DECIMAL_COMMA.fullmatch(word)]
-        if any("." in word and _number(word) is not None for word in words):
+        if any("." in word and number_of(word) is not None for word in words):
             return None
-        if numbers and separator not in (";", "\t", '"'):
+        if numbers and not sure:
             return None
         found = found or not all(THOUSANDS.fullmatch(word) for word in numbers)
     return "comma" if found else None
@@ -95,9 +134,11 @@ def _row(path, number, words, separator, form, decimal):
     if decimal == "comma":
         words = [word.replace(",", ".") for word in words]
     try:
-        return np.array([float(word) for word in words])
+        if not any("_" in word for word in words):
+            return np.array([float(word) for word in words])
     except ValueError:
-        values = [_number(word, form.missing) for word in words]
+        pass
+    values = [number_of(word, form.missing) for word in words]
     if None in values:
         word = words[values.index(None)]
         if decimal != "comma" and _has_decimal_commas(words, separator):
@@ -113,7 +154,7 @@ def _row(path, number, words, separator, form, decimal):
 def _is_header(words, decimal, missing=()):
     """Whether no word is a number, so that the line can only name something."""
     words = [word.replace(",", ".") for word in words] if decimal == "comma" else words
-    return not any(_number(word, missing) is not None and word for word in words)
+    return not any(number_of(word, missing) is not None and word for word in words)
 
 
 def _first_row(lines, form, decimal):
@@ -128,7 +169,7 @@ def _first_row(lines, form, decimal):
         words, separator = split(line, decimal)
         if _is_header(words, decimal, form.missing) and not _has_decimal_commas(words, separator):
             continue
-        texts = [word for word in words if word[:1].isalpha() and _number(word, form.missing) is None]
+        texts = [word for word in words if word[:1].isalpha() and number_of(word, form.missing) is None]
         after = _is_header(split(lines[k + 1][1], decimal)[0], decimal, form.missing) if k + 1 < len(lines) else False
         if not texts or counts[k] == usual and not after:
             return k
@@ -148,7 +189,7 @@ def _columns(values, words):
 
 
 class Text:
-    """A text of numbers, whose file is read once, and whose header is looked for once.
+    """A text, whose file is read once, and whose header is looked for once.
 
     Parameters
     ----------
@@ -156,30 +197,70 @@ class Text:
         The file.
     form : Form
         How its words are read.
+    text : str, optional
+        All of the file where it is read already.
     """
 
-    def __init__(self, path, form=Form()):  # noqa: B008 - it is never changed
-        self.path, self.form = path, form
+    def __init__(self, path, form=Form(), text=None):  # noqa: B008 - it is never changed
+        self.path, self.form, self._text = path, form, text
         self.empty_columns = 0  # the last ones, which are left out of the table once it is read
 
     @cached_property
     def lines(self):
         """All lines, the first of which has number 1."""
-        return lines_of(_text(self.path))
+        return lines_of(text_of(self.path) if self._text is None else self._text)
+
+    def is_comment(self, line):
+        """Whether a line is a comment."""
+        return line.lstrip().startswith(self.form.comments)
 
     @cached_property
     def kept(self):
         """Numbers and contents of the lines that are not empty, skipped or comments."""
+        lines = self.lines
+        if self.form.behind:
+            sign = re.compile("|".join(map(re.escape, self.form.comments)))
+            lines = [sign.split(line)[0] for line in lines]
         return [
             (number, line)
-            for number, line in enumerate(self.lines, 1)
-            if number > self.form.skip_rows and line.strip() and not line.lstrip().startswith(COMMENTS)
+            for number, line in enumerate(lines, 1)
+            if number > self.form.skip_rows and line.strip() and not self.is_comment(line)
         ]
+
+    @cached_property
+    def every(self):
+        """Number, contents and whether it is a comment, of the lines that have more than the sign of one; comments are
+        without it, and without quotation marks."""
+        signs, found = "".join(self.form.comments), []
+        for number, line in enumerate(self.lines, 1):
+            comment = self.is_comment(line)
+            line = line.strip().lstrip(signs).replace('"', "").strip() if comment else line
+            found += [(number, line, comment)] if line.strip() else []
+        return found
+
+    @cached_property
+    def separator(self):
+        """What separates the words of most lines."""
+        signs = [split(line)[1] for _, line in self.kept]
+        usual = max(dict.fromkeys(signs), key=signs.count, default=None)
+        return "," if usual == '"' else usual
+
+    def words(self, number, line, separator):
+        """The words of a line between these separators."""
+        try:
+            return words_of(line, separator)
+        except ValueError as error:
+            raise Error(f"{self.path}: line {number}: {error}") from error
+
+    def rows(self, separator):
+        """Numbers of the lines kept, and their words between these separators."""
+        return [(number, self.words(number, line, separator)) for number, line in self.kept]
 
     @cached_property
     def decimal(self):
         """The decimal sign, "point" or "comma"; None for a point that nothing states."""
-        return self.form.decimal or _decimal(self.kept)
+        rows = (split(line) for _, line in self.kept)
+        return self.form.decimal or _decimal((words, separator in (";", "\t", '"')) for words, separator in rows)
 
     @cached_property
     def before(self):
@@ -210,8 +291,7 @@ class Text:
         return [
             (number, line)
             for number, line in enumerate(self.lines, 1)
-            if line.strip()
-            and (number <= self.form.skip_rows or number in before or line.lstrip().startswith(COMMENTS))
+            if line.strip() and (number <= self.form.skip_rows or number in before or self.is_comment(line))
         ]
 
     def empty_line(self):
@@ -223,37 +303,165 @@ class Text:
         return before[0] + 1 if 0 < len(before) < len(full) // 2 else None
 
 
-class Table:
-    """A text with a head: names of its columns with their units, and numbers.
+class Head(NamedTuple):
+    """The head of a column: its name, its unit as it is written or None, the whole word, and whether name and unit are
+    one word: d_um."""
+
+    name: str
+    unit: Optional[str]
+    word: str
+    joined: bool = False
+
+
+def measure(unit):
+    """The unit of SI of a unit's quantity, and its size; "" of a number without one, None of an unknown one."""
+    unit = (unit or "").strip()
+    if unit in ("", "-", "1"):
+        return "", 1.0
+    si = units.quantity(unit)
+    return si, units.size(unit, si) if si else 1.0
+
+
+def _in_brackets(found):
+    return next(found[k].strip() for k in "abcd" if found[k] is not None)
+
+
+def bare(word):
+    """A unit without quotation marks and brackets around it."""
+    word = word.strip().strip('"').strip()
+    found = BRACKETED.fullmatch(word)
+    return _in_brackets(found) if found and not found["name"] else word
+
+
+def _is_unit(word):
+    """Whether a word is a unit, or a ratio of two, or stands in brackets."""
+    word, unit = word.strip(), bare(word)
+    ratio = unit.count("/") == 1 and all(measure(part)[0] for part in unit.split("/"))
+    return measure(unit)[0] is not None or ratio or word[:1] in ("[", "(", "{", "<") and word[-1] in "])}>"
+
+
+def are_units(words):
+    """Whether all words are units, in brackets or not, and one of them is known."""
+    return any(measure(bare(word))[0] for word in words) and all(map(_is_unit, words))
+
+
+def head_of(word):
+    """The Head of a word."""
+    word = word.strip().strip('"').strip()
+    found = BRACKETED.fullmatch(word)
+    if found:
+        return Head(found["name"].strip(), _in_brackets(found), word)
+    found = DIVIDED.fullmatch(word)
+    if found:
+        before = re.split(r"[\s_]+", found["name"])[-1]
+        if measure(before)[0] and (before != found["name"] or not measure(found["a"])[0]):  # Q N/mm
+            return Head(found["name"][: -len(before)].strip(" _") or word, f"{before}/{found['a']}", word)
+        return Head(found["name"] or word, found["a"], word)
+    found = BEHIND.fullmatch(word)
+    if found and found["a"] not in ENGLISH and measure(found["a"])[0]:
+        return Head(found["name"], found["a"], word, joined=True)
+    return Head(word, None, word)
+
+
+def heads_of(path, words, below=None):
+    """The Heads of words, and of those of the row of units below them where there is one."""
+    found = [head_of(word) for word in words]
+    for k, text in enumerate(below or ()):
+        if not text.strip():
+            continue
+        one, unit = found[k], bare(text)
+        stated = one.unit is not None and not one.joined
+        if stated and measure(one.unit)[0] and measure(one.unit) != measure(unit):
+            raise Error(f"{path}: column {short(one.word)}: the line below states {short(unit)}: remove one")
+        found[k] = Head(one.name if stated else one.word, unit, one.word)
+    return found
+
+
+class Headed:
+    """A head, and rows of as many words as it has.
 
     Parameters
     ----------
     path : path
         The file.
-    known : mapping
-        Names of columns, and what each is called here.
     row, kind : str
-        What a line is for, and what lines are of, for messages.
+        What a row is for, and what rows are of, for messages.
+    separators : tuple of str, optional
+        Those that may separate the words, the last one where the head has none; None for any, or blanks.
+    text : Text, optional
+        That of the file.
+
+    Attributes
+    ----------
+    head : int
+        Number of the line of the head.
+    words : list of str
+        Its words.
+    """
+
+    def __init__(self, path, row, kind, separators=None, text=None):
+        self.path, self.kind, self.text = path, kind, text or Text(path)
+        if not self.text.kept:
+            raise Error(f"{path}: is empty: give a head and a line per {row}")
+        self.head, line = self.text.kept[0]
+        separator = separator_of(line)
+        if separators and separator not in separators:
+            separator = separators[-1]
+        (_, self.words), *self._rows = self.text.rows(separator)
+        if self._rows:
+            self.words = head_words(line, separator, len(self._rows[0][1]))
+
+    @cached_property
+    def decimal(self):
+        """The decimal sign, "point" or "comma"; None for a point that nothing states."""
+        return self.text.form.decimal or _decimal((words, True) for _, words in self._rows)
+
+    @cached_property
+    def body(self):
+        """Number and words of each row below the head."""
+        for number, words in self._rows:
+            if len(words) != len(self.words):
+                here, above = counted(len(words), "word"), counted(len(self.words), "head")
+                raise Error(f"{self.path}: line {number} has {here}, line {self.head} has {above}")
+        if not self._rows:
+            raise Error(f"{self.path}: has a head, but no lines of {self.kind} below it")
+        return self._rows
+
+
+class Table(Headed):
+    """A head of names with their units, and numbers.
+
+    Parameters
+    ----------
+    path, row, kind
+        As of Headed.
+    known : mapping, optional
+        Names of columns, and what each is called here; None where each has the name of its head.
+
+    Attributes
+    ----------
+    columns, units : dict
+        Place of each column, and its unit or None.
+    others : list of str
+        Heads that are not known.
     """
 
     def __init__(self, path, known, row, kind):
-        self.path, self.kind, text = path, kind, Text(path)
-        self.lines, self.decimal = text.kept, text.decimal
-        if not self.lines:
-            raise Error(f"{path}: is empty: give a head and a line per {row}")
-        self.head, line = self.lines[0]
+        super().__init__(path, row, kind)
+        below = self._rows[0][1] if self._rows else []
+        below = self._rows.pop(0)[1] if len(below) == len(self.words) and are_units(below) else None
         self.columns, self.units, self.others = {}, {}, []
-        words = split(line, self.decimal)[0]
-        for k, word in enumerate(words):
-            name, unit = HEAD.fullmatch(word).groups()
-            other, name = name, known.get(" ".join(name.lower().split()))
+        for k, one in enumerate(heads_of(path, self.words, below)):
+            name, unit = one.name, one.unit
+            if known is not None:
+                whole = name != one.word and _plain(one.word) in known  # what looks like a unit is of the name
+                name, unit = known.get(_plain(one.word if whole else name)), None if whole else unit
             if name in self.columns:
                 raise Error(f"{path}: line {self.head}: two columns are {name}: remove one")
             if name:
-                self.columns[name], self.units[name] = k, unit or None
+                self.columns[name], self.units[name] = k, unit
             else:
-                self.others.append(other)
-        self.count = len(words)
+                self.others.append(one.name if one.name and measure(one.unit)[0] is not None else one.word)
 
     def need(self, names, what):
         """Raises Error unless the columns are there."""
@@ -273,26 +481,19 @@ class Table:
 
     def rows(self):
         """The number of each line, and {name: (n,)} of the columns."""
-        names, numbers, found = list(self.columns), [], []
-        places = [self.columns[name] for name in names]
-        for number, line in self.lines[1:]:
-            words = split(line, self.decimal)[0]
-            if len(words) != self.count:
-                raise Error(
-                    f"{self.path}: line {number} has {len(words)} words, line {self.head} has {self.count} heads"
-                )
-            found.append([self._number(number, names[k], words[place]) for k, place in enumerate(places)])
-            numbers.append(number)
-        if not found:
-            raise Error(f"{self.path}: has a head, but no lines of {self.kind} below it")
-        return numbers, dict(zip(names, np.array(found).T))
+        values = [[self._number(*row, *column) for column in self.columns.items()] for row in self.body]
+        return [number for number, _ in self.body], dict(zip(self.columns, np.array(values).T))
 
-    def _number(self, line, name, word):
-        try:
-            value = float(word.replace(",", ".") if self.decimal == "comma" else word)
-        except ValueError:
-            value = np.nan
-        if not np.isfinite(value) or "_" in word:
+    def _number(self, line, words, name, place):
+        word = words[place]
+        value = number_of(word.replace(",", ".") if self.decimal == "comma" else word)
+        if value is None or not np.isfinite(value):
             shown = short(word) or "an empty word"
-            raise Error(f"{self.path}: line {line}: {shown} in column {name} is no finite number: correct it")
+            cure = "write it with a decimal point" if DECIMAL_COMMA.fullmatch(word) else "correct it"
+            raise Error(f"{self.path}: line {line}: {shown} in column {name} is no finite number: {cure}")
         return value
+
+
+def _plain(name):
+    """A name in small letters, with single blanks."""
+    return " ".join(name.lower().split())

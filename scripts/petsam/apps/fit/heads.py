@@ -1,6 +1,5 @@
 """Heads of a laboratory's table: what each column is, its unit, and which are meant by displacement and force.
 
-A unit stands behind the name, `Displacement (um)`, `F / N`, `Weg, mm`, `d_um`, or in a line of its own below the names.
 Where several columns have a unit that fits, their words decide: those of a normal load or of a depth are never
 taken, those of a tangential one are preferred.
 """
@@ -10,14 +9,11 @@ from typing import NamedTuple, Optional
 
 from ...core import units
 from ...core.errors import Error, short, there_are
+from ...core.texttable import heads_of, measure
 
 QUANTITIES = {"displacement": "m", "force": "N", "time": "s", "energy": "J"}
 EXAMPLES = {"m": "Displacement (um)", "N": "Force (N)"}
-BRACKETED = re.compile(r"(?P<name>.*?)[\s,:]*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*)\)|\{(?P<c>[^}]*)\}|<(?P<d>[^>]*)>)")
-DIVIDED = re.compile(r"(?P<name>.*?)\s*/\s*(?P<a>\S+)")
-BEHIND = re.compile(r"(?P<name>.*[^\s_,.:;-])(?:[\s_,.:;-]+in)?[\s_,.:;-]+(?P<a>[^\s_,.:;-]+)", re.IGNORECASE)
 PER_LENGTH = re.compile(r".*N/(mm|m|cm|um)")
-ENGLISH = ("in",)  # units that are words, too: not taken from a name
 # what a column may be called: whole words, and those of three letters or more also within one
 WORDS = {
     "m": (
@@ -84,47 +80,12 @@ def _across(name):
     return _has(name, ACROSS) and not _has(name, ALONG)
 
 
-def quantity(unit):
-    """Quantity of a unit of a head, and its size; "" of none, None of an unknown one."""
-    unit = (unit or "").strip()
-    if unit in ("", "-", "1"):
-        return "", 1.0
-    if PER_LENGTH.fullmatch(unit):
+def _quantity(unit):
+    """Quantity of a unit of a head, and its size; "" of none, None of one that no column here is of."""
+    si, size = measure(unit)
+    if si == "N/m" or PER_LENGTH.fullmatch(unit or ""):
         return "N/m", 1.0
-    for si in QUANTITIES.values():
-        size = units.size(unit, si)
-        if size:
-            return si, size
-    return None, 1.0
-
-
-def is_unit(cell):
-    """Whether a cell of a line of units is one, in brackets or not."""
-    return quantity(bare(cell))[0] is not None or cell.strip()[:1] in "[({<" and cell.strip()[-1:] in "])}>"
-
-
-def bare(cell):
-    """A cell without quotation marks and brackets around it."""
-    cell = cell.strip().strip('"').strip()
-    found = BRACKETED.fullmatch(cell)
-    return next(found[k].strip() for k in "abcd" if found[k] is not None) if found and not found["name"] else cell
-
-
-def _named(cell):
-    """Name and unit of a head, None where there is none, and whether they are one word."""
-    found = BRACKETED.fullmatch(cell)
-    if found:
-        return found["name"].strip(), next(found[k].strip() for k in "abcd" if found[k] is not None), False
-    found = DIVIDED.fullmatch(cell)
-    if found:
-        before = re.split(r"[\s_]+", found["name"])[-1]
-        if quantity(before)[0] and (before != found["name"] or not quantity(found["a"])[0]):  # Q N/mm
-            return found["name"][: -len(before)].strip(" _") or cell, f"{before}/{found['a']}", False
-        return found["name"] or cell, found["a"], False
-    found = BEHIND.fullmatch(cell)
-    if found and found["a"] not in ENGLISH and quantity(found["a"])[0]:
-        return found["name"], found["a"], True
-    return cell, None, False
+    return (si, size) if si in ("", *QUANTITIES.values()) else (None, 1.0)
 
 
 def columns(path, head, below=None):
@@ -143,14 +104,8 @@ def columns(path, head, below=None):
     list of Column
     """
     found = []
-    for k, cell in enumerate(cell.strip().strip('"').strip() for cell in head):
-        name, unit, joined = _named(cell)
-        if below is not None and below[k].strip():
-            own, stated = quantity(unit), quantity(bare(below[k]))
-            if unit is not None and own[0] and not joined and own != stated:
-                raise Error(f"{path}: column {short(cell)}: the line below states {short(bare(below[k]))}: remove one")
-            name, unit, joined = (name if unit is None or not joined else cell), bare(below[k]), False
-        si, size = quantity(unit)
+    for k, (name, unit, cell, joined) in enumerate(heads_of(path, head, below)):
+        si, size = _quantity(unit)
         if si == "N/m":
             raise Error(f"{path}: column {short(name)}: is a force per length, {unit}: multiply by the length")
         found.append(Column(name or cell or unit or "", si, size, k, unit, cell, joined))

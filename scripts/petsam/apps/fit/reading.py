@@ -1,12 +1,9 @@
 """A laboratory's file of loops: a table of displacement and force over time, or of the peaks of each cycle.
 
-Lines before the head are skipped. The head names columns with their units: `Displacement (um);Friction force (N)`,
-x [mm], F / N, d_um, or the line below it has the units; a comment just above the numbers may be one, too. Fields are
-separated by tabs, semicolons, commas or blanks; where they are not by commas, decimals may have them. All rows have as
-many fields as the head: one that has lost a field would have another's numbers.
+Lines before the head are skipped; a comment just above the numbers may be the head. All rows have as many fields as the
+head: one that has lost a field would have another's numbers.
 """
 
-import csv
 import os
 import re
 from collections.abc import Sequence
@@ -15,15 +12,11 @@ from typing import Optional, Union
 
 import numpy as np
 
-from ...core import units
 from ...core.errors import Error, counted, short
-from ...core.files import lines_of, text_of
+from ...core.texttable import THOUSANDS, Form, Text, are_units, head_words, number_of
 from . import heads
 
-MISSING = ("", "nan", "n/a", "-", "--", "null", "none", "1.#qnan", "#n/a", "lost")
-NUMBER = re.compile(rf"{units.NUMBER}")
-COMMENTS = ("#", "%", "//")
-THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
+FORM = Form(missing=("lost",), comments=("#", "%", "//"))
 CUT = re.compile(r"[+-]?0\d+")  # no number begins so, but decimals do
 PEAK = re.compile(r"amplitude|\*|max|peak", re.IGNORECASE)
 
@@ -59,30 +52,10 @@ class Record:
     notes: list = field(default_factory=list)
 
 
-def _cells(line, separator):
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
-
-
-def _separator(lines):
-    """What separates the fields: the first of tab, semicolon and comma that most lines have; else blanks."""
-    for one in "\t;,":
-        if sum(one in line for line in lines) > 0.6 * len(lines):
-            return one
-    return None
-
-
-def _split(lines, separator):
-    """The cells of lines."""
-    return [line.split() if separator is None else _cells(line, separator) for line in lines]
-
-
 def _number(text):
     """The number of a cell, NaN of one that is missing; None of another text. A comma within a cell is no separator."""
-    text = text.strip().strip('"')
-    if text.lower() in MISSING:
-        return np.nan
-    text = text.replace(",", ".")
-    return float(text) if NUMBER.fullmatch(text) else None
+    value = number_of(text.strip('"').replace(",", "."), FORM.missing)
+    return None if value is not None and np.isinf(value) else value
 
 
 def _texts(row):
@@ -101,17 +74,6 @@ def _ends(row, width):
     return len(row) >= width and not any(row[width:])
 
 
-def _head_cells(line, row, separator, width):
-    """The cells of a head: those of its row, or where blanks separate the names, whose words they separate, too, what
-    two blanks or a bracket end."""
-    if separator is not None or len(row) == width:
-        return row
-    for cells in (re.split(r"\s{2,}", line.strip()), re.findall(r"[^\[({]*[\[({][^\])}]*[\])}]", line)):
-        if len(cells) == width:
-            return [cell.strip() for cell in cells]
-    return row
-
-
 def _columns(path, lines, rows, separator):
     """The columns, and the place of the first row of numbers."""
     first = next((k for k, row in enumerate(rows) if _numbers(row) and not lines[k][2]), None)
@@ -119,11 +81,11 @@ def _columns(path, lines, rows, separator):
         raise Error(f"{path}: expected a head with names and units, and rows of numbers")
     for k in range(first, len(rows)):  # numbers of an instrument's header have texts of another width above them
         width = len(rows[k])
-        above = [_head_cells(lines[j][1], rows[j], separator, width) for j in range(max(0, k - 2), k)]
+        above = [head_words(lines[j][1], separator, width) for j in range(max(0, k - 2), k)]
         if not _numbers(rows[k]) or not above or not _ends(rows[k], len(above[-1])) or not _texts(above[-1]):
             continue
         names, below = above[-1], None
-        if all(map(heads.is_unit, names)) and any(heads.quantity(heads.bare(one))[0] in ("m", "N") for one in names):
+        if are_units(names):
             named = len(above) == 2 and len(above[0]) == len(names) and _texts(above[0])
             names, below = above[0] if named else [""] * len(names), names
         return heads.columns(path, names, below), k
@@ -155,25 +117,15 @@ def read(path: Union[str, os.PathLike], displacement: Optional[str] = None, forc
     Error
         If the file is no such table, a column lacks its unit, or the force is one per length.
     """
-    lines = _lines(path)
-    separator = _separator([line for _, line, comment in lines if not comment])
-    rows = _split([line for _, line, _ in lines], separator)
+    text = Text(path, FORM)
+    if len(text.kept) < 2:
+        raise Error(f"{path}: expected a head with names and units, and rows of numbers")
+    lines, separator = text.every, text.separator
+    rows = [text.words(number, line, separator) for number, line, _ in lines]
     columns, start = _columns(path, lines, rows, separator)
     body = [(number, row) for (number, _, comment), row in zip(lines[start:], rows[start:]) if not comment]
     values, notes = _values(path, columns, body)
     return _record(str(path), columns, values, displacement, force, notes)
-
-
-def _lines(path):
-    """Number, text and whether it is a comment, of the lines that are not empty; comments without their sign."""
-    found = []
-    for number, line in enumerate(lines_of(text_of(path)), 1):
-        mark = next((one for one in COMMENTS if line.lstrip().startswith(one)), "")
-        if line.strip(" \t#%/"):
-            found.append((number, line.lstrip().lstrip("#%/").strip() if mark else line, bool(mark)))
-    if sum(not comment for _, _, comment in found) < 2:
-        raise Error(f"{path}: expected a head with names and units, and rows of numbers")
-    return found
 
 
 def _values(path, columns, body):
@@ -208,7 +160,7 @@ def _check_signs(path, used):
         )
     notes = []
     for k in sorted({k for _, k, _ in commas}):
-        own = [one for one in used if one[1] == k and one[2].lower() not in MISSING]
+        own = [one for one in used if one[1] == k and not np.isnan(_number(one[2]))]
         comma = [one for one in own if "," in one[2]]
         plain = next((one for one in own if "," not in one[2] and _number(one[2])), None)
         if not all(THOUSANDS.fullmatch(cell) for _, _, cell in comma):

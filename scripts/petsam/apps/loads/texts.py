@@ -39,7 +39,7 @@ def read(path, given):
         table.need(force, "give the force on each node, or CNORMF1 to 3 and CSHEARF1 to 3")
     stated = {group: table.unit(group, names) for group, names in GROUPS.items()}
     sizes = {group: given.size(group, path, stated[group], f": line {table.head}") for group in GROUPS}
-    scale = _time_scale(table, state)
+    scale = _size(table, state, "s", 1.0) if state == "time" else 1.0
     lines, columns = table.rows()
     rows = gathering.Rows(path, _labels(path, lines, columns["label"]), scale * columns[state], lines)
     normal = _three(columns, NORMAL)
@@ -51,7 +51,7 @@ def read(path, given):
     own_stress = sizes["force"] / sizes["length"] ** 2
     for name in STRESSES:
         if name in columns:
-            rows.more[name] = columns[name] * (_stress(table, name, own_stress) / own_stress)
+            rows.more[name] = columns[name] * (_size(table, name, "Pa", own_stress) / own_stress)
     own = all(name in columns for name in X)
     deck = None if own and given.deck is None else gathering.of_deck(given, path)
     if own:
@@ -76,21 +76,10 @@ def _labels(path, lines, values):
     return values.astype(np.int64)
 
 
-def _stress(table, name, own):
-    """Pascals of the unit of a column of stress: that of its head, or that of the forces and lengths."""
+def _size(table, name, quantity, own):
+    """The unit of a column in that of SI: that of its head, or its own."""
     unit = table.units[name]
-    size = own if unit is None else units.size(unit, "Pa")
+    size = own if unit is None else units.size(unit, quantity)
     if size is None:
-        raise Error(f"{table.path}: line {table.head}: {name} in {short(unit)}: use {units.names('Pa')}")
-    return size
-
-
-def _time_scale(table, name):
-    """Seconds of the unit of time."""
-    unit = table.units[name]
-    if unit is None or name == "increment":
-        return 1.0
-    size = units.size(unit, "s")
-    if size is None:
-        raise Error(f"{table.path}: line {table.head}: time in {short(unit)}: use {units.names('s')}")
+        raise Error(f"{table.path}: line {table.head}: {name} in {short(unit)}: use {units.names(quantity)}")
     return size

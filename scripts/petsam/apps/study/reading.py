@@ -1,16 +1,15 @@
 """The text of a study's table, CSV or YAML, as names and values; errors with their place."""
 
 import collections
-import csv
-import io
 import os
 import re
 from typing import NamedTuple
 
 import yaml
 
-from ...core.errors import Unusable, short
+from ...core.errors import Error, Unusable, short
 from ...core.files import need_regular
+from ...core.texttable import Form, Headed, Text
 from .expressions import check
 
 CSV, YAML = 64 << 20, 1 << 20  # maximum bytes of a table; reading YAML takes long
@@ -76,21 +75,6 @@ def _encodes(text):
 # ---------------------------------------------------------------- CSV
 
 
-def _cells(path, number, line, separator):
-    """The cells of one line; a quoted one ends on it, too."""
-    table = csv.reader([line, ""], skipinitialspace=True, delimiter=separator)
-    try:
-        row = next(table)
-    except csv.Error as error:
-        raise TableError(f"{path}, line {number}: {error}") from error
-    if table.line_num > 1:
-        raise TableError(f"{path}, line {number}: a quote is not closed on its line")
-    row = [cell.strip() for cell in row]
-    for cell in row:
-        _check_value(cell, f"{path}, line {number}")
-    return row
-
-
 def _check_columns(path, number, names):
     counts = collections.Counter(name.lower() for name in names)  # petsam takes load_n and Load_N for one
     for name in names:
@@ -101,22 +85,21 @@ def _check_columns(path, number, names):
 
 def read_csv(path):
     """Names of the columns, and rows as (line's number, values by name without the empty ones)."""
-    text = io.StringIO(_text_of(path, CSV), newline="")
-    # blank lines and comments go, but lines are counted
-    lines = [
-        (number, line) for number, line in enumerate(text, 1) if line.strip() and not line.lstrip().startswith("#")
-    ]
-    # as in histories: spreadsheets write semicolons where the decimal sign is a comma
-    separator = ";" if lines and ";" in lines[0][1] else ","
-    rows = [(number, _cells(path, number, line, separator)) for number, line in lines]
-    if len(rows) < 2:
+    text = Text(path, Form(comments=("#",)), _text_of(path, CSV))
+    if len(text.kept) < 2:
         raise TableError(f"{path}: expected a line of option names and at least one case")
-    names = [_plain(name) for name in rows[0][1]]
-    _check_columns(path, rows[0][0], names)
-    for number, row in rows[1:]:
-        if len(row) != len(names):
-            raise TableError(f"{path}, line {number}: {len(row)} values for {len(names)} columns")
-    return names, [(number, {name: value for name, value in zip(names, row) if value}) for number, row in rows[1:]]
+    try:
+        # as in histories: spreadsheets write semicolons where the decimal sign is a comma
+        table = Headed(path, "case", "cases", separators=(";", ","), text=text)
+        names = [_plain(name) for name in table.words]
+        _check_columns(path, table.head, names)
+        rows = table.body
+    except Error as error:
+        raise TableError(str(error)) from error
+    for number, words in rows:
+        for word in words:
+            _check_value(word, f"{path}, line {number}")
+    return names, [(number, {name: word for name, word in zip(names, words) if word}) for number, words in rows]
 
 
 # ---------------------------------------------------------------- YAML

@@ -8,9 +8,11 @@ import numpy as np
 
 from ...core import units
 from ...core.errors import Error, Unusable, short
-from ...core.files import lines_of, need_regular, text_of
+from ...core.files import need_regular
+from ...core.texttable import Form, Text, split_numbers
 from .profile import KINDS, Profile, ProfileWarning, Taken
 
+FORM = Form(comments=("#", "!", "%"), behind=True)
 DIRECTIONS = {"down": 1.0, "up": -1.0}
 
 
@@ -87,30 +89,11 @@ def weights_of(path: str, table: np.ndarray) -> Optional[np.ndarray]:
     return None
 
 
-def fields_of(line: str) -> list[str]:
-    """The words of a line, separated by blanks, semicolons or commas.
-
-    Parameters
-    ----------
-    line : str
-        The line.
-
-    Returns
-    -------
-    list of str
-    """
-    fields = re.split(r"[;\s]\s*|,\s+", line.strip())
-    return line.strip().split(",") if len(fields) == 1 else [one for one in fields if one]
-
-
 def _table(path):
     """The numbers of a file, (n, 2 or 3)."""
     rows = []
-    for number, line in enumerate(lines_of(text_of(path)), 1):
-        words = re.split(r"[#!%]", line)[0].strip()
-        if not words:
-            continue
-        fields = fields_of(words)
+    for number, line in Text(path, FORM).kept:
+        fields, words = split_numbers(line), line.strip()
         if len(fields) not in (2, 3) or not all(re.fullmatch(units.NUMBER, one) for one in fields):
             cure = "; decimals have a point" if any("," in one for one in fields) else ""
             raise Error(f"{path}:{number}: {short(words)}: expected y and z, and a weight or none{cure}")

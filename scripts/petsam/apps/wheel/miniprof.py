@@ -13,7 +13,8 @@ import numpy as np
 from ...core import units
 from ...core.errors import Error, Unusable, short
 from ...core.files import lines_of, text_of
-from .columns import DIRECTIONS, fields_of
+from ...core.texttable import split_numbers
+from .columns import DIRECTIONS
 from .profile import KINDS, Profile, Taken
 
 ENDINGS = (".whl", ".ban", ".mpt")
@@ -101,7 +102,7 @@ def _points(path):
     for number, line in enumerate(lines[first:], first + 1):
         if not line.strip():
             continue
-        fields = fields_of(line)
+        fields = split_numbers(line)
         if not _numbers(line):
             cure = "; decimals have a point" if "," in line else ""
             raise Error(f"{path}:{number}: {short(line.strip())}: expected the numbers of a point{cure}")
@@ -144,7 +145,7 @@ def _need_header(path, lines):
 
 def _numbers(line):
     """The words of a line, if all are numbers; else none."""
-    fields = fields_of(line)
+    fields = split_numbers(line)
     return fields if all(re.fullmatch(units.NUMBER, one) for one in fields) else []
 
 
