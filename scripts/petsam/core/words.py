@@ -1,7 +1,7 @@
 """Reading of a word: a number with its unit and range, several, a span, a name with its value, words by other readers.
 
 `form` describes what an option expects, as "a length above 0, such as 1mm"; any other word raises WordError. `allowed`
-is whether a number is good, `together` whether those of a word are. A `reader` of others takes a word, with its own form.
+is whether a number is good, `together` whether those of a word are. A `reader` takes a word and has its own form.
 """
 
 import contextlib
