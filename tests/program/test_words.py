@@ -1,6 +1,8 @@
 """The reader of words and the table of units that all commands share."""
 
+import argparse
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -95,9 +97,8 @@ def test_words_of_a_joint_have_their_units(option, text, value, capsys):
 
 
 def test_words_of_a_cycle_have_their_units():
-    period = line.word(line.period)
-    assert period("20ms,1s") == pytest.approx((0.02, 1.0)) and period("0.02") == (0.02, None)
-    assert period("20ms,0") == pytest.approx((0.02, 0.0))
+    assert line.PERIOD("20ms,1s") == pytest.approx((0.02, 1.0)) and line.PERIOD("0.02") == (0.02, None)
+    assert line.PERIOD("20ms,0") == pytest.approx((0.02, 0.0))
 
 
 def test_span_is_a_list_or_steps():
@@ -120,6 +121,123 @@ def test_named_number_and_names():
     assert words.integer("-3") == -3
     with pytest.raises(words.WordError):
         words.integer("1e3")
+
+
+@pytest.mark.parametrize(
+    "text, unit, value",
+    [
+        ("72km/h", "m/s", 20.0), ("1e5km", "m", 1e8), ("2 mrad", "rad", 2e-3), ("90deg", "rad", math.pi / 2.0),
+        ("180 deg/s", "rad/s", math.pi), ("60rpm", "rad/s", 2.0 * math.pi), ("10mrad/s", "rad/s", 0.01),
+        ("5%", "1", 0.05),
+    ],
+)  # fmt: skip
+def test_units_beyond_powers_of_ten(text, unit, value):
+    assert words.number(text, unit=unit) == pytest.approx(value, rel=1e-15)
+    assert units.quantity("km/h") == "m/s" and units.quantity("km") == "m"
+
+
+def test_number_without_a_unit_may_be_in_another_one():
+    assert words.number("180", unit="m", bare="mm") == words.number("18cm", unit="m", bare="mm") == 0.18
+    with pytest.raises(words.WordError):
+        words.number("3Pa", unit="m", bare="mm")
+
+
+def test_slope_is_an_angle():
+    assert words.slope("1:40", "") == pytest.approx(math.atan(0.025)) == -words.slope("-1:40", "")
+    assert words.slope("0.025", "") == 0.025 and words.slope("1deg", "") == pytest.approx(math.pi / 180.0)
+    for text in ("1:0", "1:-40", "1:2:3", ":", "1:", "x"):
+        with pytest.raises(words.WordError):
+            words.slope(text, "a slope")
+
+
+def test_points_are_numbers_between_colons():
+    assert words.points("0,0,0:1,0,0.5", "", 3) == ((0.0, 0.0, 0.0), (1.0, 0.0, 0.5))
+    assert words.points("1mm,2mm", "", 1, "m", 2) == ((1e-3, 2e-3),)
+    for text in ("0,0", "0,0,0:", "0,0,0:1,0,0:0,0,1:1,1,1", ""):
+        with pytest.raises(words.WordError, match="expected a frame"):
+            words.points(text, "a frame", 3)
+
+
+def test_bounds_may_be_left_out():
+    for text, found in (("3:10", (3, 10)), ("2:", (2, None)), (":-1", (None, -1)), (":", (None, None))):
+        assert words.bounds(text, "") == found
+    for text in ("3", "1:2:3", "a:2", "1.5:2", "10:3"):
+        with pytest.raises(words.WordError, match=f"^{text}: expected FIRST:LAST$"):
+            words.bounds(text, "FIRST:LAST", together=lambda found: found[0] < found[1])
+    with pytest.raises(words.WordError):
+        words.bounds(":", "FIRST:LAST", together=any)
+
+
+def test_numbers_may_be_judged_together():
+    assert words.numbers("1,2", together=lambda found: found[0] < found[1]) == [1.0, 2.0]
+    with pytest.raises(words.WordError, match="^2,1: expected rising"):
+        words.numbers("2,1", "rising numbers", together=lambda found: found[0] < found[1])
+    assert list(words.span("3mm", "", "m", count=1)) == [3e-3]
+    with pytest.raises(words.WordError):
+        words.span("3mm,4mm", "one, or FIRST:LAST:COUNT", "m", count=1)
+
+
+def test_names_have_values_of_any_reader():
+    step = partial(words.integer, allowed=words.within(0))
+    assert words.named("a_1=3", "NAME=STEP", reader=step, known=r"\w{1,5}") == ("a_1", 3)
+    assert words.named("a=b=c", "NAME=VALUE", reader=str) == ("a", "b=c")
+    assert words.named("210GPa", "[SET=]E", "Pa", bare="") == ("", 210e9)
+    assert words.named("A=210GPa", "[SET=]E", "Pa", bare="") == ("A", 210e9)
+    for text in ("a_1=-3", "a_1=", "=3", "a_1", "toolong=3", "a-b=3", "a_1=x"):
+        with pytest.raises(words.WordError, match=f"^{text}: expected NAME=STEP$"):
+            words.named(text, "NAME=STEP", reader=step, known=r"\w{1,5}")
+    with pytest.raises(words.WordError, match="^A=3kg: expected a modulus; units are Pa, kPa"):
+        words.named("A=3kg", "a modulus", "Pa", bare="")
+
+
+def test_unknown_names_are_told_with_the_nearest():
+    with pytest.raises(words.Error, match="^basqin: is no criterion: is basquin meant"):
+        words.names("swt,basqin", known=("swt", "basquin"), what="criterion")
+    with pytest.raises(words.WordError, match="^12: expected 1 or 2"):
+        words.names("12", "1 or 2", "12")
+    assert words.choice("up", "up or down", ("up", "down")) == "up"
+    for text in ("u", "", "up,down"):
+        with pytest.raises(words.WordError):
+            words.choice(text, "up or down", ("up", "down"))
+
+
+def test_each_word_has_its_reader():
+    length, share = partial(words.number, unit="m"), partial(words.number, allowed=words.part)
+    assert words.each("2um,5%", "", length, share) == pytest.approx((2e-6, 0.05))
+    assert words.each("2um", "", length, share, rest=(0.0,)) == (pytest.approx(2e-6), 0.0)
+    assert words.each("2um,5%", "", length, share, rest=(0.0,)) == pytest.approx((2e-6, 0.05))
+    for text in ("2um", "2um,5%,1", "2um,2", "2um,"):
+        with pytest.raises(words.WordError, match=f"^{text}: expected L,S$"):
+            words.each(text, "L,S", length, share)
+    with pytest.raises(words.WordError, match="^2Pa,5%: expected L,S; units are m, cm"):
+        words.each("2Pa,5%", "L,S", length, share)
+
+
+def test_pair_is_twice_one_or_two():
+    assert words.pair("a", "") == ("a", "a") and words.pair("a, b", "") == ("a", "b")
+    assert words.pair("a,b", "", whole=lambda text: True) == ("a,b", "a,b")
+    assert words.pair("1mm,2mm", "", partial(words.number, unit="m")) == (1e-3, 2e-3)
+    for text in ("", "a,", ",a", "a,b,c"):
+        with pytest.raises(words.WordError, match="expected LEFT,RIGHT"):
+            words.pair(text, "LEFT,RIGHT")
+
+
+def test_either_is_what_the_first_reader_takes(tmp_path):
+    form, there = "a number, or a file", tmp_path / "there.any"
+    there.write_text("")
+    readers = words.number, partial(words.file, form=form, endings=(".h5",))
+    assert words.either("1e-6", form, *readers) == 1e-6
+    assert [words.either(text, form, *readers) for text in ("new.H5", str(there))] == ["new.H5", str(there)]
+    with pytest.raises(words.WordError, match="^new.txt: expected a number, or a file$"):
+        words.either("new.txt", form, *readers)
+
+
+def test_option_has_what_is_made_of_its_word():
+    read = line.word(words.numbers, "numbers", count=2, to=sum, besides=("auto",))
+    assert read("1,2") == 3.0 and read("auto") == "auto"
+    for text in ("aut", "1"):
+        with pytest.raises(argparse.ArgumentTypeError, match=f"^{text}: expected numbers"):
+            read(text)
 
 
 class _Table(tables.Tabled):

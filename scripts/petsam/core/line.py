@@ -17,35 +17,29 @@ INTERRUPTED = 130
 TRACEBACK = "PETSAM_TRACEBACK"  # environment variable: print the traceback of an unexpected error
 
 
-def word(reader, *given, **options):
+def word(reader, /, *given, besides=(), to=None, **options):
     """A reader for argparse's type of one that takes a word first, and then these arguments, as those of core/words.py:
-    its errors become argparse's, which name the option."""
+    its errors become argparse's, which name the option. Words of `besides` stay as they are; `to` makes the option's
+    value of what is read."""
 
     def read(text):
         try:
-            return reader(text, *given, **options)
+            if text in besides:
+                return text
+            found = reader(text, *given, **options)
+            return found if to is None else to(found)
         except Error as error:
             raise argparse.ArgumentTypeError(str(error)) from error
 
     return read
 
 
-def period(text):
-    """Duration and start (or None) of T or T,START, s."""
-    form = "a time above 0, or T,START: 20ms,1s"
-    first, *start = words.numbers(text, form, "s", count=(1, 2))
-    if not first > 0.0:
-        raise words.WordError(text, form)
-    return first, *(start or [None])
-
-
-def frame(text):
-    """A frame: an origin, a direction x and a direction z."""
-    form = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
-    parts = text.split(":")
-    if not 1 <= len(parts) <= 3:
-        raise words.WordError(text, form)
-    return tuple(tuple(words.numbers(part, form, count=3)) for part in parts)
+# duration and start (or None), s
+PERIOD = word(
+    words.numbers, "a time above 0, or T,START: 20ms,1s", "s", count=(1, 2),
+    together=lambda found: found[0] > 0.0, to=lambda found: (*found, None)[:2],
+)  # fmt: skip
+FRAME = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"  # of words.points
 
 
 class Parser(argparse.ArgumentParser):
@@ -79,7 +73,7 @@ def joined(words, texts=()):
 def add_resolution(group):
     """Adds --dpi to a group of options."""
     form = "a whole number from {} to {}".format(*RANGE)
-    kind = word(words.integer, form, lambda value: RANGE[0] <= value <= RANGE[1])
+    kind = word(words.integer, form, words.within(*RANGE))
     text = "pixels per inch of a PNG, {} to {} ({}); journals ask for 300".format(*RANGE, DPI)
     group.add_argument("--dpi", type=kind, default=DPI, metavar="N", help=text)
 

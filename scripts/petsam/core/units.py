@@ -7,7 +7,8 @@ from .declared import FOLLOWING
 
 # other spellings of lengths, of src/ground/file/lengths.c and of instruments; words may be plural
 LENGTHS = {
-    "meter": 1.0, "metre": 1.0, "cm": 1e-2, "centimeter": 1e-2, "centimetre": 1e-2, "millimeter": 1e-3,
+    "meter": 1.0, "metre": 1.0, "km": 1e3, "kilometer": 1e3, "kilometre": 1e3,
+    "cm": 1e-2, "centimeter": 1e-2, "centimetre": 1e-2, "millimeter": 1e-3,
     "millimetre": 1e-3, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "micrometer": 1e-6, "micrometre": 1e-6, "micron": 1e-6,
     "nanometer": 1e-9, "nanometre": 1e-9, "pm": 1e-12, "picometer": 1e-12, "picometre": 1e-12, "angstrom": 1e-10,
     "\u00c5": 1e-10, "in": 0.0254, "inch": 0.0254, "mil": 2.54e-5,
@@ -20,7 +21,15 @@ OTHERS = {
     "kg/m3": {"kg/m3": 1.0, "g/cm3": 1e3, "t/mm3": 1e12},
     "degrees": {"degrees": 1.0, "deg": 1.0},
     "rad": {"deg": math.pi / 180.0, "degrees": math.pi / 180.0},
-    "rad/s": {"rad/s": 1.0, "rpm": math.pi / 30.0, "1/min": math.pi / 30.0},
+    "m/s": {"km/h": 1.0 / 3.6},
+    "rad/s": {
+        "rad/s": 1.0,
+        "mrad/s": 1e-3,
+        "1/s": 1.0,
+        "deg/s": math.pi / 180.0,
+        "rpm": math.pi / 30.0,
+        "1/min": math.pi / 30.0,
+    },
     "kg": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
     "Pa m^1/2": {
         "Pa m^1/2": 1.0,

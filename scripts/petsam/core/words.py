@@ -1,15 +1,18 @@
-"""Reading of a word: a number with its unit and range, several, a span, a name with its value.
+"""Reading of a word: a number with its unit and range, several, a span, a name with its value, words by other readers.
 
-`form` describes what an option expects, as "a length above 0, such as 1mm"; any other word raises WordError.
+`form` describes what an option expects, as "a length above 0, such as 1mm"; any other word raises WordError. `allowed`
+is whether a number is good, `together` whether those of a word are. A `reader` takes a word and has its own form.
 """
 
+import contextlib
 import math
+import os
 import re
 
 import numpy as np
 
 from . import units
-from .errors import Error, short
+from .errors import Error, short, there_are
 
 SIDES = "one or two lengths above 0, such as 1e-3 (m) or 1mm: X[,Y]"
 LARGEST_RATIO = 100.0  # of the two sides of a surface or a patch: beyond it, the comma was a decimal comma
@@ -17,22 +20,23 @@ MOST = 10000  # numbers of a span
 
 
 class WordError(Error):
-    """A word that is not what an option expects."""
+    """A word that is not what an option expects; `known` are units that it may have."""
 
-    def __init__(self, text, form):
-        super().__init__(f"{short(text) or repr('')}: expected {form}")
+    def __init__(self, text, form, known=""):
+        super().__init__(f"{short(text) or repr('')}: expected {form}" + (f"; units are {known}" if known else ""))
+        self.known = known
 
 
-def number(text, form="a number", unit="1", allowed=None):
+def number(text, form="a number", unit="1", allowed=None, bare=""):
     """A finite number, or one that `allowed` takes, in the unit of SI; the word may have another unit of the same
-    quantity after it."""
+    quantity after it, and is in the unit `bare` without one."""
     found = re.fullmatch(rf"\s*({units.NUMBER}|[+-]?inf)\s*(\D.*?|)\s*", text)
-    scale = units.size(found[2], unit) if found and found[2] else 1.0
+    name = found and (found[2] or bare)
+    scale = units.size(name, unit) if name else 1.0
     value = float(found[1]) * scale if found and scale else math.nan
     good = math.isfinite(value) if allowed is None else allowed(value)
     if not good:
-        known = units.names(unit) if found and scale is None else ""
-        raise WordError(text, form + (f"; units are {known}" if known else ""))
+        raise WordError(text, form, units.names(unit) if found and scale is None else "")
     return value
 
 
@@ -43,7 +47,7 @@ def integer(text, form="a whole number", allowed=None):
     return int(text)
 
 
-def numbers(text, form="numbers separated by commas", unit="1", allowed=None, count=None):
+def numbers(text, form="numbers separated by commas", unit="1", allowed=None, count=None, together=None):
     """Numbers separated by commas, each with its unit or all without one, but 0 needs none; as many as count, a number
     or several."""
     words = text.split(",")
@@ -56,7 +60,9 @@ def numbers(text, form="numbers separated by commas", unit="1", allowed=None, co
         try:
             found.append(number(word, form, unit, allowed))
         except WordError as error:
-            raise error if len(words) == 1 else WordError(text, form) from error
+            raise error if len(words) == 1 else WordError(text, form, error.known) from error
+    if together is not None and not together(found):
+        raise WordError(text, form)
     return found
 
 
@@ -107,45 +113,137 @@ def integers(text, form="whole numbers separated by commas", allowed=None, count
     try:
         return [integer(word, form, allowed) for word in words]
     except WordError as error:
-        raise WordError(text, form) from error
+        raise WordError(text, form, error.known) from error
 
 
-def span(text, form, unit="1", allowed=None, geometric=False):
-    """An array of FIRST:LAST:COUNT in equal or geometric steps, or of numbers separated by commas."""
+def points(text, form, most, unit="1", count=3):
+    """Up to so many points or directions, each of `count` numbers, separated by colons: tuples."""
+    words = text.split(":")
+    if len(words) > most:
+        raise WordError(text, form)
+    return tuple(tuple(numbers(word, form, unit, count=count)) for word in words)
+
+
+def slope(text, form):
+    """An angle, rad, or that of a slope of one number to another, 1:40."""
+    rise, colon, run = text.removeprefix("-").partition(":")
+    if not colon:
+        return number(text, form, "rad")
+    angle = math.atan(number(rise, form, allowed=positive) / number(run, form, allowed=positive))
+    return -angle if text.startswith("-") else angle
+
+
+def span(text, form, unit="1", allowed=None, geometric=False, count=None):
+    """An array of FIRST:LAST:COUNT in equal or geometric steps, or of numbers separated by commas, as many as count."""
     words = text.split(":")
     if len(words) == 1:
-        return np.array(numbers(text, form, unit, allowed))
+        return np.array(numbers(text, form, unit, allowed, count))
     if len(words) != 3 or "," in text:
         raise WordError(text, form)
     first, last = (number(word, form, unit, allowed) for word in words[:2])
-    count = integer(words[2], form, lambda value: 2 <= value <= MOST)
+    steps = integer(words[2], form, within(2, MOST))
     if not geometric:
-        return np.linspace(first, last, count)
-    return np.array([float(f"{value:.12g}") for value in np.geomspace(first, last, count)])
+        return np.linspace(first, last, steps)
+    return np.array([float(f"{value:.12g}") for value in np.geomspace(first, last, steps)])
 
 
-def named(text, form, unit="1", allowed=None):
-    """Name and number of NAME=NUMBER."""
+def bounds(text, form, allowed=None, together=None):
+    """The whole numbers of FIRST:LAST; None for one that is left out."""
+    words = [word.strip() for word in text.split(":")]
+    try:
+        found = tuple(integer(word, form, allowed) if word else None for word in words)
+    except WordError as error:
+        raise WordError(text, form, error.known) from error
+    if len(found) != 2 or together is not None and not together(found):
+        raise WordError(text, form)
+    return found
+
+
+def named(text, form, unit="1", allowed=None, reader=None, known=None, bare=None):
+    """Name and number of NAME=NUMBER, or what another reader makes of the word after a name that the pattern `known`
+    fits; a word without a name gets the name `bare`."""
     name, equal, value = text.partition("=")
-    if not name or not equal:
+    if bare is not None and not equal:
+        name, value = bare, text
+    elif not name or not value or known is not None and not re.fullmatch(known, name):
         raise WordError(text, form)
     try:
-        return name, number(value, form, unit, allowed)
+        return name, reader(value) if reader else number(value, form, unit, allowed)
     except WordError as error:
-        raise WordError(text, form) from error
+        raise WordError(text, form, error.known) from error
 
 
-def names(text, form="names separated by commas", known=None):
-    """Names separated by commas, of those that are known."""
+def names(text, form="names separated by commas", known=None, what=""):
+    """Names separated by commas, of those that are known; `what` they name, for a message with the nearest one."""
     words = text.split(",")
-    if not all(words) or known is not None and not set(words) <= set(known):
+    others = [word for word in words if known is not None and word not in tuple(known)]
+    if others and what and all(words):
+        raise Error(f"{short(others[0])}: is no {what}{there_are(others[0], known)}")
+    if others or not all(words):
         raise WordError(text, form)
     return words
+
+
+def choice(text, form, known):
+    """One word of those that are known."""
+    if text not in known:
+        raise WordError(text, form)
+    return text
+
+
+def file(text, form, endings):
+    """The name of a file that exists, or of one with such an ending."""
+    if not os.path.exists(text) and os.path.splitext(text)[1].lower() not in endings:
+        raise WordError(text, form)
+    return text
+
+
+def each(text, form, *readers, rest=()):
+    """Words separated by commas, each by its reader; `rest` has the values of the last ones, which may be left out."""
+    words = text.split(",")
+    lacking = len(readers) - len(words)
+    if not 0 <= lacking <= len(rest):
+        raise WordError(text, form)
+    try:
+        return (*(reader(word) for reader, word in zip(readers, words)), *rest[len(rest) - lacking :])
+    except WordError as error:
+        raise WordError(text, form, error.known) from error
+
+
+def pair(text, form, reader=str, whole=None):
+    """The values of two words, LEFT,RIGHT, or twice that of one, as of a text with a comma that is `whole`."""
+    words = [text] if whole is not None and whole(text) else [word.strip() for word in text.split(",")]
+    if len(words) > 2 or not all(words):
+        raise WordError(text, form)
+    return reader(words[0]), reader(words[-1])
+
+
+def either(text, form, *readers):
+    """What the first of several readers makes of a word that takes it."""
+    for reader in readers:
+        with contextlib.suppress(WordError):
+            return reader(text)
+    raise WordError(text, form)
 
 
 def positive(value):
     """Whether a number is above 0 and finite."""
     return 0.0 < value < math.inf
+
+
+def not_negative(value):
+    """Whether a number is 0 or more, and finite."""
+    return 0.0 <= value < math.inf
+
+
+def part(value):
+    """Whether a number is a part of 1: from 0 to below 1."""
+    return 0.0 <= value < 1.0
+
+
+def within(low, high=math.inf):
+    """A test of whether a number is from `low` to `high`."""
+    return lambda value: low <= value <= high
 
 
 def sides(text):

@@ -4,15 +4,16 @@ import argparse
 import os
 import re
 import sys
+from functools import partial
 
-from ..core import units, words
+from ..core import words
 from ..core.errors import short
-from ..core.line import Parser, add_resolution, joined, period, word
+from ..core.line import PERIOD, Parser, add_resolution, joined, word
 from ..results.cycles import PAIRS
 from . import bodies, page
 
 FORMATS = (".png", ".pdf", ".svg")
-WIDTHS = (30.0, 2000.0)  # mm of a picture
+WIDTHS = (0.03, 2.0)  # m of a picture
 SCALES = ("colors", "x", "y")  # that may be logarithmic
 
 
@@ -27,50 +28,11 @@ def numbers(unit="1", example="numbers separated by commas"):
     return word(words.numbers, example, unit)
 
 
-def steps(text):
-    """First and last step of FIRST:LAST; None where one is left out."""
-    form = "load steps FIRST:LAST, FIRST: or :LAST"
-    parts = [part.strip() for part in text.split(":")]
-    if len(parts) != 2 or not any(parts):
-        raise words.WordError(text, form)
-    try:
-        return tuple(words.integer(part, form, bool) if part else None for part in parts)
-    except words.WordError as error:
-        raise words.WordError(text, form) from error
-
-
 def measured(text):
     """A body, 1: or 2:, which may be left out, and a file."""
     if not text or re.fullmatch(r"\d:.*", text) and (text[0] not in "12" or not text[2:]):
         raise words.WordError(text, "a file, or 1:FILE, 2:FILE")
     return (text[0], text[2:]) if re.match("[12]:", text) else ("", text)
-
-
-def width(text):
-    """A picture's width, mm, in which a number without a unit is."""
-    form = "millimetres from {:g} to {:g}, or a length such as 9cm".format(*WIDTHS)
-    bare = re.fullmatch(units.NUMBER, text)
-    value = words.number(text, form) if bare else 1e3 * words.number(text, form, "m")
-    if not WIDTHS[0] <= value <= WIDTHS[1]:
-        raise words.WordError(text, form)
-    return value
-
-
-def condition(text):
-    """Name and text of NAME=VALUE."""
-    name, equal, value = text.partition("=")
-    if not (name and equal and value):
-        raise words.WordError(text, "NAME=VALUE")
-    return name, value
-
-
-def limit(text):
-    """Name and Measured number of NAME=VALUE."""
-    name, value = condition(text)
-    try:
-        return name, words.measured(value, "a number", 1)
-    except words.WordError as error:
-        raise words.WordError(text, "NAME=VALUE with one number") from error
 
 
 class _Scalars(argparse.Action):
@@ -123,11 +85,13 @@ def _quantities(parser):
     )
     what.add_argument("--by", metavar="NAME", help="of a study: the column that the curves' colours stand for")
     what.add_argument(
-        "--where", type=word(condition), action="append", default=[], metavar="NAME=VALUE",
+        "--where", type=word(words.named, "NAME=VALUE", reader=str), action="append", default=[], metavar="NAME=VALUE",
         help="of a study: only cases with this value",
     )  # fmt: skip
+    one = partial(words.measured, form="a number", count=1)
+    border = word(words.named, "NAME=VALUE with one number", reader=one)
     what.add_argument(
-        "--border", type=word(limit), action="append", default=[], metavar="NAME=VALUE",
+        "--border", type=border, action="append", default=[], metavar="NAME=VALUE",
         help="of a map of a study: a line where this column has the value",
     )  # fmt: skip
 
@@ -149,8 +113,9 @@ def _steps(parser):
         "--cycle", type=numbers(), metavar="C,...",
         help="cycles from 1, -1 is the last: their loops, or ends; of a wear simulation the saved cycles nearest to C",
     )  # fmt: skip
+    steps = word(words.bounds, "load steps FIRST:LAST, FIRST: or :LAST", allowed=bool, together=any)
     group.add_argument(
-        "--range", type=word(steps), metavar="FIRST:LAST",
+        "--range", type=steps, metavar="FIRST:LAST",
         help="only these load steps in histories and loops, from 1, -1 is the last: 33: leaves out the first 32",
     )  # fmt: skip
     title = "cycles (by reversals of the displacement that does the most work)"
@@ -158,7 +123,7 @@ def _steps(parser):
     how.add_argument("--turns", metavar="NAME", help="by reversals of another scalar of /history")
     how.add_argument(
         "--period",
-        type=word(period),
+        type=PERIOD,
         metavar="T[,START]",
         help="by time, such as 20ms (START: 0, or the first time if that is later than T)",
     )
@@ -190,9 +155,10 @@ def _look(parser):
         look.add_argument(
             f"--{letter}lim", type=LIMITS, metavar="LOW,HIGH", help=f"part of the {letter} axis, such as 0,2mm"
         )
+    form = "millimetres from {:g} to {:g}, or a length such as 9cm".format(*(1e3 * width for width in WIDTHS))
     look.add_argument(
         "--width",
-        type=word(width),
+        type=word(words.number, form, "m", words.within(*WIDTHS), bare="mm", to=lambda metres: 1e3 * metres),
         metavar="MM",
         help="width of the picture, mm; texts are scaled, to no less than 4.5 points",
     )

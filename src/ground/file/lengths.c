@@ -11,6 +11,7 @@ static const struct {
   const char *names;
   double      metres;
 } units[] = {{" m meter metre ", 1},
+             {" km kilometer kilometre ", 1e3},
              {" cm centimeter centimetre ", 1e-2},
              {" mm millimeter millimetre ", 1e-3},
              {" um \u00b5m \u03bcm micrometer micrometre micron ", 1e-6},

@@ -33,12 +33,13 @@ import re
 import shlex
 import sys
 import time
+from functools import partial
 
 from ...core import materials, words
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
 from ...core.hdf5 import need_own
-from ...core.line import Parser, add_choice, frame, guarded, joined, quietly, word
+from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word
 from ...core.progress import to_stderr
 from ...core.units import shown
 from ...plot.saving import write
@@ -49,33 +50,16 @@ from .units import UNITS
 PROGRAM = "petsam-compliance"
 RIGID = {6: "six", 4: "four"}  # motions of bodies, of sections
 SECONDS = 5.0  # between two lines of progress
+MODULUS, LENGTH = "a modulus above 0, such as 210GPa", "a length above 0, such as 1e-3 (m) or 1mm"
+modulus = partial(words.number, form=MODULUS, unit="Pa", allowed=words.positive)
+length = partial(words.number, form=LENGTH, unit="m", allowed=words.positive)
 
 
-def case(text):
-    """A load case: its name and the step of the deck."""
-    name, _, step = text.partition("=")
-    if not NAME.fullmatch(name) or not step.isdecimal():
-        raise words.WordError(text, "NAME=STEP, a name of at most 20 letters, digits or _ and a step of the deck")
-    return name, int(step)
-
-
-def degree(text):
-    """A degree: of all products, or largest ones in x and y."""
-    form = f"an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and y: 12,6"
-    found = words.integers(text, form, lambda value: value >= 0, count=(1, 2))
-    found = found[0] if len(found) == 1 else tuple(found)
-    need_degree(found)
-    return found
-
-
-def modulus(text):
-    """A modulus, Pa."""
-    return words.number(text, "a modulus above 0, such as 210GPa", "Pa", words.positive)
-
-
-def length(text):
-    """A length above 0, m."""
-    return words.number(text, "a length above 0, such as 1e-3 (m) or 1mm", "m", words.positive)
+def degree(found):
+    """The degree of all products, or the largest ones in x and y, of one number or two."""
+    value = found[0] if len(found) == 1 else tuple(found)
+    need_degree(value)
+    return value
 
 
 def bolt(text):
@@ -86,29 +70,6 @@ def bolt(text):
     found = re.fullmatch(rf"{surface},{surface}:([^:]+)(?::([^:]+))?", rest)
     need_bolt(name if found else "", text)
     return Bolt(name, found.groups()[:2], length(found[3]), None if found[4] is None else modulus(found[4]))
-
-
-def sensor(text):
-    """A sensor: its name and its node."""
-    name, _, node = text.partition("=")
-    if not NAME.fullmatch(name) or not node:
-        raise words.WordError(text, "NAME=NODE, a node of the deck or a set of one node")
-    return name, node
-
-
-def of_material(text, form, unit, allowed):
-    """A value of all elements, or (set, value) of one set of them."""
-    if "=" not in text:
-        return "", words.number(text, form, unit, allowed)
-    return words.named(text, form, unit, allowed)
-
-
-def of_name(text):
-    """(set, material) of a material by its name; the set is empty for all elements."""
-    group, equal, name = text.rpartition("=")
-    if equal and not group:
-        raise words.WordError(text, "[SET=]NAME, such as steel")
-    return group, materials.find(name)
 
 
 def _body_options(parser):
@@ -129,32 +90,27 @@ def _body_options(parser):
     body.add_argument("--units", choices=tuple(UNITS), default="m", help="m: m, N, Pa; mm: mm, N, MPa (m)")
     body.add_argument(
         "--frame",
-        type=word(frame),
+        type=word(words.points, FRAME, 3),
         default=((0.0, 0.0, 0.0),),
         metavar="ORIGIN[:X[:Z]]",
         help="of the contact in the deck's coordinates and units; Z points into the body (0,0,0:1,0,0, surface normal)",
     )
     positive, ratio = words.positive, lambda value: -1.0 < value < 0.5
     for name, form, unit, allowed, text in (
-        (
-            "young",
-            "a modulus above 0, such as 210GPa",
-            "Pa",
-            positive,
-            "Young's modulus of a mesh without materials, Pa",
-        ),
+        ("young", MODULUS, "Pa", positive, "Young's modulus of a mesh without materials, Pa"),
         ("poisson", "a ratio from -1 to 0.5", "1", ratio, "its Poisson's ratio"),
         ("density", "a density above 0, in kg/m3", "kg/m3", positive, "its density, kg/m3"),
     ):
-        reads = word(of_material, form, unit, allowed)
+        reads = word(words.named, form, unit, allowed, bare="")
         body.add_argument(f"--{name}", type=reads, action="append", metavar="[SET=]VALUE", help=text)
     body.add_argument(
-        "--material", type=word(of_name), action="append", metavar="[SET=]NAME",
+        "--material", type=word(words.named, "[SET=]NAME, such as steel", reader=materials.find, bare=""),
+        action="append", metavar="[SET=]NAME",
         help="the three of a material by its name, where they are not given: steel, Ti-6Al-4V, ... (petsam.materials)",
     )  # fmt: skip
-    body.add_argument(
-        "--case", type=word(case), action="append", metavar="NAME=STEP", help="load case: a step of the deck"
-    )
+    form = "NAME=STEP, a name of at most 20 letters, digits or _ and a step of the deck"
+    case = word(words.named, form, reader=partial(words.integer, allowed=words.not_negative), known=NAME)
+    body.add_argument("--case", type=case, action="append", metavar="NAME=STEP", help="load case: a step of the deck")
 
 
 def _pair_options(parser):
@@ -173,14 +129,14 @@ def _pair_options(parser):
     )
     pair.add_argument(
         "--modes",
-        type=word(words.integer, f"an integer from 1 to {MOST_OF_PAIR}", lambda count: 1 <= count <= MOST_OF_PAIR),
+        type=word(words.integer, f"an integer from 1 to {MOST_OF_PAIR}", words.within(1, MOST_OF_PAIR)),
         default=0,
         metavar="N",
         help="number of modes without contact; needs *DENSITY",
     )
     pair.add_argument(
         "--sensor",
-        type=word(sensor),
+        type=word(words.named, "NAME=NODE, a node of the deck or a set of one node", reader=str, known=NAME),
         action="append",
         metavar="NAME=NODE",
         help="node, or set of one node, whose modes are written",
@@ -203,9 +159,10 @@ def parser():
         metavar="X,Y",
         help="its centre in the frame (0,0); repeated: several patches of a pair, all of one size",
     )
+    form = f"an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and y: 12,6"
     patch.add_argument(
         "--degree",
-        type=word(degree),
+        type=word(words.integers, form, words.not_negative, count=(1, 2), to=degree),
         default=6,
         metavar="N|NX,NY",
         help=f"of the polynomials: the sum in x and y, 0 to {HIGHEST}, or the largest in x and in y, up to "

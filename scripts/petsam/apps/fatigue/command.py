@@ -20,7 +20,7 @@ import sys
 import numpy as np
 
 from ...core import words
-from ...core.errors import Error, short, there_are
+from ...core.errors import Error, short
 from ...core.files import need_replaceable, same
 from ...core.line import Parser, add_choice, guarded, joined, quietly, word
 from ...core.progress import Progress
@@ -34,23 +34,6 @@ SECONDS = 5.0  # between two lines of progress, most lives take less
 ROWS = 10  # number of printed rows of the line
 CRITERIA = tuple(evaluation.CRITERIA)
 MOST = f"{strength.MOST:.0e}".replace("+", "")
-
-
-def _constant(text):
-    """Name and number of NAME=VALUE."""
-    name, equal, value = text.partition("=")
-    if not equal:
-        raise words.WordError(text, "NAME=VALUE, such as sigma_f=1.76GPa")
-    return name, materials.checked(name, value)
-
-
-def _criteria(text):
-    """Names of criteria."""
-    found = words.names(text)
-    for one in found:
-        if one not in CRITERIA:
-            raise Error(f"{short(one)}: is no criterion{there_are(one, CRITERIA)}")
-    return found
 
 
 def arguments(given):
@@ -68,9 +51,13 @@ def arguments(given):
     what.add_argument(
         "--material", metavar="NAME.yaml", help="constants of the material: a file, or its name, as 7075-T6"
     )
+    constant = word(
+        words.named, "NAME=VALUE, such as sigma_f=1.76GPa", reader=str,
+        to=lambda found: (found[0], materials.checked(*found)),
+    )  # fmt: skip
     what.add_argument(
         "--constant",
-        type=word(_constant),
+        type=constant,
         action="append",
         default=[],
         metavar="NAME=VALUE",
@@ -78,7 +65,7 @@ def arguments(given):
     )
     what.add_argument(
         "--criteria",
-        type=word(_criteria),
+        type=word(words.names, known=CRITERIA, what="criterion"),
         metavar="NAME,...",
         help=f"of {', '.join(CRITERIA)} (all with constants and data)",
     )

@@ -21,7 +21,9 @@ NAME-life.opts for a wear simulation of all cycles, where friction changes or we
 
 import argparse
 import json
+import math
 import sys
+from functools import partial
 
 import numpy as np
 
@@ -44,59 +46,15 @@ WRITTEN = (
     ".png",
     "-scar.png",
 )
+part = partial(words.number, form="a part from 0 to below 1: 0.5% or 0.005", allowed=words.part)
 
 
-def part(text):
-    """A part of 1, also in per cent."""
-    form = "a part from 0 to below 1: 0.5% or 0.005"
-    percent = text.strip().endswith("%")
-    value = words.number(text.strip().removesuffix("%"), form)
-    value = value / 100.0 if percent else value
-    if not 0.0 <= value < 1.0:
-        raise words.WordError(text, form)
-    return value
+def _with_deviation(form, reader):
+    """Reader of VALUE,BAND, whose deviation is 0 where it is left out."""
+    return word(words.each, form, reader, part, rest=(0.0,))
 
 
-def volume(text):
-    """Volume (m3) and its relative deviation of V or V,BAND."""
-    form = "a volume above 0 and its deviation: 1.2e6um3,10%"
-    first, comma, band = text.partition(",")
-    return words.number(first, form, "m3", words.positive), part(band) if comma else 0.0
-
-
-def loss(text):
-    """Loss of the rig, 1, that is known, or its value and standard deviation."""
-    first, comma, band = text.partition(",")
-    value, deviation = part(first), part(band) if comma else 0.0
-    return (value, deviation) if deviation > 0.0 else value
-
-
-def noise(text):
-    """Noise of displacement (m) and force (N)."""
-    form = "two numbers above 0, of displacement and force: 20nm,1N"
-    if text.count(",") != 1:
-        raise words.WordError(text, form)
-    d, q = text.split(",")
-    return words.number(d, form, "m", words.positive), words.number(q, form, "N", words.positive)
-
-
-def chosen(text):
-    """A slice of cycles FIRST:LAST, from 1; either may be left out."""
-    form = "cycles FIRST:LAST, from 1: 2: or 3:10"
-    first, colon, last = text.partition(":")
-    if not colon:
-        raise words.WordError(text, form)
-    start = words.integer(first, form, lambda k: k >= 1) if first else 1
-    stop = words.integer(last, form, lambda k: k >= start) if last else None
-    return slice(start - 1, stop)
-
-
-def arguments(given):
-    """Reads the command line."""
-    parser = Parser(
-        prog="petsam-fit", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )  # fmt: skip
-    parser.add_argument("files", nargs="*", metavar="LOOPS.csv", help="measured loops; several are one test")
+def _test_options(parser):
     need = parser.add_argument_group("the test")
     newton = word(words.numbers, "normal loads above 0: 100N, or one for each file", "N", words.positive)
     need.add_argument("--normal", type=newton, metavar="N", help="normal load, or one for each file")
@@ -105,18 +63,21 @@ def arguments(given):
     need.add_argument("--width", type=length, metavar="L", help="length of a contact in plane strain")
     need.add_argument("--displacement", metavar="NAME", help="column of the displacement, where several may be meant")
     need.add_argument("--force", metavar="NAME", help="column of the force")
-    need.add_argument(
-        "--cycles", type=word(chosen), default=slice(None), metavar="FIRST:LAST", help="of each file (all)"
-    )
+    chosen = word(
+        words.bounds, "cycles FIRST:LAST, from 1: 2: or 3:10", words.within(1),
+        lambda found: (found[0] or 1) <= (found[1] or math.inf), to=lambda found: slice((found[0] or 1) - 1, found[1]),
+    )  # fmt: skip
+    need.add_argument("--cycles", type=chosen, default=slice(None), metavar="FIRST:LAST", help="of each file (all)")
     rig = parser.add_argument_group("the rig")
     stiffness = word(words.number, "a stiffness above 0 with its unit, such as 20N/um", "N/m", words.positive)
     rig.add_argument("--rig", type=stiffness, metavar="K", help="stiffness of the rig, if it is known: 20N/um")
     rig.add_argument(
         "--lean", action="store_true", help="a spring beside the contact, whose force grows while it slides"
     )
+    form = "parts from 0 to below 1, of the loss and its deviation: 0.5% or 1%,0.3%"
     rig.add_argument(
         "--loss",
-        type=word(loss),
+        type=_with_deviation(form, part),
         metavar="PART,BAND",
         help="force of the rig's own loop over the amplitude: 0.5%% or, with its deviation, 1%%,0.3%% (0,0.5%%)",
     )
@@ -126,9 +87,17 @@ def arguments(given):
         metavar="PART",
         help="deviation of the contact's compliance from that of the shape, of a ball a third of the radius' (5%%)",
     )
+
+
+def _wear_options(parser):
     wear = parser.add_argument_group("wear")
+    form = "a volume above 0 and its deviation, from 0 to below 1: 1.2e6um3,10%"
+    volume = partial(words.number, unit="m3", allowed=words.positive)
     wear.add_argument(
-        "--volume", type=word(volume), metavar="V,BAND", help="worn volume and its deviation: 1.2e6um3,10%%"
+        "--volume",
+        type=_with_deviation(form, volume),
+        metavar="V,BAND",
+        help="worn volume and its deviation: 1.2e6um3,10%%",
     )
     wear.add_argument("--scar", metavar="FILE.csv", help="profile of the worn surface over x; a scar is negative")
     wear.add_argument(
@@ -137,15 +106,33 @@ def arguments(given):
     wear.add_argument("--body", choices=("1", "2"), default="2", help="that has lost it (2)")
     least = word(words.number, "a number of cycles above 0", allowed=words.positive)
     wear.add_argument("--life", type=least, metavar="N", help="cycles of the whole test (those of the files)")
+
+
+def _plan_options(parser):
     plan = parser.add_argument_group("planning")
     plan.add_argument("--plan", action="store_true", help="how well which strokes would give the friction")
     plan.add_argument(
         "--friction", type=word(words.number, "a friction above 0", allowed=words.positive), help="assumed"
     )
+    noise = (partial(words.number, unit=unit, allowed=words.positive) for unit in ("m", "N"))
+    form = "two numbers above 0, of displacement and force: 20nm,1N"
     plan.add_argument(
-        "--noise", type=word(noise), metavar="D,F", help="of displacement and force: 20nm,1N (0.5 %% of both)"
+        "--noise",
+        type=word(words.each, form, *noise),
+        metavar="D,F",
+        help="of displacement and force: 20nm,1N (0.5 %% of both)",
     )
     plan.add_argument("--wanted", type=word(part), default=0.02, metavar="PART", help="deviation of the friction (2%%)")
+
+
+def arguments(given):
+    """Reads the command line."""
+    parser = Parser(
+        prog="petsam-fit", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )  # fmt: skip
+    parser.add_argument("files", nargs="*", metavar="LOOPS.csv", help="measured loops; several are one test")
+    for group in (_test_options, _wear_options, _plan_options):
+        group(parser)
     out = parser.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME", help="NAME.json and so on")
     add_choice(out)
@@ -229,7 +216,7 @@ def _measure(options, scar):
             print(f"{record.path}: {note}")
     fixed = {"compliance": 1.0 / options.rig} if options.rig else {}
     if options.loss is not None:
-        fixed["loss"] = options.loss
+        fixed["loss"] = options.loss if options.loss[1] else options.loss[0]
     if options.shape_band is not None:
         fixed["scale"] = (1.0, options.shape_band) if options.shape_band else 1.0
     found = series.analyse(files, pushes, ("lean",) if options.lean else (), **fixed)

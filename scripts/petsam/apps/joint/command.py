@@ -38,7 +38,6 @@ of the material and of friction. -o NAME writes NAME.csv and NAME.png.
 
 import argparse
 import contextlib
-import os
 import sys
 import warnings
 from functools import partial
@@ -64,36 +63,8 @@ from .sweep import BackboneWarning
 from .wearing import rising, wear
 
 OF_FILES = ("output", "report", "dpi")  # options of the written files
+BESIDE = (".h5", ".hdf5", ".txt", ".csv", ".npy")  # endings of --film
 BEYOND = 3.0  # the modes of a structure say nothing of frequencies above this ratio to the highest
-
-
-def scatter(text):
-    """Parameter and standard deviation of NAME=NUMBER of --scatter."""
-    form = "friction=S or preload=S, a standard deviation as a part of it: friction=0.1"
-    name, value = words.named(text, form, allowed=lambda part: 0.0 <= part < 1.0)
-    if name not in ("friction", "preload"):
-        raise words.WordError(text, form)
-    return name, value
-
-
-def cycle_counts(text):
-    """Rising numbers of cycles."""
-    form = "rising whole numbers above 0: 1e4,1e5,1e6"
-    found = np.array(words.numbers(text, form))
-    if not rising(found):
-        raise words.WordError(text, form)
-    return found
-
-
-def _both(text, form, first, second):
-    """Both words of FIRST,SECOND, each by its reader."""
-    parts = text.split(",")
-    try:
-        if len(parts) == 2:
-            return first(parts[0]), second(parts[1])
-    except words.WordError:
-        pass
-    raise words.WordError(text, form)
 
 
 def _conductivity(text):
@@ -104,39 +75,6 @@ def _conductivity(text):
     return text
 
 
-def gas(text):
-    """Conductivity of --gas, and the length of the temperature jump, m."""
-    form = "LAM,M, a conductivity above 0 and a length, 0 or more: 0.026,0.37um"
-    return _both(text, form, partial(words.number, allowed=words.positive),
-                 partial(words.number, unit="m", allowed=_not_below_0))  # fmt: skip
-
-
-def conductivities(text):
-    """Those of --conductivity, numbers or names of materials."""
-    form = "those of both bodies, two numbers above 0, or materials: 50,50 or steel,copper"
-    return _both(text, form, _conductivity, _conductivity)
-
-
-def layer(text):
-    """Thickness of --layer1 or --layer2, m, and conductivity."""
-    form = "THICKNESS,CONDUCTIVITY, a length and a number above 0, or a material: 2um,317 or 2um,gold"
-    return _both(text, form, partial(words.number, unit="m", allowed=words.positive), _conductivity)
-
-
-def film(text):
-    """Resistance of --film, or the name of its file."""
-    try:
-        return words.number(text, "a number, 0 or more, or a file", "1", _not_below_0)
-    except words.WordError:
-        if os.path.exists(text) or os.path.splitext(text)[1].lower() in (".h5", ".hdf5", ".txt", ".csv", ".npy"):
-            return text
-        raise words.WordError(text, "a number, 0 or more, or a file with one at each point: 1e-6, film.h5") from None
-
-
-def _not_below_0(value):
-    return 0.0 <= value < np.inf
-
-
 def _spans(form, example, unit, geometric=True):
     """Reader of FIRST:LAST:COUNT, or of values above 0 separated by commas."""
     form = f"FIRST:LAST:COUNT, or {form} above 0 separated by commas: {example}"
@@ -145,7 +83,12 @@ def _spans(form, example, unit, geometric=True):
 
 def _from(least):
     """Reader of a whole number from this one on."""
-    return word(words.integer, f"a whole number, {least} or more", lambda value: value >= least)
+    return word(words.integer, f"a whole number, {least} or more", words.within(least))
+
+
+def _both(form, first, second):
+    """Reader of FIRST,SECOND, each by its reader."""
+    return word(words.each, form, first, second)
 
 
 def _stiffness_options(one):
@@ -176,27 +119,34 @@ def _stiffness_options(one):
         "--normal-only", action="store_true", default=None,
         help="normal stiffness, real contact area and separation alone, without friction",
     )  # fmt: skip
+    form = "those of both bodies, two numbers above 0, or materials: 50,50 or steel,copper"
     group.add_argument(
-        "--conductivity", metavar="LAM1,LAM2",
-        type=word(conductivities),
+        "--conductivity", metavar="LAM1,LAM2", type=_both(form, _conductivity, _conductivity),
         help="conductivities of both bodies, W/(m K), or materials, for the conductance; with --electrical S/m",
     )  # fmt: skip
     group.add_argument(
         "--electrical", action="store_true", default=None, help="a current instead of heat: units S/m, S/m2, Ohm m2"
     )
+    form = "a number, 0 or more, or a file with one at each point: 1e-6, film.h5"
+    resistance = partial(words.number, allowed=words.not_negative)
     group.add_argument(
-        "--film", type=word(film), metavar="R",
+        "--film", metavar="R",
+        type=word(words.either, form, resistance, partial(words.file, form=form, endings=BESIDE)),
         help="resistance of a film on the spots per area, m2 K/W, or Ohm m2, or a file with one at each point of the "
         "surface: a text, or HDF5 with a dataset film",
     )  # fmt: skip
+    form = "THICKNESS,CONDUCTIVITY, a length and a number above 0, or a material: 2um,317 or 2um,gold"
+    layer = _both(form, partial(words.number, unit="m", allowed=words.positive), _conductivity)
     for body in "12":
         group.add_argument(
-            f"--layer{body}", type=word(layer), metavar="T,LAM", action="append",
+            f"--layer{body}", type=layer, metavar="T,LAM", action="append",
             help=f"thickness and conductivity, or material, of a conducting layer on body {body}: 2um,gold; may "
             "be repeated from the surface inwards",
         )  # fmt: skip
+    form = "LAM,M, a conductivity above 0 and a length, 0 or more: 0.026,0.37um"
+    jump = partial(words.number, unit="m", allowed=words.not_negative)
     group.add_argument(
-        "--gas", type=word(gas), metavar="LAM,M",
+        "--gas", type=_both(form, partial(words.number, allowed=words.positive), jump), metavar="LAM,M",
         help="conductivity of what fills the gap, W/(m K), and length of the temperature jump: air 0.026,0.37um",
     )  # fmt: skip
     group.add_argument("--cores", type=_from(1), help="processes for the windows (all available cores)")
@@ -211,7 +161,7 @@ def _structure_options(one):
     group = one.add_argument_group("backbone, band, wear and response")
     group.add_argument("--contact", metavar="NAME", help="file of petsam's options: -grid_n, -friction, -gap_type, ...")
     group.add_argument(
-        "--preload", type=word(words.named, "BOLT=FORCE, such as B1=12kN", "N", lambda value: 0.0 <= value < np.inf),
+        "--preload", type=word(words.named, "BOLT=FORCE, such as B1=12kN", "N", words.not_negative),
         action="append", metavar="BOLT=N",
         help="initial tension of a bolt, such as B1=12kN; may be repeated: bolts are tightened in this order",
     )  # fmt: skip
@@ -235,13 +185,14 @@ def _structure_options(one):
         "--degree-check", action="store_true", default=None,
         help="also the largest amplitude with polynomials of a degree lower by 2",
     )  # fmt: skip
+    form = "friction=S or preload=S, a standard deviation as a part of it: friction=0.1"
+    scatter = word(words.named, form, allowed=words.part, known="friction|preload")
     group.add_argument(
-        "--scatter", type=word(scatter), action="append", metavar="NAME=S",
+        "--scatter", type=scatter, action="append", metavar="NAME=S",
         help="standard deviation of friction or preload as a part of it, may be repeated: friction=0.1",
     )  # fmt: skip
-    group.add_argument(
-        "--cycles", type=word(cycle_counts), help="of the vibration that wears, for the numbers: 1e4,1e5,1e6"
-    )
+    cycles = word(words.numbers, "rising whole numbers above 0: 1e4,1e5,1e6", together=rising, to=np.array)
+    group.add_argument("--cycles", type=cycles, help="of the vibration that wears, for the numbers: 1e4,1e5,1e6")
     group = one.add_argument_group("response")
     group.add_argument(
         "--force",

@@ -32,7 +32,7 @@ from ...core import words
 from ...core.boxes import BOX
 from ...core.errors import Error, counted, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, add_choice, frame, guarded, joined, quietly, word
+from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word
 from ...core.units import shown
 from .resultants import ROUNDING
 
@@ -49,11 +49,6 @@ def _patch(text):
     if ":" in where and "," in where and not BOX.fullmatch(where):
         raise words.WordError(text, "a box of two corners, NAME=0,0,0:4,4,0")
     return name, where
-
-
-def _frame(text):
-    """A frame, or auto."""
-    return text if text == "auto" else frame(text)
 
 
 def parser():
@@ -77,7 +72,7 @@ def parser():
     )
     patch.add_argument(
         "--frame",
-        type=word(_frame),
+        type=word(words.points, FRAME, 3, besides=("auto",)),
         action="append",
         metavar="ORIGIN[:X[:Z]]",
         help="of the contact, or auto; one for all patches, or one for each, in their order",

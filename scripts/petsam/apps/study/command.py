@@ -33,7 +33,7 @@ import sys
 
 from ...core import words
 from ...core.errors import Error, counted
-from ...core.line import Parser, guarded, joined, period, word
+from ...core.line import PERIOD, Parser, guarded, joined, word
 from . import slurm, tables
 from .jobs import Jobs, check_files
 from .progress import Progress, standing, summary
@@ -43,13 +43,7 @@ from .runs import Study
 MOST = 1 << 30  # maximum of numbers on the command line
 
 
-POSITIVE = word(words.integer, f"an integer from 1 to {MOST}", lambda value: 1 <= value <= MOST)
-
-
-def numbers(text):
-    """Cycles' numbers, each once."""
-    form = "integers separated by commas: from 1, or from -1 backwards"
-    return tuple(dict.fromkeys(words.integers(text, form, lambda value: 0 < abs(value) <= MOST)))
+POSITIVE = word(words.integer, f"an integer from 1 to {MOST}", words.within(1, MOST))
 
 
 def _cycle_options(parser):
@@ -57,14 +51,14 @@ def _cycle_options(parser):
     how = of_cycles.add_mutually_exclusive_group()
     how.add_argument("--turns", metavar="NAME", help="divide cycles at the reversals of this scalar (a displacement)")
     how.add_argument(
-        "--period", type=word(period), metavar="T[,START]", help="instead: duration of a cycle, and its start: 20ms,1s"
+        "--period", type=PERIOD, metavar="T[,START]", help="instead: duration of a cycle, and its start: 20ms,1s"
+    )
+    form = "integers separated by commas: from 1, or from -1 backwards"
+    once = word(
+        words.integers, form, lambda value: 0 < abs(value) <= MOST, to=lambda found: tuple(dict.fromkeys(found))
     )
     of_cycles.add_argument(
-        "--cycle",
-        type=word(numbers),
-        metavar="K,...",
-        default=(),
-        help="cycles in addition to the last; -2 is the second last",
+        "--cycle", type=once, metavar="K,...", default=(), help="cycles in addition to the last; -2 is the second last"
     )
 
 

@@ -52,45 +52,30 @@ READ_BY = (
 )  # fmt: skip
 
 
-def cells(text):
-    """One or two numbers of cells, x and y; 0 stands for a y that is not given."""
-    form = f"one or two integers from 2 to {MOST}: NX[,NY]"
-    values = words.integers(text, form, lambda value: 2 <= value <= MOST, (1, 2))
-    return (*values, 0)[:2]
-
-
-def bodies(text):
-    """The bodies, one for each file."""
-    form = "1 or 2, or one of them for each file: 1,2"
-    return [int(name) for name in words.names(text, form, "12")]
-
-
-def _hurst(text):
-    """A Hurst exponent."""
-    return words.number(text, "a Hurst exponent above 0, at most 1", allowed=lambda value: 0.0 < value <= 1.0)
-
-
 def _lengths(count, form):
     """Reader of so many lengths, m."""
-    return word(lambda text: tuple(words.numbers(text, form, "m", None, count)))
+    return word(words.numbers, form, "m", count=count, to=tuple)
 
 
-def _window(text):
-    """A window X0, X1, Y0, Y1."""
-    window = words.numbers(text, "four lengths X0,X1,Y0,Y1", "m", None, 4)
-    if not (window[0] < window[1] and window[2] < window[3]):
-        raise words.WordError(text, "X0 < X1 and Y0 < Y1")
-    return tuple(window)
-
-
-COUNT = word(words.integer, "an integer from 0", lambda value: value >= 0)
+COUNT = word(words.integer, "an integer from 0", words.within(0))
 NUMBER = word(words.number)
+BODIES = word(words.names, "1 or 2, or one of them for each file: 1,2", "12", to=lambda found: [*map(int, found)])
+HURST = word(words.number, "a Hurst exponent above 0, at most 1", allowed=lambda value: 0.0 < value <= 1.0)
+WINDOW = word(
+    words.numbers, "four lengths X0,X1,Y0,Y1 with X0 < X1 and Y0 < Y1", "m", count=4,
+    together=lambda found: found[0] < found[1] and found[2] < found[3], to=tuple,
+)  # fmt: skip
+# cells in x and y; 0 stands for a y that is not given
+CELLS = word(
+    words.integers, f"one or two integers from 2 to {MOST}: NX[,NY]", words.within(2, MOST), count=(1, 2),
+    to=lambda found: (*found, 0)[:2],
+)  # fmt: skip
 
 
 def _file_options(parser):
     about = parser.add_argument_group("contents of the files, where a file does not state them")
     holds = about.add_mutually_exclusive_group()
-    holds.add_argument("--body", type=word(bodies), metavar="1|2", help="heights of this body; of two files: 1,2")
+    holds.add_argument("--body", type=BODIES, metavar="1|2", help="heights of this body; of two files: 1,2")
     holds.add_argument("--separation", action="store_true", help="the separation of both bodies")
     about.add_argument("--units", type=word(unit), metavar="UNIT", help="unit of the values: m, mm, um, nm, 0.1mm, ...")
     extent = about.add_mutually_exclusive_group()
@@ -120,7 +105,7 @@ def _file_options(parser):
 
 def _processing(parser):
     done = parser.add_argument_group("processing")
-    done.add_argument("--window", type=word(_window), metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
+    done.add_argument("--window", type=WINDOW, metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
     done.add_argument(
         "--outliers",
         action="store_true",
@@ -133,7 +118,7 @@ def _processing(parser):
     )
     done.add_argument("--level", choices=levels.KINDS, default="none", help="form to remove by least squares (none)")
     done.add_argument(
-        "--grid-n", type=word(cells), metavar="NX[,NY]", help="cells of a new grid; values are averaged over each"
+        "--grid-n", type=CELLS, metavar="NX[,NY]", help="cells of a new grid; values are averaged over each"
     )
     done.add_argument(
         "--grid-size",
@@ -153,7 +138,7 @@ def arguments(words):
     _file_options(parser)
     made = parser.add_argument_group("a random surface instead of a file, with --size and --grid-n")
     kind = made.add_mutually_exclusive_group()
-    kind.add_argument("--self-affine", type=word(_hurst), metavar="H", help="self-affine with this Hurst exponent")
+    kind.add_argument("--self-affine", type=HURST, metavar="H", help="self-affine with this Hurst exponent")
     kind.add_argument("--psd", metavar="TABLE", help="of a spectrum: a text of q (rad/m) and C (m^4) on each line")
     made.add_argument(
         "--rms", type=_lengths(1, "a length, such as 1um"), metavar="HEIGHT", help="rms height (that of the spectrum)"

@@ -39,6 +39,7 @@ import os
 import re
 import sys
 import warnings
+from functools import partial
 
 import numpy as np
 
@@ -70,53 +71,6 @@ OPTIONS = {
 }  # fmt: skip
 
 
-def cant(text):
-    """Inclination (rad) of 1:N, or a number of rad."""
-    form = "an inclination towards the middle: 1:40 or 0.025 (rad); 0 of a profile in its place"
-    sign, ratio = (-1.0, text[1:]) if text.startswith("-") else (1.0, text)
-    first, colon, second = ratio.partition(":")
-    if not colon:
-        return words.number(text, form, "rad")
-    one, other = (words.number(part, form, allowed=words.positive) for part in (first, second))
-    return sign * math.atan(one / other)
-
-
-def angle(text):
-    """An angle, rad, of a number in rad, mrad or deg."""
-    form = "an angle: 2mrad, 0.002 (rad) or 0.1deg"
-    milli = re.fullmatch(r"(.*)mrad", text.strip())
-    return 1e-3 * words.number(milli[1], form) if milli else words.number(text, form, "rad")
-
-
-def speed(text):
-    """A speed, m/s, of a number in m/s or km/h."""
-    form = "a speed above 0: 20 (m/s) or 72km/h"
-    found = re.fullmatch(r"(.*?)\s*(km/h|m/s)", text.strip())
-    value = words.number(found[1] if found else text, form, allowed=words.positive)
-    return value / 3.6 if found and found[2] == "km/h" else value
-
-
-def distance(text):
-    """A distance, m, of a number in m or km."""
-    form = "a distance above 0: 100000km or 1e8 (m)"
-    found = re.fullmatch(r"(.*?)\s*km", text.strip())
-    return 1e3 * words.number(found[1], form, allowed=words.positive) if found else words.number(
-        text, form, "m", words.positive
-    )  # fmt: skip
-
-
-def sweep(text):
-    """Lateral displacements, m, of one number or FIRST:LAST:COUNT."""
-    form = "a lateral displacement, or FIRST:LAST:COUNT: 3mm or -6mm:6mm:121"
-    parts = text.split(":")
-    if len(parts) == 1:
-        return np.array([words.number(text, form, "m")])
-    if len(parts) != 3:
-        raise words.WordError(text, form)
-    first, last = (words.number(part, form, "m") for part in parts[:2])
-    return np.linspace(first, last, words.integer(parts[2], form, lambda k: 2 <= k <= words.MOST))
-
-
 def material(text):
     """Young's modulus (Pa) and Poisson's ratio of an elastic material, by its name or numbers."""
     young, poisson = materials.elastic(text)
@@ -125,55 +79,30 @@ def material(text):
     return young, poisson
 
 
-def profile_names(text):
-    """The names of the left and the right profile of LEFT,RIGHT, or of one name, which may contain a comma itself."""
-    left, comma, right = text.partition(",")
-    if not comma or os.path.lexists(text):
-        return text, text
-    if not left.strip() or not right.strip() or "," in right:
-        raise words.WordError(text, "one profile, or two of LEFT,RIGHT")
-    return left.strip(), right.strip()
-
-
-def pair(text, form, one):
-    """The two values of WHEEL,RAIL or LEFT,RIGHT, or of one for both; `one` reads a value."""
-    parts = [part.strip() for part in text.split(",")]
-    if len(parts) > 2 or not all(parts):
-        raise words.WordError(text, form)
-    return tuple(one(part) for part in (parts if len(parts) == 2 else 2 * parts))
-
-
-def direction(text):
-    """Direction of z in a file."""
-    if text not in ("down", "up"):
-        raise words.WordError(text, "down or up, or two of WHEEL,RAIL")
-    return text
-
-
-def radii(text):
-    """Nominal radii of the left and the right wheel, m."""
-    form = "a length, or two of LEFT,RIGHT: 460mm"
-    return tuple(2 * words.numbers(text, form, "m", count=(1, 2)))[:2]
-
-
 def _length(form):
     return word(words.number, form, "m")
 
 
 def _profiles(one):
     group = one.add_argument_group("profiles")
+    profiles = word(words.pair, "one profile, or two of LEFT,RIGHT", whole=os.path.lexists)
     for name, made, ending in (("wheel", "s1002", ".prw"), ("rail", "uic60", ".prr")):
-        group.add_argument(f"--{name}", required=True, type=word(profile_names), metavar="PROFILE",
+        group.add_argument(f"--{name}", required=True, type=profiles, metavar="PROFILE",
                            help=f"{made}, a file {ending} or of MiniProf, columns y and z; or LEFT,RIGHT")  # fmt: skip
-    group.add_argument("--unit", type=word(pair, "a unit of length, mm, or two of WHEEL,RAIL", str), metavar="UNIT",
+    group.add_argument("--unit", type=word(words.pair, "a unit of length, mm, or two of WHEEL,RAIL"), metavar="UNIT",
                        help="unit of length of columns: mm; or WHEEL,RAIL")  # fmt: skip
-    group.add_argument("--z", type=word(pair, "down or up, or two of WHEEL,RAIL", direction), metavar="down|up",
+    form = "down or up, or two of WHEEL,RAIL"
+    direction = partial(words.choice, form=form, known=("down", "up"))
+    group.add_argument("--z", type=word(words.pair, form, direction), metavar="down|up",
                        help="direction of z in the files, or WHEEL,RAIL; of columns it must be given")  # fmt: skip
     group.add_argument("--mirror", choices=("wheel", "rail", "both"), help="profiles whose y is to the gauge side")
     group.add_argument("--smooth", type=word(words.number, "a length above 0: 4mm", "m", words.positive), metavar="L",
                        help="smooth measured profiles: 4mm for 1 um of noise, 8mm for 5 um")  # fmt: skip
     group = one.add_argument_group("track and wheelset")
-    group.add_argument("--cant", type=word(cant), default=0.0, metavar="1:N", help="of the rails, to the middle (0)")
+    form = "an inclination towards the middle: 1:40 or 0.025 (rad); 0 of a profile in its place"
+    group.add_argument(
+        "--cant", type=word(words.slope, form), default=0.0, metavar="1:N", help="of the rails, to the middle (0)"
+    )
     group.add_argument("--gauge", type=_length("a length: 1435mm"), default=1.435, metavar="L", help="(1435mm)")
     group.add_argument("--gauge-height", type=_length("a length: 14mm"), default=0.014, metavar="L",
                        help="depth below the rails' tops where the gauge counts (14mm)")  # fmt: skip
@@ -181,7 +110,9 @@ def _profiles(one):
                        help="y in the rail's profile that is at half the gauge, and z at its top, instead")  # fmt: skip
     group.add_argument("--curve", type=_length("a radius, positive to the right: 300m"), metavar="R",
                        help="radius of a curve, positive to the right (straight)")  # fmt: skip
-    group.add_argument("--radius", type=word(radii), default=(0.46, 0.46), metavar="L",
+    radii = word(words.numbers, "a length, or two of LEFT,RIGHT: 460mm", "m", count=(1, 2),
+                 to=lambda found: (found[0], found[-1]))  # fmt: skip
+    group.add_argument("--radius", type=radii, default=(0.46, 0.46), metavar="L",
                        help="nominal, of both wheels, or LEFT,RIGHT (460mm)")  # fmt: skip
     group.add_argument("--flange-back", type=_length("a length: 1360mm"), default=1.36, metavar="L",
                        help="distance of the backs of both flanges (1360mm)")  # fmt: skip
@@ -199,9 +130,12 @@ def _profiles(one):
 
 def _positions(one):
     group = one.add_argument_group("positions")
-    group.add_argument("--y", type=word(sweep), metavar="Y", help="lateral displacement, or FIRST:LAST:COUNT")
-    group.add_argument("--yaw", type=word(angle), metavar="A", help="2mrad, 0.002 (rad) or 0.1deg (0)")
-    group.add_argument("--speed", type=word(speed), metavar="V", help="forward speed: 20 (m/s) or 72km/h")
+    sweep = word(words.span, "a lateral displacement, or FIRST:LAST:COUNT: 3mm or -6mm:6mm:121", "m", count=1)
+    group.add_argument("--y", type=sweep, metavar="Y", help="lateral displacement, or FIRST:LAST:COUNT")
+    angle = word(words.number, "an angle: 2mrad, 0.002 (rad) or 0.1deg", "rad")
+    group.add_argument("--yaw", type=angle, metavar="A", help="2mrad, 0.002 (rad) or 0.1deg (0)")
+    speed = word(words.number, "a speed above 0: 20 (m/s) or 72km/h", "m/s", words.positive)
+    group.add_argument("--speed", type=speed, metavar="V", help="forward speed: 20 (m/s) or 72km/h")
     newton = word(words.number, "a force above 0: 100kN", "N", words.positive)
     group.add_argument("--load", type=newton, metavar="N", help="axle load with the weight of the wheelset")
     group.add_argument(
@@ -214,7 +148,7 @@ def _positions(one):
     group.add_argument("--rolling", choices=("free", "radii"), default="free",
                        help="without a pitch rate: without torque (free), or by the mean of both radii")  # fmt: skip
     group.add_argument("--table", metavar="FILE.csv", help="positions of a simulation of the vehicle")
-    whole = word(words.integer, "a whole number, 1 or more", lambda value: value >= 1)
+    whole = word(words.integer, "a whole number, 1 or more", words.within(1))
     group.add_argument("--cores", type=whole, metavar="N", help="processes (all available cores)")
     group = one.add_argument_group("wear of the wheel")
     coefficient = word(words.number, "a coefficient above 0: 1e-14", allowed=words.positive)
@@ -222,7 +156,8 @@ def _positions(one):
     group.add_argument(
         "--law", choices=("energy", "archard"), help="volume per frictional work (default), or per force and slip"
     )
-    group.add_argument("--distance", type=word(distance), metavar="D", help="update the profile over it: 100000km")
+    distance = word(words.number, "a distance above 0: 100000km or 1e8 (m)", "m", words.positive)
+    group.add_argument("--distance", type=distance, metavar="D", help="update the profile over it: 100000km")
     even = word(words.integer, "an even number, 2 or more", lambda value: value >= 2 and value % 2 == 0)
     group.add_argument("--jumps", type=even, metavar="N", help="updates of the profile over the distance (10)")
 

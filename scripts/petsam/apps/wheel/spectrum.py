@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 from typing import Optional
 
-import numpy as np
-
 from ...core import units
 from ...core.errors import Error, Unusable, short, there_are
 from ...core.texttable import Table
@@ -20,10 +18,6 @@ COLUMNS = {
     "load_right": ("N", ("q_right",)), "load_left": ("N", ("q_left",)), "weight": ("1", ("share", "distance")),
 }  # fmt: skip
 KNOWN = {other: name for name, (_, others) in COLUMNS.items() for other in (name, *others)}
-SPEEDS = {"m/s": 1.0, "km/h": 1.0 / 3.6, "mm/s": 1e-3}
-RATES = {"rad/s": 1.0, "mrad/s": 1e-3, "1/s": 1.0, "deg/s": np.pi / 180.0}
-ANGLES = {"rad": 1.0, "mrad": 1e-3, "deg": np.pi / 180.0, "degrees": np.pi / 180.0}
-OWN = {"m/s": SPEEDS, "rad/s": RATES, "rad": ANGLES}
 MOTION = ("y", "roll", "yaw", "speed", "vy", "vz", "roll_rate", "yaw_rate", "pitch_rate")
 
 
@@ -120,10 +114,10 @@ def _size(table, name):
     where = f"{table.path}: line {table.head}: column {name}"
     if quantity == "1":
         return 1.0
-    known = OWN.get(quantity) or units.of(quantity)
+    known = units.of(quantity)
     if unit is None:
         raise Error(f"{where}: has no unit: write {name} [{next(iter(known))}]; units are {', '.join(known)}")
-    size = known.get(unit.strip()) or (units.size(unit, quantity) if quantity not in OWN else None)
+    size = units.size(unit, quantity)
     if size is None:
         raise Error(f"{where}: {short(unit)}: is no unit of it{there_are(unit, known)}")
     return size
