@@ -33,7 +33,8 @@ BEHIND = (
     "closed.spence", "closed.punch", "closed.plane",
 )  # fmt: skip
 PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
-UNFOLDED = (*PICTURES, "unfolded")  # decorators by core/keywords.py
+# decorators by core/keywords.py, with the module of the docstring COMMON to what they decorate
+UNFOLDED = {**dict.fromkeys(PICTURES, "plot.keywords"), "of_surfaces": "apps.joint.interfaces"}
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")
 COLUMNS = re.compile(r"\S {2,}\S")  # of a table in a docstring
@@ -59,14 +60,13 @@ def public(module):
 
 def unfolded(module, node):
     """Returns a function with the keywords that its decorator makes of dataclasses; anything else unchanged."""
-    decorators = {ast.unparse(decorator) for decorator in node.decorator_list}
-    if not decorators & set(UNFOLDED):
+    decorators = {ast.unparse(decorator) for decorator in node.decorator_list} & UNFOLDED.keys()
+    if not decorators:
         return node
-    node, common = copy.deepcopy(node), []
+    node, common = copy.deepcopy(node), [constant(UNFOLDED[decorator], "COMMON") for decorator in decorators]
     shown = list(zip(node.args.kwonlyargs, node.args.kw_defaults))
     if decorators & set(PICTURES):
         shown.append((ast.arg("look", ast.Name("Look")), None))
-        common = [constant("plot.keywords", "COMMON")]
     pairs = []
     for arg, default in shown:
         kinds = lineage(module, ast.unparse(arg.annotation)) if default is None else []

@@ -15,8 +15,8 @@
     @unfolded
     def steps(file, *, ends: Ends): ...
 
-Users call steps(file, first=2), and the function gets Ends(first=2). In its signature and its docstring, as help()
-shows them, the fields stand in place of `ends`. scripts/maintain/modules.py does the same with the sources.
+Users call steps(file, first=2), and the function gets Ends(first=2). Its signature and its docstring, as help()
+shows them, have the fields instead of `ends`. scripts/maintain/modules.py does the same with the sources.
 """
 
 import dataclasses

@@ -51,7 +51,7 @@ matplotlib.figure.Figure
 Raises
 ------
 Error
-    If a file is of another program, or lacks what is asked for.
+    If a file is of another program, or lacks such a step, cycle or quantity.
 """
 
 
