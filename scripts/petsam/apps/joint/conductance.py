@@ -190,10 +190,10 @@ class Conducting:
         """The Conductors, or None without a conductivity; Error for wrong values, and options without it."""
         layers, electrical, gas = (self.layers1, self.layers2), self.electrical, self.gas
         if self.conductivity is None:
-            for one in fields(self):
-                given = getattr(self, one.name)
-                if given if one.name == "electrical" else given is not None:
-                    raise Unusable(f"{one.name}: is for the conductance: give the conductivity of both bodies, too")
+            for field in fields(self):
+                given = getattr(self, field.name)
+                if given if field.name == "electrical" else given is not None:
+                    raise Unusable(f"{field.name}: is for the conductance: give the conductivity of both bodies, too")
             return None
         lam = _conductivities(self.conductivity, electrical)
         checked = tuple(None if own is None else Body(one, own).checked().layers for one, own in zip(lam, layers))

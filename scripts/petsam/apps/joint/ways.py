@@ -80,7 +80,9 @@ class Ways:
 
     def loop(self) -> Optional[Loop]:
         """The loop of checked ways; None without friction."""
-        return None if self.normal_only else Loop(self.friction, self.shear, self.steps)
+        if self.friction is None or self.steps is None:
+            return None
+        return Loop(self.friction, self.shear, self.steps)
 
     def reason(self, bodies: dict[str, Any]) -> str:
         """Why all loops of these bodies are computed, in words; empty where none is, or by the formula."""
