@@ -8,6 +8,7 @@ classes without a leading underscore. A class has the methods of its bases in th
 """
 
 import ast
+import copy
 import re
 import sys
 from functools import cache
@@ -19,6 +20,7 @@ PACKAGE = Path(__file__).resolve().parents[1] / "petsam"
 sys.path.insert(0, str(PACKAGE.parent))
 import petsam  # noqa: E402
 from petsam import apps, plot  # noqa: E402
+from petsam.core.keywords import completed  # noqa: E402
 
 # names of the package that users meet first, in the order of work; the others follow, errors and warnings at the end
 FIRST = ("open", "run", "Contact", "Results", "Snapshot", "Stresses", "Study")
@@ -31,6 +33,8 @@ BEHIND = (
     "closed.spence", "closed.punch", "closed.plane",
 )  # fmt: skip
 PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
+# decorators by core/keywords.py, with the module of the docstring COMMON to what they decorate
+UNFOLDED = {**dict.fromkeys(PICTURES, "plot.keywords"), "of_surfaces": "apps.joint.interfaces"}
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")
 COLUMNS = re.compile(r"\S {2,}\S")  # of a table in a docstring
@@ -50,19 +54,45 @@ def definitions(tree):
 
 
 def public(module):
-    """Returns the public functions and classes of a module by name; pictures and classes as users meet them."""
-    return {name: whole(module, looking(module, node)) for name, node in definitions(tree_of(module)).items()}
+    """Returns the public functions and classes of a module by name, as users meet them."""
+    return {name: whole(module, unfolded(module, node)) for name, node in definitions(tree_of(module)).items()}
 
 
-def looking(module, node):
-    """Returns a picture with the parameters that its decorator adds; anything else unchanged."""
-    if {ast.unparse(decorator) for decorator in node.decorator_list} & set(PICTURES):
-        table = next(part for part in tree_of(module).body if ast.unparse(part).startswith("LOOK = ")).value
-        for name, kind in zip(table.keys, table.values):
-            if name.value not in {arg.arg for arg in node.args.kwonlyargs}:
-                node.args.kwonlyargs.append(ast.arg(name.value, kind))
-                node.args.kw_defaults.append(ast.Constant(None))
+def unfolded(module, node):
+    """Returns a function with the keywords that its decorator makes of dataclasses; anything else unchanged."""
+    decorators = {ast.unparse(decorator) for decorator in node.decorator_list} & UNFOLDED.keys()
+    if not decorators:
+        return node
+    node, common = copy.deepcopy(node), [constant(UNFOLDED[decorator], "COMMON") for decorator in decorators]
+    shown = list(zip(node.args.kwonlyargs, node.args.kw_defaults))
+    if decorators & set(PICTURES):
+        shown.append((ast.arg("look", ast.Name("Look")), None))
+    pairs = []
+    for arg, default in shown:
+        kinds = lineage(module, ast.unparse(arg.annotation)) if default is None else []
+        common[:0] = [ast.get_docstring(kind) for kind in kinds]
+        fields = [part for kind in reversed(kinds) for part in kind.body if isinstance(part, ast.AnnAssign)]
+        pairs += [(ast.arg(part.target.id, part.annotation), part.value) for part in fields] or [(arg, default)]
+    node.args.kwonlyargs, node.args.kw_defaults = map(list, zip(*pairs))
+    text = completed(ast.get_docstring(node), [arg.arg for arg in parameters(node.args)], common)
+    node.body[0] = ast.Expr(ast.Constant(text))
     return node
+
+
+def constant(module, name):
+    """Returns the value of a constant of a module."""
+    return ast.literal_eval(
+        next(part for part in tree_of(module).body if ast.unparse(part).startswith(f"{name} = ")).value
+    )
+
+
+def lineage(module, name):
+    """Returns a class of a module, or one that it imports from beside it, with its bases; nothing of other names."""
+    home = module if name in definitions(tree_of(module)) else origin(module, name)
+    node = home and definitions(tree_of(home)).get(name)
+    if not isinstance(node, ast.ClassDef) or not any("dataclass" in ast.unparse(one) for one in node.decorator_list):
+        return []
+    return [node, *(kind for base in node.bases for kind in lineage(home, ast.unparse(base)))]
 
 
 def whole(module, node):

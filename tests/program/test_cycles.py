@@ -7,7 +7,7 @@ import pytest
 import petsam
 from conftest import PROGRAM as PETSAM
 from petsam import cycles
-from petsam.plot import loops, pictures, wear
+from petsam.plot import keywords, loops, wear
 from petsam.plot.style import MARKED
 from support import ball, history, slide_limit, table_of, words
 
@@ -212,7 +212,7 @@ def test_cycles_are_chosen(draw, path, tmp_path, words):
 
 
 def test_a_map_of_a_cycle_is_that_of_its_end(results, path):
-    ((_, index),) = pictures.snapshots([results], cycle=1)
+    ((_, index),) = keywords.Frames(cycle=1).snapshots([results])
     assert results.steps[index] == strokes(path)[2] + 1
 
 

@@ -1,6 +1,7 @@
 """`make site`: which pages and files it takes; MkDocs itself, which `make site` installs, checks its links."""
 
 import argparse
+import inspect
 import json
 import re
 import shutil
@@ -87,6 +88,22 @@ def test_public_names_of_the_package_have_hints_and_sections():
     parts = [names for _, names in modules.listed().values()]
     lacks = [lack for names in parts for name, node in names.items() for lack in modules.unhinted(name, node)]
     assert len(parts) > 10 and not lacks, "\n".join(lacks)
+
+
+def test_help_shows_each_keyword_once_as_the_reference_does():
+    import petsam
+
+    pictures = modules.chosen(petsam.plot.PART, {"pictures": petsam.plot.PART.names["pictures"]})
+    parts = modules.public("apps.joint.interfaces")
+    joints = {name: parts[name] for name in ("interface", "of_interface", "of_windows")}
+    for name, node in {**pictures, **joints}.items():
+        public = getattr(petsam.plot if name in pictures else petsam.joint, name)
+        text, shown = inspect.getdoc(public), list(inspect.signature(public).parameters)
+        assert text == modules.ast.get_docstring(node) and shown == [arg.arg for arg in modules.parameters(node.args)]
+        heads = re.findall(r"^\*{0,2}(\w[\w, ]*?)(?: : .*)?$", text.partition("Returns")[0].partition("---\n")[2], re.M)
+        assert [one for head in heads for one in head.split(", ")] == shown, name
+        with pytest.raises(TypeError, match="unexpected keyword argument 'look'|'ways'"):
+            public("a.h5", look=3, ways=3)
 
 
 PARAMETER = "\n\n    Parameters\n    ----------\n    x : float\n        Length, m.\n    "

@@ -11,6 +11,8 @@
 The order of calls, and the meaning of each number: include/petsam/embed.h and examples/embed/README.md.
 """
 
+from __future__ import annotations
+
 import ctypes
 import errno
 import os
@@ -388,7 +390,7 @@ class Stiffness(np.ndarray):
     loads: Mapping[str, str] = {}
     displacements: Mapping[str, str] = {}
 
-    def __new__(cls, values: ArrayLike, loads: Mapping[str, str], displacements: Mapping[str, str]) -> "Stiffness":
+    def __new__(cls, values: ArrayLike, loads: Mapping[str, str], displacements: Mapping[str, str]) -> Stiffness:
         matrix = np.array(values, dtype=float).view(cls)
         matrix.loads, matrix.displacements = dict(loads), dict(displacements)
         return matrix
@@ -721,7 +723,7 @@ class Contact:
 
     # ------------------------------------------------------------ histories and lives
 
-    def run(self, history: Any, each: Optional[Callable[["Contact", Step], Any]] = None) -> list[Step]:
+    def run(self, history: Any, each: Optional[Callable[[Contact, Step], Any]] = None) -> list[Step]:
         """Solves a history from the committed state on and commits each step.
 
         Parameters
@@ -752,9 +754,7 @@ class Contact:
         """
         return self._run("history", (), history, each)
 
-    def live(
-        self, cycles: float, history: Any, each: Optional[Callable[["Contact", Cycle], Any]] = None
-    ) -> list[Cycle]:
+    def live(self, cycles: float, history: Any, each: Optional[Callable[[Contact, Cycle], Any]] = None) -> list[Cycle]:
         """Wear over many cycles of a closed history, most of them jumped over.
 
         Parameters
@@ -1039,7 +1039,7 @@ class Contact:
 
     def gradient(
         self, name: str, of: Optional[Sequence[str]] = None, steps: Optional[slice] = None, rtol: float = 1e-4
-    ) -> "gradients.Gradient":
+    ) -> gradients.Gradient:
         """The derivatives of a number of the recorded steps by its parameters, in one pass back over the steps.
 
         Parameters
@@ -1207,7 +1207,7 @@ class Contact:
         """The keywords by which it was made."""
         return {name: value for name, value in self._made.items() if name != "comm"}
 
-    def copy(self, **options: Any) -> "Contact":
+    def copy(self, **options: Any) -> Contact:
         """Another contact of the same options, gap and friction, in the committed state of this one.
 
         Parameters
@@ -1230,7 +1230,7 @@ class Contact:
         other._call("copy", self._contact)
         return other
 
-    def take(self, other: "Contact") -> None:
+    def take(self, other: Contact) -> None:
         """Takes over the committed state of another contact of the same options, gap and friction.
 
         Parameters

@@ -11,6 +11,7 @@ version      the version of the package
 materials    the table of materials: petsam.materials
 words        reading of a word: a number with its unit, several, a span, a name with its value
 tables       tables as CSV: columns with name, unit and meaning
+keywords     keywords that several functions have, explained once
 shown        report() of results, by petsam.plot
 environment  search for the interpreter, its libraries and petsam
 """

@@ -1,4 +1,5 @@
-"""Pictures of results: by name in pictures.py, as petsam.plot.maps(results), petsam.plot.loop(results, other).
+"""Pictures of results: by name in pictures.py, as petsam.plot.maps(results), petsam.plot.loop(results, other);
+keywords that many of them have are in keywords.py.
 
 fields and crossings draw fields over the surface and along x and y, gradients derivatives in each cell, series scalars
 over time or over one another, loops and wear cycles and scars, bodies stresses, tables and planes studies. Applications

@@ -44,6 +44,7 @@ from ..results.studies import Study
 from . import arguments, looks, pictures, reports, saving, tables, uses
 from . import kinds as kinds_of
 from .arguments import FORMATS
+from .keywords import LOOK
 from .kinds import STUDY
 from .style import STYLE, plt
 
@@ -130,7 +131,7 @@ def need_units(options, results):
 def draw(options, results, kind):
     """One picture, a matplotlib figure."""
     function = uses.function(kind, options, results)
-    words = {name: getattr(options, name) for name in (*uses.parameters(function), *pictures.LOOK)}
+    words = {name: getattr(options, name) for name in (*uses.parameters(function), *LOOK)}
     given = {name: value for name, value in words.items() if value is not None and value is not False}
     if function is pictures.history:
         given["option"] = options.spelling

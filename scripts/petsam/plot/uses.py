@@ -5,6 +5,7 @@ import inspect
 from ..core.errors import Unusable
 from ..results.stresses import Stresses
 from . import pictures
+from .keywords import LOOK
 from .kinds import OF_RESULTS, OF_STRESSES, STUDY, TABLES
 
 OF_CYCLES = ("energy", "fretting-log")
@@ -15,8 +16,8 @@ INSTEAD = {"step": "--range FIRST:LAST", "time": "--range FIRST:LAST", "cycle": 
 
 def parameters(function):
     """The names of the options that a picture takes, without those of its look."""
-    keywords = [name for name, one in inspect.signature(function).parameters.items() if one.kind is one.KEYWORD_ONLY]
-    return [name for name in keywords if name not in (*pictures.LOOK, "option")]
+    names = [name for name, one in inspect.signature(function).parameters.items() if one.kind is one.KEYWORD_ONLY]
+    return [name for name in names if name not in (*LOOK, "option")]
 
 
 def _names():

@@ -13,6 +13,8 @@ minimum to a minimum, whichever comes first in the history; the loading before i
 the cycles follow one another from a start. A cycle that the history does not finish is left out.
 """
 
+from __future__ import annotations
+
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Optional
 
@@ -61,7 +63,7 @@ class Cycle(NamedTuple):
         return slice(max(0, self.first), self.last + 1)
 
 
-def busiest(results: "Results") -> Optional[str]:
+def busiest(results: Results) -> Optional[str]:
     """The pair of load and displacement whose product varies most.
 
     Parameters
@@ -181,7 +183,7 @@ class Cycles:
         How they were found.
     """
 
-    def __init__(self, results: "Results", found: list[Cycle], manner: str) -> None:
+    def __init__(self, results: Results, found: list[Cycle], manner: str) -> None:
         self.results, self.found, self.manner = results, found, manner
 
     def __len__(self):
@@ -225,7 +227,7 @@ class Cycles:
 
 
 def find(
-    results: "Results", turns: Optional[str] = None, period: Optional[tuple[float, Optional[float]]] = None
+    results: Results, turns: Optional[str] = None, period: Optional[tuple[float, Optional[float]]] = None
 ) -> Cycles:
     """The cycles of results: of a period, or by reversals.
 

@@ -1,5 +1,7 @@
 """The conductance of a contact in process: constriction, layers, films and gas in one problem."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Optional, Union

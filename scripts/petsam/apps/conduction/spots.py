@@ -24,6 +24,8 @@ air 7 to 9, in oil 6 to 9, oil between plastics up to 23; S alone, between weigh
 Sources: J. R. Barber, Proc. R. Soc. A 459 (2003) 53 (K and the contact stiffness); R. Holm, Electric Contacts (1967).
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, Optional, Union
 

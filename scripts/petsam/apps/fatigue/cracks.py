@@ -14,6 +14,8 @@ dk_th (a/(a + a0))^1/2, a0 = (dk_th/(1.1215 stress_limit))^2/pi: of a uniform st
 threshold as a -> 0.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

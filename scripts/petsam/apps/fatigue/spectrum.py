@@ -1,5 +1,7 @@
 """Lives of a spectrum in one call: lives() takes files or stresses and constants, and returns Lives."""
 
+from __future__ import annotations
+
 import itertools
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence

@@ -11,6 +11,8 @@ Fracture of Engineering Materials and Structures 11 (1988) 149-165; M. A. Miner,
 A159-A164.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 from typing import Optional
 

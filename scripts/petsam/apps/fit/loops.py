@@ -16,6 +16,8 @@ covariance is that of both, v (J'J + v I/s^2)^-1 with v the variance of the loop
 Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr. Appl. Mech. (1926) 332.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Optional

@@ -12,6 +12,8 @@ Passes are where there are as many parameters as numbers, or more, such as the h
 some um beforehand.
 """
 
+from __future__ import annotations
+
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

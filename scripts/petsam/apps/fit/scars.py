@@ -11,6 +11,8 @@ sqrt((1 + r)/(1 - r)). Where they are correlated over most of the scar, its shap
 with roughness of 10 to 20 um in length 18 to 50 independent points were left, of those of another radius 5 to 11.
 """
 
+from __future__ import annotations
+
 import os
 import warnings
 from collections.abc import Mapping, Sequence

@@ -1,5 +1,7 @@
 """Cycles of a record: cut at the least displacements, without drift, fitted one by one, and together."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Optional

@@ -10,6 +10,8 @@ each harmonic and wave, cut off outside of contact. The mean over the cycle is t
 that has not yet come so far in a short test is not left out.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,7 +52,7 @@ class Body:
             raise Error(f"heat: temperature {self.bulk:g} of a body: expected a finite number")
 
     @classmethod
-    def named(cls, name: str, bulk: float = 0.0) -> "Body":
+    def named(cls, name: str, bulk: float = 0.0) -> Body:
         """A body of a material of petsam.materials.
 
         Parameters

@@ -1,6 +1,6 @@
 """Joints: what a structural analysis needs of a contact, and the structure itself.
 
-interface   contact stiffness, damping and real contact area of a rough interface per area (interfaces.py)
+interface   contact stiffness, damping and real contact area of a rough interface per area (interfaces.py, by ways.py)
 conductance of heat or current, beside that stiffness (conductance.py); its cards: decks.py
 structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
 backbone    frequency and damping of a mode over its amplitude (backbone.py)

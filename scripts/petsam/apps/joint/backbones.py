@@ -10,6 +10,8 @@ Its cycle is repeated until energy and loop do not change, as contacts shake dow
 balance.py.
 """
 
+from __future__ import annotations
+
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass

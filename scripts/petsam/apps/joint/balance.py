@@ -14,6 +14,8 @@ Modes answer harmonics above H statically. Each cycle begins from the preload an
 Broyden's method begins with sticking contacts, for which eta_hs = G_hs/w_s^2.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Optional

@@ -5,6 +5,8 @@ backbones of several assemblies at the same modal forces. To first order, each p
 the change that it makes, by the difference of two backbones.
 """
 
+from __future__ import annotations
+
 import itertools
 import warnings
 from collections.abc import Callable

@@ -6,7 +6,11 @@ It has its own solution, since the normal stiffness of dissimilar bodies contain
 contact are those from which k_n is taken, all of them, as at an unloading: yielded summits conduct, too.
 """
 
+from __future__ import annotations
+
 import os
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
@@ -18,6 +22,8 @@ from ..conduction import Body, of
 from ..surface import read_values
 from .arguments import array, real
 
+Layers = Sequence[tuple[float, Union[float, str]]]
+Film = Union[float, ArrayLike, str, os.PathLike]
 COLUMNS = {
     "h_contact": ("W/(m2 K)", "conductance per area through the contact"),
     "h_gap": ("W/(m2 K)", "the same through what fills the gap"),
@@ -77,7 +83,7 @@ class Conductors(NamedTuple):
         """True if a resistance of the film is above 0."""
         return bool(np.any(self.film))
 
-    def fitted(self, shape: tuple[int, int]) -> "Conductors":
+    def fitted(self, shape: tuple[int, int]) -> Conductors:
         """The same; Error unless a film that varies has a value at each point of the surface.
 
         Parameters
@@ -102,7 +108,7 @@ class Conductors(NamedTuple):
             )
         return self
 
-    def mapped(self, change: Any) -> "Conductors":
+    def mapped(self, change: Any) -> Conductors:
         """The conductors of a part of the surface.
 
         Parameters
@@ -152,52 +158,51 @@ class Conductors(NamedTuple):
         return ", ".join(parts)
 
 
-def conductors(
-    conductivity: Optional[ArrayLike],
-    electrical: bool,
-    film: Union[float, ArrayLike, str, os.PathLike, None],
-    gas: Optional[ArrayLike],
-    layers: tuple = (None, None),
-) -> Optional[Conductors]:
-    """The Conductors of these options, or None without a conductivity.
+@dataclass(frozen=True)
+class Conducting:
+    """What conducts in an interface, as users give it.
 
     Parameters
     ----------
-    conductivity : pair of floats or str, or None
-        Of both bodies: numbers, or names of materials (petsam.materials), for heat alone.
+    conductivity : pair of floats or str, optional
+        Conductivities of both bodies, W/(m K), or S/m, or names of materials (petsam.materials): the conductance is
+        computed, too, with the columns h_contact, h_gap, h and resistance.
     electrical : bool
-        True: a current flows instead of heat.
-    film : float, array_like, path or None
-        Resistance of a film on the spots; (ny, nx), or a file of it, where it varies.
-    gas : pair of floats or None
-        Conductivity of what fills the gap, and the length of the temperature jump.
-    layers : pair
-        Layers on each body, (thickness, conductivity) from the surface inwards, or None.
-
-    Returns
-    -------
-    Conductors or None
-
-    Raises
-    ------
-    Error
-        For wrong values, and options without a conductivity.
+        True: it is that of a current, S/m2, instead of heat, W/(m2 K): changes units alone.
+    film : float, array_like or path, optional
+        Resistance of a film on the spots, m2 K/W, or Ohm m2; at each point of the surface, (ny, nx), where it varies,
+        or a file of that: a text, NumPy's .npy, or HDF5 with a dataset film.
+    gas : pair of floats, optional
+        Conductivity of what fills the gap, W/(m K), or S/m, and the length of the temperature jump, m: of air 0.026,
+        0.37e-6; of liquids the length is 0.
+    layers1, layers2 : sequence of (thickness, conductivity), optional
+        Conducting layers on each body from the surface inwards, m and W/(m K), or S/m; independent of elastic ones.
     """
-    if conductivity is None:
-        given = dict(electrical=electrical, film=film is not None, gas=gas is not None)
-        given.update({f"layers{k}": one is not None for k, one in enumerate(layers, 1)})
-        for name, one in given.items():
-            if one:
-                raise Unusable(f"{name}: is for the conductance: give the conductivity of both bodies, too")
-        return None
-    lam = _conductivities(conductivity, electrical)
-    checked = tuple(None if own is None else Body(one, own).checked().layers for one, own in zip(lam, layers))
-    for one, own in enumerate(layers, 1):
-        _not_of_a_current(f"layers{one}", [of for _, of in own or ()], electrical)
-    if gas is not None:
-        gas = _pair("gas", gas, "a conductivity above 0 and a length >= 0, m", lambda a, b: a > 0 and b >= 0)
-    film, name = _film(film)
-    return Conductors(lam, film, gas, bool(electrical), checked, name)
+
+    conductivity: Optional[ArrayLike] = None
+    electrical: bool = False
+    film: Optional[Film] = None
+    gas: Optional[ArrayLike] = None
+    layers1: Optional[Layers] = None
+    layers2: Optional[Layers] = None
+
+    def conductors(self) -> Optional[Conductors]:
+        """The Conductors, or None without a conductivity; Error for wrong values, and options without it."""
+        layers, electrical, gas = (self.layers1, self.layers2), self.electrical, self.gas
+        if self.conductivity is None:
+            for field in fields(self):
+                given = getattr(self, field.name)
+                if given if field.name == "electrical" else given is not None:
+                    raise Unusable(f"{field.name}: is for the conductance: give the conductivity of both bodies, too")
+            return None
+        lam = _conductivities(self.conductivity, electrical)
+        checked = tuple(None if own is None else Body(one, own).checked().layers for one, own in zip(lam, layers))
+        for one, own in enumerate(layers, 1):
+            _not_of_a_current(f"layers{one}", [of for _, of in own or ()], electrical)
+        if gas is not None:
+            gas = _pair("gas", gas, "a conductivity above 0 and a length >= 0, m", lambda a, b: a > 0 and b >= 0)
+        film, name = _film(self.film)
+        return Conductors(lam, film, gas, bool(electrical), checked, name)
 
 
 def _conductivities(given, electrical):

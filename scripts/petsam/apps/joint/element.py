@@ -8,6 +8,8 @@ The force acts on the structure, whose coordinates u it resists: M u'' + K u = f
 work on the structure, so the unit of a force is J over that of its coordinate.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from typing import Optional
 
@@ -167,7 +169,7 @@ class Element:
         """
         return self._structure.patches[0].number(name)
 
-    def copy(self) -> "Element":
+    def copy(self) -> Element:
         """Another element with a copy of the contact in its committed state.
 
         Returns
@@ -179,7 +181,7 @@ class Element:
         other._set(self._structure.copy())
         return other
 
-    def take(self, other: "Element") -> None:
+    def take(self, other: Element) -> None:
         """Takes over the committed state of another element of the same contact.
 
         Parameters

@@ -6,36 +6,35 @@ whose surfaces are flat, and nothing of the bodies is counted twice. A window of
 of the bodies below it, which depends on the window's size.
 """
 
+from __future__ import annotations
+
+import functools
 import json
 import os
-import time
 import warnings
-from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...contact.inprocess import AdviceWarning
-from ...core import processes
-from ...core.environment import cores as all_cores
 from ...core.errors import Unusable
+from ...core.keywords import unfolded
 from ...core.shown import Shown
 from ...core.tables import Column, Tabled
 from ..conduction import need_conducting
 from . import decks, elements, windows
-from .arguments import array, integer, moduli, positive, real
-from .conductance import Conductors, add_resistance, conductors
+from .arguments import array, moduli, positive
+from .conductance import Conducting, Conductors, add_resistance
 from .numbers import columns_of
 from .surfaces import need_fitting, read_separation
+from .ways import ERRORS, Report, Ways, computed, errors
 from .windows import Loop, Window
 
 NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
-SMALL = 100_000  # points of all windows below which starting processes takes longer than the solution
 MEASURED = "k_n of loading is the stiffness that image correlation measures; k_n of unloading what ultrasound measures"
+CALLER = 6  # frames from _tell_warnings() to the code that calls a function of the public list
 APART = 0.05  # relative difference from which k_t along x and y are printed both
-# for the estimate of time: later solutions over the first one, a step of the shear over a solution without one
-LATER, PUSHED = 1.2, 1.5
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
     "closure": ("m", "approach of the mean planes since the first touch"),
@@ -55,10 +54,6 @@ COLUMNS = {
     "iwan_shear_error": ("1", "the same of their shear"),
 }
 FITTED = [name for name in COLUMNS if name.startswith("iwan")]
-ERRORS = {  # of the formula: the column of COLUMNS, and its text
-    "loop_energy": "relative error of loop_energy by the formula",
-    "loop_stiffness": "relative error of loop_stiffness by the formula",
-}
 
 
 class Outcome(NamedTuple):
@@ -349,10 +344,10 @@ def _tell_warnings(found):
         if issubclass(kind, AdviceWarning):
             said.append(f"{place}: {text.partition(': use ')[0]}")
         else:
-            warnings.warn(text, kind, stacklevel=4)
+            warnings.warn(text, kind, stacklevel=CALLER)
     if said:
         text = f"{len(said)} solutions have a warning, the first at {said[0]}; finer points of the surface resolve more"
-        warnings.warn(text, AdviceWarning, stacklevel=4)
+        warnings.warn(text, AdviceWarning, stacklevel=CALLER)
 
 
 def mirrored(separation: np.ndarray) -> np.ndarray:
@@ -371,73 +366,48 @@ def mirrored(separation: np.ndarray) -> np.ndarray:
     return np.pad(separation, [(0, size) for size in separation.shape], mode="symmetric")
 
 
-class _Way(NamedTuple):
-    """How numbers are found: why loops are computed (or none), without friction, processes, who is told, conductors."""
+COMMON = """
+Parameters
+----------
+separation : array_like
+    Separation, (ny, nx), m, larger where the surfaces are farther apart.
+spacing : float or pair of floats
+    Distance of its points along x and y, m, or one for both.
+pressures : array_like
+    Nominal pressures, (pressures,), Pa, rising.
+report : callable, optional
+    Called with the number of the windows that are done, and of all.
+conductors : Conductors, optional
+    The conducting bodies: the conductance is computed, too.
+**bodies
+    Options of the two bodies, body1_young (Pa), body1_poisson, body2_young, ..., and of the solution.
 
-    reason: str
-    normal_only: bool
-    cores: int
-    report: Optional[Callable[[int, int], object]]
-    estimate: Optional[Callable[[float], object]]
-    conductors: Optional[Conductors]
+Returns
+-------
+Interface
+
+Raises
+------
+Error
+    For wrong values, a surface that cannot be read, and a pressure that closes the interface.
+ContactError
+    Where petsam finds no solution.
+"""
+of_surfaces = functools.partial(unfolded, common=COMMON)
 
 
-def of_interface(  # noqa: PLR0913  (as those of interface())
-    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: Optional[float] = None,
-    shear: float = 0.5, steps: int = 8, full: bool = False, normal_only: bool = False, cores: Optional[int] = 1,
-    estimate: Optional[Callable[[float], object]] = None, conductors: Optional[Conductors] = None, **bodies: Any,
+@of_surfaces
+def of_interface(
+    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, ways: Ways,
+    conductors: Optional[Conductors] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
-    """The Interface of a separation that repeats itself. Warnings of its solutions are gathered in one.
-
-    Parameters
-    ----------
-    separation : array_like
-        Separation, (ny, nx), m, larger where the surfaces are farther apart.
-    spacing : float or pair of floats
-        Distance of its points along x and y, m, or one for both.
-    pressures : array_like
-        Nominal pressures, (pressures,), Pa, rising.
-    friction : float
-        Coefficient of friction; not with normal_only.
-    shear : float
-        Amplitude of the mean shear of the loop over friction times pressure, above 0 and below 1.
-    steps : int
-        Load steps of a quarter of a computed loop.
-    full : bool
-        Compute all loops; False: by a formula, checked at up to three pressures, where the bodies are elastically
-        similar half-spaces.
-    normal_only : bool
-        Normal numbers alone, without friction: pressure, closure, separation, k_n, k_n_secant, area.
-    cores : int or None
-        Processes; None: as many as cores are available. The numbers do not depend on it.
-    estimate : callable, optional
-        Called once, after the first pressure, with an estimate of the time that is left, s.
-    conductors : Conductors, optional
-        The conducting bodies: the conductance is computed, too.
-    **bodies
-        Options of the two bodies, body1_young (Pa), body1_poisson, body2_young, ..., and of the solution.
-
-    Returns
-    -------
-    Interface
-
-    Raises
-    ------
-    Error
-        For wrong values, and for a pressure that closes the interface.
-    ContactError
-        Where petsam finds no solution.
-    """
-    separation = array("separation", separation)
-    loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, None, estimate, conductors)
-    cuts = [_Cut(separation, "", conductors and conductors.fitted(separation.shape))]
-    return _of_windows(cuts, spacing, pressures, loop, way, bodies)
+    """The Interface of a separation that repeats itself. Warnings of its solutions are gathered in one."""
+    return _of_interface(separation, spacing, pressures, ways, conductors, bodies)
 
 
-def of_windows(  # noqa: PLR0913  (as those of interface())
-    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, friction: Optional[float] = None,
-    shear: float = 0.5, steps: int = 8, full: bool = False, normal_only: bool = False, cores: Optional[int] = 1,
-    report: Optional[Callable[[int, int], object]] = None, estimate: Optional[Callable[[float], object]] = None,
+@of_surfaces
+def of_windows(
+    separation: ArrayLike, spacing: ArrayLike, pressures: ArrayLike, *, ways: Ways, report: Optional[Report] = None,
     conductors: Optional[Conductors] = None, **bodies: Any,
 ) -> Interface:  # fmt: skip
     """The Interface of a measured separation: means and standard deviations of five windows of it, half as wide.
@@ -448,32 +418,70 @@ def of_windows(  # noqa: PLR0913  (as those of interface())
     ----------
     separation : array_like
         Separation, (ny, nx), m, of 4 x 4 points or more.
-    spacing, pressures, friction, shear, steps, full, normal_only, cores, estimate, conductors
-        As of of_interface(); the formula is checked in the first window.
-    report : callable, optional
-        Called with the number of the windows that are done, and of all.
-    **bodies
-        Options of the bodies and of the solution, as of of_interface().
 
     Returns
     -------
     Interface
         The means; `spread` has the standard deviations.
-
-    Raises
-    ------
-    Error
-        For wrong values, and for a pressure that closes the interface.
-    ContactError
-        Where petsam finds no solution.
     """
+    return _of_windows(separation, spacing, pressures, ways, conductors, bodies, report)
+
+
+@of_surfaces
+def interface(
+    surface: Any, pressures: ArrayLike, *, spacing: Optional[ArrayLike] = None, periodic: bool = False, ways: Ways,
+    report: Optional[Report] = None, conducting: Conducting, **bodies: Any,
+) -> Interface:  # fmt: skip
+    """The Interface of a surface: a scan in a file, a map of petsam.surface, or an array.
+
+    Parameters
+    ----------
+    surface : path, petsam.surface.Map, or array_like
+        Heights or a separation in a file of petsam-surface or in a map; an array (ny, nx) is the separation, m.
+    spacing : float or pair of floats, optional
+        Distance of the points of an array along x and y, m; files and maps have their own.
+    periodic : bool
+        Whether the surface repeats itself; else five windows of it give means and standard deviations.
+    **bodies
+        Options of the bodies, body1="steel" (petsam.materials), or body1_young (Pa, or "210GPa"), body1_poisson,
+        body2_young, ..., and of the solution.
+    """
+    conductors = conducting.conductors()
+    if isinstance(surface, (str, os.PathLike)):
+        surface, own, doubts = read_separation(os.fspath(surface))
+        for text in doubts:
+            warnings.warn(text, AdviceWarning, stacklevel=3)
+    elif hasattr(surface, "quantity"):
+        own = tuple(side / n for side, n in zip(surface.size, surface.n))
+        surface = surface.values if surface.quantity == "separation" else -surface.values
+    else:
+        own = spacing
+        if spacing is None:
+            raise Unusable("spacing: give the distance of the points of an array, m")
+    if spacing is not None and own is not spacing:
+        raise Unusable("spacing: the surface has its own: leave it out")
+    bodies = moduli(bodies)
+    if periodic:
+        return _of_interface(surface, own, pressures, ways, conductors, bodies)
+    return _of_windows(surface, own, pressures, ways, conductors, bodies, report)
+
+
+def _of_interface(separation, spacing, pressures, ways, conductors, bodies):
+    """The Interface of a separation that repeats itself."""
+    separation, ways = array("separation", separation), _checked(ways, conductors, bodies)
+    cuts = [_Cut(separation, "", conductors and conductors.fitted(separation.shape))]
+    return _of_cuts(cuts, spacing, pressures, ways, conductors, bodies)
+
+
+def _of_windows(separation, spacing, pressures, ways, conductors, bodies, report):
+    """The Interface of five windows of a separation."""
     separation = array("separation", separation)
     if separation.ndim != 2 or min(separation.shape) < 4:
         raise Unusable("separation: expected a field of 4 x 4 points or more")
     ny, nx = (size // 2 for size in separation.shape)
     y, x = separation.shape[0] - ny, separation.shape[1] - nx
     places = [(0, 0), (0, x), (y, 0), (y, x), (y // 2, x // 2)]
-    loop, way = _ways(friction, shear, steps, full, normal_only, cores, bodies, report, estimate, conductors)
+    ways = _checked(ways, conductors, bodies)
     if conductors:
         conductors.fitted(separation.shape)
     cuts = []
@@ -484,31 +492,14 @@ def of_windows(  # noqa: PLR0913  (as those of interface())
 
         name = f" in window {k} with its mirror images"
         cuts.append(_Cut(window(separation), name, conductors and conductors.mapped(window)))
-    return _of_windows(cuts, spacing, pressures, loop, way, bodies)
+    return _of_cuts(cuts, spacing, pressures, ways, conductors, bodies, report)
 
 
-def _ways(  # noqa: PLR0913  (as those of interface())
-    friction, shear, steps, full, normal_only, cores, bodies, report, estimate, conductors
-):  # fmt: skip
-    """The loop, or None, and the way; Error for values that are wrong or do not go together."""
-    if cores is not None:
-        cores = integer("cores", cores)
+def _checked(ways, conductors, bodies):
+    """Checked ways; Error where conductors do not go with the options of the bodies."""
     if conductors:
         need_conducting(bodies, *conductors.layers)
-    if normal_only:
-        for name, given in (("friction", friction is not None), ("full", full)):
-            if given:
-                raise Unusable(f"{name}: is for loops, which normal_only leaves out: give one of both")
-        return None, _Way("", True, cores, report, estimate, conductors)
-    if friction is None:
-        raise Unusable("friction: give a coefficient, or normal_only")
-    steps = integer("steps", steps)
-    what = "a coefficient > 0, without which nothing resists a shear"
-    friction = real("friction", friction, what, lambda one: 0.0 < one < np.inf)
-    what = "a part of friction times pressure, above 0 and below 1"
-    shear = real("shear", shear, what, lambda part: 0.0 < part < 1.0)
-    reason = windows.need_computing(bodies) or ("as requested" if full else "")
-    return Loop(friction, shear, steps), _Way(reason, False, cores, report, estimate, conductors)
+    return ways.checked()
 
 
 class _Cut(NamedTuple):
@@ -519,8 +510,9 @@ class _Cut(NamedTuple):
     conductors: Optional[Conductors]
 
 
-def _of_windows(cuts, spacing, pressures, loop, way, bodies):
+def _of_cuts(cuts, spacing, pressures, ways, conductors, bodies, report=None):
     """The Interface of windows."""
+    loop, reason = ways.loop(), ways.reason(bodies)
     pressures = np.atleast_1d(array("pressures", pressures))
     for field, *_ in cuts:
         if field.ndim != 2 or not np.isfinite(field).all():
@@ -536,11 +528,8 @@ def _of_windows(cuts, spacing, pressures, loop, way, bodies):
     for field, *_ in cuts:
         need_fitting(field, step, pressures, loop and loop.friction, bodies)
     given = tuple(map(float, pressures))
-    parts = [
-        Window(field, step, given, loop, bodies, name, not k, conductors)
-        for k, (field, name, conductors) in enumerate(cuts)
-    ]
-    found = _computed(parts, way)
+    parts = [Window(field, step, given, loop, bodies, name, not k, own) for k, (field, name, own) in enumerate(cuts)]
+    found = computed(parts, ways, reason, report)
     _tell_warnings([one for each in found for one in each.warnings])
     several, each = found[: len(parts)], found[len(parts) :]
     numbers = {name: np.mean([one.numbers[name] for one in several], axis=0) for name in several[0].numbers}
@@ -555,157 +544,5 @@ def _of_windows(cuts, spacing, pressures, loop, way, bodies):
         # shears over their own stiffness: a mean of the displacements would be that of compliances, and seem to slip
         loading = np.mean([one.loading * one.numbers["k_t_x"][:, None] for one in several], axis=0)
         loading /= numbers["k_t_x"][:, None]
-    errors, note = _errors(several[0], each, way, given)
-    return Interface(Outcome(numbers, spread, loading, errors, note), loop, bodies, way.conductors)
-
-
-def _errors(first, computed, way, pressures):
-    """Relative errors of the formula at all pressures, and how the loops were found, in words."""
-    if way.normal_only:
-        return {}, ""
-    if way.reason:
-        return {}, f"all loops are computed: {way.reason}"
-    places, errors = windows.checked(len(pressures)), {}
-    for name in ERRORS:
-        ours = first.numbers[name][places]
-        right = np.array([one.numbers[name][0] for one in computed])
-        with np.errstate(divide="ignore", invalid="ignore"):
-            error = np.where(ours == right, 0.0, np.abs(ours / right - 1.0))
-        errors[name] = windows.spread_over(np.where(right > 0.0, error, 0.0), places, len(pressures))
-    where = ", ".join(f"{pressures[k] / 1e6:.4g}" for k in places)
-    return errors, f"loops by a formula; largest difference from those computed in one window at {where} MPa"
-
-
-def _computed(parts, way):
-    """Outcome of the windows, and after them of the loops that check the formula."""
-    one = windows.normal_curve if way.normal_only else windows.by_loops if way.reason else windows.by_formula
-    jobs = [(one, part) for part in parts]
-    if one is windows.by_formula:
-        # the check of the largest pressure takes longest and begins first, but for the window that tells the time
-        places = windows.checked(len(parts[0].pressures))
-        checks = [
-            (windows.check, parts[0]._replace(pressures=parts[0].pressures[k : k + 1], first=False)) for k in places
-        ]
-        order = [0, *range(len(parts) + len(places) - 1, len(parts) - 1, -1), *range(1, len(parts))]
-    else:
-        checks, order = [], list(range(len(parts)))
-    jobs += checks
-    cores = all_cores() if way.cores is None else way.cores
-    if way.cores is None and sum(part.separation.size for part in parts) < SMALL:
-        cores = 1
-    start, ended = time.monotonic(), []
-
-    def told(solved, stiff):
-        if way.estimate:
-            total = _units(parts, way, checks, solved, stiff) / min(cores, len(jobs))
-            way.estimate(max(total - (time.monotonic() - start), 0.0))
-
-    def done(k):
-        if order[k] < len(parts):
-            ended.append(k)
-            if way.report:
-                way.report(len(ended), len(parts))
-
-    found = processes.run([jobs[k] for k in order], cores, told, done)
-    return [found[order.index(k)] for k in range(len(jobs))]
-
-
-def _units(parts, way, checks, solved, stiff):
-    """Estimate of the time of all windows in one process, s, from the times of a solution and of its stiffness."""
-    loop, pressures = parts[0].loop, parts[0].pressures
-    one = len(pressures) * (LATER * solved + stiff)
-    if way.reason:
-        one += len(pressures) * (2 * windows.HALVES + 2) * loop.steps * PUSHED * LATER * solved
-    elif loop:
-        one += len(windows.loads(pressures, loop.shear, loop.parts()[-1])) * (LATER * solved + stiff / windows.EVERY)
-    check = (len(checks) * 5 * loop.steps * PUSHED * LATER * solved) if checks else 0.0
-    return len(parts) * one + check
-
-
-def interface(  # noqa: PLR0913  (as the options of petsam-joint stiffness)
-    surface: Any, pressures: ArrayLike, *, friction: Optional[float] = None, spacing: Optional[ArrayLike] = None,
-    periodic: bool = False, shear: float = 0.5, steps: Optional[int] = None, full: bool = False,
-    normal_only: bool = False, cores: Optional[int] = 1, report: Optional[Callable[[int, int], object]] = None,
-    estimate: Optional[Callable[[float], object]] = None, conductivity: Optional[ArrayLike] = None,
-    electrical: bool = False, film: Union[float, ArrayLike, str, os.PathLike, None] = None,
-    gas: Optional[ArrayLike] = None, layers1: Optional[Sequence] = None, layers2: Optional[Sequence] = None,
-    **bodies: Any,
-) -> Interface:  # fmt: skip
-    """The Interface of a surface: a scan in a file, a map of petsam.surface, or an array.
-
-    Parameters
-    ----------
-    surface : path, petsam.surface.Map, or array_like
-        Heights or a separation in a file of petsam-surface or in a map; an array (ny, nx) is the separation, m.
-    pressures : array_like
-        Nominal pressures, (pressures,), Pa, rising.
-    friction : float
-        Coefficient of friction; not with normal_only.
-    spacing : float or pair of floats, optional
-        Distance of the points of an array along x and y, m; files and maps have their own.
-    periodic : bool
-        Whether the surface repeats itself; else five windows of it give means and standard deviations.
-    shear : float
-        Shear of the loop over friction times pressure, above 0 and below 1.
-    steps : int, optional
-        Load steps of a quarter of a computed loop (8).
-    full : bool
-        Compute the loops of all windows; False: by a formula, which one window checks at up to three pressures. It
-        holds for elastically similar bodies; for others, and with other options, all loops are computed.
-    normal_only : bool
-        Normal numbers alone, without friction: k_n, real contact area, separation.
-    cores : int or None
-        Processes among which the windows are divided; None: as many as cores are available. The numbers do not depend
-        on it.
-    report : callable, optional
-        Called with the number of the windows that are done, and of all.
-    estimate : callable, optional
-        Called once, after the first pressure of the first window, with an estimate of the time that is left, s.
-    conductivity : pair of floats or str, optional
-        Conductivities of both bodies, W/(m K), or S/m, or names of materials (petsam.materials): the conductance is
-        computed, too, with the columns h_contact, h_gap, h and resistance.
-    electrical : bool
-        True: it is that of a current, S/m2, instead of heat, W/(m2 K): changes units alone.
-    film : float, array_like or path, optional
-        Resistance of a film on the spots, m2 K/W, or Ohm m2; at each point of the surface, (ny, nx), where it varies,
-        or a file of that: a text, NumPy's .npy, or HDF5 with a dataset film.
-    gas : pair of floats, optional
-        Conductivity of what fills the gap, W/(m K), or S/m, and the length of the temperature jump, m: of air 0.026,
-        0.37e-6; of liquids the length is 0.
-    layers1, layers2 : sequence of (thickness, conductivity), optional
-        Conducting layers on each body from the surface inwards, m and W/(m K), or S/m; independent of elastic ones.
-    **bodies
-        Options of the bodies, body1="steel" (petsam.materials), or body1_young (Pa, or "210GPa"), body1_poisson,
-        body2_young, ..., and of the solution.
-
-    Returns
-    -------
-    Interface
-
-    Raises
-    ------
-    Error
-        For wrong values, a surface that cannot be read, and a pressure that closes the interface.
-    ContactError
-        Where petsam finds no solution.
-    """
-    conducting = conductors(conductivity, electrical, film, gas, (layers1, layers2))
-    if isinstance(surface, (str, os.PathLike)):
-        surface, own, doubts = read_separation(os.fspath(surface))
-        for text in doubts:
-            warnings.warn(text, AdviceWarning, stacklevel=2)
-    elif hasattr(surface, "quantity"):
-        own = tuple(side / n for side, n in zip(surface.size, surface.n))
-        surface = surface.values if surface.quantity == "separation" else -surface.values
-    else:
-        own = spacing
-        if spacing is None:
-            raise Unusable("spacing: give the distance of the points of an array, m")
-    if spacing is not None and own is not spacing:
-        raise Unusable("spacing: the surface has its own: leave it out")
-    bodies = moduli(bodies)
-    given = dict(friction=friction, shear=shear, **({} if steps is None else {"steps": steps}), **bodies)
-    given.update(full=full, normal_only=normal_only, cores=cores, estimate=estimate, conductors=conducting)
-    if periodic:
-        return of_interface(surface, own, pressures, **given)
-    return of_windows(surface, own, pressures, report=report, **given)
+    wrong, note = errors(several[0], each, ways, reason, given)
+    return Interface(Outcome(numbers, spread, loading, wrong, note), loop, bodies, conductors)

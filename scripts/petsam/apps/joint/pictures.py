@@ -1,5 +1,7 @@
 """Pictures of what petsam.joint has found: interfaces, backbones and their bands, responses, wear."""
 
+from __future__ import annotations
+
 import itertools
 from collections.abc import Mapping
 from typing import Optional

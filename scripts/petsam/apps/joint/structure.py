@@ -15,6 +15,8 @@ contact holds, the loads are known. Otherwise Broyden's method begins with dF/dz
 contacts at a reversal, and takes the contacts' own stiffness where it is slow.
 """
 
+from __future__ import annotations
+
 import contextlib
 import warnings
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -264,7 +266,7 @@ class Patch:
         """
         return self.number("dissipated_energy_error") if self.contact.has_errors else float("nan")
 
-    def copy(self, **options: float) -> "Patch":
+    def copy(self, **options: float) -> Patch:
         """Another patch with a copy of the contact in its committed state.
 
         Parameters
@@ -372,7 +374,7 @@ class Structure:
         """Names of the patches."""
         return [patch.name or f"patch{k}" for k, patch in enumerate(self.patches, 1)]
 
-    def copy(self, **options: float) -> "Structure":
+    def copy(self, **options: float) -> Structure:
         """The structure with copies of its contacts in their committed states.
 
         Parameters
@@ -389,7 +391,7 @@ class Structure:
         other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
         return other
 
-    def take(self, other: "Structure") -> None:
+    def take(self, other: Structure) -> None:
         """Takes over the state of another structure of the same patches.
 
         Parameters

@@ -6,6 +6,8 @@ the simulation the loads of the patches and the motions of the bodies stay; half
 costs. The cycles until each part's vibration has settled wear too, beside those that are counted.
 """
 
+from __future__ import annotations
+
 import itertools
 import warnings
 from collections.abc import Callable

@@ -1,5 +1,7 @@
 """A study as a whole: Jobs has its table, folder and how cases are run; run() is all of it in one call."""
 
+from __future__ import annotations
+
 import os
 import signal
 from collections.abc import Callable, Mapping, Sequence

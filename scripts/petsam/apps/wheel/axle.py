@@ -9,6 +9,8 @@ rolling radii. Where a lateral force is given, the lateral displacement is found
 the forces that remain at the wheelset.
 """
 
+from __future__ import annotations
+
 import math
 import warnings
 from dataclasses import dataclass, replace
@@ -245,7 +247,7 @@ class Axle:
         for track, one in both:
             _doubt_play(track, one)
 
-    def __enter__(self) -> "Axle":
+    def __enter__(self) -> Axle:
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -256,7 +258,7 @@ class Axle:
         for pair in self.pairs:
             pair.close()
 
-    def rigid(self, position: Position, overlaps: tuple[float, float] = (0.0, 0.0), share: float = SHARE) -> "Rigid":
+    def rigid(self, position: Position, overlaps: tuple[float, float] = (0.0, 0.0), share: float = SHARE) -> Rigid:
         """Roll and height at which both wheels overlap their rails by so much; 0: rigid bodies that touch.
 
         Parameters

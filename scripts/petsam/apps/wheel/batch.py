@@ -1,5 +1,7 @@
 """Many positions of a wheelset side by side, in processes; results do not depend on how many."""
 
+from __future__ import annotations
+
 import functools
 import math
 import warnings

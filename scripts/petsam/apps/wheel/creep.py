@@ -28,6 +28,8 @@ over the steps (nodes of a/b, v, turn, rise, 3; int16, and zeros up to a multipl
 (FNV-1a over words of 4 bytes, uint64).
 """
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -371,7 +373,7 @@ class CreepTable:
         object.__setattr__(self, "_full", continued(spline(self.nodes * self.steps.astype(float)[:, :, None, None])))
 
     @classmethod
-    def open(cls, path: Union[str, "os.PathLike[str]"]) -> "CreepTable":
+    def open(cls, path: Union[str, os.PathLike[str]]) -> CreepTable:
         """The table of a file.
 
         Parameters
@@ -399,7 +401,7 @@ class CreepTable:
             raise Error(f"{path}: {error.strerror}") from None
         return cls(*_parsed(path, data))
 
-    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
+    def write(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the table to a file.
 
         Parameters

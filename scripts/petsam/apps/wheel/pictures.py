@@ -1,5 +1,7 @@
 """Pictures of wheel and rail: sections with their patches, numbers over the lateral displacement, worn profiles."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Optional
 

@@ -4,6 +4,8 @@ The force is found by a secant in the logarithms of overlap and force, of slope 
 factor of 2, and by bisection where it leaves the bracket. Frames, boxes and creepages follow the overlap.
 """
 
+from __future__ import annotations
+
 import math
 import re
 import warnings
@@ -78,7 +80,7 @@ class Pair:
         self._contacts = contacts.Contacts(self.settings, extrapolate)
         _coefficient(friction, 0.0)
 
-    def __enter__(self) -> "Pair":
+    def __enter__(self) -> Pair:
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -302,7 +304,7 @@ class Case:
         patches = [patch(frame, place, one) for place, one in zip(found, drafted)]
         return Result(tuple(one for one in patches if one is not None), float(z), self.search.touch, self.passes)
 
-    def _laid(self, frame: Frame, place: Place, draft: bool) -> Optional["_Laid"]:
+    def _laid(self, frame: Frame, place: Place, draft: bool) -> Optional[_Laid]:
         """The undeformed bodies on the grid of a patch; None where no cell touches."""
         pair = self.pair
         contact = pair._contacts.of(place.high - place.low, draft)

@@ -8,6 +8,8 @@ the wheelset wear alike, by the mean of both: the vehicle runs in both direction
 The error is the difference to the depth by half the jumps, as the depth of explicit jumps is of first order in them.
 """
 
+from __future__ import annotations
+
 import functools
 import math
 import warnings
