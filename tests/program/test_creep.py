@@ -178,6 +178,8 @@ def test_arrays_have_one_shape(table):
     assert found.force.shape == (3, 2, 3) and found.derivative.shape == (3, 2, 3, 4)
     single = table.forces(LOAD, (4e-3, 6e-3), (1e-3, 0.0, 0.0), MU)
     assert single.derivative is None and np.allclose(found.force[2, 1], single.force, rtol=1e-14)
+    none = table.forces(LOAD, (4e-3, 6e-3), (np.zeros((0, 2)), 0.0, 0.0), lambda speed: MU + speed, derivative=True)
+    assert none.force.shape == (0, 2, 3) and none.derivative.shape == (0, 2, 3, 4)
 
 
 # ---- symmetries and limits

@@ -271,13 +271,14 @@ class CreepTable:
 def _rows(*numbers):
     """Contacts as the header has them, (m, 9), from numbers or arrays of one shape, and that shape."""
     given = np.broadcast_arrays(*numbers)
-    return np.stack([np.asarray(one, float).ravel() for one in given], -1), given[0].shape
+    rows = np.stack([np.asarray(one, float).ravel() for one in given], -1)
+    return np.ascontiguousarray(rows), given[0].shape
 
 
 def _addresses(array):
     """Addresses of the rows of an array."""
     first, step = array.ctypes.data, array.strides[0]
-    return [ctypes.c_void_p(at) for at in range(first, first + step * len(array), step)]
+    return [ctypes.c_void_p(first + k * step) for k in range(len(array))]
 
 
 def _fault(contacts):
