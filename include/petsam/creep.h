@@ -3,7 +3,7 @@
 
   This header needs neither a library (but -lm) nor another header of petsam: C99, C++, or Fortran by iso_c_binding.
   Its functions are static inline; where PETSAM_CREEP_EXTERNAL is defined before it, in one source file, they have
-  external linkage, as programs in other languages need. They may be called from several threads at once. Only
+  external linkage, as programs in other languages need; those of libpetsam have it. They may be called from several threads at once. Only
   petsam_creep_load() allocates memory. `make creep-table` makes the table from petsam's solutions of steady rolling.
 
   x is the rolling direction, y lies across it, z is the normal, right-handed. Creepages are the rigid slip of one body
@@ -478,6 +478,12 @@ static inline void samcreep_cut(double force[3], double slopes[3][3])
   force[1] *= factor;
 }
 
+/* The place of a/b among the nodes, which may be beyond them */
+static inline double samcreep_wanted(const petsam_creep_table *table, double ratio)
+{
+  return (log(ratio) - table->first) * ((table->n[0] - 1.0) / (table->last - table->first));
+}
+
 /* X/xi', Y/eta', Z/phi' at a place of a/b */
 static inline void samcreep_factors(const petsam_creep_table *table, double place, double poisson, double factors[3])
 {
@@ -590,6 +596,24 @@ PETSAM_CREEP_API double petsam_creep_slip(const petsam_creep_contact *contact)
 }
 
 /*
+  petsam_creep_factors - the factors of the scaled creepages.
+
+  Not collective.
+
+  In:     table   - the table
+          ratio   - a/b, above 0; beyond the table its end is used (1)
+          poisson - Poisson's ratio (1)
+  Out:    factors - X/xi', Y/eta', Z/phi' (1)
+
+  Errors: none.
+*/
+PETSAM_CREEP_API void petsam_creep_factors(const petsam_creep_table *table, double ratio, double poisson,
+                                           double *factors)
+{
+  samcreep_factors(table, samcreep_within(samcreep_wanted(table, ratio), table->n[0] - 1.0), poisson, factors);
+}
+
+/*
   petsam_creep_forces - creep forces of a contact.
 
   Not collective.
@@ -622,7 +646,7 @@ PETSAM_CREEP_API int petsam_creep_forces(const petsam_creep_table *table, const 
       !(contact->poisson >= 0.0 && contact->poisson <= 0.5))
     return PETSAM_CREEP_INVALID;
   if (!(contact->load > 0.0 && traction > 0.0)) return 0;
-  wanted = (log(a / b) - table->first) * ((table->n[0] - 1.0) / (table->last - table->first));
+  wanted = samcreep_wanted(table, a / b);
   place  = samcreep_within(wanted, table->n[0] - 1.0);
   c      = sqrt(a * b);
   samcreep_factors(table, place, contact->poisson, unit);

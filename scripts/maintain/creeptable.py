@@ -1,5 +1,21 @@
 """Makes the table of creep forces, and checks it on new cases: make(), check().
 
+Axes of the table: log(a/b), and the scaled creepages (X, Y, Z) in spherical coordinates,
+
+    X = C11 xi'/3, Y = C22 eta'/3, Z = hypot(C23/1.5, sqrt(b/a) C11/3) phi',
+    v = R/(1 + R) with R = |(X, Y, Z)|, alpha = atan2(Y, X), beta = atan2(Z, hypot(X, Y)),
+
+with xi' = G c^2 xi/(mu N), phi' = G c^3 phi/(mu N), c^2 = a b, and Kalker's coefficients C11, C22, C23. The table has
+Fx/(mu N), Fy/(mu N), Mz/(mu N c), over v: at v = 0 linear theory, at v = 1 full sliding. Its nodes are equally spaced
+in log(a/b) and in
+
+    level = 3/4 v + 1/4 (arctan(10 v - 4) + arctan(4))/(arctan(6) + arctan(4)),
+    turn = (alpha + atan2(Y (kx/ky)^(sin(beta)^2), X))/2, rise = (beta + atan2(Z, hypot(X/sqrt(kx), Y/sqrt(ky))))/2,
+
+with kx = 1/hypot(1, 0.7 a/b), ky = a/b/hypot(1.37, 0.7 a/b): nearly X/Z and Y/Z where the pole of the rigid slip is at
+the edge of the contact, on the axis b or a. The forces of slender ellipses change on both scales, that of the creepages
+and that of the edge, and turn and rise resolve both; level is finer where the contact begins to slide fully.
+
 The cases of a table are run in jobs, each with its own file, so that an interrupted table is completed by a second run.
 """
 
@@ -12,11 +28,15 @@ from typing import Optional
 
 import numpy as np
 from creepcases import Rolling, linear, sliding
+from creepfile import VERSION, Contents, rounded, solved
 
-from petsam.apps.wheel.creep import LEAST, VERSION, CreepTable, angles, level, rounded, solved
+from petsam.apps.wheel.creep import CreepTable
 from petsam.core.errors import Error
 from petsam.core.progress import Progress, Say, to_stderr
 
+LEAST = 4  # nodes along an axis
+BEND, WIDTH, SHARE = 0.4, 0.1, 0.25  # of the levels: v where they are finest, how far, how much
+SPAN = float(np.arctan((1.0 - BEND) / WIDTH) + np.arctan(BEND / WIDTH))
 CASES = 60  # of the table's own error
 FINE = 128  # least cells for Kalker's coefficients
 SEED = 11
@@ -66,7 +86,7 @@ class Plan:
     def levels(self) -> np.ndarray:
         """v of the nodes."""
         wanted = np.linspace(0.0, 1.0, self.nodes[1])
-        found = _risen(lambda v: level(v)[0], wanted, 0.0, 1.0)
+        found = _risen(level, wanted, 0.0, 1.0)
         found[[0, -1]] = 0.0, 1.0
         return found
 
@@ -102,6 +122,60 @@ class Plan:
         return hashlib.sha256(f"{VERSION} {self}".encode()).hexdigest()[:12]
 
 
+def edge(ratio: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """X/Z and Y/Z, nearly, where the pole of the rigid slip is at the edge of the contact.
+
+    Parameters
+    ----------
+    ratio : ndarray
+        a/b, (m,).
+
+    Returns
+    -------
+    tuple of ndarray
+        kx, on the axis b, and ky, on the axis a, (m,).
+    """
+    return 1.0 / np.hypot(1.0, 0.7 * ratio), ratio / np.hypot(1.37, 0.7 * ratio)
+
+
+def angles(ratio: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """The angles in which nodes of the table are equally spaced.
+
+    Parameters
+    ----------
+    ratio : ndarray
+        a/b, (m,).
+    vector : ndarray
+        X and Z of 0 or more, and Y, (m, 3); X and Y are not both 0.
+
+    Returns
+    -------
+    ndarray
+        turn, from -pi/2 to pi/2, and rise, from 0 to pi/2, (m, 2).
+    """
+    x, y, z = vector.T
+    kx, ky = edge(ratio)
+    m = (kx / ky) ** (z * z / (x * x + y * y + z * z))
+    turn = np.arctan2(y, x) + np.arctan2(m * y, x)
+    rise = np.arctan2(z, np.hypot(x, y)) + np.arctan2(z, np.hypot(x / np.sqrt(kx), y / np.sqrt(ky)))
+    return 0.5 * np.stack([turn, rise], -1)
+
+
+def level(v: np.ndarray) -> np.ndarray:
+    """The level of v, from 0 to 1, in which nodes are equally spaced.
+
+    Parameters
+    ----------
+    v : ndarray
+        R/(1 + R).
+
+    Returns
+    -------
+    ndarray
+    """
+    return (1.0 - SHARE) * v + SHARE / SPAN * (np.arctan((v - BEND) / WIDTH) + np.arctan(BEND / WIDTH))
+
+
 def _risen(function, wanted, low, high):
     """Arguments at which a growing function has values, by bisection."""
     shape = np.shape(function(wanted))
@@ -117,7 +191,7 @@ def _angle(ratio, alpha, beta, which):
     """turn (0) or rise (1) of directions."""
     alpha, beta = np.broadcast_arrays(alpha, beta)
     vectors = np.stack([np.cos(beta) * np.cos(alpha), np.cos(beta) * np.sin(alpha), np.sin(beta)], -1).reshape(-1, 3)
-    return angles(np.full(len(vectors), ratio), vectors).value[:, which].reshape(alpha.shape)
+    return angles(np.full(len(vectors), ratio), vectors)[:, which].reshape(alpha.shape)
 
 
 def direction(alpha: float, beta: float) -> np.ndarray:
@@ -223,7 +297,7 @@ def _along(plan, rolling, towards, coefficients, ratio):
 
 def make(
     plan: Plan, folder: str, jobs: int = 1, say: Say = to_stderr, checked: Optional[tuple[int, int]] = None
-) -> CreepTable:
+) -> Contents:
     """A table, from the cases that a folder already has, and those that remain.
 
     Parameters
@@ -241,7 +315,8 @@ def make(
 
     Returns
     -------
-    CreepTable
+    Contents
+        Of its file.
     """
     count, fine = checked or (CASES, 2 * plan.cells)
     n = plan.nodes
@@ -256,9 +331,9 @@ def make(
     own = [(f"E{k}-{fine}", own_error_job, plan, k, fine, coefficients[:, 1]) for k in range(count)]
     errors = np.array(_run(own, folder, jobs, Progress("finer case", say))).ravel()
     stored = (*statistics(errors), float(count)) if count else (0.0, 0.0, 0.0, 0.0)
-    scales, slopes = solved(np.log(coefficients[..., :3]), 0), linear_slopes(plan, coefficients[:, 1])
+    scales, slopes = solved(np.log(coefficients[..., :3])), linear_slopes(plan, coefficients[:, 1])
     nodes -= _ahead(plan, slopes)
-    return CreepTable(plan.range, plan.poisson, scales, solved(slopes, 0), *rounded(nodes), plan.cells, stored)
+    return Contents(plan.range, plan.poisson, scales, solved(slopes), *rounded(nodes), plan.cells, stored)
 
 
 def linear_slopes(plan: Plan, coefficients: np.ndarray) -> np.ndarray:

@@ -12,6 +12,7 @@ import petsam
 import petsam as package
 from petsam.apps.fit import command
 from petsam.apps.fit import loops as model
+from petsam.core import least
 from petsam.core.errors import Error
 
 STEEL = {"body1_young": 210e9, "body1_poisson": 0.3, "body2_young": 210e9, "body2_poisson": 0.3}
@@ -1030,3 +1031,50 @@ def test_what_ends_at_its_range_has_no_number(tmp_path, name, more):
     assert name in found.ends and found.state == "rejected" and np.isnan(found.friction)
     plain = model.fit([twin(np.random.default_rng(2), None, 1.5, 2e7, noise=0.005)], PUSH, (name,))
     assert plain.ends == () and plain.state == "known"
+
+
+# ---- least squares
+
+
+def test_bands_are_those_of_a_linear_regression():
+    """y = a + b x of equal deviations in closed form, and with what is known of b beforehand, in any units."""
+    random = np.random.default_rng(4)
+    x, sd, known = random.uniform(3.0, 5.0, 40), 0.2, 0.1
+    y = 1.0 + 2.0 * x + sd * random.standard_normal(40)
+    mean, square = x.mean(), np.sum((x - x.mean()) ** 2)
+    slope = np.sum((x - mean) * y) / square
+    for prior in (np.zeros((0, 2)), [[0.0, 1.0 / known]]):
+        weight = square / sd**2 + (1.0 / known**2 if len(prior) else 0.0)  # of b alone
+        best = (square / sd**2 * slope + 2.0 / known**2 * len(prior)) / weight
+        for units in ((1.0, 1.0), (1e-9, 1e6)):
+            jacobian = np.vstack([np.stack([np.ones(40), x], -1) / sd, prior]) * units
+            wanted = np.append(y / sd, [2.0 / known] * len(prior))
+            found = least.fit(lambda p, j=jacobian, w=wanted: j @ p - w, [[0.0, 0.0]], lambda p, j=jacobian: j,
+                              x_scale="jac")  # fmt: skip
+            assert found.x * units == pytest.approx([y.mean() - best * mean, best], rel=1e-9)
+            bands = least.bands(found.jac)
+            own = np.array([np.sqrt(sd**2 / 40 + mean**2 / weight), weight**-0.5])
+            assert bands.sd * units == pytest.approx(own, rel=1e-9)
+            assert bands.correlation[0, 1] == pytest.approx(-mean / weight / np.prod(own), rel=1e-9)
+
+
+def test_a_parameter_without_effect_has_no_band():
+    random = np.random.default_rng(5)
+    columns = random.standard_normal((30, 4))
+    for lost, change in ((2, 0.0 * columns[:, 2]), (3, 1e-12 * columns[:, 3] + columns[:, 2])):
+        jacobian = columns.copy()
+        jacobian[:, lost] = change
+        bands = least.bands(jacobian)
+        gone = [2] if lost == 2 else [2, 3]
+        assert np.isinf(bands.sd[gone]).all() and np.isnan(bands.correlation[gone]).all()
+        rest = jacobian[:, [0, 1, 3] if lost == 2 else [0, 1, 2]]  # two equal columns are as good as one
+        covariance = np.linalg.inv(rest.T @ rest)
+        assert bands.sd[:2] == pytest.approx(np.sqrt(np.diag(covariance))[:2], rel=1e-6)
+
+
+def test_the_best_of_several_starts_is_taken():
+    def wells(p):
+        return np.array([p[0] ** 2 - 1.0, 0.1 * (p[0] - 1.0)])
+
+    starts = [[-1.2], [0.8], [-0.7]]
+    assert least.fit(wells, starts).x == pytest.approx([1.0]) and least.fit(wells, starts[::2]).x[0] < -0.9

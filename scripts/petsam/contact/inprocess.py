@@ -319,6 +319,7 @@ def _find():
             for text in ("message", "warning", "field_name", "number_name", "step_name", "stress_name"):
                 getattr(found, f"petsam_{text}").restype = ctypes.c_char_p
             found.petsam_destroy.restype = None
+            found.petsam_creep_load.restype, found.petsam_creep_slip.restype = ctypes.c_void_p, ctypes.c_double
             return found
         except OSError as error:
             reason = reason or str(error)
@@ -330,7 +331,8 @@ def _find():
     )
 
 
-def _load():
+def library() -> ctypes.CDLL:
+    """libpetsam, loaded once; Missing if there is none."""
     global _library
     with _lock:
         if _library is None:
@@ -502,7 +504,7 @@ class Contact:
         self._given: dict[str, np.ndarray] = {}
         self._advised: set[str] = set()  # kinds of advice that have been given
         self._listed: dict[str, list[str]] = {}
-        self._c = _load()
+        self._c = library()
         with _lock:
             code = self._c.petsam_create(
                 ctypes.c_int(-1 if comm is None else comm.py2f()), _text(command_line.line(options)),

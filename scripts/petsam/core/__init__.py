@@ -9,6 +9,7 @@ declared     what petsam declares: units of options, names of files, materials
 units        the one table of units
 version      the version of the package
 materials    the table of materials: petsam.materials
+least        least squares: the best of several starts, standard deviations, correlations
 words        reading of a word: a number with its unit, several, a span, a name with its value
 tables       tables as CSV: columns with name, unit and meaning
 keywords     keywords that several functions have, explained once

@@ -24,7 +24,8 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ...core.errors import Error, library
+from ...core import least
+from ...core.errors import Error
 from .backbone import Backbone, derivatives, force_of, plain_force
 from .push import Push
 
@@ -384,7 +385,7 @@ class _Problem:
         """The best parameters, their residuals' sum of squares, deviance, and the Jacobian there."""
         scales = self.scales()
         low, high = (bound / scales for bound in self.bounds())
-        optimize, best = library("scipy.optimize"), None
+        best = None
 
         def scaled(values, weights):
             return self.residuals(scales * values, weights)
@@ -397,7 +398,7 @@ class _Problem:
                 first = np.clip(start / scales, low + 1e-9, high)
                 weights = self.weights(scales * first)
                 given = dict(bounds=(low, high), args=(weights,))
-                found = optimize.least_squares(scaled, first, slopes, max_nfev=TRIALS, **given)
+                found = least.fit(scaled, [first], slopes, max_nfev=TRIALS, **given)
                 start = scales * found.x
             found.deviance = self.deviance(found.fun, weights)
             if best is None or found.deviance < best.deviance:
@@ -503,12 +504,9 @@ def fit(
     names += [name for name, value in fixed.items() if isinstance(value, tuple)]
     problem = _Problem(list(loops), pushes, names, fixed)
     best, square, variance = _solved(problem)
-    scales = problem.scales()
-    jacobian = best.jac * scales
-    covariance = variance * np.linalg.pinv(jacobian.T @ jacobian) * np.outer(scales, scales)
-    deviation = np.sqrt(np.clip(np.diag(covariance), 0.0, None))
+    jacobian = best.jac / np.sqrt(variance)
+    deviation, correlation = least.bands(jacobian)
     of, sd = problem.shared(best.x), dict(zip(problem.free, deviation))
-    beside = covariance[0] / np.maximum(deviation[0] * deviation, 1e-300)
     neighbours = _neighbours(problem, best.fun)
     friction, friction_sd = of["friction"], float(sd["friction"])
     ends, state, at_least = (friction - 2 * friction_sd, friction + 2 * friction_sd), "known", np.nan
@@ -516,7 +514,7 @@ def fit(
         state = "rejected"
     elif not friction_sd <= (DOUBTFUL if profile else VAGUE) * friction or profile and problem.turning(best.x):
         ends, far = _profile(problem, best, variance) if profile else ((problem.least(), np.inf), {})
-        rest = np.sqrt(variance * np.diag(np.linalg.pinv(jacobian[:, 1:].T @ jacobian[:, 1:]))) * scales[1:]
+        rest = least.bands(jacobian[:, 1:]).sd
         sd |= {name: max(sd[name], np.hypot(own, 0.5 * far[name])) for name, own in zip(far, rest)}
         if np.isinf(ends[1]):
             state, at_least = "not identifiable", max(ends[0], problem.least() * 0.999)
@@ -529,8 +527,8 @@ def fit(
     if at_ends:
         state, at_least = "rejected", np.nan
     verdict = dict(friction_sd=friction_sd, ends=at_ends, friction_at_least=at_least, friction_range=ends, state=state)
-    correlation = {name: float(beside[k]) for k, name in enumerate(problem.free) if k}
-    return _result(problem, best.x, sd, dict(verdict, neighbours=neighbours, correlation=correlation))
+    beside = {name: float(correlation[0, k]) for k, name in enumerate(problem.free) if k}
+    return _result(problem, best.x, sd, dict(verdict, neighbours=neighbours, correlation=beside))
 
 
 def _result(problem, values, sd, verdict):

@@ -24,7 +24,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...contact import gradient
-from ...core.errors import Error, Unusable, counted, library, there_are
+from ...core import least
+from ...core.errors import Error, Unusable, counted, there_are
 from .loops import LARGE, MISFIT, TRIALS, VAGUE
 
 TOLERANCES = {"normal_rtol": 1e-8, "tangential_rtol": 1e-6}  # of petsam, if the options have none
@@ -275,8 +276,8 @@ class _Problem:
         contact has no solution. Directions are the singular ones of the Jacobian before, of columns of length 1: two
         parameters that have nearly one effect differ by a small part of it, to which the error of a difference is
         relative then."""
-        least = [0.0 if self.names[k].startswith(POSITIVE) else 1.0 for k in self.within]
-        sizes, columns = np.maximum(np.abs(inside), least), []
+        floor = [0.0 if self.names[k].startswith(POSITIVE) else 1.0 for k in self.within]
+        sizes, columns = np.maximum(np.abs(inside), floor), []
         for way in self.ways.T:
             step = self.step / np.max(np.abs(way) / sizes)
             try:
@@ -287,7 +288,7 @@ class _Problem:
                 change = numbers - self.numbers(inside - step * way)
             columns.append(change / step)
         found = np.linalg.solve(self.ways.T, np.reshape(columns, (len(inside), len(numbers)))).T
-        scaled, lengths = _unit(found / self.measured.deviations[:, None])
+        scaled, lengths = least.unit(found / self.measured.deviations[:, None])
         self.ways = np.linalg.svd(scaled)[2].T / lengths[:, None]
         return found
 
@@ -372,7 +373,6 @@ def fit_contact(
 
     Where the residuals are larger than the deviations (a misfit above 1.2), standard deviations grow by the misfit.
     """
-    optimize = library("scipy.optimize")
     problem = _Problem(options, history, measured, parameters, dict(known or {}), gap)
     for name in bounds or {}:
         if name not in problem.names:
@@ -385,8 +385,8 @@ def fit_contact(
     problem.begin(start)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the first run has told
-        best = optimize.least_squares(
-            problem.residuals, start, problem.jacobian, (low, high), x_scale="jac", ftol=SETTLED, xtol=CLOSE,
+        best = least.fit(
+            problem.residuals, [start], problem.jacobian, (low, high), x_scale="jac", ftol=SETTLED, xtol=CLOSE,
             gtol=0.0, max_nfev=TRIALS,
         )  # fmt: skip
         numbers = problem.model(best.x)
@@ -408,7 +408,7 @@ def _result(problem, best, numbers, ends=(), unsettled=False):
     jacobian = best.jac.copy()
     if misfit > MISFIT:  # what is known beforehand does not get worse by that
         jacobian[:count] /= misfit
-    sd, correlation = _bands(jacobian, JOINED * problem.step)
+    sd, correlation = least.bands(jacobian, JOINED * problem.step)
     values, sd = best.x * problem.scales, sd * problem.scales
     state = "rejected" if misfit > LARGE else "not converged" if unsettled else "known"
     limits = [
@@ -422,25 +422,3 @@ def _result(problem, best, numbers, ends=(), unsettled=False):
         freedom, problem.measured.named(numbers), "passes back" if problem.slopes else "differences", problem.runs,
         problem.passes, tuple(ends),
     )  # fmt: skip
-
-
-def _bands(jacobian, least):
-    """Standard deviations and correlation; infinite and NaN of parameters in a direction without effect, one whose
-    singular value, of columns of length 1, is below `least`."""
-    scaled, lengths = _unit(jacobian)
-    _, sizes, ways = np.linalg.svd(scaled)
-    sizes = np.append(sizes, np.zeros(len(lengths) - len(sizes)))
-    felt = sizes > least
-    covariance = (ways[felt].T / sizes[felt] ** 2) @ ways[felt]
-    lost = ~scaled.any(axis=0) | (np.sum(ways[~felt] ** 2, axis=0) > 0.01)
-    sd = np.sqrt(np.diag(covariance))
-    correlation = covariance / np.outer(*2 * [np.where(sd > 0.0, sd, np.inf)])
-    correlation[lost] = correlation[:, lost] = np.nan
-    return np.where(lost, np.inf, sd / lengths), correlation
-
-
-def _unit(jacobian):
-    """The Jacobian with columns of length 1, and their lengths; of a column of zeros 1."""
-    lengths = np.linalg.norm(jacobian, axis=0)
-    lengths[lengths == 0.0] = 1.0
-    return jacobian / lengths, lengths

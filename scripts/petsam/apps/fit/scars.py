@@ -22,7 +22,8 @@ from typing import Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.errors import Error, library
+from ...core import least
+from ...core.errors import Error
 from .push import options_of
 
 OF_BODIES = ("wear_coefficient1", "wear_coefficient2")
@@ -227,7 +228,6 @@ def fit_scar(one: Family, x: ArrayLike, height: ArrayLike, tilt: bool = True, le
         rises where the scar should be.
     """
     x, height = _sound(x, height, level)
-    optimize = library("scipy.optimize")
     scale = float(np.ptp(height))
     width = float(np.ptp(one.x))
     middle = float(np.mean(x))
@@ -239,14 +239,16 @@ def fit_scar(one: Family, x: ArrayLike, height: ArrayLike, tilt: bool = True, le
             line = line + values[3] * scale / width * (x - middle)
         return line - one.at(np.exp(values[0]), x - values[1] * width)
 
-    best, count = None, 2 + level + (level and tilt)
-    for first in (0.3 * one.product[-1] / MOST, one.product[-1] / MOST, product):
-        start = [np.log(first), place / width, np.median(height) / scale, 0.0][:count]
-        low = np.array([np.log(one.product[0]), place / width - 0.5, -5.0, -5.0][: len(start)])
-        high = np.array([np.log(one.product[-1]), place / width + 0.5, 5.0, 5.0][: len(start)])
-        start = np.clip(start, low + 1e-6, high - 1e-6)
-        found = optimize.least_squares(lambda values: (curve(values) - height) / scale, start, bounds=(low, high))
-        best = found if best is None or found.cost < best.cost else best
+    count = 2 + level + (level and tilt)
+    low = np.array([np.log(one.product[0]), place / width - 0.5, -5.0, -5.0][:count])
+    high = np.array([np.log(one.product[-1]), place / width + 0.5, 5.0, 5.0][:count])
+    firsts = (0.3 * one.product[-1] / MOST, one.product[-1] / MOST, product)
+    starts = ([np.log(first), place / width, np.median(height) / scale, 0.0][:count] for first in firsts)
+    best = least.fit(
+        lambda values: (curve(values) - height) / scale,
+        (np.clip(start, low + 1e-6, high - 1e-6) for start in starts),
+        bounds=(low, high),
+    )
     residuals = height - curve(best.x)
     depth = one.at(np.exp(best.x[0]), x - best.x[1] * width)
     end = int(best.x[0] > high[0] - END) - int(best.x[0] < low[0] + END)
@@ -257,9 +259,8 @@ def fit_scar(one: Family, x: ArrayLike, height: ArrayLike, tilt: bool = True, le
         )
     neighbours = _correlation(residuals, count)
     variance = 2.0 * best.cost / max(1, len(x) - len(best.x))
-    covariance = variance * np.linalg.pinv(best.jac.T @ best.jac)
     widened = np.sqrt((1.0 + max(neighbours, 0.0)) / (1.0 - min(neighbours, 0.99)))
-    relative = float(np.sqrt(covariance[0, 0])) * float(widened)
+    relative = float(np.sqrt(variance) * least.bands(best.jac).sd[0] * widened)
     beside = np.any((best.x[1:] > high[1:] - END) | (best.x[1:] < low[1:] + END))
     doubt = _doubt(one, end, beside, residuals, count, float(depth.max()), relative)
     coefficient = float("nan") if doubt else float(np.exp(best.x[0])) / one.life
