@@ -11,7 +11,7 @@ from test_compliance_command import compliance  # noqa: F401
 from test_compliance_pair import ALWAYS, FRAME, HELD, body, both, write
 
 pytestmark = [
-    pytest.mark.filterwarnings(f"ignore::petsam.{name}") for name in ("joint.BackboneWarning", "AdviceWarning")
+    pytest.mark.filterwarnings(f"ignore::petsam.{name}") for name in ("apps.joint.BackboneWarning", "AdviceWarning")
 ]
 WORDS = ["--mesh", "pair.inp", "--contact", "TOP2", "--pair", "TOP1", *FRAME, *ALWAYS[:2], *ALWAYS[4:], *HELD]
 WORDS += ["--bolt", "B=WASHER1,WASHER2:0.5:1.0", "--modes", "6", "--sensor", "TIP=1"]
