@@ -123,11 +123,11 @@ def test_products_of_a_dissimilar_contact_that_nearly_slides_at_most_25_a_pass(s
 
 
 @pytest.mark.parametrize("n, friction", [(256, 1.0), pytest.param(512, 1.6, marks=pytest.mark.slow)])
-def test_tangential_products_of_strong_coupling_at_most_9_a_pass(solve, n, friction):
+def test_tangential_products_of_strong_coupling_at_most_10_a_pass(solve, n, friction):
     """Of a pressure that is not smooth yet the shear is not sought to the end."""
     case = ball(n, body1_young=30e9, body1_poisson=0.0, body2_young=float("inf"), friction=friction)
     s = solve(case, dict(load_tx=0.3 * friction * case["load_n"]))
-    assert s["tangential_applies"] <= 9 * s["coupling_iterations"]
+    assert s["tangential_applies"] <= 10 * s["coupling_iterations"]
 
 
 @pytest.mark.parametrize(

@@ -38,10 +38,12 @@
 
 /*
   |s|/(c b) from which a cell turns at once, if the error, which counts such a cell by its bound, is at most SURE: then
-  the others cannot bring it to stick
+  the others cannot bring it to stick. Cells that turn each other to and fro would do so for ever: after MOST_TURNS
+  sweeps they come to rest as all others do.
 */
-#define TURNS 8
-#define SURE  0.1
+#define TURNS      8
+#define SURE       0.1
+#define MOST_TURNS 20
 /* A direction's least descent, relative to that of the preconditioned residual */
 #define DESCENT 0.1
 /*
@@ -197,7 +199,7 @@ static PetscErrorCode Advance(Work *w, double t)
   SamRow         run;
 
   PetscFunctionBegin;
-  w->turns_from = u->error <= SURE ? TURNS * u->self * TURNS * u->self : PETSC_INFINITY;
+  w->turns_from = u->error <= SURE && w->turned++ < MOST_TURNS ? TURNS * u->self * TURNS * u->self : PETSC_INFINITY;
   for (PetscInt sweep = 0; sweep < SWEEPS; sweep++) {
     PetscCall(ChooseSets(w, sweep ? 0 : t, a, &space, &most));
     SamFrameSolve(u->frame, w->gram, space.slip, a);
