@@ -3,8 +3,9 @@
 
   This header needs neither a library (but -lm) nor another header of petsam: C99, C++, or Fortran by iso_c_binding.
   Its functions are static inline; where PETSAM_CREEP_EXTERNAL is defined before it, in one source file, they have
-  external linkage, as programs in other languages need; those of libpetsam have it. They may be called from several threads at once. Only
-  petsam_creep_load() allocates memory. `make creep-table` makes the table from petsam's solutions of steady rolling.
+  external linkage, as programs in other languages need; those of libpetsam have it. They may be called from several
+  threads at once. Only petsam_creep_load() allocates memory. `make creep-table` makes the table from petsam's solutions
+  of steady rolling.
 
   x is the rolling direction, y lies across it, z is the normal, right-handed. Creepages are the rigid slip of one body
   relative to the other, over the rolled distance, at the centre of the ellipse; a positive creepage gives a positive
