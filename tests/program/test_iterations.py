@@ -99,7 +99,8 @@ def test_the_largest_grid_needs_few_products_and_the_memory_of_its_head(launcher
     case = ball(8192, young=210e9, poisson=0.3, friction=0.1, load_n=1000.0, grid_size=2e-3, output="out.h5")
     case.update(gap_radius1=0.2, gap_radius2=0.2, load_tx=60.0, errors="none", output_fields="none")
     command = [*launcher, "-n", "2", str(PROGRAM), *flatten([case])]
-    text = finished(command, cwd=tmp_path, env=environment(), timeout=1200).stdout
+    limits = dict(environment(), MPIEXEC_TIMEOUT="1200")  # s
+    text = finished(command, cwd=tmp_path, env=limits, timeout=1200).stdout
     with Results(tmp_path / "out.h5") as results:
         assert results["tangential_applies"][-1] <= 35 and results["normal_applies"][-1] <= 15
         assert results["disp_x"][-1] == pytest.approx(4.163119e-07, rel=1e-6)  # as on 512 x 512 cells
