@@ -16,6 +16,8 @@ ROOT = Path(__file__).resolve().parents[2]
 SRC = ROOT / "src"
 sys.path.insert(0, str(ROOT / "tests" / "program"))
 
+import pythonruler  # noqa: E402
+
 # count: what it is at most now, and what it should be
 LIMITS = {
     "laws that are looked up by name outside of contact/problem": (28, 8),
@@ -27,6 +29,13 @@ LIMITS = {
     "fitted or chosen numbers in advice": (125, 40),
     "options of a command line outside of commands": (0, 0),
     "options in no example or page": (0, 0),
+    "names that applications use of the library": (204, 110),
+    "names that applications use of each other": (7, 6),
+    "names of applications that the library uses": (0, 0),
+    "documented names of the package": (285, 220),
+    "blocks of docstrings that no list reaches": (140, 0),
+    "readers of words in commands": (7, 8),
+    "docstrings that begin with What, Whether, Those, Of, Which": (155, 0),
 }
 MATERIALS = r"\bSamBody(?:MaterialAt|Substrate|SubstrateTop|Count|Top|At)\("
 
@@ -82,6 +91,7 @@ def measure(build):
         sum(found(r"^#define [A-Z_0-9]+ +\(?-?[0-9.]", SRC / "post" / "advice").values()),
         len(rooms.command_line_outside_commands()),
         len(options_in_no_page(build)),
+        *pythonruler.measure(),
     )
     return dict(zip(LIMITS, values, strict=True))
 

@@ -1,0 +1,93 @@
+"""Counts of ruler.py over the Python package: what applications know, and what a reader has to hold in mind."""
+
+import ast
+import re
+from pathlib import Path
+
+import modules
+
+PACKAGE = modules.PACKAGE
+SECTIONS = re.compile(r"^(Parameters|Returns|Raises|Attributes)\n-{3,}$", re.M)
+FIRST = re.compile(r"(What|Whether|Those|Of|Which)\b")  # words with which no sentence begins that is read once
+READER = re.compile(r"^def \w+\(text\b", re.M)
+OF_COMMANDS = ("command.py", "line.py", "arguments.py", "uses.py")
+
+
+def sources(folder=PACKAGE):
+    """Module name to path of the package."""
+    found = {}
+    for path in sorted(folder.rglob("*.py")):
+        parts = path.relative_to(folder.parent).with_suffix("").parts
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imported(name, path, known):
+    """The names of other modules that a module imports or takes from one that it imports, as home.name."""
+    package, tree = name if path.name == "__init__.py" else name.rpartition(".")[0], ast.parse(path.read_text("utf-8"))
+    used, local = set(), {}
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.ImportFrom) or not node.level:
+            continue
+        above = package.split(".")[: len(package.split(".")) - node.level + 1]
+        home = ".".join([*above, *([node.module] if node.module else [])])
+        for alias in node.names:
+            if f"{home}.{alias.name}" in known:
+                local[alias.asname or alias.name] = f"{home}.{alias.name}"
+            else:
+                used.add(f"{home}.{alias.name}")
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id in local:
+            used.add(f"{local[node.value.id]}.{node.attr}")
+    return used
+
+
+def application(name):
+    """The application of a module or of a name in it; None of the storeys below."""
+    parts = name.split(".")
+    return parts[2] if parts[1:2] == ["apps"] and len(parts) > 2 else None
+
+
+def crossings(known):
+    """Names that applications use of the library, that they use of each other, and that the library uses of them."""
+    below, between, upward = set(), set(), set()
+    for name, path in known.items():
+        for other in imported(name, path, known):
+            own, theirs = application(name), application(other)
+            if own and not theirs:
+                below.add(other)
+            elif own and theirs != own:
+                between.add(other)
+            elif theirs and not own:
+                upward.add(other)
+    return below, between, upward
+
+
+def definitions(tree):
+    return [node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
+
+
+def documented():
+    """The names of the reference, and the docstrings that it shows."""
+    nodes = {name: node for _, names in modules.listed().values() for name, node in names.items()}
+    shown = {ast.get_docstring(part) for node in nodes.values() for part in definitions(node)}
+    return nodes, shown
+
+
+def measure():
+    """The counts, in the order of their rows in ruler.py."""
+    known = sources()
+    docstrings = [ast.get_docstring(node) or "" for path in known.values()
+                  for node in definitions(ast.parse(path.read_text("utf-8")))]  # fmt: skip
+    nodes, shown = documented()
+    commands = [path for path in known.values() if path.name in OF_COMMANDS]
+    below, between, upward = crossings(known)
+    return (
+        len(below),
+        len(between),
+        len(upward),
+        len(nodes),
+        sum(1 for text in docstrings if SECTIONS.search(text) and text not in shown),
+        sum(len(READER.findall(Path(path).read_text("utf-8"))) for path in commands),
+        sum(1 for text in docstrings if FIRST.match(text)),
+    )
