@@ -313,7 +313,7 @@ def _vehicle(options):
 
 
 def _unlike(options):
-    """Whether left and right differ."""
+    """True if left and right differ."""
     return any(left != right for left, right in (options.wheel, options.rail, options.radius))
 
 
