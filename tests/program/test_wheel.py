@@ -986,6 +986,16 @@ def test_a_tread_far_from_the_nominal_radius_is_told(run, tmp_path):
     assert told in text and "tape_line" not in text
 
 
+def test_warnings_of_a_vehicle_are_told_once_with_its_wear(run, tmp_path):
+    one = petsam.wheel.s1002()
+    path = columns(tmp_path / "wheel.txt", replace(one, z=one.z + 0.012, weights=None))
+    given = ["--wheel", path, *BASE[2:-2], "--cell", "0.6mm", "--unit", "mm", "--z", "down", *ONE, "--y", "0"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", petsam.wheel.ProfileWarning)
+        text = run(*given, "--gauge", "1.42m", "--wear", "1e-14", "--distance", "10km", "--jumps", "2")
+    assert text.count("at the tape circle") == text.count("check --gauge") == 1
+
+
 def test_two_radii_of_cones_roll_evenly_beside_the_middle():
     """Cones of the slope e: upright and with equal rolling radii where the wheelset is aside by their half difference
     over 2 e; a cone of a larger radius is one that is moved along its axle."""

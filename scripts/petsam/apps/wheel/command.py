@@ -400,10 +400,12 @@ def carry_out(options):
             _picture(options, vehicle, found)
             wrote.append(".png")
     if options.wear is not None:
-        try:
-            wrote += _wear(options, vehicle, states, cores, endings)
-        except Error as error:
-            raise _reworded(error) from error
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", profiles.ProfileWarning)  # of the vehicle: printed above
+            try:
+                wrote += _wear(options, vehicle, states, cores, endings)
+            except Error as error:
+                raise _reworded(error) from error
     if wrote:
         print("wrote " + ", ".join(options.output + ending for ending in wrote))
     return 0
