@@ -1145,6 +1145,30 @@ def test_doubtful_places_are_warnings():
         Position(yaw=0.3)
 
 
+def tread(down, hollow=0.0):
+    """S1002 moved along z, with a hollow tread about y = 0."""
+    one = petsam.wheel.s1002()
+    return Profile(one.y, one.z + down - hollow * np.exp(-((one.y / 0.02) ** 2)), "wheel")
+
+
+def test_a_tread_far_from_the_nominal_radius_is_a_warning():
+    """The radius counts at z = 0: of the tread, within its wear, or at the tape line."""
+    for down, value in ((0.02, "20 mm"), (-0.028, "-28 mm"), (0.0101, "10.1 mm")):
+        told = f"z is {value} at the tape circle, y = 0 mm, and the radius counts at z = 0: give tape_line,.* or shift"
+        with pytest.warns(petsam.wheel.ProfileWarning, match=told):
+            petsam.wheel.Wheelset(tread(down), 0.46)
+    moved = replace(tread(0.02), y=tread(0.02).y + 0.07)
+    with pytest.warns(petsam.wheel.ProfileWarning, match="z is 20 mm at the tape circle, y = 70 mm"):
+        petsam.wheel.Wheelset(moved, 0.46, flange_position=0.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for one in (tread(0.0), tread(0.003), tread(-0.003), tread(0.0, 0.003), tread(0.0, 0.009)):
+            petsam.wheel.Wheelset(one, 0.46)
+        found = petsam.wheel.Wheelset(tread(0.02), 0.46, tape_line=0.0).section
+        petsam.wheel.Wheelset(moved, 0.46, flange_position=0.0, tape_line=0.07)
+    assert found.height(np.array(0.75)) == pytest.approx(0.0, abs=1e-12)
+
+
 def test_a_contact_cut_by_the_end_of_a_profile_is_a_warning(made):
     """The contact is within the profile, and its edge warning is that of petsam."""
     rail = petsam.wheel.uic60()

@@ -918,7 +918,7 @@ def test_a_back_a_little_beside_the_stated_one_is_named(run, tmp_path, shift):
 
 @pytest.mark.parametrize(("kind", "words", "message"), [
     ("wheel", ["--z", "up"], "is its z down? give --z down"),
-    ("rail", ["--z", "down,up"], "is its z down? give --z down"),
+    ("rail", ["--z", "up"], "is its z down? give --z down"),
     ("wheel", ["--z", "down", "--mirror", "wheel"], "is mirrored; omit --mirror wheel"),
 ])  # fmt: skip
 def test_a_cure_that_was_given_is_not_named(run, tmp_path, kind, words, message):
@@ -957,6 +957,43 @@ def test_unit_and_direction_of_each_file(run, tmp_path):
     lateral = [float(re.search(r"lateral force (\S+) N", text)[1]) for text in (mixed, plain)]
     assert lateral[0] == pytest.approx(lateral[1], rel=2e-3)
     assert "argument --z: sideways: expected down or up" in run(*given, "--unit", "mm", "--z", "down,sideways", check=2)
+
+
+@pytest.mark.parametrize("words, message", [
+    (["--rail", "r.txt", "--unit", "mm,in"], "--unit mm,in: s1002 has its own: give that of the rail alone, --unit in"),
+    (["--rail", "r.txt", "--z", "up,down"], "--z up,down: s1002 has its own: give that of the rail alone, --z down"),
+    (["--wheel", "w.txt", "--unit", "mm,in"], "uic60 has its own: give that of the wheel alone, --unit mm"),
+    (["--wheel", "w.PRW", "--rail", "r.txt", "--unit", "mm,in"], "w.PRW has its own: give that of the rail alone"),
+    (["--rail", "r.prr", "--unit", "mm"], "--unit: is of files of columns, and none is given: remove it"),
+    (["--z", "up"], "--z: is of files of columns, and none is given: remove it"),
+])  # fmt: skip
+def test_units_of_profiles_that_have_their_own_are_errors(run, words, message):
+    assert message in run(*BASE, *ONE, "--y", "0", *words, check=2)
+
+
+def test_units_of_files_beside_profiles_that_have_their_own():
+    for words in (["--rail", "r.txt", "--unit", "mm"], ["--wheel", "s1002,w.txt", "--unit", "mm"],
+                  ["--wheel", "w.prw", "--z", "up"], ["--wheel", "w.txt", "--rail", "r.txt", "--unit", "mm,in"],
+                  ["--wheel", "s1002,w.txt", "--rail", "r.ban", "--z", "up,down"]):  # fmt: skip
+        assert wheel.arguments([*BASE, *ONE, "--y", "0", *words])
+
+
+def test_a_tread_far_from_the_nominal_radius_is_told(run, tmp_path):
+    one = petsam.wheel.s1002()
+    path = columns(tmp_path / "wheel.txt", replace(one, z=one.z + 0.012, weights=None))
+    text = run("--wheel", path, *BASE[2:], "--unit", "mm", "--z", "down", *ONE, "--y", "0")
+    told = "wheel.txt: its z is 12 mm at the tape circle, y = 0 mm, and the radius counts at z = 0: shift the profile's"
+    assert told in text and "tape_line" not in text
+
+
+def test_warnings_of_a_vehicle_are_told_once_with_its_wear(run, tmp_path):
+    one = petsam.wheel.s1002()
+    path = columns(tmp_path / "wheel.txt", replace(one, z=one.z + 0.012, weights=None))
+    given = ["--wheel", path, *BASE[2:-2], "--cell", "0.6mm", "--unit", "mm", "--z", "down", *ONE, "--y", "0"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", petsam.wheel.ProfileWarning)
+        text = run(*given, "--gauge", "1.42m", "--wear", "1e-14", "--distance", "10km", "--jumps", "2")
+    assert text.count("at the tape circle") == text.count("check --gauge") == 1
 
 
 def test_two_radii_of_cones_roll_evenly_beside_the_middle():

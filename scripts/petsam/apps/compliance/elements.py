@@ -67,7 +67,7 @@ def quadratic(mesh):
 
 
 def told(given, used):
-    """What became of the linear elements of a given mesh in the used one; empty of a mesh without."""
+    """The message on linear elements of a given mesh, raised or kept in the used one; empty of a mesh without any."""
     kinds = linear(given)
     if not kinds:
         return ""

@@ -139,7 +139,7 @@ def need_parameters(card):
 
 
 def _cure(parameter):
-    """What to do about a parameter that is not read."""
+    """The cure for a parameter that is not read."""
     if parameter == "INPUT":
         return "name the file by *INCLUDE in the next line"
     if parameter == "AMPLITUDE":

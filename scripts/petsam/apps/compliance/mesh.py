@@ -132,7 +132,8 @@ class Mesh:
         return 3 if self.normal is None else 2
 
     def volume(self, index, local, weight, elements=slice(None)):
-        """Of a block's elements: points (n, q, 3), weights (n, q), shape functions (q, k), gradients (n, q, k, 3)."""
+        """Points (n, q, 3), weights (n, q), shape functions (q, k), and gradients (n, q, k, 3) of a block's
+        elements."""
         block = self.blocks[index]
         corners = self.nodes[block.nodes[elements]]
         values = block.shape.family.values(local)

@@ -18,7 +18,7 @@ SIMPLEX = ("C3D10", "CPE6")
 
 
 def lacking(mesh, solver, w):
-    """What linear elements lack of the compliance, (columns, columns), by the displacements w (3 nodes, columns)."""
+    """The compliance, (columns, columns), that linear elements lack, by the displacements w (3 nodes, columns)."""
     average, corner = averages(mesh)
     of_corners = np.repeat(corner, 3)
     moves = solver.freed(of_corners)

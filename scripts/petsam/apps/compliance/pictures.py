@@ -104,7 +104,7 @@ def _convergence(axes, body, title):
 
 
 def _panels(body, unit, name=""):
-    """What is drawn of a patch; of one of several, without load cases."""
+    """The panels that are drawn of a patch; of one of several, without load cases."""
     of = f"{name}, " if name else ""
     panels = [
         lambda axes: _map(axes, body, _unit_load(body, 2), f"{of}correction under N = 1 N", unit),

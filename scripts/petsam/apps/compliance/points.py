@@ -15,21 +15,8 @@ TAKEN = ("NODE", "NSET", "ELEMENT", "ELSET", "SURFACE")
 
 
 class Points(Reader):
-    """Nodes, node sets and element surfaces of a deck. Elements of kinds that petsam does not assemble are left out of
-    sets and surfaces.
-
-    Parameters
-    ----------
-    path : path
-        The deck.
-
-    Attributes
-    ----------
-    nodes : dict
-        {number: (x, y, z)} in the deck's units.
-    node_sets : dict
-        {name: numbers}.
-    """
+    """Nodes, {number: (x, y, z)} in the deck's units, node sets, {name: numbers}, and element surfaces of a deck.
+    Elements of kinds that petsam does not assemble are left out of sets and surfaces."""
 
     def _follow(self, card):
         """Leaves steps alone: none of them is a load case here."""

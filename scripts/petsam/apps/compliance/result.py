@@ -16,7 +16,7 @@ from .modes import Modes
 
 @dataclass
 class Compliance(Tabled):
-    """What of_deck() and of_mesh() have found.
+    """The result of of_deck() and of_mesh().
 
     Attributes
     ----------

@@ -38,7 +38,7 @@ class Bolt(NamedTuple):
 
 @dataclass(frozen=True)
 class Settings:
-    """What is to be computed. Sets and surfaces are names of the mesh, or boxes (place()).
+    """The task of a computation. Sets and surfaces are names of the mesh, or boxes (place()).
 
     Attributes
     ----------

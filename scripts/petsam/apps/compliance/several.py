@@ -100,8 +100,8 @@ def joined(bodies, matrix):
 
 
 def _span(body, rows):
-    """What the other patches do to a patch, whose rows of L' D L without its own columns these are: the rigid motions
-    (6) and the load cases, as columns, which it adds to the Body."""
+    """The rigid motions (6) and the load cases that the other patches cause on a patch, as columns; adds the cases to
+    the Body. The rows are those of L' D L without the patch's own columns."""
     motions = rigid.motions(body.patch).reshape(6, -1) @ body.definite.root
     whole = linalg.orth(motions.T)
     u, values, _ = linalg.svd(rows - whole @ (whole.T @ rows))

@@ -58,7 +58,7 @@ def rule(block):
 
 
 def assembles(mesh):
-    """Whether all elements of the mesh are of types that are assembled here."""
+    """True if all elements of the mesh are of types that are assembled here."""
     return all(block.kind in OWN for block in mesh.blocks)
 
 

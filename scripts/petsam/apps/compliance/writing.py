@@ -50,7 +50,7 @@ def _fill(file, found):
 
 
 def _put_patch(group, body):
-    """What belongs to a patch."""
+    """Writes the data of a patch."""
     patch, m, put = body.patch, body.patch.count, _putter(group)
     put("patch/center", patch.center, "m", "centre of the patch, x and y of the frame")
     put("patch/half", patch.half, "m", "half widths of the patch")
@@ -74,7 +74,7 @@ def _put_patch(group, body):
 
 
 def _put_coupling(put, found):
-    """What joins the contacts of several patches through the structure."""
+    """Writes the coupling of the contacts of several patches through the structure."""
     text = "displacements of body 1 as a whole and factors on the cases far1, ..., patch by patch, by their loads"
     put("coupling", found.coupling, "", text)
     put("checks/missed", found.missed, "1", "compliance between patches that the load cases leave out")

@@ -162,10 +162,8 @@ def _bodies(resistivity):
 
 
 def _is_mirrored(cells, film, own, rtol):
-    """
-    Whether the field is its own mirror image along x and y; resistances up to rtol, as the flux through all cells has
-    an error of its square by that: turned round, the difference has the other sign and the flux is the same.
-    """
+    """True if the field is its own mirror image along x and y; resistances up to rtol, as the flux through all cells
+    has an error of its square by that: turned round, the difference has the other sign and the flux is the same."""
     return all(
         n % 2 == 0
         and np.array_equal(cells, np.flip(cells, d))

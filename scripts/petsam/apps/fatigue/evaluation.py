@@ -86,7 +86,7 @@ def possible(cycle: Cycle, constants: Mapping[str, float], angle: float = 0.0) -
 
 
 def has_data(cycle: Cycle, name: str, angle: float = 0.0) -> bool:
-    """Whether a cycle has the data for a criterion.
+    """True if a cycle has the data for a criterion.
 
     Parameters
     ----------

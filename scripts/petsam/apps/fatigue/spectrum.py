@@ -166,7 +166,7 @@ def _judge(cycles, names, quantities, constants, plane):
 
 
 def _counter(report, total):
-    """What is called after each of so many parts of the work."""
+    """A function to call after each of so many parts of the work."""
     done = itertools.count(1)
     return (lambda: report(next(done), total)) if report else (lambda: None)
 

@@ -8,16 +8,8 @@ from .push import Push
 
 
 class Backbone:
-    """The monotonic curve Q = F(D) of contact and rig, odd in D.
-
-    Parameters
-    ----------
-    push : Push
-    friction, compliance : float
-        1 and m/N.
-    scale, bend : float
-        Factor of the contact's compliance, and what the part of it that slip adds is larger by, relative.
-    """
+    """The monotonic curve Q = F(D) of contact and rig, odd in D: coefficient of friction, compliance of the rig (m/N),
+    scale, the factor of the contact's compliance, and bend, the relative increase of its part that slip adds."""
 
     def __init__(self, push: Push, friction: float, compliance: float, scale: float = 1.0, bend: float = 0.0) -> None:
         self.force = friction * push.force
@@ -39,8 +31,8 @@ class Backbone:
         return np.interp(np.abs(displacement), self.displacement, self.slope, right=0.0)
 
     def derivatives(self, displacement) -> dict:
-        """Of the force by displacement, friction, compliance, scale, and bend, at displacements (m); those of the
-        straight lines between the points of the table.
+        """Derivatives of the force by displacement, friction, compliance, scale, and bend, at displacements (m): those
+        of the straight lines between the points of the table.
 
         With D = friction scale (f + bend (f - f' q)) + compliance Q, f' the slope at 0, and Q = friction q, at given D:
         dQ/dp = Q_p - dQ/dD D_p.

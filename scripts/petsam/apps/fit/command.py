@@ -302,7 +302,7 @@ def _scar(options):
 
 
 def _scar_line(scar):
-    """What is printed of a profile."""
+    """The line that is printed of a profile."""
     number = f"Archard's coefficient {scar.coefficient:.4g} +- {scar.coefficient_sd:.2g} 1/Pa"
     return (
         f"{f'no numbers: {scar.doubt}' if scar.doubt else number}; misfit {1e6 * scar.misfit:.3g} um, neighbours' "

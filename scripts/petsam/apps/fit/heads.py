@@ -47,15 +47,15 @@ class Column(NamedTuple):
     joined: bool = False
 
     def fits(self, si):
-        """Whether it is of this quantity; of name and unit as one, if the name is, too: not cycle_N."""
+        """True if it is of this quantity; of name and unit as one, if the name is, too: not cycle_N."""
         return self.si == si and (not self.joined or _means(self.name, si))
 
     def unclear(self, si):
-        """Whether it may be of this quantity by its name, but states no such unit."""
+        """True if it may be of this quantity by its name, but states no such unit."""
         return not self.fits(si) and (self.si in ("", None) or self.joined) and _means(self.name, si)
 
     def index(self):
-        """Whether what looks like a unit may be an index of a symbol: F_N."""
+        """True if the apparent unit may be an index of a symbol: F_N."""
         return self.joined and len(self.name) == 1
 
 
@@ -66,7 +66,7 @@ def _words(name):
 
 
 def _has(name, known):
-    """Whether a name has one of these words, long ones also within another."""
+    """True if a name has one of these words, long ones also within another."""
     words = _words(name)
     return any(one in words or len(one) > 2 and any(one in word for word in words) for one in known)
 
@@ -76,7 +76,7 @@ def _means(name, si):
 
 
 def _across(name):
-    """Whether a column is of the normal direction by its name."""
+    """True if a column is of the normal direction by its name."""
     return _has(name, ACROSS) and not _has(name, ALONG)
 
 
@@ -89,20 +89,7 @@ def _quantity(unit):
 
 
 def columns(path, head, below=None):
-    """The columns of a head.
-
-    Parameters
-    ----------
-    path : path
-    head : list of str
-        Cells of the line of names; they may have units.
-    below : list of str, optional
-        Those of the line of units.
-
-    Returns
-    -------
-    list of Column
-    """
+    """The columns of the cells of a head's line of names, which may have units, and of its line of units, if any."""
     found = []
     for k, (name, unit, cell, joined) in enumerate(heads_of(path, head, below)):
         si, size = _quantity(unit)

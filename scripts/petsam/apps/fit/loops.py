@@ -107,7 +107,7 @@ def noise_of(values: np.ndarray) -> float:
 
 @dataclass(frozen=True)
 class Fit:
-    """What loops tell of friction and rig.
+    """Friction and rig as found from loops.
 
     Attributes
     ----------
@@ -163,12 +163,12 @@ class Fit:
 
     @property
     def identifiable(self) -> bool:
-        """Whether the loops hold the friction."""
+        """True if the loops hold the friction."""
         return self.state in ("known", "weak")
 
     @property
     def stiffness(self) -> float:
-        """Of the rig, N/m; infinite without compliance, NaN of an unknown one."""
+        """Stiffness of the rig, N/m; infinite without compliance, NaN of an unknown one."""
         return np.inf if self.compliance <= 0.0 else 1.0 / self.compliance
 
     @property
@@ -240,12 +240,12 @@ class _Problem:
         return float(backbone(half) / backbone.force[-1]), float(half / backbone.displacement[-1])
 
     def turning(self, values):
-        """Whether the loops nearest to sliding are about at its beginning, where friction bends all else."""
+        """True if the loops nearest to sliding are about at its beginning, where friction bends all else."""
         sheared, stroke = map(max, zip(*(self.amplitude(values, k) for k in range(len(self.loops)))))
         return sheared > TURNING[0] and stroke < TURNING[1]
 
     def scales(self):
-        """What changes of the parameters are measured in."""
+        """The scales of the parameters' changes."""
         d, q = map(max, zip(*self.amplitudes))
         shared = dict(friction=0.1, compliance=0.1 * d / q, lean=0.1 * q / d, loss=0.01, scale=0.1, bend=0.1)
         own = [value for d, q in self.amplitudes for value in (0.05 * q, 0.05 * d, 0.05 * d)]
@@ -570,26 +570,9 @@ def _curve(problem, values, k, points=200):
 
 
 def jacobian_of(loops: Sequence[Loop], push: Push, free: Sequence[str], values: dict, noise: Sequence) -> np.ndarray:
-    """Derivatives of the residuals, in units of the noise, by friction, compliance and what else is free, and by force,
-    largest and smallest displacement of each loop, at given values: what a test would tell.
-
-    Parameters
-    ----------
-    loops : sequence of Loop
-        Without noise.
-    push : Push
-    free : sequence of str
-        Parameters besides friction and compliance.
-    values : dict
-        {name: value} of all shared parameters.
-    noise : list of tuple of float
-        Of displacement and force of each loop, m and N.
-
-    Returns
-    -------
-    ndarray
-        (points of all loops, parameters); of the others scaled, of the friction not.
-    """
+    """Derivatives of the residuals of loops without noise, in units of the noise (displacement and force of each loop,
+    m and N), (points of all loops, parameters), at given values: by friction, compliance and the free parameters, and
+    by force, largest and smallest displacement of each loop. All but the friction are scaled."""
     problem = _Problem(list(loops), [push] * len(loops), ("friction", "compliance", *free), {})
     problem.noise = list(noise)
     own = [value for loop in loops for value in (0.0, loop.displacement.max(), loop.displacement.min())]

@@ -54,7 +54,7 @@ class Push:
 
     @property
     def stiffness(self) -> float:
-        """Of the contact without slip, N/m."""
+        """Stiffness of the contact without slip, N/m."""
         return float(self.force[1] / self.displacement[1])
 
 
@@ -86,16 +86,7 @@ def ball(normal: float, radius: float, bodies: Mapping) -> Push:
 
 
 def options_of(path) -> dict[str, str]:
-    """{name: value} of an options file of petsam; "" of an option without a value.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    dict
-    """
+    """{name: value} of an options file of petsam; "" of an option without a value."""
     found = {}
     for number, line in enumerate(text_of(path).splitlines(), 1):
         try:

@@ -23,7 +23,7 @@ PEAK = re.compile(r"amplitude|\*|max|peak", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Record:
-    """What a file holds, in SI units; lost points are NaN.
+    """The contents of a file, in SI units; lost points are NaN.
 
     Parameters
     ----------
@@ -59,18 +59,18 @@ def _number(text):
 
 
 def _texts(row):
-    """Whether a row has texts, and no number."""
+    """True if a row has texts, and no number."""
     values = [_number(cell) for cell in row]
     return None in values and all(value is None or np.isnan(value) for value in values)
 
 
 def _numbers(row):
-    """Whether a row has two numbers or more."""
+    """True if a row has two numbers or more."""
     return sum(bool(cell) and _number(cell) is not None for cell in row) >= 2
 
 
 def _ends(row, width):
-    """Whether a row has this many cells, or empty ones behind them."""
+    """True if a row has this many cells, or empty ones behind them."""
     return len(row) >= width and not any(row[width:])
 
 
@@ -201,5 +201,5 @@ def _record(path, columns, values, displacement, force, notes):
 
 
 def same_units(records: Sequence[Record]) -> bool:
-    """Whether all records are of peaks, or none is."""
+    """True if all records are of peaks, or none is."""
     return len({one.peaks for one in records}) < 2

@@ -21,17 +21,7 @@ def _micro(value):
 
 
 def lines(found: Result, push: Push) -> list[str]:
-    """What the command prints.
-
-    Parameters
-    ----------
-    found : Result
-    push : Push
-
-    Returns
-    -------
-    list of str
-    """
+    """The lines that the command prints."""
     fit, count = found.fit, len(found.numbers)
     points = int(np.median([len(loop.force) for one in found.files for loop in one.loops]))
     drift = max((one.drift for one in found.files), key=abs)
@@ -89,7 +79,7 @@ def lines(found: Result, push: Push) -> list[str]:
 
 
 def _range(name):
-    """What values of a parameter are looked for."""
+    """The range in which a parameter is looked for."""
     low, high = LOWEST[name], HIGHEST.get(name)
     return f"{low:g} to {high:g}" if high else f"{low:g} or more"
 
@@ -112,16 +102,7 @@ def _friction_line(found):
 
 
 def plain(value: Optional[float]) -> Optional[float]:
-    """A number for JSON, None where it is none.
-
-    Parameters
-    ----------
-    value : float or None
-
-    Returns
-    -------
-    float or None
-    """
+    """A number for JSON, None where it is none."""
     return float(value) if value is not None and np.isfinite(value) else None
 
 
@@ -190,18 +171,7 @@ def wear(found: Result, volume: float, band: float = 0.0, life: Optional[float] 
 
 
 def worn_line(worn: Wear, body: str) -> str:
-    """What is printed of it.
-
-    Parameters
-    ----------
-    worn : Wear
-    body : str
-        "1" or "2".
-
-    Returns
-    -------
-    str
-    """
+    """The line that is printed of the wear of a body, "1" or "2"."""
     text = f"body {body}: volume over energy {worn.alpha:.4g} +- {worn.alpha_sd:.2g} 1/Pa, {worn.energy:.4g} J in all"
     if np.isnan(worn.coefficient):
         return text + "; Archard's coefficient needs the friction, which is not identifiable"
@@ -209,19 +179,7 @@ def worn_line(worn: Wear, body: str) -> str:
 
 
 def as_json(found: Result, worn: Optional[Wear] = None, body: str = "2") -> dict:
-    """The numbers of NAME.json; None: not known.
-
-    Parameters
-    ----------
-    found : Result
-    worn : Wear, optional
-    body : str
-        That has worn.
-
-    Returns
-    -------
-    dict
-    """
+    """The numbers of NAME.json; None: not known. `body` is the one that has worn."""
     fit = found.fit
     numbers = {
         "friction": plain(found.friction),
@@ -255,13 +213,7 @@ def as_json(found: Result, worn: Optional[Wear] = None, body: str = "2") -> dict
 
 
 def write_friction(found: Result, path) -> None:
-    """Writes the friction over the cycles as -wear_friction reads it: from cycle 0 on, each known cycle.
-
-    Parameters
-    ----------
-    found : Result
-    path : path
-    """
+    """Writes the friction over the cycles as -wear_friction reads it: from cycle 0 on, each known cycle."""
     rows = [(n, f.friction) for n, f in zip(found.numbers, found.each)]
     rows = [(0.0, rows[0][1]), *rows] if rows[0][0] > 0.0 else rows
     with open(path, "w", encoding="utf-8") as file:
@@ -271,26 +223,9 @@ def write_friction(found: Result, path) -> None:
 def write_options(found: Result, push: Push, shape, width, name, worn=None, body="2") -> list[str]:
     """Writes NAME.opts and NAME-loop.csv, with which petsam computes the loop of the contact alone: its displacement is
     that of the record less the compliance times the force. Where the friction changes, or a coefficient of wear is
-    known, NAME-life.opts repeats the closed cycle of NAME-life.csv for the cycles of the test.
-
-    Parameters
-    ----------
-    found : Result
-    push : Push
-    shape : path
-        Options of bodies and gap, which are copied.
-    width : float or None
-        Length of a contact in plane strain, m.
-    name : str
-    worn : Wear, optional
-    body : str
-        That has worn.
-
-    Returns
-    -------
-    list of str
-        The files.
-    """
+    known, NAME-life.opts repeats the closed cycle of NAME-life.csv for the cycles of the test. The options of bodies
+    and gap in the file `shape` are copied; `width` is the length of a contact in plane strain, m, or None; `body` is
+    the one that has worn. Returns the names of the files."""
     options = {k: v for k, v in options_of(shape).items() if not k.startswith(DROPPED) or k.startswith(WEARS)}
     if worn and np.isfinite(worn.coefficient):
         options[f"wear_coefficient{body}"] = f"{worn.coefficient:.6g} # +- {worn.coefficient_sd:.2g} 1/Pa"

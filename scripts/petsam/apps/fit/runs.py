@@ -44,7 +44,7 @@ CLOSE = 1e-6  # and that of the parameters
 
 @dataclass(frozen=True)
 class ContactFit:
-    """What measured numbers tell of the parameters of a contact.
+    """Parameters of a contact as found from measured numbers.
 
     Attributes
     ----------
@@ -213,7 +213,7 @@ class _Problem:
             raise Unusable(f"{name}: {name[: -len(OFFSET)]} is not measured")
 
     def _outside(self, x):
-        """What rig and offsets add to the numbers, and its derivatives by the parameters."""
+        """The contribution of rig and offsets to the numbers, and its derivatives by the parameters."""
         values, slopes = np.zeros(len(self.measured.values)), np.zeros((len(self.measured.values), len(x)))
         of = dict(zip(self.names, x * self.scales))
         for k, (name, row) in enumerate(self.measured.places):
@@ -255,7 +255,8 @@ class _Problem:
         return self._run(x[self.within])[0] + self._outside(x)[0]
 
     def residuals(self, x):
-        """Those of the numbers, then those of what is known; NaN where the contact has no solution."""
+        """The residuals of the numbers, then of the parameters known beforehand; NaN where the contact has no
+        solution."""
         try:
             off = (self.model(x) - self.measured.values) / self.measured.deviations
         except _contact_error():
@@ -293,7 +294,7 @@ class _Problem:
         return found
 
     def bounds(self, given):
-        """Of the parameters over their scales."""
+        """The bounds of the parameters over their scales."""
         low, high = np.full(len(self.names), -np.inf), np.full(len(self.names), np.inf)
         for k, (name, start) in enumerate(zip(self.names, self.start)):
             if name.startswith(POSITIVE):
@@ -395,7 +396,7 @@ def fit_contact(
 
 
 def _at_bounds(values, low, high):
-    """Whether values, over their scales, are at a bound."""
+    """True where values, over their scales, are at a bound."""
     near = BOUND * np.minimum(1.0, high - low)
     return (values - low < near) | (high - values < near)
 

@@ -266,7 +266,7 @@ def _closed(d, q, top, normal, good):
 
 @dataclass(frozen=True)
 class Result(Tabled):
-    """What the loops of one or several files tell.
+    """Friction and rig as found from the loops of one or several files.
 
     Attributes
     ----------
@@ -472,7 +472,7 @@ def _rejected(found):
 
 
 def _contradict(alone, name, value, deviation):
-    """Whether a parameter that was found from the loops alone is not what was known of it."""
+    """True if a parameter that was found from the loops alone is not what was known of it."""
     if alone.state == "rejected":
         return True
     found, sd = alone.more[name]
@@ -505,7 +505,7 @@ def _contradicted(name, value, deviation, given, loads):
 
 
 def _entangled(together, deviation):
-    """Whether loops that do not slide leave the loss about as it was known beforehand, and the friction goes with
+    """True if loops that do not slide leave the loss about as it was known beforehand, and the friction goes with
     it."""
     return (
         together.state != "rejected"
@@ -567,7 +567,8 @@ def _rig(each, together, state):
 
 
 def _together(loops):
-    """What is fitted together: all cycles on each other, as one loop, if their amplitudes are alike, else some."""
+    """The loops that are fitted together: all cycles on each other, as one loop, if their amplitudes are alike, else
+    some."""
     spans = np.array([[np.ptp(one.displacement), np.ptp(one.force)] for one in loops])
     noise = np.median([one.given or (*one.noise(), one.noise()[0]) for one in loops], axis=0)
     if len(loops) > 1 and np.all(np.std(spans, axis=0) < ALIKE * noise[:2]):
@@ -592,16 +593,8 @@ def _contact_energy(loop, loss):
 
 @dataclass(frozen=True)
 class Peaks:
-    """What peaks of cycles alone tell: least friction, and the energy ratio.
-
-    Attributes
-    ----------
-    friction_at_least : float
-        Largest force over the normal load.
-    energy_ratio : ndarray
-        Energy over 4 D* Q*, 1: above 0.2 gross slip, roughly; NaN without energies.
-    gross : ndarray of bool
-    """
+    """The numbers that peaks of cycles hold alone: least friction, the largest force over the normal load; energy over
+    4 D* Q*, 1, above 0.2 gross slip, roughly, NaN without energies; and where slip is gross."""
 
     friction_at_least: float
     energy_ratio: np.ndarray
@@ -609,18 +602,7 @@ class Peaks:
 
 
 def of_peaks(record: Record, normal: float) -> Peaks:
-    """Evaluates a record of peaks.
-
-    Parameters
-    ----------
-    record : Record
-    normal : float
-        Normal load, N.
-
-    Returns
-    -------
-    Peaks
-    """
+    """Evaluates a record of peaks under a normal load, N."""
     energy = record.energy if record.energy is not None else np.full(record.force.shape, np.nan)
     ratio = energy / (4.0 * record.displacement * record.force)
     return Peaks(float(np.nanmax(record.force) / normal), ratio, ratio > 0.2)

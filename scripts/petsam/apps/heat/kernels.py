@@ -48,22 +48,8 @@ def _by_points(x, y, cell, kappa, count):
 
 
 def harmonic(x: ArrayLike, y: ArrayLike, cell: tuple[float, float], kappa: complex) -> np.ndarray:
-    """The integral of exp(-kappa r)/(2 pi r) over a cell.
-
-    Parameters
-    ----------
-    x, y : array_like
-        Distances of its centre from the point, m, of one shape.
-    cell : pair of floats
-        Its sides along x and y, m.
-    kappa : complex
-        1/m; 0, or with a positive real part.
-
-    Returns
-    -------
-    ndarray
-        The integral, m, complex, of the shape of the distances.
-    """
+    """The integral of exp(-kappa r)/(2 pi r) over a cell, m, complex, of the shape of the distances x, y of its centre
+    from the point (m); its sides along x and y (m); kappa (1/m) is 0, or has a positive real part."""
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     away = np.maximum(np.abs(x) / cell[0], np.abs(y) / cell[1])
     a, b = 0.5 * cell[0], 0.5 * cell[1]
@@ -80,19 +66,9 @@ def harmonic(x: ArrayLike, y: ArrayLike, cell: tuple[float, float], kappa: compl
 
 
 class Conductor:
-    """The operator from a periodic flux on cells to the temperature of a half-space's surface at their centres.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        (intervals, ny, nx): equal intervals of the period, cells.
-    cell : pair of floats
-        Sides of a cell along x and y, m.
-    period : float
-        Period, s.
-    conductivity, capacity : float
-        W/(m K); density times specific heat, J/(m3 K).
-    """
+    """The operator from a periodic flux on cells to the temperature of a half-space's surface at their centres: shape
+    (intervals, ny, nx) in equal intervals of the period (s), sides of a cell along x and y (m), conductivity, W/(m K),
+    and capacity, density times specific heat, J/(m3 K)."""
 
     def __init__(
         self,

@@ -27,7 +27,7 @@ RTOL, MOST = 1e-8, 100  # relative residual at which the system is solved; opera
 
 @dataclass(frozen=True)
 class Body:
-    """What the temperature of a body depends on.
+    """The data of a body that determine its temperature.
 
     Attributes
     ----------

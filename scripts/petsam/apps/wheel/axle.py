@@ -410,24 +410,15 @@ class Axle:
         raise _no_equilibrium(self, position, load, state, search.cases)
 
     def _steep(self, cases):
-        """Whether a wheel touches on its flange."""
+        """True if a wheel touches on its flange."""
         slopes = [abs(float(pair.rail.section.slope(_place(case)))) for case, pair in zip(cases, self.pairs)]
         return max(slopes) > FACE
 
 
 @dataclass(frozen=True, eq=False)
 class Rigid:
-    """Rigid wheels that touch their rails.
-
-    Attributes
-    ----------
-    position : Position
-        With its roll and height.
-    points : tuple of float
-        y of the points that touch in the track, right and left, m.
-    radii : tuple of float
-        Their distances from the axle, m.
-    """
+    """Rigid wheels that touch their rails: the position with its roll and height, y in the track of the points that
+    touch (m), and their distances from the axle (m), right and left."""
 
     position: Position
     points: tuple[float, float]
@@ -449,7 +440,7 @@ class _State:
 
     @property
     def rest(self):
-        """What is left of forces and moments."""
+        """The residuals of forces and moments."""
         return self.values[:2]
 
 
@@ -490,7 +481,7 @@ class _Search:
         return [_radius(one, self.position, self.axle.wheel.radius) for one in found]
 
     def _turning(self, found):
-        """What is left of the torque about the axle over the axle load times the nominal radius, or of the pitch rate
+        """The residual of the torque about the axle over the axle load times the nominal radius, or of the pitch rate
         by the radii over its unit."""
         if self.rolling == "free":
             return sum(one.torque for one in found) / (self.load.vertical * self.axle.wheel.radius)
@@ -499,7 +490,7 @@ class _Search:
         return 0.0
 
     def done(self, values, rtol):
-        """Whether values are those of an equilibrium, with the pitch rate."""
+        """True if values are those of an equilibrium, with the pitch rate."""
         turning = STEADY if self.rolling == "free" else ALIKE / self.slip
         return max(abs(values[:2])) <= rtol and abs(values[2]) <= turning
 

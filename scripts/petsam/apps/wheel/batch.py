@@ -26,7 +26,7 @@ CHUNK, PARTS = 20, 50  # positions that one process solves one after the other, 
 
 @dataclass(frozen=True, eq=False)
 class Vehicle:
-    """What all positions share: rails, wheels, friction.
+    """The data that all positions share: rails, wheels, friction.
 
     Parameters
     ----------
@@ -61,17 +61,8 @@ class Vehicle:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """What a position has given.
-
-    Attributes
-    ----------
-    value : object
-        What is kept of the Equilibrium; None where there is none.
-    failure : str
-        The error, where there is no equilibrium.
-    notes : tuple of str
-        Warnings.
-    """
+    """The result of a position: `value` is kept of its Equilibrium, None where there is none; `failure` is the error of
+    a position without an equilibrium, empty otherwise; `notes` are its warnings."""
 
     value: Any
     failure: str = ""
@@ -80,15 +71,7 @@ class Found:
 
 @dataclass(frozen=True, eq=False)
 class Batch(tables.Tabled):
-    """The numbers of many positions.
-
-    Attributes
-    ----------
-    states : list of spectrum.State
-        The positions.
-    found : list of Found
-        Of each the columns of its Equilibrium.
-    """
+    """The numbers of many positions: the states, and for each a Found with the columns of its Equilibrium."""
 
     states: list[State]
     found: list[Found]
@@ -121,13 +104,7 @@ class Batch(tables.Tabled):
         return f"position {k + 1}, y {self._y(k):.6g} m{lateral}"
 
     def table(self) -> list[tables.Column]:
-        """A row for each patch, and one with empty cells for a position without an equilibrium.
-
-        Returns
-        -------
-        list of Column
-            See also to_csv() and to_dataframe().
-        """
+        """A row for each patch, and one with empty cells for a position without an equilibrium."""
         solved = next((one.value for one in self.found if one.value), None)
         if solved is None:
             raise NoEquilibrium(f"no position has an equilibrium; of the first one: {self.found[0].failure}")
@@ -146,18 +123,8 @@ class Batch(tables.Tabled):
         return [first, *columns, tables.Column("note", "", "error or warnings", notes)]
 
     def of(self, name: str) -> np.ndarray:
-        """A number of all positions: of the first patch that has it.
-
-        Parameters
-        ----------
-        name : str
-            A column that is equal in all rows of a position, as ws_roll.
-
-        Returns
-        -------
-        ndarray
-            (positions,); NaN without an equilibrium.
-        """
+        """A number of all positions, (positions,), by its column, which must be equal in all rows of a position, as
+        ws_roll: the value of the first patch that has it; NaN without an equilibrium."""
         picked = [[c.values[0] for c in one.value or () if c.name == name] for one in self.found]
         return np.array([one[0] if one else np.nan for one in picked], dtype=float)
 
@@ -169,26 +136,9 @@ def run(
     keep: Callable[[Equilibrium], Any] = Equilibrium.table,
     report: Optional[Callable[[int, int], object]] = None,
 ) -> list[Found]:
-    """What is kept of the equilibrium of each position.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-        Rails and wheels.
-    states : sequence of State
-        The positions.
-    cores : int
-        Processes.
-    keep : callable
-        A function of a module that takes an Equilibrium.
-    report : callable, optional
-        Called with the numbers of positions that are done, and of all.
-
-    Returns
-    -------
-    list of Found
-        In the order of the positions.
-    """
+    """Finds the equilibrium of each position in several processes, and returns a list of Found in the order of the
+    positions. `keep`, a function of a module, takes an Equilibrium and returns the value that is kept; `report` is
+    called with the numbers of positions that are done, and of all."""
     vehicle.axle().close()  # fails and warns early, and once
     order = _path(states)
     size = max(CHUNK, -(-len(states) // PARTS))
@@ -264,7 +214,7 @@ def _near(axle, state, before):
 
 
 def _differ_little(before, state):
-    """Whether a position is that of a sweep, beside the one before, under the same load."""
+    """True if a position is that of a sweep, beside the one before, under the same load."""
     apart = abs(before.position.y - state.position.y)
     return before.load == state.load and 0.0 < apart <= BESIDE and before.position.yaw == state.position.yaw
 

@@ -17,34 +17,9 @@ DIRECTIONS = {"down": 1.0, "up": -1.0}
 
 
 def read(path: str, kind: str, unit: str, z: str) -> Profile:
-    """The profile in a file of columns.
-
-    Parameters
-    ----------
-    path : path
-        The file: y and z of a point in each line, and its weight or none, separated by blanks, commas or semicolons.
-    kind : str
-        rail or wheel.
-    unit : str
-        Of y and z: mm, m, in, ...
-    z : str
-        Direction of z in the file: down or up.
-
-    Returns
-    -------
-    Profile
-
-    Raises
-    ------
-    Error
-        If kind, unit or direction are not given, or a line is no point; with file and line.
-    MissingFile
-        If there is no such file.
-
-    Notes
-    -----
-    A ProfileWarning is issued of a third column that is not used, as weights are above 0.
-    """
+    """The profile of a kind, rail or wheel, in a file of columns: y and z of a point in each line, and its weight or
+    none, separated by blanks, commas or semicolons. The unit of y and z (mm, m, in, ...) and the direction of z (down
+    or up) must be given; a ProfileWarning is issued of a third column that is not used, as weights are above 0."""
     need_regular(path)
     if kind not in KINDS:
         raise Unusable(f"{path}: a file of columns does not state what it is: give kind='rail' or kind='wheel'")
@@ -62,20 +37,8 @@ def read(path: str, kind: str, unit: str, z: str) -> Profile:
 
 
 def weights_of(path: str, table: np.ndarray) -> Optional[np.ndarray]:
-    """The third column of a table, where it has weights: values above 0 alone.
-
-    Parameters
-    ----------
-    path : path
-        The file, for the warning of another third column.
-    table : ndarray
-        (n, 2 or 3).
-
-    Returns
-    -------
-    ndarray
-        (n,), or None.
-    """
+    """The third column of a table (n, 2 or 3), (n,), if it has weights, all above 0; else None, with a warning that
+    names the file."""
     if table.shape[1] < 3:
         return None
     if (table[:, 2] > 0.0).all():

@@ -175,13 +175,26 @@ def _parser():
     return one
 
 
+def _has_own(name, quantity):
+    """True if a profile has its own unit or z: one of a formula, or of SIMPACK, whose files state their unit."""
+    return name.lower() in BUILT or quantity == "unit" and name.lower().endswith((".prr", ".prw"))
+
+
 def _check_profiles(parser, options):
-    """Ends the command for options of files where both profiles are made by their formulas."""
-    if not all(name.lower() in BUILT for name in (*options.wheel, *options.rail)):
-        return
-    for name in ("unit", "z"):
-        if getattr(options, name) is not None:
-            parser.error(f"--{name}: is of files of columns, and none is given: remove it")
+    """Ends the command for units and directions of z of profiles that have their own."""
+    for quantity in ("unit", "z"):
+        given = getattr(options, quantity)
+        own = [all(_has_own(name, quantity) for name in getattr(options, kind)) for kind in KINDS]
+        if given is None or not any(own):
+            continue
+        if all(own):
+            parser.error(f"--{quantity}: is of files of columns, and none is given: remove it")
+        if given[0] != given[1]:
+            k = own.index(True)
+            parser.error(
+                f"--{quantity} {','.join(given)}: {getattr(options, KINDS[k])[0]} has its own: give that of the "
+                f"{KINDS[1 - k]} alone, --{quantity} {given[1 - k]}"
+            )
 
 
 def _check_positions(parser, options):
@@ -255,11 +268,10 @@ def _read(options, kind, side):
         if options.mirror in (kind, "both"):
             raise Unusable(f"--mirror {options.mirror}: {name} has y to the field side: remove it")
     else:
-        simpack = name.lower().endswith((".prr", ".prw"))
         mirror = options.mirror in (kind, "both")
         unit, z = (given and given[KINDS.index(kind)] for given in (options.unit, options.z))
         with _named(f"--{kind}"):
-            found = profiles.read(name, kind, None if simpack else unit, z, mirror)
+            found = profiles.read(name, kind, None if _has_own(name, "unit") else unit, z, mirror)
     if not options.smooth:
         return found
     with _named(f"--smooth {options.smooth:g}"):
@@ -278,6 +290,7 @@ def _optioned(error):
         ("unit='mm'", "--unit mm"), ("z='down' or z='up'", "--z down or --z up"),
         ("check gauge", "check --gauge"), ("give height,", "give --height,"),
         ("give a gauge_height", "give a --gauge-height"), ("or gauge_position", "or --gauge-position"),
+        ("give tape_line, y where the radius is the nominal one, or shift", "shift"),
         ("flange_position", "--flange-position"), ("flange_back", "--flange-back"),
     ):  # fmt: skip
         text = text.replace(old, new)
@@ -313,7 +326,7 @@ def _vehicle(options):
 
 
 def _unlike(options):
-    """Whether left and right differ."""
+    """True if left and right differ."""
     return any(left != right for left, right in (options.wheel, options.rail, options.radius))
 
 
@@ -387,10 +400,12 @@ def carry_out(options):
             _picture(options, vehicle, found)
             wrote.append(".png")
     if options.wear is not None:
-        try:
-            wrote += _wear(options, vehicle, states, cores, endings)
-        except Error as error:
-            raise _reworded(error) from error
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", profiles.ProfileWarning)  # of the vehicle: printed above
+            try:
+                wrote += _wear(options, vehicle, states, cores, endings)
+            except Error as error:
+                raise _reworded(error) from error
     if wrote:
         print("wrote " + ", ".join(options.output + ending for ending in wrote))
     return 0

@@ -23,21 +23,9 @@ POINTS = 2000  # of the integral over half a wave
 
 @dataclass(frozen=True, eq=False)
 class Geometry(tables.Tabled):
-    """Contact of rigid wheels over the lateral displacement.
-
-    Attributes
-    ----------
-    y : ndarray
-        Lateral displacements, (n,), m, growing.
-    roll, z : ndarray
-        Of the wheelset, (n,), rad and m.
-    points : ndarray
-        y of the points that touch in the track, right and left, (2, n), m.
-    radii : ndarray
-        Rolling radii, right and left, (2, n), m.
-    radius : float
-        Nominal radius, m.
-    """
+    """Contact of rigid wheels over the lateral displacement y (n,), m, growing: roll (rad) and height z (m) of the
+    wheelset, (n,); y in the track of the points that touch, and rolling radii, right and left, (2, n), m; nominal
+    radius, m."""
 
     y: np.ndarray
     roll: np.ndarray
@@ -52,13 +40,7 @@ class Geometry(tables.Tabled):
         return self.radii[0] - self.radii[1]
 
     def table(self) -> list[tables.Column]:
-        """The numbers over the lateral displacement.
-
-        Returns
-        -------
-        list of Column
-            A row for each displacement.
-        """
+        """The numbers over the lateral displacement, a row for each."""
         rows = (
             ("y", "m", "lateral displacement", self.y), ("roll", "rad", "roll", self.roll),
             ("z", "m", "height", self.z),

@@ -99,54 +99,21 @@ class Settings:
 
 
 class Contacts:
-    """Contacts of two bodies, one for each number of cells.
-
-    Parameters
-    ----------
-    settings : Settings
-        Materials and cells.
-    extrapolate : bool
-        True: loads are extrapolated to fine grids, too; never those of drafts.
-    """
+    """Contacts of two bodies, one for each number of cells, of the materials and cells in the settings. With
+    `extrapolate` loads are extrapolated to fine grids, too; never those of drafts."""
 
     def __init__(self, settings: Settings, extrapolate: bool = True) -> None:
         self.settings, self.extrapolate = settings, extrapolate
         self._kept: OrderedDict[tuple, Contact] = OrderedDict()
 
     def cell(self, draft: bool) -> float:
-        """Width of a cell, m.
-
-        Parameters
-        ----------
-        draft : bool
-            True: that of a draft.
-
-        Returns
-        -------
-        float
-        """
+        """Width of a cell, or of a draft's cell, m."""
         return self.settings.cell * (COARSER if draft else 1)
 
     def of(self, widths: np.ndarray, draft: bool = False) -> Contact:
-        """The contact whose grid covers a box: the last one of these that is little wider, or a new one.
-
-        Parameters
-        ----------
-        widths : ndarray
-            Along x and s, (2,), m.
-        draft : bool
-            True: of coarser cells, and solved less accurately.
-
-        Returns
-        -------
-        Contact
-            Its grid is centred at 0, and wider than the box by a cell at least.
-
-        Raises
-        ------
-        Error
-            If the grid would be too large.
-        """
+        """The contact whose grid covers a box of these widths along x and s (2,), m: the last one that is little wider,
+        or a new one. The grid is centred at 0 and wider than the box by a cell at least; a draft's cells are coarser,
+        and it is solved less accurately. Raises Error if the grid would be too large."""
         cell = self.cell(draft)
         nx, ns = (int(np.ceil((width / cell + 1.0) / MULTIPLE)) * MULTIPLE for width in widths)
         n = nx, ns
@@ -186,21 +153,9 @@ class Contacts:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """A solution on a patch.
-
-    Parameters
-    ----------
-    n : float
-        Normal force, N.
-    shear : ndarray
-        T_x and T_s on the wheel's half-space, (2,), N; those on the rail are of the other sign.
-    moment : float
-        M_z about the patch's origin, N m; that on the rail is of the other sign.
-    numbers : dict
-        Further numbers of the step.
-    advice : list of str
-        Texts of warnings.
-    """
+    """A solution on a patch: normal force n (N); T_x and T_s on the wheel's half-space, (2,), N, and the moment M_z
+    about the patch's origin, N m, both of the other sign on the rail; further numbers of the step; texts of
+    warnings."""
 
     n: float
     shear: np.ndarray
@@ -217,27 +172,9 @@ def solved(
     friction: float,
     middle: Union[np.ndarray, tuple[float, float]],
 ) -> Solution:
-    """Solves steady rolling under an approach and creepages, and keeps the solution as the next one's start.
-
-    Parameters
-    ----------
-    contact : Contact
-        With a grid centred at 0.
-    gap : ndarray
-        Separation of the undeformed bodies, 0 where it is least, (ns, nx), m.
-    approach : float
-        m.
-    creeps : tuple of float
-        Creepages along x and s, and spin (1/m), at the patch's origin.
-    friction : float
-        Coefficient of friction.
-    middle : ndarray
-        The grid's centre in the patch, (2,), m.
-
-    Returns
-    -------
-    Solution
-    """
+    """Solves steady rolling under an approach (m) and creepages along x and s and spin (1/m) at the patch's origin, and
+    keeps the solution as the next one's start. The contact's grid is centred at 0; `gap` is the separation of the
+    undeformed bodies, 0 where it is least, (ns, nx), m; `middle` is the grid's centre in the patch, (2,), m."""
     x, s, spin = creeps
     given = dict(disp_z=approach, rot_x=0.0, rot_y=0.0, friction_scale=friction)
     moved = dict(creep_x=x - spin * middle[1], creep_y=s + spin * middle[0], creep_spin=spin)

@@ -32,15 +32,8 @@ class _Table(ctypes.Structure):
 
 
 class Forces(NamedTuple):
-    """Creep forces.
-
-    Attributes
-    ----------
-    force : ndarray
-        Fx and Fy, N, and Mz, N m, (..., 3).
-    derivative : ndarray or None
-        By xi, eta, phi and N, the half axes held, (..., 3, 4).
-    """
+    """Creep forces Fx and Fy, N, and Mz, N m, (..., 3), and their derivatives by xi, eta, phi and N, the half axes
+    held, (..., 3, 4), or None."""
 
     force: np.ndarray
     derivative: Optional[np.ndarray]
@@ -92,21 +85,8 @@ class FallingFriction:
 
 
 def slip(a: ArrayLike, b: ArrayLike, xi: ArrayLike, eta: ArrayLike, phi: ArrayLike) -> np.ndarray:
-    """The rigid slip over the rolled distance: the root of its mean square, weighted by Hertz's pressure.
-
-    Parameters
-    ----------
-    a, b : float or ndarray
-        Half axes along and across the rolling direction, m.
-    xi, eta : float or ndarray
-        Creepages.
-    phi : float or ndarray
-        Spin, 1/m.
-
-    Returns
-    -------
-    ndarray
-    """
+    """The rigid slip over the rolled distance: the root of its mean square, weighted by Hertz's pressure, by the half
+    axes along and across the rolling direction (m), creepages, and spin (1/m)."""
     contacts, shape = _rows(*[0.0] * 4, a, b, xi, eta, phi)
     one = library().petsam_creep_slip
     return np.reshape([one(at) for at in _addresses(contacts)], shape)

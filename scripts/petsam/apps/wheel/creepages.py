@@ -16,20 +16,10 @@ from .pose import Frame, Position
 
 
 class Creepages(NamedTuple):
-    """Creepages of the rail relative to the wheel.
-
-    Attributes
-    ----------
-    x, s : float
-        Along the patch's axes.
-    spin : float
-        About its normal, 1/m.
-    speed : float
-        The rolling speed that they are relative to, m/s.
-    pitch : tuple of float
-        Velocity of the wheel along both axes, m, and its rate about the normal, 1, of a unit pitch rate: products with
-        the forces and the moment on the wheel are their torque about the axle.
-    """
+    """Creepages of the rail relative to the wheel, along the patch's axes x and s, spin about its normal (1/m), and the
+    rolling speed that they are relative to, m/s. `pitch` is the velocity of the wheel along both axes, m, and its rate
+    about the normal, 1, of a unit pitch rate: products with the forces and the moment on the wheel are their torque
+    about the axle."""
 
     x: float
     s: float
@@ -41,32 +31,8 @@ class Creepages(NamedTuple):
 def creepages(
     rail: Union[Track, Roller], frame: Frame, pitch: float, position: Position, place: Place, approach: float
 ) -> Creepages:
-    """The creepages of a patch.
-
-    Parameters
-    ----------
-    rail : Track or Roller
-        The rail.
-    frame : pose.Frame
-        Place of the wheelset.
-    pitch : float
-        Pitch rate of the wheelset, rad/s.
-    position : Position
-        Its speeds.
-    place : Place
-        The patch.
-    approach : float
-        Approach of the bodies along its normal, m.
-
-    Returns
-    -------
-    Creepages
-
-    Raises
-    ------
-    Error
-        If nothing moves along the rail: creepages are relative to the rolling speed.
-    """
+    """The creepages of a patch, of a wheelset with its pitch rate (rad/s) and speeds, under an approach along the
+    normal (m). Raises Error if nothing moves along the rail: creepages are relative to the rolling speed."""
     point = place.origin + approach * place.axes[2]
     arm = point - frame.centre
     rates = frame.rotation @ np.array([position.roll_rate, pitch, position.yaw_rate])

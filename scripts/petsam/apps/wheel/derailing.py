@@ -22,53 +22,22 @@ STATES = ("on rail", "may climb", "derailed")
 
 
 def nadal(angle: float, friction: float) -> float:
-    """Nadal's limit of Y/Q.
-
-    Parameters
-    ----------
-    angle : float
-        Inclination of the contact, rad, positive.
-    friction : float
-        Coefficient of friction.
-
-    Returns
-    -------
-    float
-        Negative below the angle of friction.
-    """
+    """Nadal's limit of Y/Q by the contact's inclination, rad, positive; negative below the angle of friction."""
     slope = math.tan(angle)
     return (slope - friction) / (1.0 + friction * slope)
 
 
 @dataclass(frozen=True)
 class Flange:
-    """The steepest place of a flange, on the side of the tread.
-
-    Attributes
-    ----------
-    y : float
-        Of the profile, m; of a plane face its end towards the tip.
-    angle : float
-        rad.
-    """
+    """The steepest place of a flange, on the side of the tread: y of the profile, m, of a plane face its end towards
+    the tip, and its angle, rad."""
 
     y: float
     angle: float
 
 
 def flange(wheel: Wheelset) -> Optional[Flange]:
-    """The steepest place of a wheel's flange.
-
-    Parameters
-    ----------
-    wheel : Wheelset
-        The wheel.
-
-    Returns
-    -------
-    Flange
-        None of a wheel without a flange.
-    """
+    """The steepest place of a wheel's flange; None of a wheel without one."""
     y, z, slope = wheel.line
     tip = int(np.argmax(z))
     tread = float(np.median(z[tip:]))
@@ -93,24 +62,10 @@ def _face(y, z, slope):
 
 @dataclass(frozen=True)
 class Climb:
-    """How near a wheel is to derailment.
-
-    Attributes
-    ----------
-    side : str
-        right or left.
-    ratio : float
-        Y/Q: lateral over vertical force on the rail, positive outwards.
-    limit : float
-        Nadal's limit at the flange's steepest place; NaN without a flange.
-    angle : float
-        Inclination of the contact that is nearest to the flange's tip, rad, positive on the flange; the steepest of
-        the flange where this contact is not beyond it.
-    state : str
-        One of STATES.
-    friction : float
-        Of that contact.
-    """
+    """How near a wheel is to derailment, right or left: Y/Q, the lateral (positive outwards) over the vertical force on
+    the rail; Nadal's limit at the flange's steepest place, NaN without a flange; inclination of the contact nearest to
+    the flange's tip, rad, positive on the flange, or of the flange's steepest place where this contact is not beyond
+    it; one of STATES; and that contact's friction."""
 
     side: str
     ratio: float
@@ -136,19 +91,7 @@ class Climb:
 
 
 def climb(result: Result, wheel: Wheelset) -> Climb:
-    """How near a wheel is to derailment.
-
-    Parameters
-    ----------
-    result : Result
-        Its solution, in the track's axes.
-    wheel : Wheelset
-        The wheel, as a right one.
-
-    Returns
-    -------
-    Climb
-    """
+    """How near a wheel (as a right one) is to derailment, by its solution in the track's axes."""
     sign = 1.0 if result.side == "right" else -1.0
     force, face = result.force, flange(wheel)
     ratio = float(sign * force[1] / force[2]) if force[2] > 0.0 else math.nan

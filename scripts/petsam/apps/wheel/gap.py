@@ -21,26 +21,8 @@ FAR = 1e-3  # m: the gap beyond the ends of the profiles, above that of all othe
 def separation(
     rail: Union[Track, Roller], wheel: Wheelset, frame: Frame, place: Place, x: np.ndarray, s: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """n of the rail less n of the wheel at places of a patch, negative where they overlap, and y of the rail there.
-
-    Parameters
-    ----------
-    rail : Track or Roller
-        The rail.
-    wheel : Wheelset
-        The wheel.
-    frame : pose.Frame
-        Place of the wheelset.
-    place : Place
-        The patch.
-    x, s : ndarray
-        In the patch, (nx,) and (ns,), m.
-
-    Returns
-    -------
-    separation, y : ndarray
-        (ns, nx), m; beyond the ends of the visible profiles the separation is large.
-    """
+    """n of the rail less n of the wheel at places x (nx,) and s (ns,) of a patch, m, negative where they overlap, and y
+    of the rail there, (ns, nx), m each; beyond the ends of the visible profiles the separation is large."""
     axes = place.axes
     along, across = np.meshgrid(x, s)
     points = place.origin[:, None, None] + axes[0][:, None, None] * along + axes[1][:, None, None] * across

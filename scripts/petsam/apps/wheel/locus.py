@@ -24,15 +24,8 @@ PASSES = 12  # of the relaxed iteration on rollers: 6 reach rounding
 
 @dataclass(frozen=True, eq=False)
 class Locus:
-    """The line of the wheel that can touch, in the track, of a wheelset at z = 0.
-
-    Parameters
-    ----------
-    y : ndarray
-        Of points of the line, growing, (n,), m.
-    points : ndarray
-        Their x and z, (2, n), m.
-    """
+    """The line of the wheel that can touch, in the track, of a wheelset at z = 0: y of its points, growing, (n,), m,
+    and their x and z, (2, n), m."""
 
     y: np.ndarray
     points: np.ndarray
@@ -48,18 +41,7 @@ class Locus:
         return float(self.y[-1])
 
     def at(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """x and z of the line at y in the track, by the cubic through the four nearest points.
-
-        Parameters
-        ----------
-        y : ndarray
-            m.
-
-        Returns
-        -------
-        x, z : ndarray
-            m.
-        """
+        """x and z of the line at y in the track, m, by the cubic through the four nearest points."""
         k = np.clip(np.searchsorted(self.y, y) - 2, 0, self.y.size - 4)
         divided = [self.points]  # differences of Newton's form
         for order in (1, 2, 3):
@@ -78,43 +60,15 @@ def _angles(row, slope):
 
 
 def locus(rail: Union[Track, Roller], wheel: Wheelset, rotation: np.ndarray, aside: float) -> Locus:
-    """The line of the wheel that can touch the rail.
-
-    Parameters
-    ----------
-    rail : Track or Roller
-        The rail.
-    wheel : Wheelset
-        The wheel.
-    rotation : ndarray
-        R of the wheelset, (3, 3).
-    aside : float
-        Lateral displacement of the wheelset, m.
-
-    Returns
-    -------
-    Locus
-    """
+    """The line of the wheel that can touch the rail, for the wheelset's R (3, 3) and lateral displacement (m)."""
     return _growing(_points(rail, wheel, rotation, aside, wheel.line))
 
 
 def near(
     rail: Union[Track, Roller], wheel: Wheelset, rotation: np.ndarray, aside: float, reach: float
 ) -> Optional[tuple[Locus, tuple[float, float]]]:
-    """The part of the line on which the gap may be within a reach of its least value.
-
-    Parameters
-    ----------
-    rail, wheel, rotation, aside
-        See locus().
-    reach : float
-        m.
-
-    Returns
-    -------
-    Locus and (float, float), or None
-        The part, and the ends of the whole line, m; None where the whole line is needed.
-    """
+    """The part of the line on which the gap may be within a reach (m) of its least value, and the ends of the whole
+    line, m; None where the whole line is needed. See also locus()."""
     whole = wheel.line
     picked = np.append(np.arange(0, whole[0].size - 1, COARSE), whole[0].size - 1)
     x, y, z = _points(rail, wheel, rotation, aside, tuple(values[picked] for values in whole))

@@ -23,48 +23,16 @@ STATED = re.compile(r"\s*([A-Za-z][\w .]*?)\s*=(.*)")  # Name=value
 
 
 def is_one(path: str) -> bool:
-    """Whether a file is one of MiniProf, by its ending or its line ColumnDef.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-
-    Returns
-    -------
-    bool
-    """
+    """True if a file is one of MiniProf, by its ending or its line ColumnDef."""
     if os.path.splitext(path)[1].lower() in ENDINGS:
         return True
     return any(re.match(r"\s*ColumnDef\s*=", line, re.I) for line in lines_of(text_of(path)))
 
 
 def read(path: str, kind: str, unit: str = "", z: str = "") -> Profile:
-    """The profile in a file of MiniProf.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-    kind : str
-        rail or wheel.
-    unit : str
-        Of lengths; mm by default.
-    z : str
-        Direction of Y in the file, down or up. By default down of a wheel; of a rail the one in which its head is
-        convex.
-
-    Returns
-    -------
-    Profile
-
-    Raises
-    ------
-    Error
-        If the kind is not given, a line is no point, or points are missing; with file and line.
-    MissingFile
-        If there is no such file.
-    """
+    """The profile of a kind, rail or wheel, in a file of MiniProf. Lengths are in mm by default. By default Y is down
+    (z="down") of a wheel; of a rail in the direction in which its head is convex. Raises Error if the kind is not
+    given, a line is no point, or points are missing; with file and line."""
     if kind not in KINDS:
         raise Unusable(f"{path}: a file of MiniProf does not state what it is: give kind='rail' or kind='wheel'")
     scale = units.size(unit or "mm")
@@ -80,7 +48,7 @@ def read(path: str, kind: str, unit: str = "", z: str = "") -> Profile:
 
 
 def _convex(points):
-    """Whether the ends of a rail's points have the greater heights: they are down."""
+    """True if the ends of a rail's points have the greater heights: they are down."""
     y, z = points.T
     middle = abs(y - 0.5 * (y.min() + y.max())) < 0.25 * (y.max() - y.min())
     inside, outside = (z[middle], z[~middle]) if middle.any() and not middle.all() else (z, z)

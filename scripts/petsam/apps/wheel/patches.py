@@ -20,19 +20,9 @@ SMALLEST = 1e-4  # of the deepest overlap: regions below it carry nothing that c
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """An interval of y in which the undeformed bodies overlap.
-
-    Parameters
-    ----------
-    x, y, z : ndarray
-        Of the locus' x and of points on the rail, the ends included, (n,), m.
-    overlap : ndarray
-        (n,), m; 0 at the ends.
-    angle : ndarray
-        Inclination of the rail, (n,), rad.
-    at_end : bool
-        True where the region reaches the end of a profile.
-    """
+    """An interval of y in which the undeformed bodies overlap: x of the locus, y and z of points on the rail, and
+    overlap, m, 0 at the ends, and inclination of the rail, rad, (n,) each, the ends included. `at_end` is true where
+    the region reaches the end of a profile."""
 
     x: np.ndarray
     y: np.ndarray
@@ -47,70 +37,25 @@ class Region:
         return self.overlap**2.5
 
     def mean(self, values: np.ndarray) -> float:
-        """Weighted mean of values at the points.
-
-        Parameters
-        ----------
-        values : ndarray
-            (n,).
-
-        Returns
-        -------
-        float
-        """
+        """Weighted mean of values (n,) at the points."""
         return float(np.average(values, weights=self.weights))
 
     def joined(self, other: "Region") -> "Region":
-        """This region and the next one as one.
-
-        Parameters
-        ----------
-        other : Region
-            The next one.
-
-        Returns
-        -------
-        Region
-        """
+        """This region and the next one as one."""
         names = ("x", "y", "z", "overlap", "angle")
         arrays = {name: np.concatenate([getattr(self, name), getattr(other, name)]) for name in names}
         return Region(**arrays, at_end=self.at_end or other.at_end)
 
     def distance(self, other: "Region") -> float:
-        """Distance from the end of this region to the start of the next one.
-
-        Parameters
-        ----------
-        other : Region
-            The next one.
-
-        Returns
-        -------
-        float
-            m.
-        """
+        """Distance from the end of this region to the start of the next one, m."""
         return float(np.hypot(other.y[0] - self.y[-1], other.z[0] - self.z[-1]))
 
 
 @dataclass(frozen=True, eq=False)
 class Place:
-    """The frame of a patch and the box of its overlap.
-
-    Parameters
-    ----------
-    origin : ndarray
-        On the rail, (3,), m.
-    angle : float
-        d, rad.
-    low, high : ndarray
-        Corners of the box in the patch's x and s, (2,), m.
-    weight : float
-        Of the patch in means over patches.
-    at_end : bool
-        True where the overlap reaches the end of a profile.
-    line : ndarray, optional
-        x and s in the patch of the points of its region, and the overlap there along the normal, (3, n), m.
-    """
+    """The frame of a patch and the box of its overlap: origin on the rail, (3,), m; angle d, rad; corners of the box in
+    the patch's x and s, (2,), m; its weight in means over patches; `at_end`, true where the overlap reaches the end of
+    a profile; and x and s of the points of its region with the overlap there along the normal, (3, n), m."""
 
     origin: np.ndarray
     angle: float
@@ -129,21 +74,9 @@ class Place:
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """Gap of the undeformed bodies along the locus, at z = 0 of the wheelset.
-
-    Parameters
-    ----------
-    rail : Track or Roller
-        The rail.
-    radius : float
-        Nominal radius of the wheel, m.
-    x, y, z : ndarray
-        Of the locus' x and of points on the rail above it, (n,), m.
-    gap : ndarray
-        (n,), m.
-    cut : tuple of bool
-        True at the end of the points that is none of a visible profile, first and last.
-    """
+    """Gap (n,), m, of the undeformed bodies along the locus, at z = 0 of the wheelset, over x of the locus and y and z
+    of points on the rail above it, (n,), m, for the wheel's nominal radius, m. `cut` is true where the first or last
+    point is not the end of a visible profile."""
 
     rail: Union[Track, Roller]
     radius: float
@@ -163,18 +96,8 @@ class Search:
         return float(b - 0.125 * (c - a) ** 2 / (a - 2.0 * b + c)) if a - 2.0 * b + c > 0.0 else float(b)
 
     def regions(self, z: float) -> list[Region]:
-        """The regions of overlap at a height.
-
-        Parameters
-        ----------
-        z : float
-            Of the wheelset, m.
-
-        Returns
-        -------
-        list of Region
-            In growing y; without those that carry nothing that counts.
-        """
+        """The regions of overlap at a height of the wheelset, m, in growing y, without those that carry nothing that
+        counts."""
         overlap = z - self.gap
         inside = np.concatenate([[False], overlap > 0.0, [False]])
         edges = np.flatnonzero(np.diff(inside.astype(int)))
@@ -194,36 +117,14 @@ class Search:
         return Region(x, y, z, np.maximum(depth, 0.0), np.arctan(self.rail.section.slope(y)), bool(at_end))
 
     def place(self, region: Region) -> Place:
-        """The frame and the box of a patch on a region.
-
-        Parameters
-        ----------
-        region : Region
-            The region.
-
-        Returns
-        -------
-        Place
-        """
+        """The frame and the box of a patch on a region."""
         x, y, angle = (region.mean(values) for values in (region.x, region.y, region.angle))
         origin = np.array([x, y, float(self.rail.surface(np.array(x), np.array(y)))])
         place = Place(origin, angle, origin[:2], origin[:2], float(region.weights.sum()), region.at_end)
         return self.boxed(place, region)
 
     def boxed(self, place: Place, region: Region) -> Place:
-        """A patch with its box along the axes of its angle.
-
-        Parameters
-        ----------
-        place : Place
-            Its frame.
-        region : Region
-            Its region.
-
-        Returns
-        -------
-        Place
-        """
+        """A patch on a region with its box along the axes of its angle."""
         curvature = 1.0 / self.radius + 1.0 / self.rail.roller_radius
         half = np.sqrt(2.0 * region.overlap / curvature)
         s = (region.y - place.origin[1]) * place.axes[1, 1] + (region.z - place.origin[2]) * place.axes[1, 2]
@@ -242,24 +143,8 @@ def _zero(one, other):
 def search(
     rail: Union[Track, Roller], radius: float, line: Locus, ends: Optional[tuple[float, float]] = None
 ) -> Optional[Search]:
-    """The gap along the locus where rail and wheel are both visible.
-
-    Parameters
-    ----------
-    rail : Track or Roller
-        The rail.
-    radius : float
-        Nominal radius of the wheel, m.
-    line : Locus
-        The locus, or its part that counts.
-    ends : tuple of float, optional
-        Ends of the whole locus, m, where a part is given: its points are then some of those of the whole.
-
-    Returns
-    -------
-    Search or None
-        None where the wheel is beside the rail.
-    """
+    """The gap along the locus, or its part that counts, where rail and wheel are both visible; None where the wheel is
+    beside the rail. The points of a part are some of those of the whole, whose `ends` (m) are given with it."""
     first, last = ends or (line.first, line.last)
     first, last = max(rail.section.first, first), min(rail.section.last, last)
     if last - first < 4.0 * STEP:
@@ -273,19 +158,7 @@ def search(
 
 
 def merged(regions: Sequence[Region], separation: float) -> list[Region]:
-    """Regions whose distance is up to a separation as one.
-
-    Parameters
-    ----------
-    regions : sequence of Region
-        In growing y.
-    separation : float
-        m.
-
-    Returns
-    -------
-    list of Region
-    """
+    """Regions, in growing y, with those whose distance is up to a separation (m) as one."""
     found = list(regions[:1])
     for region in regions[1:]:
         if found[-1].distance(region) <= separation:
@@ -296,24 +169,9 @@ def merged(regions: Sequence[Region], separation: float) -> list[Region]:
 
 
 def places(search: Search, regions: Sequence[Region], separation: float, combination: float) -> list[Place]:
-    """The patches of regions: near ones share a grid, and those a little farther apart are turned towards each other.
-
-    Parameters
-    ----------
-    search : Search
-        Has made the regions.
-    regions : sequence of Region
-        In growing y.
-    separation : float
-        Distance up to which two regions share a grid, m.
-    combination : float
-        Below `separation`, m: neighbours between `separation` and 2 separation - combination are turned towards their
-        mean angle, so that forces do not jump where they merge.
-
-    Returns
-    -------
-    list of Place
-    """
+    """The patches of regions, in growing y: those up to `separation` (m) apart share a grid; neighbours between
+    `separation` and 2 separation - combination (m, below `separation`) are turned towards their mean angle, so that
+    forces do not jump where they merge."""
     regions = merged(regions, separation)
     found = [search.place(region) for region in regions]
     apart = np.array([one.distance(other) for one, other in zip(regions, regions[1:])])

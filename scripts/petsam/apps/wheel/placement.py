@@ -31,6 +31,8 @@ TIP = (0.0, 0.05)  # m from a flange's back to its tip
 USUAL = (0.008, 0.025)  # m: the same of most flanges
 FACE = (0.005, 0.06)  # m from a rail's top to its gauge face, along y
 BESIDE = 2e-3  # m from the flange's back in a profile to the one that is stated
+TAPE = 0.07  # m from the flange's back to the tape circle
+FAR = 0.01  # m: no tread, new or worn, is farther from the nominal radius there
 
 
 def _need(value, what, low, high, cure):
@@ -171,6 +173,20 @@ def _doubt_back(profile, position):
         warnings.warn(
             f"{profile.name}: the flange's back is at y = {1e3 * back:.4g} mm of the profile, and flange_position is "
             f"{1e3 * position:.4g} mm: give flange_position {1e3 * back:.4g}mm, unless the flange's back is elsewhere",
+            ProfileWarning,
+            stacklevel=4,
+        )
+
+
+def _doubt_height(profile, section, position):
+    """Warns of a wheel whose tread is far from z = 0 of the profile, where its radius counts."""
+    tape = position + TAPE
+    z = float(section.height(np.array(tape)))
+    if section.first <= tape <= section.last and abs(z) > FAR:
+        warnings.warn(
+            f"{profile.name}: its z is {1e3 * z:.4g} mm at the tape circle, y = {1e3 * tape:.4g} mm, and the radius "
+            "counts at z = 0: give tape_line, y where the radius is the nominal one, or shift the profile's z to 0 "
+            "there",
             ProfileWarning,
             stacklevel=4,
         )
@@ -461,7 +477,8 @@ class Wheelset:
 
     Notes
     -----
-    A ProfileWarning is issued of a profile that goes round its flange to a back at another y.
+    A ProfileWarning is issued of a profile that goes round its flange to a back at another y, and, without a tape line,
+    of one whose z is beyond 10 mm at the tape circle, 70 mm from the flange's back.
     """
 
     profile: Profile
@@ -481,7 +498,9 @@ class Wheelset:
         section = visible(self.profile)
         _need_back(self.profile, section, self.flange_position)
         _doubt_back(self.profile, self.flange_position)
-        if self.tape_line is not None and not section.first <= self.tape_line <= section.last:
+        if self.tape_line is None:
+            _doubt_height(self.profile, section, self.flange_position)
+        elif not section.first <= self.tape_line <= section.last:
             raise Error(f"tape_line {self.tape_line:g}: the profile is from {section.first:g} to {section.last:g} m")
         if not 0.5 * self.radius < self.section.z.min() + self.radius:
             raise Error(f"radius {self.radius:g}: the profile is too deep for it: check the units of both")

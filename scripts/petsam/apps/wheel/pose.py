@@ -123,31 +123,12 @@ class Position:
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """Place of the wheelset's axes in the track.
-
-    Parameters
-    ----------
-    rotation : ndarray
-        (3, 3).
-    centre : ndarray
-        The wheelset's centre, (3,), m.
-    """
+    """Place of the wheelset's axes in the track: rotation, (3, 3), and centre, (3,), m."""
 
     rotation: np.ndarray
     centre: np.ndarray
 
     def inward(self, points: np.ndarray) -> np.ndarray:
-        """Points of the track in the wheelset's axes.
-
-        Parameters
-        ----------
-        points : ndarray
-            (3, ...), m.
-
-        Returns
-        -------
-        ndarray
-            (3, ...), m.
-        """
+        """Points of the track in the wheelset's axes, (3, ...), m."""
         centre = self.centre.reshape(3, *[1] * (points.ndim - 1))
         return np.tensordot(self.rotation.T, points - centre, axes=1)

@@ -183,27 +183,9 @@ class _Laid:
 
 
 class Case:
-    """A position but for its height: the locus, and the patches at a height.
-
-    Parameters
-    ----------
-    pair : Pair
-        A wheel on its rail.
-    position : Position
-        As a right wheel has it; its z does not count.
-
-    Attributes
-    ----------
-    search : patches.Search
-        Gap of the undeformed bodies, with the height at which they touch.
-    passes : int
-        Solutions so far.
-
-    Raises
-    ------
-    Error
-        If the wheel is beside the rail.
-    """
+    """A position but for its height: the locus, and the patches at a height, of a wheel on its rail in the position of
+    a right wheel, whose z does not count. `search` has the gap and the height at which the bodies touch; `passes`
+    counts the solutions. Raises Error if the wheel is beside the rail."""
 
     def __init__(self, pair: Pair, position: Position) -> None:
         self.pair, self.position, self.passes = pair, position, 0
@@ -231,48 +213,15 @@ class Case:
         return search(pair.rail, pair.wheel.radius, locus(pair.rail, pair.wheel, self.rotation, self.position.y))
 
     def at(self, z: float, draft: Optional[Result] = None) -> Result:
-        """The solution at a height.
-
-        Parameters
-        ----------
-        z : float
-            Of the wheelset, m.
-        draft : Result, optional
-            A draft of a right wheel near it: grids need not be larger than its contacts. The solution does not depend
-            on it.
-
-        Returns
-        -------
-        Result
-            That of a right wheel.
-
-        Raises
-        ------
-        Error
-            If the bodies overlap too much.
-        """
+        """The solution of a right wheel at a height of the wheelset, m. Grids need not be larger than the contacts of a
+        draft near it, on which the solution does not depend. Raises Error if the bodies overlap too much."""
         self.passes += 1
         self._warned = []
         return self._result(z, self._patch, draft)
 
     def draft(self, z: float) -> Result:
-        """A draft of the solution at a height, on coarser cells: a fraction of the work of at().
-
-        Parameters
-        ----------
-        z : float
-            Of the wheelset, m.
-
-        Returns
-        -------
-        Result
-            That of a right wheel; its patches are Drafted.
-
-        Raises
-        ------
-        Error
-            If the bodies overlap too much.
-        """
+        """A draft of the solution of a right wheel at a height of the wheelset, m, on coarser cells: a fraction of the
+        work of at(); its patches are Drafted. Raises Error if the bodies overlap too much."""
 
         def patch(frame, place, _):
             laid = self._laid(frame, place, True)

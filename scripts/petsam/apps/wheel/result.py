@@ -41,21 +41,10 @@ class DerailWarning(UserWarning):
 
 @dataclass(frozen=True, eq=False)
 class Drafted:
-    """The forces of a contact patch, by a draft of its solution.
-
-    Attributes
-    ----------
-    centre : ndarray
-        Centre of pressure in the track, (3,), m.
-    angle : float
-        Inclination of the patch, rad.
-    n, fx, fs : float
-        Normal force, and forces on the rail along x and s, N.
-    low, high : ndarray
-        Corners of a box in the patch's x and s, of a right wheel, which has the contact and a cell around it, (2,), m.
-    torque : float
-        That of the tangential forces on the wheel about its axle, N m.
-    """
+    """The forces of a contact patch, by a draft of its solution: centre of pressure in the track, (3,), m; inclination,
+    rad; normal force and forces on the rail along x and s, N; corners in the patch's x and s, (2,), m, of a right
+    wheel, of a box around the contact and a cell more; torque (N m) of the tangential forces on the wheel about its
+    axle."""
 
     centre: np.ndarray
     angle: float
@@ -72,12 +61,7 @@ class Drafted:
         return _in_track(self)
 
     def mirrored(self) -> "Drafted":
-        """The patch as seen in a mirror in the plane y = 0.
-
-        Returns
-        -------
-        Drafted
-        """
+        """The patch as seen in a mirror in the plane y = 0."""
         return replace(self, centre=self.centre * np.array([1.0, -1.0, 1.0]), angle=-self.angle, fs=-self.fs)
 
 

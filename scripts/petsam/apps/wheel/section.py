@@ -25,13 +25,7 @@ STEEP = 1.0  # slope of a flange, at least
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """The visible part of a profile.
-
-    Parameters
-    ----------
-    y, z : ndarray
-        Points in growing y, (n,), m.
-    """
+    """The visible part of a profile: y and z of points in growing y, (n,), m."""
 
     y: np.ndarray
     z: np.ndarray
@@ -61,77 +55,25 @@ class Section:
         return float(self.y[-1])
 
     def height(self, y: np.ndarray) -> np.ndarray:
-        """z at y, m; beyond an end that at the end.
-
-        Parameters
-        ----------
-        y : ndarray
-            m.
-
-        Returns
-        -------
-        ndarray
-        """
+        """z at y, m; beyond an end that at the end."""
         return self._spline(np.clip(y, self.first, self.last))
 
     def slope(self, y: np.ndarray) -> np.ndarray:
-        """dz/dy at y; beyond an end that at the end.
-
-        Parameters
-        ----------
-        y : ndarray
-            m.
-
-        Returns
-        -------
-        ndarray
-        """
+        """dz/dy at y (m); beyond an end that at the end."""
         return self._derivative(np.clip(y, self.first, self.last))
 
     def height_and_slope(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """z and dz/dy at y, in less time than one after the other.
-
-        Parameters
-        ----------
-        y : ndarray
-            m.
-
-        Returns
-        -------
-        height, slope : ndarray
-            As height() and slope().
-        """
+        """z (m) and dz/dy at y, in less time than height() and slope()."""
         found = self._both(np.minimum(np.maximum(y, self.y[0]), self.y[-1]))
         return found[..., 0], found[..., 1]
 
     def moved(self, dy: float, dz: float) -> "Section":
-        """The section moved along y and z.
-
-        Parameters
-        ----------
-        dy, dz : float
-            m.
-
-        Returns
-        -------
-        Section
-        """
+        """The section moved along y and z, m."""
         return Section(self.y + dy, self.z + dz)
 
 
 def path(profile: Profile) -> CubicSpline:
-    """The curve (y, z) over the chord length, in the direction of growing y.
-
-    Parameters
-    ----------
-    profile : Profile
-        The points.
-
-    Returns
-    -------
-    CubicSpline
-        Values have the shape (..., 2), m.
-    """
+    """The curve (y, z), (..., 2), m, through a profile's points over the chord length, towards growing y."""
     points = np.column_stack([profile.y, profile.z])
     if profile.y[0] > profile.y[-1]:
         points = points[::-1]
@@ -140,39 +82,14 @@ def path(profile: Profile) -> CubicSpline:
 
 
 def fine(curve: CubicSpline) -> np.ndarray:
-    """Chord lengths along a curve in small steps.
-
-    Parameters
-    ----------
-    curve : CubicSpline
-        Of path().
-
-    Returns
-    -------
-    ndarray
-        m.
-    """
+    """Chord lengths along a curve of path() in small steps, m."""
     length = float(curve.x[-1])
     return np.linspace(0.0, length, int(np.ceil(length / FINE)) + 1)
 
 
 def visible(profile: Profile) -> Section:
-    """The part of a profile that the other body can see: the longest one without folds and slopes above 11.
-
-    Parameters
-    ----------
-    profile : Profile
-        The points.
-
-    Returns
-    -------
-    Section
-
-    Raises
-    ------
-    Error
-        If other parts of the profile lie before it: a profile that is folded, unsorted or upside down.
-    """
+    """The part of a profile that the other body can see: the longest one without folds and slopes above 11. Raises
+    Error if other parts of the profile lie before it: a profile that is folded, unsorted or upside down."""
     profile.need_forward()
     curve = path(profile)
     s = fine(curve)
@@ -264,7 +181,7 @@ def _need_flange_inside(profile, section):
 
 
 def _steep(section, index):
-    """Whether a profile is as steep as a flange between its middle and a point."""
+    """True if a profile is as steep as a flange between its middle and a point."""
     first, last = sorted((index, len(section.y) // 2))
     slopes = section.slope(section.y[first : last + 1])
     return bool(np.abs(slopes).max() > STEEP)

@@ -28,7 +28,7 @@ MODES = ("mirror.y", "mirror.z", "inversion")
 
 @dataclass
 class _File:
-    """What a file states: its kind, numbers by key, and points."""
+    """The contents of a file: its kind, numbers by key, and points."""
 
     kind: str = ""
     given: dict[str, float] = field(default_factory=dict)
@@ -37,28 +37,8 @@ class _File:
 
 
 def read(path: str) -> Profile:
-    """The profile in a file of SIMPACK.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-
-    Returns
-    -------
-    Profile
-
-    Raises
-    ------
-    Error
-        If the file has an unknown key, a wrong number, no points or no end; with file and line.
-    MissingFile
-        If there is no such file.
-
-    Notes
-    -----
-    A ProfileWarning is issued of approx.smooth, which is not used.
-    """
+    """The profile in a file of SIMPACK. Raises Error, with file and line, if it has an unknown key, a wrong number, no
+    points or no end; a ProfileWarning is issued of approx.smooth, which is not used."""
     found = _parsed(path)
     if found.given.get("approx.smooth"):
         warnings.warn(f"{path}: approx.smooth is not used: see Profile.smoothed()", ProfileWarning, stacklevel=3)
@@ -166,5 +146,5 @@ def _far_enough(table, least):
 
 
 def _within(values, low, high):
-    """Whether values are within bounds; bounds with low >= high do not count."""
+    """True where values are within bounds; bounds with low >= high do not count."""
     return np.ones(len(values), bool) if low >= high else (values >= low) & (values <= high)

@@ -41,22 +41,9 @@ LONGER = 4.0  # times as deep may the jumps be that only give the error
 
 @dataclass(frozen=True)
 class Law:
-    """How a wheel wears.
-
-    Parameters
-    ----------
-    name : str
-        energy: volume per work of friction; archard: volume per normal force and way slipped.
-    coefficient : float
-        m3/J, or 1/Pa: both the same unit.
-    wavelength : float
-        Waves of the worn depth of this length are halved, m.
-
-    Raises
-    ------
-    Error
-        If a number or the name is none.
-    """
+    """How a wheel wears: "energy", by volume per work of friction, or "archard", by volume per normal force and
+    accumulated slip, with its coefficient (m3/J, or 1/Pa: the same unit). Waves of the worn depth of the length
+    `wavelength` (m) are halved. Raises Error if a number or the name is none."""
 
     name: str = "energy"
     coefficient: float = 1e-14
@@ -126,20 +113,8 @@ class Worn(tables.Tabled):
 
 
 def rows_of(equilibrium: Equilibrium, law: str) -> list[tuple[np.ndarray, np.ndarray, float]]:
-    """What wears each place of the profile in one revolution.
-
-    Parameters
-    ----------
-    equilibrium : Equilibrium
-        A position.
-    law : str
-        See Law.
-
-    Returns
-    -------
-    list of tuple
-        Of each patch y of the profile at its rows of cells (m), J/m2 or N/m there, and the wheel's circumference (m).
-    """
+    """The wear load of each place of the profile in one revolution, by the name of a Law: of each patch y of the
+    profile at its rows of cells (m), J/m2 or N/m there, and the wheel's circumference (m)."""
     found = []
     for result, radius in zip(equilibrium.wheels, equilibrium.radii):
         for patch in result.patches:
@@ -148,22 +123,8 @@ def rows_of(equilibrium: Equilibrium, law: str) -> list[tuple[np.ndarray, np.nda
 
 
 def depth_rates(y: np.ndarray, rows: Sequence, coefficient: float) -> np.ndarray:
-    """Worn depth per distance at places of a profile, of the mean of both wheels.
-
-    Parameters
-    ----------
-    y : ndarray
-        Places, (n,), m.
-    rows : sequence
-        Of rows_of().
-    coefficient : float
-        m3/J or 1/Pa.
-
-    Returns
-    -------
-    ndarray
-        (n,).
-    """
+    """Worn depth per distance at places y (n,), m, of a profile, (n,), of the mean of both wheels, by the rows of
+    rows_of() and a coefficient, m3/J or 1/Pa."""
     total = np.zeros_like(y)
     for places, work, around in rows:
         order = np.argsort(places)
@@ -194,23 +155,8 @@ def _smoothed(depth, s, wavelength):
 
 
 def shares(states: Sequence[State]) -> np.ndarray:
-    """Shares of the distance.
-
-    Parameters
-    ----------
-    states : sequence of State
-        The spectrum, with its weights.
-
-    Returns
-    -------
-    ndarray
-        (n,), whose sum is 1.
-
-    Raises
-    ------
-    Unusable
-        If a weight is below 0 or not finite, or none is above 0; with the position, or its line.
-    """
+    """Shares of the distance, (n,), whose sum is 1, by the weights of a spectrum. Raises Unusable if a weight is below
+    0 or not finite, or none is above 0; with the position, or its line."""
     weights = np.array([state.weight for state in states], dtype=float)
     for k, (weight, state) in enumerate(zip(weights, states), 1):
         if not 0.0 <= weight < np.inf:
@@ -222,19 +168,9 @@ def shares(states: Sequence[State]) -> np.ndarray:
 
 
 def estimate(vehicle: batch.Vehicle, states: Sequence[State], law: Law) -> float:
-    """Worn depth per distance of the new profile, roughly, without a solution of a contact.
-
-    Parameters
-    ----------
-    vehicle, states, law
-        See wear().
-
-    Returns
-    -------
-    float
-        Of a round patch by Hertz under half the axle load, which creeps by yaw, half the rolling radius difference of
-        rigid wheels over the mean radius, and the spin on a cone of 1:20: linear in it, and sliding beyond.
-    """
+    """Worn depth per distance of the new profile, roughly, without a solution of a contact: of a round patch by Hertz
+    under half the axle load, which creeps by yaw, half the rolling radius difference of rigid wheels over the mean
+    radius, and the spin on a cone of 1:20: linear in it, and sliding beyond."""
     weights = shares(states)
     picked = np.argsort(-weights, kind="stable")[:SAMPLE]
     rate, radius = 0.0, vehicle.wheel.radius
@@ -261,18 +197,8 @@ def _most_friction(vehicle):
 
 
 def need_shallow(vehicle: batch.Vehicle, states: Sequence[State], distance: float, law: Law, jumps: int) -> None:
-    """Raises Unusable where each jump would take off too much, before anything is solved.
-
-    Parameters
-    ----------
-    vehicle, states, distance, law, jumps
-        See wear().
-
-    Raises
-    ------
-    Unusable
-        If distance or jumps are none, or half the estimated depth of a jump is more than a jump may take off.
-    """
+    """Raises Unusable, before anything is solved, if distance or jumps are none, or half the estimated depth of a jump
+    is more than a jump may take off. See wear()."""
     if not 0.0 < distance < 1e10:
         raise Unusable(f"distance {distance:g}: expected m above 0, such as 1e8 (100,000 km)")
     if jumps < 2 or jumps % 2:
@@ -338,22 +264,8 @@ def wear(
 def rates(
     vehicle: batch.Vehicle, states: Sequence[State], law: Law, cores: int = 1
 ) -> tuple[Profile, np.ndarray, list[str]]:
-    """Worn depth per distance of each place of the new profile.
-
-    Parameters
-    ----------
-    vehicle, states, law, cores
-        See wear().
-
-    Returns
-    -------
-    profile : Profile
-        The wheel's, with points at equal distances.
-    rates : ndarray
-        At its points, (n,).
-    failures : list of str
-        Positions without an equilibrium, which wear nothing.
-    """
+    """The wheel's profile with points at equal distances, worn depth per distance at them, (n,), and the failures:
+    positions without an equilibrium, which wear nothing. See wear()."""
     weights = shares(states)
     new = _dense(vehicle.wheel.profile)
     one = _Wear(vehicle, list(states), weights, law, cores)
