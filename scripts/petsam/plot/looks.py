@@ -67,7 +67,7 @@ def _grids(panel):
 
 
 def _rows(figure):
-    """Of each point panel, curve, labels of the axes, x, y, and of maps the value."""
+    """Yields panel, curve, labels of the axes, x, y, and of maps the value, for each point."""
     for number, panel in enumerate(_panels(figure), 1):
         title = " ".join((panel.get_title() or panel.get_title("left") or str(number)).split())
         about = [bracketed(text) for text in (panel.get_xlabel() or "x", panel.get_ylabel() or "y")]

@@ -57,19 +57,7 @@ FITTED = [name for name in COLUMNS if name.startswith("iwan")]
 
 
 class Outcome(NamedTuple):
-    """Numbers of an interface before its elements are fitted.
-
-    Parameters
-    ----------
-    numbers, spread : dict
-        {name: (pressures,)}: means, and standard deviations of windows.
-    loading : ndarray
-        Displacements of the first loading, (pressures, parts), m.
-    errors : dict
-        {name: (pressures,)}: relative errors of the formula, of the names of ERRORS; empty for computed loops.
-    note : str
-        How the loops were found, in words.
-    """
+    """Numbers of an interface before its elements are fitted."""
 
     numbers: dict
     spread: dict

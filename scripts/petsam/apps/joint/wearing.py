@@ -81,7 +81,7 @@ class Wear(Numbers):
         return lines
 
     def more_columns(self) -> list[Column]:
-        """What `measure` returned.
+        """The values that `measure` returned.
 
         Returns
         -------

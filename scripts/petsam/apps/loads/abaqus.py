@@ -60,17 +60,7 @@ def refuse_printed(path):
 
 
 class _States:
-    """Values of nodes over time, and sets of nodes.
-
-    Attributes
-    ----------
-    found : dict
-        {(label, time): (line, {name: value})}.
-    sets : dict
-        {part or region: labels}.
-    repeated : set
-        Steps whose first frame, the last state of the step before, is left out.
-    """
+    """Values of nodes over time, and sets of nodes."""
 
     def __init__(self, path, deck):
         self.path = path

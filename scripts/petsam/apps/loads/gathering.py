@@ -39,21 +39,7 @@ class Given:
 
 @dataclass
 class Rows:
-    """Rows of a file in their order: columns of numbers, in the file's units, and the number of each line.
-
-    Attributes
-    ----------
-    path : str
-        The file.
-    labels, times, lines : list
-        Of each row.
-    force : list
-        (3,) of each row.
-    more : dict
-        {"normal", "displacement", "x", "couple": list of (3,), "cpress", ...: list}, as long as the rows, or missing.
-    sets : dict
-        {name: labels}.
-    """
+    """Rows of a file in their order: columns of numbers, in the file's units, and the number of each line."""
 
     path: str
     labels: list = field(default_factory=list)
