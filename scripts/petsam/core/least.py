@@ -33,8 +33,8 @@ def fit(
 class Bands(NamedTuple):
     """Standard deviations and correlations of fitted parameters."""
 
-    sd: np.ndarray
-    correlation: np.ndarray
+    sd: np.ndarray  # (n,); infinite of a parameter in a direction without effect
+    correlation: np.ndarray  # of the errors, (n, n); NaN of such a parameter
 
 
 def bands(jacobian: np.ndarray, least: float = ROUNDING) -> Bands:

@@ -28,7 +28,7 @@ def _work(job):
 def run(
     jobs: Sequence[tuple], cores: int, told: Callable[..., object], done: Optional[Callable[[int], object]] = None
 ) -> list:
-    """Returns the results of jobs in their order, computed in so many processes; 1: in this one. A job is a function of
+    """Returns the results of jobs in their order, computed in `cores` processes; 1: in this one. A job is a function of
     a module and its arguments, to which a function is added: `told` is called with all that it is called with, and
     `done` with the number of each job that has ended, from 0 on. If a job fails its exception is raised, and the others
     are given up."""

@@ -1,4 +1,4 @@
-"""What is done to a figure when it has been drawn: parts of its axes, its width, its numbers as CSV."""
+"""Changes of a figure that has been drawn: parts of its axes, its width, its numbers as CSV."""
 
 import numpy as np
 from matplotlib.lines import Line2D

@@ -1,4 +1,4 @@
-"""What is written beside known quantities; whatever else a file holds goes by its own name."""
+"""Names and symbols of known quantities in pictures; all others in a file go by their own names."""
 
 from .units import plain
 

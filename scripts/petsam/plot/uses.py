@@ -1,4 +1,4 @@
-"""Which pictures use which options: an option that no picture uses is rejected, not ignored."""
+"""The options that each picture uses: an option that no picture uses is rejected, not ignored."""
 
 import inspect
 

@@ -1,4 +1,4 @@
-"""What all files of results share: opening, damaged files, numbers of the history, units. SI units."""
+"""Common parts of all files of results: opening, damaged files, numbers of the history, units. SI units."""
 
 import contextlib
 import os

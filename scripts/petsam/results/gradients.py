@@ -19,14 +19,14 @@ class Gradient:
     stresses of each step, (steps,); by the coefficients of wear, of both bodies alike; if they were wanted by moduli
     and shape."""
 
-    name: str
-    value: float
-    gap: Optional[np.ndarray]
-    friction: Optional[np.ndarray]
-    numbers: dict
-    borders: int
-    residual: float
-    unit: str
+    name: str  # of the number
+    value: float  # the number itself: J, N, N m, m, rad, m3 or Pa
+    gap: Optional[np.ndarray]  # by the gap without load in each cell, per m, (ny, nx) or this rank's rows; or None
+    friction: Optional[np.ndarray]  # by the coefficient in each cell; their sum is that by the coefficient; or None
+    numbers: dict  # {name: derivative} by other parameters
+    borders: int  # cells on the border of their set in some step; with any, the gradient is one-sided
+    residual: float  # largest relative residual of the systems, which are solved to rtol
+    unit: str  # of the number
 
     def keys(self) -> list[str]:
         """The names of the parameters by which there are derivatives."""

@@ -67,6 +67,8 @@ class _States:
         self.deck, self.instances = deck, [folded(name) for name in deck.instances] if deck else []
         self.bases, self.last = {}, 0.0  # total time at which each step begins; the latest one
         self.step, self.time, self.skips = "", None, False
+        # {(label, time): (line, {name: value})}, {part or region: labels}, pairs, and steps whose first frame, the last
+        # state of the step before, is left out
         self.found, self.sets, self.pairs, self.repeated = {}, {}, {}, set()
 
     def begin(self, step):

@@ -1,4 +1,4 @@
-"""What a file states about its map, and what a reader of one format is."""
+"""Statements of a file about its map, and the base of the readers of one format each."""
 
 import os
 from dataclasses import dataclass, field
