@@ -54,8 +54,8 @@ def bands(jacobian: np.ndarray, least: float = ROUNDING) -> Bands:
 
 
 def unit(jacobian: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Returns a Jacobian (m, n) with columns of length 1, and the lengths of the columns, (n,); of a column of zeros
-    1."""
+    """Returns a Jacobian (m, n) with columns of length 1, and the lengths of the columns, (n,): 1 for a column of
+    zeros."""
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     return jacobian / lengths, lengths

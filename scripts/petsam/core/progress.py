@@ -42,7 +42,7 @@ class Progress:
         return (time.monotonic() - self.start) / done * (total - done)
 
     def estimate(self, seconds: float) -> None:
-        """Prints the time left, s, if it is known before the first unit has ended."""
+        """Prints the time left, s, which is known before the first unit has ended."""
         self._tell(f"about {clock(seconds)} left")
 
     def __call__(self, done: int, total: int, name: str = "") -> None:

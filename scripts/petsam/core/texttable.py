@@ -189,7 +189,7 @@ def _columns(values, words):
 
 
 class Text:
-    """The text of a file, which is read once unless `text` has it, by a Form; its header is looked for once."""
+    """The text of a file, or `text`, whose words are read by a Form; file and header are read once."""
 
     def __init__(self, path, form=Form(), text=None):  # noqa: B008 - it is never changed
         self.path, self.form, self._text = path, form, text

@@ -193,8 +193,8 @@ def _scar_panel(panel, row, axis, units, whole, files):
 
 
 def _measured_rows(rows, measured):
-    """Returns the rows that have profiles beside them, and these: of the body that is named, else of the last one that
-    wears."""
+    """Returns the rows that have profiles beside them, and the profiles: of the body that is named, else of the last
+    one that wears."""
     if not measured:
         return (), None
     body, path = measured
@@ -279,8 +279,8 @@ def _life_panel(panel, files, names, title):
 
 
 def _life_legend(panel, files):
-    """Draws the legend of the lines of all panels in one of its own; a label of the user's for a single line is above
-    them."""
+    """Draws the legend of the lines of all panels in a panel of its own; a user's label of a single line is above the
+    panels."""
     panel.set_axis_off()
     for one, color in zip(files, colors(len(files))):
         panel.plot([], [], color=color, label=plain(one.label))
