@@ -1,4 +1,4 @@
-"""What pyproject.toml cannot say: the scripts, petsam-plot and its links, one for each application; and what
+"""Adds to pyproject.toml the scripts, petsam-plot and its links, one for each application, and the parts that
 `make wheel` adds, the files in data/ (scripts/packaging/wheel.py) and the platform.
 
 Without the variable PETSAM_WHEEL, as by `pip install ./scripts`, the package is pure Python.

@@ -6,8 +6,9 @@
 Searched are pages (*.md), help texts (*.help), and the strings of C and Python in src, include, scripts and examples,
 without comments and the docstrings of functions; tests, which quote messages, only in their pages. In pages the tables
 between <!-- petsam: ... --> and <!-- end --> are left out, as their texts are strings in C, and so are comments and
-addresses. No cell of a table may exceed 300 characters, nor README.md 130 lines. --only names words
-of the files' paths, --count prints a number for each folder. Exit code 1 when a word is found.
+addresses. No cell of a table may exceed 300 characters, nor README.md 130 lines. No docstring in scripts may begin
+with What, Whether, Those, Of or Which. --only names words of the files' paths, --count prints a number for each folder.
+Exit code 1 when a word is found.
 """
 
 import argparse
@@ -110,6 +111,9 @@ RULES = (
     (r"elapsed", "wall time"),
 )
 HEADING = re.compile(r"^#+ (?:What|Where|Why|How|When|Which)\b.*", re.M)  # headings of pages must name their subject
+# docstrings must not begin so
+OPENING = re.compile(r"(?:What|Whether|Those|Of|Which)\b.*")
+PLAIN = "a plain sentence: Returns ..., True if ..., or a noun"
 
 
 def compiled(rule):
@@ -185,6 +189,10 @@ def texts_of_python(text):
             yield node.lineno, node.value
 
 
+def is_python(name, text):
+    return name.endswith(".py") or text.startswith("#!/usr/bin/env python")
+
+
 def texts(name, text):
     """(line, text) pairs of a file."""
     if name.endswith(".md"):
@@ -194,9 +202,19 @@ def texts(name, text):
     if name.startswith(SEARCHED):
         if name.endswith((".c", ".h")):
             return texts_of_c(text)
-        if name.endswith(".py") or text.startswith("#!/usr/bin/env python"):
+        if is_python(name, text):
             return texts_of_python(text)
     return []
+
+
+def openings(name, text):
+    """Returns {(line, words, replacement)} of the docstrings of a module in scripts, its classes and functions."""
+    if not (name.startswith("scripts/") and is_python(name, text)):
+        return set()
+    kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    nodes = [node for node in ast.walk(ast.parse(text)) if isinstance(node, kinds)]
+    found = [(node, OPENING.match(ast.get_docstring(node) or "")) for node in nodes]
+    return {(node.body[0].lineno, words.group(), PLAIN) for node, words in found if words}
 
 
 def findings(name, text):
@@ -218,7 +236,7 @@ def findings(name, text):
                 out.add((k, row[:40], f"cells of at most {LONGEST_CELL} characters"))
     if name == "README.md" and text.count("\n") > LINES_OF_README:
         out.add((LINES_OF_README + 1, "README.md", f"at most {LINES_OF_README} lines"))
-    return sorted(out)
+    return sorted(out.union(openings(name, text)))
 
 
 def main():

@@ -127,7 +127,7 @@ def declared(described, groups):
         for option in options
         if program == "petsam" and option.argument == "<file>"
     }
-    lines = ['"""What petsam declares of its options, written by scripts/maintain/reference.py."""', ""]
+    lines = ['"""Units and files of the options, written by scripts/maintain/reference.py."""', ""]
     lines += ["# units of SI of options", "OPTIONS = {"]
     lines += [f'    "{name}": "{unit}",' for name, unit in sorted(of_options.items())]
     lines += ["}", "# units that may follow a number: the unit of SI, and a power of ten", "FOLLOWING = {"]

@@ -68,7 +68,7 @@ def carried(files):
 
 
 def ready(library):
-    """Whether the library seeks others beside itself already: another run of strip or patchelf would break it."""
+    """True if the library seeks others beside itself already: another run of strip or patchelf would break it."""
     return re.search(r"R(UN)?PATH +\$ORIGIN$", output("objdump", "-p", library), re.M)
 
 

@@ -16,8 +16,8 @@
   a slider that d pulls by a spring: it stays while the stretch d - D is at most L, and otherwise follows at that
   length. If all of the contact slips along e, u_t is the displacement by the bound of the shear along e, and L is the
   largest component of it along e in contact; elsewhere the surfaces move more than D, by the bending of the bodies. So
-  while the surfaces slide, D depends on d alone, and returns with it. Within a step, d and L are known once it is
-  solved; before that, L is that of the step before, and d the given one or else that of the step before. The slip of
+  while the surfaces slide, D depends on d alone, and returns with it. Until a step
+  is solved, L is that of the step before, and d is the given one, or else that of the step before, too. The slip of
   the step does not depend on D.
 */
 #include <petsam/private/elasticity.h>

@@ -1,4 +1,4 @@
-"""The comments of the C library's functions (scripts/maintain/functions.py), and their checks of arguments."""
+"""The comments of the C library's functions (scripts/maintain/functions.py) and docstrings; checks of arguments."""
 
 import itertools
 import re
@@ -11,6 +11,7 @@ from conftest import PROGRAM
 from support import ROOT
 
 sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
+import check_words  # noqa: E402
 import functions  # noqa: E402
 
 GRID = ROOT / "include/petsam/grid.h"
@@ -218,3 +219,13 @@ def test_objects_have_a_class_from_their_creation_to_their_end():
         assert re.search(rf"class_id +(?:=.*)?= {name}_CLASSID;", SOURCES), name
     made = len(re.findall(r"class_id +(?:=.*)?= (?:Sam\w+_CLASSID|kind->class_id);", SOURCES))
     assert len(re.findall(r"class_id = SAM_CLASSID_NONE;", SOURCES)) == made == len(CLASSES) - 2
+
+
+@pytest.mark.parametrize("begin", ["What", "Whether", "Those", "Of", "Which"])
+def test_docstring_begins_with_a_plain_sentence(begin):
+    names = (f"{begin} is meant.", f'"{begin}" as a word.', f"{begin}ever is meant.", f"Returns {begin}.")
+    for head in ("", "class A:\n    ", "async def f():\n    ", "class A:\n    def f(self):\n        "):
+        texts = [f'{head}"""{name}\n\n{begin} comes later."""\n' for name in names]
+        found = [check_words.findings("scripts/petsam/core/words.py", text) for text in texts]
+        assert found == [[(head.count("\n") + 1, names[0], check_words.PLAIN)], [], [], []]
+    assert not check_words.findings("tests/program/test_words.py", texts[0])

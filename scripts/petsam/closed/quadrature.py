@@ -6,18 +6,8 @@ GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(80)
 
 
 def segments(breaks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Gauss points and weights on intervals, with square-root ends removed.
-
-    Parameters
-    ----------
-    breaks : ndarray
-        Ends of the intervals, (..., n).
-
-    Returns
-    -------
-    points, weights : ndarray
-        Of all intervals together, (..., (n - 1) times the number of Gauss points).
-    """
+    """Returns the Gauss points and weights, (..., (n - 1) times the number of Gauss points), of all intervals between
+    breaks, (..., n), with square-root ends removed."""
     t = 0.25 * np.pi * (1.0 + GAUSS_NODES)
     low, width = breaks[..., :-1, None], np.diff(breaks)[..., None]
     points = low + width * np.sin(t) ** 2

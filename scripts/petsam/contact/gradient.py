@@ -278,7 +278,7 @@ class _Model:
 
 
 def _fits(scales, count):
-    """Whether these are numbers, one or as many as parameters."""
+    """True if these are numbers, one or as many as parameters."""
     try:
         return np.asarray(scales, dtype=float).shape in ((), (count,))
     except (TypeError, ValueError):

@@ -262,19 +262,7 @@ class Cycle:
 
 
 def error_of(code: int, message: str) -> ContactError:
-    """The exception for an exit code of the library or of the program.
-
-    Parameters
-    ----------
-    code : int
-        Exit code.
-    message : str
-        The message of the library or the program.
-
-    Returns
-    -------
-    ContactError
-    """
+    """Returns the exception for an exit code of the library or of the program, with its message."""
     if code == UNREADABLE and message.endswith(_MISSING):
         return MissingInput(code, message)
     kinds = {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium, EDGE: EdgeContact}
@@ -374,19 +362,10 @@ def _real(value, name):
 
 
 class Stiffness(np.ndarray):
-    """A matrix d(loads)/d(displacements), an array of numpy whose repr has labels: a row for each load and a column for
-    each displacement, with their units. The unit of a number is that of its row over that of its column.
+    """A matrix d(loads)/d(displacements), (n, n): an array of numpy whose repr has labels, a row for each load and a
+    column for each displacement, {name: unit} each. The unit of a number is that of its row over that of its column.
 
-    What is computed or cut from it is a plain array without labels, since those would not hold for it.
-
-    Parameters
-    ----------
-    values : array_like
-        The numbers, (n, n).
-    loads : mapping
-        {name: unit} of the rows: load_n, ... as in try_step().
-    displacements : mapping
-        {name: unit} of the columns: disp_z, ...
+    Arrays that are computed or cut from it have no labels, since those would not hold for them.
     """
 
     loads: Mapping[str, str] = {}
@@ -401,7 +380,7 @@ class Stiffness(np.ndarray):
         return type(self), (np.asarray(self), self.loads, self.displacements)
 
     def __array_wrap__(self, values, context=None, return_scalar=False):
-        """What numpy computes from the matrix."""
+        """Returns the result of numpy's operations on the matrix as a plain array or number."""
         return np.asarray(values)[()]  # of no dimension: a number
 
     def __getitem__(self, key):

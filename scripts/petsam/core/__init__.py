@@ -1,4 +1,4 @@
-"""What all parts of the package share.
+"""Common modules of all parts of the package.
 
 errors       errors that are reported in one line
 files        names of files, and texts

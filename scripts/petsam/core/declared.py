@@ -1,4 +1,4 @@
-"""What petsam declares of its options, written by scripts/maintain/reference.py."""
+"""Units and files of the options, written by scripts/maintain/reference.py."""
 
 # units of SI of options
 OPTIONS = {

@@ -173,7 +173,7 @@ NODES = "SLURM_JOB_NUM_NODES", "PBS_NODEFILE", "LSB_HOSTS", "PE_HOSTFILE"  # of 
 
 
 def is_local(words):
-    """Whether a launcher's words start all ranks on this machine."""
+    """True if a launcher's words start all ranks on this machine."""
     mpirun = bool(words) and os.path.basename(words[0]).startswith("mpi")
     alone = all(os.environ.get(name, "1") == "1" for name in NODES)
     return mpirun and alone and not any(ELSEWHERE.match(word) for word in words[1:])
@@ -195,7 +195,8 @@ def end_with_parent(number):
 
 
 def following():
-    """What a child process calls before its program begins: a signal that ends this process then ends the program."""
+    """Returns a function for a child process to call before its program begins: a signal that ends this process then
+    ends the program."""
     parent = os.getpid()
 
     def begin():

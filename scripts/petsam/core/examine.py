@@ -39,7 +39,7 @@ def _program():
 
 
 def _ends(program, path):
-    """Whether the program reads the file to its end: it writes a character when it begins, and one when it ends."""
+    """True if the program reads the file to its end: it writes a character when it begins, and one when it ends."""
     try:
         done = subprocess.run(
             [program, path], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,

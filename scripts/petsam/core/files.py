@@ -29,7 +29,8 @@ def need_regular(path):
 
 
 def state_of(path):
-    """What changes when a regular file is written to: device, inode, size and time; None if there is none."""
+    """Returns the numbers of a regular file that change when it is written to: device, inode, size and time; None if
+    there is no such file."""
     try:
         status = os.stat(path)
     except (OSError, ValueError):

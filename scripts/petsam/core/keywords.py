@@ -60,19 +60,9 @@ def completed(text: Optional[str], names: Iterable[str], others: Iterable[Option
 
 
 def unfolded(function: Callable[..., Result], common: str = "") -> Callable[..., Result]:
-    """Makes a function with the fields of dataclasses as keywords of one that takes the dataclasses.
-
-    Parameters
-    ----------
-    function : callable
-        Its keywords without a default whose hint is a dataclass are those that users do not see.
-    common : str
-        Docstring of several functions, from which this one has what its own lacks.
-
-    Returns
-    -------
-    callable
-    """
+    """Makes a function with the fields of dataclasses as keywords of one that takes the dataclasses: users do not see
+    keywords without a default whose hint is a dataclass. `common`: docstring of several functions, which supplies what
+    the function's own lacks."""
     own, home = inspect.signature(function), vars(sys.modules[function.__module__])
     shown: list[inspect.Parameter] = []
     kinds: dict[str, Any] = {}

@@ -23,64 +23,24 @@ def fit(
     bounds: tuple[ArrayLike, ArrayLike] = (-np.inf, np.inf),
     **settings: Any,
 ) -> Any:
-    """The parameters of the least sum of squares among the fits from several starts.
-
-    Parameters
-    ----------
-    residuals : callable
-        Of parameters, (n,), the residuals, (m,).
-    starts : iterable of array_like
-        Parameters within the bounds, (n,) each.
-    jacobian : callable or str
-        Of parameters their derivatives, (m, n); "2-point": by differences.
-    bounds : tuple of array_like
-        Least and largest parameters.
-    **settings
-        Of scipy.optimize.least_squares.
-
-    Returns
-    -------
-    scipy.optimize.OptimizeResult
-        The first one of the least cost; with x, fun, jac and cost.
-
-    Raises
-    ------
-    Missing
-        If scipy is not installed.
-    """
+    """Returns scipy's result (x, fun, jac, cost) of least cost among the fits from several starts, each (n,) and within
+    the bounds; the first one of equals. `residuals` is a function of the parameters (n,) with values (m,), and
+    `jacobian` their derivatives, (m, n), or "2-point": by differences. Raises Missing if scipy is not installed."""
     one = library("scipy.optimize").least_squares
     return min((one(residuals, start, jacobian, bounds, **settings) for start in starts), key=lambda found: found.cost)
 
 
 class Bands(NamedTuple):
-    """How well parameters are held.
+    """Standard deviations and correlations of fitted parameters."""
 
-    Attributes
-    ----------
-    sd : ndarray
-        Standard deviations, (n,); infinite of a parameter in a direction without effect.
-    correlation : ndarray
-        Of the errors, (n, n); NaN of such a parameter.
-    """
-
-    sd: np.ndarray
-    correlation: np.ndarray
+    sd: np.ndarray  # (n,); infinite of a parameter in a direction without effect
+    correlation: np.ndarray  # of the errors, (n, n); NaN of such a parameter
 
 
 def bands(jacobian: np.ndarray, least: float = ROUNDING) -> Bands:
-    """Standard deviations and correlations of the parameters of a fit, the same in any units of the parameters.
-
-    Parameters
-    ----------
-    jacobian : ndarray
-        Of residuals in units of their standard deviations, (m, n).
-    least : float
-        Singular value, of columns of length 1, below which a direction is without effect.
-
-    Returns
-    -------
-    Bands
-    """
+    """Returns the standard deviations and correlations of the parameters of a fit, the same in any units of the
+    parameters, from the Jacobian (m, n) of residuals in units of their standard deviations. `least`: singular value, of
+    columns of length 1, below which a direction is without effect."""
     scaled, lengths = unit(jacobian)
     _, sizes, ways = np.linalg.svd(np.linalg.qr(scaled, "r"))  # not of all rows: there may be many
     sizes = np.append(sizes, np.zeros(len(lengths) - len(sizes)))
@@ -94,20 +54,8 @@ def bands(jacobian: np.ndarray, least: float = ROUNDING) -> Bands:
 
 
 def unit(jacobian: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A Jacobian with columns of length 1.
-
-    Parameters
-    ----------
-    jacobian : ndarray
-        (m, n).
-
-    Returns
-    -------
-    scaled : ndarray
-        (m, n).
-    lengths : ndarray
-        Of the columns, (n,); of a column of zeros 1.
-    """
+    """Returns a Jacobian (m, n) with columns of length 1, and the lengths of the columns, (n,): 1 for a column of
+    zeros."""
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     return jacobian / lengths, lengths

@@ -1,4 +1,4 @@
-"""What all command lines share: the parser, reading of words, the picture's options, errors and exit codes."""
+"""Common parts of all command lines: the parser, reading of words, the picture's options, errors and exit codes."""
 
 import argparse
 import difflib

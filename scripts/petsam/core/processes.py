@@ -28,28 +28,10 @@ def _work(job):
 def run(
     jobs: Sequence[tuple], cores: int, told: Callable[..., object], done: Optional[Callable[[int], object]] = None
 ) -> list:
-    """Results of jobs, in their order.
-
-    Parameters
-    ----------
-    jobs : sequence of tuple
-        Each a function of a module and its arguments; the last one, which is added, is what it tells with.
-    cores : int
-        Processes; 1: this one.
-    told : callable
-        Called with what a job tells.
-    done : callable, optional
-        Called with the number of each job that has ended, from 0 on.
-
-    Returns
-    -------
-    list
-
-    Raises
-    ------
-    Exception
-        That of a job; the others are given up.
-    """
+    """Returns the results of jobs in their order, computed in `cores` processes; 1: in this one. A job is a function of
+    a module and its arguments, to which a function is added: `told` is called with all that it is called with, and
+    `done` with the number of each job that has ended, from 0 on. If a job fails its exception is raised, and the others
+    are given up."""
     done = done or (lambda k: None)
     if cores == 1 or len(jobs) == 1:
         found = []

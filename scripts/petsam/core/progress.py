@@ -8,107 +8,45 @@ Say = Callable[[str], object]
 
 
 def clock(seconds: float) -> str:
-    """A time as h:mm:ss, or m:ss.
-
-    Parameters
-    ----------
-    seconds : float
-        The time, s.
-
-    Returns
-    -------
-    str
-    """
+    """Returns a time in s as h:mm:ss, or m:ss."""
     minutes, rest = divmod(int(round(seconds)), 60)
     return f"{minutes}:{rest:02d}" if minutes < 60 else "{}:{:02d}:{:02d}".format(*divmod(minutes, 60), rest)
 
 
 def to_stderr(text: str) -> None:
-    """Prints a line on stderr at once.
-
-    Parameters
-    ----------
-    text : str
-        The line.
-    """
+    """Prints a line on stderr at once."""
     print(text, file=sys.stderr, flush=True)
 
 
 def quiet(_: str) -> None:
-    """Prints nothing: in notebooks, and in functions that no command has called.
-
-    Parameters
-    ----------
-    _ : str
-        A line.
-    """
+    """Prints nothing: in notebooks, and in functions that no command has called."""
 
 
 class Progress:
     """A line for each unit of a work that ends, with an estimate of the time left: "window 2 of 5, about 1:33 left".
-
-    Parameters
-    ----------
-    what : str
-        Noun of a unit: "window".
-    say : callable
-        Called with each line.
-    every : float
-        Least time between two lines, and before the first one, s.
-    """
+    `what` is the noun of a unit, "window"; `say` is called with each line, at most once in `every` seconds, and not
+    before these have passed."""
 
     def __init__(self, what: str, say: Say = to_stderr, every: float = 0.0) -> None:
         self.form, self.say, self.every = what + " {} of {}", say, every
         self.start = self.last = time.monotonic()
 
     def begin(self, text: str, form: str = "") -> None:
-        """A part of the work begins, with units and an estimate of its own.
-
-        Parameters
-        ----------
-        text : str
-            What the part is.
-        form : str
-            Line of its units, with {} for how many are done, and for all.
-        """
+        """Begins a part of the work, which the text names, with an estimate of its own. `form`: line of its units, with
+        {} for the number that are done and {} for that of all."""
         self.form, self.start = form or self.form, time.monotonic()
         self._tell(text)
 
     def left(self, done: int, total: int) -> float:
-        """Time that the other units take, if they take as long as those that are done.
-
-        Parameters
-        ----------
-        done, total : int
-            Units that are done, at least one, and all.
-
-        Returns
-        -------
-        float
-            Time, s.
-        """
+        """Returns the time, s, that the other units take if they take as long as those that are done, at least one."""
         return (time.monotonic() - self.start) / done * (total - done)
 
     def estimate(self, seconds: float) -> None:
-        """The time left is known before the first unit has ended.
-
-        Parameters
-        ----------
-        seconds : float
-            Time, s.
-        """
+        """Prints the time left, s, which is known before the first unit has ended."""
         self._tell(f"about {clock(seconds)} left")
 
     def __call__(self, done: int, total: int, name: str = "") -> None:
-        """A unit has ended.
-
-        Parameters
-        ----------
-        done, total : int
-            Units that are done, and all.
-        name : str
-            Name of the one that has ended.
-        """
+        """Prints that a unit, which may have a name, has ended: the number of units done, and of all."""
         text = self.form.format(done, total) + (f": {name}" if name else "")
         self._tell(text + (f", about {clock(self.left(done, total))} left" if done < total else ""))
 

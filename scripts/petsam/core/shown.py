@@ -37,16 +37,6 @@ class Shown:
     """A result that has a report as a page."""
 
     def report(self, path: Union[str, os.PathLike]) -> None:
-        """Writes a page of HTML with the inputs, numbers, errors and pictures of these results.
-
-        Parameters
-        ----------
-        path : str
-            Name of the page, which ends in .html; an older one is replaced.
-
-        Raises
-        ------
-        Error
-            If the page cannot be written, or no step has a solution.
-        """
+        """Writes a page of HTML with the inputs, numbers, errors and pictures of these results. Its path ends in .html;
+        an older page is replaced. Raises an Error if the page cannot be written, or no step has a solution."""
         provided("report")(self, path)

@@ -85,7 +85,7 @@ def to_dataframe(columns):
 
 
 class Tabled:
-    """What has a table(): its columns as CSV and as a table of pandas."""
+    """Base of classes with a table(): writes its columns as CSV and as a table of pandas."""
 
     form = staticmethod(repr)  # writes a number of the CSV
 

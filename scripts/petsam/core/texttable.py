@@ -50,13 +50,13 @@ class Form:
 
 
 def separator_of(line):
-    """What separates the words of a line; None: white space."""
+    """Returns the separator of the words of a line; None: white space."""
     line = QUOTED.sub("", line)
     return next((mark for mark in (";", "\t", ",") if mark in line), None)
 
 
 def _has_decimal_commas(words, separator):
-    """Whether some of the words are numbers with a comma for a point."""
+    """True if some of the words are numbers with a comma for a point."""
     return separator != "," and any(DECIMAL_COMMA.fullmatch(word) for word in words)
 
 
@@ -152,7 +152,7 @@ def _row(path, number, words, separator, form, decimal):
 
 
 def _is_header(words, decimal, missing=()):
-    """Whether no word is a number, so that the line can only name something."""
+    """True if no word is a number, so that the line can only name something."""
     words = [word.replace(",", ".") for word in words] if decimal == "comma" else words
     return not any(number_of(word, missing) is not None and word for word in words)
 
@@ -189,17 +189,7 @@ def _columns(values, words):
 
 
 class Text:
-    """A text, whose file is read once, and whose header is looked for once.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-    form : Form
-        How its words are read.
-    text : str, optional
-        All of the file where it is read already.
-    """
+    """The text of a file, or `text`, whose words are read by a Form; file and header are read once."""
 
     def __init__(self, path, form=Form(), text=None):  # noqa: B008 - it is never changed
         self.path, self.form, self._text = path, form, text
@@ -211,7 +201,7 @@ class Text:
         return lines_of(text_of(self.path) if self._text is None else self._text)
 
     def is_comment(self, line):
-        """Whether a line is a comment."""
+        """True if a line is a comment."""
         return line.lstrip().startswith(self.form.comments)
 
     @cached_property
@@ -240,7 +230,7 @@ class Text:
 
     @cached_property
     def separator(self):
-        """What separates the words of most lines."""
+        """The separator of the words of most lines."""
         signs = [split(line)[1] for _, line in self.kept]
         usual = max(dict.fromkeys(signs), key=signs.count, default=None)
         return "," if usual == '"' else usual
@@ -334,14 +324,14 @@ def bare(word):
 
 
 def _is_unit(word):
-    """Whether a word is a unit, or a ratio of two, or stands in brackets."""
+    """True if a word is a unit, or a ratio of two, or is in brackets."""
     word, unit = word.strip(), bare(word)
     ratio = unit.count("/") == 1 and all(measure(part)[0] for part in unit.split("/"))
     return measure(unit)[0] is not None or ratio or word[:1] in ("[", "(", "{", "<") and word[-1] in "])}>"
 
 
 def are_units(words):
-    """Whether all words are units, in brackets or not, and one of them is known."""
+    """True if all words are units, in brackets or not, and one of them is known."""
     return any(measure(bare(word))[0] for word in words) and all(map(_is_unit, words))
 
 
@@ -378,26 +368,9 @@ def heads_of(path, words, below=None):
 
 
 class Headed:
-    """A head, and rows of as many words as it has.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-    row, kind : str
-        What a row is for, and what rows are of, for messages.
-    separators : tuple of str, optional
-        Those that may separate the words, the last one where the head has none; None for any, or blanks.
-    text : Text, optional
-        That of the file.
-
-    Attributes
-    ----------
-    head : int
-        Number of the line of the head.
-    words : list of str
-        Its words.
-    """
+    """A head (`words`, in the line `head`), and rows of as many words. Messages name a row's purpose, `row`, and the
+    content of rows, `kind`. `separators` may separate the words, the last one where the head has none; None for any, or
+    blanks."""
 
     def __init__(self, path, row, kind, separators=None, text=None):
         self.path, self.kind, self.text = path, kind, text or Text(path)
@@ -429,22 +402,9 @@ class Headed:
 
 
 class Table(Headed):
-    """A head of names with their units, and numbers.
-
-    Parameters
-    ----------
-    path, row, kind
-        As of Headed.
-    known : mapping, optional
-        Names of columns, and what each is called here; None where each has the name of its head.
-
-    Attributes
-    ----------
-    columns, units : dict
-        Place of each column, and its unit or None.
-    others : list of str
-        Heads that are not known.
-    """
+    """A head of names with their units, and numbers: the place and the unit or None of each column, and `others`, heads
+    that are not known. `known` has the names of columns and their names here; with None each has the name of its
+    head."""
 
     def __init__(self, path, known, row, kind):
         super().__init__(path, row, kind)

@@ -67,7 +67,7 @@ def numbers(text, form="numbers separated by commas", unit="1", allowed=None, co
 
 
 def _mixed(text, words, count):
-    """Whether some numbers have a unit and others have none, as 500,10um has: 0,5mm is 0.5 mm with a decimal comma,
+    """True if some numbers have a unit and others have none, as 500,10um has: 0,5mm is 0.5 mm with a decimal comma,
     unless two numbers are expected."""
     settled = isinstance(count, int) or not re.search(r"(?<![\d.])0,\d+(?![\d.])", text)
     counted = [word for word in words if not (settled and re.fullmatch(r"\s*[+-]?(0+\.?0*|\.0+)\s*", word))]
@@ -219,7 +219,7 @@ def pair(text, form, reader=str, whole=None):
 
 
 def either(text, form, *readers):
-    """What the first of several readers makes of a word that takes it."""
+    """Returns the value of the first of several readers that takes a word."""
     for reader in readers:
         with contextlib.suppress(WordError):
             return reader(text)
@@ -227,17 +227,17 @@ def either(text, form, *readers):
 
 
 def positive(value):
-    """Whether a number is above 0 and finite."""
+    """True if a number is above 0 and finite."""
     return 0.0 < value < math.inf
 
 
 def not_negative(value):
-    """Whether a number is 0 or more, and finite."""
+    """True if a number is 0 or more, and finite."""
     return 0.0 <= value < math.inf
 
 
 def part(value):
-    """Whether a number is a part of 1: from 0 to below 1."""
+    """True if a number is a part of 1: from 0 to below 1."""
     return 0.0 <= value < 1.0
 
 

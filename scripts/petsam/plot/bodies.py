@@ -171,7 +171,7 @@ def _extremes(name, values):
 
 
 def _title(panel, text, remark, when):
-    """What is drawn, and below it of which step; above the map, which nothing hides."""
+    """Writes the title above the map, where nothing hides it: the quantity, and below it the step."""
     panel.set_title(f"{text}: {remark}\n{when}".rstrip(), fontsize=9.5)
 
 

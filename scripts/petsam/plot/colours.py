@@ -18,7 +18,7 @@ DECADES = 4  # of a logarithmic scale, unless limits are given
 
 
 class Choice(NamedTuple):
-    """What a user asks for: limits (low, high; SI units), logarithmic colours, the percentile of the top (%)."""
+    """A user's choice: limits (low, high; SI units), logarithmic colours, the percentile of the top (%)."""
 
     limits: Optional[tuple] = None
     log: bool = False
@@ -41,7 +41,7 @@ class Colours(NamedTuple):
 
 
 def is_signed(name, values):
-    """Whether a quantity has two directions: by its name, or because some of it is negative."""
+    """True if a quantity has two directions: by its name, or because some of it is negative."""
     low, high = float(np.min(values, initial=0.0)), float(np.max(values, initial=0.0))
     return name.endswith(ENDINGS) or low < -LEAST.get(name, ROUNDING) * max(high, -low)
 

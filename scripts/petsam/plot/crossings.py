@@ -76,7 +76,7 @@ def _panel(axes, lines, names, length, factor, friction):
 
 
 def _rows(snapshots, names):
-    """What each row of panels shows: names, title, symbol, unit and whether it is bounded by friction."""
+    """Returns the content of each row of panels: names, title, symbol, unit, and True if it is bounded by friction."""
     if names:
         for results, _ in snapshots:
             for name in names:

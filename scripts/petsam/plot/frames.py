@@ -118,13 +118,7 @@ def _choice(results, count):
 
 
 class View:
-    """Fields over the saved steps, with a slider; a notebook shows it.
-
-    Parameters
-    ----------
-    results : Results
-        Results of petsam.
-    """
+    """Fields over the saved steps of Results, with a slider; a notebook shows it."""
 
     def __init__(self, results):
         self.path, self.inner = results.path, slider(results)

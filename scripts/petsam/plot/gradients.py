@@ -42,7 +42,7 @@ class Patch:
 
     @property
     def titles(self):
-        """Of both panels."""
+        """The titles of both panels."""
         return f"1 µm removed on {self.name}", f"friction {FRICTION:g} higher on {self.name}"
 
 
@@ -64,7 +64,7 @@ def _window(one, whole):
 
 
 def _read(results, one, whole):
-    """What is drawn of a gradient on its window."""
+    """Returns the fields, titles and axes to draw of a gradient on its window."""
     patch, (rows, columns) = Patch(results), _window(one, whole)
     changes, unit = patch.changes(results, one)
     x, y = results.x[columns], results.y[rows]

@@ -72,7 +72,7 @@ def _second(text):
 
 @dataclass(frozen=True)
 class Look:
-    """What all pictures have.
+    """The look of all pictures.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ class Saved:
     time: Times = None
 
     def is_given(self):
-        """Whether a step is asked for."""
+        """True if a step is asked for."""
         return bool(listed(self.step) or listed(self.time))
 
     def snapshots(self, files):
@@ -120,7 +120,7 @@ class Saved:
 
 @dataclass(frozen=True)
 class Turns:
-    """What a cycle is.
+    """The definition of a cycle.
 
     Parameters
     ----------

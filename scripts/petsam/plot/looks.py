@@ -1,4 +1,4 @@
-"""What is done to a figure when it has been drawn: parts of its axes, its width, its numbers as CSV."""
+"""Changes of a figure that has been drawn: parts of its axes, its width, its numbers as CSV."""
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -67,7 +67,7 @@ def _grids(panel):
 
 
 def _rows(figure):
-    """Of each point panel, curve, labels of the axes, x, y, and of maps the value."""
+    """Yields panel, curve, labels of the axes, x, y, and of maps the value, for each point."""
     for number, panel in enumerate(_panels(figure), 1):
         title = " ".join((panel.get_title() or panel.get_title("left") or str(number)).split())
         about = [bracketed(text) for text in (panel.get_xlabel() or "x", panel.get_ylabel() or "y")]

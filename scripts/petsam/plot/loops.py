@@ -52,12 +52,12 @@ def _last_cycle(results, names):
 
 
 def _is_drawn(energy, drawn):
-    """Whether the area of a loop as it is drawn, whose steps are joined by straight lines, shows its energy."""
+    """True if the area of a loop as it is drawn, whose steps are joined by straight lines, shows its energy."""
     return abs(drawn - energy) <= SEEN * abs(energy)
 
 
 def _energy_text(results, energies):
-    """What a legend says of the energy of the last cycle; of the area, too, where few steps make it another one."""
+    """Returns the energy of the last cycle for a legend; the area, too, where few steps make it another one."""
     if energies is None:
         return None
     energy, drawn = energies

@@ -35,7 +35,7 @@ def scales(results):
 
 
 def varies(results, name, known):
-    """Whether a scalar of /history varies in any of the files; known is what scales() says of them all."""
+    """True if a scalar of /history varies in any of the files; `known` are the scales() of them all."""
     own = _largest(results, (name,))
     for one in results:
         values = one.series(name).astype(float)
@@ -51,7 +51,7 @@ def varies(results, name, known):
 
 
 def works(one):
-    """Whether friction does something in a history: a tangential load works, or something is dissipated."""
+    """True if friction does something in a history: a tangential load works, or something is dissipated."""
     known = scales([one])
     if one.is_steady:
         return False
@@ -61,7 +61,7 @@ def works(one):
 
 
 def is_nothing(name, tops, results):
-    """Whether shear or slip is zero but for rounding; tops are the largest values of all fields of a picture."""
+    """True if shear or slip is zero but for rounding; tops are the largest values of all fields of a picture."""
     if name.startswith("shear"):
         scale = tops.get("pressure")
     elif name.startswith("slip"):

@@ -154,12 +154,12 @@ def _error(results, name, row, of):
 
 
 def _beside(results, name, ends):
-    """Whether a column belongs to another one, whose name lacks one of these ends."""
+    """True if a column belongs to another one, whose name lacks one of these ends."""
     return any(name.endswith(end) and name.removesuffix(end) in results.history for end in ends)
 
 
 def _meaning(results, name, row):
-    """What a number means; of the maximum of a stress also where it is."""
+    """Returns the meaning of a number; for the maximum of a stress also its place."""
     text = results.meaning(name)
     places = [name + end for end in PLACE if name + end in results.history] if results.program != "petsam" else []
     if not places:
@@ -170,7 +170,7 @@ def _meaning(results, name, row):
 
 
 def _is_shown(results, name, value, known):
-    """Whether a number says something beyond the check, the errors of others and rounding."""
+    """True if a number adds something to the check, the errors of others and rounding."""
     if name in ("status", "time") or name.endswith(WORK) or not math.isfinite(value):
         return False
     if name in BY_STEP.values() or _beside(results, name, ("_error",)):
@@ -236,7 +236,7 @@ def _states(results):
 
 
 def residuals(results):
-    """Of each error of the check: name, largest of all solved steps, tolerance, what it is of."""
+    """Returns name, largest value of all solved steps, tolerance and quantity for each error of the check."""
     options, found = {name.lower(): value for name, value in given(results)}, []
     for name, (option, usual, what) in CHECK.items():
         if name not in results.history:
@@ -274,7 +274,7 @@ def check(results):
 
 
 def warnings(results):
-    """What the file says that a reader has to know, a line each."""
+    """Returns the warnings of the file for its reader, a line each."""
     found = [f"{counted(count, 'step')} {STATES.get(state, 'has a state that is unknown')} (exit code {state})"
              for state, count in _states(results)]  # fmt: skip
     if not results.parameters.get("closed", 1):

@@ -280,8 +280,8 @@ def named(files):
 
 
 def heading(files, one, index):
-    """What names a step above a panel. The only file's name says nothing, and neither does the time of its last step,
-    which is drawn unless another is asked for."""
+    """Returns the name of a step above a panel: the name of its file if there are several, and its time. It is empty
+    for the last step of a single file, which is drawn unless another is asked for."""
     if named(list(dict.fromkeys(files))):
         return plain(one.title(index))
     return "" if len(files) == 1 and one.is_last(index) else plain(one.when(index))

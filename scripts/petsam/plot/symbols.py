@@ -1,4 +1,4 @@
-"""What is written beside known quantities; whatever else a file holds goes by its own name."""
+"""Names and symbols of known quantities in pictures; all others in a file go by their own names."""
 
 from .units import plain
 
@@ -21,7 +21,7 @@ FIELDS = {
 
 
 def scalar(name):
-    """What a dataset of /history is called."""
+    """Returns the name of a dataset of /history in pictures."""
     if name.count(".") == 2:  # an entry of a matrix
         matrix, load, way = name.split(".")
         return f"{scalar(matrix)}, d{SYMBOLS[load]}/d{SYMBOLS[way]}"

@@ -33,7 +33,7 @@ def need_case(study, name, option, chosen):
 
 
 def titled(name):
-    """What a column is called on an axis: by its symbol, if it has one."""
+    """Returns the name of a column on an axis: its symbol, if it has one."""
     bare = name.removesuffix("_end")
     return ENERGIES.get(bare) or symbols.scalar(bare if bare in symbols.SYMBOLS else name)
 

@@ -1,4 +1,4 @@
-"""Which pictures use which options: an option that no picture uses is rejected, not ignored."""
+"""The options that each picture uses: an option that no picture uses is rejected, not ignored."""
 
 import inspect
 
@@ -43,7 +43,7 @@ def given(options):
 
 
 def is_plane(options):
-    """Whether a study is drawn over two inputs: --against X,Y."""
+    """True if a study is drawn over two inputs: --against X,Y."""
     return "," in (options.against or "")
 
 
@@ -55,7 +55,7 @@ def function(kind, options, results):
 
 
 def _takes(kind, name, options, results):
-    """Whether a kind of picture uses an option, or a word of log, of these files and with the other options."""
+    """True if a kind of picture uses an option, or a word of log, of these files and with the other options."""
     if name.startswith("log "):
         picture = function(kind, options, results)
         coloured = kind == "maps" or picture is pictures.regimes

@@ -142,7 +142,8 @@ def _line(one, name, index, axis, at):
 
 
 def _scar_rows(steps, at):
-    """What each row of panels shows: a file, its indices, a field of removed depth, and the point it goes through."""
+    """Returns the content of each row of panels: a file, its indices, a field of removed depth, and the point it goes
+    through."""
     rows = []
     for one in dict.fromkeys(one for one, _ in steps):
         if not one.depths:
@@ -192,7 +193,8 @@ def _scar_panel(panel, row, axis, units, whole, files):
 
 
 def _measured_rows(rows, measured):
-    """Which rows have profiles beside them, and these: of the body that is named, else of the last one that wears."""
+    """Returns the rows that have profiles beside them, and the profiles: of the body that is named, else of the last
+    one that wears."""
     if not measured:
         return (), None
     body, path = measured
@@ -277,7 +279,8 @@ def _life_panel(panel, files, names, title):
 
 
 def _life_legend(panel, files):
-    """What the lines of all panels are, in one of its own; a label of the user's for a single line is above them."""
+    """Draws the legend of the lines of all panels in a panel of its own; a user's label of a single line is above the
+    panels."""
     panel.set_axis_off()
     for one, color in zip(files, colors(len(files))):
         panel.plot([], [], color=color, label=plain(one.label))

@@ -1,4 +1,4 @@
-"""What all files of results share: opening, damaged files, numbers of the history, units. SI units."""
+"""Common parts of all files of results: opening, damaged files, numbers of the history, units. SI units."""
 
 import contextlib
 import os
@@ -19,17 +19,7 @@ WHOLE = 1 << 27  # maximum number of values read at once; a damaged file may cla
 
 
 class NotSaved(Error):
-    """A step or a time without fields in the file.
-
-    Parameters
-    ----------
-    path : str
-        The file.
-    wanted : str
-        The step or time.
-    reason : str
-        Why there is none.
-    """
+    """A step or a time, `wanted`, without fields in the file at `path`, and the reason why there are none."""
 
     def __init__(self, path: str, wanted: str, reason: str) -> None:
         super().__init__(f"{path}: {wanted}: {reason}")
@@ -61,22 +51,8 @@ class History(Named):
 
 
 class Datafile(Shown):
-    """What files of petsam and of petsam-stress share.
-
-    Parameters
-    ----------
-    path : str
-        The file.
-    label : str, optional
-        Its name in pictures; the file's name.
-
-    Raises
-    ------
-    MissingFile
-        If there is no such file.
-    Error
-        If it cannot be read.
-    """
+    """Common base of the files of petsam and of petsam-stress: path, and label in pictures, by default the file's name.
+    Raises MissingFile if there is no such file, and an Error if it cannot be read."""
 
     label: str
     times: np.ndarray
@@ -213,7 +189,7 @@ class Datafile(Shown):
         return Error(f"{self.path}: {'has changed since it was opened: open it again' if changed else _reason(error)}")
 
     def meaning(self, name: str) -> str:
-        """What a number of the history is, as the file says it.
+        """The meaning of a number of the history, as the file has it.
 
         Parameters
         ----------
@@ -264,7 +240,7 @@ class Datafile(Shown):
 
 
 def _own(group, name):
-    """What a group has of this name; a file that petsam has written refers to no other, which might be anything."""
+    """Returns the part of a group with this name; a link to another file, which petsam does not write, is rejected."""
     found = None if isinstance(group.get(name, getlink=True), h5py.ExternalLink) else group[name]
     if found is None or isinstance(found, h5py.Dataset) and (found.external or found.is_virtual):
         raise ValueError(f"{name} is in another file")

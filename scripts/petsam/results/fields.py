@@ -224,7 +224,7 @@ class Fields(Steps):
         return points[np.isfinite(points).all(axis=1)]
 
     def has(self, names: Iterable[str]) -> bool:
-        """Whether the file has all of these datasets.
+        """True if the file has all of these datasets.
 
         Parameters
         ----------
@@ -240,7 +240,7 @@ class Fields(Steps):
 
     @cached_property
     def edges(self) -> list[str]:
-        """Which of contact_edge and stick_edge the file has."""
+        """The names of contact_edge and stick_edge that the file has."""
         with self._reading():
             return [name for name in EDGES if self._all_have(name)]
 

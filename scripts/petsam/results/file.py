@@ -145,7 +145,7 @@ class Results(Fields, Viewed):
         return f"Results({self.path!r}: {self.history['time'].size} steps, {self.x.size} x {self.y.size} cells)"
 
     def __str__(self):
-        """What the file holds: steps, grid, and the names, shapes and units of fields and numbers."""
+        """The contents of the file: steps, grid, and the names, shapes and units of fields and numbers."""
         count, version = self.history["time"].size, self.parameters.get("petsam_version", "of unknown version")
         saved = f"fields of {_some(self.steps)}" if self.steps else "no fields"
         size = [len(axis) * (axis[1] - axis[0]) if axis.size > 1 else 0.0 for axis in (self.x, self.y)]

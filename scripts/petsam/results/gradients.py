@@ -15,38 +15,18 @@ NAMED = ("gap", "friction", "wear_coefficient", "wear_energy", *MODULI)  # they 
 
 @dataclass(repr=False)
 class Gradient:
-    """The derivatives of a number; see Contact.gradient().
+    """The derivatives of a number; see Contact.gradient(). In `numbers` they are by given loads, displacements and bulk
+    stresses of each step, (steps,); by the coefficients of wear, of both bodies alike; if they were wanted by moduli
+    and shape."""
 
-    Attributes
-    ----------
-    name : str
-        Of the number.
-    value : float
-        The number itself: J, N, N m, m, rad, m3 or Pa.
-    gap : ndarray or None
-        By the separation of the undeformed bodies in each cell, per m, (ny, nx); in process this rank's rows. None if
-        it was not wanted, and so below.
-    friction : ndarray or None
-        By the coefficient of friction in each cell; their sum is that by the coefficient.
-    numbers : dict
-        {name: derivative} by other parameters: of each step, (steps,), by given loads, displacements and bulk stresses;
-        by the coefficients of wear, of both bodies alike; if they were wanted by the moduli and the shape.
-    borders : int
-        Cells on the border of their set in some step; the gradient is one-sided if there are any.
-    residual : float
-        Largest relative residual of the systems, which are solved to rtol.
-    unit : str
-        Of the number.
-    """
-
-    name: str
-    value: float
-    gap: Optional[np.ndarray]
-    friction: Optional[np.ndarray]
-    numbers: dict
-    borders: int
-    residual: float
-    unit: str
+    name: str  # of the number
+    value: float  # the number itself: J, N, N m, m, rad, m3 or Pa
+    gap: Optional[np.ndarray]  # by the gap without load in each cell, per m, (ny, nx) or this rank's rows; or None
+    friction: Optional[np.ndarray]  # by the coefficient in each cell; their sum is that by the coefficient; or None
+    numbers: dict  # {name: derivative} by other parameters
+    borders: int  # cells on the border of their set in some step; with any, the gradient is one-sided
+    residual: float  # largest relative residual of the systems, which are solved to rtol
+    unit: str  # of the number
 
     def keys(self) -> list[str]:
         """The names of the parameters by which there are derivatives."""
@@ -97,20 +77,8 @@ def _one(name: str, of: h5py.Group) -> Optional[Gradient]:
 
 
 def read(group: Optional[h5py.Group], closed: bool = True) -> dict[str, Gradient]:
-    """The gradients of a results file.
-
-    Parameters
-    ----------
-    group : h5py.Group, optional
-        /gradient; None: the file has none.
-    closed : bool
-        False: the run may have been killed while it wrote one of them, which is left out.
-
-    Returns
-    -------
-    dict
-        {name of the number: Gradient}.
-    """
+    """Returns the gradients {name of the number: Gradient} of a results file, from its group /gradient; none of None.
+    If the file is not `closed`, the run may have been killed while it wrote one of them, which is left out."""
     found = {}
     for name, of in () if group is None else group.items():
         try:

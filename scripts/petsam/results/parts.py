@@ -16,7 +16,7 @@ def name_of(path, number):
 
 
 def follows(part, before):
-    """Whether a file is the part after another one: else it is of another run, which had the same name."""
+    """True if a file is the part after another one: else it is of another run, which had the same name."""
     identity = before.parameters.get(IDENTITY)
     return identity is not None and part.parameters.get(FOLLOWS) == identity
 

@@ -16,15 +16,7 @@ Me = TypeVar("Me", bound="Steps")  # Results
 
 
 class Steps(Datafile):
-    """The load steps of Results.
-
-    Attributes
-    ----------
-    time : ndarray
-        Times of all load steps, (steps,), s.
-    first_row : int
-        First row of the history that counts: see between().
-    """
+    """The load steps of Results."""
 
     steps: list[int]
     before: int
@@ -59,7 +51,7 @@ class Steps(Datafile):
         return (make, given) if self._whole is None else (_part_of, (make, given, self.first_row, self._last_row))
 
     def counts(self, rows: np.ndarray) -> np.ndarray:
-        """Whether rows are among the load steps of between().
+        """True for rows that are among the load steps of between().
 
         Parameters
         ----------
@@ -251,7 +243,7 @@ class Steps(Datafile):
         return len(self.steps) - 1
 
     def is_last(self, index: int) -> bool:
-        """Whether a saved step is the last one; never of a life, where its name says how many cycles have passed.
+        """True if a saved step is the last one; never of a life, where its name gives the number of cycles passed.
 
         Parameters
         ----------
@@ -269,7 +261,7 @@ class Steps(Datafile):
             raise Error(f"{self.path}: no fields were saved")
 
     def title(self, index: int) -> str:
-        """What names a saved step: the label, and where there are several the step and its time, or cycle.
+        """The name of a saved step: the label, and where there are several the step and its time, or cycle.
 
         Parameters
         ----------
@@ -329,7 +321,7 @@ class Steps(Datafile):
 
     @property
     def has_life(self) -> bool:
-        """Whether the history is a cycle that was repeated (-wear_cycles), and one has been computed."""
+        """True if the history is a cycle that was repeated (-wear_cycles), and one has been computed."""
         return "cycle" in self.history and "cycle" in self.wear and self.wear["cycle"].size > 0
 
     def need_life(self) -> None:

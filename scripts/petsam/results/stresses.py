@@ -61,7 +61,7 @@ class Stresses(Datafile):
         self.shape = (self.times.size, self.z.size, self.y.size, self.x.size)
 
     def __str__(self):
-        """What the file holds: steps, points, and the names, shapes and units of stresses and numbers."""
+        """The contents of the file: steps, points, and the names, shapes and units of stresses and numbers."""
         what = f"a section along {self.along}" if self.along else "maps"
         with self._reading():
             body = int(self.parameters["body"])
@@ -92,7 +92,7 @@ class Stresses(Datafile):
 
     @staticmethod
     def _is_timeless(name):
-        """Whether a dataset is of the cycle, not of its steps."""
+        """True if a dataset is of the cycle, not of its steps."""
         return name in FATIGUE or "_normal_" in name
 
     @property
@@ -131,7 +131,7 @@ class Stresses(Datafile):
         return self.times.size - 1
 
     def is_last(self, index: int) -> bool:
-        """Whether a step is the last one.
+        """True if a step is the last one.
 
         Parameters
         ----------
@@ -189,7 +189,7 @@ class Stresses(Datafile):
         return self.nearest(self.times, time)
 
     def title(self, index: int) -> str:
-        """What names a step: the label and the time.
+        """The name of a step: the label and the time.
 
         Parameters
         ----------
@@ -326,26 +326,8 @@ class Stresses(Datafile):
 
 
 def open_any(path: Union[str, os.PathLike], label: Optional[str] = None) -> Any:
-    """Opens a file by what is in it.
-
-    Parameters
-    ----------
-    path : str
-        The file.
-    label : str, optional
-        Its name in pictures; the file's name.
-
-    Returns
-    -------
-    Results, Stresses or Study
-
-    Raises
-    ------
-    MissingFile
-        If there is no such file.
-    Error
-        If it cannot be read.
-    """
+    """Opens a file as Results, Stresses or Study by its contents. `label`: its name in pictures, by default the file's
+    name. Raises MissingFile if there is no such file, and an Error if it cannot be read."""
     if is_study(path):
         return Study(path, label)
     try:

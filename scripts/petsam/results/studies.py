@@ -230,18 +230,7 @@ class Study(Shown):
 
 
 def is_study(path: Union[str, os.PathLike]) -> bool:
-    """Whether a file looks like the table of a study.
-
-    Parameters
-    ----------
-    path : str
-        The file.
-
-    Returns
-    -------
-    bool
-        False of a file that cannot be read, too.
-    """
+    """True if a file looks like the table of a study; False if it cannot be read, too."""
     try:
         need_regular(str(path))
         with opened(str(path)) as file:

@@ -1,16 +1,16 @@
 /*
   Means of a motion over the open cells beside the contact (touching.c).
 
-  The mean about a cell has the weights of the points and a Gaussian of their distance from the cell, which singles out
-  the nearest ones for cells far inside, too. Its deviation is DEVIATION cells, or the part PART of the width of the
-  contact: shear answers to the differences of the motion along the edge, whatever their length, and a fixed number of
-  cells would leave the more of them to the iteration the finer the grid is: 57 passes on 768 cells instead of 18. The
-  width is 4 times the number of cells in contact over the number of their sides on the edge. The motions point outwards
-  on all sides, so that their mean is shorter than they are: it is made as long, by at most the factor LONGER.
+  In the mean about a cell, each point has its own weight times a Gaussian of its distance from the cell. So the nearest
+  points prevail for cells far inside, too. The deviation is DEVIATION cells, or the part PART of the width of the
+  contact, if that is more: shear responds to differences of the motion along the edge, whatever their length. With a
+  fixed number of cells, a finer grid would leave more of them to the iteration: 57 passes on 768 cells instead of 18.
+  The width is 4 times the number of cells in contact over the number of their sides on the edge. The motions point
+  outwards on all sides, and partly cancel in their mean. It gets their mean length, by a factor of at most LONGER.
 
   Algorithm: For a row, the points of a column are summed first, then the columns for each cell, from the nearest on. As
-  the means are smooth, they are computed on every n-th row and column, n being the part SPACING of the deviation, and
-  interpolated between them; of these, where a cell needs them.
+  the means are smooth, they are computed on every n-th row and column only, where a cell needs them, and interpolated
+  between; n is the part SPACING of the deviation.
 */
 #include "edgemean.h"
 #include <math.h>
@@ -20,21 +20,21 @@
 #define DEVIATION 2.5
 #define PART      (1.0 / 16)
 #define SPACING   0.2
-/* Points count as long as the square of their distance exceeds that of the nearest by at most so many squared
-   deviations: the weight is 1e-6 then. */
+/* Points count if the square of their distance exceeds that of the nearest by at most COUNTS squared deviations, where
+   the weight is 1e-6. */
 #define COUNTS 28.0
 #define LONGER 1.25
 
-/* Of a column's points: the sums of the weights, relative to that of the nearest, of the weighted motions, and of their
-   lengths */
+/* Sums over a column's points: of their weights relative to that of the nearest, of the weighted motions, and of the
+   lengths of these */
 typedef struct {
   double weight, moved[2], length;
 } Column;
 
 /*
-  The columns about row j, from column -before to nx + before - 1: those of periodic bodies continue. `far`: the squared
-  distance of a column's nearest point. `at`: the place of that point in `order`; on periodic bodies places go on
-  before the column's first point and behind its last one, for the points of the periods before and after.
+  The columns about row j, from column -before to nx + before - 1: beyond the grid for periodic bodies. `far`: the
+  squared distance of a column's nearest point. `at`: the place of that point in `order`; on periodic bodies places go
+  on before the column's first point and behind its last one, for the points of the periods before and after.
 */
 typedef struct {
   PetscInt   j, *at;
@@ -51,8 +51,8 @@ struct SamEdgeMean_ {
   double   *point; /* SAM_EDGE_POINT numbers of each */
   PetscInt  before, spacing, counts;
   double   *weight; /* by the squared distance beyond that of the nearest point, in cells */
-  Row       row[2]; /* those of every n-th row on both sides */
-  double    along;  /* the part of the second one */
+  Row       row[2]; /* the nearest n-th rows on both sides */
+  double    along;  /* the weight of the second row in interpolation */
 };
 
 /* The number of the period of a column's point `at`, and the point */

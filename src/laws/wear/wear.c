@@ -2,8 +2,8 @@
   The laws of wear: their memory, the separation that follows from it, and their advance in a step.
 
   If the surfaces slide past each other, each body has a wear load at its own points. A step wears by the mean of the
-  pressures before and after it; the wear of body 2 by each of these is written at the points where its surface was
-  read, by the transpose of reading.
+  pressures before and after it. The wear of body 2 by each pressure is written at the points where its surface was
+  read under that pressure, by the transpose of reading.
 */
 #include "wearimpl.h"
 #include <petsam/private/motionimpl.h>
@@ -145,8 +145,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 }
 
 /*
-  Returns the wear load that opens the gap; the wear of a step does so from the next step on. A tried solution has the
-  committed load; a committed one has the load before it, if its step wore.
+  Returns the wear load that opens the gap. The wear of a step opens it from the next step on: a tried solution has the
+  committed load, and a committed solution the load before its step, if that wore.
 */
 static Vec LoadOf(SamState state, SamGeneration generation, PetscInt body)
 {

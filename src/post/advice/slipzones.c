@@ -293,13 +293,13 @@ static void Long(SamAdvice *a)
 }
 
 /*
-  Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. Then the ring of slip is too
-  wide: it has the part 1 - s of the contact's area, s being that of stick, and with enough steps (1 - f)(1 - s). As
-  the shear at the end of the ring is mu p there, and p of a sphere the root of that part, the maximum shear is too
-  large by 1 - sqrt(1 - f). Measured on spheres with beta/mu of 0.8, 1, 1.15 and 1.3, on 128 cells in 1, 4 and 12
-  steps against 64, with the work x before cells touch, relative to the energy: f was 0.02, 0.06, 0.17, 0.24, 0.4 at x
-  = 0.5, 1.4, 3.6, 6.9, 30, no more beyond, and is estimated as WIDE x/(x + 4). The energy that was missing was
-  0.006 to 0.1 x.
+  Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. The ring of slip is too wide
+  then: its part of the contact's area is 1 - s instead of (1 - f)(1 - s), s being the part that sticks. The shear is
+  mu p at the inner end of the ring, where the pressure of a sphere is in proportion to the square root of the ring's
+  part. So the maximum shear is too large by 1 - sqrt(1 - f). Let x be the work of slip before cells touch, relative to
+  the energy. On spheres with beta/mu of 0.8, 1, 1.15 and 1.3, on 128 cells, in 1, 4 and 12 steps against 64, f was
+  0.02, 0.06, 0.17, 0.24, 0.4 at x = 0.5, 1.4, 3.6, 6.9, 30, and did not grow any more. It is estimated as
+  WIDE x/(x + 4). The missing energy was 0.006 to 0.1 x.
 */
 static void Few(SamAdvice *a)
 {

@@ -498,7 +498,7 @@ def _response(args):
 
 
 def _degree_line(args, compute, pair, result):
-    """What fewer polynomials change at the largest amplitude."""
+    """Returns a line on the change at the maximum amplitude by polynomials of a degree lower by 2."""
     if pair.degree <= 1:
         return f"--degree-check: the file has {pair.functions} polynomials and no lower degree: nothing is compared"
     last = len(result.alpha) - 1

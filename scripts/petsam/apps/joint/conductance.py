@@ -160,7 +160,7 @@ class Conductors(NamedTuple):
 
 @dataclass(frozen=True)
 class Conducting:
-    """What conducts in an interface, as users give it.
+    """The conductors in an interface, as users give them.
 
     Parameters
     ----------
@@ -253,13 +253,8 @@ def _pair(name, values, what, good):
 
 
 def add_resistance(numbers: dict, spread: dict) -> None:
-    """Adds the resistance, that of the mean conductance, to numbers and standard deviations.
-
-    Parameters
-    ----------
-    numbers, spread : dict
-        {name: (pressures,)}, changed in place; without the conductance they stay.
-    """
+    """Adds the resistance, that of the mean conductance, to numbers and standard deviations, {name: (pressures,)},
+    which it changes in place; without the conductance they stay."""
     if "h" in numbers:
         numbers["resistance"] = 1.0 / numbers["h"]
     if "h" in spread:
@@ -267,19 +262,10 @@ def add_resistance(numbers: dict, spread: dict) -> None:
 
 
 def rows(numbers: dict) -> list[tuple[float, float]]:
-    """Pressures (Pa) and conductances of a card, from the pressure 0 on.
+    """Returns the (pressure, conductance) rows of a card, from the pressure 0 (Pa) on, from {name: (pressures,)}.
 
     Where the pressure is 0 the gap alone conducts, as at the lowest pressure; at a tenth of that the contact's part is
     extrapolated in proportion to p^0.95.
-
-    Parameters
-    ----------
-    numbers : dict
-        {name: (pressures,)}.
-
-    Returns
-    -------
-    list of (pressure, conductance)
     """
     p, low, gap = numbers["pressure"], float(numbers["h_contact"][0]), float(numbers["h_gap"][0])
     first = [(0.0, gap), (FIRST * float(p[0]), gap + FIRST**POWER * low)]

@@ -48,19 +48,8 @@ def _conductances(found):
 
 
 def abaqus(found: Any, name: str) -> list[str]:
-    """Lines of the interaction for Abaqus: pressure over overclosure, friction, and the conductance, if computed.
-
-    Parameters
-    ----------
-    found : Interface
-        The interface.
-    name : str
-        Name of the interaction.
-
-    Returns
-    -------
-    list of str
-    """
+    """Returns the lines of an Interface for Abaqus, under a name: pressure over overclosure, friction, and the
+    conductance, if computed."""
     comments = [
         "** contact stiffness of a rough interface; pressure in MPa, overclosure from the first touch in mm,",
         "** linear between the rows",
@@ -89,21 +78,9 @@ def abaqus(found: Any, name: str) -> list[str]:
 
 
 def calculix(found: Any, name: str) -> list[str]:
-    """Lines of the interaction for CalculiX: a linear overclosure, friction, and the conductance.
-
-    CalculiX has no electrical contact: that of a current is written as one of heat, whose equations are the same.
-
-    Parameters
-    ----------
-    found : Interface
-        The interface, with a conductance.
-    name : str
-        Name of the interaction.
-
-    Returns
-    -------
-    list of str
-    """
+    """Returns the lines of an Interface with a conductance for CalculiX, under a name: a linear overclosure, friction,
+    and the conductance. CalculiX has no electrical contact: a current is written as heat, whose equations are the
+    same."""
     of = found.numbers
     slope = 1e-9 * float(np.median(of["k_n_secant"]))
     lines = [

@@ -57,25 +57,13 @@ FITTED = [name for name in COLUMNS if name.startswith("iwan")]
 
 
 class Outcome(NamedTuple):
-    """Numbers of an interface before its elements are fitted.
+    """Numbers of an interface before its elements are fitted."""
 
-    Parameters
-    ----------
-    numbers, spread : dict
-        {name: (pressures,)}: means, and standard deviations of windows.
-    loading : ndarray
-        Displacements of the first loading, (pressures, parts), m.
-    errors : dict
-        {name: (pressures,)}: relative errors of the formula, of the names of ERRORS; empty for computed loops.
-    note : str
-        How the loops were found, in words.
-    """
-
-    numbers: dict
-    spread: dict
-    loading: np.ndarray
-    errors: dict
-    note: str
+    numbers: dict  # {name: (pressures,)}: means of windows
+    spread: dict  # their standard deviations
+    loading: np.ndarray  # displacements of the first loading, (pressures, parts), m
+    errors: dict  # {name: (pressures,)}: relative errors of the formula, for ERRORS; empty for computed loops
+    note: str  # how the loops were found, in words
 
 
 class Interface(Tabled, Shown):

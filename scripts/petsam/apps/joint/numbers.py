@@ -11,18 +11,10 @@ PER_METRE = {"J": "J/m", "N": "N/m", "m3": "m3/m", "m kg^0.5": "m (kg/m)^0.5", "
 
 
 class Numbers(Tabled, Shown):
-    """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"].
+    """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"]."""
 
-    Attributes
-    ----------
-    columns : dict
-        {name: (unit, text)} of the kind of result.
-    per_metre : bool
-        True: loads, energies and masses are those of sections in plane strain, per metre.
-    """
-
-    columns = {}
-    per_metre = False
+    columns = {}  # {name: (unit, text)} of the kind of result
+    per_metre = False  # True: loads, energies and masses are those of sections in plane strain, per metre
     form = staticmethod("{:.10g}".format)
 
     def __getattr__(self, name):
@@ -40,13 +32,7 @@ class Numbers(Tabled, Shown):
         return f"{name}/{own}" if own == unit else f"{name}/({own})"
 
     def more_columns(self) -> list[Column]:
-        """Columns beside the numbers.
-
-        Returns
-        -------
-        list of tables.Column
-            Empty, unless a kind of result has some.
-        """
+        """Returns the columns beside the numbers, a list of tables.Column; empty unless a kind of result has some."""
         return []
 
     def table(self) -> list[Column]:

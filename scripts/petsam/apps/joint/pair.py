@@ -230,22 +230,8 @@ class Pair:
 
 
 def contents(path: Union[str, os.PathLike], preload: Mapping[str, float]) -> Pair:
-    """A Pair without its structure: bolts, sensors and modes of its file, whose preload has been judged.
-
-    Parameters
-    ----------
-    path, preload
-        As of Pair.
-
-    Returns
-    -------
-    Pair
-
-    Raises
-    ------
-    Error
-        For a file that is no such pair, and a preload that is not of its bolts.
-    """
+    """Returns a Pair without its structure: bolts, sensors and modes of its file, whose preload has been judged. Raises
+    an Error for a file that is no such pair, and for a preload that is not of its bolts."""
     found = Pair.__new__(Pair)
     found._open(path, preload)
     return found

@@ -121,14 +121,14 @@ def _hatched(ax, x, y, inside):
 
 
 def _keys():
-    """What the legend of zones shows."""
+    """Returns the entries of the legend of zones."""
     hatched = {SLIP: {"hatch": HATCH, "edgecolor": HATCHED, "linewidth": 0.0}}
     shown = [(STATES[k], hatched.get(k, {})) for k in sorted(STATES) if k != OPEN]
     return [Key(facecolor=tint, label=word, **look) for (word, tint), look in shown]
 
 
 def _bolts_of(bolts, x, y):
-    """Those bolts whose axes cross a patch, {name: (x, y, diameter)}, m."""
+    """Returns the bolts whose axes cross a patch, {name: (x, y, diameter)}, m."""
     return {name: one for name, one in (bolts or {}).items() if x[0] <= one[0] <= x[-1] and y[0] <= one[1] <= y[-1]}
 
 
@@ -362,7 +362,7 @@ def conductance(*found: Interface) -> Figure:
 
 
 def _conducting(conductors):
-    """What conducts, in a few words."""
+    """Returns the names of the conductors, in a few words."""
     words = (
         ("layers on the bodies", any(conductors.layers)),
         ("film on the spots", conductors.has_film),

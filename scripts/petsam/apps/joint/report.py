@@ -127,7 +127,7 @@ def _numbers(found):
 
 
 def _facts(found):
-    """What holds for all rows, (name, value) each."""
+    """Returns the facts that hold for all rows, (name, value) each."""
     if isinstance(found, Backbone):
         stuck = ", ".join(f"{one:.6g}" for one in found.stuck)
         facts = [("Mode", page.quantity(found.linear, "Hz", 9)), ("Modes while all that touches sticks", f"{stuck} Hz")]

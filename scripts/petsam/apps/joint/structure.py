@@ -6,12 +6,12 @@ of a body. The loads F that belong to them act on the structure. With a modal fo
 
     z = Phi W^-2 f + X F(z) + R a      R'F + f_r = 0      eta_k = (f_k + Phi_k'F)/w_k^2      eta_r = a_r
 
-Phi are the elastic modes in the coordinates, W their angular frequencies, R the modes without stiffness, with their
-amplitudes a, and X the static compliance between coordinates that the contacts themselves do not have. The modes that
-are not kept have no inertia, but their stiffness.
+Phi are the elastic modes in the coordinates, and W their angular frequencies. R are the modes without stiffness, with
+their amplitudes a. X is the part of the static compliance between coordinates that the contacts' own lacks. The modes
+that are not kept have stiffness, but no inertia.
 
-Of one patch whose file has all its compliance X is zero, and z is known without an iteration. Of a body that only its
-contact holds, the loads are known. Otherwise Broyden's method begins with dF/dz of the step before, or of sticking
+If there is one patch, whose file has all its compliance, X is zero, and z needs no iteration. The loads on a body that
+only its contact holds are known. Otherwise Broyden's method begins with dF/dz of the step before, or of sticking
 contacts at a reversal, and takes the contacts' own stiffness where it is slow.
 """
 

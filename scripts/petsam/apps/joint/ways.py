@@ -31,7 +31,7 @@ ERRORS = {  # of the formula: the column of interfaces.COLUMNS, and its text
 
 @dataclass(frozen=True)
 class Ways:
-    """Which numbers of an interface are found, and how.
+    """The choice of the numbers of an interface, and of the way to compute them.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
-"""What wear does to a joint: frequency and damping of a mode over the cycles of a vibration.
+"""The effect of wear on a joint: frequency and damping of a mode over the cycles of a vibration.
 
 The joint vibrates at a given modal force. Its settled cycle prescribes the steps of each patch, whose contact wears
 over many of them. Then the structure finds its equilibrium anew, as worn patches unload the bolts. Within one part of
-the simulation the loads of the patches and the motions of the bodies stay; half the number of parts shows what that
-costs. The cycles until each part's vibration has settled wear too, beside those that are counted.
+the simulation the loads of the patches and the motions of the bodies stay; the result with half the number of parts
+gives an estimate of the error. The cycles until each part's vibration has settled wear too, but are not counted.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class Wear(Numbers):
         return lines
 
     def more_columns(self) -> list[Column]:
-        """What `measure` returned.
+        """The values that `measure` returned.
 
         Returns
         -------
@@ -218,7 +218,7 @@ def _run(structure, alpha, cycles, how, told, parts):
 
 
 def _wear(patches, given, count):
-    """Wears patches over so many cycles of the given steps; returns the worn volume, m3."""
+    """Wears patches over `count` cycles of the given steps; returns the worn volume, m3."""
     volume = 0.0
     for k, patch in enumerate(patches):
         history = _history([given[-1][k], *(one[k] for one in given)])  # closed
@@ -230,8 +230,8 @@ def _wear(patches, given, count):
 
 
 def _history(steps):
-    """{column: values} of a patch's steps: of a displacement and its load the load, unless a step that slides has no
-    load."""
+    """Returns {column: values} of a patch's steps: loads, and displacements whose loads some steps lack, as steps that
+    slide may."""
     names = set.intersection(*(set(one) for one in steps))
     names -= {moved for moved, load in DISPLACEMENTS.items() if load in names}
     return {name: np.array([one[name] for one in steps]) for name in sorted(names)}

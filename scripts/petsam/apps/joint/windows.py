@@ -100,17 +100,8 @@ class Found(NamedTuple):
 
 
 def need_computing(bodies: dict[str, Any]) -> str:
-    """Why the loops of these bodies must be computed, in words; empty where the formula holds.
-
-    Parameters
-    ----------
-    bodies : dict
-        Options of the bodies and of the solution.
-
-    Returns
-    -------
-    str
-    """
+    """Returns why the loops must be computed with these options of the bodies and of the solution, in words; empty
+    where the formula holds."""
     given = {name for name, value in bodies.items() if value is not None}
     if "pressure_limit" in given:
         return "with a hardness the curve of loading is not that of unloading"
@@ -210,19 +201,8 @@ def check(window: Window, _: Callable[[float, float], object]) -> Found:
 
 
 def loads(pressures: tuple, shear: float, largest: float) -> list[float]:
-    """Pressures of the normal curve beside the given ones, so that none is far from the next.
-
-    Parameters
-    ----------
-    pressures : tuple of float
-        Nominal pressures, rising.
-    shear, largest : float
-        Parts by which loops, and the first loading for elements, go below a pressure.
-
-    Returns
-    -------
-    list of float
-    """
+    """Returns pressures of the normal curve beside the given ones, which rise, so that none is far from the next.
+    `shear` and `largest`: parts by which loops, and the first loading for elements, go below a pressure."""
     fixed = sorted({pressures[0] * (1.0 - largest), pressures[0] * (1.0 - shear), *pressures})
     found = set(fixed)
     for low, high in zip(fixed, fixed[1:]):

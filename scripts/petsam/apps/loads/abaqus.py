@@ -60,23 +60,15 @@ def refuse_printed(path):
 
 
 class _States:
-    """Values of nodes over time, and sets of nodes.
-
-    Attributes
-    ----------
-    found : dict
-        {(label, time): (line, {name: value})}.
-    sets : dict
-        {part or region: labels}.
-    repeated : set
-        Steps whose first frame, the last state of the step before, is left out.
-    """
+    """Values of nodes over time, and sets of nodes."""
 
     def __init__(self, path, deck):
         self.path = path
         self.deck, self.instances = deck, [folded(name) for name in deck.instances] if deck else []
         self.bases, self.last = {}, 0.0  # total time at which each step begins; the latest one
         self.step, self.time, self.skips = "", None, False
+        # {(label, time): (line, {name: value})}, {part or region: labels}, pairs, and steps whose first frame, the last
+        # state of the step before, is left out
         self.found, self.sets, self.pairs, self.repeated = {}, {}, {}, set()
 
     def begin(self, step):

@@ -39,29 +39,16 @@ class Given:
 
 @dataclass
 class Rows:
-    """Rows of a file in their order: columns of numbers, in the file's units, and the number of each line.
-
-    Attributes
-    ----------
-    path : str
-        The file.
-    labels, times, lines : list
-        Of each row.
-    force : list
-        (3,) of each row.
-    more : dict
-        {"normal", "displacement", "x", "couple": list of (3,), "cpress", ...: list}, as long as the rows, or missing.
-    sets : dict
-        {name: labels}.
-    """
+    """Rows of a file in their order: columns of numbers, in the file's units, and the number of each line."""
 
     path: str
-    labels: list = field(default_factory=list)
+    labels: list = field(default_factory=list)  # of each row, like times and lines
     times: list = field(default_factory=list)
     lines: list = field(default_factory=list)
-    force: list = field(default_factory=list)
+    force: list = field(default_factory=list)  # (3,) of each row
+    # {"normal", "displacement", "x", "couple": list of (3,), "cpress", ...: list}, as long as the rows, or missing
     more: dict = field(default_factory=dict)
-    sets: dict = field(default_factory=dict)
+    sets: dict = field(default_factory=dict)  # {name: labels}
 
     def forces(self, given, x, length, force):
         """The Forces; x: {label: coordinates}, in the file's unit of length, or None where the rows have them."""

@@ -150,7 +150,7 @@ def _content(path):
 
 
 def _stamps_in(text):
-    """Of the files that an options file names by their whole paths."""
+    """Returns the stamps of the files that an options file names by their whole paths."""
     named = re.findall(r'^\s*--?(\w+)\s+("[^"]*"|\S+)', text, re.MULTILINE)
     paths = [value.strip('"') for name, value in named if name in PATHS]
     return [_stamp(path) for path in paths if os.path.isabs(path)]

@@ -147,7 +147,7 @@ class _Reader:
         return found
 
     def empty(self, node):
-        """Whether there is no value."""
+        """True if there is no value."""
         return node is None or isinstance(node, yaml.ScalarNode) and node.tag.endswith(":null")
 
     def scalar(self, node, most=VALUE):

@@ -195,7 +195,7 @@ class Run:
         return lock
 
     def _goes_on(self, directory, checkpoint_every):
-        """Whether an earlier run of these inputs left a checkpoint; the remains of others are removed."""
+        """True if an earlier run of these inputs left a checkpoint; the remains of others are removed."""
         if checkpoint_every and record(directory, self.case) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
             return True
         for name in os.listdir(self.folder):

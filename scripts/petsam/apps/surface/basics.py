@@ -1,4 +1,4 @@
-"""What all modules here share: the quantities of a map, and when two lengths are the same."""
+"""Common parts of all modules here: the quantities of a map, and when two lengths are the same."""
 
 QUANTITIES = {
     "height1": "heights of body 1, peaks positive",

@@ -63,7 +63,7 @@ def need_map(path, values, text, library=False):
 
 
 def _is_grid(values):
-    """Whether the first two columns run through a grid of points, each once."""
+    """True if the first two columns run through a grid of points, each once."""
     places = values[:, :2]
     if not np.all(np.isfinite(places)):
         return False
@@ -81,14 +81,14 @@ def _even(line):
 
 
 def _positions(values):
-    """Whether the first row is even and no continuation of the next two rows, as that of a tilted plane is."""
+    """True if the first row is even and no continuation of the next two rows, as that of a tilted plane is."""
     first, second, third = (row[1:] for row in values[:3])  # the corner may hold anything
     step = _even(first)
     return bool(step and not abs(step - 2 * _slope(second) + _slope(third)) <= 0.5 * abs(step)) or _uneven(values)
 
 
 def _uneven(values):
-    """Whether the first row alone rises or falls throughout, and lies apart from the next two: uneven positions."""
+    """True if the first row alone rises or falls throughout, and lies apart from the next two: uneven positions."""
     first, second, third = (row[1:] for row in values[:3])
     if first.size < GRID or not np.all(np.isfinite(values[:3, 1:])):
         return False
@@ -232,7 +232,7 @@ def of_cells(one):
 
 
 def _square(n, size):
-    """Whether cells are square."""
+    """True if cells are square."""
     return abs(size[0] * n[1] / (size[1] * n[0]) - 1.0) <= SQUARE
 
 

@@ -15,7 +15,7 @@ def place(one, row, column):
 
 
 def missing(one):
-    """Which points are missing."""
+    """Returns True for each missing point."""
     return np.isnan(one.values)
 
 

@@ -117,7 +117,7 @@ class _Reader:
             )
 
     def _read_numbers(self, number, line, words, value):
-        """Whether the line is a size or the width of a pixel, along one axis or both."""
+        """Reads the size or the width of a pixel, along one axis or both; False if the line has none."""
         kind = "pixel" if PIXEL & set(words) else "size" if SIZE & set(words) else None
         axes = [d for d, names in enumerate((X, Y)) if names & set(words)]
         if not kind or {"z", "n", "points", "pixels", "number", "date"} & set(words):

@@ -57,7 +57,7 @@ class Map(Tabled):
 
     @property
     def is_profile(self) -> bool:
-        """Whether the map is one row, for plane strain."""
+        """True if the map is one row, for plane strain."""
         return len(self.values) == 1
 
     @property

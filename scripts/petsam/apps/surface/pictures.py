@@ -87,5 +87,5 @@ def surface(one: Map) -> Figure:
 
 
 def finite(one):
-    """Whether the map can be drawn: it must not overflow."""
+    """True if the map can be drawn: it must not overflow."""
     return bool(np.all(np.isfinite(one.values)))

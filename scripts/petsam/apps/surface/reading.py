@@ -30,7 +30,7 @@ SMALLEST = 1e-7  # m: few instruments measure a surface that is smaller
 
 @dataclass(frozen=True)
 class Given:
-    """What is given beside a file, as words or numbers; None, 0 or False where nothing is."""
+    """The options given beside a file, as words or numbers; None, 0 or False where nothing is."""
 
     units: str | float | None = None  # of the values: "um", "0.1mm", or m
     size: object = None  # full width of all cells in x, y: m, or a text
@@ -183,7 +183,7 @@ def _need(path, family, quantity, unit, size, spans):
 
 
 def _guarded(path, read_it):
-    """What read_it() returns of a file; whatever a damaged one raises as an Error."""
+    """Returns the value of read_it() for a file; errors of damaged files are raised as an Error."""
     try:
         if need_regular(path).st_size == 0:
             raise Error(f"{path}: is empty")
@@ -208,7 +208,7 @@ def _need_free(path, stated, given):
 
 
 def _top(path, stated, first_row):
-    """Whether the first row has the largest y, and remarks to print."""
+    """Returns True if the first row has the largest y, and remarks to print."""
     if stated.top is None:
         turned_round = "" if first_row else "; --first-row top turns it round"
         place = "largest" if first_row == "top" else "smallest"

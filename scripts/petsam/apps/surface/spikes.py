@@ -15,7 +15,7 @@ ROUNDING = 1e-12  # of peak to valley, that a plane's differences are of
 
 
 def found(values):
-    """Which of the values (ny, nx) are spikes; missing ones (NaN) are none."""
+    """Returns True for each of the values (ny, nx) that is a spike; missing ones (NaN) are none."""
     from scipy.ndimage import label, median_filter
 
     holes = np.isnan(values)

@@ -80,7 +80,7 @@ def told(name, shapes):
 
 
 def listed(shapes, option):
-    """What a file contains, and how to choose of it."""
+    """Lists the arrays of a file, and says how to choose one."""
     texts = [
         f"{short(name)} ({shape if isinstance(shape, str) else ' x '.join(map(str, shape)) or 'one number'})"
         for name, shape in list(shapes.items())[:LISTED]

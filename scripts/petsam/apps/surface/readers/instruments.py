@@ -86,7 +86,7 @@ def _line(source, name, topography):
 
 
 def _opened(source):
-    """What the library reads: kind of file, name of the channel, heights, size, unit, and names of all channels."""
+    """Reads with the library: kind of file, name of the channel, heights, size, unit, and names of all channels."""
     path, wanted = source.path, source.how.channel
     their = library(LIBRARY + ".IO", f"{path}: such a file")
     try:
@@ -158,6 +158,6 @@ def _need_grid(source, heights):
 
 
 def _proportional(one, other):
-    """Whether two arrays are the same but for a unit."""
+    """True if two arrays are the same but for a unit."""
     scale = np.max(np.abs(one)) or 1.0
     return bool(np.allclose(one / scale, other / (np.max(np.abs(other)) or 1.0), rtol=0.0, atol=1e-6))

@@ -57,7 +57,7 @@ class Axis:
         return axis
 
     def remark(self, name):
-        """What is said of positions of few digits."""
+        """Returns a remark on positions of few digits, in a list; none for others."""
         said = f"positions {name} have few digits: taken for even, with a step of {self.step:.6g}"
         return [said] if self.rounded else []
 

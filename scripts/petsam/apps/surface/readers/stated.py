@@ -1,4 +1,4 @@
-"""What a file states about its map, and what a reader of one format is."""
+"""Statements of a file about its map, and the base of the readers of one format each."""
 
 import os
 from dataclasses import dataclass, field
@@ -58,19 +58,19 @@ class Source:
 
     @cached_property
     def is_text(self):
-        """Whether the file is a text by its name, or by its contents where the name leaves this open."""
+        """True if the file is a text by its name, or by its contents where the name leaves this open."""
         if self.how.table or self.ending in TEXTS:
             return not self.start.startswith((NUMPY, HDF5))
         return self.ending in OTHERS and self.is_printable
 
     @property
     def is_printable(self):
-        """Whether the first bytes are letters, whatever the name is."""
+        """True if the first bytes are letters, whatever the name is."""
         return all(c.isprintable() or c in "\r\n\t\f" for c in decoded(self.start))
 
     @cached_property
     def is_list(self):
-        """Whether a text is one that this package takes without a structure of its own: .asc is an instrument's."""
+        """True if a text is one that this package takes without a structure of its own: .asc is an instrument's."""
         return self.is_text and (self.how.table or self.ending not in (".asc", ".grd", ""))
 
     def header(self, lateral=None):
@@ -85,7 +85,7 @@ class Reader:
     states = ()  # what a file of it may state
 
     def recognizes(self, source) -> bool:
-        """Whether the file is one of this format."""
+        """True if the file is one of this format."""
         raise NotImplementedError
 
     def read(self, source) -> Stated:
