@@ -33,9 +33,9 @@ LIMITS = {
     "names that applications use of each other": (7, 6),
     "names of applications that the library uses": (0, 0),
     "documented names of the package": (285, 220),
-    "blocks of docstrings that no list reaches": (140, 0),
+    "blocks of docstrings that no list reaches": (4, 4),  # of dataclasses whose fields are keywords
     "readers of words in commands": (7, 8),
-    "docstrings that begin with What, Whether, Those, Of, Which": (155, 0),
+    "docstrings that begin with What, Whether, Those, Of, Which": (0, 0),
 }
 MATERIALS = r"\bSamBody(?:MaterialAt|Substrate|SubstrateTop|Count|Top|At)\("
 

@@ -1,4 +1,4 @@
-"""What is to be computed of a mesh: Settings, and the checks that they make sense together.
+"""Settings of the compliance of a mesh, and the checks that they make sense together.
 
 Messages have the names of petsam-compliance's options: --fixed of `supports`, --bolt of `bolts`, --case of `cases`,
 --center of `centers`.

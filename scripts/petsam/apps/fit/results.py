@@ -1,4 +1,4 @@
-"""What is printed and written of a fit: lines, JSON, petsam's options and history, wear."""
+"""The output of a fit: lines, JSON, petsam's options and history, wear."""
 
 from dataclasses import dataclass
 from typing import Optional

@@ -1,4 +1,4 @@
-"""What the solution at a position has found: patches, their forces, and the forces on the rail in the track."""
+"""The solution at a position: patches, their forces, and the forces on the rail in the track."""
 
 from dataclasses import dataclass, field, replace
 
