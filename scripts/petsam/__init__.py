@@ -20,13 +20,14 @@ apps            the applications, petsam.joint, petsam.wheel and others: petsam.
 core            what all parts share: errors, files, HDF5, units, command lines, search for petsam and its libraries
 
 Importing this package alone needs only the standard library: each part imports its libraries when it is used, and is
-available by its name, petsam.cycles or petsam.closed.plane, without a separate import. An application is called as its
-command: petsam.joint is that of petsam-joint.
+available by its name, petsam.cycles or petsam.closed.plane, with an import statement and without. An application is
+called as its command: petsam.joint is that of petsam-joint.
 """
 
 import importlib
 import os
 
+from .core import names as _names
 from .core import shown as _shown
 from .core.errors import Error, Missing, MissingFile
 from .core.version import __version__ as __version__
@@ -109,19 +110,25 @@ def _applications():
     return importlib.import_module(".apps", __name__)
 
 
+def _place(name):
+    """Where a part is, relative to this package; None of a name that is none."""
+    if name in _PARTS:
+        return _PARTS[name]
+    return ".apps." + name if not name.startswith("_") and name in _applications().names() else None
+
+
 def __getattr__(name):
     if name in _HOMES:
         return getattr(importlib.import_module(_HOMES[name], __name__), name)
-    if name in _PARTS:
-        return importlib.import_module(_PARTS[name], __name__)
-    if not name.startswith("_") and name in _applications().names():
-        return importlib.import_module(".apps." + name, __name__)
+    if _place(name):
+        return importlib.import_module(_place(name), __name__)
     for one in [] if name.startswith("_") else _applications().records():
         if name in one.top:
             return one.find(name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
+_names.provide(__name__, _place)
 # for packages below plot and the applications
 _shown.provide("applications", lambda: _applications().records)
 _shown.provide("report", lambda: __getattr__("plot").report)

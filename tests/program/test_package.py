@@ -69,6 +69,25 @@ def test_what_the_pages_name_is_there_after_import_petsam_alone():
         _ = package.circles
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from petsam.wheel import Track",
+        "import petsam.joint, petsam.materials, petsam.cycles",
+        "import petsam.wheel.profile as one, petsam.apps.wheel.profile as other\nassert one is other",
+        "from petsam.gradient import function",
+        "import petsam.fit\nassert petsam.fit.__spec__.name == petsam.fit.__name__ == 'petsam.apps.fit'",
+    ],
+)
+def test_parts_are_imported_by_their_names(line):
+    python("-c", line)
+
+
+@pytest.mark.parametrize("name", ["nonsense", "wheel.nonsense", "joint.profile"])
+def test_import_of_a_name_that_is_none(name):
+    assert f"No module named 'petsam.{name}'" in python("-c", f"import petsam.{name}", check=1)
+
+
 def test_completion_shows_only_what_is_public(path):
     modules = {"commands", "contact", "core", "errors", "running"}
     libraries = {"importlib", "os", "np", "h5py"}
