@@ -114,7 +114,8 @@ def _place(name):
     """Where a part is, relative to this package; None of a name that is none."""
     if name in _PARTS:
         return _PARTS[name]
-    return ".apps." + name if not name.startswith("_") and name in _applications().names() else None
+    application = not name.startswith("_") and name not in (*__all__, "apps") and name in _applications().names()
+    return ".apps." + name if application else None
 
 
 def __getattr__(name):

@@ -1078,3 +1078,29 @@ def test_the_best_of_several_starts_is_taken():
 
     starts = [[-1.2], [0.8], [-0.7]]
     assert least.fit(wells, starts).x == pytest.approx([1.0]) and least.fit(wells, starts[::2]).x[0] < -0.9
+
+
+@pytest.mark.parametrize(
+    "given, says",
+    [
+        (dict(compliace=3), "compliace: is no parameter of a loop: is compliance meant"),
+        (dict(free=["leen"]), "leen: is no parameter of a loop: is lean meant"),
+        (dict(free="lean"), "free 'lean': expected a list of names"),
+        (dict(compliance="3.3e-8"), "compliance '3.3e-8': expected a number, or"),
+        (dict(loss=(0.0, 0.1, 0.2)), "loss .*: expected a number, or"),
+    ],
+)
+def test_a_name_or_value_that_is_no_parameter_is_an_error(given, says):
+    with pytest.raises(petsam.Error, match=says):
+        petsam.fit.analyse([], [], **given)
+    with pytest.raises(petsam.Error, match=says):
+        petsam.fit.fit([], PUSH, **given)
+
+
+@pytest.mark.parametrize(
+    "files, pushes, says",
+    [("a.csv", [PUSH], "files"), (["a.csv"], [PUSH], "files"), ([], PUSH, "pushes"), ([], [PUSH], "pushes: 1 of 0")],
+)
+def test_what_is_no_list_of_cycles_is_an_error(files, pushes, says):
+    with pytest.raises(petsam.Error, match=says):
+        petsam.fit.analyse(files, pushes)

@@ -7,18 +7,55 @@ only. petsam.joint is petsam.apps.joint, and the program petsam-joint its comman
 
 import importlib
 import pkgutil
+import warnings
+from functools import cache
 
 from ..core.part import Part
+
+OWN = ("names", "records")  # functions here, whose names no application can have
 
 
 def names() -> list[str]:
     """Returns the names of all applications: those of their folders."""
-    return sorted(module.name for module in pkgutil.iter_modules(__path__) if module.ispkg)
+    found = [module.name for module in pkgutil.iter_modules(__path__) if module.ispkg]
+    return sorted(name for name in found if name.isidentifier() and name not in OWN)
 
 
 def records() -> list[Part]:
-    """Returns the records of all applications."""
-    return [importlib.import_module("." + name, __name__).PART for name in names()]
+    """Returns the records of all applications; one that has none, or a wrong one, is left out with a warning."""
+    return list(_records(tuple(names())))
+
+
+@cache
+def _records(names):
+    found = []
+    for name in names:
+        try:
+            found.append(_checked(importlib.import_module("." + name, __name__).PART, found))
+        except Exception as error:
+            text = f"petsam.apps.{name} is left out: {type(error).__name__}: {error}"
+            warnings.warn(text, RuntimeWarning, stacklevel=3)
+    return tuple(found)
+
+
+def _checked(record, others):
+    """The record, if it states what is there, and nothing that another one has."""
+    plot = importlib.import_module("..plot", __name__)
+    known = [*plot.PART.listed, *(module.name for module in pkgutil.iter_modules(plot.__path__))]
+    pictures = [name for names in record.pictures.values() for name in names]
+    taken = {
+        "top": [name for name in record.top if name not in record.listed],
+        "tables": [name for name in record.tables if "read" not in record.listed or _have(others, "tables", name)],
+        "pictures": [name for name in pictures if name in known or any(one.pictured(name) for one in others)],
+    }
+    for field, wrong in taken.items():
+        if wrong:
+            raise ValueError(f"{field} of its record: {', '.join(wrong)}: is not in its list, or has another meaning")
+    return record
+
+
+def _have(others, field, name):
+    return any(name in getattr(one, field) for one in others)
 
 
 def __getattr__(name):
@@ -28,4 +65,4 @@ def __getattr__(name):
 
 
 def __dir__():
-    return [*names(), "names", "records"]
+    return [*names(), *OWN]

@@ -70,17 +70,6 @@ def enter(*libraries):
         )
 
 
-def command(program):
-    """Runs the command of a part by the name of its program: ends with the exit code of main() of petsam-NAME."""
-    name = program.partition("-")[2]
-    for package in (f"petsam.apps.{name}", f"petsam.{name}"):
-        if importlib.util.find_spec(package):
-            part = importlib.import_module(package).PART
-            enter(*part.libraries)
-            sys.exit(part.module("command").main())
-    sys.exit(f"{program}: error: no command of this name: call this file by the name of one, as petsam-plot")
-
-
 # ---------------------------------------------------------------- petsam
 
 

@@ -44,7 +44,8 @@ class _There:
         self.home, self.spec = home, None
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
-        module = importlib.import_module(self.home)
+        home = self.home
+        module = importlib.import_module(home)
         self.spec = module.__spec__
         return module
 

@@ -51,6 +51,10 @@ class Part(NamedTuple):
                 return getattr(self.module(module), name) if module else self.module(name)
         raise AttributeError(f"module {self.package!r} has no attribute {name!r}")
 
+    def pictured(self, name: str) -> bool:
+        """Returns whether the part has a picture of this name."""
+        return any(name in names for names in self.pictures.values())
+
     def picture(self, name: str) -> Any:
         """Returns a picture; None of a name that is none."""
         home = next((module for module, names in self.pictures.items() if name in names), None)

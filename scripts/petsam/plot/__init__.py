@@ -48,12 +48,12 @@ def __getattr__(name):
         return PART.find(name)
     if name.startswith("__"):
         raise AttributeError(name)
-    for one in applications():
-        if one.picture(name):
-            return one.picture(name)
     try:
         return importlib.import_module("." + name, __name__)
     except ModuleNotFoundError as error:
         if error.name != f"{__name__}.{name}":
             raise
-        raise AttributeError(f"no picture {name}: there are {', '.join(__dir__())}") from None
+    for one in applications():
+        if one.pictured(name):
+            return one.picture(name)
+    raise AttributeError(f"no picture {name}: there are {', '.join(__dir__())}")

@@ -3,6 +3,8 @@
 A degree is one number, the largest sum of the degrees in x and y, or two: the largest degree in x and that in y.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,5 +1,7 @@
 """A body from its deck: frame, checks, stiffness, compliance, load cases, stresses."""
 
+from __future__ import annotations
+
 import hashlib
 import os
 from dataclasses import dataclass, field, replace

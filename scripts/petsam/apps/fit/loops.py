@@ -18,14 +18,14 @@ Jaeger, J., Z. angew. Math. Mech. 75 (1995) 1; Masing, G., Proc. 2nd Int. Congr.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Optional
 
 import numpy as np
 
 from ...core import least
-from ...core.errors import Error
+from ...core.errors import Error, Unusable, short, there_are
 from .backbone import Backbone, derivatives, force_of, plain_force
 from .push import Push
 
@@ -469,6 +469,20 @@ def _solved(problem):
     return best, square, variance
 
 
+def need_parameters(free: Sequence[str], fixed: Mapping[str, Any]) -> None:
+    """Raises Unusable for names that are no parameters of a loop, and for values that are no numbers."""
+    if isinstance(free, str):
+        raise Unusable(f"free {short(repr(free))}: expected a list of names: give [{short(repr(free))}]")
+    known = (*SHARED, "loads")
+    for name in (*free, *fixed):
+        if name not in known:
+            raise Unusable(f"{short(str(name))}: is no parameter of a loop{there_are(name, known)}")
+    for name, value in fixed.items():
+        numbers = value if isinstance(value, tuple) else (value,)
+        if not all(one is None or isinstance(one, (int, float, np.number)) for one in numbers) or len(numbers) > 2:
+            raise Unusable(f"{name} {short(repr(value))}: expected a number, or (number, standard deviation)")
+
+
 def fit(
     loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), profile: bool = True, **fixed: Any
 ) -> Fit:
@@ -499,6 +513,7 @@ def fit(
     Error
         If the loops have fewer points than the fit needs.
     """
+    need_parameters(free, fixed)
     pushes = [push] * len(loops) if isinstance(push, Push) else list(push)
     names = [name for name in SHARED if name in ("friction", "compliance", *free) and name not in fixed]
     names += [name for name, value in fixed.items() if isinstance(value, tuple)]

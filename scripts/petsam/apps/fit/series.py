@@ -8,9 +8,9 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ...core.errors import Error, counted, library
+from ...core.errors import Error, Unusable, counted, library
 from ...core.tables import Column, Tabled
-from .loops import BENDS, LOADS, LOSS, SHAPE, Fit, Loop, fit, noise_of
+from .loops import BENDS, LOADS, LOSS, SHAPE, Fit, Loop, fit, need_parameters, noise_of
 from .push import Push
 from .reading import Record
 
@@ -351,8 +351,9 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     Parameters
     ----------
     files : sequence of Cycles
+        The cycles of each file, of petsam.fit.cycles().
     pushes : sequence of Push
-        That of each file.
+        The push of each file, of petsam.fit.of_shape() or ball(): analyse([cycles], [push]).
     free : sequence of str
         Parameters that are found, too: "lean".
     **fixed
@@ -370,6 +371,12 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     -------
     Result
     """
+    need_parameters(free, fixed)
+    for name, given, kind, made in (("files", files, Cycles, "cycles()"), ("pushes", pushes, Push, "of_shape()")):
+        if isinstance(given, (str, kind)) or not all(isinstance(one, kind) for one in given):
+            raise Unusable(f"{name}: expected a list of what petsam.fit.{made} returns")
+    if len(files) != len(pushes):
+        raise Unusable(f"pushes: {len(pushes)} of {len(files)} files: give one for each file")
     fixed = {"loss": None, "scale": (1.0, SHAPE), **fixed}
     if isinstance(fixed["scale"], tuple):
         fixed = {"bend": (0.0, BENDS * fixed["scale"][1]), "loads": LOADS * fixed["scale"][1], **fixed}

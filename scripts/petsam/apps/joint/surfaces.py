@@ -21,7 +21,7 @@ def read_separation(path):
         raise
     except Error as error:
         reason = str(error).removeprefix(f"{path}: ")
-        raise Error(f"{path}: no surface of petsam-surface: {reason}") from error
+        raise Error(f"{path}: no surface of petsam-surface, which makes one of a scan: {reason}") from error
     values = stated.values.astype(float) * (stated.unit or 1.0)
     count = values.size - np.isfinite(values).sum()
     for wrong, text in (
