@@ -45,7 +45,7 @@ def imported(name, path, known):
 def application(name):
     """The application of a module or of a name in it; None of the storeys below."""
     parts = name.split(".")
-    return parts[2] if parts[1:2] == ["apps"] and len(parts) > 2 else None
+    return parts[2] if parts[1:2] == ["apps"] and len(parts) > 2 and (PACKAGE / "apps" / parts[2]).is_dir() else None
 
 
 def crossings(known):

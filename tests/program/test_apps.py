@@ -111,6 +111,68 @@ def test_an_application_that_is_deleted_leaves_no_gap(tree, loop, name):
     assert f"petsam-{name}" not in installed(tree)
 
 
+RECORD = """from ...core.part import Part
+PART = Part(__name__, "a trial", {0})
+__all__, __getattr__, __dir__ = PART.face()
+"""
+
+
+@pytest.mark.parametrize(
+    "text, says",
+    [
+        ("def (", "SyntaxError"),
+        ("import nosuchlib", "No module named 'nosuchlib'"),
+        ("", "has no attribute 'PART'"),
+        (RECORD.format('pictures={"x": ("saving",)}'), "pictures of its record: saving"),
+        (RECORD.format('pictures={"x": ("backbone",)}'), "pictures of its record: backbone"),
+        (RECORD.format('tables=("a",)'), "tables of its record: a"),
+        (RECORD.format('top=("nothere",)'), "top of its record: nothere"),
+    ],
+)
+def test_a_broken_application_is_left_out_and_named(tree, loop, text, says):
+    (tree / "scripts/petsam/apps/zz").mkdir()
+    (tree / "scripts/petsam/apps/zz/__init__.py").write_text(text)
+    told = script(tree, "import petsam\npetsam.plot.surface, petsam.joint.Structure, dir(petsam)\n"
+                        "try:\n    petsam.nonsense\nexcept AttributeError as error:\n    print(error)")  # fmt: skip
+    assert "petsam.apps.zz is left out: " in told and says in told and "has no attribute 'nonsense'" in told
+    ask(tree, "scripts/petsam-plot", "--loop", "-o", "loop.png", loop)
+
+
+@pytest.mark.parametrize("name", ["names", "new-one", "results", "open"])
+def test_an_application_cannot_have_a_name_that_is_taken(tree, name):
+    (tree / "scripts/petsam/apps" / name).mkdir()
+    (tree / "scripts/petsam/apps" / name / "__init__.py").write_text(RECORD.format('command="petsam-plot"'))
+    script(tree, "import petsam\nfrom petsam import apps\nassert callable(apps.names) and petsam.results.Results\n"
+                 "assert petsam.open.__module__ == 'petsam' and 'new-one' not in dir(petsam)")  # fmt: skip
+    assert "usage: petsam-plot" in ask(tree, "scripts/petsam-plot", "--help")
+
+
+@pytest.mark.parametrize(
+    "link, target, runs",
+    [
+        ("j", "petsam-joint", "joint"),
+        ("petsam-joint-3", "petsam-joint", "joint"),
+        ("p", "petsam-plot", "plot"),
+        ("petsam-none", "petsam-plot", ""),
+    ],
+)
+def test_a_script_is_found_through_links(tmp_path, link, target, runs):
+    (tmp_path / link).symlink_to(ROOT / "scripts" / target)
+    done = finished([tmp_path / link, "--help"], 0 if runs else 1, env=dict(environment(), PYTHON=sys.executable))
+    assert f"usage: petsam-{runs}" in done.stdout if runs else "no command of this name" in done.stderr
+
+
+def test_hints_are_for_Python_3_9():
+    """Without the future import a union of types by | is evaluated, which Python 3.9 cannot."""
+    for path in (ROOT / "scripts" / "petsam").rglob("*.py"):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        late = any(isinstance(node, ast.ImportFrom) and node.module == "__future__" for node in tree.body)
+        hints = [getattr(node, name, None) for node in ast.walk(tree) for name in ("annotation", "returns")]
+        unions = [part for hint in hints if isinstance(hint, ast.AST) for part in ast.walk(hint)
+                  if isinstance(part, ast.BinOp)]  # fmt: skip
+        assert late or not unions, path
+
+
 def words_of(path):
     """The texts and names of a source, without its docstrings."""
     tree = ast.parse(path.read_text(encoding="utf-8"))

@@ -182,7 +182,8 @@ def part(name):
 
 def application(name):
     """The application of a module; None of the storeys below."""
-    return name.split(".")[2] if part(name) == "apps" and name.count(".") > 1 else None
+    names = name.split(".")
+    return names[2] if part(name) == "apps" and len(names) > 2 and (PACKAGE / "apps" / names[2]).is_dir() else None
 
 
 def past_the_list():

@@ -225,7 +225,8 @@ def write_table(options):
         raise Error(f"{file}: --{name}: has no effect on the page of a table: remove it")
     if same(file, options.report):
         raise Error(f"{options.report}: would replace the table; give another name")
-    reports.report(found, options.report)
+    with drawing(options, "report"):
+        reports.report(found, options.report)
     print("wrote " + options.report)
 
 
