@@ -1,5 +1,6 @@
 """The Python package: what importing it costs, reading of results and of what is none, closed solutions, examples."""
 
+import importlib
 import re
 import runpy
 import sys
@@ -86,6 +87,15 @@ def test_parts_are_imported_by_their_names(line):
 @pytest.mark.parametrize("name", ["nonsense", "wheel.nonsense", "joint.profile"])
 def test_import_of_a_name_that_is_none(name):
     assert f"No module named 'petsam.{name}'" in python("-c", f"import petsam.{name}", check=1)
+
+
+def test_completion_of_modules_on_the_reference_shows_what_is_there():
+    sys.path.insert(0, str(SCRIPTS / "maintain"))
+    import modules
+
+    for name in (*modules.BEFORE, *modules.BEHIND):
+        module = importlib.import_module("petsam." + name)
+        assert set(dir(module)) == set(modules.public(name)) and all(hasattr(module, one) for one in dir(module)), name
 
 
 def test_completion_shows_only_what_is_public(path):

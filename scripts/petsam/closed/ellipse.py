@@ -110,3 +110,10 @@ def hertz_radii(half_x: float, half_y: float, load_n: float, e_star: float) -> t
     scale = 0.5 * e_star * long / (1.5 * load_n / (np.pi * short * long))
     radii = float(scale / along), float(scale / across)
     return radii if half_x >= half_y else radii[::-1]
+
+
+__all__ = ["Ellipse", "hertz_ellipse", "hertz_radii"]
+
+
+def __dir__():
+    return __all__

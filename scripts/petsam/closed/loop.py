@@ -151,3 +151,17 @@ def sliding_loop_energy(amplitude: float, limit: float, gross: float) -> float:
         Energy of a cycle, J.
     """
     return partial_loop_energy(limit, limit, gross) + 4.0 * limit * (amplitude - gross)
+
+
+__all__ = [
+    "first_loading",
+    "masing_displacement",
+    "partial_loop_energy",
+    "sliding_displacement_load",
+    "sliding_loop_energy",
+    "sliding_masing_load",
+]
+
+
+def __dir__():
+    return __all__

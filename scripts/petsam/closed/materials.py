@@ -164,3 +164,10 @@ class Bodies(NamedTuple):
         """Dundurs' second constant."""
         g1, g2 = self.shear_moduli
         return dundurs_beta(g1, self.poisson1, g2, self.poisson2)
+
+
+__all__ = ["Bodies", "dundurs_beta", "effective_modulus", "effective_radius", "shear_modulus", "tangential_compliance"]
+
+
+def __dir__():
+    return __all__

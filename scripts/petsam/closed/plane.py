@@ -394,3 +394,21 @@ class PlaneCells:
         pressure, tilt = self.solve(load, moment=moment)
         less = self.solve(load - shear_load / friction, tilt=tilt)[0]
         return pressure, friction * (pressure - less), tilt, less > 0.0
+
+
+__all__ = [
+    "Contact",
+    "PlaneCells",
+    "contact_at_tilt",
+    "contact_under_moment",
+    "plane_load",
+    "plane_moment",
+    "plane_pressure",
+    "plane_shear",
+    "plane_tilt",
+    "stick_zone",
+]
+
+
+def __dir__():
+    return __all__

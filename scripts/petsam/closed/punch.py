@@ -184,3 +184,10 @@ def punch_torsion_limit(punch: Punch, a: float, friction: float) -> float:
     v = 0.5 * b * (1.0 + GAUSS_NODES)
     integral = 0.5 * b * np.sum(GAUSS_WEIGHTS * np.sqrt(v**2 + c**2) * v * _slope(v, c))
     return 0.5 * np.pi * friction * e_star / edge_radius * integral
+
+
+__all__ = ["Punch", "punch_approach", "punch_load", "punch_pressure", "punch_radius", "punch_torsion_limit"]
+
+
+def __dir__():
+    return __all__

@@ -241,3 +241,10 @@ def full_stick_load(beta: float) -> float:
         Ratio of the loads.
     """
     return np.arctanh(beta) / beta
+
+
+__all__ = ["SpencePunch", "full_stick_load", "goodman_friction", "goodman_ratio", "spence_friction", "spence_punch"]
+
+
+def __dir__():
+    return __all__

@@ -521,3 +521,24 @@ class Spheres:
             Rotation, rad.
         """
         return lubkin_twist(self.hertz.radius, c, self.mu_p0, self.bodies.torsional_compliance)
+
+
+__all__ = [
+    "Hertz",
+    "Spheres",
+    "cattaneo_displacement",
+    "cattaneo_shear",
+    "cattaneo_slip",
+    "cattaneo_stick_radius",
+    "hertz",
+    "hertz_pressure",
+    "lubkin_shear",
+    "lubkin_stick_radius",
+    "lubkin_torque_ratio",
+    "lubkin_twist",
+    "torsion_limit",
+]
+
+
+def __dir__():
+    return __all__

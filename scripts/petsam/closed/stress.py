@@ -89,3 +89,10 @@ def sliding_surface(
     """
     scale = -np.pi * q0 / (8.0 * a)
     return scale * (4.0 + poisson) * x, 3.0 * scale * poisson * x, scale * (2.0 - poisson) * y
+
+
+__all__ = ["hertz_axis", "hertz_surface", "sliding_surface"]
+
+
+def __dir__():
+    return __all__

@@ -428,3 +428,10 @@ def _by_name(found, name, history):
         return found[_derivative(name)]
     slopes, column = found[name], np.append(0.0, history[name])  # steps divide the change from row to row, from 0 on
     return slopes @ np.interp(np.linspace(0, len(column) - 1, len(slopes) + 1)[1:], range(len(column)), column)
+
+
+__all__ = ["OneSidedWarning", "compute", "function", "mean", "numbers", "positions", "whole"]
+
+
+def __dir__():
+    return __all__

@@ -212,3 +212,10 @@ def _part(found, name, sd):
     if numbers.shape not in ((), slope.shape) or not np.isfinite(numbers).all():
         raise Unusable(f"{name} = {sd}: give a finite number, or an array of the shape {slope.shape}")
     return abs(float(np.sum(slope * numbers)))
+
+
+__all__ = ["Roughness", "Uncertainty", "of"]
+
+
+def __dir__():
+    return __all__

@@ -212,3 +212,10 @@ def resolved(options: dict) -> dict:
 
 
 _NAMES = {plain(one): name for name, row in TABLE.items() for one in (name, *row.aliases)}
+
+
+__all__ = ["Material", "conductivity", "elastic", "find", "has", "plain", "resolved"]
+
+
+def __dir__():
+    return __all__

@@ -265,3 +265,10 @@ def find(
         there = there_are(turns, sorted(results.history), "it has")
         raise Error(f"{results.path}: --turns {short(turns)}: has no such scalar{there}")
     return Cycles(results, by_turns(results.series(turns).astype(float)), f"reversals of {turns}")
+
+
+__all__ = ["Cycle", "Cycles", "busiest", "by_period", "by_turns", "find", "turning_points"]
+
+
+def __dir__():
+    return __all__

@@ -114,3 +114,10 @@ def _of(group: Any) -> Errors:
     columns: dict[str, list] = {**texts, **numbers}
     names = columns.pop("name")
     return Errors((name, NumberError(**{key: of[k] for key, of in columns.items()})) for k, name in enumerate(names))
+
+
+__all__ = ["Errors", "NumberError", "read"]
+
+
+def __dir__():
+    return __all__

@@ -276,3 +276,10 @@ def _chords(steps):
         for other in points[:k]:
             longest = np.fmax(longest, np.abs(one - other))
     return longest
+
+
+__all__ = ["Numbers", "area", "cycle_energy", "loop_energy", "numbers", "regime", "regime_of", "slip_range"]
+
+
+def __dir__():
+    return __all__

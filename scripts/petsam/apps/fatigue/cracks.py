@@ -169,3 +169,10 @@ def start(lengths: ArrayLike, ranges: ArrayLike, thresholds: ArrayLike) -> float
     """
     above = np.flatnonzero(np.asarray(ranges) > thresholds)
     return float(np.asarray(lengths)[above[0]]) if above.size else np.inf
+
+
+__all__ = ["arrest", "extremes", "intensity", "short_length", "start", "stress_range", "threshold"]
+
+
+def __dir__():
+    return __all__

@@ -354,3 +354,23 @@ def columns(lines: Sequence[tuple[str, Line]]) -> list[Column]:
         values = np.concatenate([line.columns[name][1] for _, line in lines])
         found.append(Column(name, unit, name.replace("_", " "), values))
     return found
+
+
+__all__ = [
+    "Line",
+    "Place",
+    "bounds",
+    "columns",
+    "crack",
+    "has_data",
+    "known",
+    "least",
+    "line",
+    "lives",
+    "need_same_points",
+    "possible",
+]
+
+
+def __dir__():
+    return __all__

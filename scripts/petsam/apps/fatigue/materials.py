@@ -181,3 +181,10 @@ def need(constants: Mapping[str, float], names: Iterable[str], what: str) -> lis
         texts = [f"{name} ({CONSTANTS[name].unit}, {CONSTANTS[name].meaning})" for name in lacking]
         raise Error(f"{what}: {', '.join(texts)}: missing; give it in --material or by --constant")
     return [constants[name] for name in names]
+
+
+__all__ = ["Constant", "checked", "named", "need", "read"]
+
+
+def __dir__():
+    return __all__

@@ -162,3 +162,10 @@ def damage(lives: Sequence[np.ndarray], counts: Iterable[float]) -> np.ndarray:
         Damage, of the shape of the lives.
     """
     return sum(count / one for one, count in zip(lives, counts))
+
+
+__all__ = ["basquin", "damage", "factor", "fatemi_socie", "swt"]
+
+
+def __dir__():
+    return __all__

@@ -326,3 +326,10 @@ class Cycle:
             If the cycle lacks a stress.
         """
         return np.array([part[:, 0, 0] for part in self.on_plane(angle, row, column)])
+
+
+__all__ = ["Cycle", "terms"]
+
+
+def __dir__():
+    return __all__
