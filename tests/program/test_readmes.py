@@ -7,7 +7,6 @@ import sys
 import pytest
 
 from conftest import PROGRAM
-from petsam import apps
 from support import ROOT, dead_links, finished
 
 sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
@@ -49,12 +48,6 @@ def test_every_part_of_the_manual_is_reached_from_README():
 def test_README_is_short():
     lines = (ROOT / "README.md").read_text().splitlines()
     assert len(lines) <= 110 and not [line for line in lines if len(line) > 150 and not line.startswith("|")]
-
-
-def test_every_application_has_a_row_with_its_command():
-    section = (ROOT / "scripts/README.md").read_text().partition("\n### Applications\n")[2].partition("\n#")[0]
-    rows = re.findall(r"^\| `petsam\.(\w+)` \| (?:`([\w-]+)` )?\|", section, re.M)
-    assert rows == [(one.name, one.command) for one in apps.records()]
 
 
 # ---------------------------------------------------------------- the reference of options
