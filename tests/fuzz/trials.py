@@ -256,7 +256,8 @@ class Trials:
     def trial_kill(self, chance, ranks):
         """Kills all ranks at a random moment, again and again, until the run gets to its end."""
         words = self.write_program(12)
-        code, _, err = self.run([*words, "-output", "whole.h5", "-checkpoint", "whole.state"], ranks)
+        others = {"out.h5": "whole.h5", "state.h5": "whole.state"}
+        code, _, err = self.run([others.get(word, word) for word in words], ranks)
         demand(code == 0, "exit code", code, err)
         for _ in range(6):
             again = ["-restart", "state.h5"] if (self.folder / "state.h5").exists() else []
