@@ -128,7 +128,8 @@ def test_tangential_products_of_strong_coupling_at_most_10_a_pass(solve, n, fric
     """Of a pressure that is not smooth yet the shear is not sought to the end."""
     case = ball(n, body1_young=30e9, body1_poisson=0.0, body2_young=float("inf"), friction=friction)
     s = solve(case, dict(load_tx=0.3 * friction * case["load_n"]))
-    assert s["tangential_applies"] <= 10 * s["coupling_iterations"]
+    most = 9.3 if n == 512 else 9  # there cells of the edge turn in some more passes
+    assert s["tangential_applies"] <= most * s["coupling_iterations"]
 
 
 @pytest.mark.parametrize(
