@@ -123,12 +123,15 @@ def test_products_of_a_dissimilar_contact_that_nearly_slides_at_most_25_a_pass(s
     assert s["tangential_applies"] <= 25 * s["coupling_iterations"]
 
 
-@pytest.mark.parametrize("n, friction", [(256, 1.0), pytest.param(512, 1.6, marks=pytest.mark.slow)])
-def test_tangential_products_of_strong_coupling_at_most_10_a_pass(solve, n, friction):
+@pytest.mark.parametrize(
+    "n, friction, size, most",
+    [(256, 1.0, None, 9), (512, 0.6, 4e-3, 5.5), pytest.param(512, 1.6, None, 9.3, marks=pytest.mark.slow)],
+)
+def test_tangential_products_of_strong_coupling_at_most_10_a_pass(solve, n, friction, size, most):
     """Of a pressure that is not smooth yet the shear is not sought to the end."""
     case = ball(n, body1_young=30e9, body1_poisson=0.0, body2_young=float("inf"), friction=friction)
+    case.update(dict(grid_size=size, gap_radius1=0.1, load_n=1000) if size else {})
     s = solve(case, dict(load_tx=0.3 * friction * case["load_n"]))
-    most = 9.3 if n == 512 else 9  # there cells of the edge turn in some more passes
     assert s["tangential_applies"] <= most * s["coupling_iterations"]
 
 
