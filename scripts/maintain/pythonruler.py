@@ -2,24 +2,18 @@
 
 import ast
 import re
+import sys
 from pathlib import Path
 
 import modules
 
-PACKAGE = modules.PACKAGE
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "program"))
+import test_rooms as rooms  # noqa: E402
+
 SECTIONS = re.compile(r"^(Parameters|Returns|Raises|Attributes)\n-{3,}$", re.M)
 FIRST = re.compile(r"(What|Whether|Those|Of|Which)\b")  # words with which no sentence begins that is read once
 READER = re.compile(r"^def \w+\(text\b", re.M)
 OF_COMMANDS = ("command.py", "line.py", "arguments.py", "uses.py")
-
-
-def sources(folder=PACKAGE):
-    """Module name to path of the package."""
-    found = {}
-    for path in sorted(folder.rglob("*.py")):
-        parts = path.relative_to(folder.parent).with_suffix("").parts
-        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
-    return found
 
 
 def imported(name, path, known):
@@ -42,18 +36,12 @@ def imported(name, path, known):
     return used
 
 
-def application(name):
-    """The application of a module or of a name in it; None of the storeys below."""
-    parts = name.split(".")
-    return parts[2] if parts[1:2] == ["apps"] and len(parts) > 2 and (PACKAGE / "apps" / parts[2]).is_dir() else None
-
-
 def crossings(known):
     """Names that applications use of the library, that they use of each other, and that the library uses of them."""
     below, between, upward = set(), set(), set()
     for name, path in known.items():
         for other in imported(name, path, known):
-            own, theirs = application(name), application(other)
+            own, theirs = rooms.application(name), rooms.application(other)
             if own and not theirs:
                 below.add(other)
             elif own and theirs != own:
@@ -90,7 +78,7 @@ def hidden(known, nodes, shown):
 
 def measure():
     """The counts, in the order of their rows in ruler.py."""
-    known = sources()
+    known = rooms.modules()
     docstrings = [ast.get_docstring(node) or "" for path in known.values()
                   for node in definitions(ast.parse(path.read_text("utf-8")))]  # fmt: skip
     nodes, shown = documented()

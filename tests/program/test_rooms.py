@@ -176,8 +176,8 @@ def imports():
 
 
 def part(name):
-    """The storey of a module."""
-    return name.split(".")[1]
+    """The storey of a module, or of a name in it; of the package itself none."""
+    return name.partition(".")[2].partition(".")[0]
 
 
 def application(name):

@@ -28,34 +28,31 @@ def records() -> list[Part]:
 
 @cache
 def _records(names):
+    plot = importlib.import_module("..plot", __name__)
+    known = {*plot.PART.listed, *(module.name for module in pkgutil.iter_modules(plot.__path__))}
     found = []
     for name in names:
         try:
-            found.append(_checked(importlib.import_module("." + name, __name__).PART, found))
+            found.append(_checked(importlib.import_module("." + name, __name__).PART, found, known))
         except Exception as error:
             text = f"petsam.apps.{name} is left out: {type(error).__name__}: {error}"
             warnings.warn(text, RuntimeWarning, stacklevel=3)
     return tuple(found)
 
 
-def _checked(record, others):
-    """The record, if it states what is there, and nothing that another one has."""
-    plot = importlib.import_module("..plot", __name__)
-    known = [*plot.PART.listed, *(module.name for module in pkgutil.iter_modules(plot.__path__))]
+def _checked(record, others, known):
+    """The record, if it states what is there, and nothing that another one or `known`, what plot has, stands for."""
     pictures = [name for names in record.pictures.values() for name in names]
+    tables = {name for one in others for name in one.tables}
     taken = {
         "top": [name for name in record.top if name not in record.listed],
-        "tables": [name for name in record.tables if "read" not in record.listed or _have(others, "tables", name)],
+        "tables": [name for name in record.tables if "read" not in record.listed or name in tables],
         "pictures": [name for name in pictures if name in known or any(one.pictured(name) for one in others)],
     }
     for field, wrong in taken.items():
         if wrong:
             raise ValueError(f"{field} of its record: {', '.join(wrong)}: is not in its list, or has another meaning")
     return record
-
-
-def _have(others, field, name):
-    return any(name in getattr(one, field) for one in others)
 
 
 def __getattr__(name):
