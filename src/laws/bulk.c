@@ -5,7 +5,7 @@
 #include <petsam/private/law.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
-#include <petsam/private/stress.h>
+#include <petsam/private/stresspart.h>
 #include <petsam/private/body.h>
 #include <petsam/private/elasticity.h>
 #include <math.h>
@@ -127,16 +127,16 @@ static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *con
 
 /* Adds the bulk stress: the last material of the body has it, the materials above it have the same strain in the
    plane. */
-static PetscErrorCode AddStress(SamLaw law, const SamControl *control, PetscInt body, PetscReal depth, double stress[])
+static void AddUniform(SamStressPart part, PetscInt step, PetscReal depth, double stress[SAM_STRESS_COMPONENTS])
 {
-  const SamMaterial *m, *last;
-  PetscReal          s[COMPONENTS];
-  const SamPair      pair = SamElasticityGetPair(law->elasticity);
+  const SamMaterial *const m = SamBodyMaterialAt(part->body, depth), *const last = SamBodySubstrate(part->body);
+  PetscReal s[COMPONENTS];
 
-  PetscFunctionBegin;
-  m    = SamBodyMaterialAt(SamPairBody(pair, body), depth);
-  last = SamBodySubstrate(SamPairBody(pair, body));
-  Get(law, control, body, s);
+  for (PetscInt k = 0; k < COMPONENTS; k++) {
+    const char *const name = SamBulkName((part->places->body - 1) * COMPONENTS + k);
+
+    s[k] = SamControlGet(&part->control[step], SamConditionsFind(part->conditions, name));
+  }
   if (m != last && !isinf(last->young)) {
     const double nu = (double)last->poisson, own = (double)m->poisson, ratio = (double)(m->young / last->young);
     const double xx = s[XX] - nu * s[YY], yy = s[YY] - nu * s[XX];
@@ -148,8 +148,16 @@ static PetscErrorCode AddStress(SamLaw law, const SamControl *control, PetscInt 
   stress[SAM_STRESS_XX] += s[XX];
   stress[SAM_STRESS_YY] += s[YY];
   stress[SAM_STRESS_XY] += s[XY];
+}
+
+static PetscErrorCode CreatePart(SamStressPart part)
+{
+  PetscFunctionBegin;
+  part->ops.uniform = AddUniform;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+const SamStressPartType SamStressPart_Bulk = {.name = "bulk stress", .create = CreatePart};
 
 PetscErrorCode SamLawCreate_BulkStress(SamLaw law)
 {
@@ -161,6 +169,5 @@ PetscErrorCode SamLawCreate_BulkStress(SamLaw law)
   law->ops.conditions = AddConditions;
   law->ops.check      = Check;
   law->ops.displace   = Displace;
-  law->ops.stress     = AddStress;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

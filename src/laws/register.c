@@ -1,4 +1,4 @@
-/* The laws that come with the library, in the order in which they act. */
+/* The laws that come with the library, and their parts of the stresses in a body, in the order in which they act. */
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/law.h>
 
@@ -8,11 +8,14 @@ PetscErrorCode SamLawRegisterAll(void)
   if (SamLawIsRegistered(SAM_LAW_COULOMB)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLawRegister(SAM_LAW_COULOMB, SamLawCreate_Coulomb));
   PetscCall(SamLawRegister(SAM_LAW_BULK_STRESS, SamLawCreate_BulkStress));
+  PetscCall(SamStressPartRegister(&SamStressPart_Bulk));
   PetscCall(SamLawRegister(SAM_LAW_BODIES, SamLawCreate_Bodies));
   PetscCall(SamLawRegister(SAM_LAW_SLIP_DEPENDENT, SamLawCreate_Friction));
   PetscCall(SamLawRegister(SAM_LAW_PRESSURE_FRICTION, SamLawCreate_Friction));
   PetscCall(SamLawRegister(SAM_LAW_FALLING_FRICTION, SamLawCreate_Friction));
-  PetscCall(SamLawRegister(SAM_LAW_HEAT, SamLawCreate_Heat));   /* its bound changes that of all friction above */
+  PetscCall(SamLawRegister(SAM_LAW_HEAT, SamLawCreate_Heat)); /* its bound changes that of all friction above */
+  PetscCall(SamStressPartRegister(&SamStressPart_Layers));    /* of laws with layers, as plastic */
+  PetscCall(SamStressPartRegister(&SamStressPart_Heat));
   PetscCall(SamLawRegister(SAM_LAW_SLIDE, SamLawCreate_Slide)); /* before the laws with fields of body 2 */
   PetscCall(SamLawRegister(SAM_LAW_ARCHARD, SamLawCreate_Archard));
   PetscCall(SamLawRegister(SAM_LAW_ENERGY, SamLawCreate_Energy));

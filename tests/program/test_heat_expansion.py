@@ -234,12 +234,30 @@ def test_stresses_without_their_heat_are_refused(stress, heated, tmp_path):
     assert "its thermal stress would be missing" in done.stderr
 
 
-def test_stresses_in_process_are_refused(fretting):
+@pytest.mark.parametrize("section", [None, "y=0"])
+def test_stresses_in_process_are_those_of_the_file(petsam, stress, fretting, tmp_path, section):
+    """Two steps in process have the thermal stress and the temperature that petsam-stress finds in their results."""
     case = {name: value for name, value in fretting.items() if name not in ("history", "steps")}
+    rows = [(1e-4, 50, 15), (2e-4, 50, -15)]
+    ask = ("-section", section) if section else ()
+    petsam(
+        {**case, **history(tmp_path / "two.csv", "time,load_n,load_tx", *rows), "steps": 1}, "-output",
+        tmp_path / "two.h5", "-output_fields", "usual",
+    )  # fmt: skip
+    stress("-input", tmp_path / "two.h5", "-body", 1, "-depths", "0,3e-5", "-quantities", "stress,temperature", *ask,
+           "-output", tmp_path / "s.h5")  # fmt: skip
     contact = package.Contact(**case)
-    contact.try_step(1e-4, load_n=50, load_tx=15)
-    with pytest.raises(package.ContactError, match="its thermal stress would be missing"):
-        contact.stress(body=1, depths=[0])
+    for row in rows:
+        contact.try_step(row[0], load_n=row[1], load_tx=row[2])
+        contact.commit()
+    found = contact.stress(
+        body=1, depths=[0, 3e-5], quantities=["stress", "temperature"], **({"section": section} if section else {})
+    )
+    with h5py.File(tmp_path / "s.h5") as file:
+        for name in ("stress_xx", "stress_xy", "stress_zz", "temperature"):
+            last = file[name][-1]
+            np.testing.assert_array_equal(found[name][-1], last)
+        assert np.abs(file["temperature"][:]).max() > 0.1
 
 
 def test_stresses_of_slow_bodies_are_refused(stress, tmp_path):

@@ -61,14 +61,14 @@ typedef struct {
   Vec     pressure[2], shear[2];
 } Given;
 
-static PetscErrorCode Read(void *context, PetscInt step, SamStepField field, double values[])
+static PetscErrorCode Read(void *context, PetscInt step, const char field[], double values[])
 {
   const Given *const g    = (const Given *)context;
-  const Vec          v    = field == SAM_STEP_PRESSURE ? g->pressure[step] : g->shear[step];
-  const ptrdiff_t    skip = field == SAM_STEP_SHEAR_Y ? g->grid->cells : 0;
+  const Vec          v    = !strcmp(field, "pressure") ? g->pressure[step] : g->shear[step];
+  const ptrdiff_t    skip = !strcmp(field, "shear_y") ? g->grid->cells : 0;
   const double      *cells;
 
-  if (field >= SAM_STEP_SLIP_X) return SAM_ERR_USER;
+  if (!strncmp(field, "slip", 4)) return SAM_ERR_USER;
   sam_call(VecGetArrayRead(v, &cells));
   memcpy(values, cells + skip, sizeof(*values) * (size_t)g->grid->cells);
   sam_call(VecRestoreArrayRead(v, &cells));

@@ -53,7 +53,7 @@ static void AssertRun(const Shown *s, PetscInt steps, const double shifts[])
 
     Show(s, (int)k);
     sam_call(VecShift(pressure, shifts[k]));
-    sam_call(SamResultsRead(results, k, SAM_RESULTS_PRESSURE, values));
+    sam_call(SamResultsRead(results, k, "pressure", values));
     sam_call(SamResultsGetSaved(results, k, &step, NULL));
     sam_assert(step == k + 1);
     sam_call(VecGetArrayRead(pressure, &shown));

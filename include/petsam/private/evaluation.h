@@ -4,11 +4,7 @@
 #ifndef PETSAM_EVALUATION_H
 #define PETSAM_EVALUATION_H
 
-#include <petsam/control.h>
-#include <petsam/elasticity.h>
-#include <petsam/private/fourier.h>
-#include <petsam/private/heat.h>
-#include <petsam/private/state.h>
+#include <petsam/private/stresspart.h>
 
 /*
   SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below
@@ -30,65 +26,7 @@ PETSC_EXTERN PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *fro
 PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
 
 /*
-  SamStepField - the fields of a step that an evaluation reads: tractions (Pa), for Ruiz's parameters the slip (m), and
-  for the temperature the frictional heat into the body (W/m2).
-*/
-typedef enum {
-  SAM_STEP_PRESSURE,
-  SAM_STEP_SHEAR_X,
-  SAM_STEP_SHEAR_Y,
-  SAM_STEP_SLIP_X,
-  SAM_STEP_SLIP_Y,
-  SAM_STEP_HEAT,
-  SAM_STEP_FIELDS
-} SamStepField;
-/*
-  SamStepNumber - the numbers of a step that an evaluation reads: the number of the load step, 0 if steps have none;
-  time (s); contact area (m2); the cycle of a wear simulation; and, if the surfaces slide past each other, the distances
-  (m) that body 1 has slid over body 2, and that the contact has rolled over body 1.
-*/
-typedef enum {
-  SAM_STEP_NUMBER,
-  SAM_STEP_TIME,
-  SAM_STEP_AREA,
-  SAM_STEP_CYCLE,
-  SAM_STEP_SLIDE_X,
-  SAM_STEP_SLIDE_Y,
-  SAM_STEP_ROLLED_X,
-  SAM_STEP_ROLLED_Y
-} SamStepNumber;
-/*
-  SamStressSource - the bodies, which are referenced, and the load steps. Collective functions read the steps when they
-  are needed: this rank's rows of a field; a number; the values of conditions of the bodies. Step -1 is the step before
-  the first, if there is one. `warn` receives warnings about the steps as a cycle. `tell` is called from time to time
-  during SamEvaluationCompute() with the name of the work under way, the fraction of it that is done, and the fraction
-  of all work that is done (0: unknown); NULL: not called.
-*/
-typedef struct {
-  SamElasticity             bodies;
-  const SamFourierSettings *settings; /* settings of the transforms, borrowed; NULL: those of the bodies */
-  const char               *name;     /* name of the origin of the bodies, for messages; borrowed */
-  PetscInt                  steps;
-  PetscBool                 before;
-  PetscBool                 slides; /* true: the surfaces slide past each other, so that points of body 2 move */
-  PetscBool                 slips;  /* true: steps follow each other, and have slips, not slip velocities */
-  const SamHeatBody        *heat; /* constants of the body whose temperature is wanted, borrowed; NULL: no heat known */
-  double                    bulk; /* its temperature far from the contact, K */
-  double                    expansion; /* its coefficient of thermal expansion, 1/K; 0: none */
-  PetscInt                  groups;    /* number of groups of layers with stresses besides those by tractions */
-  const SamStateLayers     *group[SAM_LAYER_GROUPS]; /* borrowed; z is NULL if their stresses are not available */
-  PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
-  PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
-  PetscErrorCode (*conditions)(void *context, PetscInt step, SamConditions conditions, SamControl *control);
-  /* reads a component of the stresses of a group in a layer, counted along z: this rank's rows, Pa */
-  PetscErrorCode (*layer)(void *context, PetscInt step, PetscInt group, PetscInt component, PetscInt layer,
-                          double values[]);
-  PetscErrorCode (*warn)(void *context, const char text[]);
-  PetscErrorCode (*tell)(void *context, const char work[], double part, double whole);
-  void *context;
-} SamStressSource;
-/*
-  SamEvaluationSetUp - sets the source, checks the settings together, and creates the kernels of the stresses; it must
+  SamEvaluationSetUp - sets the source, the parts of the stresses besides those by tractions, checks the settings together, and creates the kernels of the stresses; it must
   be called once. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth
   above zero but below a millionth of a cell, a section outside of the grid, a cycle of one step, passing points
   (-passing) with more than one step or below a section along y, and Ruiz's parameters below the surface or of passing

@@ -22,6 +22,7 @@
 #include <petsam/balance.h>
 #include <petsam/law.h>
 #include <petsam/private/grid.h>
+#include <petsam/private/stresspart.h>
 
 /*
   SamStrain - a tangential displacement that is linear in x and y: a point at (x, y) moves by (xx x + xy y, xy x + yy y)
@@ -211,11 +212,6 @@ struct _n_SamLaw {
     */
     PetscErrorCode (*load)(SamLaw law, SamState state, const SamControl *control, PetscReal load[]);
     /*
-      Adds the law's stress (Pa, by SamStressComponent) in body 0 or 1 at a depth (m) in a step, if that is uniform
-      along the surface.
-    */
-    PetscErrorCode (*stress)(SamLaw law, const SamControl *control, PetscInt body, PetscReal depth, double stress[]);
-    /*
       Adds the law's part of the separation (m, one component) to h. SAM_COMMITTED: the part from which the next step
       starts; SAM_TRIED: the part in the gap of the last solution, the tried one, or else the committed one. h NULL:
       only sets `adds`, true if there is any.
@@ -245,20 +241,22 @@ struct _n_SamLaw {
   } ops;
 };
 
-/* The laws of the library, in the order in which they act (laws/register.c); SamInitialize() registers them. */
-PETSC_INTERN PetscErrorCode SamLawRegisterAll(void);
-PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_BulkStress(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Bodies(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Friction(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Heat(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Slide(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Hardness(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Plastic(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_AccumulatedSlip(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
+/* The laws of the library, in the order in which they act, and their parts of the stresses in a body (laws/register.c);
+   SamInitialize() registers them. */
+PETSC_INTERN PetscErrorCode          SamLawRegisterAll(void);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Coulomb(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_BulkStress(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Bodies(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Friction(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Heat(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Slide(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Archard(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Energy(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Hardness(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_Plastic(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_AccumulatedSlip(SamLaw law);
+PETSC_INTERN PetscErrorCode          SamLawCreate_FrictionEnergy(SamLaw law);
+PETSC_INTERN const SamStressPartType SamStressPart_Bulk, SamStressPart_Layers, SamStressPart_Heat;
 
 /*
   SAM_PLASTIC_THICK - the thickness of the layer in which a body yields first, relative to the half width of the

@@ -28,14 +28,10 @@ PETSC_INTERN PetscErrorCode SamProblemGetBalance(SamProblem problem, SamState st
   SamProblemDisplace - adds the displacements of the surfaces in a step by other causes than tractions, body 2 relative
   to body 1, to u_z (m, one component) and u_t (m, two components). `strain`: their linear part, which u_t does not
   contain. `adds`: true if a field is not zero. What is NULL is not wanted. Collective.
-  SamProblemAddStress - adds the stresses by the laws in body 0 or 1 at a depth (m) that are uniform along the surface:
-  Pa, by SamStressComponent. Not collective.
 */
 PETSC_INTERN PetscBool      SamProblemDisplaces(SamProblem problem);
 PETSC_INTERN PetscErrorCode SamProblemDisplace(SamProblem problem, SamState state, const SamControl *control, Vec u_z,
                                                Vec u_t, SamStrain *strain, PetscBool *adds);
-PETSC_INTERN PetscErrorCode SamProblemAddStress(SamProblem problem, const SamControl *control, PetscInt body,
-                                                PetscReal depth, double stress[]);
 /*
   SamProblemAddSeparation - adds the parts of the laws to the separation h (m, one component), for the next step or
   those in the last solution of a state (lawimpl.h; NULL: none). `adds`: true if there are any; may be NULL. h NULL:

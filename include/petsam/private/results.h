@@ -10,18 +10,6 @@
 /* SamResults - the results of a run, one file or several parts (output.h), open for reading on any number of ranks. */
 typedef struct _n_SamResults *SamResults;
 
-/* SamResultsField - the fields that can be read. */
-typedef enum {
-  SAM_RESULTS_PRESSURE,
-  SAM_RESULTS_SHEAR_X,
-  SAM_RESULTS_SHEAR_Y,
-  SAM_RESULTS_SLIP_X,
-  SAM_RESULTS_SLIP_Y,
-  SAM_RESULTS_HEAT_1,
-  SAM_RESULTS_HEAT_2,
-  SAM_RESULTS_FIELDS
-} SamResultsField;
-
 /*
   SamResultsOpen - opens a file that the option (without dash) has named, and the parts that follow it. Rank 0 first
   examines their parameters, sizes and the places of their data, so that a damaged file does no harm.
@@ -50,14 +38,15 @@ PETSC_EXTERN double               SamResultsGetTractionError(SamResults results)
 PETSC_EXTERN PetscErrorCode       SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
 PETSC_EXTERN PetscErrorCode       SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
 /*
-  SamResultsRead - reads this rank's rows of a field of the k-th saved step. Collective. Errors: SAM_ERR_FILE, also for
-  a field that the file does not have (slip and heat may be missing), and for values that are not finite.
+  SamResultsRead - reads this rank's rows of a field of the k-th saved step: pressure, shear_x, shear_y, slip_x, slip_y,
+  or one that parts of the stresses read (private/stresspart.h). Collective. Errors: SAM_ERR_FILE, also for a field that
+  the file does not have (all but tractions may be missing), and for values that are not finite.
 */
-PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
+PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, const char field[], double values[]);
 /*
   SamResultsHas - returns true if the k-th saved step has a field. Not collective.
 */
-PETSC_EXTERN PetscBool SamResultsHas(SamResults results, PetscInt k, SamResultsField field);
+PETSC_EXTERN PetscBool SamResultsHas(SamResults results, PetscInt k, const char field[]);
 /*
   SamResultsGetLayers - returns the g-th group of layers whose stresses are added to those by tractions, borrowed; its
   z is NULL if they have not been saved. NULL: there are no more. Not collective.

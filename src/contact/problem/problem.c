@@ -318,15 +318,6 @@ PetscErrorCode SamProblemDisplace(SamProblem p, SamState state, const SamControl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemAddStress(SamProblem p, const SamControl *control, PetscInt body, PetscReal depth,
-                                   double stress[])
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->ops.stress) PetscCall(p->law[k]->ops.stress(p->law[k], control, body, depth, stress));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- friction ---- */
 
 PetscErrorCode SamProblemHasFriction(SamProblem p, PetscBool *has)

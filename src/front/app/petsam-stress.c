@@ -34,7 +34,6 @@ typedef struct {
   SamStressFile          file;
   SamGrid                grid;       /* grid of the results */
   SamElasticity          elasticity; /* the bodies, as recorded in the results */
-  SamHeatBody            heat;       /* constants of the body to heat */
   SamEvaluation          evaluation;
   const SamStressLayout *layout;
   PetscInt               steps, *saved;
@@ -91,22 +90,22 @@ static PetscInt SavedStep(const SamStressRun *run, PetscInt k)
   return k >= 0 ? run->saved[k] : run->saved[0] - (run->steps > 1 ? run->saved[1] - run->saved[0] : 1);
 }
 
-/* Returns the field of the results: of heat that into the body. */
-static SamResultsField HeatOf(const SamStressRun *run, SamResultsField field)
+static PetscErrorCode ReadField(void *context, PetscInt step, const char field[], double values[])
 {
-  return field == SAM_RESULTS_HEAT_1 && SamEvaluationGetLayout(run->evaluation)->body == 2 ? SAM_RESULTS_HEAT_2 : field;
-}
-
-static PetscErrorCode ReadField(void *context, PetscInt step, SamStepField field, double values[])
-{
-  static const SamResultsField fields[SAM_STEP_FIELDS] = {SAM_RESULTS_PRESSURE, SAM_RESULTS_SHEAR_X,
-                                                          SAM_RESULTS_SHEAR_Y,  SAM_RESULTS_SLIP_X,
-                                                          SAM_RESULTS_SLIP_Y,   SAM_RESULTS_HEAT_1};
-  const SamStressRun *const    run                     = (const SamStressRun *)context;
+  const SamStressRun *const run = (const SamStressRun *)context;
 
   PetscFunctionBegin;
-  PetscCall(SamResultsRead(run->results, SavedStep(run, step), HeatOf(run, fields[field]), values));
+  PetscCall(SamResultsRead(run->results, SavedStep(run, step), field, values));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool HasField(void *context, const char field[])
+{
+  const SamStressRun *const run = (const SamStressRun *)context;
+
+  for (PetscInt k = 0; k < run->steps; k++)
+    if (!SamResultsHas(run->results, run->saved[k], field)) return PETSC_FALSE;
+  return PETSC_TRUE;
 }
 
 static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number, double *value)
@@ -183,65 +182,37 @@ static PetscErrorCode ReadLayer(void *context, PetscInt step, PetscInt group, Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns a number among the parameters of the results, of a body or (0) of the run; 0 if it is not there. */
-static PetscReal ParameterOf(const SamStressRun *run, PetscInt body, const char name[])
+static const SamStateLayers *GetLayers(void *context, PetscInt k)
 {
-  const SamParameter *parameter;
-  char                whole[48], first[16] = "";
-
-  if (body) (void)snprintf(first, sizeof(first), "body%d_", (int)body);
-  (void)snprintf(whole, sizeof(whole), "%s%s", first, name);
-  parameter = SamParametersFind(SamResultsGetParameters(run->results), whole);
-  return parameter && parameter->count == 1 ? parameter->value[0] : 0;
-}
-
-/* Sets the constants of the body to heat if the results have the frictional heat into it in all chosen steps. */
-static void SetHeat(SamStressRun *run, PetscInt body, SamStressSource *source)
-{
-  const SamParameter   *heat  = SamParametersFind(SamResultsGetParameters(run->results), "heat");
-  const SamResultsField field = body == 1 ? SAM_RESULTS_HEAT_1 : SAM_RESULTS_HEAT_2;
-  PetscBool             has   = heat ? PETSC_TRUE : PETSC_FALSE;
-
-  source->expansion = (double)ParameterOf(run, body, "expansion");
-
-  for (PetscInt k = 0; k < run->steps && has; k++) has = SamResultsHas(run->results, run->saved[k], field);
-  if (!has) return;
-  run->heat.conductivity = ParameterOf(run, body, "conductivity");
-  run->heat.capacity     = ParameterOf(run, body, "heat_capacity");
-  run->heat.speed        = source->slips ? ParameterOf(run, body, "speed") : -ParameterOf(run, 0, "rolling_speed");
-  source->bulk           = (double)ParameterOf(run, body, "bulk_temperature");
-  source->heat           = &run->heat;
+  return SamResultsGetLayers(((const SamStressRun *)context)->results, k);
 }
 
 /* Sets up the bodies, with the elasticity recorded in the results, and the steps. */
 static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 {
-  SamStressSource      source     = {.settings   = &run->transforms,
-                                     .name       = run->source,
-                                     .read       = ReadField,
-                                     .number     = ReadNumber,
-                                     .conditions = ReadConditions,
-                                     .layer      = ReadLayer,
-                                     .warn       = WarnOfSteps,
-                                     .tell       = Tell,
-                                     .context    = run};
-  const SamParameters *parameters = SamResultsGetParameters(run->results);
-  const SamParameter  *rolling    = SamParametersFind(parameters, "rolling");
+  SamStressSource     source  = {.parameters = SamResultsGetParameters(run->results),
+                                 .settings   = &run->transforms,
+                                 .name       = run->source,
+                                 .has        = HasField,
+                                 .read       = ReadField,
+                                 .number     = ReadNumber,
+                                 .conditions = ReadConditions,
+                                 .layers     = GetLayers,
+                                 .layer      = ReadLayer,
+                                 .warn       = WarnOfSteps,
+                                 .tell       = Tell,
+                                 .context    = run};
+  const SamParameter *rolling = SamParametersFind(source.parameters, "rolling");
 
   PetscFunctionBegin;
-  source.slides = SamParametersFind(parameters, "slide") != NULL;
-  while (source.groups < SAM_LAYER_GROUPS && SamResultsGetLayers(run->results, source.groups)) {
-    source.group[source.groups] = SamResultsGetLayers(run->results, source.groups);
-    source.groups++;
-  }
-  source.slips = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
+  source.slides = SamParametersFind(source.parameters, "slide") != NULL;
+  source.slips  = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
-  PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
+  PetscCall(SamElasticityCreateFromParameters(run->grid, source.parameters, run->source, &run->elasticity));
   PetscCall(ChooseSteps(run));
   source.bodies = run->elasticity;
   source.steps  = run->steps;
   source.before = SavedStep(run, -1) >= 0 ? PETSC_TRUE : PETSC_FALSE;
-  SetHeat(run, SamEvaluationGetLayout(run->evaluation)->body, &source);
   PetscCall(SamEvaluationSetUp(run->evaluation, &source));
   run->layout = SamEvaluationGetLayout(run->evaluation);
   if (run->layout->half > 0 && !run->quiet)

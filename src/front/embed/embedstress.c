@@ -10,17 +10,25 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/setup.h>
 
 enum { AXES = SAM_STRESS_AXES };
 
-/* A step whose stresses can be evaluated */
-enum { STORED = SAM_STEP_HEAT }; /* fields of a step that are stored: those before the heat */
+/* The fields of a step that are stored: tractions and slip, and those that parts of the stresses read */
+static const char *const own[] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
+enum { OWN = 5, FIELDS = 16 };
 
+static const char *FieldOf(int k)
+{
+  return k < OWN ? own[k] : k < FIELDS ? SamStressPartField(k - OWN) : NULL;
+}
+
+/* A step whose stresses can be evaluated */
 typedef struct {
   SamControl control;
   double     area;                     /* of contact, m2 */
   PetscReal  slide[4];                 /* m: slide, and rolled distance */
-  double    *fields;                   /* (STORED, cells); NULL: there is no step */
+  double    *field[FIELDS];            /* NULL: there is none; the first: there is no step */
   double    *layers[SAM_LAYER_GROUPS]; /* (SAM_STRESS_COMPONENTS, layers, cells): stresses in layers; NULL: none */
 } Step;
 
@@ -81,8 +89,7 @@ static PetscErrorCode TakeLayers(petsam_contact *c, Step *step)
 /* Takes the tried step, else the committed one. */
 static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 {
-  static const char *const names[STORED] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
-  static const char *const slides[4]     = {"slide_x", "slide_y", "rolled_x", "rolled_y"};
+  static const char *const slides[4] = {"slide_x", "slide_y", "rolled_x", "rolled_y"};
 
   const ptrdiff_t    n = c->setup->grid->cells;
   const SamSolution *s;
@@ -93,13 +100,14 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
   PetscCall(SamContactGetNumber(c->setup->contact, "contact_area", &step->area));
   for (int k = 0; k < 4 && SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE); k++)
     PetscCall(SamContactGetNumber(c->setup->contact, slides[k], &step->slide[k]));
-  PetscCall(SamAllocate(sizeof(double) * STORED * (size_t)n, &step->fields));
-  for (int f = 0; f < STORED; f++) {
+  for (int f = 0; FieldOf(f); f++) {
     PetscBool has;
 
-    PetscCall(SamContactHasField(c->setup->contact, names[f], &has));
-    for (ptrdiff_t k = 0; k < n && !has; k++) step->fields[f * n + k] = NAN; /* the motion has another field instead */
-    if (has) PetscCall(SamEmbedCopyField(c, names[f], step->fields + f * n));
+    PetscCall(SamContactHasField(c->setup->contact, FieldOf(f), &has));
+    if (!has && f >= OWN) continue;
+    PetscCall(SamAllocate(sizeof(double) * (size_t)n + 1, &step->field[f]));
+    for (ptrdiff_t k = 0; k < n && !has; k++) step->field[f][k] = NAN; /* the motion has another field instead */
+    if (has) PetscCall(SamEmbedCopyField(c, FieldOf(f), step->field[f]));
   }
   PetscCall(TakeLayers(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -107,9 +115,9 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 
 static void DestroyStep(Step *step)
 {
-  SamFree(step->fields);
+  for (int f = 0; f < FIELDS; f++) SamFree(step->field[f]);
   for (int g = 0; g < SAM_LAYER_GROUPS; g++) SamFree(step->layers[g]);
-  *step = (Step){.fields = NULL};
+  *step = (Step){.area = 0};
 }
 
 PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step)
@@ -237,17 +245,40 @@ static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEv
 typedef struct {
   petsam_contact *c;
   const Step     *step, *before;
-  PetscInt        cells;
+  PetscInt        cells, steps;
 } Steps;
 
-static PetscErrorCode ReadField(void *context, PetscInt k, SamStepField field, double values[])
+/* Returns a field of a step; NULL if it has none. */
+static const double *FindField(const Step *step, const char field[])
 {
-  const Steps *const s    = (const Steps *)context;
-  const Step *const  step = k < 0 ? s->before : &s->step[k];
+  for (int f = 0; FieldOf(f); f++)
+    if (!strcmp(FieldOf(f), field)) return step->field[f];
+  return NULL;
+}
+
+static PetscErrorCode ReadField(void *context, PetscInt k, const char field[], double values[])
+{
+  const Steps *const s = (const Steps *)context;
 
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(values, step->fields + field * (ptrdiff_t)s->cells, s->cells));
+  PetscCall(PetscArraycpy(values, FindField(k < 0 ? s->before : &s->step[k], field), s->cells));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool HasField(void *context, const char field[])
+{
+  const Steps *const s = (const Steps *)context;
+
+  for (PetscInt k = 0; k < s->steps; k++)
+    if (!FindField(&s->step[k], field)) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+static const SamStateLayers *GetLayers(void *context, PetscInt k)
+{
+  SamState state;
+
+  return SamContactGetState(((const Steps *)context)->c->setup->contact, &state) ? NULL : SamStateGetLayers(state, k);
 }
 
 static PetscErrorCode ReadLayer(void *context, PetscInt k, PetscInt group, PetscInt component, PetscInt layer,
@@ -299,31 +330,33 @@ static PetscErrorCode Warn(void *context, const char text[])
   return PETSC_SUCCESS;
 }
 
-static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation *e)
+static PetscErrorCode Compute(petsam_contact *c, const char options[], Steps *steps, SamEvaluation *e)
 {
-  SamState        state;
-  PetscBool       expands;
+  PetscErrorCode  code;
+  SamParameters  *parameters;
   SamStressSource source = {.bodies     = c->setup->elasticity,
                             .name       = "-elasticity",
-                            .steps      = n,
-                            .before     = steps->before && steps->before->fields,
+                            .steps      = steps->steps,
+                            .before     = steps->before && steps->before->field[0],
                             .slides     = SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE) != NULL,
                             .slips      = SamMotionOf(c->setup->elasticity)->continues,
+                            .has        = HasField,
                             .read       = ReadField,
                             .number     = ReadNumber,
                             .conditions = ReadConditions,
+                            .layers     = GetLayers,
                             .layer      = ReadLayer,
                             .warn       = Warn,
                             .context    = steps};
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetState(c->setup->contact, &state));
-  PetscCall(SamContactHasField(c->setup->contact, "thermal_displacement_z", &expands));
-  if (expands) source.expansion = 1; /* of one of the bodies; without the heat it is refused */
-  for (const SamStateLayers *group; (group = SamStateGetLayers(state, source.groups)); source.groups++)
-    source.group[source.groups] = group;
   PetscCall(ReadOptions(c, options, e));
-  PetscCall(SamEvaluationSetUp(*e, &source));
+  PetscCall(PetscNew(&parameters));
+  source.parameters = parameters;
+  code              = SamSetupAddParameters(c->setup, parameters);
+  if (!code) code = SamEvaluationSetUp(*e, &source);
+  PetscCall(PetscFree(parameters));
+  PetscCall(code);
   PetscCall(CreateResults(c->stress, SamEvaluationGetLayout(*e)));
   PetscCall(SamEvaluationCompute(*e, Keep, c->stress));
   if (SamEvaluationGetLayout(*e)->section) PetscCall(GatherSection(c));
@@ -333,12 +366,12 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
 static PetscErrorCode Evaluate(petsam_contact *c, const char options[], PetscInt n, const Step step[],
                                const Step *before, int shape[4])
 {
-  Steps          steps = {c, step, before, c->setup->grid->cells};
+  Steps          steps = {c, step, before, c->setup->grid->cells, n};
   SamEvaluation  e     = NULL;
   PetscErrorCode code;
 
   PetscFunctionBegin;
-  code = Compute(c, options, n, &steps, &e);
+  code = Compute(c, options, &steps, &e);
   PetscCall(SamEvaluationDestroy(&e));
   if (code) ForgetResults(c->stress);
   PetscCall(code);
@@ -348,7 +381,7 @@ static PetscErrorCode Evaluate(petsam_contact *c, const char options[], PetscInt
 
 static PetscErrorCode StressOfStep(petsam_contact *c, const char options[], int shape[4])
 {
-  Step            step = {.fields = NULL};
+  Step            step = {.area = 0};
   PetscErrorCode  code;
   const PetscBool tried     = SamContactHasStep(c->setup->contact, SAM_TRIED);
   const PetscBool committed = SamContactHasStep(c->setup->contact, SAM_COMMITTED);

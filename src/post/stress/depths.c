@@ -178,7 +178,7 @@ static PetscErrorCode RatioOfAxes(SamEvaluation e, PetscInt step, double *ratio)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(g->cells + 1, &pressure));
-  PetscCall((*e->source.read)(e->source.context, step, SAM_STEP_PRESSURE, pressure));
+  PetscCall((*e->source.read)(e->source.context, step, "pressure", pressure));
   for (PetscInt k = 0; k < g->cells; k++) { /* integers, so that sums are the same on any number of ranks */
     const double i = (double)(k % g->nx - g->nx / 2), j = (double)(g->row_start + k / g->nx - g->ny / 2);
     const double part[6] = {1, i, j, i * i, i * j, j * j};

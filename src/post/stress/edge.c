@@ -36,8 +36,8 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
   double                *stress;
 
   PetscFunctionBegin;
-  if (SamLayersExist(e) || e->thermal) PetscFunctionReturn(PETSC_SUCCESS); /* their stresses are not known there */
-  SamStressAddUniform(e, step, &(SamPoints){.count = 1, .depths = 1, .plane = 1}, far);
+  if (SamStressPartsVary(e->parts)) PetscFunctionReturn(PETSC_SUCCESS); /* their stresses are not known there */
+  SamStressPartsUniform(e->parts, step, e->depth[0], far);
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));
   PetscCall(SamEdgeReconstruct(g, SamElasticityGetTraits(e->source.bodies).periodic, square, &edge));

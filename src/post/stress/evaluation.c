@@ -12,8 +12,7 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscFunctionBegin;
   *evaluation = NULL;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamTemperatureDestroy(&e->temperature));
-  PetscCall(SamThermalDestroy(&e->thermal));
+  PetscCall(SamStressPartsDestroy(&e->parts));
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityDestroy(&e->source.bodies));
   PetscCall(PetscFree2(e->depth, e->side));
@@ -128,7 +127,7 @@ static PetscErrorCode SetLayout(SamEvaluation e)
   l->n[SAM_X]    = column ? 1 : g->nx;
   l->row         = e->section ? 0 : g->row_start;
   l->rows        = e->section ? l->n[SAM_Y] : g->rows;
-  l->memory      = (e->section ? SamLinesMemory(e) : SamMapsMemory(e)) + SamTemperatureBytes(e) + SamThermalBytes(e);
+  l->memory      = (e->section ? SamLinesMemory(e) : SamMapsMemory(e)) + SamStressPartsBytes(e->parts);
   for (int d = 0; d < SAM_STRESS_AXES; d++) {
     PetscCall(PetscMalloc1(l->n[d] + 1, &e->coordinate[d]));
     l->coordinate[d] = e->coordinate[d];
@@ -142,6 +141,30 @@ static PetscErrorCode SetLayout(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Creates the parts of the stresses besides those by tractions. */
+static PetscErrorCode CreateParts(SamEvaluation e)
+{
+  PetscBool wanted[SAM_STRESS_PART_TYPES] = {PETSC_FALSE};
+
+  PetscFunctionBegin;
+  e->places = (SamStressPlaces){.grid    = e->grid,
+                                .body    = e->body,
+                                .section = e->section,
+                                .axis    = e->axis,
+                                .index   = e->index,
+                                .length  = e->axis == SAM_SECTION_X ? e->grid->nx : e->grid->ny,
+                                .depths  = e->depths,
+                                .depth   = e->depth,
+                                .side    = e->side,
+                                .passing = e->passing,
+                                .moves   = e->slide ? PETSC_TRUE : PETSC_FALSE};
+  for (PetscInt q = 0; SamQuantityTable[q].name; q++)
+    if (SamQuantityTable[q].of_part) wanted[SamQuantityTable[q].of_part - 1] = e->wants[q];
+  PetscCall(
+    SamStressPartsCreate(&e->source, &e->places, SamProblemGetConditions(e->problem), e->control, wanted, &e->parts));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source)
 {
   PetscFunctionBegin;
@@ -152,7 +175,6 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   PetscCall(CheckConstants(e));
   PetscCall(SamAverageSetUp(e));
   PetscCall(SamDepthsSetUp(e));
-  PetscCall(SamLayersSetUp(e));
   PetscCall(CheckCycle(e));
   PetscCall(FindLine(e));
   PetscCall(SamProblemCreate(e->source.bodies, &e->problem));
@@ -160,8 +182,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   for (PetscInt k = 0; k < e->source.steps; k++)
     PetscCall((*e->source.conditions)(e->source.context, k, SamProblemGetConditions(e->problem), &e->control[k]));
   PetscCall(SamPointsSetUp(e));
-  PetscCall(SamTemperatureSetUp(e));
-  PetscCall(SamThermalSetUp(e));
+  PetscCall(CreateParts(e));
   PetscCall(SetLayout(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -175,8 +196,7 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
   if (e->cycle && e->source.steps > 1) PetscCall(SamCycleCheckClosed(e)); /* one step: travelling points */
   e->write         = write;
   e->write_context = context;
-  if (e->section) PetscCall(SamTemperatureFind(e));
-  if (e->section) PetscCall(SamThermalFind(e));
+  PetscCall(SamStressPartsPrepare(e->parts));
   PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));
   PetscCall(SamLargestAgree(e));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -7,17 +7,6 @@
 #include <petsam/private/problemimpl.h>
 #include <petsam/private/stressimpl.h>
 
-/*
-  SamPoints - the points whose stresses a rank has: its rows of a map at one depth, or its depths of a section. The
-  stress of step s begins at stress + s * SAM_STRESS_COMPONENTS * count, component after component.
-*/
-typedef struct {
-  PetscInt count;         /* number of points */
-  PetscInt depth, depths; /* first depth, number of depths */
-  PetscInt plane;         /* number of points at a depth */
-  double  *stress;        /* Pa */
-} SamPoints;
-
 /* ---- quantities (quantities.c) ---- */
 
 /* A constant of a fatigue parameter, and its option. */
@@ -35,7 +24,7 @@ typedef struct {
                function as the one before takes these arrays over.
     last       makes the component, in the place of the first array, from them; NULL: the arrays are the components
     of_cycle   instead: a parameter of the cycle; `more`: the other components
-    of_heat    instead: the temperature, which is no function of stresses (temperature.c)
+    of_part    instead: the number of a part's type, from 1, whose quantity it is (SamQuantitiesAddParts())
     shown      its name where the largest value is printed
     with       the option that its constants need
 */
@@ -49,11 +38,13 @@ typedef struct {
   void (*of_step)(SamEvaluation e, const SamPoints *points, const double *const s[], double *const values[]);
   void (*last)(PetscInt n, double *const values[]);
   SamFatigueParameter *of_cycle;
-  PetscBool            of_heat;
+  PetscInt             of_part;
   const char          *shown, *with;
   SamQuantityConstant  constant[2];
 } SamQuantity;
-PETSC_INTERN const SamQuantity SamQuantityTable[]; /* ends with a name of NULL */
+PETSC_INTERN SamQuantity SamQuantityTable[]; /* ends with a name of NULL */
+/* SamQuantitiesAddParts - appends those of the registered parts. Not collective. */
+PETSC_INTERN void SamQuantitiesAddParts(void);
 /* SamQuantityWanted - true if that function or parameter of the cycle is wanted. Not collective. */
 PETSC_INTERN PetscBool SamQuantityWanted(SamEvaluation e, SamFatigueParameter *of_cycle);
 /* SamQuantityNames - writes the names of the quantities of a step, or of the cycle, with commas. Not collective. */
@@ -78,10 +69,6 @@ enum { SAM_OWN_MISES, SAM_OWN_PRINCIPAL, SAM_OWN_TENSION, SAM_OWN_SHEAR, SAM_OWN
 
 /* The remedy for a list of constants of a wrong length */
 #define SAM_ONE_EACH "give one number, or one for each layer and the substrate"
-
-/* SamTemperature - the temperatures of the body (temperature.c). SamThermal - its thermal stress (thermal.c). */
-typedef struct _n_SamTemperature *SamTemperature;
-typedef struct _n_SamThermal     *SamThermal;
 
 struct _n_SamEvaluation {
   MPI_Comm comm;
@@ -111,8 +98,8 @@ struct _n_SamEvaluation {
   int            *side;   /* side of an interface at that depth: -1 above, 1 below, 0: no side given, or no interface */
   PetscReal      *weight; /* weight of each depth in the average */
   PetscInt        index;  /* index of the section's line of cells */
-  SamTemperature  temperature; /* below the surface; NULL: not wanted */
-  SamThermal      thermal;     /* NULL: the body does not expand */
+  SamStressPlaces places;
+  SamStressParts  parts; /* of the stresses, besides those by tractions */
   SamStressLayout layout;
   double         *coordinate[SAM_STRESS_AXES];
   /* results */
@@ -137,9 +124,6 @@ PETSC_INTERN double SamLinesMemory(SamEvaluation e);
 */
 PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscBool own,
                                                        double *const to[SAM_STRESS_TRACTIONS]);
-/* SamPointsTakeLine - takes the section's line of n points out of this rank's rows of a field, for all ranks.
-   Collective. */
-PETSC_INTERN PetscErrorCode SamPointsTakeLine(SamEvaluation e, const double rows[], PetscInt n, double line[]);
 /*
   The body's own points where surfaces slide (points.c).
   SamPointsSetUp - reads the slides of the surfaces, if the body's points do not stay with the grid. Collective.
@@ -152,50 +136,6 @@ PETSC_INTERN PetscErrorCode   SamPointsSetUp(SamEvaluation e);
 PETSC_INTERN const PetscReal *SamPointsSlide(SamEvaluation e, PetscInt step);
 PETSC_INTERN PetscErrorCode   SamPointsMove(SamEvaluation e, PetscInt step, double field[]);
 PETSC_INTERN PetscErrorCode   SamPointsCheck(SamEvaluation e, PetscInt step, const double pressure[]);
-/*
-  SamStressAddUniform - adds to the stresses (Pa) of points the stress that does not depend on x and y in a step: the
-  residual stress, and the stress that laws add. Not collective.
-*/
-PETSC_INTERN void SamStressAddUniform(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
-/*
-  Stresses in layers of the body besides those by tractions (layerstress.c).
-  SamLayersSetUp - checks the request for a body that has some. Collective. Errors: SAM_ERR_USER.
-  SamLayersExist - returns true if the body has some. Not collective.
-  SamLayersHaveInitial - returns true if they contain the stress of the body before any load. Not collective.
-  SamStressAddLayers - adds them to the stresses (Pa) of points. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamLayersSetUp(SamEvaluation e);
-PETSC_INTERN PetscBool      SamLayersExist(SamEvaluation e);
-PETSC_INTERN PetscBool      SamLayersHaveInitial(SamEvaluation e);
-PETSC_INTERN PetscErrorCode SamStressAddLayers(SamEvaluation e, PetscInt step, const SamPoints *points,
-                                               double stress[]);
-/*
-  The temperature below the surface by the frictional heat of a step (temperature.c).
-  SamTemperatureSetUp - checks the request, if there is one. Collective. Errors: SAM_ERR_USER.
-  SamTemperatureFind - finds the temperatures of all steps on a section, before the stresses. Collective.
-  SamTemperatureGet - computes, or gets, those of points in a step, K. Collective.
-  SamTemperatureDestroy - frees them. Collective.
-  SamTemperatureBytes - returns the memory of this rank, bytes. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamTemperatureSetUp(SamEvaluation e);
-PETSC_INTERN PetscErrorCode SamTemperatureFind(SamEvaluation e);
-PETSC_INTERN PetscErrorCode SamTemperatureGet(SamEvaluation e, PetscInt step, const SamPoints *points, double values[]);
-PETSC_INTERN PetscErrorCode SamTemperatureDestroy(SamTemperature *temperature);
-PETSC_INTERN double         SamTemperatureBytes(SamEvaluation e);
-/*
-  The thermal stress of a body that expands by heat (thermal.c).
-  SamThermalSetUp - checks the request. Collective. Errors: SAM_ERR_USER.
-  SamThermalFind - finds the stresses of all steps on a section. Collective.
-  SamStressAddThermal - adds them to the stresses (Pa) of points. Collective.
-  SamThermalDestroy - frees them. Collective.
-  SamThermalBytes - returns the memory of this rank, bytes. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamThermalSetUp(SamEvaluation e);
-PETSC_INTERN PetscErrorCode SamThermalFind(SamEvaluation e);
-PETSC_INTERN PetscErrorCode SamStressAddThermal(SamEvaluation e, PetscInt step, const SamPoints *points,
-                                                double stress[]);
-PETSC_INTERN PetscErrorCode SamThermalDestroy(SamThermal *thermal);
-PETSC_INTERN double         SamThermalBytes(SamEvaluation e);
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
 

@@ -163,6 +163,7 @@ PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluat
 
   PetscFunctionBegin;
   PetscCall(SamBaseInitialize());
+  SamQuantitiesAddParts();
   PetscCall(PetscNew(&e));
   *evaluation = e;
   e->comm     = from->comm;

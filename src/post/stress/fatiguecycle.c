@@ -52,7 +52,7 @@ static PetscErrorCode ReadSlip(SamEvaluation e, PetscInt length, double slip[])
   PetscCall(SamAllocate(sizeof(double) * (size_t)(2 * cells), &since));
   sum = since + cells;
   for (PetscInt c = 0; c < 2; c++) {
-    const SamStepField field = (SamStepField)(SAM_STEP_SLIP_X + c);
+    const char *const field = c ? "slip_y" : "slip_x";
 
     PetscCall((*e->source.read)(e->source.context, e->source.steps - 1, field, sum));
     for (PetscInt s = 0; s < e->source.steps; s++) {
@@ -89,11 +89,10 @@ static void GatherStates(const Cycle *c, PetscInt point)
    those far away. */
 static void GatherPassing(const Cycle *c, PetscInt point)
 {
-  const PetscInt  states = c->at.states, nx = states - 1, n = c->points->count;
-  double          far[SAM_STRESS_COMPONENTS] = {0};
-  const SamPoints there = {.count = 1, .depth = c->points->depth + point / c->points->plane, .depths = 1, .plane = 1};
+  const PetscInt states = c->at.states, nx = states - 1, n = c->points->count;
+  double         far[SAM_STRESS_COMPONENTS];
 
-  SamStressAddUniform(c->e, 0, &there, far);
+  SamStressPartsUniform(c->e->parts, 0, c->e->depth[c->points->depth + point / c->points->plane], far);
   for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++) {
     for (PetscInt i = 0; i < nx; i++) /* no parameter depends on the direction along the row */
       c->stress[k * states + i] = c->points->stress[k * (ptrdiff_t)n + point + i];

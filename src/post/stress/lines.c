@@ -51,9 +51,7 @@ static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt
   for (PetscInt k = 0; k < count; k++) PetscCall(AddStep(e, section, first + k, tractions));
   PetscCall(SamSectionCompute(section, stress));
   for (PetscInt k = 0; k < count; k++) {
-    SamStressAddUniform(e, first + k, p, stress + k * size);
-    PetscCall(SamStressAddLayers(e, first + k, p, stress + k * size));
-    PetscCall(SamStressAddThermal(e, first + k, p, stress + k * size));
+    PetscCall(SamStressPartsAdd(e->parts, first + k, p, stress + k * size));
     PetscCall(SamQuantitiesWrite(e, first + k, p, stress + k * size));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -45,9 +45,7 @@ static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoint
   }
   if (!surface || SamPointsSlide(e, step)) PetscCall(Apply(e, step, PETSC_TRUE, field));
   PetscCall(VecGetArray(field, &a));
-  SamStressAddUniform(e, step, p, a);
-  PetscCall(SamStressAddLayers(e, step, p, a));
-  PetscCall(SamStressAddThermal(e, step, p, a));
+  PetscCall(SamStressPartsAdd(e->parts, step, p, a));
   PetscCall(SamQuantitiesWrite(e, step, p, a));
   if (p->stress && e->average)
     PetscCall(SamAverageAdd(e, p->depth, e->grid->nx, size, a, p->stress + step * size));

@@ -81,18 +81,3 @@ PetscErrorCode SamPointsCheck(SamEvaluation e, PetscInt step, const double press
              (int)e->body, (double)slide[0], (double)slide[1], e->body == 2 ? "-body 1, or " : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-PetscErrorCode SamPointsTakeLine(SamEvaluation e, const double rows[], PetscInt n, double line[])
-{
-  const SamGrid g = e->grid;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(line, n));
-  for (PetscInt k = 0; k < g->cells; k++) {
-    const PetscInt i = k % g->nx, j = g->row_start + k / g->nx;
-
-    if (e->index == (e->axis == SAM_SECTION_X ? j : i)) line[e->axis == SAM_SECTION_X ? i : j] = rows[k];
-  }
-  PetscCall(SamSum(g->comm, n, line));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}

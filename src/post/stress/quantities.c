@@ -1,6 +1,6 @@
 /*
   The quantities of an evaluation. This is the only place that defines their names for options, datasets, files and
-  other programs. A new quantity is a row and a function.
+  other programs, but for those of parts of the stresses (private/stresspart.h). A new quantity is a row and a function.
 */
 #include "evaluationimpl.h"
 #include <petsam/private/body.h>
@@ -57,7 +57,7 @@ static void Strain(SamEvaluation e, const SamPoints *p, const double *const s[],
     "fatigue_" #member, help, unit, range, offsetof(SamFatigueConstants, member) \
   }
 
-const SamQuantity SamQuantityTable[] = {
+SamQuantity SamQuantityTable[SAM_QUANTITIES + 1] = {
   {.name = "stress",
    .part = {{"stress_xx", "Pa", "stress xx, tension positive"},
             {"stress_yy", "Pa", "stress yy"},
@@ -86,10 +86,6 @@ const SamQuantity SamQuantityTable[] = {
                {"strain_yz", "1", "strain yz, tensor shear strain"}},
    .arrays  = SAM_STRESS_COMPONENTS,
    .of_step = Strain},
-  {.name    = "temperature",
-   .part    = {{"temperature", "K", "temperature by frictional heat"}},
-   .arrays  = 1,
-   .of_heat = PETSC_TRUE},
   {.name     = "crossland",
    .part     = {{"crossland", "Pa", "Crossland's parameter of the cycle"}},
    .of_cycle = SamFatigueCrossland,
@@ -129,6 +125,20 @@ const SamQuantity SamQuantityTable[] = {
    .of_cycle = SamFatigueRuiz,
    .shown    = "Ruiz 1"},
   {.name = NULL}};
+
+void SamQuantitiesAddParts(void)
+{
+  const SamStressPartType *type;
+  SamQuantity             *row = SamQuantityTable;
+
+  while (row->name && !row->of_part) row++;
+  for (PetscInt k = 0; (type = SamStressPartGetType(k)) && row < SamQuantityTable + SAM_QUANTITIES; k++)
+    if (type->quantity.name)
+      *row++ = (SamQuantity){.name    = type->quantity.name,
+                             .part    = {{type->quantity.dataset, type->quantity.unit, type->quantity.text}},
+                             .arrays  = 1,
+                             .of_part = 1 + k};
+}
 
 void SamQuantityNames(PetscBool of_cycle, char text[], size_t size)
 {
@@ -191,9 +201,9 @@ PetscErrorCode SamQuantitiesWrite(SamEvaluation e, PetscInt step, const SamPoint
     const SamQuantity *row = &SamQuantityTable[q];
 
     if (!e->wants[q] || row->of_cycle) continue;
-    if (row->of_heat) {
+    if (row->of_part) {
       done = NULL;
-      PetscCall(SamTemperatureGet(e, step, p, more[0]));
+      PetscCall(SamStressPartsGetValues(e->parts, row->of_part - 1, step, p, more[0]));
       PetscCall(SamEvaluationHandOver(e, q, 0, step, p, more[0]));
       continue;
     }

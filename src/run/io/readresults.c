@@ -7,13 +7,19 @@
 */
 #include "ioimpl.h"
 #include <petsam/private/results.h>
-#include <petsam/private/stress.h>
+#include <petsam/private/stresspart.h>
 #include <string.h>
 
 static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle",   "status",   "contact_area", "slide_x",
                                                          "slide_y", "rolled_x", "rolled_y"};
-static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x",
-                                                         "/slip_y",   "/heat_1",  "/heat_2"};
+/* The fields that can be read: these, the first of which no file lacks, and those that parts of the stresses read */
+static const char *const own[] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
+enum { REQUIRED = 3, OWN = 5, FIELDS = 16 };
+
+static const char *FieldOf(int k)
+{
+  return k < OWN ? own[k] : k < FIELDS ? SamStressPartField(k - OWN) : NULL;
+}
 
 /* A group with stresses in layers below the cells */
 typedef struct {
@@ -32,7 +38,7 @@ typedef struct {
   char          identity[32], follows[32]; /* identity of the file, and of the part before; empty: none */
   int           groups;                    /* number of groups with stresses in layers */
   Group         group[SAM_LAYER_GROUPS];
-  int           has[SAM_RESULTS_FIELDS], number[SAM_RESULTS_NUMBERS];
+  int           has[FIELDS], number[SAM_RESULTS_NUMBERS];
   int           column[SAM_PARAMETERS]; /* true if a parameter is also a column of the history */
 } Facts;
 
@@ -41,7 +47,7 @@ typedef struct {
   Facts    facts;
   PetscInt steps; /* number from the run's start to the beginning of the next part */
   SamFile  file;
-  hid_t    field[SAM_RESULTS_FIELDS], stress[SAM_LAYER_GROUPS][SAM_STRESS_COMPONENTS];
+  hid_t    field[FIELDS], stress[SAM_LAYER_GROUPS][SAM_STRESS_COMPONENTS];
 } Part;
 
 /* Place of the fields of a saved step */
@@ -152,30 +158,42 @@ static PetscErrorCode CheckWhole(SamFile f, const char name[], hid_t dataset, co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+typedef char Name[80];
+
+static void NameField(int k, Name name)
+{
+  (void)snprintf(name, sizeof(Name), "/%s", FieldOf(k));
+}
+
 static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
 {
   hsize_t shape[3];
-  hid_t   dataset[SAM_RESULTS_FIELDS], times;
+  hid_t   dataset[FIELDS], times;
 
   PetscFunctionBegin;
   PetscCall(Open(f, "/history/time", 1, &facts->steps, &times));
   PetscCall(Open(f, "/time", 1, &facts->saved, &times));
-  for (int k = 0; k < SAM_RESULTS_FIELDS; k++) {
-    facts->has[k] = k < SAM_RESULTS_SLIP_X || H5Lexists(f->id, fields[k], H5P_DEFAULT) > 0;
+  for (int k = 0; FieldOf(k); k++) {
+    Name name;
+
+    NameField(k, name);
+    facts->has[k] = k < REQUIRED || H5Lexists(f->id, name, H5P_DEFAULT) > 0;
     if (!facts->has[k]) continue;
-    PetscCall(Open(f, fields[k], 3, shape, &dataset[k]));
+    PetscCall(Open(f, name, 3, shape, &dataset[k]));
     facts->saved = PetscMin(facts->saved, shape[0]);
     CHECK(f, (double)shape[1] == facts->n[1] && (double)shape[2] == facts->n[0],
-          "%s has %llu x %llu cells, not the %.6g x %.6g of -grid_n", fields[k], (unsigned long long)shape[2],
+          "%s has %llu x %llu cells, not the %.6g x %.6g of -grid_n", name, (unsigned long long)shape[2],
           (unsigned long long)shape[1], facts->n[0], facts->n[1]);
   }
   shape[0] = facts->saved;
-  for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
-    if (facts->has[k]) PetscCall(CheckWhole(f, fields[k], dataset[k], shape));
+  for (int k = 0; FieldOf(k); k++) {
+    Name name;
+
+    NameField(k, name);
+    if (facts->has[k]) PetscCall(CheckWhole(f, name, dataset[k], shape));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-typedef char Name[80];
 
 /* Writes the name of a stress in a group of layers. */
 static void NameStress(const Group *g, int component, Name name)
@@ -347,8 +365,8 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   PetscCall(SamFileBegin(part->file));
   ReadSeries(part->file, "/history/time", 0, steps, times);
   ReadSeries(part->file, "/time", 0, saved, saves);
-  for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
-    if (facts->has[k]) part->field[k] = SamFileNote(part->file, H5Dopen2(part->file->id, fields[k], H5P_DEFAULT));
+  for (int k = 0; FieldOf(k); k++)
+    if (facts->has[k]) part->field[k] = SamFileNote(part->file, H5Dopen2(part->file->id, FieldOf(k), H5P_DEFAULT));
   for (int g = 0; g < facts->groups; g++)
     for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->group[g].saved; c++) {
       Name name;
@@ -574,23 +592,36 @@ static PetscErrorCode CheckFinite(const Part *part, PetscInt n, const double val
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, double values[])
+/* Returns the number of a field, which may be missing; FIELDS: it is none of those that are read. */
+static int Find(const char field[])
+{
+  for (int k = 0; FieldOf(k); k++)
+    if (!strcmp(FieldOf(k), field)) return k;
+  return FIELDS;
+}
+
+PetscErrorCode SamResultsRead(SamResults r, PetscInt k, const char field[], double values[])
 {
   const Part *const part = r->saved[k].part;
+  const int         n    = Find(field);
+  Name              name;
 
   PetscFunctionBegin;
-  PetscCheck(part->facts.has[field], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s", part->file->option,
-             part->file->filename, fields[field]);
+  (void)snprintf(name, sizeof(name), "/%s", field);
+  PetscCheck(n < FIELDS && part->facts.has[n], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s",
+             part->file->option, part->file->filename, name);
   PetscCall(SamFileBegin(part->file));
-  SamFileReadFrame(part->file, part->field[field], H5T_NATIVE_DOUBLE, r->saved[k].index, values);
+  SamFileReadFrame(part->file, part->field[n], H5T_NATIVE_DOUBLE, r->saved[k].index, values);
   PetscCall(SamFileEnd(part->file));
-  PetscCall(CheckFinite(part, r->grid->cells, values, fields[field], r->saved[k].step));
+  PetscCall(CheckFinite(part, r->grid->cells, values, name, r->saved[k].step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool SamResultsHas(SamResults r, PetscInt k, SamResultsField field)
+PetscBool SamResultsHas(SamResults r, PetscInt k, const char field[])
 {
-  return r->saved[k].part->facts.has[field] ? PETSC_TRUE : PETSC_FALSE;
+  const int n = Find(field);
+
+  return n < FIELDS && r->saved[k].part->facts.has[n] ? PETSC_TRUE : PETSC_FALSE;
 }
 
 const SamStateLayers *SamResultsGetLayers(SamResults r, PetscInt g)
