@@ -88,7 +88,7 @@ def test_steps_and_rolling(petsam, stress, tmp_path):
 
 
 def test_refusals(petsam, stress, tmp_path):
-    """Results without heat, or without its fields, and steps in process are refused with the cure."""
+    """Results and steps without heat, or without its fields, are refused with the cure; steps that have it have it."""
     petsam({k: v for k, v in PAIR.items() if k not in ("heat", "body2_bulk_temperature")})
     words = dict(input="hot.h5", output="t.h5", quantities="temperature")
     assert "run petsam with -heat steady" in stress(words, check=2).stderr
@@ -99,5 +99,11 @@ def test_refusals(petsam, stress, tmp_path):
     with package.Contact(**options) as contact:
         contact.try_step(load_n=100, disp_x=1e-5, time=1.0)
         contact.commit()
-        with pytest.raises(package.Error, match="temperature"):
-            contact.stress(quantities="temperature", depths="0")
+        found = contact.stress(quantities="temperature", depths="0")["temperature"]
+        np.testing.assert_allclose(found[0, 0], contact["temperature_2"], rtol=1e-12)
+    with package.Contact(
+        **{name: value for name, value in options.items() if name not in ("heat", "body2_bulk_temperature")}
+    ) as cold:
+        cold.try_step(load_n=100, disp_x=1e-5, time=1.0)
+        with pytest.raises(package.Error, match="has no frictional heat"):
+            cold.stress(quantities="temperature", depths="0")

@@ -26,11 +26,11 @@ PETSC_EXTERN PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *fro
 PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
 
 /*
-  SamEvaluationSetUp - sets the source, the parts of the stresses besides those by tractions, checks the settings together, and creates the kernels of the stresses; it must
-  be called once. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth
-  above zero but below a millionth of a cell, a section outside of the grid, a cycle of one step, passing points
-  (-passing) with more than one step or below a section along y, and Ruiz's parameters below the surface or of passing
-  points.
+  SamEvaluationSetUp - sets the source and the parts of the stresses, checks the settings together, and creates the
+  kernels; it must be called once. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not
+  available, a depth above zero but below a millionth of a cell, a section outside of the grid, a cycle of one step,
+  passing points (-passing) with more than one step or below a section along y, and Ruiz's parameters below the
+  surface or of passing points.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation, const SamStressSource *source);
 

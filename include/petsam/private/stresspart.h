@@ -29,11 +29,11 @@ typedef enum {
 } SamStepNumber;
 
 /*
-  SamStressSource - the bodies, which are referenced, and the load steps, of a contact or of a file. Collective functions
-  read the steps when they are needed: this rank's rows of a field, by its name in results; a number; the values of
-  conditions of the bodies. Step -1 is the step before the first, if there is one. `warn` receives warnings about the
-  steps as a cycle. `tell` is called from time to time during long work with its name, the fraction of it that is done,
-  and the fraction of all work that is done (0: unknown); NULL: not called.
+  SamStressSource - the bodies, which are referenced, and the load steps, of a contact or of a file. Collective
+  functions read the steps when they are needed: this rank's rows of a field, by its name in results; a number; the
+  values of conditions of the bodies. Step -1 is the step before the first, if there is one. `warn` receives warnings
+  about the steps as a cycle. `tell` is called from time to time during long work with its name, the fraction of it
+  that is done, and the fraction of all work that is done (0: unknown); NULL: not called.
 */
 typedef struct {
   SamElasticity             bodies;
@@ -144,8 +144,8 @@ typedef struct _n_SamStressPartType {
   PetscErrorCode (*create)(SamStressPart part);
 } SamStressPartType;
 /*
-  SamStressPartRegister - adds a type, which is borrowed, or replaces that of the same name; parts act in this order. Not
-  collective, but to be called on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a type too many.
+  SamStressPartRegister - adds a type, which is borrowed, or replaces that of the same name; parts act in this order.
+  Not collective, but to be called on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a type too many.
   SamStressPartGetType - returns the k-th type; NULL: there are no more. Not collective.
   SamStressPartField - returns the k-th name of the fields that types read; NULL: there are no more. Not collective.
 */

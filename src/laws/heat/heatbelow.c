@@ -1,7 +1,7 @@
 /*
-  The temperature and the thermal stress below the surface by the steady heat of a step: parts of the stresses in a body
-  (private/stresspart.h). The temperature is that of the heat into the body, on a half-space whose material moves along x
-  (heatoperator.c); the stress is that of a body that expands (thermalstress.c).
+  The temperature and the thermal stress below the surface by the steady heat of a step: a part of the stresses in a
+  body (private/stresspart.h). The temperature is that of the heat into the body, on a half-space whose material moves
+  along x (heatoperator.c); the stress is that of a body that expands (thermalstress.c).
 */
 #include <petsam/private/heat.h>
 #include <petsam/private/baseimpl.h>
