@@ -26,7 +26,8 @@ from numpy.typing import ArrayLike
 from ...contact import gradient
 from ...core import least
 from ...core.errors import Error, Unusable, counted, there_are
-from .loops import LARGE, MISFIT, TRIALS, VAGUE
+from .loops import LARGE, MISFIT, VAGUE
+from .problem import TRIALS
 
 TOLERANCES = {"normal_rtol": 1e-8, "tangential_rtol": 1e-6}  # of petsam, if the options have none
 NEAR, FAR = 1e-4, 1e-2  # least and largest step of a difference, relative; between them the root of the tolerance
