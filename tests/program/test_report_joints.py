@@ -9,7 +9,7 @@ import petsam
 from petsam.apps.joint import command
 from petsam.apps.joint.balance import RESPONSE, Response
 from petsam.apps.joint.bands import Band
-from petsam.apps.joint.interfaces import Interface, Outcome
+from petsam.apps.joint.properties import Interface, Outcome
 from petsam.apps.joint.wearing import Wear
 from petsam.plot import command as plot_command
 from test_plot_joints import FIRST, made

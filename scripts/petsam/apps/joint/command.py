@@ -56,9 +56,9 @@ from . import PART
 from .backbones import backbone
 from .balance import forced, need_steps
 from .bands import band
+from .failures import ENDS
 from .interfaces import interface
 from .pair import Pair, contents
-from .structure import ENDS
 from .sweep import BackboneWarning
 from .wearing import rising, wear
 
