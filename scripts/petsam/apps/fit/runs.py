@@ -308,7 +308,7 @@ class _Problem:
 
 
 def _contact_error():
-    from ...contact.inprocess import ContactError
+    from ...contact.errors import ContactError
 
     return ContactError
 

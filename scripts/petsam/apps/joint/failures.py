@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...contact.inprocess import NoEquilibrium, NotConverged, PrescribedError
+from ...contact.errors import NoEquilibrium, NotConverged, PrescribedError
 from ...core.errors import Unusable
 
 

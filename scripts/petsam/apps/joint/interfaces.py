@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...contact.inprocess import AdviceWarning
+from ...contact.errors import AdviceWarning
 from ...core.errors import Unusable
 from ...core.keywords import unfolded
 from ..conduction import need_conducting

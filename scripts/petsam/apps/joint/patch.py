@@ -10,7 +10,8 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...contact.inprocess import AdviceWarning, Contact, ContactError, EdgeContactWarning
+from ...contact.errors import AdviceWarning, ContactError, EdgeContactWarning
+from ...contact.inprocess import Contact
 from ...core.errors import Unusable, short
 from .failures import Apart, NoSolution, solved
 

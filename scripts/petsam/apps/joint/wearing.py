@@ -17,7 +17,7 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...contact.inprocess import ContactError
+from ...contact.errors import ContactError
 from ...core.errors import Unusable
 from ...core.tables import Column, split
 from .arguments import array

@@ -11,7 +11,7 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ...contact.inprocess import ContactError
+from ...contact.errors import ContactError
 from ...core import processes, tables
 from ...core.errors import Error, NoEquilibrium
 from .axle import Axle

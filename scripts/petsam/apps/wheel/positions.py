@@ -15,7 +15,8 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from ...contact.inprocess import AdviceWarning, Contact
+from ...contact.errors import AdviceWarning
+from ...contact.inprocess import Contact
 from ...core.errors import Error, Unusable
 from . import contacts, gap
 from .creepages import creepages
