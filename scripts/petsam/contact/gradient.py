@@ -34,9 +34,6 @@ GOLDEN = (5**0.5 - 1) / 2
 IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
 
 
-# ---------------------------------------------------------------- for optimisers
-
-
 def function(
     options: Mapping[str, Any],
     history: Any,

@@ -93,10 +93,6 @@ class Contact(Evaluations):
             step = "no step" if self._contact else "closed"
         return f"Contact({cells}; {step})"
 
-    # ------------------------------------------------------------ calls
-
-    # ------------------------------------------------------------ steps
-
     def try_step(self, time: float = 0.0, **given: float) -> Step:
         """Solves a step from the committed state; replaces an earlier try.
 
@@ -217,8 +213,6 @@ class Contact(Evaluations):
         k = Stiffness(k, loads, {name: units[name] for name in [*self._displacements, *names]})
         return k if condense is None else condensed(k, condense)
 
-    # ------------------------------------------------------------ histories and lives
-
     def run(self, history: Any, each: Optional[Callable[[Contact, Step], Any]] = None) -> list[Step]:
         """Solves a history from the committed state on and commits each step.
 
@@ -317,12 +311,6 @@ class Contact(Evaluations):
                 ended.steps, ended.step = found, self._last_step(code, message)
                 raise ended
         return found
-
-    # ------------------------------------------------------------ fields and numbers
-
-    # ------------------------------------------------------------ stresses
-
-    # ------------------------------------------------------------ files, end
 
     def copy(self, **options: Any) -> Contact:
         """Another contact of the same options, gap and friction, in the committed state of this one.

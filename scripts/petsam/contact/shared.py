@@ -15,8 +15,6 @@ from ..core.errors import Missing, short
 from ..core.version import __version__
 from .errors import PrescribedError
 
-# ---------------------------------------------------------------- the library
-
 lock = threading.RLock()  # one thread at a time may be in the library
 _library = None
 

@@ -102,9 +102,6 @@ class Cycle:
         return f"Cycle({', '.join(f'{name}={value:.6g}' for name, value in self.numbers.items())})"
 
 
-# ---------------------------------------------------------------- contacts
-
-
 class Stiffness(np.ndarray):
     """A matrix d(loads)/d(displacements), (n, n): an array of numpy whose repr has labels, a row for each load and a
     column for each displacement, {name: unit} each. The unit of a number is that of its row over that of its column.

@@ -1,6 +1,6 @@
 """Parameters of a contact from measured numbers of its history, by full runs.
 
-For what one push and Masing's rule (loops.py) do not hold: dissimilar bodies at their own friction, both tangential
+For what one push and Masing's rule (problem.py) do not hold: dissimilar bodies at their own friction, both tangential
 directions out of phase, wear within the loop, a normal load that varies, unknown radii, moduli or profiles. Residuals
 are those of the numbers over their standard deviations, and of what is known of a parameter beforehand over its own;
 least squares then find the most likely parameters (normal errors), and the covariance is (J'J)^-1 with the Jacobian J

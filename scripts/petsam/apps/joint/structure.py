@@ -107,8 +107,6 @@ class Structure(Assembly):
             np.where(self.by_load[:, None], response, unit), np.where(self.by_load[:, None], unit, response)
         )
 
-    # ------------------------------------------------------------ steps
-
     def _try(self, values, held):
         """Coordinates and loads of a tried step of all patches."""
         every = held or [None] * len(self.patches)
