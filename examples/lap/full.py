@@ -21,7 +21,7 @@ import numpy as np
 from mesh import WASHER, Strips, strip_lines
 
 from petsam import Contact, joint
-from petsam.apps.joint.structure import DISPLACEMENTS
+from petsam.apps.joint.patch import DISPLACEMENTS
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
 from decks import run_calculix  # noqa: E402

@@ -11,7 +11,8 @@ import warnings
 import numpy as np
 
 from petsam.closed.ellipse import hertz_radii
-from petsam.contact.inprocess import AdviceWarning, Contact
+from petsam.contact.errors import AdviceWarning
+from petsam.contact.inprocess import Contact
 
 SHEAR, PEAK, LENGTH = 82e9, 800e6, 1e-3  # Pa: G, maximum pressure; m: c
 FRICTION = 0.3

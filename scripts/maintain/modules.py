@@ -25,7 +25,7 @@ from petsam.core.keywords import completed  # noqa: E402
 # names of the package that users meet first, in the order of work; the others follow, errors and warnings at the end
 FIRST = ("open", "run", "Contact", "Results", "Snapshot", "Stresses", "Study")
 # classes of which users get objects from those, by their modules
-OBTAINED = {"contact.inprocess": ("Step", "Cycle")}
+OBTAINED = {"contact.steps": ("Step", "Cycle")}
 # modules before and behind the parts, in the order of the page
 BEFORE = ("results.errors", "results.cycles", "results.sliding", "contact.gradient", "contact.uncertainty")
 BEHIND = (
@@ -54,8 +54,20 @@ def definitions(tree):
 
 
 def public(module):
-    """Returns the public functions and classes of a module by name, as users meet them."""
-    return {name: whole(module, unfolded(module, node)) for name, node in definitions(tree_of(module)).items()}
+    """Returns the public functions and classes of a module by name, as users meet them, with those of its __all__ that
+    are of modules beside it."""
+    homes = {name: origin(module, name) for name in offered(module)}
+    others = {name: public(home)[name] for name, home in homes.items() if home and name in definitions(tree_of(home))}
+    own = {name: whole(module, unfolded(module, node)) for name, node in definitions(tree_of(module)).items()}
+    return {**others, **own}
+
+
+def offered(module):
+    """Returns the names of the __all__ of a module; none of one without, or whose __all__ is no constant."""
+    for node in tree_of(module).body:
+        if ast.unparse(node).startswith("__all__ = ["):
+            return ast.literal_eval(node.value)
+    return []
 
 
 def unfolded(module, node):

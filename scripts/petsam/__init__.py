@@ -37,9 +37,8 @@ if TYPE_CHECKING:
     from typing import Any, Optional, Union
 
     from . import closed
-    from .contact.inprocess import (
+    from .contact.errors import (
         AdviceWarning,
-        Contact,
         ContactError,
         CycleWarning,
         EdgeContact,
@@ -48,7 +47,8 @@ if TYPE_CHECKING:
         NotConverged,
         PrescribedError,
         WearWarning,
-    )  # fmt: skip
+    )
+    from .contact.inprocess import Contact
     from .contact.running import run
     from .core import materials
     from .results import cycles
@@ -86,11 +86,12 @@ __all__ = [
 _HOMES = {
     **dict.fromkeys(
         (
-            "AdviceWarning", "Contact", "ContactError", "CycleWarning", "EdgeContact", "EdgeContactWarning",
-            "NoEquilibrium", "NotConverged", "PrescribedError", "WearWarning",
+            "AdviceWarning", "ContactError", "CycleWarning", "EdgeContact", "EdgeContactWarning", "NoEquilibrium",
+            "NotConverged", "PrescribedError", "WearWarning",
         ),
-        ".contact.inprocess",
+        ".contact.errors",
     ),
+    "Contact": ".contact.inprocess",
     "Results": ".results.file",
     "Snapshot": ".results.snapshot",
     "Stresses": ".results.stresses",

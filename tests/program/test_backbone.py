@@ -249,7 +249,7 @@ def test_motions_of_a_pair_are_those_of_the_contact(tmp_path):
     file = compliances.write(tmp_path / "c.h5", np.zeros((3, 3, 3, 3)), cases=cases)
     bodies = dict(body1_young=1, body2_young=1, body1_poisson=0.3, body2_poisson=0.3)
     given = dict(OPTIONS, **bodies, grid_size=2.0, body2_compliance=file)
-    amounts = dict(zip(joint.structure.DISPLACEMENTS, (0.01, 1e-3, -5e-4, 2e-3, 1e-3, 1e-3)))
+    amounts = dict(zip(joint.patch.DISPLACEMENTS, (0.01, 1e-3, -5e-4, 2e-3, 1e-3, 1e-3)))
     with petsam.Contact(**given) as contact:
         plain = contact.try_step(**amounts).load
         cased = contact.try_step(
@@ -343,7 +343,7 @@ def test_a_rigid_part_outside_of_the_contact_changes_nothing(tmp_path):
     pair = joint.Pair(file, PRELOAD, damping=1e-3, **OPTIONS)
     shapes = ["body2_case_mode1", "body2_case_mode2"]
     whole = petsam.Contact(body2_compliance=file, grid_size=2.0, **pair.moduli | OPTIONS)
-    held = dict.fromkeys(joint.structure.DISPLACEMENTS, 0.0)
+    held = dict.fromkeys(joint.patch.DISPLACEMENTS, 0.0)
     patch = joint.Patch(whole, shapes, held)
     plain = joint.Structure([patch], pair.omega, np.eye(2), damping=1e-3)
     assert plain.direct and not pair.structure.direct
@@ -938,5 +938,5 @@ def test_the_first_step_of_a_structure_at_rest_is_in_equilibrium(by_load):
     q = brentq(lambda q: sum(shear(q, *pair) for pair in pairs) - 0.9 * FRICTION * LOAD, 0.0, 1e-5, xtol=1e-20)
     assert -one.loads == pytest.approx([shear(q, *pair) for pair in pairs], rel=1e-3)
     assert one.z == pytest.approx([q, q], rel=1e-3)
-    with pytest.raises(joint.structure.ENDS):
+    with pytest.raises(joint.failures.ENDS):
         one.step([0.5 * 1.6 * FRICTION * LOAD])

@@ -12,6 +12,9 @@ import petsam
 import petsam as package
 from petsam.apps.fit import command
 from petsam.apps.fit import loops as model
+from petsam.apps.fit.backbone import Backbone, force_of
+from petsam.apps.fit.loop import Loop
+from petsam.apps.fit.problem import SHARED, Problem
 from petsam.core import least
 from petsam.core.errors import Error
 
@@ -32,7 +35,7 @@ def there(tmp_path, monkeypatch):
 
 def twin(chance, part=None, stroke=None, rig=2e7, noise=0.005, mu=MU, points=200, **more):
     """A loop of a part of sliding, or of a multiple of the sliding stroke; noise relative to both amplitudes."""
-    backbone = model.Backbone(PUSH, mu, 1.0 / rig)
+    backbone = Backbone(PUSH, mu, 1.0 / rig)
     half = (
         stroke * backbone.displacement[-1]
         if stroke
@@ -40,9 +43,9 @@ def twin(chance, part=None, stroke=None, rig=2e7, noise=0.005, mu=MU, points=200
     )
     phase = 2.0 * np.pi * np.arange(points) / points
     d, rising = -half * np.cos(phase), phase < np.pi
-    q, _ = model.force_of(backbone, d, rising, (0.0, half, -half), **more)
+    q, _ = force_of(backbone, d, rising, (0.0, half, -half), **more)
     most = q.max()
-    return model.Loop(
+    return Loop(
         d + noise * half * chance.standard_normal(points), q + noise * most * chance.standard_normal(points), rising, N
     )
 
@@ -107,7 +110,7 @@ def test_derivatives_are_those_of_the_residuals():
     chance = np.random.default_rng(1)
     loops = [twin(chance, part, stroke, noise=0.01) for part, stroke in ((0.8, None), (None, 1.5))]
     pushes = [PUSH, replace(PUSH, normal=0.99 * N)]
-    problem = model._Problem(loops, pushes, model.SHARED, dict(loss=(0.0, 0.01), scale=(1.0, 0.05), loads=0.03))
+    problem = Problem(loops, pushes, SHARED, dict(loss=(0.0, 0.01), scale=(1.0, 0.05), loads=0.03))
     at, scales = problem.start(0.98), problem.scales()
     at[: len(problem.free)] = 0.59, 5.1e-8, 2e5, 0.01, 1.03, 0.2, 0.02, -0.03, 0.1, -0.05
     problem.spread, weights = 1.2, problem.weights(at)
@@ -278,7 +281,7 @@ def test_the_displacement_of_a_cycle_is_smoothed_without_its_corners(tmp_path, k
     d = np.where(phase < up, 2.0 * phase / up - 1.0, 1.0 - 2.0 * (phase - up) / (1.0 - up))
     if "sine" in kind:
         d = -np.cos(2.0 * np.pi * phase) + (0.05 * np.cos(6.0 * np.pi * phase) if kind == "distorted sine" else 0.0)
-    noisy = model.Loop(d + 0.03 * chance.standard_normal(2000), d, phase < up, N)
+    noisy = Loop(d + 0.03 * chance.standard_normal(2000), d, phase < up, N)
     write(tmp_path / "lab.csv", [replace(noisy, displacement=1e-6 * noisy.displacement)], form="{:.7f},{:.7f}")
     loops = petsam.fit.cycles(petsam.fit.read("lab.csv"), N).loops
     assert len(loops) >= 8
@@ -372,11 +375,11 @@ def ball_of(normal, radius):
 
 def recorded(path, chance, push, half, rig=2e7, noise=0.003, count=4, **more):
     """Cycles of a file of loops of this stroke."""
-    backbone, phase = model.Backbone(push, MU, 1.0 / rig), 2.0 * np.pi * np.arange(200) / 200
+    backbone, phase = Backbone(push, MU, 1.0 / rig), 2.0 * np.pi * np.arange(200) / 200
     d, rising = -half * np.cos(phase), phase < np.pi
-    q, _ = model.force_of(backbone, d, rising, (0.0, half, -half), **more)
+    q, _ = force_of(backbone, d, rising, (0.0, half, -half), **more)
     noisy = [
-        model.Loop(*(one + noise * one.max() * chance.standard_normal(200) for one in (d, q)), rising, push.normal)
+        Loop(*(one + noise * one.max() * chance.standard_normal(200) for one in (d, q)), rising, push.normal)
         for _ in range(count)
     ]
     write(path, noisy)
@@ -404,7 +407,7 @@ def test_a_wrong_radius_is_in_the_bands(tmp_path, kind):
         files, pushes = [], []
         for normal in (N, 0.4 * N)[: 2 if kind == "two loads" else 1]:
             push = ball_of(normal, R)
-            curve = model.Backbone(push, MU, 1.0 / rig)
+            curve = Backbone(push, MU, 1.0 / rig)
             part = chance.uniform(0.6, 0.9)
             half = {"slides": 2.0, "slides a little": 1.08}.get(kind, 0.0) * curve.displacement[-1]
             half = half or np.interp(part * MU * normal, curve.force, curve.displacement)
@@ -429,7 +432,7 @@ def at_three_loads(path, chance, exponent, rig, low, high):
     files = []
     for normal in (0.4 * N, N, 2.5 * N):
         push, part = of_power(exponent, normal), chance.uniform(low, high)
-        curve = model.Backbone(push, MU, 1.0 / rig)
+        curve = Backbone(push, MU, 1.0 / rig)
         half = np.interp(part * MU * normal, curve.force, curve.displacement)
         half = half if part < 1.0 else part * curve.displacement[-1]
         files.append(recorded(path, chance, push, half, rig, 0.005))
@@ -476,7 +479,7 @@ def test_a_stiffness_that_is_no_power_of_the_load_is_in_the_bands(tmp_path):
         files = []
         for push, factor in zip(pushes_of(1 / 3), (1.003, 1.006, 0.991)):
             rough = replace(push, displacement=push.displacement / factor)
-            curve = model.Backbone(rough, MU, 1.0 / rig)
+            curve = Backbone(rough, MU, 1.0 / rig)
             half = np.interp(chance.uniform(0.7, 0.95) * MU * push.normal, curve.force, curve.displacement)
             files.append(recorded(tmp_path / "lab.csv", chance, rough, half, rig, 0.002))
         found = petsam.fit.analyse(files, pushes_of(1 / 3))
@@ -490,7 +493,7 @@ def test_each_file_has_the_push_of_its_load(fit, tmp_path):
     for name, normal in zip(names, (0.4 * N, N, 2.5 * N)):
         push = ball_of(normal, R)
         assert push.stiffness == pytest.approx(of_power(1 / 3, normal).stiffness, rel=1e-6)
-        curve = model.Backbone(push, MU, 1.0 / rig)
+        curve = Backbone(push, MU, 1.0 / rig)
         half = np.interp(0.85 * MU * normal, curve.force, curve.displacement)
         recorded(tmp_path / name, chance, push, half, rig)
     words = ("--shape", "ball.opts", "-o", "test", "--no-picture", "--normal")
@@ -504,7 +507,7 @@ def test_each_file_has_the_push_of_its_load(fit, tmp_path):
 def test_a_shape_that_does_not_fit_is_said(fit, tmp_path):
     """A ball of twice the radius, taken to be known within 1 %; of the right one nothing is said."""
     push = ball_of(N, R)
-    half = 1.5 * model.Backbone(push, MU, 1.0 / 1e8).displacement[-1]
+    half = 1.5 * Backbone(push, MU, 1.0 / 1e8).displacement[-1]
     recorded(tmp_path / "lab.csv", np.random.default_rng(1), push, half, 1e8, 0.002)
     (tmp_path / "other.opts").write_text(SHAPE.replace("-gap_radius1 0.1", "-gap_radius1 0.2"))
     words = ("lab.csv", "--normal", "1kN", "--shape-band", "1%", "-o", "test", "--no-picture", "--shape")
@@ -537,7 +540,7 @@ def test_a_loss_that_is_not_separated_is_said_and_has_a_wider_band(tmp_path):
     said, chance = 0, np.random.default_rng(12)
     for _ in range(8):
         lost, part = chance.uniform(0.01, 0.02), chance.uniform(0.4, 0.6)
-        curve = model.Backbone(PUSH, MU, 1.0 / 3e7)
+        curve = Backbone(PUSH, MU, 1.0 / 3e7)
         half = np.interp(part * MU * N, curve.force, curve.displacement)
         files = [recorded(tmp_path / "lab.csv", chance, PUSH, half, 3e7, 0.004, 2, loss=lost)]
         found = petsam.fit.analyse(files, [PUSH])
@@ -586,7 +589,7 @@ def test_a_friction_that_grows_within_cycles_has_that_in_its_bands(tmp_path):
     for one, after in zip(frictions[:-1], frictions[1:]):
         rise, fall = (twin(np.random.default_rng(7), None, 1.8, 2e7, mu=mu) for mu in (0.7 * one + 0.3 * after, after))
         force = np.where(rise.rising, rise.force, fall.force)
-        loops.append(model.Loop(rise.displacement, force, rise.rising, N))
+        loops.append(Loop(rise.displacement, force, rise.rising, N))
     write(tmp_path / "lab.csv", loops)
     found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
     if found.state == "changes":
@@ -600,7 +603,7 @@ def test_a_friction_that_grows_within_cycles_has_that_in_its_bands(tmp_path):
 def test_small_clockwise_loops_have_no_number(tmp_path):
     """A force that lags by a sample turns a partial loop; recorded backwards it would look the same."""
     loop = twin(np.random.default_rng(5), 0.6, None, 2e7)
-    late = model.Loop(loop.displacement, np.roll(loop.force, 2), loop.rising, N)
+    late = Loop(loop.displacement, np.roll(loop.force, 2), loop.rising, N)
     write(tmp_path / "lab.csv", [late] * 4)
     cycles = petsam.fit.cycles(petsam.fit.read("lab.csv"), N)
     found = petsam.fit.analyse([cycles], [PUSH])
@@ -703,7 +706,7 @@ def test_heads_and_rows_that_may_be_read_wrong_are_told(tmp_path, head, rows, sa
 
 def test_half_a_loop_is_none(fit, tmp_path):
     loop = twin(np.random.default_rng(3), 0.8)
-    half = model.Loop(loop.displacement[:100], loop.force[:100], loop.rising[:100], N)
+    half = Loop(loop.displacement[:100], loop.force[:100], loop.rising[:100], N)
     write(tmp_path / "half.csv", [half])
     assert "no whole cycle" in fit("half.csv", "--normal", "1kN", "--shape", "ball.opts", check=3)
 
@@ -750,7 +753,7 @@ def test_petsam_computes_the_life_by_the_files(fit, petsam, tmp_path, changes):
     with h5py.File("life.h5") as file:
         cycle, energy = file["wear/cycle"][:], file["wear/dissipated_energy"][:]
         stroke = np.ptp(file["history/disp_x"][:])
-    drive = 1.5 * model.Backbone(PUSH, MIDDLE, 5e-8).displacement[-1]
+    drive = 1.5 * Backbone(PUSH, MIDDLE, 5e-8).displacement[-1]
     assert cycle[-1] == 6 and stroke == pytest.approx(2 * (drive - truth[len(truth) // 2] * N / 2e7), rel=0.03)
     for k in (0, -1):
         elastic = 0.8 * truth[k] * PUSH.displacement[-1]

@@ -6,7 +6,7 @@ import pytest
 
 import compliances
 import petsam as package
-from petsam.contact import inprocess as contact
+from petsam.contact import histories
 from support import ROOT
 from test_embed import CASE as EMBEDDED
 from test_embed import run_python
@@ -33,7 +33,7 @@ def write(path, columns, rows):
 def test_a_row_of_a_history_that_lost_a_field_is_named(tmp_path):
     (tmp_path / "h.csv").write_text("# pull\ntime,load_n,load_tx\n1,100,0\n2,100\n")
     with pytest.raises(ValueError, match="h.csv, line 4: has 2 fields, the head has 3"):
-        contact._table(tmp_path / "h.csv")
+        histories.table(tmp_path / "h.csv")
 
 
 def test_history_has_the_bits_of_the_program(petsam, tmp_path):
@@ -644,7 +644,7 @@ def test_a_second_thread_waits_for_the_answers_of_the_first(tmp_path, inside, as
         BEGIN
         + f"""
 import threading, warnings
-from petsam.contact import inprocess as module
+from petsam.contact import shared as module  # before the modules that take its lock
 warnings.simplefilter("ignore")
 class Told:  # the lock, which tells that a thread has to wait for it
     def __init__(self, lock):
@@ -657,7 +657,7 @@ class Told:  # the lock, which tells that a thread has to wait for it
     def __exit__(self, *_):
         self.lock.release()
 told, waits = threading.Event(), threading.Event()
-module._lock = Told(module._lock)
+module.lock = Told(module.lock)
 def disturb():
     contact.try_step(load_n=900.0)
     contact.stress(depths=1e-4, quantities="mises")

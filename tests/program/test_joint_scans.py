@@ -9,7 +9,8 @@ import pytest
 
 import petsam
 from petsam import joint
-from petsam.apps.joint import elements, ways, windows
+from petsam.apps.joint import elements, stiffnesses, ways, windows
+from petsam.core.progress import Progress
 from support import bodies
 from test_joint import PAIR, STEEL, waves, write
 
@@ -215,7 +216,7 @@ def test_arguments_that_do_not_go_together_are_named(given, says):
 def test_the_time_of_a_command_is_told(command, tmp_path, capsys, monkeypatch):
     write(tmp_path / "a.h5", "separation", waves(24, 5))
     lines = []
-    monkeypatch.setattr(petsam.apps.joint.command, "_tell", lines.append)
+    monkeypatch.setattr(stiffnesses, "Progress", lambda what: Progress(what, lines.append))
     monkeypatch.setattr(ways, "SMALL", 10**9)
     command("a.h5", "--pressure", "10MPa", "--friction", 0.25, "--steps", 1, *STEEL)
     assert lines[0].startswith("about 0:0") and lines[0].endswith(" left")

@@ -22,7 +22,7 @@ from petsam.apps.wheel.pose import Frame
 from petsam.apps.wheel.positions import REACH, Case
 from petsam.apps.wheel.section import visible
 from petsam.closed.ellipse import hertz_ellipse
-from petsam.contact.inprocess import AdviceWarning
+from petsam.contact.errors import AdviceWarning
 from petsam.core.errors import Error, MissingFile
 
 pytestmark = pytest.mark.filterwarnings("ignore:patch at:petsam.contact.AdviceWarning")

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.apps.joint import command
+from petsam.apps.joint import command, stiffnesses
 from petsam.apps.joint.balance import RESPONSE, Response
 from petsam.apps.joint.bands import Band
-from petsam.apps.joint.interfaces import Interface, Outcome
+from petsam.apps.joint.properties import Interface, Outcome
 from petsam.apps.joint.wearing import Wear
 from petsam.plot import command as plot_command
 from test_plot_joints import FIRST, made
@@ -105,7 +105,7 @@ def test_the_command_writes_the_page_with_its_options(tmp_path, monkeypatch):
     words = ["petsam-joint", "stiffness", "scan<1>.h5", "--normal-only", "--pressure", "1MPa,2MPa", "--body1=steel",
              "--body2", "steel", "--report", "c.html"]  # fmt: skip
     monkeypatch.setattr("sys.argv", words)
-    monkeypatch.setattr(command, "interface", lambda *_, **__: interface())
+    monkeypatch.setattr(stiffnesses, "interface", lambda *_, **__: interface())
     monkeypatch.chdir(tmp_path)
     assert command.main() == 0 and [path.name for path in tmp_path.iterdir()] == ["c.html"]
     _, text = read(tmp_path / "c.html")
@@ -207,7 +207,7 @@ def test_what_cannot_be_is_refused(tmp_path, monkeypatch, capsys):
     with pytest.raises(petsam.Error, match="is a directory"):
         (tmp_path / "d.html").mkdir()
         interface().report(tmp_path / "d.html")
-    monkeypatch.setattr(command, "interface", lambda *_, **__: pytest.fail("computed"))
+    monkeypatch.setattr(stiffnesses, "interface", lambda *_, **__: pytest.fail("computed"))
     given = ["stiffness", "scan.h5", "--normal-only", "--pressure", "1MPa", "--body1", "steel", "--body2", "steel"]
     for name, says in (("c.pdf", "--report: c.pdf: expected a name"), (str(tmp_path / "d.html"), "is a directory")):
         monkeypatch.setattr("sys.argv", ["petsam-joint", *given, "--report", name])

@@ -14,7 +14,7 @@ import petsam
 from petsam import joint
 from petsam.apps.compliance.mesh import grid_mesh
 from petsam.apps.compliance.stiffness import numbers
-from petsam.apps.joint.structure import DISPLACEMENTS
+from petsam.apps.joint.patch import DISPLACEMENTS
 
 N, YOUNG, POISSON, FRICTION = 10e3, 210e9, 0.3, 0.2
 SMALL, LARGE = 1e-7, 5.5e-6

@@ -9,7 +9,7 @@ take sums such as ``1/G1 + 1/G2``. Shear q is positive in the direction of the p
 M_z, q_theta >= 0. All functions accept numpy arrays wherever the argument is a coordinate.
 
 materials  elastic constants
-sphere     Hertz; Cattaneo and Mindlin; Lubkin
+sphere     Hertz; Cattaneo and Mindlin; Lubkin (functions: normal, cattaneo, lubkin)
 stress     stresses under a spherical contact: Hertz; sliding: Hamilton
 loop       tangential loops of a sphere and their energy: Mindlin and Deresiewicz
 spence     elastic sphere on a dissimilar flat with friction: Spence

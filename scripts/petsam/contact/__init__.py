@@ -1,6 +1,10 @@
 """Contacts: in this process, as runs of the program, and what is computed of them.
 
-inprocess    Contact: steps, stiffness, fields, stresses, fatigue
+inprocess    Contact: steps, stiffness, histories (histories.py)
+evaluations  its stresses, fatigue, and gradient of a number (derivatives.py)
+fields       its fields; steps: what it returns
+handle       its calls of the library (shared.py), numbers and files
+errors       errors and warnings of all contacts
 running      run(): a run of the program, whose results it returns
 gradient     derivatives of a number of a history by all parameters
 uncertainty  standard deviation of such a number by roughness and parameters
@@ -12,9 +16,11 @@ PART = Part(
     __name__,
     "contacts in this process and as runs of the program",
     names={
-        "inprocess": (
-            "AdviceWarning", "Contact", "ContactError", "Cycle", "CycleWarning", "EdgeContact", "EdgeContactWarning",
-            "NoEquilibrium", "NotConverged", "PrescribedError", "Stiffness", "Step", "WearWarning",
+        "inprocess": ("Contact",),
+        "steps": ("Cycle", "Step", "Stiffness"),
+        "errors": (
+            "AdviceWarning", "ContactError", "CycleWarning", "EdgeContact", "EdgeContactWarning", "NoEquilibrium",
+            "NotConverged", "PrescribedError", "WearWarning",
         ),
         "running": ("run",),
         "": ("gradient", "uncertainty"),

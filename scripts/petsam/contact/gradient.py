@@ -15,99 +15,23 @@ numbers() is the same without derivatives; positions() and mean() make functions
 fine grids.
 """
 
-import ctypes
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any, Callable, Optional
+from contextlib import contextmanager
+from typing import Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import Error, Unusable, counted, there_are
-from ..results.gradients import MODULI, Gradient
+from ..core.errors import Unusable, counted, there_are
+from ..results.gradients import MODULI
+from .derivatives import BULK, LOADS, WAYS, WEAR, OneSidedWarning, compute
+from .inprocess import Contact
 
-if TYPE_CHECKING:
-    from .inprocess import Contact
-
-LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
-WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
-BULK = tuple(f"bulk{body}_stress_{name}" for body in (1, 2) for name in ("xx", "yy", "xy"))
-WEAR = ("wear_coefficient", "wear_energy")
 NUMBERS = ("energy", "wear_volume", *LOADS, *WAYS)  # that numbers() takes from a run that is not recorded
-USUAL = ("gap", "friction", *LOADS, *WAYS, *BULK, *WEAR)  # parameters of a gradient unless others are given
 OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (1, 2)))  # that function() may change
 SETTLES = 1e-8  # tolerance of the shear by which the direction of slip at mid step is found completely
 GOLDEN = (5**0.5 - 1) / 2
 IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
-
-
-class OneSidedWarning(UserWarning):
-    """A gradient where cells are on the border of their set: it holds to one side."""
-
-
-def compute(
-    contact: "Contact", name: str, of: Optional[Sequence[str]], steps: tuple[int, int], rtol: float
-) -> Gradient:
-    """The gradient of the recorded steps of a contact.
-
-    Parameters
-    ----------
-    contact : Contact
-    name : str
-    of : sequence of str, optional
-        Parameters; None: all but those of the bodies and the shape.
-    steps : tuple of int
-        First and last step, -1: the usual ones.
-    rtol : float
-
-    Returns
-    -------
-    Gradient
-
-    Raises
-    ------
-    ContactError
-        If there is no such number, parameter or step.
-
-    Warns
-    -----
-    OneSidedWarning
-        If cells are on the border of their set.
-    """
-    count, unit, text = ctypes.c_int(), ctypes.c_char_p(), None if of is None else ",".join(of).encode()
-    contact._call(
-        "gradient", name.encode(), *steps, text, ctypes.c_double(rtol), ctypes.byref(count), ctypes.byref(unit)
-    )
-
-    def get(what, *shape):
-        found = np.empty(shape)
-        contact._call("get_gradient", what.encode(), found.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))
-        return found
-
-    def number(what):
-        return float(get(what, 1)[0])
-
-    cells, columns = (contact.rows, contact.n[0]), (*LOADS, *WAYS, *BULK)
-    wanted = USUAL if of is None else of
-    by_step = {one: get(one, count.value) for one in wanted if one in columns}
-    numbers = {one: values for one, values in by_step.items() if not np.isnan(values).all()}
-    for one in wanted:
-        if one not in ("gap", "friction", *columns):
-            with suppress(*([Error] if of is None else [])):  # by wear unless it is named only if the bodies wear
-                numbers[one] = number(one)
-    borders = int(number("borders"))
-    if borders:
-        warnings.warn(
-            f"gradient of {name}: {borders} cells are on the border of their set: it holds to one side",
-            OneSidedWarning,
-            stacklevel=3,
-        )
-    gap, friction = (get(one, *cells) if one in wanted else None for one in ("gap", "friction"))
-    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"), unit.value.decode())
-
-
-# ---------------------------------------------------------------- for optimisers
 
 
 def function(
@@ -363,7 +287,7 @@ def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike
     return evaluate
 
 
-def whole(contact: "Contact") -> "Contact":
+def whole(contact: Contact) -> Contact:
     """The contact, if this process has all of its rows.
 
     Parameters
@@ -385,8 +309,6 @@ def whole(contact: "Contact") -> "Contact":
 
 
 def _made(options):
-    from .inprocess import Contact
-
     return whole(Contact(**options))
 
 

@@ -17,7 +17,7 @@ from ..core import options as command_line
 from ..core.errors import Error, short
 from ..core.hdf5 import replacing
 from ..results.file import Results
-from .inprocess import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, error_of
+from .errors import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, error_of
 
 _SOLVED = (0, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE)  # exit codes of runs that have written results
 

@@ -25,7 +25,8 @@ from numpy.typing import ArrayLike
 from ..core.errors import Unusable
 from ..core.roughness import RESOLVED, self_affine
 from ..core.units import shown, size
-from .gradient import Gradient, whole
+from ..results.gradients import Gradient
+from .gradient import whole
 
 if TYPE_CHECKING:
     from .inprocess import Contact

@@ -8,8 +8,10 @@
 
 reading     read(): a laboratory's file
 push        of_shape(), ball(): the displacement of one push, which serves all coefficients of friction
-loops       fit(): the model of a loop, its parameters, and what the loops do not hold
-series      cycles(), analyse(): cycles of a record, without drift, one by one and together
+loop        a Loop, and the Fit of loops; problem: the model of a loop, its parameters and residuals
+loops       fit(): parameters of loops, their ranges, and what the loops do not hold
+cutting     cycles(): cycles of a record, without drift
+series      analyse(): cycles one by one and together (together.py); peaks: of records without loops
 planning    plan(): how well which strokes would give the friction
 runs        fit_contact(): parameters of any contact from numbers of its history, by full runs
 scars       fit_profile(), family(), fit_scar(), split(): the coefficients of wear from the profile of a scar
@@ -24,8 +26,10 @@ PART = Part(
     names={
         "reading": ("Record", "read"),
         "push": ("Push", "ball", "of_shape"),
-        "loops": ("Fit", "Loop", "fit"),
-        "series": ("Cycles", "Result", "analyse", "cycles"),
+        "loop": ("Fit", "Loop"),
+        "loops": ("fit",),
+        "cutting": ("Cycles", "cycles"),
+        "series": ("Result", "analyse"),
         "planning": ("Plan", "plan"),
         "runs": ("ContactFit", "fit_contact"),
         "scars": ("Family", "Scar", "Split", "family", "fit_profile", "fit_scar", "split"),

@@ -1,4 +1,4 @@
-"""The curve Q = F(D) of contact and rig, and the closed loop that follows from it: see loops.py."""
+"""The curve Q = F(D) of contact and rig, and the closed loop that follows from it: see problem.py."""
 
 from functools import cached_property
 

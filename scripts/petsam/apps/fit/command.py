@@ -32,7 +32,7 @@ from ...core.errors import UNSETTLED, Error, Unusable, counted, short
 from ...core.files import need_replaceable, same
 from ...core.line import Parser, add_choice, guarded, joined, quietly, word
 from ...plot.measured import read_profiles
-from . import planning, push, reading, results, scars, series
+from . import cutting, peaks, planning, push, reading, results, scars, series
 from .results import plain
 
 WRITTEN = (
@@ -210,7 +210,7 @@ def _measure(options, scar):
     if records[0].peaks:
         return _peaks(options, records)
     pushes = [push.of_shape(options.shape, normal, options.width) for normal in options.normal]
-    files = [series.cycles(one, normal, options.cycles) for one, normal in zip(records, options.normal)]
+    files = [cutting.cycles(one, normal, options.cycles) for one, normal in zip(records, options.normal)]
     for record, one in zip(records, files):
         for note in (*record.notes, *one.notes):
             print(f"{record.path}: {note}")
@@ -233,7 +233,7 @@ def _measure(options, scar):
 
 def _peaks(options, records):
     for record, normal in zip(records, options.normal):
-        found = series.of_peaks(record, normal)
+        found = peaks.of_peaks(record, normal)
         print(f"{record.path}: {len(record.force)} cycles, peaks only: friction at least {found.friction_at_least:.4g}")
         if np.isfinite(found.energy_ratio).any():
             print(

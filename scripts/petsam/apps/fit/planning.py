@@ -12,7 +12,8 @@ import numpy as np
 from ...core.errors import Error
 from ...core.tables import Column, Tabled
 from .backbone import Backbone, force_of
-from .loops import Loop, jacobian_of
+from .loop import Loop
+from .loops import jacobian_of
 from .push import Push
 
 PARTS = (0.2, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)  # shear amplitudes over mu N of loops that stick in part

@@ -6,7 +6,8 @@ from typing import Optional
 import numpy as np
 
 from ...core.errors import Unsettled, counted
-from .loops import CORRELATED, HIGHEST, LOWEST
+from .loops import CORRELATED
+from .problem import HIGHEST, LOWEST
 from .push import Push, options_of
 from .series import Result
 

@@ -1,6 +1,6 @@
 """Parameters of a contact from measured numbers of its history, by full runs.
 
-For what one push and Masing's rule (loops.py) do not hold: dissimilar bodies at their own friction, both tangential
+For what one push and Masing's rule (problem.py) do not hold: dissimilar bodies at their own friction, both tangential
 directions out of phase, wear within the loop, a normal load that varies, unknown radii, moduli or profiles. Residuals
 are those of the numbers over their standard deviations, and of what is known of a parameter beforehand over its own;
 least squares then find the most likely parameters (normal errors), and the covariance is (J'J)^-1 with the Jacobian J
@@ -26,7 +26,8 @@ from numpy.typing import ArrayLike
 from ...contact import gradient
 from ...core import least
 from ...core.errors import Error, Unusable, counted, there_are
-from .loops import LARGE, MISFIT, TRIALS, VAGUE
+from .loops import LARGE, MISFIT, VAGUE
+from .problem import TRIALS
 
 TOLERANCES = {"normal_rtol": 1e-8, "tangential_rtol": 1e-6}  # of petsam, if the options have none
 NEAR, FAR = 1e-4, 1e-2  # least and largest step of a difference, relative; between them the root of the tolerance
@@ -307,7 +308,7 @@ class _Problem:
 
 
 def _contact_error():
-    from ...contact.inprocess import ContactError
+    from ...contact.errors import ContactError
 
     return ContactError
 

@@ -186,7 +186,7 @@ def family(
 
 def _simulated(run, given):
     """Results of a wear simulation, and whether it has reached its end; else the scar has reached the grid's edge."""
-    from ...contact.inprocess import EdgeContact
+    from ...contact.errors import EdgeContact
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -1,8 +1,10 @@
 """Joints: what a structural analysis needs of a contact, and the structure itself.
 
-interface   contact stiffness, damping and real contact area of a rough interface per area (interfaces.py, by ways.py)
+interface   contact stiffness, damping and real contact area of a rough interface per area (interfaces.py, by ways.py);
+            its columns, elements and cards (properties.py)
 conductance of heat or current, beside that stiffness (conductance.py); its cards: decks.py
-structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
+structure   patches of contact (patch.py) in a linear structure (assembly.py), and their steps (structure.py)
+pair        such a structure of a file of petsam-compliance (pair.py)
 backbone    frequency and damping of a mode over its amplitude (backbone.py)
 band        the same over the histories of assembly, and their scatter (band.py)
 wear        what wear does to them over the cycles of a vibration (wear.py)
@@ -17,9 +19,12 @@ PART = Part(
     __name__,
     "joints: stiffness and damping of interfaces, vibrating structures with contacts",
     names={
-        "interfaces": ("Interface", "interface", "mirrored", "of_interface", "of_windows"),
+        "properties": ("Interface",),
+        "interfaces": ("interface", "mirrored", "of_interface", "of_windows"),
         "conductance": ("Conductors",),
-        "structure": ("NoSolution", "Patch", "Structure"),
+        "failures": ("NoSolution",),
+        "patch": ("Patch",),
+        "structure": ("Structure",),
         "pair": ("Pair",),
         "element": ("Element",),
         "backbones": ("Backbone", "backbone", "shake"),

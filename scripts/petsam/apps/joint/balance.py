@@ -27,8 +27,9 @@ from ...core import broyden
 from ...core.errors import Unusable
 from ...core.tables import Column
 from .arguments import integer, modal, positive
+from .failures import BEYOND, NoSolution
 from .numbers import Numbers, energies, solved
-from .structure import BEYOND, NoSolution, Structure
+from .structure import Structure
 from .sweep import STEPS, Point, Sweep
 
 TOLERANCE = 1e-5  # of the balance, relative to its forces

@@ -21,9 +21,9 @@ from ...core.shown import Shown
 from ...core.tables import Column, Tabled
 from .arguments import positive, real
 from .backbones import COLUMNS, Backbone, backbone, shake
+from .failures import ENDS, NoSolution
 from .numbers import columns_of, reason
 from .pair import Pair
-from .structure import ENDS, NoSolution
 from .sweep import BackboneWarning
 
 ASSEMBLED, REVERSED, FRICTIONLESS, SHAKEN = "as given", "bolts reversed", "without friction", "after the largest"

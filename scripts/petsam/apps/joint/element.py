@@ -18,7 +18,8 @@ from numpy.typing import ArrayLike
 
 from ...contact.inprocess import Contact
 from ...core.errors import Unusable
-from .structure import Patch, Structure
+from .patch import Patch
+from .structure import Structure
 
 
 class Element:

@@ -4,7 +4,7 @@ import warnings
 
 from ...core.shown import Shown
 from ...core.tables import Column, Tabled
-from .structure import ENDS, NoSolution
+from .failures import ENDS, NoSolution
 from .sweep import BackboneWarning
 
 PER_METRE = {"J": "J/m", "N": "N/m", "m3": "m3/m", "m kg^0.5": "m (kg/m)^0.5", "m/s2 kg^0.5": "m/s2 (kg/m)^0.5"}

@@ -12,7 +12,8 @@ from ...core.errors import Error, Unusable, short, there_are
 from ...core.files import need_regular
 from ...core.hdf5 import DAMAGED, opened
 from .arguments import integer, real
-from .structure import DISPLACEMENTS, Patch, Structure
+from .patch import DISPLACEMENTS, Patch
+from .structure import Structure
 
 PRESS = 4  # steps in which each bolt is tightened
 SNUG = 0.1  # part of the tension of several bolts that all get before the first one is tightened

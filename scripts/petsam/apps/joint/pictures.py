@@ -22,7 +22,7 @@ from ...results.fields import OPEN, SLIP
 from .backbones import MODAL, Backbone
 from .balance import Response
 from .bands import ASSEMBLED, NUMBERS, Band
-from .interfaces import Interface
+from .properties import Interface
 from .saved import Saved
 from .wearing import Wear
 

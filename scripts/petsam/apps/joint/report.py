@@ -10,7 +10,7 @@ from . import pictures as of_joints
 from .backbones import Backbone
 from .balance import Response
 from .bands import NUMBERS, TEXTS, Band
-from .interfaces import Interface
+from .properties import Interface
 from .saved import Saved
 from .wearing import Wear
 

@@ -11,9 +11,9 @@ from .backbones import COLUMNS, Backbone
 from .balance import RESPONSE, Response
 from .bands import Band
 from .conductance import ELECTRICAL, columns_of
-from .interfaces import COLUMNS as OF_INTERFACE
-from .interfaces import ERRORS as OF_FORMULA
-from .interfaces import Interface
+from .properties import COLUMNS as OF_INTERFACE
+from .properties import Interface
+from .ways import ERRORS as OF_FORMULA
 from .wearing import WEAR, Wear
 
 # by the first column: the kind of result, and the meanings of its columns

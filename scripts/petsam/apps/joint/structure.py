@@ -1,14 +1,4 @@
-"""Patches of contact in a linear structure: Patch, Structure.
-
-The structure is given by modes without contact, of unit modal mass, and by what joins the patches statically. A patch
-has coordinates z, values that a step of its contact prescribes: displacements of its body 1, or factors on load cases
-of a body. The loads F that belong to them act on the structure. With a modal force f (of M phi_k for each mode k)
-
-    z = Phi W^-2 f + X F(z) + R a      R'F + f_r = 0      eta_k = (f_k + Phi_k'F)/w_k^2      eta_r = a_r
-
-Phi are the elastic modes in the coordinates, and W their angular frequencies. R are the modes without stiffness, with
-their amplitudes a. X is the part of the static compliance between coordinates that the contacts' own lacks. The modes
-that are not kept have stiffness, but no inertia.
+"""Steps of patches of contact in a linear structure: Structure.
 
 If there is one patch, whose file has all its compliance, X is zero, and z needs no iteration. The loads on a body that
 only its contact holds are known. Otherwise Broyden's method begins with dF/dz of the step before, or of sticking
@@ -18,273 +8,26 @@ contacts at a reversal, and takes the contacts' own stiffness where it is slow.
 from __future__ import annotations
 
 import contextlib
-import warnings
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...contact.inprocess import (
-    AdviceWarning,
-    Contact,
-    ContactError,
-    EdgeContactWarning,
-    NoEquilibrium,
-    NotConverged,
-    PrescribedError,
-)
 from ...core import broyden
-from ...core.errors import Unusable, short
-from .arguments import array, real
+from .assembly import Assembly
+from .failures import BEYOND, ENDS, NoSolution, solved
+from .patch import DISPLACEMENTS, SLIDING, Held
 
 TOLERANCE = 1e-7  # of the work and of the energy of the errors, relative to the work of the loads
 ROUGH = 1e-5  # the same where the contact's own tolerance ends the iteration
 SLOW = 0.3  # ratio of successive errors above which the contacts' stiffness is computed
 STIFF = 1e-3  # part of the stiffness of sticking contacts that those which slide seem to have
 MOST, FEWER, DESCENTS = 25, 12, 60  # iterations; of those that others may follow
-SLIDING = ("disp_x", "disp_y", "rot_z")  # displacements whose loads friction limits
-# the displacements of body 1 as a step prescribes them, in the order of a contact's stiffness, with their loads
-DISPLACEMENTS = {
-    "disp_z": "load_n", "disp_x": "load_tx", "disp_y": "load_ty",
-    "rot_x": "load_mx", "rot_y": "load_my", "rot_z": "load_mz",
-}  # fmt: skip
-
-
-class NoSolution(Unusable):
-    """Equilibrium of patches and structure was not found, or the contact leaves its patch."""
-
-
-class Apart(NoSolution):
-    """The structure pulls the bodies apart."""
-
-
-BEYOND = (NoEquilibrium, NotConverged, PrescribedError, Apart)  # of a guess that contacts do not bear
-ENDS = (NoSolution, *BEYOND)  # of a step
-
-Held = Mapping[str, float]  # what a patch prescribes besides its coordinates
 Scale = tuple[np.ndarray, np.ndarray, np.ndarray]  # changes of z, loads and a
 
 
-class Patch:
-    """A contact of the structure.
-
-    Parameters
-    ----------
-    contact : Contact
-        Its committed state is the one from which the structure's steps begin.
-    coordinates : list of str
-        Names of what the structure prescribes: "disp_x", "body2_case_mode1", ...
-    held : mapping, optional
-        {name: value} of what every step prescribes besides: load_n=1000.0, or displacements of 0.
-    by_load : collection of str
-        Those coordinates, displacements of body 1, whose load a step prescribes instead: where the structure is softer
-        than the contact, this converges better.
-    name : str
-        Name of the patch in tables.
-    center : pair of floats
-        x and y (m) of the contact's origin in the structure's frame.
-
-    Raises
-    ------
-    Error
-        If coordinates is one name and not a list, or a name of by_load is none of them.
-    """
-
-    def __init__(
-        self,
-        contact: Contact,
-        coordinates: Sequence[str],
-        held: Optional[Held] = None,
-        by_load: Collection[str] = (),
-        name: str = "",
-        center: ArrayLike = (0.0, 0.0),
-    ) -> None:
-        if isinstance(coordinates, str):
-            raise Unusable(f"coordinates {short(repr(coordinates))}: expected a list of names")
-        for one in by_load:
-            if one not in coordinates:
-                raise Unusable(f"by_load {short(repr(one))}: is none of the coordinates {', '.join(coordinates)}")
-        self.contact, self.coordinates, self.held, self.name = contact, list(coordinates), dict(held or {}), name
-        self.by_load = np.array([name in by_load for name in self.coordinates])
-        self.center = np.asarray(center, dtype=float)
-        self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
-        self.given = {}  # what the last step prescribed, and the coordinates that it found
-        self.outgrown = False
-        self.sign = np.array([-1.0 if name in DISPLACEMENTS else 1.0 for name in self.coordinates])
-        order = [*DISPLACEMENTS, *self.cases]
-        self._rows = [order.index(name) for name in self.coordinates]
-        self._loads = [DISPLACEMENTS.get(name, f"{name}_load") for name in self.coordinates]
-
-    def step(self, values: np.ndarray, held: Optional[Held] = None) -> tuple[np.ndarray, np.ndarray]:
-        """Tries a step of the contact from its committed state.
-
-        Parameters
-        ----------
-        values : ndarray
-            Of each coordinate its value, m, rad or 1, or where it is by_load the load on the structure, N, N m or J.
-        held : mapping, optional
-            {name: value} of what this step prescribes besides.
-
-        Returns
-        -------
-        tuple of two ndarrays
-            Coordinates, and loads on the structure, (n,) each.
-
-        Raises
-        ------
-        NoSolution
-            If the structure pulls the bodies apart.
-        ContactError
-            If the contact has no solution.
-        """
-        given = {**self.held, **(held or {})}
-        for k, value in enumerate(values):
-            given[self._loads[k] if self.by_load[k] else self.coordinates[k]] = value * (
-                self.sign[k] if self.by_load[k] else 1.0
-            )
-        if given.get("load_n", 0.0) < 0.0:
-            raise Apart(
-                f"{self.name or 'a contact'}: the structure pulls the bodies apart with {-given['load_n']:.3g} N: use "
-                "a higher preload, a smaller amplitude, or more steps"
-            )
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", AdviceWarning)  # of small slip zones: the backbone has its own
-            warnings.simplefilter("error", EdgeContactWarning)
-            self.outgrown = False
-            try:
-                self.contact.try_step(**given)
-            except EdgeContactWarning:
-                self.outgrown = True  # the step is solved; on the way to an equilibrium it does not matter
-        z = np.array(values, dtype=float)
-        found, loads = self.state()
-        self.given = {**dict(zip(self.coordinates, found)), **given}
-        z[self.by_load] = found[self.by_load]
-        return z, loads
-
-    @property
-    def limited(self) -> bool:
-        """True if steps prescribe loads that friction limits."""
-        return bool(np.any(self.by_load & np.isin(self.coordinates, SLIDING)))
-
-    def need_closed(self) -> None:
-        """Checks that the bodies touch where steps prescribe the normal load.
-
-        Raises
-        ------
-        NoSolution
-            If they do not.
-        """
-        if self.number("load_n") == 0.0 and "disp_z" in np.array(self.coordinates)[self.by_load]:
-            raise Apart(
-                f"{self.name or 'a contact'}: the bodies do not touch, load_n = 0 N, limit above 0: use a higher "
-                "preload, a smaller amplitude, or a finer grid where the gap is less than the height of a cell's centre"
-            )
-
-    def need_inside(self) -> None:
-        """Checks the border of the contact's grid or patch.
-
-        Raises
-        ------
-        NoSolution
-            If the contact of the last step reaches it.
-        """
-        if self.outgrown:
-            raise NoSolution(
-                f"{self.name or 'a contact'}: reaches the border of its grid or patch: use smaller amplitudes, a "
-                "higher preload, or a larger grid and patch"
-            )
-
-    def state(self) -> tuple[np.ndarray, np.ndarray]:
-        """The contact's last step.
-
-        Returns
-        -------
-        tuple of two ndarrays
-            Coordinates (m, rad or 1) and loads on the structure (N, N m or J), (n,) each. A factor that no step has
-            given is 0.
-        """
-        z = np.zeros(len(self.coordinates))
-        for k, name in enumerate(self.coordinates):
-            with contextlib.suppress(ContactError if name in self.cases else ()):
-                z[k] = self.contact.number(name)
-        return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
-
-    def stiffness(self, reversal: bool) -> np.ndarray:
-        """The derivative of the loads on the structure by the coordinates; displacements whose loads steps give follow.
-
-        Parameters
-        ----------
-        reversal : bool
-            Whether it is that of sticking contacts: see Contact.stiffness().
-
-        Returns
-        -------
-        ndarray
-            Derivative, (n, n), N/m, N/rad, N m/rad, ...
-
-        Raises
-        ------
-        ContactError
-            If the stiffness does not converge, or no step has been tried.
-        NoSolution
-            If the displacements that follow have no stiffness.
-        """
-        k = np.array(self.contact.stiffness(reversal, cases=self.cases))
-        given = {*self.coordinates, *self.held}
-        free = [c for c, name in enumerate(DISPLACEMENTS) if name not in given and (k[c, c] > 0.0 or k[c, c] < 0.0)]
-        k -= k[:, free] @ _solved(k[np.ix_(free, free)], k[free])
-        return self.sign[:, None] * k[np.ix_(self._rows, self._rows)]
-
-    def number(self, name: str) -> float:
-        """A number of the last step.
-
-        Parameters
-        ----------
-        name : str
-            Its name in /history: "dissipated_energy", "contact_area", ...
-
-        Returns
-        -------
-        float
-            The number, in SI units.
-
-        Raises
-        ------
-        ContactError
-            If there is no such number.
-        """
-        return self.contact.number(name)
-
-    def energy_error(self) -> float:
-        """The estimated error of the last step's dissipated energy.
-
-        Returns
-        -------
-        float
-            The error, J; NaN if it is unknown, as of a contact without companion runs (-errors companion).
-        """
-        return self.number("dissipated_energy_error") if self.contact.has_errors else float("nan")
-
-    def copy(self, **options: float) -> Patch:
-        """Another patch with a copy of the contact in its committed state.
-
-        Parameters
-        ----------
-        **options
-            Tolerances of the contact, each of which counts if it is smaller than its own.
-
-        Returns
-        -------
-        Patch
-        """
-        made = self.contact.options
-        options = {name: min(value, float(made.get(name, value))) for name, value in options.items()}
-        names = [name for name, load in zip(self.coordinates, self.by_load) if load]
-        return Patch(self.contact.copy(**options), self.coordinates, self.held, names, self.name, self.center)
-
-
-class Structure:
+class Structure(Assembly):
     """Patches and the structure that joins them.
 
     Parameters
@@ -317,62 +60,6 @@ class Structure:
     Error
         For matrices of other shapes, frequencies that are not above 0, and damping outside 0 to 1.
     """
-
-    def __init__(
-        self,
-        patches: Iterable[Patch],
-        omega: ArrayLike = (),
-        shapes: Optional[ArrayLike] = None,
-        coupling: Optional[ArrayLike] = None,
-        rigid: Optional[ArrayLike] = None,
-        damping: float = 0.0,
-    ) -> None:
-        damping = real(
-            "damping", damping, "a part of critical damping, from 0 to below 1", lambda part: 0.0 <= part < 1.0
-        )
-        self.patches, self.damping = list(patches), damping
-        n = sum(len(patch.coordinates) for patch in self.patches)
-        self.omega = array("omega", omega)
-        self.shapes = self._matrix(shapes, (n, self.omega.size), "shapes")
-        self.rigid = self._matrix(rigid, (n, None), "rigid")
-        self.coupling = self._matrix(coupling, (n, n), "coupling")
-        if not np.all((self.omega > 0.0) & np.isfinite(self.omega)):
-            raise Unusable("omega: expected frequencies above 0; modes of 0 are given by rigid")
-        self.direct = not self.rigid.size and not np.any(self.coupling)
-        floats = n == self.rigid.shape[1] and np.all(self.by_load)
-        self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
-        self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
-        self.force = np.zeros(self.modes)  # of the last step
-        self.iterations = []
-        self.opens = False  # True: patches may be open, such as while bolts are tightened
-
-    @staticmethod
-    def _matrix(values, shape, name):
-        rows, columns = shape
-        found = np.zeros((rows, columns or 0)) if values is None else array(name, values)
-        if found.ndim != 2 or found.shape[0] != rows or columns not in (None, found.shape[1]):
-            raise Unusable(f"{name}: has the shape {found.shape}: expected ({rows}, {columns or 'modes'})")
-        return found
-
-    @property
-    def modes(self) -> int:
-        """Number of modes: elastic ones, then those without stiffness."""
-        return self.omega.size + self.rigid.shape[1]
-
-    @property
-    def per_metre(self) -> bool:
-        """True if a patch is of sections in plane strain: loads, energies and masses are per metre."""
-        return any(len(patch.contact.y) == 1 for patch in self.patches)
-
-    @property
-    def by_load(self) -> np.ndarray:
-        """(n,) mask of the coordinates whose loads steps prescribe."""
-        return np.concatenate([patch.by_load for patch in self.patches])
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the patches."""
-        return [patch.name or f"patch{k}" for k, patch in enumerate(self.patches, 1)]
 
     def copy(self, **options: float) -> Structure:
         """The structure with copies of its contacts in their committed states.
@@ -408,75 +95,10 @@ class Structure:
             mine.contact.take(its.contact)
         self.z, self.a, self.loads, self.force = other.z, other.a, other.loads, other.force
 
-    # ------------------------------------------------------------ linear
-
-    def _split(self, values):
-        ends = np.cumsum([len(patch.coordinates) for patch in self.patches])[:-1]
-        return np.split(values, ends)
-
-    def tangent(self, reversal: bool = True) -> np.ndarray:
-        """The derivative of the loads of all patches by their coordinates.
-
-        Parameters
-        ----------
-        reversal : bool
-            Whether it is that of sticking contacts: see Contact.stiffness().
-
-        Returns
-        -------
-        ndarray
-            Derivative, (n, n), N/m, N/rad, N m/rad, ...; 0 between patches.
-
-        Raises
-        ------
-        ContactError
-            If a stiffness does not converge.
-        """
-        blocks = [patch.stiffness(reversal) for patch in self.patches]
-        found, at = np.zeros((self.z.size, self.z.size)), 0
-        for block in blocks:
-            found[at : at + len(block), at : at + len(block)] = block
-            at += len(block)
-        return found
-
     def _slope(self, stiff):
         """The tangent for continued loading, and this part of that of sticking contacts."""
         slope = self.tangent(False)
         return slope + stiff * self.tangent() if stiff else slope
-
-    def response_of(self, tangent: np.ndarray) -> np.ndarray:
-        """The derivative of what steps find by what they prescribe: loads by coordinates, and the reverse where patches
-        are by_load.
-
-        Parameters
-        ----------
-        tangent : ndarray
-            Of tangent(), (n, n).
-
-        Returns
-        -------
-        ndarray
-            Derivative, (n, n).
-
-        Raises
-        ------
-        NoSolution
-            If a contact that is given loads does not resist them.
-        """
-        load, rest = np.flatnonzero(self.by_load), np.flatnonzero(~self.by_load)
-        found = np.zeros_like(tangent)
-        inverse = _solved(
-            tangent[np.ix_(load, load)],
-            np.eye(len(load)),
-            "a contact that is given loads does not resist them: give it friction and preload",
-        )
-        found[np.ix_(load, load)] = inverse
-        found[np.ix_(load, rest)] = -inverse @ tangent[np.ix_(load, rest)]
-        found[np.ix_(rest, load)] = tangent[np.ix_(rest, load)] @ inverse
-        found[np.ix_(rest, rest)] = (
-            tangent[np.ix_(rest, rest)] + tangent[np.ix_(rest, load)] @ found[np.ix_(load, rest)]
-        )
-        return found
 
     def _system(self, response):
         """Matrix of the changes of what steps prescribe, and of a, in the errors of z and of equilibrium."""
@@ -484,120 +106,6 @@ class Structure:
         return self._equations(
             np.where(self.by_load[:, None], response, unit), np.where(self.by_load[:, None], unit, response)
         )
-
-    def _equations(self, z, loads):
-        """Matrix of the equations in what z and loads depend on, and in a."""
-        r = self.rigid.shape[1]
-        return np.block([[z - self.coupling @ loads, -self.rigid], [self.rigid.T @ loads, np.zeros((r, r))]])
-
-    def _driven(self, force):
-        """Coordinates by a modal force (modes) alone, and the force on modes without stiffness."""
-        elastic, free = np.split(np.asarray(force, dtype=float), [self.omega.size])
-        return self.shapes @ (elastic / self.omega**2), free
-
-    def respond(self, tangent: np.ndarray, force: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Changes by a change of the modal force, where loads follow the tangent.
-
-        Parameters
-        ----------
-        tangent : ndarray
-            Of tangent(), (n, n).
-        force : array_like
-            Modal force, (modes,), m/s2 kg^0.5.
-
-        Returns
-        -------
-        tuple of three ndarrays
-            Changes of z and of the loads, (n,), and of a, (r,).
-
-        Raises
-        ------
-        NoSolution
-            If structure and contacts leave a motion without stiffness.
-        """
-        z, free = self._driven(force)
-        n = z.size
-        both = _solved(self._equations(np.eye(n), tangent), np.concatenate([z, -free]))
-        return both[:n], tangent @ both[:n], both[n:]
-
-    def modal(self, force: ArrayLike, loads: np.ndarray, a: np.ndarray) -> np.ndarray:
-        """Modal coordinates by a modal force and the loads of the patches.
-
-        Parameters
-        ----------
-        force : array_like
-            Modal force, (modes,), m/s2 kg^0.5.
-        loads : ndarray
-            Loads on the structure, (n,), N, N m or J.
-        a : ndarray
-            Amplitudes of the modes without stiffness, (r,), m kg^0.5.
-
-        Returns
-        -------
-        ndarray
-            Modal coordinates, (modes,), m kg^0.5.
-        """
-        elastic = (np.asarray(force)[: self.omega.size] + self.shapes.T @ loads) / self.omega**2
-        return np.concatenate([elastic, a])
-
-    def flexibility(self, tangent: np.ndarray) -> np.ndarray:
-        """Modal coordinates by a unit of each modal force, where loads follow the tangent.
-
-        Parameters
-        ----------
-        tangent : ndarray
-            Of tangent(), (n, n).
-
-        Returns
-        -------
-        ndarray
-            Flexibility, (modes, modes), s2.
-
-        Raises
-        ------
-        NoSolution
-            If structure and contacts leave a motion without stiffness.
-        """
-        columns = []
-        for unit in np.eye(self.modes):
-            _, loads, a = self.respond(tangent, unit)
-            columns.append(self.modal(unit, loads, a))
-        found = np.array(columns).T
-        return 0.5 * (found + found.T)
-
-    def stuck_modes(self, tangent: Optional[np.ndarray] = None, without: int = 0) -> tuple[np.ndarray, np.ndarray]:
-        """The modes while all that touches sticks.
-
-        Parameters
-        ----------
-        tangent : ndarray, optional
-            That of tangent(), (n, n), if it is known.
-        without : int
-            The inertia of so many of the highest elastic modes is left out.
-
-        Returns
-        -------
-        tuple of two ndarrays
-            Angular frequencies (rad/s), rising, (kept,), and shapes, as columns in modal coordinates, (kept, kept);
-            kept are all modes but those that are left out.
-
-        Raises
-        ------
-        NoSolution
-            If a mode has no positive stiffness.
-        """
-        tangent = self.tangent() if tangent is None else tangent
-        kept = np.r_[: self.omega.size - without, self.omega.size : self.modes]
-        values, vectors = np.linalg.eigh(self.flexibility(tangent)[np.ix_(kept, kept)])
-        if values[0] <= 0.0:
-            raise NoSolution("the structure with sticking contacts has a mode of negative stiffness")
-        order = np.argsort(-values)
-        shapes = vectors[:, order]
-        return 1.0 / np.sqrt(values[order]), shapes * np.sign(
-            shapes[np.argmax(np.abs(shapes), axis=0), range(len(order))]
-        )
-
-    # ------------------------------------------------------------ steps
 
     def _try(self, values, held):
         """Coordinates and loads of a tried step of all patches."""
@@ -675,8 +183,8 @@ class Structure:
             self.z, self.loads = self._try(driven, held)
             self.iterations.append(1)
         elif self.given:
-            self.z, self.loads = self._try(_solved(self.rigid.T, -free), held)
-            self.a = _solved(self.rigid, self.z - driven - self.coupling @ self.loads)
+            self.z, self.loads = self._try(solved(self.rigid.T, -free), held)
+            self.a = solved(self.rigid, self.z - driven - self.coupling @ self.loads)
             self.iterations.append(1)
         else:
             response = self._find(driven, free, held, response, scale)
@@ -773,7 +281,7 @@ class Structure:
                     if size <= TOLERANCE:
                         self.z, self.a, self.loads = z, a, loads
                         return
-                    change, last = _solved(self._system(response), -error), self._worth(error, response)
+                    change, last = solved(self._system(response), -error), self._worth(error, response)
                     continue
             part *= 0.5
         raise NoSolution("no equilibrium by displacements")
@@ -796,7 +304,7 @@ class Structure:
         base = np.concatenate([np.where(self.by_load, loads, z), self.a])
         change, moved = np.zeros(base.size), None
         if response is not None:
-            change = _solved(self._system(response), -self._error(z, self.a, loads, driven, free))
+            change = solved(self._system(response), -self._error(z, self.a, loads, driven, free))
         self.iterations.append(0)
         while True:
             self.iterations[-1] += 1
@@ -825,7 +333,7 @@ class Structure:
             elif moved is not None:
                 response = self._updated(response, change[: z.size], np.where(self.by_load, z, loads) - before)
             base, moved = base + change, True
-            change = _solved(self._system(response), -error)
+            change = solved(self._system(response), -error)
         self.z, self.a, self.loads = z, a, loads
         return response
 
@@ -871,10 +379,3 @@ def _work(error, scale):
 def _part(value, whole):
     """A number relative to another one; of 0 all but 0 is infinite."""
     return float(value / whole) if whole else np.inf if value else 0.0
-
-
-def _solved(matrix, right, fails="structure and sticking contacts leave a motion without stiffness: support it"):
-    try:
-        return np.linalg.solve(matrix, right)
-    except np.linalg.LinAlgError:
-        raise NoSolution(fails) from None

@@ -23,7 +23,7 @@ STEPS = 8  # of a quarter of a loop
 SMALL = 100_000  # points of all windows below which starting processes takes longer than the solution
 # for the estimate of time: later solutions over the first one, a step of the shear over a solution without one
 LATER, PUSHED = 1.2, 1.5
-ERRORS = {  # of the formula: the column of interfaces.COLUMNS, and its text
+ERRORS = {  # of the formula: the column of properties.COLUMNS, and its text
     "loop_energy": "relative error of loop_energy by the formula",
     "loop_stiffness": "relative error of loop_stiffness by the formula",
 }

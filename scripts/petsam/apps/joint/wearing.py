@@ -17,13 +17,15 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...contact.inprocess import ContactError
+from ...contact.errors import ContactError
 from ...core.errors import Unusable
 from ...core.tables import Column, split
 from .arguments import array
 from .backbones import modal_amplitudes
+from .failures import ENDS, NoSolution
 from .numbers import Numbers, reason
-from .structure import DISPLACEMENTS, ENDS, NoSolution, Structure
+from .patch import DISPLACEMENTS
+from .structure import Structure
 from .sweep import STEPS, Sweep
 
 PARTS = 2  # parts of each span of cycles

@@ -21,7 +21,8 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 
 from ...closed.materials import shear_modulus
-from ...contact.inprocess import AdviceWarning, Contact
+from ...contact.errors import AdviceWarning
+from ...contact.inprocess import Contact
 from ...core.errors import Unusable
 from . import elements
 from .conductance import Conductors

@@ -19,7 +19,8 @@ profile     points of a profile, its smoothing, turning and mirror image
 reading     which reader a file needs; simpack, miniprof, columns: the readers
 standard    profiles by the formulas of their standards
 section     the visible part of a profile as a function z(y)
-placement   rails, rollers and wheels in their places; their level functions
+rails       rails and rollers in their places; their level functions; leaning: of rails that are turned or mirrored
+wheelset    wheels in their places; checks: of what rails and wheels are given
 pose        position, speeds and rotation of the wheelset
 locus       the line of the wheel that can touch
 patches     regions of overlap and their frames
@@ -28,7 +29,9 @@ creepages   creepages of a patch
 contacts    contacts in process, kept by their grids
 positions   the solution at a position
 result      what solve() returns
-axle        equilibrium of a wheelset on both rails
+axle        a wheelset on both rails: rigid, and in equilibrium at a displacement or under a lateral force
+search      the iteration for an equilibrium; equilibrium: what it is of, and what it gives
+lifting     why there is no equilibrium
 derailing   wheels that climb: Y/Q beside Nadal's limit
 spectrum    table of positions
 batch       many positions in processes
@@ -49,12 +52,14 @@ PART = Part(
         "profile": ("Profile", "ProfileWarning"),
         "reading": ("read",),
         "standard": ("s1002", "uic60"),
-        "placement": ("Roller", "Track", "Wheelset"),
+        "rails": ("Roller", "Track"),
+        "wheelset": ("Wheelset",),
         "pose": ("Position",),
         "contacts": ("Material", "Settings"),
         "positions": ("Pair", "solve"),
         "result": ("ConformalWarning", "DerailWarning", "Patch", "Result"),
-        "axle": ("Axle", "Equilibrium", "Load"),
+        "axle": ("Axle",),
+        "equilibrium": ("Equilibrium", "Load"),
         "spectrum": ("State", "read_positions"),
         "batch": ("Vehicle", "solve_all"),
         "conicity": ("equivalent_conicity", "geometry"),

@@ -11,14 +11,17 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ...contact.inprocess import ContactError
+from ...contact.errors import ContactError
 from ...core import processes, tables
 from ...core.errors import Error, NoEquilibrium
-from .axle import ROLLINGS, Axle, Equilibrium
+from .axle import Axle
 from .contacts import Settings
-from .placement import Track, Wheelset
+from .equilibrium import Equilibrium
 from .positions import Friction
+from .rails import Track
+from .search import ROLLINGS
 from .spectrum import State
+from .wheelset import Wheelset
 
 BESIDE = 3e-4  # m between positions of a fine sweep
 CHUNK, PARTS = 20, 50  # positions that one process solves one after the other, at least, and parts, at most

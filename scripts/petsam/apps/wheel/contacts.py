@@ -7,7 +7,8 @@ from typing import Union
 
 import numpy as np
 
-from ...contact.inprocess import AdviceWarning, Contact, EdgeContactWarning
+from ...contact.errors import AdviceWarning, EdgeContactWarning
+from ...contact.inprocess import Contact
 from ...core import materials
 from ...core.errors import Error, Unusable
 

@@ -15,7 +15,7 @@ from typing import NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...contact.inprocess import library
+from ...contact.shared import library
 from ...core.errors import Error
 from ...core.files import need_regular
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from ...core.errors import Error
 from .patches import Place
-from .placement import Roller, Track
 from .pose import Frame, Position
+from .rails import Roller, Track
 
 
 class Creepages(NamedTuple):

@@ -11,9 +11,9 @@ from typing import Optional
 
 import numpy as np
 
-from .placement import Wheelset
 from .result import Result
 from .section import FLANGE, STEEP, STEP
+from .wheelset import Wheelset
 
 PLANE = 0.01  # rad below the steepest angle that still count as the steepest place
 ABOVE = 2e-3  # m: the flange's face ends so near to the height of the tread

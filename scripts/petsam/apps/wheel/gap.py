@@ -9,8 +9,9 @@ from typing import Union
 import numpy as np
 
 from .patches import Place
-from .placement import Roller, Track, Wheelset
 from .pose import Frame
+from .rails import Roller, Track
+from .wheelset import Wheelset
 
 PASSES = 12  # of Newton's iteration
 LAST = 1e-9  # m: after a step up to it the next one is rounding, at curvatures up to 1e5/m

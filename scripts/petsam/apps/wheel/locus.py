@@ -14,7 +14,8 @@ from typing import Optional, Union
 
 import numpy as np
 
-from .placement import Roller, Track, Wheelset
+from .rails import Roller, Track
+from .wheelset import Wheelset
 
 STEEPEST = 0.5  # of the argument of asin: steep parts under large yaw are cut
 COARSE, BESIDE = 16, 3  # of the search for the part of the line: points from one to the next, and of these beside it

@@ -12,7 +12,7 @@ from typing import Optional, Union
 import numpy as np
 
 from .locus import Locus
-from .placement import Roller, Track
+from .rails import Roller, Track
 
 STEP = 60e-6  # m: of the search for overlaps
 SMALLEST = 1e-4  # of the deepest overlap: regions below it carry nothing that counts

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from ...core.errors import Error
 from ...plot.style import COLORS, STYLE, bar, curve, drawn, field, plt
-from .axle import Equilibrium
 from .batch import Batch, Vehicle
 from .conicity import Geometry, equivalent_conicity
+from .equilibrium import Equilibrium
 from .wearing import Worn
 
 PANELS = 4  # patches of a picture at most

@@ -15,16 +15,18 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from ...contact.inprocess import AdviceWarning, Contact
+from ...contact.errors import AdviceWarning
+from ...contact.inprocess import Contact
 from ...core.errors import Error, Unusable
 from . import contacts, gap
 from .creepages import creepages
 from .locus import locus, near
 from .patches import STEP, Place, Search, places, search
-from .placement import Roller, Track, Wheelset
 from .pose import Frame, Position
 from .profile import ProfileWarning
+from .rails import Roller, Track
 from .result import ConformalWarning, Drafted, Patch, Result
+from .wheelset import Wheelset
 
 CONFORMAL = 0.24  # rad: 3 % in the distance
 DEEPEST = 1e-3  # m: no elastic wheel overlaps a rail by more

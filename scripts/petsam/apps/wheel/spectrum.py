@@ -6,7 +6,7 @@ from typing import Optional
 from ...core import units
 from ...core.errors import Error, Unusable, short, there_are
 from ...core.texttable import Table
-from .axle import Load
+from .equilibrium import Load
 from .pose import Position
 
 # quantity of each column, and its other names

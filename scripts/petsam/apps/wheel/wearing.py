@@ -23,7 +23,7 @@ from scipy.interpolate import make_smoothing_spline
 from ...core import tables
 from ...core.errors import Error, NoEquilibrium, Unusable
 from . import batch
-from .axle import Equilibrium
+from .equilibrium import Equilibrium
 from .profile import Profile
 from .section import path
 from .spectrum import State

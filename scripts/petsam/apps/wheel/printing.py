@@ -1,0 +1,104 @@
+"""What petsam-wheel prints: equilibria, patches, failures and doubts."""
+
+import argparse
+import re
+import warnings
+
+import numpy as np
+
+from ...core.errors import counted
+from . import derailing
+from .inputs import vehicle_of
+from .options import warn
+
+SMOOTHED = 0.03  # change of the largest pressure by half the smoothing without a remark
+ROLL = 1e-3  # rad by which the roll of a table may differ without a remark
+SHOWN = 12  # positions whose patches are printed, and failures
+
+
+def print_all(options, found, table):
+    """The equilibria and patches of few positions; of all, failures and warnings."""
+    columns = {column.name: column.values for column in table}
+    solved = {number: k for k, number in reversed([*enumerate(columns["position"])]) if columns["ws_y"][k] is not None}
+    for number, k in [*sorted(solved.items())][:SHOWN]:
+        y, z, roll, lateral, difference = (
+            columns[name][k] for name in ("ws_y", "ws_z", "ws_roll", "ws_lateral", "radius_difference")
+        )
+        left = max(abs(columns[name][k]) for name in ("force_error", "moment_error"))
+        print(f"position {number}: y {1e3 * y:.4f} mm, z {1e3 * z:.4f} mm, roll {1e3 * roll:.5f} mrad, lateral "
+              f"force {lateral:.5g} N, rolling radius difference {1e3 * difference:.4f} mm, "
+              f"residual {left:.1g}")  # fmt: skip
+        for row in [j for j, one in enumerate(columns["position"]) if one == number]:
+            _print_patch({name: values[row] for name, values in columns.items()})
+    if len(solved) > SHOWN:
+        print(f"{counted(len(solved), 'position')} solved of {len(found.states)}; the first {SHOWN} are shown")
+    for number, failure in found.failures[:SHOWN]:
+        line = found.states[number - 1].line
+        warn(f"position {number}{f' (line {line})' if line else ''}: {failure}")
+    if len(found.failures) > SHOWN:
+        warn(f"{len(found.failures)} positions have no equilibrium in all; the column note names each")
+    for text in dict.fromkeys(
+        re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)? ?", "... ", note) for one in found.found for note in one.notes
+    ):
+        warn(f"{text} (see the column note)")
+    _compare_roll(options, found)
+    if options.smooth:
+        _doubt_smoothing(options, found)
+
+
+def _print_patch(row):
+    print(f"  {row['side']:5} y {1e3 * row['y']:9.3f} mm, angle {row['angle']:8.4f}, creepages {row['creep_x']:.3e} "
+          f"{row['creep_s']:.3e} {row['creep_spin']:.3e}/m, N {row['n']:.5g} N, Fx {row['fx']:.4g} N, Fs "
+          f"{row['fs']:.4g} N, p_max {row['p_max'] / 1e6:.4g} MPa, T-gamma {row['t_gamma']:.4g} N"
+          f"{_climbing(row)}")  # fmt: skip
+
+
+def _climbing(row):
+    """The state of a wheel that may climb or is derailed, for its line."""
+    if row["state"] == derailing.STATES[0]:
+        return ""
+    here = derailing.nadal(abs(row["angle"]), row["friction"])
+    return (
+        f"; {row['state'].upper()}: Y/Q {row['y_over_q']:.3f}, Nadal's limit {row['nadal']:.3f} at the flange's "
+        f"steepest place, {here:.3f} at this angle"
+    )
+
+
+def _highest(found):
+    """The largest maximum pressure of all positions, Pa, and the position; 0 and None without one."""
+    rows = {column.name: column.values for column in found.table()}
+    solved = [(p, number) for p, number in zip(rows["p_max"], rows["position"]) if p is not None and np.isfinite(p)]
+    return max(solved, default=(0.0, None))
+
+
+def _doubt_smoothing(options, found):
+    """Warns where the largest pressure is another one with half the smoothing: it takes the profiles' own curvatures
+    away, or leaves some of their noise."""
+    from .. import wheel as profiles
+
+    highest, number = _highest(found)
+    if number is None:
+        return
+    half = argparse.Namespace(**{**vars(options), "smooth": 0.5 * options.smooth})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        other, _ = _highest(profiles.solve_all(vehicle_of(half), [found.states[number - 1]], 1))
+    if other and abs(other / highest - 1.0) > SMOOTHED:
+        warn(
+            f"--smooth {1e3 * options.smooth:g}mm: position {number}: p_max is {highest / 1e6:.4g} MPa, and "
+            f"{other / 1e6:.4g} MPa with half of it: smoothing flattens curves of the profiles, too, and noise that is "
+            "left raises pressures: their error is of the order of this difference; measure with less noise"
+        )
+
+
+def _compare_roll(options, found):
+    """Warns where the roll of a table is another one than that of the equilibrium."""
+    rolls = found.of("ws_roll")
+    apart = [(abs(roll - state.roll), state) for roll, state in zip(rolls, found.states) if state.roll is not None]
+    apart = [one for one in apart if np.isfinite(one[0])]
+    if apart and max(one[0] for one in apart) > ROLL:
+        most, state = max(apart, key=lambda one: one[0])
+        warn(
+            f"{options.table}: line {state.line}: roll differs by {most:.3g} rad from that of the equilibrium: check "
+            "its unit and sign (positive: right wheel down), profiles, --cant and --gauge"
+        )
