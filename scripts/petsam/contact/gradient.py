@@ -49,32 +49,8 @@ class OneSidedWarning(UserWarning):
 def compute(
     contact: "Contact", name: str, of: Optional[Sequence[str]], steps: tuple[int, int], rtol: float
 ) -> Gradient:
-    """The gradient of the recorded steps of a contact.
-
-    Parameters
-    ----------
-    contact : Contact
-    name : str
-    of : sequence of str, optional
-        Parameters; None: all but those of the bodies and the shape.
-    steps : tuple of int
-        First and last step, -1: the usual ones.
-    rtol : float
-
-    Returns
-    -------
-    Gradient
-
-    Raises
-    ------
-    ContactError
-        If there is no such number, parameter or step.
-
-    Warns
-    -----
-    OneSidedWarning
-        If cells are on the border of their set.
-    """
+    """The Gradient of a number over recorded steps of a contact, by the parameters `of`: Contact.gradient() explains
+    it."""
     count, unit, text = ctypes.c_int(), ctypes.c_char_p(), None if of is None else ",".join(of).encode()
     contact._call(
         "gradient", name.encode(), *steps, text, ctypes.c_double(rtol), ctypes.byref(count), ctypes.byref(unit)
@@ -364,21 +340,7 @@ def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike
 
 
 def whole(contact: "Contact") -> "Contact":
-    """The contact, if this process has all of its rows.
-
-    Parameters
-    ----------
-    contact : Contact
-
-    Returns
-    -------
-    Contact
-
-    Raises
-    ------
-    Error
-        If other ranks have rows of it.
-    """
+    """The contact, if this process has all of its rows; Error if other ranks have rows of it."""
     if contact.rows != contact.n[1]:
         raise Unusable(f"{contact.rows} of {contact.n[1]} rows are on this rank: use a contact without comm")
     return contact
@@ -430,7 +392,7 @@ def _by_name(found, name, history):
     return slopes @ np.interp(np.linspace(0, len(column) - 1, len(slopes) + 1)[1:], range(len(column)), column)
 
 
-__all__ = ["OneSidedWarning", "compute", "function", "mean", "numbers", "positions", "whole"]
+__all__ = ["OneSidedWarning", "function", "mean", "numbers", "positions"]
 
 
 def __dir__():
