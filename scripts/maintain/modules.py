@@ -3,8 +3,9 @@
     python3 scripts/maintain/modules.py > build/python.md
 
 It reads the sources, and imports of the package only what needs no library: the records of its parts. Names of the
-package itself are those of petsam.__all__, of a part those of its record, and of other modules all functions and
-classes without a leading underscore. A class has the methods of its bases in the package, too.
+package itself are those of petsam.__all__, of a part those of its record, and of other modules those of their __all__,
+or all functions and classes without a leading underscore. A class has the methods of its bases in the package, too. A
+class of values that a function returns is explained with that function.
 """
 
 import ast
@@ -92,10 +93,9 @@ def unfolded(module, node):
 
 
 def constant(module, name):
-    """Returns the value of a constant of a module."""
-    return ast.literal_eval(
-        next(part for part in tree_of(module).body if ast.unparse(part).startswith(f"{name} = ")).value
-    )
+    """Returns the value of a constant of a module; None if it has none of this name."""
+    found = [part.value for part in tree_of(module).body if ast.unparse(part).startswith(f"{name} = ")]
+    return ast.literal_eval(found[0]) if found else None
 
 
 def lineage(module, name):
@@ -164,9 +164,11 @@ def of_part(part):
 
 
 def of_module(module):
-    """Returns the heading of a module, and its first docstring with {name: definition} of all that it defines."""
-    found = {f"{face(module)}.{name}": node for name, node in public(module).items()}
-    return face(module), (about(module), found)
+    """Returns the heading of a module, and its first docstring with {name: definition} of its __all__, or of all that
+    it defines."""
+    defined = public(module)
+    names = constant(module, "__all__") or defined
+    return face(module), (about(module), {f"{face(module)}.{name}": defined[name] for name in defined if name in names})
 
 
 def about(module):
@@ -178,7 +180,7 @@ def signature(name, node):
     if isinstance(node, ast.ClassDef):
         made = next((part for part in node.body if getattr(part, "name", "") == "__init__"), None)
         return [f"class {name}{arguments(made.args, True) if made else ''}"]
-    if {ast.unparse(decorator) for decorator in node.decorator_list} & set(PROPERTIES):
+    if is_property(node):
         return [name]
     result = "" if node.returns is None or ast.unparse(node.returns) == "None" else f" -> {text_of(node.returns)}"
     return [name + arguments(node.args, bool(callers(node.args))) + result]
@@ -234,18 +236,69 @@ def paragraph(text):
     return functions.escape(" ".join(text.split()))
 
 
-def entry(level, name, node):
-    """Returns the lines of a function, or of a class with its methods."""
+def is_property(node):
+    return bool({ast.unparse(decorator) for decorator in node.decorator_list} & set(PROPERTIES))
+
+
+def has_values_only(node):
+    """Returns whether a definition is a class without methods, but for table()."""
+    parts = definitions(node).items() if isinstance(node, ast.ClassDef) else [("", node)]
+    return all(name == "table" or is_property(part) for name, part in parts)
+
+
+def callables(names):
+    """Returns the functions and methods of {name: definition}, properties too, by name."""
+    found = {}
+    for name, node in names.items():
+        is_class = isinstance(node, ast.ClassDef)
+        found.update({f"{name}.{one}": part for one, part in definitions(node).items()} if is_class else {name: node})
+    return found
+
+
+def returned(names):
+    """Returns the classes of values among {name: definition} that a function or method among them returns: for each the
+    first one that does."""
+    found = {}
+    for name, node in names.items():
+        word = re.compile(rf"\b{name.rpartition('.')[2]}\b")
+        if isinstance(node, ast.ClassDef) and has_values_only(node):
+            makers = (
+                maker
+                for maker, part in callables(names).items()
+                if part.returns is not None and word.search(text_of(part.returns)) and not maker.startswith(f"{name}.")
+            )
+            found[name] = next(makers, None)
+    return {name: maker for name, maker in found.items() if maker}
+
+
+def values(name, node):
+    """Returns the lines about a class of values below the function that returns it."""
+    lines = [f"**{name.rpartition('.')[2]}**", "", *body(ast.get_docstring(node))]
+    parts = [(part, text) for part, text in definitions(node).items() if is_property(text)]
+    lines += [f"- `{part}`: {functions.escape(' '.join(ast.get_docstring(text).split()))}" for part, text in parts]
+    return lines + [""] * bool(parts)
+
+
+def entry(level, name, node, below=None):
+    """Returns the lines of a function, or of a class with its methods; below: {function: lines} behind those."""
+    short = name.rpartition(".")[2] if isinstance(node, ast.ClassDef) else name
     lines = [f"{'#' * level} {name}", "", "```python", *signature(name, node), "```", ""]
-    for text in re.split(r"\n\s*\n", ast.get_docstring(node) or ""):
-        found = SECTION.match(text)
-        if found and found[1] != "Notes":
-            lines += [section(found[1], text[found.end() :]), ""]
-        else:
-            lines += [paragraph(text[found.end() :] if found else text), ""]
+    lines += [*body(ast.get_docstring(node)), *(below or {}).get(name, ())]
     if isinstance(node, ast.ClassDef):
         for method, part in definitions(node).items():
-            lines += entry(level + 1, f"{name.rpartition('.')[2]}.{method}", part)
+            lines += [*entry(level + 1, f"{short}.{method}", part), *(below or {}).get(f"{name}.{method}", ())]
+    return lines
+
+
+def body(text):
+    """Returns the lines of a docstring."""
+    lines = []
+    for part in re.split(r"\n\s*\n", text or ""):
+        found = SECTION.match(part)
+        if found and found[1] != "Notes":
+            lines += [section(found[1], part[found.end() :]), ""]
+        else:
+            lines += [paragraph(part[found.end() :] if found else part), ""]
     return lines
 
 
@@ -295,10 +348,9 @@ def unhinted(name, node, text=None):
         for arg in parameters(node.args)
         if arg.arg not in told.get("Parameters", ())
     ]
-    is_property = {ast.unparse(decorator) for decorator in node.decorator_list} & set(PROPERTIES)
     if node.returns is None:
         lacks.append(f"{name}: no hint of what it returns")
-    elif ast.unparse(node.returns) != "None" and not is_property and "Returns" not in told:
+    elif ast.unparse(node.returns) != "None" and not is_property(node) and "Returns" not in told:
         lacks.append(f"{name}: no section Returns")
     return lacks
 
@@ -313,7 +365,10 @@ def page():
     ]
     for heading, (first, names) in listed().items():
         lines += [f"## {heading}", "", functions.escape(" ".join(first.split())), ""]
-        lines += [line for name, node in names.items() for line in entry(3, name, node)]
+        made, below = returned(names), {}
+        for name, maker in made.items():
+            below.setdefault(maker, []).extend(values(name, names[name]))
+        lines += [line for name in names if name not in made for line in entry(3, name, names[name], below)]
     return "\n".join(lines)
 
 

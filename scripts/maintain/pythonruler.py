@@ -56,9 +56,11 @@ def definitions(tree):
 
 
 def documented():
-    """The names of the reference, and the docstrings that it shows."""
-    nodes = {name: node for _, names in modules.listed().values() for name, node in names.items()}
-    shown = {ast.get_docstring(part) for node in nodes.values() for part in definitions(node)}
+    """The names that have a heading in the reference, and the docstrings that it shows."""
+    nodes, shown = {}, set()
+    for _, names in modules.listed().values():
+        nodes.update({name: node for name, node in names.items() if name not in modules.returned(names)})
+        shown |= {ast.get_docstring(part) for node in names.values() for part in definitions(node)}
     return nodes, shown
 
 

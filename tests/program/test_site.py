@@ -106,6 +106,31 @@ def test_help_shows_each_keyword_once_as_the_reference_does():
             public("a.h5", look=3, ways=3)
 
 
+def test_classes_of_values_are_explained_with_the_function_that_returns_them():
+    text = modules.page()
+    for name, home in (("closed.sphere.Hertz", "closed.sphere.hertz"), ("fit.Record", "fit.read")):
+        explained = re.split(r"\n###+ ", text.split(f"\n### petsam.{home}\n")[1])[0]
+        assert f"\n### petsam.{name}\n" not in text and f"\n**{name.rpartition('.')[2]}**\n" in explained
+    assert "- `radius` (float): Contact radius" in text and "\n- `shares`: " in text  # an attribute, and a property
+    assert "\n### petsam.closed.sphere.lubkin_shear\n" not in text and "\n#### Spheres.torsion_shear\n" in text
+
+
+@pytest.mark.parametrize(
+    "source, made",
+    [
+        ("class A:\n    x: int\ndef f() -> A: pass\ndef g() -> list[A]: pass", {"A": "f"}),
+        ("class A:\n    x: int\nclass B:\n    def g(self) -> 'A': pass", {"A": "B.g"}),
+        ("class A:\n    @property\n    def x(self) -> int: pass\ndef f() -> A: pass", {"A": "f"}),
+        ("class A:\n    def table(self) -> list: pass\ndef f() -> A: pass", {"A": "f"}),
+        ("class A:\n    def close(self) -> None: pass\ndef f() -> A: pass", {}),
+        ("class A:\n    @property\n    def half(self) -> 'A': pass", {}),
+        ("class A:\n    x: int\ndef f(a: A) -> None: pass", {}),
+    ],
+)
+def test_a_class_of_values_is_found_by_what_returns_it(source, made):
+    assert modules.returned(modules.definitions(modules.ast.parse(source))) == made
+
+
 PARAMETER = "\n\n    Parameters\n    ----------\n    x : float\n        Length, m.\n    "
 
 

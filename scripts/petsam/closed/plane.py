@@ -70,47 +70,21 @@ def _edges(punch, contact):
     return tuple(np.arccos(np.clip((edge - m) / a, -1.0, 1.0)) for edge in (punch.c, -punch.c))
 
 
-def plane_load(punch: Punch, contact: Contact) -> float:
-    """The load per length under which the contact is this one.
-
-    Parameters
-    ----------
-    punch : Punch
-        Half width of the flat base, radius of the edges, E*.
-    contact : Contact
-        The contact.
-
-    Returns
-    -------
-    float
-        Load P', N/m.
-    """
+def _load(punch, contact):
+    """The load per length under which the contact is this one."""
     total = 0.0
     for phi in (_edges(punch, contact)[0], np.pi - _edges(punch, contact)[1]):
         total += phi - 0.5 * np.sin(2.0 * phi)
     return punch.e_star * contact.half_width**2 / (4.0 * punch.edge_radius) * total
 
 
-def plane_moment(punch: Punch, contact: Contact) -> float:
-    """The moment per length about x = 0, M' = integral of x p, under which the contact is this one.
-
-    Parameters
-    ----------
-    punch : Punch
-        Half width of the flat base, radius of the edges, E*.
-    contact : Contact
-        The contact.
-
-    Returns
-    -------
-    float
-        Moment M', N.
-    """
+def _moment(punch, contact):
+    """The moment per length about x = 0, M' = integral of x p, under which the contact is this one."""
     phi1, phi2 = _edges(punch, contact)
     about_middle = (
         punch.e_star * contact.half_width**3 / (12.0 * punch.edge_radius) * (np.sin(phi1) ** 3 - np.sin(phi2) ** 3)
     )
-    return about_middle + contact.middle * plane_load(punch, contact)
+    return about_middle + contact.middle * _load(punch, contact)
 
 
 def plane_tilt(punch: Punch, contact: Contact) -> float:
@@ -173,11 +147,9 @@ def _half_width(punch, load, middle):
     """Half width a, m, of the contact with this middle (m) under load (N/m)."""
     low = max(punch.c - abs(middle), 0.0)
     high = low + np.sqrt(load * punch.edge_radius / punch.e_star)
-    while plane_load(punch, Contact(middle, high)) < load:
+    while _load(punch, Contact(middle, high)) < load:
         high *= 2.0
-    return brentq(
-        lambda a: plane_load(punch, Contact(middle, a)) - load, low or 1e-9 * high, high, xtol=1e-16, rtol=1e-14
-    )
+    return brentq(lambda a: _load(punch, Contact(middle, a)) - load, low or 1e-9 * high, high, xtol=1e-16, rtol=1e-14)
 
 
 def _contact(punch, load, quantity, value):
@@ -212,25 +184,11 @@ def contact_under_moment(punch: Punch, load: float, moment: float = 0.0) -> Cont
     -------
     Contact
     """
-    return _contact(punch, load, plane_moment, moment)
+    return _contact(punch, load, _moment, moment)
 
 
-def contact_at_tilt(punch: Punch, load: float, tilt: float = 0.0) -> Contact:
-    """The contact under a load at a tilt.
-
-    Parameters
-    ----------
-    punch : Punch
-        Half width of the flat base, radius of the edges, E*.
-    load : float
-        Load P', N/m, above 0.
-    tilt : float
-        Tilt r, rad.
-
-    Returns
-    -------
-    Contact
-    """
+def _contact_at_tilt(punch, load, tilt):
+    """The contact under a load at a tilt."""
     return _contact(punch, load, plane_tilt, tilt)
 
 
@@ -252,8 +210,8 @@ def stick_zone(punch: Punch, contact: Contact, shear_load: float, friction: floa
     -------
     Contact
     """
-    load = plane_load(punch, contact) - shear_load / friction
-    return contact_at_tilt(punch, load, plane_tilt(punch, contact))
+    load = _load(punch, contact) - shear_load / friction
+    return _contact_at_tilt(punch, load, plane_tilt(punch, contact))
 
 
 def plane_shear(x: ArrayLike, punch: Punch, contact: Contact, stick: Contact, friction: float) -> np.ndarray:
@@ -396,18 +354,7 @@ class PlaneCells:
         return pressure, friction * (pressure - less), tilt, less > 0.0
 
 
-__all__ = [
-    "Contact",
-    "PlaneCells",
-    "contact_at_tilt",
-    "contact_under_moment",
-    "plane_load",
-    "plane_moment",
-    "plane_pressure",
-    "plane_shear",
-    "plane_tilt",
-    "stick_zone",
-]
+__all__ = ["Contact", "PlaneCells", "contact_under_moment", "plane_pressure", "plane_shear", "plane_tilt", "stick_zone"]
 
 
 def __dir__():

@@ -213,21 +213,7 @@ class Spheres:
         return lubkin_twist(self.hertz.radius, c, self.mu_p0, self.bodies.torsional_compliance)
 
 
-__all__ = [
-    "Hertz",
-    "hertz",
-    "hertz_pressure",
-    "cattaneo_stick_radius",
-    "cattaneo_shear",
-    "cattaneo_displacement",
-    "cattaneo_slip",
-    "torsion_limit",
-    "lubkin_torque_ratio",
-    "lubkin_stick_radius",
-    "lubkin_shear",
-    "lubkin_twist",
-    "Spheres",
-]
+__all__ = ["Hertz", "Spheres", "cattaneo_shear", "cattaneo_stick_radius", "hertz", "hertz_pressure"]
 
 
 def __dir__():

@@ -288,21 +288,7 @@ def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike
 
 
 def whole(contact: Contact) -> Contact:
-    """The contact, if this process has all of its rows.
-
-    Parameters
-    ----------
-    contact : Contact
-
-    Returns
-    -------
-    Contact
-
-    Raises
-    ------
-    Error
-        If other ranks have rows of it.
-    """
+    """The contact, if this process has all of its rows; Error if other ranks have rows of it."""
     if contact.rows != contact.n[1]:
         raise Unusable(f"{contact.rows} of {contact.n[1]} rows are on this rank: use a contact without comm")
     return contact
@@ -352,7 +338,7 @@ def _by_name(found, name, history):
     return slopes @ np.interp(np.linspace(0, len(column) - 1, len(slopes) + 1)[1:], range(len(column)), column)
 
 
-__all__ = ["OneSidedWarning", "compute", "function", "mean", "numbers", "positions", "whole"]
+__all__ = ["OneSidedWarning", "function", "mean", "numbers", "positions"]
 
 
 def __dir__():

@@ -69,32 +69,12 @@ TABLE = {
 
 
 def plain(name: str) -> str:
-    """A name as it is compared: without case, blanks, hyphens and underscores.
-
-    Parameters
-    ----------
-    name : str
-        A name.
-
-    Returns
-    -------
-    str
-    """
+    """A name as it is compared: without case, blanks, hyphens and underscores."""
     return re.sub(r"[ _-]", "", name).lower()
 
 
 def has(name: str) -> bool:
-    """Returns True if there is a material of this name.
-
-    Parameters
-    ----------
-    name : str
-        Name or other name.
-
-    Returns
-    -------
-    bool
-    """
+    """True if there is a material of this name or other name."""
     return plain(str(name)) in _NAMES
 
 
@@ -129,22 +109,9 @@ def _nearest(name):
 
 
 def elastic(text: str) -> tuple[float, float]:
-    """Young's modulus (Pa) and Poisson's ratio of a material's name, or of the text E,NU, as 210GPa,0.3.
+    """Young's modulus (Pa) and Poisson's ratio of a material's name, or of the text E,NU, as 210GPa,0.3; inf: rigid.
 
-    Parameters
-    ----------
-    text : str
-        One of both; a modulus inf is of a rigid body.
-
-    Returns
-    -------
-    tuple
-        (Young's modulus, Poisson's ratio).
-
-    Raises
-    ------
-    WordError
-        If it is neither.
+    WordError if it is neither.
     """
     if has(text):
         return find(text)[2:4]
@@ -162,23 +129,7 @@ def elastic(text: str) -> tuple[float, float]:
 
 
 def conductivity(value: Union[float, str]) -> float:
-    """A thermal conductivity, given as a number or as the name of a material.
-
-    Parameters
-    ----------
-    value : float or str
-        W/(m K), or a name of the table.
-
-    Returns
-    -------
-    float
-        W/(m K).
-
-    Raises
-    ------
-    Error
-        If there is no such material, or its conductivity is not known.
-    """
+    """A thermal conductivity, W/(m K), given as a number or as the name of a material; Error if that is unknown."""
     if not isinstance(value, str):
         return float(value)
     found = find(value).conductivity
@@ -189,17 +140,9 @@ def conductivity(value: Union[float, str]) -> float:
 
 
 def resolved(options: dict) -> dict:
-    """Options of petsam with body1 and body2, names of materials, as the moduli of the table.
+    """Options of petsam with body1 and body2, names of materials, as the moduli of the table: body1_young and so on.
 
-    Parameters
-    ----------
-    options : dict
-        {name: value}, as body1="steel"; body1_young and body1_poisson go before the table.
-
-    Returns
-    -------
-    dict
-        The same without body1 and body2, with body1_young and so on.
+    Moduli that are given go before the table.
     """
     found = dict(options)
     for body in ("body1", "body2"):
@@ -214,7 +157,7 @@ def resolved(options: dict) -> dict:
 _NAMES = {plain(one): name for name, row in TABLE.items() for one in (name, *row.aliases)}
 
 
-__all__ = ["Material", "conductivity", "elastic", "find", "has", "plain", "resolved"]
+__all__ = ["Material", "find"]
 
 
 def __dir__():

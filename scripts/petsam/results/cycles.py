@@ -64,18 +64,7 @@ class Cycle(NamedTuple):
 
 
 def busiest(results: Results) -> Optional[str]:
-    """The pair of load and displacement whose product varies most.
-
-    Parameters
-    ----------
-    results : Results
-        The results of a run.
-
-    Returns
-    -------
-    str or None
-        "tx", "ty", "mz" or "n"; None if none varies.
-    """
+    """The pair of load and displacement whose product varies most: tx, ty, mz or n; None if none varies."""
 
     def work(pair):
         load, way = (results.series(name) for name in PAIRS[pair])
@@ -89,18 +78,7 @@ def busiest(results: Results) -> Optional[str]:
 
 
 def turning_points(values: ArrayLike) -> list[int]:
-    """The reversals of values; since these come from zero, the first one may be a reversal.
-
-    Parameters
-    ----------
-    values : array_like
-        Numbers, (n,).
-
-    Returns
-    -------
-    list of int
-        Indices of the reversals.
-    """
+    """Indices of the reversals of values, (n,); since these come from zero, the first one may be a reversal."""
     values = np.asarray(values, dtype=float)
     size = float(np.ptp(np.append(values, 0.0))) if values.size else 0.0
     turns, top, at, direction = [], 0.0, -1, 0
@@ -117,17 +95,7 @@ def turning_points(values: ArrayLike) -> list[int]:
 
 
 def by_turns(values: np.ndarray) -> list[Cycle]:
-    """Cycles from a turning point of the values to the second next one.
-
-    Parameters
-    ----------
-    values : ndarray
-        Numbers, (n,).
-
-    Returns
-    -------
-    list of Cycle
-    """
+    """Cycles from a turning point of the values, (n,), to the second next one."""
     turns = turning_points(values)
     found = [(one, other) for one, other in zip(turns[::2], turns[2::2])]
     rest = turns[2 * len(found) :]
@@ -140,25 +108,9 @@ def by_turns(values: np.ndarray) -> list[Cycle]:
 
 
 def by_period(times: np.ndarray, period: float, start: Optional[float] = None) -> list[Cycle]:
-    """Cycles of a period.
+    """Cycles of a period, s, by the times of the steps, (n,), s; Error if it is shorter than the steps.
 
-    Parameters
-    ----------
-    times : ndarray
-        Times of the steps, (n,), s.
-    period : float
-        Period, s.
-    start : float, optional
-        Start of the first cycle, s; default 0, or the first time if that is at least a period away.
-
-    Returns
-    -------
-    list of Cycle
-
-    Raises
-    ------
-    Error
-        If the period is shorter than the steps.
+    Without a start they begin at 0, or at the first time if that is at least a period away.
     """
     if start is None:
         start = 0.0 if abs(times[0]) < period else float(times[0])  # steps before 0 belong to a first row at 0
@@ -267,7 +219,7 @@ def find(
     return Cycles(results, by_turns(results.series(turns).astype(float)), f"reversals of {turns}")
 
 
-__all__ = ["Cycle", "Cycles", "busiest", "by_period", "by_turns", "find", "turning_points"]
+__all__ = ["Cycle", "Cycles", "find"]
 
 
 def __dir__():

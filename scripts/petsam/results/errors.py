@@ -116,7 +116,7 @@ def _of(group: Any) -> Errors:
     return Errors((name, NumberError(**{key: of[k] for key, of in columns.items()})) for k, name in enumerate(names))
 
 
-__all__ = ["Errors", "NumberError", "read"]
+__all__ = ["Errors", "NumberError"]
 
 
 def __dir__():

@@ -57,46 +57,19 @@ class Numbers(NamedTuple):
 
 
 def area(x: np.ndarray, y: np.ndarray) -> float:
-    """The area of a closed polygon, positive when it is passed clockwise, as a load passes its displacement.
-
-    Parameters
-    ----------
-    x, y : ndarray
-        Its points, (n,).
-
-    Returns
-    -------
-    float
-        Area, in the unit of x times that of y.
-    """
+    """The area of a closed polygon of points (n,), positive when it is passed clockwise, as a load passes its
+    displacement."""
     return 0.5 * float(np.sum((x + np.roll(x, -1)) * (np.roll(y, -1) - y))) * -1.0
 
 
 def loop_energy(
     results: "Results", names: tuple[str, str], values: Callable[[str], np.ndarray], energy: float
 ) -> float:
-    """The energy that a load spends on its displacement over a closed loop.
+    """The energy, J, that a load spends on its displacement over a closed loop; names: both, as in cycles.PAIRS.
 
-    Parameters
-    ----------
-    results : Results
-        The results of a run.
-    names : tuple of str
-        The load and its displacement, as in cycles.PAIRS.
-    values : callable
-        values(name) are those of the loop's steps, (n,).
-    energy : float
-        Dissipated energy of the cycle, J.
-
-    Returns
-    -------
-    float
-        Energy, J.
-
-    Notes
-    -----
-    Where no other load and no bulk stress does work, that is the dissipated energy of the cycle, which needs no fine
-    steps; else the area of the loop as it is drawn, whose sides are straight.
+    values(name) are those of the loop's steps, (n,); energy is the dissipated energy of the cycle, J. Where no
+    other load and no bulk stress does work, that is the energy of the loop, which needs no fine steps; else the
+    area of the loop as it is drawn, whose sides are straight.
     """
     force, way = names
     areas = {pair: area(values(pair[1]), values(pair[0])) for pair in PAIRS.values()}
@@ -108,22 +81,7 @@ def loop_energy(
 
 
 def cycle_energy(results: "Results", names: tuple[str, str], cycle: Cycle) -> float:
-    """The energy that a load spends on its displacement over a cycle: see loop_energy().
-
-    Parameters
-    ----------
-    results : Results
-        The results of a run.
-    names : tuple of str
-        The load and its displacement, as in cycles.PAIRS.
-    cycle : Cycle
-        The cycle.
-
-    Returns
-    -------
-    float
-        Energy, J.
-    """
+    """The energy, J, that a load spends on its displacement over a cycle: see loop_energy()."""
     friction = float(np.sum(results.series(ENERGY)[cycle.first + 1 : cycle.last + 1]))
     return loop_energy(results, names, lambda name: results.series(name)[cycle.rows], friction)
 
@@ -140,20 +98,8 @@ def _width(way, force):
 
 
 def regime(results: "Results", rows: slice) -> str:
-    """The regime of a cycle: that of the step that slips most.
-
-    Parameters
-    ----------
-    results : Results
-        The results of a run.
-    rows : slice
-        Rows of the steps that have a solution, as Cycle.rows.
-
-    Returns
-    -------
-    str
-        "stick", "partial slip" or "gross slip".
-    """
+    """The regime of a cycle: that of the step that slips most; rows: of the steps that have a solution, as
+    Cycle.rows."""
     stick, contact = (results.series(name)[rows] for name in ("stick_area", "contact_area"))
     touching = contact > 0.0
     if np.any(touching & (stick <= 0.0)):
@@ -162,18 +108,8 @@ def regime(results: "Results", rows: slice) -> str:
 
 
 def regime_of(regimes: Iterable[str]) -> str:
-    """The regime of several cycles: mixed where some slip grossly and some do not, else that which slips most.
-
-    Parameters
-    ----------
-    regimes : iterable of str
-        Those of the cycles, at least one.
-
-    Returns
-    -------
-    str
-        One of REGIMES.
-    """
+    """The regime of several cycles, one at least: mixed where some slip grossly and some do not, else that which
+    slips most."""
     found = set(regimes)
     if "gross slip" in found and len(found) > 1:
         return "mixed"
@@ -278,7 +214,7 @@ def _chords(steps):
     return longest
 
 
-__all__ = ["Numbers", "area", "cycle_energy", "loop_energy", "numbers", "regime", "regime_of", "slip_range"]
+__all__ = ["Numbers", "numbers", "slip_range"]
 
 
 def __dir__():

@@ -50,41 +50,15 @@ def intensity(depths: ArrayLike, stress: ArrayLike, lengths: ArrayLike) -> np.nd
 
 
 def extremes(depths: ArrayLike, stresses: ArrayLike, lengths: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """Maximum and minimum of K over the steps; neither below 0.
-
-    Parameters
-    ----------
-    depths : array_like
-        Depths, (z,), m, rising.
-    stresses : array_like
-        Stress on the cracks' plane there, (time, z), Pa.
-    lengths : array_like
-        Lengths of the cracks, m, of any shape.
-
-    Returns
-    -------
-    tuple of two ndarrays
-        Maximum and minimum, of the shape of the lengths, Pa m^1/2.
-    """
+    """Maximum and minimum of K, Pa m^1/2, over the steps, neither below 0, by stresses (time, z), Pa, at rising
+    depths, m."""
     values = np.array([intensity(depths, stress, lengths) for stress in stresses])
     return np.maximum(values.max(axis=0), 0.0), np.maximum(values.min(axis=0), 0.0)
 
 
 def short_length(dk_th: float, stress_limit: float) -> float:
-    """El Haddad's length a0.
-
-    Parameters
-    ----------
-    dk_th : float
-        Threshold range of K of long cracks, Pa m^1/2.
-    stress_limit : float
-        Fatigue limit as a stress range, Pa.
-
-    Returns
-    -------
-    float
-        a0, m.
-    """
+    """El Haddad's length a0, m, by the threshold range of long cracks, Pa m^1/2, and the fatigue limit as a range,
+    Pa."""
     return (dk_th / (EDGE * stress_limit)) ** 2 / np.pi
 
 
@@ -110,20 +84,7 @@ def threshold(lengths: ArrayLike, dk_th: float, stress_limit: float) -> np.ndarr
 
 
 def stress_range(lengths: ArrayLike, ranges: ArrayLike) -> np.ndarray:
-    """The uniform stress range of the same range of K: the ordinate of Kitagawa and Takahashi's diagram.
-
-    Parameters
-    ----------
-    lengths : array_like
-        Lengths of the cracks, m, of any shape.
-    ranges : float or array_like
-        Ranges of K, of that shape, Pa m^1/2.
-
-    Returns
-    -------
-    ndarray
-        Stress ranges, of the shape of the lengths, Pa.
-    """
+    """The uniform stress range, Pa, of the same range of K: the ordinate of Kitagawa and Takahashi's diagram."""
     return ranges / (EDGE * np.sqrt(np.pi * np.asarray(lengths, dtype=float)))
 
 
@@ -171,7 +132,7 @@ def start(lengths: ArrayLike, ranges: ArrayLike, thresholds: ArrayLike) -> float
     return float(np.asarray(lengths)[above[0]]) if above.size else np.inf
 
 
-__all__ = ["arrest", "extremes", "intensity", "short_length", "start", "stress_range", "threshold"]
+__all__ = ["arrest", "intensity", "start", "threshold"]
 
 
 def __dir__():

@@ -61,22 +61,7 @@ class Line(NamedTuple):
 
 
 def possible(cycle: Cycle, constants: Mapping[str, float], angle: float = 0.0) -> list[str]:
-    """The criteria for which a cycle has the data, and for which the constants are given.
-
-    Parameters
-    ----------
-    cycle : stresses.Cycle
-        The cycle, which may have constants, too.
-    constants : mapping
-        {name: number} of the material, SI units.
-    angle : float
-        Angle of the normal of planes normal to the surface to x, degrees.
-
-    Returns
-    -------
-    list of str
-        Names of CRITERIA.
-    """
+    """Names of the criteria for which a cycle has the data, and for which it or `constants` have the constants."""
     known = {**cycle.constants, **constants}
     return [
         name
@@ -86,21 +71,8 @@ def possible(cycle: Cycle, constants: Mapping[str, float], angle: float = 0.0) -
 
 
 def has_data(cycle: Cycle, name: str, angle: float = 0.0) -> bool:
-    """True if a cycle has the data for a criterion.
-
-    Parameters
-    ----------
-    cycle : stresses.Cycle
-        The cycle.
-    name : str
-        One of CRITERIA.
-    angle : float
-        Angle of the normal of planes normal to the surface to x, degrees.
-
-    Returns
-    -------
-    bool
-    """
+    """True if a cycle has the data for a criterion; angle: of the normal of planes normal to the surface to x,
+    degrees."""
     if name not in OF_STRESS:
         return name in cycle
     if name == "crack" and cycle.layered:
@@ -109,29 +81,7 @@ def has_data(cycle: Cycle, name: str, angle: float = 0.0) -> bool:
 
 
 def known(cycle: Cycle, name: str, constants: Mapping[str, float], angle: float = 0.0) -> list[float]:
-    """The constants of a criterion, which are given, and for which a cycle has the data.
-
-    Parameters
-    ----------
-    cycle : stresses.Cycle
-        The cycle, which may have constants, too.
-    name : str
-        One of CRITERIA.
-    constants : mapping
-        {name: number} of the material, SI units.
-    angle : float
-        Angle of the normal of planes normal to the surface to x, degrees.
-
-    Returns
-    -------
-    list of float
-        In the order of CRITERIA.
-
-    Raises
-    ------
-    Error
-        If data or a constant are missing.
-    """
+    """The constants of a criterion, in the order of CRITERIA; Error if these or the data of the cycle are missing."""
     if not has_data(cycle, name, angle):
         wanted = "several steps with -quantities stress" if name in OF_STRESS else f"-fatigue {name}"
         raise Error(f"{cycle.path}: {name}: the data are missing; give petsam-stress {wanted}")
@@ -151,28 +101,10 @@ def _values(cycle, name, constants, angle, scale=1.0):
 def bounds(
     cycle: Cycle, name: str, constants: Mapping[str, float], angle: float = 0.0
 ) -> Optional[tuple[float, float]]:
-    """Between which the least life, or safety factor, is by the error of the tractions.
+    """The least lives, or safety factors, by stresses that are larger, and smaller, by the error of the tractions.
 
-    Parameters
-    ----------
-    cycle : stresses.Cycle
-        The cycle.
-    name : str
-        One of LIVES or FACTORS.
-    constants : mapping
-        {name: number} of the material, SI units.
-    angle : float
-        Angle of the normal of planes normal to the surface to x, degrees, for the stress of "basquin".
-
-    Returns
-    -------
-    tuple of float or None
-        The least values by stresses that are larger, and smaller, by the error of the cycle's tractions; None where
-        that is unknown.
-
-    Notes
-    -----
-    Stresses are proportional to the tractions; the parameter of Fatemi and Socie is taken as proportional, too.
+    None where that is unknown. Stresses are proportional to the tractions; the parameter of Fatemi and Socie is
+    taken as proportional, too.
     """
     if not np.isfinite(cycle.error):
         return None
@@ -207,18 +139,7 @@ def least(cycle: Cycle, values: np.ndarray) -> Place:
 
 
 def need_same_points(cycles: Sequence[Cycle]) -> None:
-    """Checks that cycles are those of the same points.
-
-    Parameters
-    ----------
-    cycles : list of stresses.Cycle
-        The cycles.
-
-    Raises
-    ------
-    Error
-        If one has other points than the first.
-    """
+    """Raises Error if one of the cycles has other points than the first."""
     first = cycles[0]
     for one in cycles[1:]:
         for mine, its in ((first.x, one.x), (first.y, one.y), (first.z, one.z)):
@@ -334,18 +255,7 @@ def line(
 
 
 def columns(lines: Sequence[tuple[str, Line]]) -> list[Column]:
-    """Lines below one another as a table.
-
-    Parameters
-    ----------
-    lines : list of tuple
-        Pairs of a label and a Line, all with the same columns.
-
-    Returns
-    -------
-    list of tables.Column
-        A row for each depth of each line.
-    """
+    """Pairs of a label and a Line as a table, with a row for each depth of each line; all have the same columns."""
     found = [Column("file", "", "label of the file", [who for who, line in lines for _ in line.z])]
     for name in "xy":
         found.append(Column(name, "m", "place", [getattr(line, name) for _, line in lines for _ in line.z]))
@@ -356,20 +266,7 @@ def columns(lines: Sequence[tuple[str, Line]]) -> list[Column]:
     return found
 
 
-__all__ = [
-    "Line",
-    "Place",
-    "bounds",
-    "columns",
-    "crack",
-    "has_data",
-    "known",
-    "least",
-    "line",
-    "lives",
-    "need_same_points",
-    "possible",
-]
+__all__ = ["Line", "Place", "crack", "least", "line", "lives"]
 
 
 def __dir__():

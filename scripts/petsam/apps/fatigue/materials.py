@@ -15,17 +15,7 @@ SMALL = 1 << 20  # bytes of a file of constants at most
 
 
 class Constant(NamedTuple):
-    """A constant of a material.
-
-    Attributes
-    ----------
-    unit : str
-        Its unit; "1" of a number without one.
-    low, high : float
-        Limits, which it does not reach.
-    meaning : str
-        What it is.
-    """
+    """A constant of a material: its unit, "1" of a number without one; limits that it does not reach; its meaning."""
 
     unit: str
     low: float
@@ -56,24 +46,7 @@ CONSTANTS = {
 
 
 def checked(name: str, value: object) -> float:
-    """The value of a constant in SI units.
-
-    Parameters
-    ----------
-    name : str
-        One of CONSTANTS.
-    value : float or str
-        A number in SI units, or a text of one, which may have its unit: "1.76GPa".
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    Error
-        If it is no number, has another unit, or is outside the range of the constant, or there is no such constant.
-    """
+    """The value in SI units of a constant, a number or a text of one, which may have its unit; Error if it is wrong."""
     if name not in CONSTANTS:
         raise Error(f"{short(name)} is no constant{there_are(name, CONSTANTS)}")
     one = CONSTANTS[name]
@@ -127,22 +100,9 @@ def read(path: Union[str, os.PathLike]) -> dict[str, float]:
 
 
 def named(text: str) -> dict[str, float]:
-    """The fatigue constants of a material in petsam's table, or the constants of a YAML file.
+    """The fatigue constants, SI units, of a material in petsam's table, or the constants of a YAML file.
 
-    Parameters
-    ----------
-    text : str
-        Name of the file, or of the material (petsam.materials), whose elasticity stays that of the stresses' body.
-
-    Returns
-    -------
-    dict
-        {name: number in SI units}.
-
-    Raises
-    ------
-    Error
-        If the table has no such material, or no fatigue constants of it, or as read() does.
+    Of a material the elasticity stays that of the stresses' body. Error if there are none, or as of read().
     """
     if os.path.exists(text) or text.endswith((".yaml", ".yml")):
         return read(text)
@@ -155,27 +115,7 @@ def named(text: str) -> dict[str, float]:
 
 
 def need(constants: Mapping[str, float], names: Iterable[str], what: str) -> list[float]:
-    """The values of constants that a criterion needs.
-
-    Parameters
-    ----------
-    constants : mapping
-        {name: number} of those that are known, SI units.
-    names : sequence of str
-        Names of CONSTANTS.
-    what : str
-        What needs them, for the message.
-
-    Returns
-    -------
-    list of float
-        In the order of the names.
-
-    Raises
-    ------
-    Error
-        If one is missing.
-    """
+    """The values of the constants of these names; Error if one is missing, with `what` needs it."""
     lacking = [name for name in names if name not in constants]
     if lacking:
         texts = [f"{name} ({CONSTANTS[name].unit}, {CONSTANTS[name].meaning})" for name in lacking]
@@ -183,7 +123,7 @@ def need(constants: Mapping[str, float], names: Iterable[str], what: str) -> lis
     return [constants[name] for name in names]
 
 
-__all__ = ["Constant", "checked", "named", "need", "read"]
+__all__ = ["read"]
 
 
 def __dir__():

@@ -12,18 +12,8 @@ from ...results.stresses import FATIGUE, Stresses
 
 
 def terms(angle: float) -> dict[str, float]:
-    """The stresses of which the stress on planes normal to the surface is a sum.
-
-    Parameters
-    ----------
-    angle : float
-        Angle of the plane's normal to x, degrees.
-
-    Returns
-    -------
-    dict
-        {name: factor}; the sum of factors times stresses is the stress on the planes.
-    """
+    """{name: factor}: the sum of factors times stresses is the stress on planes normal to the surface, by the angle,
+    degrees, of their normal to x."""
     cosine, sine = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
     found = {"stress_xx": cosine**2, "stress_yy": sine**2, "stress_xy": 2.0 * sine * cosine}
     return {name: term for name, term in found.items() if abs(term) > 1e-15}
@@ -328,7 +318,7 @@ class Cycle:
         return np.array([part[:, 0, 0] for part in self.on_plane(angle, row, column)])
 
 
-__all__ = ["Cycle", "terms"]
+__all__ = ["Cycle"]
 
 
 def __dir__():
