@@ -48,7 +48,7 @@ from ...contact.inprocess import AdviceWarning
 from ...core import materials, words
 from ...core.errors import Unusable, short
 from ...core.files import need_regular, need_replaceable
-from ...core.line import Parser, add_resolution, guarded, joined, word
+from ...core.line import Parser, add_resolution, guarded, joined, word, wrote
 from ...core.progress import Progress, to_stderr
 from ...plot import page
 from ...plot.saving import DPI, write
@@ -207,12 +207,7 @@ def _structure_options(one):
 
 
 def _parser():
-    one = Parser(
-        prog="petsam-joint",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
+    one = Parser(prog="petsam-joint", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     one.add_argument("action", choices=list(ACTIONS), help="what is computed")
     one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair")
     one.add_argument(
@@ -317,6 +312,7 @@ def _write_stiffness(args, result):
     }
     for ending in _stiffness_files(args):
         ways[ending](args.output + ending)
+        wrote(args.output + ending)
 
 
 def _progress(what):
@@ -341,6 +337,7 @@ def _report(args, result):
         from ...plot.reports import report
 
         report(result, args.report, _given(args, joined(sys.argv[1:])))
+        wrote(args.report)
 
 
 def _given(args, given):
@@ -413,6 +410,7 @@ def _write(args, result, picture):
     if args.output:
         result.to_csv(args.output + ".csv")
         write(PART.picture(picture)(result), args.output + ".png", args.dpi)
+        wrote(args.output + ".csv", args.output + ".png")
 
 
 def _backbone(args):
@@ -433,6 +431,7 @@ def _backbone(args):
     _write(args, result, "backbone")
     if args.output:
         write(PART.picture("slip_zones")(result, bolts=pair.places), args.output + "-contact.png", args.dpi)
+        wrote(args.output + "-contact.png")
     _report(args, result)
     return 0
 

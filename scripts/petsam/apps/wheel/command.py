@@ -47,7 +47,7 @@ from ...core import materials, tables, words
 from ...core.environment import cores as all_cores
 from ...core.errors import Error, Missing, MissingFile, Unusable, counted, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, add_choice, guarded, joined, word
+from ...core.line import Parser, add_choice, guarded, joined, word, wrote
 from ...core.progress import Progress
 from . import derailing
 
@@ -165,7 +165,6 @@ def _positions(one):
 def _parser():
     one = Parser(
         prog="petsam-wheel", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )  # fmt: skip
     _profiles(one)
     _positions(one)
@@ -392,22 +391,21 @@ def carry_out(options):
         found = profiles.solve_all(vehicle, states, cores, Progress("position", every=EVERY))
     table = found.table()
     _print(options, found, table)
-    wrote = []
+    written = []
     if options.output:
         tables.write_csv(options.output + ".csv", table)
-        wrote.append(".csv")
+        written.append(".csv")
         if ".png" in endings:
             _picture(options, vehicle, found)
-            wrote.append(".png")
+            written.append(".png")
     if options.wear is not None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", profiles.ProfileWarning)  # of the vehicle: printed above
             try:
-                wrote += _wear(options, vehicle, states, cores, endings)
+                written += _wear(options, vehicle, states, cores, endings)
             except Error as error:
                 raise _reworded(error) from error
-    if wrote:
-        print("wrote " + ", ".join(options.output + ending for ending in wrote))
+    wrote(*(options.output + ending for ending in written))
     return 0
 
 
@@ -432,13 +430,21 @@ def _print(options, found, table):
         _warn(f"position {number}{f' (line {line})' if line else ''}: {failure}")
     if len(found.failures) > SHOWN:
         _warn(f"{len(found.failures)} positions have no equilibrium in all; the column note names each")
-    for text in dict.fromkeys(
-        re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)? ?", "... ", note) for one in found.found for note in one.notes
-    ):
-        _warn(f"{text} (see the column note)")
+    _warn_of_notes(found.found)
     _compare_roll(options, found)
     if options.smooth:
         _doubt_smoothing(options, found)
+
+
+def _warn_of_notes(found):
+    """Prints the warnings of positions; of several that differ by numbers only the first, and how many there are."""
+    alike = {}
+    for number, one in enumerate(found, 1):
+        for note in one.notes:
+            alike.setdefault(re.sub(r"\d[\d.]*(e[-+]?\d+)?", "0", note), []).append((number, note))
+    for (number, note), *others in alike.values():
+        more = f"; {counted(len(others), 'other position')} with such a warning: see the column note" if others else ""
+        _warn(f"position {number}: {note}{more}")
 
 
 def _print_patch(row):
