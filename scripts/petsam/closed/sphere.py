@@ -13,6 +13,8 @@ References
   (1958) 396-401.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -366,7 +368,7 @@ class Spheres:
         self.gross = self.displacement(0.0)
 
     @classmethod
-    def of(cls, parameters: Mapping, load_n: float) -> "Spheres":
+    def of(cls, parameters: Mapping, load_n: float) -> Spheres:
         """Creates the spheres from options under a normal load.
 
         Parameters

@@ -25,6 +25,7 @@ from typing import Any, Optional
 import numpy as np
 
 from ...core import least
+from ...core.brief import brief
 from ...core.errors import Error, Unusable, short, there_are
 from .backbone import Backbone, derivatives, force_of, plain_force
 from .push import Push
@@ -58,6 +59,7 @@ DEAF = 0.3  # of what is known beforehand: the least deviation in which it is me
 WEAK = 0.5  # width of the range, relative to the friction, from which on it is weakly known
 
 
+@brief
 @dataclass(frozen=True)
 class Loop:
     """A closed loop of one cycle, in the order of time.
@@ -105,6 +107,7 @@ def noise_of(values: np.ndarray) -> float:
     return float(max(np.median(second) / (0.6745 * np.sqrt(6.0)), FLOOR * np.ptp(values)))
 
 
+@brief
 @dataclass(frozen=True)
 class Fit:
     """Friction and rig as found from loops.

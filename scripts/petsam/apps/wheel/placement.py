@@ -12,6 +12,7 @@ from typing import Optional, Union
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error, Unusable
 from .pose import Position
 from .profile import FARTHEST, Profile, ProfileWarning
@@ -211,6 +212,7 @@ def _refined(points, level, inner):
     return min(inner, float((y[cross] + part * (y[cross + 1] - y[cross])).min()))
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Track:
     """A rail of a track; that of the right side, whose mirror image the left one is.
@@ -336,6 +338,7 @@ class Track:
             return replace(self, curvature=-self.curvature)
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Roller:
     """A roller of a test rig in place of a rail: a body of revolution about an axis along y.
@@ -450,6 +453,7 @@ class Roller:
         return self
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Wheelset:
     """A wheel of a wheelset; that of the right side, whose mirror image the left one is.
