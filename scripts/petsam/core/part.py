@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 
 def _public(found):
-    """What a name stands for, with a check of its arguments, which needs libraries."""
+    """Returns the object of a name, with a check of its arguments, which needs libraries."""
     from .public import public
 
     return public(found)

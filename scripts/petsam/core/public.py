@@ -1,8 +1,8 @@
-"""What users call: signatures that are read at a glance, and arguments of a wrong kind, which end with an Error.
+"""Public functions and classes: short signatures, and an Error for arguments of a wrong kind.
 
 The public list of a part gives its functions and classes by public(). An argument is checked by its hint where that is
 of numbers, arrays of numbers, texts, functions or classes of the package; values that have no such hint, and ranges,
-are the function's own affair. The message has what the docstring tells about the argument.
+are the function's own affair. The message has the meaning of the argument by the docstring.
 """
 
 import dataclasses
@@ -93,7 +93,7 @@ def _checked(function, owner, text):
 
 
 def _hint(hint, home):
-    """What a hint stands for; Any of one that cannot be told."""
+    """Returns the type of a hint; Any if it cannot be found."""
     if not isinstance(hint, str):
         return hint
     fields = [vars(sys.modules[kind.__module__]) for kind in home.values() if dataclasses.is_dataclass(kind)]
@@ -157,7 +157,7 @@ def _several(value, count):
 
 
 def _message(owner, name, value, kind, text):
-    """Names the argument, what was given, and what the docstring tells about it, and how a text is written."""
+    """Names the argument, what was given, and its meaning by the docstring, and how a text is written."""
     entry = keywords.entries(keywords.sections(text)[1].get("Parameters", "")).get(name, "")
     meaning = " ".join(entry.partition("\n")[2].split())
     about = meaning.partition(". ")[0].rstrip(".")

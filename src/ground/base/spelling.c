@@ -192,8 +192,8 @@ PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const 
   if (given) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(option, sizeof(option), "%.*s%.*s", LENGTH / 2, prefix, (int)strcspn(name, " "), name);
   PetscCall(FindMisspelled(option, meant, sizeof(meant)));
-  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s: unknown option: is -%s%s meant? -%s%s is missing: %s",
-             meant, option, SamOptionsForm(meant), prefix, name, text);
+  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s: unknown option: is -%s%s meant? -%s%s is missing: %s", meant,
+             option, SamOptionsForm(meant), prefix, name, text);
   SETERRQ(from->comm, SAM_ERR_USER, "-%s%s is missing: %s", prefix, name, text);
 }
 
