@@ -121,7 +121,9 @@ def _place(name):
 
 def __getattr__(name):
     if name in _HOMES:
-        return getattr(importlib.import_module(_HOMES[name], __name__), name)
+        from .core.public import public
+
+        return public(getattr(importlib.import_module(_HOMES[name], __name__), name))
     if _place(name):
         return importlib.import_module(_place(name), __name__)
     for one in [] if name.startswith("_") else _applications().records():
@@ -164,6 +166,16 @@ def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any
         If there is no such file; it is a FileNotFoundError, too.
     Error
         If the file cannot be read.
+
+    Examples
+    --------
+    >>> import petsam
+    >>> ball = dict(gap_type="sphere", gap_radius1=5e-3, gap_radius2="inf", body1_young=210e9, body1_poisson=0.3)
+    >>> ball.update(body2_young=210e9, body2_poisson=0.3, grid_n=16, grid_size=3e-4, friction=0.3)
+    >>> petsam.run(ball, load_n=10.0, output="ball.h5").close()
+    >>> with petsam.open("ball.h5") as results:
+    ...     round(float(results.history["load_n"][-1]), 6)
+    10.0
     """
     from .results.stresses import open_any
 

@@ -273,7 +273,7 @@ def test_what_the_file_has_not_is_the_packages_error(path, ask):
     (lambda results: results.edge("contact_edge", 500), "index 500: 2 steps are saved"),
     (lambda results: package.Snapshot(results, 2), "index 2: 2 steps are saved"),
     (lambda results: results.field("presure"), "has no presure (petsam -output_fields): is pressure meant? It has "),
-    (lambda results: results.quantity("slips"), ": is slip_y meant? It has "),
+    (lambda results: results.quantity("slips"), ": is slip_x meant? It has "),
     (lambda results: results.history["area"], "has no area: is contact_area or stick_area meant? It has contact_area"),
     (lambda results: results.parameters["fricton"], "has no fricton: is friction meant? It has "),
     (lambda results: results.history["qqq"], "has no qqq; it has contact_area, "),

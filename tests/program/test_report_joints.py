@@ -101,6 +101,25 @@ def test_errors_of_wear_are_in_the_unit_of_the_number(tmp_path):
     ]
 
 
+def test_a_column_has_the_unit_of_its_largest_number(tmp_path):
+    found = interface()
+    found.numbers["closure"] = np.array([2e-9, 3e-6, 0.0])
+    found.report(tmp_path / "i.html")
+    text = (tmp_path / "i.html").read_text()
+    assert ">0.002 µm<" in text and ">3 µm<" in text and ">0 µm<" in text and " nm<" not in text
+
+
+def test_the_command_says_what_it_wrote(tmp_path, monkeypatch, capsys):
+    words = ["petsam-joint", "stiffness", "scan.h5", "--normal-only", "--pressure", "1MPa,2MPa", "--body1", "steel",
+             "--body2", "steel", "-o", "a", "--report", "c.html"]  # fmt: skip
+    monkeypatch.setattr("sys.argv", words)
+    monkeypatch.setattr(command, "interface", lambda *_, **__: interface())
+    monkeypatch.chdir(tmp_path)
+    assert command.main() == 0
+    said = [line[6:] for line in capsys.readouterr().out.splitlines() if line.startswith("wrote ")]
+    assert said == ["a.csv", "a.png", "c.html"] and sorted(path.name for path in tmp_path.iterdir()) == said
+
+
 def test_the_command_writes_the_page_with_its_options(tmp_path, monkeypatch):
     words = ["petsam-joint", "stiffness", "scan<1>.h5", "--normal-only", "--pressure", "1MPa,2MPa", "--body1=steel",
              "--body2", "steel", "--report", "c.html"]  # fmt: skip

@@ -2,6 +2,7 @@
 
 import base64
 import io
+import math
 import re
 import shutil
 from html.parser import HTMLParser
@@ -16,6 +17,7 @@ import petsam
 from petsam.apps.study.cases import Case
 from petsam.apps.study.tables import write_hdf5
 from petsam.plot import frames, reports, sheets
+from petsam.plot import page as page_module
 from support import ROOT, ball, history, slide_limit
 from test_plane import CYLINDER, N
 
@@ -442,3 +444,12 @@ def test_pictures_are_sharp_and_small(page):
         if kind.endswith("png"):
             with Image.open(io.BytesIO(base64.b64decode(data))) as image:
                 assert image.size[0] >= float(one["width"]) and len(data) < 200000
+
+
+def test_a_column_of_one_quantity_has_one_unit():
+    rows = [("a", (2e-6, "m"), (5e6, "Pa")), ("b", (3e-3, "m"), (2.0, "N")), ("c", (math.nan, "m"), (0.0, "Pa"))]
+    text = page_module.table("t", ("name", "length", "value"), rows)
+    assert re.findall(r"<data.*?>(.*?)</data>", text) == ["0.002 mm", "5 MPa", "3 mm", "2 N", "0 Pa"]
+    assert "3 mm" in sheets.beside(3e-3, "m", 2e-6, 3e-3) and "0.002 mm" in sheets.beside(3e-3, "m", 2e-6, 3e-3)
+    assert ">0.01 MPa<" in sheets.absolute(1e4, "Pa", 2e6)
+    assert "0.02 MPa" in sheets.relative(2e6, "Pa", 0.01)

@@ -11,7 +11,19 @@ from scipy.integrate import solve_ivp
 
 import petsam
 from petsam import plot
-from petsam.apps.wheel import Load, Pair, Position, Profile, Settings, State, Vehicle, contacts, derailing, wearing
+from petsam.apps.wheel import (
+    Load,
+    Pair,
+    Position,
+    Profile,
+    Settings,
+    State,
+    Vehicle,
+    batch,
+    contacts,
+    derailing,
+    wearing,
+)
 from petsam.apps.wheel import batch as batches
 from petsam.apps.wheel import command as wheel
 from petsam.apps.wheel.conicity import equivalent_conicity
@@ -328,6 +340,17 @@ def test_derailment_and_its_neighbours_are_printed(run):
     text = run(*BASE, *ONE, "--y", "6.2mm:7.4mm:3", "--cores", "1")
     assert "DERAILED: Y/Q 1." in text and "at this angle" in text
     assert "nearest with an equilibrium: position 1, y 0.0062 m" in text and "and position 3, y 0.0074 m" in text
+    assert "..." not in text
+
+
+def test_warnings_of_positions_are_whole_sentences(capsys):
+    notes = [("Y/Q is 1.25, above 0.8",), (), ("Y/Q is 1.5e0, above 0.8", "N is 3 kN"), ("Y/Q is 2, above 0.8",)]
+    wheel._warn_of_notes([batch.Found(None, "", one) for one in notes])
+    lines = [line.partition("warning: ")[2] for line in capsys.readouterr().err.splitlines()]
+    assert lines == [
+        "position 1: Y/Q is 1.25, above 0.8; 2 other positions with such a warning: see the column note",
+        "position 3: N is 3 kN",
+    ]
 
 
 def test_unlike_profiles_mirrored_give_mirrored_forces(vehicle):

@@ -2,13 +2,17 @@
 
 import argparse
 import math
+import re
+import subprocess
+import sys
 from functools import partial
 
 import numpy as np
 import pytest
 
+import support
 from petsam.apps.joint import command as joint
-from petsam.core import line, tables, units, words
+from petsam.core import errors, line, tables, texttable, units, words
 
 
 @pytest.mark.parametrize(
@@ -27,12 +31,21 @@ def test_number_with_its_unit(text, unit, value):
     "text, unit",
     [
         ("5MPa", "m"), ("1,5", "1"), ("nan", "1"), ("", "1"), ("1_000", "1"), ("inf", "Pa"), ("0x10", "1"),
-        ("5 mm mm", "m"),
+        ("5 mm mm", "m"), ("\u0661\u0662", "1"), ("1e\u0663", "1"), ("\u0967mm", "m"), ("\uff11", "1"),
     ],
 )  # fmt: skip
 def test_what_is_no_such_number_is_told(text, unit):
     with pytest.raises(words.WordError, match="expected a length"):
         words.number(text, "a length", unit)
+
+
+def test_only_the_usual_digits_are_numbers():
+    for text in ("\u0661\u0662", "\u0967", "\uff11"):
+        with pytest.raises(words.WordError, match="a whole number"):
+            words.integer(text)
+        assert texttable.number_of(text) is None
+    with pytest.raises(words.WordError):
+        words.span("\u0660:1:3", "numbers")
 
 
 def test_factor_before_a_unit_is_a_unit():
@@ -263,3 +276,46 @@ def test_table_says_names_and_units(tmp_path):
     text = (tmp_path / "t.csv").read_text()
     assert text == 'case,pressure [Pa],friction [1]\na,1000000000.0,0.1\n"b, c",nan,0.2\n'
     assert tables.split("pressure [Pa]") == ("pressure", "Pa") and tables.split("case") == ("case", "")
+
+
+def parsers():
+    """The command lines: without arguments for each of the programs."""
+    from petsam.apps import records
+
+    programs = [one.command for one in records() if one.command] + ["petsam-plot"]
+    return [pytest.param(support.ROOT / "scripts" / name, id=name) for name in programs]
+
+
+@pytest.mark.parametrize("program", parsers())
+def test_an_unknown_option_is_named_before_missing_ones(program):
+    def said(*given):
+        done = subprocess.run([sys.executable, program, *given], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 2
+        return done.stderr
+
+    begin = f"{program.name}: error: unrecognized arguments: "
+    assert said("--nonsense") == f"{begin}--nonsense; see {program.name} --help\n"
+    assert said("-7x", "--nonsense=3", "--qqq").startswith(f"{begin}--nonsense=3 --qqq; see")
+    assert said("--hel").startswith(f"{begin}--hel: is --help meant?")  # not taken for an abbreviation
+
+
+def test_only_similar_names_are_suggested():
+    names = ["output", "report", "no-picture", "sensor", "E"]
+    for tried, near in (("outptu", "output"), ("OUTPUT", "output"), ("no_picutre", "no-picture"), ("senor", "sensor")):
+        assert errors.nearest(tried, names) == [near]
+    for tried in ("nonsense", "rapid", "e2", "", "x"):
+        assert errors.nearest(tried, names) == []
+    assert [errors.slips(*pair) for pair in (("abcd", "abdc"), ("abc", "bc"), ("", "ab"), ("abc", "axd"))] == [
+        1,
+        1,
+        2,
+        2,
+    ]
+
+
+def test_every_command_says_what_it_wrote(capsys):
+    line.wrote("a.csv", "b.png")
+    line.wrote()
+    assert capsys.readouterr().out == "wrote a.csv\nwrote b.png\n"
+    for path in (support.ROOT / "scripts" / "petsam").rglob("*.py"):
+        assert path.name == "line.py" or not re.search(r"print\(f?\"wrote", path.read_text()), path

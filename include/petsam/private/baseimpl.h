@@ -145,8 +145,12 @@ typedef struct {
 PETSC_INTERN PetscErrorCode       SamOptionsNoteFile(const SamOptions *from, SamOptionKind kind, const char name[],
                                                      const char shown[]);
 PETSC_EXTERN const SamOptionFile *SamOptionsFile(PetscInt k);
-/* SamOptionsNearest - returns the known option most similar to a name; NULL if none is similar. */
+/*
+  SamOptionsNearest - returns the known option most similar to a name; NULL if none is similar.
+  SamOptionsForm - returns the form of its value, after a blank, if the name is an old one with another value; or "".
+*/
 PETSC_INTERN const char *SamOptionsNearest(const char tried[]);
+PETSC_INTERN const char *SamOptionsForm(const char tried[]);
 /*
   SamOptionsRequire - raises an error if a required option is missing; the message suggests a similar option that was
   given. After a space the name may continue with alternatives.

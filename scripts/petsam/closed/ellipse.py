@@ -12,6 +12,8 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
+from ..core.errors import WrongArgument
+
 NARROW = 1e-8  # ratio of the half axes down to which a contact is searched
 
 
@@ -59,11 +61,11 @@ def hertz_ellipse(load_n: float, radius_x: float, radius_y: float, e_star: float
 
     Raises
     ------
-    ValueError
+    Error
         If a number is not above 0, or the radii are so different that the contact is a line.
     """
     if not all(0.0 < value < np.inf for value in (load_n, radius_x, radius_y, e_star)):
-        raise ValueError("load, radii and modulus are numbers above 0")
+        raise WrongArgument("load, radii and modulus are numbers above 0")
     small, large = sorted((radius_x, radius_y))
 
     def off(log_k):
@@ -71,7 +73,7 @@ def hertz_ellipse(load_n: float, radius_x: float, radius_y: float, e_star: float
         return np.log(across / along) - np.log(large / small)
 
     if off(np.log(NARROW)) < 0.0:
-        raise ValueError(f"radii {radius_x:g} and {radius_y:g} m: the contact is a line: see petsam.closed.plane")
+        raise WrongArgument(f"radii {radius_x:g} and {radius_y:g} m: the contact is a line: see petsam.closed.plane")
     k = float(np.exp(brentq(off, np.log(NARROW), 0.0, xtol=1e-15, rtol=1e-15))) if large > small else 1.0
     along, _, deep = _shapes(k)
     # 1/(2 large) = p0 along/(E* a) with p0 = 3 N/(2 pi k a^2)
@@ -100,11 +102,11 @@ def hertz_radii(half_x: float, half_y: float, load_n: float, e_star: float) -> t
 
     Raises
     ------
-    ValueError
+    Error
         If a number is not above 0.
     """
     if not all(0.0 < value < np.inf for value in (half_x, half_y, load_n, e_star)):
-        raise ValueError("half axes, load and modulus are numbers above 0")
+        raise WrongArgument("half axes, load and modulus are numbers above 0")
     short, long = sorted((half_x, half_y))
     along, across, _ = _shapes(short / long)
     scale = 0.5 * e_star * long / (1.5 * load_n / (np.pi * short * long))

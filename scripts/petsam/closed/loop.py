@@ -10,6 +10,8 @@ References
 - K. L. Johnson, Contact Mechanics, 1985, section 7.4.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

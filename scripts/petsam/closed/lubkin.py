@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipeinc, ellipkinc, ellipkm1
 
+from ..core.errors import WrongArgument
 from .normal import hertz_pressure
 from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 
@@ -79,11 +80,11 @@ def lubkin_stick_radius(torque_ratio: float, a: float) -> float:
 
     Raises
     ------
-    ValueError
+    Error
         If the ratio is outside 0 to 1.
     """
     if not 0.0 <= torque_ratio <= 1.0:
-        raise ValueError(f"torque_ratio must be in [0, 1], got {torque_ratio!r}")
+        raise WrongArgument(f"torque_ratio must be in [0, 1], got {torque_ratio!r}")
     if torque_ratio in (0.0, 1.0):
         return a * (1.0 - torque_ratio)
     return a * brentq(lambda x: float(lubkin_torque_ratio(x)) - torque_ratio, 0.0, 1.0, xtol=1e-14)

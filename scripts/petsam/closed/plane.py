@@ -32,6 +32,8 @@ References
   2349-2378.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple, Optional
 
 import numpy as np

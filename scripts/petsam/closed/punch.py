@@ -18,6 +18,8 @@ References
   Proc. Inst. Mech. Eng. C 212 (1998) 319-327.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -15,6 +15,8 @@ References
 - K. L. Johnson, Contact Mechanics, 1985, section 5.4.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
@@ -56,7 +58,7 @@ def spence_friction(ratio: float, beta: float) -> float:
     return SpencePunch(ratio, beta).friction
 
 
-def spence_punch(friction: float, beta: float) -> "SpencePunch":
+def spence_punch(friction: float, beta: float) -> SpencePunch:
     """The punch of a given coefficient of friction.
 
     Parameters

@@ -8,13 +8,15 @@ Spheres has all of them with their scales; the functions alone are those of norm
 references.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .cattaneo import cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius
-from .lubkin import lubkin_shear, lubkin_stick_radius, lubkin_torque_ratio, lubkin_twist, torsion_limit
+from .lubkin import lubkin_shear, lubkin_stick_radius, lubkin_twist, torsion_limit
 from .materials import Bodies, effective_radius
 from .normal import Hertz, hertz, hertz_pressure
 
@@ -55,7 +57,7 @@ class Spheres:
         self.gross = self.displacement(0.0)
 
     @classmethod
-    def of(cls, parameters: Mapping, load_n: float) -> "Spheres":
+    def of(cls, parameters: Mapping, load_n: float) -> Spheres:
         """Creates the spheres from options under a normal load.
 
         Parameters
@@ -175,7 +177,7 @@ class Spheres:
 
         Raises
         ------
-        ValueError
+        Error
             If the torque is outside 0 to torque_limit.
         """
         return lubkin_stick_radius(load_mz / self.torque_limit, self.hertz.radius)

@@ -3,6 +3,8 @@
 Tension positive, z into the body; a is the contact radius, p0 the maximum pressure, poisson that of the body.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 
 from ..core.errors import Unusable, counted, there_are
 from ..results.gradients import MODULI
-from .derivatives import BULK, LOADS, WAYS, WEAR, OneSidedWarning, compute
+from .derivatives import BULK, LOADS, WAYS, WEAR, OneSidedWarning
 from .inprocess import Contact
 
 NUMBERS = ("energy", "wear_volume", *LOADS, *WAYS)  # that numbers() takes from a run that is not recorded

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core.brief import brief
 from ..core.errors import Unusable
 from ..core.roughness import RESOLVED, self_affine
 from ..core.units import shown, size
@@ -130,6 +131,7 @@ class Roughness:
         return np.fft.ifft2(np.fft.fft2(noise) * np.sqrt(waves * waves.size)).real
 
 
+@brief
 @dataclass(frozen=True)
 class Uncertainty:
     """A number and its standard deviation to first order; see of().

@@ -12,6 +12,8 @@ materials    the table of materials: petsam.materials
 least        least squares: the best of several starts, standard deviations, correlations
 words        reading of a word: a number with its unit, several, a span, a name with its value
 tables       tables as CSV: columns with name, unit and meaning
+public       checks of arguments, and signatures, of what users call
+brief        repr() of results in a few lines
 keywords     keywords that several functions have, explained once
 shown        report() of results, by petsam.plot
 environment  search for the interpreter, its libraries and petsam

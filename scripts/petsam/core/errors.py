@@ -1,6 +1,5 @@
 """Errors that the commands report in one line: their message contains all that a user needs."""
 
-import difflib
 import errno
 import importlib
 import os
@@ -24,6 +23,10 @@ class Unusable(Error):
     """An option or a value that cannot be used, has no effect, or leaves nothing: bad usage."""
 
     code = USAGE
+
+
+class WrongArgument(Unusable, TypeError, ValueError):
+    """An argument that a function cannot use; it is a TypeError and a ValueError, too, as functions of Python raise."""
 
 
 class Unsettled(Error):
@@ -99,9 +102,39 @@ def counted(count, noun):
     return f"{count} {noun}" + "s" * (count != 1)
 
 
+def slips(tried, name):
+    """Number of letters omitted, inserted, changed, or swapped with the next one, between two words."""
+    before, last = [], [*range(len(name) + 1)]
+    for i, one in enumerate(tried):
+        row = [i + 1]
+        for j, other in enumerate(name):
+            row.append(min(last[j] + (one != other), last[j + 1] + 1, row[j] + 1))
+            if i and j and one == name[j - 1] and tried[i - 1] == other:
+                row[-1] = min(row[-1], before[j - 1] + 1)
+        before, last = last, row
+    return last[-1]
+
+
+def nearest(tried, names):
+    """Returns the name of which a word may be a misspelling, in a list; an empty one if none is near.
+
+    A word of less than 3 letters has no slips, one of less than 5 has 1, of less than 10 up to 2, a longer one up to 3.
+    Case does not count, and - is as _.
+    """
+
+    def plain(word):
+        return str(word).lower().replace("-", "_")
+
+    length = len(str(tried))
+    most = 0 if length < 3 else 1 if length < 5 else 2 if length < 10 else 3
+    near = [(slips(plain(tried), plain(name)), k) for k, name in enumerate(names) if abs(len(name) - length) <= most]
+    least = min(near, default=(most + 1, 0))
+    return [names[least[1]]] if least[0] <= most else []
+
+
 def there_are(tried, names, there="there are"):
     """Returns the end of a message about an unknown name: a similar name, if there is one, and all names."""
     names, tried = list(names), str(tried)
-    near = difflib.get_close_matches(tried, names, 1) or [name for name in names if tried in name.split("_")][:3]
+    near = nearest(tried, names) or [name for name in names if tried in name.split("_")][:3]
     have = f"{there} {', '.join(names)}" if names else f"{there} none"
     return f": is {' or '.join(near)} meant? {have[0].upper() + have[1:]}" if near else f"; {have}"

@@ -1,14 +1,13 @@
 """Common parts of all command lines: the parser, reading of words, the picture's options, errors and exit codes."""
 
 import argparse
-import difflib
 import os
 import re
 import sys
 import warnings
 
 from . import words
-from .errors import FILE, USAGE, Error, one_line
+from .errors import FILE, USAGE, Error, nearest, one_line
 
 DPI = 150  # pixels per inch of a PNG: for the screen
 RANGE = (10, 1200)
@@ -43,7 +42,29 @@ FRAME = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"  # of words.po
 
 
 class Parser(argparse.ArgumentParser):
-    """A command line whose errors are printed in one line, without the usage before it."""
+    """A command line whose errors are printed in one line, without the usage before it. Names of options are given in
+    full, and an unknown one is reported before all else."""
+
+    def __init__(self, *given, **options):
+        super().__init__(*given, **options, allow_abbrev=False)
+
+    def parse_known_args(self, args=None, namespace=None):
+        args = sys.argv[1:] if args is None else list(args)
+        self._need_known(args)
+        return super().parse_known_args(args, namespace)
+
+    def _need_known(self, words):
+        """Ends with a message where options are unknown, unless help is asked for."""
+        words = words[: words.index("--")] if "--" in words else words
+        unknown = [word for word in words if self._is_unknown(word)]
+        if unknown and not {"-h", "--help"} & {*words}:
+            self.error("unrecognized arguments: " + " ".join(unknown))
+
+    def _is_unknown(self, word):
+        known = self._option_string_actions
+        if not re.match(r"-[^\d.]", word) or " " in word or word.partition("=")[0] in known:
+            return False
+        return word.startswith("--") or word[:2] not in known
 
     def error(self, message):
         """Ends with the message; for an unknown option adds a similar one, if there is one."""
@@ -51,10 +72,16 @@ class Parser(argparse.ArgumentParser):
 
     def meant(self, message):
         """Returns an option similar to the first one that a message does not recognize."""
-        found = re.match(r"unrecognized arguments: --?([a-z][\w-]*)", message)
-        names = [name for name in self._option_string_actions if name.startswith("--")]
-        near = found and difflib.get_close_matches("--" + found[1].replace("_", "-"), names, 1)
-        return f": is {near[0]} meant?" if near else ""
+        found = re.match(r"unrecognized arguments: --?([a-zA-Z][\w-]*)", message)
+        names = [name[2:] for name in self._option_string_actions if name.startswith("--")]
+        near = found and nearest(found[1], names)
+        return f": is --{near[0]} meant?" if near else ""
+
+
+def wrote(*names):
+    """Prints a line for each file that a command has written."""
+    for name in names:
+        print(f"wrote {name}")
 
 
 def joined(words, texts=()):

@@ -16,6 +16,13 @@ from types import ModuleType
 from typing import Any, NamedTuple
 
 
+def _public(found):
+    """Returns the object of a name, with a check of its arguments, which needs libraries."""
+    from .public import public
+
+    return public(found)
+
+
 class Part(NamedTuple):
     """The record of a part."""
 
@@ -48,7 +55,7 @@ class Part(NamedTuple):
         """Returns what a name of the public list stands for."""
         for module, names in self.names.items():
             if name in names:
-                return getattr(self.module(module), name) if module else self.module(name)
+                return _public(getattr(self.module(module), name)) if module else self.module(name)
         raise AttributeError(f"module {self.package!r} has no attribute {name!r}")
 
     def pictured(self, name: str) -> bool:
@@ -58,7 +65,7 @@ class Part(NamedTuple):
     def picture(self, name: str) -> Any:
         """Returns a picture; None of a name that is none."""
         home = next((module for module, names in self.pictures.items() if name in names), None)
-        return getattr(self.module(home), name) if home else None
+        return _public(getattr(self.module(home), name)) if home else None
 
     def face(self) -> tuple[list[str], Callable[[str], Any], Callable[[], list[str]]]:
         """Returns __all__, __getattr__ and __dir__ of the part's package."""

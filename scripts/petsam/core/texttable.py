@@ -111,7 +111,7 @@ def number_of(word, missing=()):
     if small in MISSING or small in missing or OF_MICROSOFT.fullmatch(small):
         return np.nan
     try:
-        return None if "_" in word else float(word)  # float() takes 1_000
+        return float(word) if word.isascii() and "_" not in word else None  # float() takes 1_000, and Arabic digits
     except ValueError:
         return None
 

@@ -57,7 +57,7 @@ OTHERS = {
     "Pa/m": {"Pa/m": 1.0, "MPa/mm": 1e9, "N/mm3": 1e9},
 }
 PLURAL = 4  # letters of a word at least that may have an s
-NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 
 
 def of(unit):

@@ -42,7 +42,7 @@ def number(text, form="a number", unit="1", allowed=None, bare=""):
 
 def integer(text, form="a whole number", allowed=None):
     """A whole number."""
-    if not re.fullmatch(r"[+-]?\d{1,18}", text) or not (allowed is None or allowed(int(text))):
+    if not re.fullmatch(r"[+-]?[0-9]{1,18}", text) or not (allowed is None or allowed(int(text))):
         raise WordError(text, form)
     return int(text)
 

@@ -35,7 +35,7 @@ import os
 from ..core.errors import Error
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
-from ..core.line import guarded, quietly
+from ..core.line import guarded, quietly, wrote
 from ..core.shown import applications
 from ..core.tables import read_csv
 from ..results.file import NotSaved
@@ -154,7 +154,7 @@ def save(options, figure, name, table="w"):
     if options.csv:
         looks.write(figure, options.csv, table)
     saving.write(figure, name, options.dpi)
-    print("wrote " + name)
+    wrote(name)
 
 
 def need_options(options, results):
@@ -200,7 +200,7 @@ def write_report(options, results):
     with plt.rc_context(STYLE), drawing(options, "report"):
         figures = {kind: draw(options, results, kind) for kind in kinds}
         reports.write(results[0], options.report, figures, options.dpi)
-    print("wrote " + options.report)
+    wrote(options.report)
 
 
 def read_table(file):
@@ -227,7 +227,7 @@ def write_table(options):
         raise Error(f"{options.report}: would replace the table; give another name")
     with drawing(options, "report"):
         reports.report(found, options.report)
-    print("wrote " + options.report)
+    wrote(options.report)
 
 
 def draw_all(options):

@@ -5,6 +5,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from ..core.errors import Error
+from ..core.line import wrote
 from ..core.tables import Column, csv_text
 from ..core.words import Measured
 from .style import plt
@@ -89,4 +90,4 @@ def write(figure, path, mode="w"):
     with open(path, mode, encoding="utf-8", newline="") as file:
         file.write(text if mode == "w" else text.partition("\n")[2])
     if mode == "w":
-        print("wrote " + path)
+        wrote(path)

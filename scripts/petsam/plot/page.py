@@ -145,11 +145,17 @@ def joined(parts):
     return Html("\n".join(map(text, parts)))
 
 
-def quantity(value, unit="", digits=6):
-    """A number with the prefix that suits it; the element has the value in SI units, as the file has it."""
+def largest(values):
+    """The largest magnitude of numbers, for the prefix that all of them have; 0 without any."""
+    return max((abs(value) for value in map(float, values) if math.isfinite(value)), default=0.0)
+
+
+def quantity(value, unit="", digits=6, beside=0.0):
+    """A number with the prefix that suits it, or the largest number beside which it stands; the element has the value
+    in SI units, as the file has it."""
     if not math.isfinite(value):
         return Html("&ndash;")
-    factor, shown = scale(unit, abs(value))
+    factor, shown = scale(unit, beside or abs(value))
     figures = f"{float(f'{factor * value:.{digits}g}'):.10g}".replace("-", "\N{MINUS SIGN}")
     return element("data", f"{figures} {shown}".rstrip(), value=repr(value))
 
@@ -164,15 +170,22 @@ def table(caption, heads, rows, long=()):
     that are broken into lines."""
     count = [all(isinstance(row[k], (tuple, Number)) for row in rows) for k in range(len(heads))]
     top = [element("th", broken(head), scope="col", class_="number" if of else None) for head, of in zip(heads, count)]
-    body = [element("tr", *(_cell(k, cell, k in long) for k, cell in enumerate(row))) for row in rows]
+    sizes = [_size_of([row[k] for row in rows]) for k in range(len(heads))]
+    body = [element("tr", *(_cell(k, cell, k in long, sizes[k]) for k, cell in enumerate(row))) for row in rows]
     inner = joined([element("thead", element("tr", *top)), element("tbody", Html("\n".join(body)))])
     whole = element("table", element("caption", element("span", caption)), inner)
     return element("div", whole, class_="wide", role="region", tabindex="0", aria_label=caption)
 
 
-def _cell(column, cell, long):
+def _size_of(cells):
+    """The largest number of a column of one unit, whose cells then have one prefix; 0 of others."""
+    numbers = [cell for cell in cells if isinstance(cell, tuple)]
+    return largest(value for value, _ in numbers) if len({unit for _, unit in numbers}) == 1 else 0.0
+
+
+def _cell(column, cell, long, size):
     if isinstance(cell, tuple):
-        return element("td", quantity(*cell), class_="number")
+        return element("td", quantity(*cell, beside=size), class_="number")
     if isinstance(cell, Number):
         return element("td", cell, class_="number")
     if column == 0:

@@ -183,7 +183,7 @@ def _version(results):
 
 def _size(results):
     size = [len(axis) * float(axis[1] - axis[0]) for axis in (results.x, results.y) if axis.size > 1]
-    return page.Html(" x ".join(page.quantity(one, "m") for one in size))
+    return page.Html(" x ".join(page.quantity(one, "m", beside=max(size)) for one in size))
 
 
 def _citation(results):

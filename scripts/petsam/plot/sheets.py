@@ -116,15 +116,15 @@ def relative(value, unit, error, cause=""):
     """An error relative to a number: in percent, in its unit, and what it comes from."""
     if not math.isfinite(error):
         return page.Html("&plusmn; unknown")
-    size = page.quantity(abs(value) * error, unit, 2)
+    size = page.quantity(abs(value) * error, unit, 2, abs(value))
     return page.Html(f"&plusmn; {percent(error)} (&plusmn; {size}){page.text(cause and f', by the {cause}')}")
 
 
-def absolute(size, unit, cause=""):
-    """An error in the unit of its number, and what it comes from; nothing where it is 0 or unknown."""
+def absolute(size, unit, value, cause=""):
+    """An error with the prefix of its number, and what it comes from; nothing where it is 0 or unknown."""
     if not size > 0.0:
         return ""
-    return page.Html(f"&plusmn; {page.quantity(size, unit, 2)}{page.text(cause and f', by the {cause}')}")
+    return page.Html(f"&plusmn; {page.quantity(size, unit, 2, abs(value))}{page.text(cause and f', by the {cause}')}")
 
 
 def estimate(one):
@@ -150,7 +150,7 @@ def _error(results, name, row, of):
         for column, cause in ((f"{name}_error", ""), (BY_STEP.get(name), "load step"))
         if column in results.history
     ]
-    return next(filter(None, (absolute(size, unit, cause) for size, cause in sizes)), "")
+    return next(filter(None, (absolute(size, unit, value, cause) for size, cause in sizes)), "")
 
 
 def _beside(results, name, ends):
@@ -164,7 +164,9 @@ def _meaning(results, name, row):
     places = [name + end for end in PLACE if name + end in results.history] if results.program != "petsam" else []
     if not places:
         return text
-    where = ", ".join(page.quantity(float(results.history[one][row]), results.units[one]) for one in places)
+    values = [float(results.history[one][row]) for one in places]
+    size = page.largest(values)
+    where = ", ".join(page.quantity(value, results.units[one], beside=size) for one, value in zip(places, values))
     axes = ", ".join(one[-1] for one in places)
     return page.Html(f"{page.text(text)}{' ' if text else ''}at {axes} = {where}")
 
@@ -343,9 +345,9 @@ def life(results):
     return page.section("Life", page.table(_rest(count, "computed cycle"), ("cycles before", *names), rows))
 
 
-def beside(value, unit, size):
-    """A number with its error in the same unit."""
-    shown = [page.quantity(value, unit), " \N{PLUS-MINUS SIGN} ", page.quantity(size, unit, 2)]
+def beside(value, unit, size, largest):
+    """A number with its error, both with the prefix of the column's largest number."""
+    shown = [page.quantity(value, unit, 6, largest), " \N{PLUS-MINUS SIGN} ", page.quantity(size, unit, 2, largest)]
     return page.Html("".join(page.text(one) for one in shown))
 
 
@@ -359,7 +361,7 @@ def _case(study, name, case):
     error = next((one for one in (f"{own}_error", BY_STEP.get(own)) if one in study.results), None)
     if name in study.inputs or error is None:
         return value, unit
-    return beside(value, unit, float(study.results[error][case]))
+    return beside(value, unit, float(study.results[error][case]), page.largest(values))
 
 
 def _columns(study):

@@ -14,6 +14,7 @@ from matplotlib.ticker import LogFormatterMathtext, MaxNLocator  # noqa: E402
 from PIL import Image  # noqa: E402  (comes with matplotlib)
 
 from ..core.errors import Error  # noqa: E402
+from ..core.line import wrote  # noqa: E402
 from .saving import DPI, write  # noqa: E402
 from .units import plain  # noqa: E402
 
@@ -299,7 +300,7 @@ def save(figure, directory, name):
     path = os.path.join(directory, name)
     write(figure, path)
     reduce(path)
-    print("wrote " + path)
+    wrote(path)
 
 
 def fewer(image):

@@ -385,6 +385,7 @@ PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, const SamArguments *argu
   place   = SamArgumentsFindPlace(arguments, name);
   PetscCheck(!SamOptionsIsKnown(name, &with), comm, SAM_ERR_USER, "%s%s: has no effect %s%s: remove it", place, first,
              with ? "without " : "with the other options given", with ? with : "");
-  PetscCheck(!nearest, comm, SAM_ERR_USER, "%s%s: unknown option: is -%s meant?", place, first, nearest);
+  PetscCheck(!nearest, comm, SAM_ERR_USER, "%s%s: unknown option: is -%s%s meant?", place, first, nearest,
+             SamOptionsForm(name));
   SETERRQ(comm, SAM_ERR_USER, "%s%s: unknown option, or one that has no effect with the others given", place, first);
 }

@@ -18,23 +18,23 @@ static PetscInt knowns = 0;
 /* Options that PETSc reads; their names are suggested, too */
 static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
 
-/* Options that have another name since version 1.0.0 */
-static const char *const renamed[][2] = {{"plastic_depth", "yield_depth"},
+/* Options that have another name since version 1.0.0, and the form of the value where it is another one, too */
+static const char *const renamed[][3] = {{"plastic_depth", "yield_depth"},
                                          {"plastic_layers", "yield_layers"},
                                          {"plastic_first", "yield_first"},
                                          {"plastic_rtol", "yield_rtol"},
                                          {"body1_layer_stress", "body1_initial_stress"},
                                          {"body2_layer_stress", "body2_initial_stress"},
-                                         {"body1_hardening_modulus", "body1_hardening"},
-                                         {"body1_voce_stress", "body1_hardening"},
-                                         {"body1_voce_rate", "body1_hardening"},
-                                         {"body1_swift_strain", "body1_hardening"},
-                                         {"body1_swift_exponent", "body1_hardening"},
-                                         {"body2_hardening_modulus", "body2_hardening"},
-                                         {"body2_voce_stress", "body2_hardening"},
-                                         {"body2_voce_rate", "body2_hardening"},
-                                         {"body2_swift_strain", "body2_hardening"},
-                                         {"body2_swift_exponent", "body2_hardening"}};
+                                         {"body1_hardening_modulus", "body1_hardening", " linear:H"},
+                                         {"body1_voce_stress", "body1_hardening", " voce:Q,B"},
+                                         {"body1_voce_rate", "body1_hardening", " voce:Q,B"},
+                                         {"body1_swift_strain", "body1_hardening", " swift:E0,N"},
+                                         {"body1_swift_exponent", "body1_hardening", " swift:E0,N"},
+                                         {"body2_hardening_modulus", "body2_hardening", " linear:H"},
+                                         {"body2_voce_stress", "body2_hardening", " voce:Q,B"},
+                                         {"body2_voce_rate", "body2_hardening", " voce:Q,B"},
+                                         {"body2_swift_strain", "body2_hardening", " swift:E0,N"},
+                                         {"body2_swift_exponent", "body2_hardening", " swift:E0,N"}};
 
 /* PETSc ignores the case of letters in names; a dash within a name is a likely slip. */
 static char Plain(char c)
@@ -151,6 +151,13 @@ const char *SamOptionsNearest(const char tried[])
   return SamNearestName(tried, count, names);
 }
 
+const char *SamOptionsForm(const char tried[])
+{
+  for (size_t k = 0; k < sizeof(renamed) / sizeof(renamed[0]); k++)
+    if (!strcasecmp(tried, renamed[k][0]) && renamed[k][2]) return renamed[k][2];
+  return "";
+}
+
 /*
   Finds an unused option on the command line that may be a misspelling of this name; if there is none, one of any option
   that has been read, whose name then replaces it.
@@ -185,8 +192,8 @@ PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const 
   if (given) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(option, sizeof(option), "%.*s%.*s", LENGTH / 2, prefix, (int)strcspn(name, " "), name);
   PetscCall(FindMisspelled(option, meant, sizeof(meant)));
-  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s: unknown option: is -%s meant? -%s%s is missing: %s", meant,
-             option, prefix, name, text);
+  PetscCheck(!meant[0], from->comm, SAM_ERR_USER, "-%s: unknown option: is -%s%s meant? -%s%s is missing: %s", meant,
+             option, SamOptionsForm(meant), prefix, name, text);
   SETERRQ(from->comm, SAM_ERR_USER, "-%s%s is missing: %s", prefix, name, text);
 }
 

@@ -5,12 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* SamHardeningKind - its word, an example, and the constants in their order: name, SI unit (NULL: none), and range */
+/*
+  SamHardeningKind - its word, an example, and the constants in their order: name, SI unit (NULL: none), range, and
+  maximum (0: none). Metals have B up to some thousands, E0 below 0.1 and N below 0.6. Beyond the maxima the yield
+  stress is at its end after a strain of 1e-6, does not change within one of 1, or grows faster than the strain.
+*/
 typedef struct {
   const char *word, *example;
   struct {
     const char *name, *unit;
     SamRange    range;
+    double      most;
   } constant[SAM_HARDENING_CONSTANTS]; /* without a name: it has fewer */
 } SamHardeningKind;
 
@@ -19,9 +24,9 @@ static const SamHardeningKind kinds[] = {
   [SAM_HARDENING_LINEAR] = {"linear", "linear:2GPa", {{"H", "Pa", SAM_RANGE_NONNEGATIVE}}},
   [SAM_HARDENING_VOCE]   = {"voce",
                             "voce:186MPa,222",
-                            {{"Q", "Pa", SAM_RANGE_NONNEGATIVE}, {"B", NULL, SAM_RANGE_NONNEGATIVE}}},
+                            {{"Q", "Pa", SAM_RANGE_NONNEGATIVE}, {"B", NULL, SAM_RANGE_NONNEGATIVE, 1e6}}},
   [SAM_HARDENING_SWIFT]  = {
-     "swift", "swift:1e-3,0.2", {{"E0", NULL, SAM_RANGE_POSITIVE}, {"N", NULL, SAM_RANGE_NONNEGATIVE}}}};
+     "swift", "swift:1e-3,0.2", {{"E0", NULL, SAM_RANGE_POSITIVE, 1}, {"N", NULL, SAM_RANGE_NONNEGATIVE, 1}}}};
 
 /* Returns the kind whose word is the first `length` characters of a text; NULL: none. */
 static const SamHardeningKind *FindKind(const char text[], size_t length)
@@ -40,6 +45,14 @@ static PetscInt CountOf(const SamHardeningKind *kind)
   return count;
 }
 
+/* Returns true if a value is one that a constant of a kind may have. */
+static PetscBool IsGood(const SamHardeningKind *kind, PetscInt c, double value)
+{
+  const double most = kind->constant[c].most;
+
+  return SamRangeHas(kind->constant[c].range, value) && (most == 0 || value <= most) ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* Reads the constants behind the word; returns true if they are right, or writes why a number is none. */
 static PetscBool ReadConstants(const SamHardeningKind *kind, const char text[], double value[], char why[], size_t size)
 {
@@ -50,7 +63,7 @@ static PetscBool ReadConstants(const SamHardeningKind *kind, const char text[], 
     char number[SAM_HARDENING_TEXT];
 
     if (*text != (c ? ',' : ':')) return PETSC_FALSE;
-    if (!SamReadReal(unit, from, &text, &value[c], &scaled) || !SamRangeHas(kind->constant[c].range, value[c])) {
+    if (!SamReadReal(unit, from, &text, &value[c], &scaled) || !IsGood(kind, c, value[c])) {
       (void)snprintf(number, sizeof(number), "%.*s", (int)strcspn(from, ","), from);
       if (number[0]) SamExplainNumber(number, unit, why, size);
       return PETSC_FALSE;
@@ -62,16 +75,19 @@ static PetscBool ReadConstants(const SamHardeningKind *kind, const char text[], 
 /* Writes what is expected: "voce:Q,B with Q a number >= 0 (Pa), B a number >= 0, for example voce:186MPa,222". */
 static void Describe(const SamHardeningKind *kind, char text[], size_t size)
 {
-  char form[32] = "", with[128] = "";
+  char form[32] = "", with[160] = "";
 
   for (PetscInt c = 0; c < CountOf(kind); c++) {
     const char *name = kind->constant[c].name, *unit = kind->constant[c].unit;
-    size_t      used = strlen(form);
+    char        most[32] = "";
+    size_t      used     = strlen(form);
 
     (void)snprintf(form + used, sizeof(form) - used, "%c%s", c ? ',' : ':', name);
+    if (kind->constant[c].most > 0) (void)snprintf(most, sizeof(most), " and <= %g", kind->constant[c].most);
     used = strlen(with);
-    (void)snprintf(with + used, sizeof(with) - used, "%s%s %s%s%s%s", c ? ", " : " with ", name,
-                   SamRangeDescribe(kind->constant[c].range), unit ? " (" : "", unit ? unit : "", unit ? ")" : "");
+    (void)snprintf(with + used, sizeof(with) - used, "%s%s %s%s%s%s%s", c ? ", " : " with ", name,
+                   SamRangeDescribe(kind->constant[c].range), most, unit ? " (" : "", unit ? unit : "",
+                   unit ? ")" : "");
   }
   (void)snprintf(text, size, "%s%s%s, for example %s", kind->word, form, with, kind->example);
 }
@@ -80,7 +96,7 @@ PetscErrorCode SamHardeningRead(const SamOptions *from, const char option[], con
 {
   const size_t                  length        = strcspn(text, ":");
   const SamHardeningKind *const kind          = FindKind(text, length);
-  char                          expected[224] = SAM_HARDENING_FORMS ", for example linear:2GPa", why[192] = "";
+  char                          expected[256] = SAM_HARDENING_FORMS ", for example linear:2GPa", why[192] = "";
 
   PetscFunctionBegin;
   *h = (SamHardening){.type = kind ? (SamHardeningType)(kind - kinds) : SAM_HARDENING_NONE};

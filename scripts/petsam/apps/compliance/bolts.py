@@ -17,12 +17,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
+from ...core.brief import brief
 from ...core.cards import folded
 from ...core.errors import Error
 
 ORDER = 4  # Gauss points along the side of a face
 
 
+@brief
 @dataclass
 class Washer:
     """Its centre, m, the motion (6, 3 nodes) by displacements of the nodes, and the moduli (E, nu) of its elements."""
@@ -32,6 +34,7 @@ class Washer:
     moduli: set
 
 
+@brief
 @dataclass
 class Bolt:
     """Its axial stiffness, N/m, of a section N/m2, length and diameter, m, modulus, Pa; x and y (m) where its axis

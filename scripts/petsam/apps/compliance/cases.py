@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.cards import folded, number_of, trimmed
 from ...core.errors import Error, short, there_are
 from .checks import deviation
@@ -33,6 +34,7 @@ TYPES = {  # of *BOUNDARY: the directions that are held; those above 3 are rotat
 }
 
 
+@brief
 @dataclass
 class Case:
     """Returns coefficients (m, 3), m2, the part of the field that these miss, and displacements (3 nodes, 1).

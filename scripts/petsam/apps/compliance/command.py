@@ -39,7 +39,7 @@ from ...core import materials, words
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
 from ...core.hdf5 import need_own
-from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word
+from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word, wrote
 from ...core.progress import to_stderr
 from ...core.units import shown
 from ...plot.saving import write
@@ -354,8 +354,7 @@ def carry_out(options, given):
         write(pictures.compliance(found), options.picture, options.dpi)
     print(f"{options.output}: compliance of {options.mesh}")
     print("\n".join("  " + line for line in description(found) if "warning: " not in line))
-    if not options.no_picture:
-        print("wrote " + options.picture)
+    wrote(options.output, *([] if options.no_picture else [options.picture]))
     if len(found.bodies) > 1:
         return
     name = shlex.quote(options.output)

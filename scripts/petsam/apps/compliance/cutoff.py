@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error
 from ...core.progress import Progress, quiet
 from .remainder import Remainder, Side, scatter
@@ -31,6 +32,7 @@ def _ramp(t):
     return 1.0 - t**3 * (10.0 - 15.0 * t + 6.0 * t * t), -30.0 * (t * (1.0 - t)) ** 2
 
 
+@brief
 @dataclass
 class Cutoff:
     """Box in which chi is not 0: low and high ends (3) in x, y, z; and the box of the patch, from which ramps start."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.cards import folded, number_of, read_cards, trimmed
 from ...core.errors import Error, short, there_are
 from . import section, sound
@@ -14,6 +15,7 @@ from .mesh import Block, Mesh
 from .shapes import KINDS, SHAPES
 
 
+@brief
 @dataclass
 class Deck:
     """A deck's mesh, in its own units and coordinates, the load cards of its steps, *BOUNDARY before the steps, and the

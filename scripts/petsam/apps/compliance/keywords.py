@@ -3,7 +3,7 @@ others."""
 
 import difflib
 
-from ...core.errors import Error, short
+from ...core.errors import Error, nearest, short
 
 # keywords that are read, with the parameters that are understood or have no effect
 READ = {
@@ -128,7 +128,7 @@ def need_parameters(card):
     names = READ[card.name]
     for name, value in card.parameters.items():
         if names is not None and name not in names:
-            near = difflib.get_close_matches(name, names, 1)
+            near = nearest(name, names)
             cure = f"is {near[0]} meant? Correct it" if near else _cure(name)
             raise Error(f"{card.place}: {short(name)} of *{card.name} is not supported: {cure}")
         values = VALUES.get((card.name, name))

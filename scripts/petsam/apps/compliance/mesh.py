@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ...core.brief import brief
 from .shapes import FACE_RULES, KINDS, SHAPES
 
 NEIGHBOURS = 24  # number of elements that are examined for a point
@@ -16,6 +17,7 @@ NEWTON = 12  # maximum iterations for its place in an element
 INSIDE = 1e-6  # tolerance by which local coordinates may be outside
 
 
+@brief
 @dataclass
 class Block:
     """Elements of one type: numbers in the deck, nodes (n, k) by index, moduli (n), densities (n)."""
@@ -33,6 +35,7 @@ class Block:
         return SHAPES[KINDS[self.kind]]
 
 
+@brief
 @dataclass
 class Faces:
     """Element faces of one kind: elements of a block by index, the local face, and the nodes (n, k)."""
@@ -43,6 +46,7 @@ class Faces:
     nodes: np.ndarray
 
 
+@brief
 @dataclass
 class Points:
     """Gauss points of faces (n, q): coordinates, area vectors outward (weight times normal), shape functions (q, k)."""
@@ -52,6 +56,7 @@ class Points:
     values: np.ndarray
 
 
+@brief
 @dataclass
 class Mesh:
     """Nodes (n, 3), m, and blocks of elements; node sets and surfaces {name: [(element number, face from 0)]}."""

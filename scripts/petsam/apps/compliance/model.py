@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.cards import folded
 from ...core.errors import Error, short
 from ...core.frames import Frame, frame_of
@@ -43,6 +44,7 @@ BLOCK = 1 << 20
 GAUSS_MORE = 3  # Gauss points along the patch in addition to its degree, for sampling fields
 
 
+@brief
 @dataclass
 class Body:
     """A patch of a body, or of a pair: the contents of the file, or of its group for this patch."""

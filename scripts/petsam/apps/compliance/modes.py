@@ -7,6 +7,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
+from ...core.brief import brief
 from ...core.errors import Error
 from .cases import Case, Jump, rest
 from .solve import Floating
@@ -19,6 +20,7 @@ MORE = 8
 ZERO = 1e-2  # highest frequency of a rigid motion, relative to the first elastic one
 
 
+@brief
 @dataclass
 class Modes:
     """omega (n), rad/s; the modes (3 nodes, n), kg^-1/2, those at the sensors (n, sensors, 3) in the deck's directions,

@@ -6,12 +6,14 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from ...core.brief import brief
 from ...core.cards import folded
 from ...core.errors import Error
 from . import images
 from .mesh import Block, Mesh
 
 
+@brief
 @dataclass
 class Part:
     """A body: the mesh of its elements with all nodes of the model, the faces of its contact surface, and its sign: 1

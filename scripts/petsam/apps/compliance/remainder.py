@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ...core.brief import brief
 from .halfspace import Fields
 from .mesh import Mesh
 
@@ -38,6 +39,7 @@ def half_space(sides, nodes):
     return u
 
 
+@brief
 @dataclass
 class Remainder:
     """By tractions phi_j: compliance D (3 m, 3 m), m3/N; the finite elements' displacements w (3 nodes, 3 m), m by N/m;

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core.brief import brief
 from .basis import LinePatch
 from .images import FLAT
 from .shapes import KINDS, SHAPES
@@ -17,6 +18,7 @@ COLUMNS = 200  # at a time, to save memory
 TRIES = 12  # number of attempts, each with a depth smaller by a fifth
 
 
+@brief
 @dataclass
 class Grid:
     """Points x, y, z (m) and their places in the mesh."""

@@ -9,6 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...core.brief import brief
 from ...core.errors import Error
 from .layers import Body
 from .spots import conduct
@@ -16,6 +17,7 @@ from .spots import conduct
 PERIODIC = ("periodic", "plane_periodic")
 
 
+@brief
 @dataclass(frozen=True)
 class Conductance:
     """The conductance of a contact, of a pair of half-spaces or of one period.

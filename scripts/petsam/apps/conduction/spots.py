@@ -127,6 +127,15 @@ def conduct(
     ------
     Error
         If no cell conducts, a number is not positive, or the iteration does not converge.
+
+    Examples
+    --------
+    >>> import numpy as np, petsam
+    >>> x = (np.arange(64) - 31.5) * 1e-5
+    >>> spot = np.hypot(x, x[:, None]) < 2e-4  # a circle, m
+    >>> flux = petsam.conduction.conduct(spot, (1e-5, 1e-5), 2 / 50.0)  # two bodies of 50 W/(m K)
+    >>> bool(abs(flux.sum() * 1e-10 / (2 * 50.0 * 2e-4 / 1.0) - 1) < 0.02)  # 2 a lam, of Holm
+    True
     """
     cells = np.asarray(conducts, dtype=bool)
     if cells.ndim != 2 or not cells.any():

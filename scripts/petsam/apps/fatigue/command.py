@@ -22,7 +22,7 @@ import numpy as np
 from ...core import words
 from ...core.errors import Error, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, add_choice, guarded, joined, quietly, word
+from ...core.line import Parser, add_choice, guarded, joined, quietly, word, wrote
 from ...core.progress import Progress
 from ...plot import saving
 from ...plot.arguments import NAMES, POINT, numbers
@@ -195,12 +195,12 @@ def carry_out(options):
         _print_line(line)
     if options.csv:
         found.to_csv(options.csv)
-        print("wrote " + options.csv)
+        wrote(options.csv)
     if found.cycles[0].z.size > 1 and not options.no_picture:
         from . import pictures
 
         saving.write(pictures.lives(found), options.output, options.dpi)
-        print("wrote " + options.output)
+        wrote(options.output)
     _warn(found.cycles)
 
 

@@ -19,14 +19,16 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...core.errors import WrongArgument
+
 LEAST, MOST = 0.5, 1e12  # cycles
 HALVINGS = 60  # of the interval of log N: to rounding
 
 
 def _life(curve, values):
-    """Cycles N at which a curve, falling with N, has the values; ValueError of one that rises."""
+    """Cycles N at which a curve, falling with N, has the values; Error of one that rises."""
     if np.any(curve(MOST) >= curve(LEAST)):
-        raise ValueError(
+        raise WrongArgument(
             "the curve does not fall with the cycles: its exponents are negative, give them with their sign"
         )
     values = np.asarray(values, dtype=float)
@@ -60,7 +62,7 @@ def swt(values: ArrayLike, young: ArrayLike, sigma_f: float, b: float, epsilon_f
 
     Raises
     ------
-    ValueError
+    Error
         If the curve does not fall with the cycles.
     """
     return _life(lambda n: sigma_f**2 / young * (2 * n) ** (2 * b) + sigma_f * epsilon_f * (2 * n) ** (b + c), values)
@@ -89,7 +91,7 @@ def fatemi_socie(
 
     Raises
     ------
-    ValueError
+    Error
         If the curve does not fall with the cycles.
     """
     shear = young / (2.0 * (1.0 + poisson))
@@ -115,7 +117,7 @@ def basquin(high: ArrayLike, low: ArrayLike, sigma_f: float, b: float, ultimate:
 
     Raises
     ------
-    ValueError
+    Error
         If the curve does not fall with the cycles.
     """
     amplitude, mean = 0.5 * (np.asarray(high) - low), 0.5 * (np.asarray(high) + low)

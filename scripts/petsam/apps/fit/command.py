@@ -30,7 +30,7 @@ import numpy as np
 from ...core import words
 from ...core.errors import UNSETTLED, Error, Unusable, counted, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, add_choice, guarded, joined, quietly, word
+from ...core.line import Parser, add_choice, guarded, joined, quietly, word, wrote
 from ...plot.measured import read_profiles
 from . import cutting, peaks, planning, push, reading, results, scars, series
 from .results import plain
@@ -200,7 +200,7 @@ def _plan(options):
     print(found.advice())
     if options.output:
         found.to_csv(options.output + ".csv")
-        print(f"wrote {options.output}.csv")
+        wrote(options.output + ".csv")
 
 
 def _measure(options, scar):
@@ -248,25 +248,25 @@ def _peaks(options, records):
 
 
 def _write(options, found, one, worn, scar):
-    name, wrote = options.output, []
+    name, written = options.output, []
     with open(name + ".json", "w", encoding="utf-8") as file:
         json.dump({**results.as_json(found, worn, options.body), **scar}, file, indent=1)
         file.write("\n")
-    wrote.append(name + ".json")
+    written.append(name + ".json")
     found.to_csv(name + "-cycles.csv")
-    wrote.append(name + "-cycles.csv")
+    written.append(name + "-cycles.csv")
     if found.state == "changes":
         results.write_friction(found, name + "-friction.csv")
-        wrote.append(name + "-friction.csv")
+        written.append(name + "-friction.csv")
     if found.identifiable:
-        wrote += results.write_options(found, one, options.shape, options.width, name, worn, options.body)
+        written += results.write_options(found, one, options.shape, options.width, name, worn, options.body)
     if not options.no_picture:
         from ...plot import saving
         from . import pictures
 
         saving.write(pictures.fit(found), name + ".png", options.dpi)
-        wrote.append(name + ".png")
-    print("wrote " + ", ".join(wrote))
+        written.append(name + ".png")
+    wrote(*written)
 
 
 def _scar(options):
@@ -292,7 +292,7 @@ def _scar(options):
         from . import pictures
 
         saving.write(pictures.scar_fit(found), options.output + "-scar.png", options.dpi)
-        print(f"wrote {options.output}-scar.png")
+        wrote(options.output + "-scar.png")
     numbers = {
         f"wear_coefficient{options.body}": plain(first.coefficient),
         f"wear_coefficient{options.body}_sd": plain(first.coefficient_sd),
@@ -321,7 +321,7 @@ def carry_out(options):
     if options.output:
         with open(options.output + ".json", "w", encoding="utf-8") as file:
             json.dump({**worn, "units": "1/Pa"}, file, indent=1)
-        print(f"wrote {options.output}.json")
+        wrote(options.output + ".json")
     return code
 
 

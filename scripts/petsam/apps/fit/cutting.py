@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error, counted, library
 from .loop import Loop, noise_of
 from .reading import Record
@@ -19,6 +20,7 @@ TURN = 0.015  # of a cycle: points so near to a turn are left out, whose branch 
 FEWEST = 12  # points of a cycle
 
 
+@brief
 @dataclass(frozen=True)
 class Cycles:
     """The closed cycles of a record.

@@ -8,10 +8,13 @@ from typing import Optional
 
 import numpy as np
 
+from ...core.brief import brief
+
 FLOOR = 2e-4  # least noise, relative to the range: that of a record of 12 bits
 DEAF = 0.3  # of what is known beforehand: the least deviation in which it is measured how far loops pull it
 
 
+@brief
 @dataclass(frozen=True)
 class Loop:
     """A closed loop of one cycle, in the order of time.
@@ -59,6 +62,7 @@ def noise_of(values: np.ndarray) -> float:
     return float(max(np.median(second) / (0.6745 * np.sqrt(6.0)), FLOOR * np.ptp(values)))
 
 
+@brief
 @dataclass(frozen=True)
 class Fit:
     """Friction and rig as found from loops.

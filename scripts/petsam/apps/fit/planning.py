@@ -9,6 +9,7 @@ from typing import Optional
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error
 from ...core.tables import Column, Tabled
 from .backbone import Backbone, force_of
@@ -22,6 +23,7 @@ UNKNOWN = ((), ("loss",), ("lean",), ("scale",))  # what is found besides fricti
 NOISE = 0.005  # of amplitude, of displacement and force
 
 
+@brief
 @dataclass(frozen=True)
 class Plan(Tabled):
     """Relative standard deviations of the friction by loop.

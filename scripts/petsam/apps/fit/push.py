@@ -17,6 +17,7 @@ from ...closed.loop import first_loading
 from ...closed.materials import Bodies, effective_radius
 from ...closed.sphere import cattaneo_displacement, hertz
 from ...core import materials, words
+from ...core.brief import brief
 from ...core.errors import Error, Unusable, library, short
 from ...core.files import text_of
 
@@ -30,6 +31,7 @@ BALL = {
 LOADS = ("load_", "disp_", "rot_", "creep_", "history", "steps", "friction", "wear_", "output", "checkpoint", "restart")
 
 
+@brief
 @dataclass(frozen=True)
 class Push:
     """The table of a push.

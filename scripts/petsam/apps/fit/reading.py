@@ -12,6 +12,7 @@ from typing import Optional, Union
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error, counted, short
 from ...core.texttable import THOUSANDS, Form, Text, are_units, head_words, number_of
 from . import heads
@@ -21,6 +22,7 @@ CUT = re.compile(r"[+-]?0\d+")  # no number begins so, but decimals do
 PEAK = re.compile(r"amplitude|\*|max|peak", re.IGNORECASE)
 
 
+@brief
 @dataclass(frozen=True)
 class Record:
     """The contents of a file, in SI units; lost points are NaN.

@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 
 from ...contact import gradient
 from ...core import least
+from ...core.brief import brief
 from ...core.errors import Error, Unusable, counted, there_are
 from .loops import LARGE, MISFIT, VAGUE
 from .problem import TRIALS
@@ -43,6 +44,7 @@ SETTLED = 1e-4  # relative change of the sum of squares at which a fit ends: a s
 CLOSE = 1e-6  # and that of the parameters
 
 
+@brief
 @dataclass(frozen=True)
 class ContactFit:
     """Parameters of a contact as found from measured numbers.

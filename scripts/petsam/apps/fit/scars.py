@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import least
+from ...core.brief import brief
 from ...core.errors import Error
 from .push import options_of
 
@@ -41,6 +42,7 @@ RISES = 5.0  # times the noise of its ends by which a profile lies above the lin
 SIDES = 3  # points beyond the scar, on each side, that hold the height of the unworn surface
 
 
+@brief
 @dataclass(frozen=True)
 class Family:
     """Scars of a body over the cycles.
@@ -86,6 +88,7 @@ class Family:
         return np.interp(x, self.x, line, left=0.0, right=0.0)
 
 
+@brief
 @dataclass(frozen=True)
 class Scar:
     """The fit of a profile.
@@ -391,6 +394,7 @@ def fit_profile(
     return scar, one
 
 
+@brief
 @dataclass(frozen=True)
 class Split:
     """How the wear is divided between the bodies, from the shape of one body's scar.

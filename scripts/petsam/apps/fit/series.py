@@ -8,6 +8,7 @@ from typing import Any, Optional
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Unusable
 from ...core.tables import Column, Tabled
 from .cutting import Cycles
@@ -21,6 +22,7 @@ SCATTER = 5.0  # scatter of the friction over what is expected, from which on it
 SCATTER_PARTIAL = 2.0  # and where it does not, whose cycles hold less
 
 
+@brief
 @dataclass(frozen=True)
 class Result(Tabled):
     """Friction and rig as found from the loops of one or several files.
@@ -127,6 +129,24 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
     Returns
     -------
     Result
+
+    Examples
+    --------
+    >>> import numpy as np, petsam
+    >>> steel = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
+    >>> push = petsam.fit.ball(10.0, 5e-3, steel)
+
+    Three cycles of a ball with a friction of 0.5 on a stiff rig, in partial slip:
+
+    >>> angle = np.linspace(0.0, 6.0 * np.pi, 601)
+    >>> d = 0.45 * push.displacement[-1] * np.cos(angle)
+    >>> half = lambda way: 2.0 * np.interp(0.5 * way, 0.5 * push.displacement, 0.5 * push.force)
+    >>> top = 0.5 * half(2.0 * d.max())
+    >>> force = np.where(np.sin(angle) > 0.0, top - half(d.max() - d), half(d - d.min()) - top)
+    >>> loops = petsam.fit.cycles(petsam.fit.Record("loops", d, force), normal=10.0)
+    >>> found = petsam.fit.analyse([loops], [push])
+    >>> round(float(found.friction), 2)
+    0.5
     """
     need_parameters(free, fixed)
     for name, given, kind, made in (("files", files, Cycles, "cycles()"), ("pushes", pushes, Push, "of_shape()")):

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Optional, Union
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error
 from ...results import cycles
 from ...results.fields import OPEN, SLIP
@@ -25,6 +26,7 @@ EQUAL = 1e-6  # of a period: intervals whose lengths differ by less are equal
 LEAST = 4  # steps of a cycle at least
 
 
+@brief
 @dataclass(frozen=True)
 class Work:
     """The frictional work of a cycle.

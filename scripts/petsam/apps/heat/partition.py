@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import materials
+from ...core.brief import brief
 from ...core.errors import Error
 from ...core.tables import Column, Tabled
 from .kernels import Conductor, applied
@@ -77,6 +78,7 @@ class Body:
         return cls(found.conductivity, found.density * found.specific_heat, bulk)
 
 
+@brief
 @dataclass(frozen=True)
 class Temperatures(Tabled):
     """The temperatures of a contact over a cycle of heat.

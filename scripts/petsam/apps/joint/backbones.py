@@ -20,6 +20,7 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...core.brief import brief
 from ...core.errors import Unusable
 from ...core.tables import Column
 from .arguments import integer, positive
@@ -51,6 +52,7 @@ COLUMNS = {
 }
 
 
+@brief
 @dataclass
 class Backbone(Numbers):
     """Numbers over amplitude, each an array: alpha, amplitude, frequency, damping ... (COLUMNS).

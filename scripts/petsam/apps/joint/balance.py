@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import broyden
+from ...core.brief import brief
 from ...core.errors import Unusable
 from ...core.tables import Column
 from .arguments import integer, modal, positive
@@ -251,6 +252,7 @@ RESPONSE = {
 }
 
 
+@brief
 @dataclass
 class Response(Numbers):
     """Numbers over frequency, each an array: frequency, amplitude, phase, ... (RESPONSE).

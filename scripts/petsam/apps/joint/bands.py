@@ -16,6 +16,7 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...core.brief import brief
 from ...core.errors import Unusable, short
 from ...core.shown import Shown
 from ...core.tables import Column, Tabled
@@ -37,6 +38,7 @@ SIDES = "lower", "higher"  # of a parameter of the scatter
 NUMBERS = ("frequency", "damping")
 
 
+@brief
 @dataclass
 class Band(Tabled, Shown):
     """Backbones of a joint.

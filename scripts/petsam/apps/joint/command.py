@@ -50,12 +50,7 @@ from .vibrations import of_backbone, of_band, of_response, of_wear
 
 
 def _parser():
-    one = Parser(
-        prog="petsam-joint",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
+    one = Parser(prog="petsam-joint", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     one.add_argument("action", choices=list(ACTIONS), help="what is computed")
     one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair")
     one.add_argument(

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import materials
+from ...core.brief import brief
 from ...core.errors import Error, Unusable, short
 from ..conduction import Body, of
 from ..surface import read_values
@@ -158,6 +159,7 @@ class Conductors(NamedTuple):
         return ", ".join(parts)
 
 
+@brief
 @dataclass(frozen=True)
 class Conducting:
     """The conductors in an interface, as users give them.

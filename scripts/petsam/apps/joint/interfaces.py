@@ -138,6 +138,16 @@ def interface(
     **bodies
         Options of the bodies, body1="steel" (petsam.materials), or body1_young (Pa, or "210GPa"), body1_poisson,
         body2_young, ..., and of the solution.
+
+    Examples
+    --------
+    >>> import numpy as np, petsam
+    >>> x = np.arange(16) / 16
+    >>> waves = 1e-7 * (2 - np.cos(2 * np.pi * x) - np.cos(2 * np.pi * x[:, None]))  # m
+    >>> found = petsam.joint.interface(
+    ...     waves, [20e6, 40e6], spacing=1e-6, periodic=True, normal_only=True, body1="steel", body2="steel")
+    >>> [column.name for column in found.table()][:3]
+    ['pressure', 'closure', 'separation']
     """
     conductors = conducting.conductors()
     if isinstance(surface, (str, os.PathLike)):

@@ -79,16 +79,16 @@ def _cells(column, errors, limits):
     """A cell for each row: a text, a number with its error beside it, or the limit below which it is."""
     if not column.unit:
         return [page.text(value) for value in column.values]
-    cells = []
+    cells, size = [], page.largest(column.values)
     for k, value in enumerate(np.asarray(column.values, dtype=float)):
         if limits is not None and value < limits[k]:
-            cells.append(page.Html(f"&lt; {page.quantity(float(limits[k]), column.unit, 2)}"))
+            cells.append(page.Html(f"&lt; {page.quantity(float(limits[k]), column.unit, 2, size)}"))
             continue
-        number = page.quantity(float(value), column.unit, DIGITS.get(column.name.split("_")[0], 6))
+        number = page.quantity(float(value), column.unit, DIGITS.get(column.name.split("_")[0], 6), size)
         sizes = [
             sheets.percent(float(one.values[k]))
             if one.text.startswith(PART)
-            else page.quantity(float(one.values[k]), column.unit, 2)
+            else page.quantity(float(one.values[k]), column.unit, 2, size)
             for one in errors
         ]
         cells.append(page.Html("".join([number, *(f" &plusmn; {size}" for size in sizes)])))

@@ -4,6 +4,7 @@ import os
 from dataclasses import dataclass
 from typing import Union
 
+from ...core.brief import brief
 from ...core.errors import Error
 from ...core.shown import Shown
 from ...core.tables import Column, Tabled, read_csv
@@ -27,6 +28,7 @@ KINDS = {
 ERRORS = {f"{name}_error": ("1", text) for name, text in OF_FORMULA.items()}
 
 
+@brief
 @dataclass
 class Saved(Tabled, Shown):
     """A table from a CSV file of a joint.

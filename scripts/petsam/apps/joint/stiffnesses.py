@@ -3,6 +3,7 @@
 from ...contact.errors import AdviceWarning
 from ...core.errors import Unusable
 from ...core.files import need_replaceable
+from ...core.line import wrote
 from ...core.progress import Progress
 from ...plot.saving import write
 from . import PART
@@ -72,3 +73,4 @@ def _write_stiffness(args, result):
     }
     for ending in _stiffness_files(args):
         ways[ending](args.output + ending)
+        wrote(args.output + ending)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.linalg import norm
 
+from ...core.brief import brief
 from ...core.errors import Unusable
 from ...results.file import SLIP
 from .arguments import integer
@@ -24,6 +25,7 @@ class BackboneWarning(UserWarning):
     """Numbers of a backbone that the grid, the patch or the method does not give."""
 
 
+@brief
 @dataclass
 class Cycle:
     """One cycle.

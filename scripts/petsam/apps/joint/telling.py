@@ -4,7 +4,7 @@ import contextlib
 import sys
 import warnings
 
-from ...core.line import joined
+from ...core.line import joined, wrote
 
 OF_FILES = ("output", "report", "dpi")  # options of the written files
 
@@ -23,6 +23,7 @@ def write_page(args, result):
         from ...plot.reports import report
 
         report(result, args.report, _given(args, joined(sys.argv[1:])))
+        wrote(args.report)
 
 
 def _given(args, given):

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...core.errors import Unusable, short
 from ...core.files import need_regular, need_replaceable
+from ...core.line import wrote
 from ...core.progress import Progress
 from ...plot.saving import write
 from . import PART
@@ -69,6 +70,7 @@ def _write(args, result, picture):
     if args.output:
         result.to_csv(args.output + ".csv")
         write(PART.picture(picture)(result), args.output + ".png", args.dpi)
+        wrote(args.output + ".csv", args.output + ".png")
 
 
 def of_backbone(args):
@@ -90,6 +92,7 @@ def of_backbone(args):
     _write(args, result, "backbone")
     if args.output:
         write(PART.picture("slip_zones")(result, bolts=pair.places), args.output + "-contact.png", args.dpi)
+        wrote(args.output + "-contact.png")
     write_page(args, result)
     return 0
 

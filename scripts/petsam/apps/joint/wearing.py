@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...contact.errors import ContactError
+from ...core.brief import brief
 from ...core.errors import Unusable
 from ...core.tables import Column, split
 from .arguments import array
@@ -40,6 +41,7 @@ WEAR = {
 }
 
 
+@brief
 @dataclass
 class Wear(Numbers):
     """Numbers over the cycles of a vibration, each an array: cycles, frequency, damping, ... (WEAR).

@@ -32,7 +32,7 @@ from ...core import words
 from ...core.boxes import BOX
 from ...core.errors import Error, counted, short
 from ...core.files import need_replaceable, same
-from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word
+from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word, wrote
 from ...core.units import shown
 from .resultants import ROUNDING
 
@@ -178,13 +178,14 @@ def carry_out(options):
         found.write(output)
         print(f"{output}: load history of {short(found.name)}, {options.file}")
         print("\n".join("  " + line for line in description(found)))
+        wrote(output)
         if not options.no_picture:
             write(pictures.loads(found), _picture(output), options.dpi)
-            print("wrote " + _picture(output))
+            wrote(_picture(output))
         if options.compare:
             with open_results(options.compare) as results:
                 write(pictures.loads_beside(found, results), _beside(output), options.dpi)
-            print("wrote " + _beside(output))
+            wrote(_beside(output))
 
 
 def _run():

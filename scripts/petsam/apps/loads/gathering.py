@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...core import units
+from ...core.brief import brief
 from ...core.cards import folded
 from ...core.errors import Error, Unusable, counted, short
 from ..compliance import nodes_of
@@ -37,6 +38,7 @@ class Given:
         return size
 
 
+@brief
 @dataclass
 class Rows:
     """Rows of a file in their order: columns of numbers, in the file's units, and the number of each line."""

@@ -262,6 +262,16 @@ def history(
     ------
     petsam.Error
         If the patch has no nodes, or its forces press out of body 2.
+
+    Examples
+    --------
+    >>> import numpy as np, petsam
+    >>> x = np.array([[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [1e-3, 1e-3, 0.0]])  # m
+    >>> force = np.array([0.5, 1.0])[:, None, None] * np.tile([2.0, 0.0, 25.0], (1, 4, 1))  # N
+    >>> forces = petsam.loads.Forces("table", np.array([0.0, 1.0]), np.arange(4), x, force)
+    >>> found = petsam.loads.history(forces, frame=((5e-4, 5e-4, 0.0), (1, 0, 0), (0, 0, 1)))
+    >>> [float(load) for load in found.loads[-1, :3]]
+    [100.0, 8.0, 0.0]
     """
     if on not in BODIES:
         raise Unusable(f"--on {short(str(on))}: use {', '.join(BODIES)}")

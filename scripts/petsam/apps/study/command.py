@@ -33,7 +33,7 @@ import sys
 
 from ...core import words
 from ...core.errors import Error, counted
-from ...core.line import PERIOD, Parser, guarded, joined, word
+from ...core.line import PERIOD, Parser, guarded, joined, word, wrote
 from . import slurm, tables
 from .jobs import Jobs, check_files
 from .progress import Progress, standing, summary
@@ -130,8 +130,8 @@ def run(options, jobs, cases, waiting):
 def write(options, jobs, cases):
     """Writes the tables; raises Error if the requested cycles do not exist."""
     names, complaint = jobs.write(cases)
-    for name in names if not options.quiet else ():
-        print("wrote " + name)
+    if not options.quiet:
+        wrote(*names)
     if complaint:
         raise Error(complaint)
 

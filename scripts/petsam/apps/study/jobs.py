@@ -238,6 +238,15 @@ def run(
         For a table that cannot be understood, files that cannot be read or written, and cycles that do not exist.
     KeyboardInterrupt
         At Ctrl-C, after the cases have been ended in order; the same call resumes.
+
+    Examples
+    --------
+    >>> import petsam
+    >>> ball = dict(gap_type="sphere", gap_radius1=5e-3, gap_radius2="inf", body1_young=210e9, body1_poisson=0.3)
+    >>> ball.update(body2_young=210e9, body2_poisson=0.3, grid_n=16, grid_size=3e-4, friction=0.3, load_n=10.0)
+    >>> found = petsam.study.run({"load_tx": [1.0, 2.0]}, options=ball)
+    >>> found.codes.tolist()
+    [0, 0]
     """
     if isinstance(table, Mapping):
         folder = os.path.abspath(directory or "study")

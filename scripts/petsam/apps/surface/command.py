@@ -27,7 +27,7 @@ from ...core import words
 from ...core.errors import Error, short
 from ...core.files import need_replaceable, same
 from ...core.hdf5 import need_own
-from ...core.line import Parser, add_choice, guarded, joined, quietly, word
+from ...core.line import Parser, add_choice, guarded, joined, quietly, word, wrote
 from ...core.roughness import self_affine
 from ...core.units import shown
 from ...plot.saving import write
@@ -350,8 +350,7 @@ def carry_out(options, words):
         write(surface(one), options.picture, options.dpi)
     print(f"{options.output}: /{writing.dataset(one)}, {QUANTITIES[one.quantity]}, m")
     print("\n".join("  " + line for line in description(one)))
-    if not options.no_picture:
-        print("wrote " + options.picture)
+    wrote(options.output, *([] if options.no_picture else [options.picture]))
     gap, rough = petsam_options(one, options.output)
     print(f"options for petsam:\n  {gap}\nor, added to another gap:\n  {rough}")
 

@@ -364,6 +364,14 @@ def read(
     ------
     petsam.Error
         For a file that cannot be read, lacks something, or contradicts what is given; with the cure.
+
+    Examples
+    --------
+    >>> import numpy as np, petsam
+    >>> np.save("rough.npy", np.random.default_rng(1).normal(size=(64, 64)))
+    >>> found = petsam.surface.read("rough.npy", units="um", size="1mm", body=2)
+    >>> found.level("tilt").n
+    (64, 64)
     """
     path = os.fspath(path)
     given = Given(units, size, pixel, body, **more).in_metres()

@@ -58,6 +58,15 @@ class Axle:
     rolling : str
         Pitch rate of positions without one: free, that without torque about the axle, at which the wheelset is neither
         driven nor braked; or radii, the speed over the mean of the rolling radii.
+
+    Examples
+    --------
+    >>> from petsam import wheel
+    >>> rail = wheel.Track(wheel.uic60(), cant=0.025)
+    >>> with wheel.Axle(rail, wheel.Wheelset(wheel.s1002(), 0.46), settings=wheel.Settings(cell=1e-3)) as axle:
+    ...     found = axle.solve(wheel.Position(y=0.0, speed=20.0), wheel.Load(100e3))
+    >>> round(1e-3 * (found.right.force[2] + found.left.force[2]))  # kN
+    100
     """
 
     def __init__(

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...contact.errors import ContactError
 from ...core import processes, tables
+from ...core.brief import brief
 from ...core.errors import Error, NoEquilibrium
 from .axle import Axle
 from .contacts import Settings
@@ -27,6 +28,7 @@ BESIDE = 3e-4  # m between positions of a fine sweep
 CHUNK, PARTS = 20, 50  # positions that one process solves one after the other, at least, and parts, at most
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Vehicle:
     """The data that all positions share: rails, wheels, friction.
@@ -72,6 +74,7 @@ class Found:
     notes: tuple[str, ...] = ()
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Batch(tables.Tabled):
     """The numbers of many positions: the states, and for each a Found with the columns of its Equilibrium."""

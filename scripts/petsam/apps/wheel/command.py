@@ -42,7 +42,7 @@ from ...core import tables
 from ...core.environment import cores as all_cores
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, add_choice, guarded, joined
+from ...core.line import Parser, add_choice, guarded, joined, wrote
 from ...core.progress import Progress
 from .inputs import need_ready, states_of, vehicle_of
 from .options import JUMPS, add_positions, add_profiles, check_positions, check_profiles, reworded, unlike, warn
@@ -55,7 +55,6 @@ WIDE, POINTS = 8e-3, 81  # m and number of displacements of the rigid geometry
 def _parser():
     one = Parser(
         prog="petsam-wheel", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )  # fmt: skip
     add_profiles(one)
     add_positions(one)
@@ -119,22 +118,21 @@ def carry_out(options):
         found = profiles.solve_all(vehicle, states, cores, Progress("position", every=EVERY))
     table = found.table()
     print_all(options, found, table)
-    wrote = []
+    written = []
     if options.output:
         tables.write_csv(options.output + ".csv", table)
-        wrote.append(".csv")
+        written.append(".csv")
         if ".png" in endings:
             _picture(options, vehicle, found)
-            wrote.append(".png")
+            written.append(".png")
     if options.wear is not None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", profiles.ProfileWarning)  # of the vehicle: printed above
             try:
-                wrote += _wear(options, vehicle, states, cores, endings)
+                written += _wear(options, vehicle, states, cores, endings)
             except Error as error:
                 raise reworded(error) from error
-    if wrote:
-        print("wrote " + ", ".join(options.output + ending for ending in wrote))
+    wrote(*(options.output + ending for ending in written))
     return 0
 
 

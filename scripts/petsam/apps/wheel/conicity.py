@@ -13,6 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...core import tables
+from ...core.brief import brief
 from ...core.errors import Error
 from .axle import Axle
 from .pose import Position
@@ -21,6 +22,7 @@ DISTANCE = 1.5  # m: e, of the contact points by the standard
 POINTS = 2000  # of the integral over half a wave
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Geometry(tables.Tabled):
     """Contact of rigid wheels over the lateral displacement y (n,), m, growing: roll (rad) and height z (m) of the

@@ -10,6 +10,7 @@ import numpy as np
 from ...contact.errors import AdviceWarning, EdgeContactWarning
 from ...contact.inprocess import Contact
 from ...core import materials
+from ...core.brief import brief
 from ...core.errors import Error, Unusable
 
 MULTIPLE = 4  # numbers of cells are multiples of it, so that few grids occur
@@ -152,6 +153,7 @@ class Contacts:
             self._kept.popitem()[1].close()
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Solution:
     """A solution on a patch: normal force n (N); T_x and T_s on the wheel's half-space, (2,), N, and the moment M_z

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...contact.shared import library
+from ...core import arrays
 from ...core.errors import Error
 from ...core.files import need_regular
 
@@ -252,8 +253,8 @@ class CreepTable:
 
 def _rows(*numbers):
     """Contacts as the header has them, (m, 9), from numbers or arrays of one shape, and that shape."""
-    given = np.broadcast_arrays(*numbers)
-    rows = np.stack([np.asarray(one, float).ravel() for one in given], -1)
+    given = arrays.alike("creep forces", *numbers)
+    rows = np.stack([one.ravel() for one in given], -1)
     return np.ascontiguousarray(rows), given[0].shape
 
 

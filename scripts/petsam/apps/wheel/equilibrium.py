@@ -9,6 +9,7 @@ from typing import Optional
 import numpy as np
 
 from ...core import tables
+from ...core.brief import brief
 from ...core.errors import Unusable
 from . import derailing
 from .pose import Position
@@ -64,6 +65,7 @@ class Load:
             raise Unusable(f"right {self.right:g}: expected a vertical force above 0 and below the axle load, N")
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Equilibrium(tables.Tabled):
     """A wheelset in equilibrium on its rails.

@@ -14,6 +14,7 @@ from typing import Optional, Union
 
 import numpy as np
 
+from ...core.brief import brief
 from .rails import Roller, Track
 from .wheelset import Wheelset
 
@@ -23,6 +24,7 @@ BETWEEN = 5e-5  # m: the gap between two of these points may be less by this
 PASSES = 12  # of the relaxed iteration on rollers: 6 reach rounding
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Locus:
     """The line of the wheel that can touch, in the track, of a wheelset at z = 0: y of its points, growing, (n,), m,

@@ -11,6 +11,7 @@ from typing import Optional, Union
 
 import numpy as np
 
+from ...core.brief import brief
 from .locus import Locus
 from .rails import Roller, Track
 
@@ -18,6 +19,7 @@ STEP = 60e-6  # m: of the search for overlaps
 SMALLEST = 1e-4  # of the deepest overlap: regions below it carry nothing that counts
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Region:
     """An interval of y in which the undeformed bodies overlap: x of the locus, y and z of points on the rail, and
@@ -51,6 +53,7 @@ class Region:
         return float(np.hypot(other.y[0] - self.y[-1], other.z[0] - self.z[-1]))
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Place:
     """The frame of a patch and the box of its overlap: origin on the rail, (3,), m; angle d, rad; corners of the box in
@@ -72,6 +75,7 @@ class Place:
         return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Search:
     """Gap (n,), m, of the undeformed bodies along the locus, at z = 0 of the wheelset, over x of the locus and y and z

@@ -10,6 +10,7 @@ from typing import Optional
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Unusable
 from .profile import ProfileWarning
 
@@ -121,6 +122,7 @@ class Position:
         return -self.speed / radius if self.pitch_rate is None else self.pitch_rate
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Frame:
     """Place of the wheelset's axes in the track: rotation, (3, 3), and centre, (3,), m."""

@@ -37,13 +37,21 @@ def print_all(options, found, table):
         warn(f"position {number}{f' (line {line})' if line else ''}: {failure}")
     if len(found.failures) > SHOWN:
         warn(f"{len(found.failures)} positions have no equilibrium in all; the column note names each")
-    for text in dict.fromkeys(
-        re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)? ?", "... ", note) for one in found.found for note in one.notes
-    ):
-        warn(f"{text} (see the column note)")
+    _warn_of_notes(found.found)
     _compare_roll(options, found)
     if options.smooth:
         _doubt_smoothing(options, found)
+
+
+def _warn_of_notes(found):
+    """Prints the warnings of positions; of several that differ by numbers only the first, and how many there are."""
+    alike = {}
+    for number, one in enumerate(found, 1):
+        for note in one.notes:
+            alike.setdefault(re.sub(r"\d[\d.]*(e[-+]?\d+)?", "0", note), []).append((number, note))
+    for (number, note), *others in alike.values():
+        more = f"; {counted(len(others), 'other position')} with such a warning: see the column note" if others else ""
+        warn(f"position {number}: {note}{more}")
 
 
 def _print_patch(row):

@@ -5,6 +5,7 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error, Unusable, counted
 
 KINDS = ("rail", "wheel")
@@ -49,6 +50,7 @@ class Taken(NamedTuple):
         return f"give mirror=True to read() of the {kind}, or mirror.y = 1 in the file, or take mirrored()"
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Profile:
     """A rail's or a wheel's profile.

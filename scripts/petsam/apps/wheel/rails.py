@@ -11,6 +11,7 @@ from typing import Union
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error, Unusable
 from .checks import GAUGES, need, need_kind
 from .leaning import doubt_lean
@@ -97,6 +98,7 @@ def _refined(points, level, inner):
     return min(inner, float((y[cross] + part * (y[cross + 1] - y[cross])).min()))
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Track:
     """A rail of a track; that of the right side, whose mirror image the left one is.
@@ -222,6 +224,7 @@ class Track:
             return replace(self, curvature=-self.curvature)
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Roller:
     """A roller of a test rig in place of a rail: a body of revolution about an axis along y.

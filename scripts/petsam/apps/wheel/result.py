@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...core import tables
+from ...core.brief import brief
 
 # columns of the table: attribute, unit, meaning
 COLUMNS = (
@@ -39,6 +40,7 @@ class DerailWarning(UserWarning):
     """A wheel of an equilibrium is derailed, or may climb its rail by Nadal's limit."""
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Drafted:
     """The forces of a contact patch, by a draft of its solution: centre of pressure in the track, (3,), m; inclination,
@@ -71,6 +73,7 @@ def _in_track(patch):
     return np.array([patch.fx, patch.fs * c - patch.n * s, patch.fs * s + patch.n * c])
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Patch:
     """A contact patch. The forces act on the rail.
@@ -178,6 +181,7 @@ class Patch:
         return replace(self, **{name: -getattr(self, name) for name in names})
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Result(tables.Tabled):
     """The solution at a position.

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from scipy.interpolate import CubicSpline, PPoly
 
+from ...core.brief import brief
 from ...core.errors import Error
 from .profile import Profile
 
@@ -23,6 +24,7 @@ FLANGE = 0.01  # m by which a flange stands out of the tread, at least
 STEEP = 1.0  # slope of a flange, at least
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Section:
     """The visible part of a profile: y and z of points in growing y, (n,), m."""

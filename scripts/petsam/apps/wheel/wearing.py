@@ -21,6 +21,7 @@ import numpy as np
 from scipy.interpolate import make_smoothing_spline
 
 from ...core import tables
+from ...core.brief import brief
 from ...core.errors import Error, NoEquilibrium, Unusable
 from . import batch
 from .equilibrium import Equilibrium
@@ -58,6 +59,7 @@ class Law:
             raise Unusable(f"wavelength {self.wavelength:g}: expected m, such as 3e-3")
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Worn(tables.Tabled):
     """A wheel's profile after a distance.

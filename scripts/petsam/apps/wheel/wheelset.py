@@ -10,6 +10,7 @@ from typing import Optional
 
 import numpy as np
 
+from ...core.brief import brief
 from ...core.errors import Error, Unusable
 from .checks import GAUGES, need, need_kind
 from .profile import Profile, ProfileWarning
@@ -68,6 +69,7 @@ def _doubt_height(profile, section, position):
         )
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Wheelset:
     """A wheel of a wheelset; that of the right side, whose mirror image the left one is.

@@ -1,0 +1,190 @@
+"""Public functions and classes: short signatures, and an Error for arguments of a wrong kind.
+
+The public list of a part gives its functions and classes by public(). An argument is checked by its hint where that is
+of numbers, arrays of numbers, texts, functions or classes of the package; values that have no such hint, and ranges,
+are the function's own affair. The message has the meaning of the argument by the docstring.
+"""
+
+import dataclasses
+import functools
+import inspect
+import os
+import re
+import sys
+import typing
+from collections.abc import Callable, Sequence
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import arrays, keywords, units, words
+from .errors import Error, WrongArgument, short
+
+LONG = 160  # characters of a signature with its hints: beyond it they are left to the docstring
+LARGE = 40  # and of a default
+# warnings name the line of a call by its depth, and leave out frames with this name of a file
+FRAME = "<importlib._bootstrap of petsam>"
+TEXTS = (str, os.PathLike)
+_made: dict[Any, Any] = {}
+
+
+class _Short:
+    """A default that is too long for a signature."""
+
+    def __repr__(self):
+        return "..."
+
+
+def public(found: Any) -> Any:
+    """Returns a function, or a class whose objects users make, that checks its arguments; others as they are."""
+    if not inspect.isfunction(found) and (not inspect.isclass(found) or issubclass(found, BaseException)):
+        return found
+    if found in _made:
+        return _made[found]
+    made = found
+    if inspect.isclass(found):
+        _show(found, inspect.signature(found))
+        if "__init__" in vars(found) and "Parameters" in keywords.sections(found.__doc__)[1]:
+            found.__init__ = _checked(found.__init__, found.__name__, found.__doc__)  # type: ignore[misc]
+    else:
+        made = _checked(found, found.__name__, found.__doc__)
+        _show(made, inspect.signature(found))
+        if getattr(sys.modules[found.__module__], found.__name__, None) is found:
+            setattr(sys.modules[found.__module__], found.__name__, made)
+    _made[found] = _made[made] = made
+    return made
+
+
+def _show(found, signature):
+    """Leaves the hints of a long signature, and long defaults, to the docstring."""
+    if len(str(signature)) > LONG:
+        plain = [
+            one.replace(annotation=one.empty, default=_Short() if len(repr(one.default)) > LARGE else one.default)
+            if one.default is not one.empty
+            else one.replace(annotation=one.empty)
+            for one in signature.parameters.values()
+        ]
+        found.__signature__ = signature.replace(parameters=plain, return_annotation=signature.empty)
+
+
+def _checked(function, owner, text):
+    """The function with a check of its arguments before it."""
+    signature, home = inspect.signature(function), vars(sys.modules[function.__module__])
+    hints = {name: _hint(one.annotation, home) for name, one in signature.parameters.items()}
+    kinds = {name: kind for name, kind in ((name, _kind(hint)) for name, hint in hints.items()) if kind}
+    if not kinds:
+        return function
+
+    @functools.wraps(function)
+    def checked(*args: Any, **given: Any) -> Any:
+        __tracebackhide__ = True
+        try:
+            values = signature.bind(*args, **given).arguments
+        except TypeError:
+            values = {}  # the call itself says what lacks
+        for name, value in values.items():
+            if name in kinds and not kinds[name][0](value) and value is not signature.parameters[name].default:
+                raise WrongArgument(_message(owner, name, value, kinds[name][1], text))
+        return function(*args, **given)
+
+    checked.__code__ = checked.__code__.replace(co_filename=FRAME)
+    return checked
+
+
+def _hint(hint, home):
+    """Returns the type of a hint; Any if it cannot be found."""
+    if not isinstance(hint, str):
+        return hint
+    fields = [vars(sys.modules[kind.__module__]) for kind in home.values() if dataclasses.is_dataclass(kind)]
+    for names in (home, *fields):
+        try:
+            return eval(hint, dict(names))  # of the package's own source
+        except Exception:
+            continue
+    return Any
+
+
+def _kind(hint) -> Optional[tuple[Callable[[Any], bool], str]]:
+    """A check of values by their hint, and its kind in words; None where nothing is checked."""
+    origin, parts = typing.get_origin(hint), typing.get_args(hint)
+    if hint == ArrayLike:
+        return _numeric, "a number or an array of numbers"
+    if hint in (float, int):
+        return _real, "a number" if hint is float else "a whole number"
+    if hint is np.ndarray:
+        return _numeric, "an array of numbers"
+    if inspect.isclass(hint) and (hint in TEXTS or hint.__module__.startswith("petsam.")) and origin is None:
+        name = "a text" if hint is str else "a path" if hint is os.PathLike else f"a {hint.__name__} of petsam"
+        return lambda value: isinstance(value, hint), name
+    if origin is typing.Union or str(origin) == "<class 'types.UnionType'>":
+        return _either([_kind(part) for part in parts if part is not type(None)], type(None) in parts)
+    if origin in (tuple, Sequence, list) and parts and {*parts} <= {float, int, Ellipsis}:
+        count = 0 if Ellipsis in parts or origin is not tuple else len(parts)
+        return lambda value: _several(value, count), f"{count or 'several'} numbers"
+    return None
+
+
+def _either(kinds, empty):
+    """A check by one of several kinds."""
+    if None in kinds:
+        return None
+    names = " or ".join(dict.fromkeys(name for _, name in kinds))
+    return lambda value: empty and value is None or any(good(value) for good, _ in kinds), names
+
+
+def _real(value):
+    """True of a number, and of what a library takes for one."""
+    return hasattr(value, "__float__") or hasattr(value, "__index__")
+
+
+def _numeric(value):
+    """True of a number and of an array of numbers."""
+    if isinstance(value, np.ndarray):
+        return value.dtype.kind in "biufcO"
+    if not isinstance(value, (str, bytes, list, tuple)):
+        return value is not None
+    try:
+        arrays.real(value)
+    except (TypeError, ValueError):
+        return False
+    return not isinstance(value, (str, bytes)) and not any(isinstance(one, str) for one in value)
+
+
+def _several(value, count):
+    """True of so many numbers; 0: of any number."""
+    return _numeric(value) and hasattr(value, "__len__") and (not count or len(value) == count)
+
+
+def _message(owner, name, value, kind, text):
+    """Names the argument, what was given, and its meaning by the docstring, and how a text is written."""
+    entry = keywords.entries(keywords.sections(text)[1].get("Parameters", "")).get(name, "")
+    meaning = " ".join(entry.partition("\n")[2].split())
+    about = meaning.partition(". ")[0].rstrip(".")
+    cure = _cure(name, value, meaning)
+    return f"{owner}: {name} {short(repr(value))}: expected {kind}{f' ({about})' if about else ''}{cure}"
+
+
+def _cure(name, value, meaning):
+    """How a text that is a number with its unit is written, in the unit that its meaning names."""
+    given = value if isinstance(value, (tuple, list)) else [value]
+    try:
+        found = [_written(one, meaning) for one in given]
+    except Error:
+        return ""
+    if None in found or not any(isinstance(one, str) for one in given):
+        return ""
+    return f": write {name}=" + (f"({', '.join(found)})" if given is value else found[0])
+
+
+def _written(value, meaning):
+    """A number, or a text that is one, as it is written in Python; None of one in a unit of another quantity."""
+    if not isinstance(value, str):
+        return repr(value)
+    found = words.measured(value, "a number", 1)
+    number, unit = found[0], found.unit
+    if not unit:
+        return f"{number:.12g}"
+    sizes = [units.size(word, unit) for word in re.findall(r"[^\W\d_][\w/^]*", meaning)]
+    size = next((size for size in sizes if size), None)
+    return f"{number / size:.12g}" if size else None

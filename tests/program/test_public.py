@@ -1,0 +1,118 @@
+"""What users of the package meet first: examples of docstrings, signatures, checks of arguments, repr() of results."""
+
+import doctest
+import inspect
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+import petsam
+from petsam import plot
+from petsam.apps import records
+from petsam.core import keywords
+from petsam.core.brief import brief, shown
+
+PARTS = [*records(), plot.PART, petsam.contact.PART]
+NAMES = [(part.find(name), f"{part.name}.{name}") for part in PARTS for name in part.listed]
+NAMES += [
+    (part.picture(name), f"plot.{name}") for part in records() for names in part.pictures.values() for name in names
+]
+NAMES += [(getattr(petsam.closed, name), f"closed.{name}") for name in dir(petsam.closed) if not name.startswith("_")]
+NAMES += [(petsam.open, "open"), (petsam.run, "run")]
+CALLED = [(one, name) for one, name in NAMES if callable(one)]
+EXAMPLES = [pytest.param(one, name, id=name) for one, name in CALLED if ">>>" in (inspect.getdoc(one) or "")]
+
+
+@pytest.mark.parametrize("one, name", EXAMPLES)
+def test_examples_of_docstrings_run(one, name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    [test] = doctest.DocTestFinder(recurse=False).find(one, name, globs={})
+    said = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test, out=said.append)
+    assert found.attempted and not found.failed, "".join(said)
+    assert keywords.sections(inspect.getdoc(one))[1]["Examples"]
+
+
+def test_main_entries_have_examples():
+    assert {name.partition(".")[0] for _, name in (one.values[:2] for one in EXAMPLES)} >= {
+        "fit", "wheel", "joint", "loads", "surface", "conduction", "study", "open",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("one, name", CALLED)
+def test_signatures_are_read_at_a_glance(one, name):
+    if not (inspect.isclass(one) and issubclass(one, Exception)):
+        assert len(str(inspect.signature(one))) <= 300, name
+
+
+MISTAKES = (
+    (lambda: petsam.wheel.Axle(1, 2), "Axle: rail 1: expected a Track of petsam (The right rail"),
+    (lambda: petsam.wheel.Load("100kN"), "vertical '100kN': expected a number (Axle load.*: write vertical=100000$"),
+    (lambda: petsam.wheel.Load(1e5, lateral="2 kN"), "lateral '2 kN': expected a number .*: write lateral=2000$"),
+    (lambda: petsam.wheel.Load(None), "vertical None: expected a number"),
+    (lambda: petsam.wheel.Position(y=[1e-3, "2"]), r"y \[0.001, '2'\]: expected a number"),
+    (lambda: petsam.plot.maps(width="180mm"), "maps: width '180mm': .*: write width=180$"),
+    (lambda: petsam.plot.maps(width="18cm"), "maps: width '18cm': .*: write width=180$"),
+    (lambda: petsam.plot.maps(limits=("0", "5")), r"limits \('0', '5'\): expected 2 numbers .*: write limits=\(0, 5\)"),
+    (lambda: petsam.plot.profiles(xlim=(0.0, "1mm")), "profiles: xlim .*: expected 2 numbers"),
+    (lambda: petsam.fit.of_shape("a.opts", normal="100N"), "normal '100N': expected a number .*: write normal=100$"),
+    (
+        lambda: petsam.joint.interface("x.h5", "1MPa"),
+        "pressures '1MPa': expected .* array of .*: write pressures=1000000$",
+    ),
+    (lambda: petsam.fit.ball(10.0, "5 kg", {}), r"ball: radius '5 kg': expected a number \(Normal load \(N\) .*\)$"),
+)
+
+
+@pytest.mark.parametrize("call, says", MISTAKES)
+def test_arguments_of_a_wrong_kind_are_named_with_their_cure(call, says):
+    with pytest.raises(petsam.Error, match=says.replace("(The", r"\(The").replace("(Axle", r"\(Axle")) as caught:
+        call()
+    assert isinstance(caught.value, TypeError) and isinstance(caught.value, ValueError) and caught.value.code == 2
+
+
+def test_what_is_a_number_is_taken():
+    for value in (1e5, 100000, np.float32(1e5), np.array(1e5), True):
+        assert petsam.wheel.Load(value).vertical == value
+    with pytest.raises(TypeError, match="missing 1 required positional argument: 'vertical'"):
+        petsam.wheel.Load()
+
+
+def test_warnings_name_the_line_of_the_call():
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        petsam.wheel.Position(yaw=0.5)
+    assert [one.filename for one in caught] == [__file__]
+
+
+def test_creep_forces_name_what_is_no_number():
+    table = object.__new__(petsam.wheel.CreepTable)
+    with pytest.raises(petsam.Error, match="creep forces: 'a': expected a number or an array"):
+        table._forces(82e9, 0.28, "a", 0.3, 1e-3)
+    with pytest.raises(petsam.Error, match=r"shapes \(2,\), \(3,\): give numbers, or arrays of one shape"):
+        table._forces(82e9, 0.28, np.ones(2), 0.3, np.ones(3))
+
+
+def test_repr_of_results_is_short():
+    record = petsam.fit.Record("a.csv", np.linspace(0.0, 1e-5, 300), np.arange(300.0), notes=["a"] * 9)
+    assert repr(record).replace("\n    ", " ") == (
+        "Record(path='a.csv', displacement=<300: 0 to 1e-05>, force=<300: 0 to 299>, time=None, cycle=None, "
+        "energy=None, peaks=False, notes=<9 values>)"
+    )
+    for one in (petsam.wheel.s1002(), petsam.wheel.Wheelset(petsam.wheel.s1002(), 0.46), record):
+        assert len(repr(one)) < 300 and max(map(len, repr(one).splitlines())) <= 110
+    assert shown(np.array([1.0, np.nan])) == "[1, nan]" and shown(np.full((2, 3), np.nan)) == "<2 x 3 float64>"
+    assert shown({"a": np.zeros(9), "b": 2}) == "{a, b}" and shown((1.5,)) == "(1.5,)" and shown([]) == "[]"
+
+
+def test_every_result_with_arrays_has_a_short_repr():
+    """A dataclass with arrays has the repr() of brief(), or one of its own."""
+    for one, name in CALLED:
+        fields = getattr(one, "__dataclass_fields__", {}) if inspect.isclass(one) else {}
+        if any(re.search("ndarray|ArrayLike", str(field.type)) for field in fields.values()):
+            assert not hasattr(one.__repr__, "__wrapped__"), f"{name} prints whole arrays: put @brief above @dataclass"
+    assert brief(type("One", (), {})).__repr__
