@@ -19,6 +19,7 @@ import ctypes
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
@@ -104,10 +105,22 @@ def compute(
             stacklevel=3,
         )
     gap, friction = (get(one, *cells) if one in wanted else None for one in ("gap", "friction"))
-    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"), unit.value.decode())
+    own = (unit.value or b"").decode()
+    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"), own)
 
 
 # ---------------------------------------------------------------- for optimisers
+
+
+@dataclass(frozen=True)
+class _Evaluation:
+    """A function of parameters, and the shape of the numbers that it returns."""
+
+    of: Callable[[ArrayLike], Any]
+    shape: tuple[int, ...]
+
+    def __call__(self, x: ArrayLike) -> Any:
+        return self.of(x)
 
 
 def function(
@@ -178,8 +191,7 @@ def function(
         values, slopes = np.array([each.value for each in found]), np.reshape(by, (len(found), -1)) * scales
         return (values, slopes) if model.several else (float(values[0]), slopes[0])
 
-    evaluate.shape = (len(model.wanted),) if model.several else ()
-    return evaluate
+    return _Evaluation(evaluate, (len(model.wanted),) if model.several else ())
 
 
 def numbers(
@@ -359,8 +371,7 @@ def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike
             else sum(found) / len(every)
         )
 
-    evaluate.shape = getattr(every[0], "shape", ())
-    return evaluate
+    return _Evaluation(evaluate, getattr(every[0], "shape", ()))
 
 
 def whole(contact: "Contact") -> "Contact":

@@ -2,8 +2,9 @@
 
 import csv
 import io
+import os
 import re
-from typing import NamedTuple
+from typing import Any, NamedTuple, Union
 
 from .errors import Error, library
 from .files import lines_of, need_replaceable, text_of
@@ -93,10 +94,10 @@ class Tabled:
         """The columns, tables.Column each with name, unit, meaning and values."""
         raise NotImplementedError
 
-    def to_csv(self, path, *which: str) -> None:
+    def to_csv(self, path: Union[str, os.PathLike], *which: str) -> None:
         """Writes table(*which) as CSV, with heads `name [unit]`, to the file of this name."""
         write_csv(path, self.table(*which), self.form)
 
-    def to_dataframe(self, *which: str):
+    def to_dataframe(self, *which: str) -> Any:
         """table(*which) as one of pandas, which must be installed; units stand in .attrs["units"]."""
         return to_dataframe(self.table(*which))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Optional
+from typing import Any
 
 import numpy as np
 
@@ -305,11 +305,11 @@ class Result(Tabled):
     rig_stiffness_sd: float
     contact_stiffness: float
     fit: Fit
-    files: Sequence = ()
-    each: Sequence = ()
-    numbers: Optional[np.ndarray] = None
-    energy: Optional[np.ndarray] = None
-    notes: Sequence = ()
+    files: Sequence[Cycles]
+    each: Sequence[Fit]
+    numbers: np.ndarray
+    energy: np.ndarray
+    notes: Sequence[str] = ()
 
     def table(self) -> list:
         """The columns: cycle, friction, its deviation, the rig's compliance, its deviation, energy.

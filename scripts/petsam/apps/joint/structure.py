@@ -109,7 +109,7 @@ class Patch:
         self.by_load = np.array([name in by_load for name in self.coordinates])
         self.center = np.asarray(center, dtype=float)
         self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
-        self.given = {}  # what the last step prescribed, and the coordinates that it found
+        self.given: dict[str, float] = {}  # what the last step prescribed, and the coordinates that it found
         self.outgrown = False
         self.sign = np.array([-1.0 if name in DISPLACEMENTS else 1.0 for name in self.coordinates])
         order = [*DISPLACEMENTS, *self.cases]
@@ -206,7 +206,7 @@ class Patch:
         """
         z = np.zeros(len(self.coordinates))
         for k, name in enumerate(self.coordinates):
-            with contextlib.suppress(ContactError if name in self.cases else ()):
+            with contextlib.suppress(*([ContactError] if name in self.cases else [])):
                 z[k] = self.contact.number(name)
         return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
 
@@ -343,7 +343,7 @@ class Structure:
         self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
         self.force = np.zeros(self.modes)  # of the last step
-        self.iterations = []
+        self.iterations: list[int] = []
         self.opens = False  # True: patches may be open, such as while bolts are tightened
 
     @staticmethod
