@@ -199,6 +199,9 @@ def test_bodies_with_names_of_materials_have_waves_and_images():
         assert np.array_equal(named.resistivity(k), plain.resistivity(k)) and named.images() == plain.images()
     with pytest.raises(Error, match="conductivity 0: expected finite numbers > 0"):
         Body(0.0).resistivity(k)
+    for wrong in (None, [1.0, 2.0], np.ones(2)):
+        with pytest.raises(Error, match="give a number > 0, or the name of a material"):
+            Body(wrong).checked()
 
 
 def random_period(rng):

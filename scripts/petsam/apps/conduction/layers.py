@@ -20,7 +20,7 @@ from typing import NamedTuple, Union
 import numpy as np
 
 from ...core import materials
-from ...core.errors import Error
+from ...core.errors import Error, short
 
 RATE = 3  # depths of images per octave: two give 2e-6 of F
 BELOW = 20.0  # depth of the deepest image over the depth at which the bodies differ no longer
@@ -65,7 +65,11 @@ class Body(NamedTuple):
             raise Error(
                 f"conduction: layers {self.layers!r}: expected pairs (thickness, conductivity) from the surface inwards"
             ) from None
-        own = materials.conductivity(self.lam)
+        try:
+            own = materials.conductivity(self.lam)
+        except (TypeError, ValueError):
+            given = short(repr(self.lam))
+            raise Error(f"conduction: conductivity {given}: give a number > 0, or the name of a material") from None
         numbers = [own, *(one for layer in layers for one in layer)]
         if not (np.isfinite(numbers).all() and min(numbers) > 0):
             text = f", layers {layers}" if layers else ""
