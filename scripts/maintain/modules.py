@@ -35,7 +35,11 @@ BEHIND = (
 )  # fmt: skip
 PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
 # decorators by core/keywords.py, with the module of the docstring COMMON to what they decorate
-UNFOLDED = {**dict.fromkeys(PICTURES, "plot.keywords"), "of_surfaces": "apps.joint.interfaces"}
+UNFOLDED = {
+    **dict.fromkeys(PICTURES, "plot.keywords"),
+    "of_surfaces": "apps.joint.interfaces",
+    "of_vibrations": "apps.joint.sweep",
+}
 PROPERTIES = ("property", "cached_property", "functools.cached_property")
 SECTION = re.compile(r"(Parameters|Returns|Raises|Notes|Attributes|References)\n-+\n")
 COLUMNS = re.compile(r"\S {2,}\S")  # of a table in a docstring
@@ -86,7 +90,7 @@ def unfolded(module, node):
         common[:0] = [ast.get_docstring(kind) for kind in kinds]
         fields = [part for kind in reversed(kinds) for part in kind.body if isinstance(part, ast.AnnAssign)]
         pairs += [(ast.arg(part.target.id, part.annotation), part.value) for part in fields] or [(arg, default)]
-    node.args.kwonlyargs, node.args.kw_defaults = map(list, zip(*pairs))
+    node.args.kwonlyargs, node.args.kw_defaults = [arg for arg, _ in pairs], [default for _, default in pairs]
     text = completed(ast.get_docstring(node), [arg.arg for arg in parameters(node.args)], common)
     node.body[0] = ast.Expr(ast.Constant(text))
     return node

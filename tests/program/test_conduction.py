@@ -188,6 +188,22 @@ def summed_factor(k, bodies):
     return found
 
 
+def test_bodies_with_names_of_materials_have_waves_and_images():
+    """Of the body, of a layer, and of both: those of the conductivities in the table."""
+    steel, copper = (petsam.materials.conductivity(one) for one in ("steel", "copper"))
+    k = np.array([0.0, 3.0, np.inf])
+    for named, plain in [
+        (Body("steel"), Body(steel)), (Body(2.0, [(0.1, "copper")]), Body(2.0, [(0.1, copper)])),
+        (Body("steel", [(0.1, "copper"), ("0.2", 5)]), Body(steel, [(0.1, copper), (0.2, 5.0)])),
+    ]:  # fmt: skip
+        assert np.array_equal(named.resistivity(k), plain.resistivity(k)) and named.images() == plain.images()
+    with pytest.raises(Error, match="conductivity 0: expected finite numbers > 0"):
+        Body(0.0).resistivity(k)
+    for wrong in (None, [1.0, 2.0], np.ones(2)):
+        with pytest.raises(Error, match="give a number > 0, or the name of a material"):
+            Body(wrong).checked()
+
+
 def random_period(rng):
     """Cells, their widths, bodies and films of a small period, mirrored or not."""
     shape, mirrored = rng.integers(2, 7, 2), rng.random() < 0.5

@@ -320,6 +320,26 @@ def test_arrays_of_a_contact_are_taken_too(folder):
     assert columns[0].tobytes() == columns[1].tobytes()
 
 
+def test_arrays_without_a_step_are_refused():
+    """Of stresses, of a parameter of the cycle, and of coordinates alone."""
+    points = {"x": [0.0, 1e-3], "y": [0.0], "z": [0.0, 1e-4], "time": []}
+    for more in ({"stress_xx": np.empty((0, 2, 1, 2))}, {"swt": np.ones((2, 1, 2))}, {}):
+        with pytest.raises(Error, match="the contact: has no load steps: give the stresses of all steps of a cycle"):
+            Cycle({**points, **more})
+
+
+def test_stress_on_planes_of_a_row_of_points_or_of_a_column():
+    """Each index selects by itself; both select a point."""
+    stress = np.random.default_rng(3).normal(size=(2, 2, 3, 4))
+    points = {"x": np.arange(4.0), "y": np.arange(3.0), "z": [0.0, 1.0], "time": [0.0, 1.0]}
+    cycle = Cycle({**points, "stress_xx": stress})
+    for chosen, part in (
+        (dict(row=1), np.s_[:, :, 1:2]), (dict(column=2), np.s_[..., 2:3]),
+        (dict(row=1, column=2), np.s_[:, :, 1:2, 2:3]),
+    ):  # fmt: skip
+        assert np.array_equal(list(cycle.on_plane(0.0, **chosen)), stress[part])
+
+
 @pytest.mark.parametrize(
     "words, says, code",
     [

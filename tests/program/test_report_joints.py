@@ -196,6 +196,10 @@ def test_a_band_has_a_curve_for_each_assembly(tmp_path):
         (["alpha [1],frequency [Hz]", "1,2,3"], "line 2: has 3 values, and there are 2 columns"),
         (["alpha [1],frequency [Hz]", "1,x"], "column frequency [Hz]: could not convert string to float: 'x'"),
         (["alpha [1]"], "no table: expected a line of heads, as name [unit], and lines of values"),
+        ([",alpha [1]", "0,1"], "line 1: column 1 has no name: give one, as pressure [Pa]"),
+        (["", "alpha [1],  ", "1,2"], "line 2: column 2 has no name"),
+        (["alpha [1], [Pa]", "1,2"], "line 1: column 2 has no name"),
+        (["alpha [1],modal", "1," + "2" * 140000], "line 2: field larger than field limit (131072): give a table of"),
         ([], "no table"),
     ],
 )

@@ -33,7 +33,7 @@ def _names_of(path):
     return names[:-1] if len(names) > 1 and names[-2].startswith("petsam-") else names
 
 
-def _part_of(program) -> Optional[Part]:
+def _part_of(program: str) -> Optional[Part]:
     """The record of the part whose command is a program; None where there is none."""
     begin, _, name = program.partition("-")
     if begin != "petsam" or not (name == "plot" or name in apps.names()):

@@ -79,4 +79,5 @@ def compute(contact: Handle, name: str, of: Optional[Sequence[str]], steps: tupl
             stacklevel=3,
         )
     gap, friction = (get(one, *cells) if one in wanted else None for one in ("gap", "friction"))
-    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"), unit.value.decode())
+    own = (unit.value or b"").decode()
+    return Gradient(name, number("value"), gap, friction, numbers, borders, number("residual"), own)

@@ -17,6 +17,7 @@ fine grids.
 
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any, Callable, Optional
 
 import numpy as np
@@ -32,6 +33,17 @@ OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (
 SETTLES = 1e-8  # tolerance of the shear by which the direction of slip at mid step is found completely
 GOLDEN = (5**0.5 - 1) / 2
 IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
+
+
+@dataclass(frozen=True)
+class _Evaluation:
+    """A function of parameters, and the shape of the numbers that it returns."""
+
+    of: Callable[[ArrayLike], Any]
+    shape: tuple[int, ...]
+
+    def __call__(self, x: ArrayLike) -> Any:
+        return self.of(x)
 
 
 def function(
@@ -102,8 +114,7 @@ def function(
         values, slopes = np.array([each.value for each in found]), np.reshape(by, (len(found), -1)) * scales
         return (values, slopes) if model.several else (float(values[0]), slopes[0])
 
-    evaluate.shape = (len(model.wanted),) if model.several else ()
-    return evaluate
+    return _Evaluation(evaluate, (len(model.wanted),) if model.several else ())
 
 
 def numbers(
@@ -283,8 +294,7 @@ def mean(functions: Iterable[Callable[[ArrayLike], Any]]) -> Callable[[ArrayLike
             else sum(found) / len(every)
         )
 
-    evaluate.shape = getattr(every[0], "shape", ())
-    return evaluate
+    return _Evaluation(evaluate, getattr(every[0], "shape", ()))
 
 
 def whole(contact: Contact) -> Contact:

@@ -10,6 +10,7 @@ import functools
 import os
 import subprocess
 from pathlib import Path
+from typing import Any
 
 from . import environment
 from .errors import Error, Missing
@@ -17,7 +18,9 @@ from .files import state_of
 
 SECONDS = 60.0  # that an examination may take
 
-_seen = {}  # path: the state of the file that has been examined last, and whether HDF5 ends on it
+_seen: dict[
+    str, tuple[Any, bool]
+] = {}  # path: the state of the file that has been examined last, and whether HDF5 ends on it
 
 
 class Damaged(Error):

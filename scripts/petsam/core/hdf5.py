@@ -21,7 +21,7 @@ from .files import need_folder, need_replaceable
 # exceptions that h5py raises for a file that is damaged, or has another layout
 DAMAGED = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, ArithmeticError, MemoryError)
 
-_files = weakref.WeakValueDictionary()  # those that are open
+_files: weakref.WeakValueDictionary[int, h5py.File] = weakref.WeakValueDictionary()  # those that are open
 
 
 class _Bytes:

@@ -28,6 +28,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, Optional, TypeVar
 
 Result = TypeVar("Result")
+Function = TypeVar("Function", bound=Callable[..., object])
 ORDER = ("Parameters", "Returns", "Raises")  # of the sections of a docstring; others follow
 
 
@@ -59,6 +60,17 @@ def completed(text: Optional[str], names: Iterable[str], others: Iterable[Option
     return "\n\n".join([sections(text)[0], *(f"{title}\n{'-' * len(title)}\n{found[title]}" for title in titles)])
 
 
+def explained(common: str) -> Callable[[Function], Function]:
+    """Returns a decorator of functions that have parameters and errors together: their docstrings get those which they
+    lack from `common`, and types are as written."""
+
+    def complete(function: Function) -> Function:
+        function.__doc__ = completed(function.__doc__, inspect.signature(function).parameters, [common])
+        return function
+
+    return complete
+
+
 def unfolded(function: Callable[..., Result], common: str = "") -> Callable[..., Result]:
     """Makes a function with the fields of dataclasses as keywords of one that takes the dataclasses: users do not see
     keywords without a default whose hint is a dataclass. `common`: docstring of several functions, which supplies what
@@ -88,6 +100,6 @@ def unfolded(function: Callable[..., Result], common: str = "") -> Callable[...,
 
     shown.sort(key=lambda one: one.kind)  # **more is last
     docs = [base.__doc__ for kind in kinds.values() for base in kind.__mro__[:-1]]
-    public.__signature__ = own.replace(parameters=shown)  # type: ignore[attr-defined]
+    public.__dict__["__signature__"] = own.replace(parameters=shown)  # read by inspect.signature()
     public.__doc__ = completed(function.__doc__, [one.name for one in shown], [*docs, common])
     return public

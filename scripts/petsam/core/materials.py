@@ -58,8 +58,8 @@ class Material(NamedTuple):
         dict
             {name: number}, by the names of CONSTANTS, which has units and meanings.
         """
-        values = self[2 : 2 + len(CONSTANTS)]
-        return {name: value for name, value in zip(CONSTANTS, values) if value is not None}
+        values = zip(CONSTANTS, self[2 : 2 + len(CONSTANTS)])
+        return {name: value for name, value in values if isinstance(value, (int, float))}
 
 
 TABLE = {

@@ -7,6 +7,7 @@ module is loaded twice.
 import importlib
 import sys
 from collections.abc import Callable
+from importlib.abc import Loader
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any, Optional
@@ -37,7 +38,7 @@ class Names:
         return find_spec(home) is not None
 
 
-class _There:
+class _There(Loader):
     """A loader that returns a module which has a spec of its own already."""
 
     def __init__(self, home):

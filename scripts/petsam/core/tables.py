@@ -2,13 +2,14 @@
 
 import csv
 import io
+import os
 import re
-from typing import NamedTuple
+from typing import Any, NamedTuple, Union
 
 from .errors import Error, library
 from .files import lines_of, need_replaceable, text_of
 
-HEAD = re.compile(r"(.+?)(?: \[(.*)\])?")
+HEAD = re.compile(r"(.*?)(?: \[(.*)\])?", re.DOTALL)
 
 
 class Column(NamedTuple):
@@ -26,7 +27,7 @@ def head(name, unit):
 
 
 def split(text):
-    """Name and unit of a head; the unit is "" where it has none."""
+    """Name and unit of a head, each "" where it has none."""
     name, unit = HEAD.fullmatch(text).groups()
     return name, unit or ""
 
@@ -57,10 +58,16 @@ def write_csv(path, columns, form=repr):
 def read_csv(path):
     """The columns of a file of write_csv(), whose meanings are empty; raises Error where it is none."""
     reader = csv.reader(lines_of(text_of(path)))
-    (_, heads), *numbered = [(reader.line_num, row) for row in reader if row] or [(1, [])]
+    try:
+        (first, heads), *numbered = [(reader.line_num, row) for row in reader if row] or [(1, [])]
+    except csv.Error as error:
+        raise Error(f"{path}: line {reader.line_num}: {error}: give a table of comma-separated values") from None
     rows = [row for _, row in numbered]
     if not rows:
         raise Error(f"{path}: no table: expected a line of heads, as name [unit], and lines of values")
+    for k, text in enumerate(heads, 1):
+        if not split(text)[0].strip():
+            raise Error(f"{path}: line {first}: column {k} has no name: give one, as pressure [Pa]")
     for line, row in numbered:
         if len(row) != len(heads):
             raise Error(f"{path}: line {line}: has {len(row)} values, and there are {len(heads)} columns")
@@ -93,10 +100,10 @@ class Tabled:
         """The columns, tables.Column each with name, unit, meaning and values."""
         raise NotImplementedError
 
-    def to_csv(self, path, *which: str) -> None:
+    def to_csv(self, path: Union[str, os.PathLike], *which: str) -> None:
         """Writes table(*which) as CSV, with heads `name [unit]`, to the file of this name."""
         write_csv(path, self.table(*which), self.form)
 
-    def to_dataframe(self, *which: str):
+    def to_dataframe(self, *which: str) -> Any:
         """table(*which) as one of pandas, which must be installed; units stand in .attrs["units"]."""
         return to_dataframe(self.table(*which))

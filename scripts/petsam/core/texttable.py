@@ -41,7 +41,7 @@ ENGLISH = ("in",)  # units that are words, too: not taken from a name
 class Form:
     """How the words of a text are read: all that it does not state."""
 
-    decimal: str = None  # "point" or "comma"; None: as the file shows where it can only be one of them
+    decimal: Optional[str] = None  # "point" or "comma"; None: as the file shows where it can only be one of them
     skip_rows: int = 0
     skip_columns: int = 0
     missing: tuple = ()  # words of missing points, in small letters, beside the usual ones

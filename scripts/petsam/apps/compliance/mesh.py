@@ -4,7 +4,8 @@ Or of a section in plane strain, 1 m thick: its nodes lie in a plane whose norma
 nothing varies along the normal.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from typing import Optional
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -27,7 +28,7 @@ class Block:
     nodes: np.ndarray
     young: np.ndarray
     poisson: np.ndarray
-    density: np.ndarray = None
+    density: Optional[np.ndarray] = None
 
     @property
     def shape(self):
@@ -63,10 +64,10 @@ class Mesh:
 
     nodes: np.ndarray
     blocks: list
-    node_sets: dict = field(default_factory=dict)
-    surfaces: dict = field(default_factory=dict)
-    node_numbers: np.ndarray = None
-    normal: np.ndarray = None  # of a section
+    node_sets: dict
+    surfaces: dict
+    node_numbers: np.ndarray
+    normal: Optional[np.ndarray] = None  # of a section
     thickness: float = 1.0  # of a section, that its forces are for, in the deck's unit
 
     def turned(self, origin, axes):

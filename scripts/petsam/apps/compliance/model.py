@@ -59,14 +59,14 @@ class Body:
     patch: Patch
     compliance: np.ndarray
     cases: dict = field(default_factory=dict)
-    stress: tuple = None
+    stress: tuple | None = None
     checks: dict = field(default_factory=dict)
     mesh: object = None
     remarks: list = field(default_factory=list)
-    other: tuple = None  # moduli of body 1 of a pair
+    other: tuple | None = None  # moduli of body 1 of a pair
     modes: object = None
     definite: object = None
-    mesh_error: float = None  # relative, of the compliance
+    mesh_error: float | None = None  # relative, of the compliance
     datum: float | None = None  # m, of a section
 
     @property

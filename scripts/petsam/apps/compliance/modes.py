@@ -2,6 +2,7 @@
 pair that nothing holds the elastic ones."""
 
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 from scipy import sparse
@@ -30,7 +31,7 @@ class Modes:
     shapes: np.ndarray
     sensors: np.ndarray
     mass_error: float
-    rigid: np.ndarray = None
+    rigid: Optional[np.ndarray] = None
 
 
 def mass(mesh):

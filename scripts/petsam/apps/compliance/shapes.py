@@ -6,7 +6,9 @@ all families by one piece of code: serendipity bricks and wedges, tetrahedra, th
 """
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Optional
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -121,9 +123,9 @@ class Shape:
     family: Family
     corners: int
     faces: tuple
-    rule: callable
+    rule: Callable[[int], tuple[np.ndarray, np.ndarray]]
     full: int  # points a side that CalculiX uses
-    linear: Family = field(repr=False, default=None)
+    linear: Optional[Family] = field(repr=False, default=None)
 
     @property
     def flat(self):

@@ -20,7 +20,7 @@ from typing import NamedTuple, Union
 import numpy as np
 
 from ...core import materials
-from ...core.errors import Error
+from ...core.errors import Error, short
 
 RATE = 3  # depths of images per octave: two give 2e-6 of F
 BELOW = 20.0  # depth of the deepest image over the depth at which the bodies differ no longer
@@ -55,18 +55,26 @@ class Body(NamedTuple):
         Error
             If a number is not finite and above 0, or the conductivity of a material is not known.
         """
+        return Body(*self._numbers())
+
+    def _numbers(self) -> tuple[float, tuple[tuple[float, float], ...]]:
+        """The conductivity and the layers; raises Error as checked() does."""
         try:
             layers = tuple((float(thickness), materials.conductivity(lam)) for thickness, lam in self.layers)
         except (TypeError, ValueError):
             raise Error(
                 f"conduction: layers {self.layers!r}: expected pairs (thickness, conductivity) from the surface inwards"
             ) from None
-        own = materials.conductivity(self.lam)
+        try:
+            own = materials.conductivity(self.lam)
+        except (TypeError, ValueError):
+            given = short(repr(self.lam))
+            raise Error(f"conduction: conductivity {given}: give a number > 0, or the name of a material") from None
         numbers = [own, *(one for layer in layers for one in layer)]
         if not (np.isfinite(numbers).all() and min(numbers) > 0):
             text = f", layers {layers}" if layers else ""
             raise Error(f"conduction: conductivity {own:g}{text}: expected finite numbers > 0")
-        return Body(own, layers)
+        return own, layers
 
     def resistivity(self, k: np.ndarray) -> np.ndarray:
         """F of waves.
@@ -81,8 +89,9 @@ class Body(NamedTuple):
         ndarray
             V k/q, of the same shape, m K/W, or Ohm m.
         """
-        found = np.full(np.shape(k), 1 / self.lam)
-        for thickness, lam in reversed(self.layers):
+        below, layers = self._numbers()
+        found = np.full(np.shape(k), 1 / below)
+        for thickness, lam in reversed(layers):
             passed, own = np.tanh(np.asarray(k) * thickness), 1 / lam
             found = own * (found + own * passed) / (own + found * passed)
         return found
@@ -95,11 +104,12 @@ class Body(NamedTuple):
         list of (depth, weight)
             m, and m K/W or Ohm m, the one at the surface first.
         """
-        conductivities = [lam for _, lam in self.layers] + [self.lam]
+        below, layers = self._numbers()
+        conductivities = [lam for _, lam in layers] + [below]
         if min(conductivities) == max(conductivities):
-            return [(0.0, 1 / self.lam)]
-        lowest = 2 * self.layers[0][0]
-        depth = 2 * sum(thickness for thickness, _ in self.layers)
+            return [(0.0, 1 / below)]
+        lowest = 2 * layers[0][0]
+        depth = 2 * sum(thickness for thickness, _ in layers)
         highest = BELOW * depth * max(conductivities) / min(conductivities)
         depths = np.geomspace(lowest, highest, int(np.ceil(RATE * np.log2(highest / lowest))) + 1)
         k = np.append(0.0, np.geomspace(1e-3 / highest, SHORTEST / lowest, WAVES * len(depths)))

@@ -122,34 +122,34 @@ def lives(  # noqa: PLR0913  (as the options of petsam-fatigue)
     cycles = _cycles(sources)
     criteria = [criteria] if isinstance(criteria, str) else criteria
     quantities = [quantities] if isinstance(quantities, str) else quantities
-    constants = _constants(constants)
+    known = _constants(constants)
     counts = [1.0] * len(cycles) if counts is None else [float(one) for one in np.atleast_1d(counts)]
     if len(counts) != len(cycles) or not all(0.0 < one < np.inf for one in counts):
         raise Error(f"counts: {len(cycles)} files need as many numbers above 0")
-    names = list(criteria or evaluation.possible(cycles[0], constants, plane))
+    names = list(criteria or evaluation.possible(cycles[0], known, plane))
     on_line = quantities or [name for name in FATIGUE[:MOST] if name in cycles[0]] or ["mises"]
-    _judge(cycles, names, on_line, constants, plane)
+    _judge(cycles, names, on_line, known, plane)
     row, column, place = _place(cycles[0], below, names)
     ended, values = _counter(report, len(names) - ("crack" in names) + len(cycles)), {}
     for name in (one for one in names if one != "crack"):
-        values[name] = evaluation.lives(cycles, name, constants, plane)
+        values[name] = evaluation.lives(cycles, name, known, plane)
         ended()
     least = {
         name: [evaluation.least(cycle, one) for cycle, one in zip(cycles, found)] for name, found in values.items()
     }
-    bounds = {name: [evaluation.bounds(cycle, name, constants, plane) for cycle in cycles] for name in values}
+    bounds = {name: [evaluation.bounds(cycle, name, known, plane) for cycle in cycles] for name in values}
     lines, cracks = [], []
     for k, cycle in enumerate(cycles):
         computed = {f"{_word(name)}_{name}": ("1", found[k]) for name, found in values.items()}
         line = evaluation.line(cycle, on_line, row, column, computed)
         if "crack" in names:
-            found, *lengths = evaluation.crack(cycle, constants, plane, row, column)
+            found, *lengths = evaluation.crack(cycle, known, plane, row, column)
             line.columns.update(found)
             cracks.append(lengths)
         lines.append((cycle.label, line))
         ended()
     damage = _damage(cycles[0], values, counts)
-    return Lives(cycles, constants, values, least, bounds, damage, cracks, lines, place)
+    return Lives(cycles, known, values, least, bounds, damage, cracks, lines, place)
 
 
 def _judge(cycles, names, quantities, constants, plane):
@@ -189,7 +189,7 @@ def _cycle(source):
     return Cycle(source if isinstance(source, Stresses) else Stresses(os.fspath(source)))
 
 
-def _constants(given):
+def _constants(given: Union[str, os.PathLike, Mapping[str, object], None]) -> dict[str, float]:
     """{name: number} of a file's name, or of {name: value}."""
     if given is None or isinstance(given, (str, os.PathLike)):
         return materials.named(os.fspath(given)) if given else {}
@@ -207,7 +207,7 @@ def _damage(first, values, counts):
     return {name: one._replace(value=abs(one.value)) for name, one in found.items()}
 
 
-def _place(cycle, below, criteria) -> tuple[int, int, str]:
+def _place(cycle: Cycle, below: Union[str, tuple[float, float], None], criteria: Sequence[str]) -> tuple[int, int, str]:
     """Row, column, and a description of the line's place."""
     if below is not None and not isinstance(below, str):
         return *cycle.nearest(*below), "point nearest to --at"

@@ -1,5 +1,6 @@
 """The stresses of a cycle and its fatigue parameters: of a file of petsam-stress, or of petsam.Contact.fatigue()."""
 
+import functools
 import os
 from collections.abc import Iterator, Mapping
 from typing import Any, Optional, Union
@@ -49,7 +50,7 @@ class Cycle:
     Raises
     ------
     Error
-        If the first depth is not 0.
+        If there is no step, or the first depth is not 0.
     """
 
     layered = False
@@ -57,16 +58,23 @@ class Cycle:
     def __init__(
         self, source: Union[Stresses, Mapping[str, Any]], label: str = "the contact", **constants: Any
     ) -> None:
-        self.source, self.file = source, source if isinstance(source, Stresses) else None
-        self.path, self.label, self.constants = label, os.path.splitext(os.path.basename(label))[0], constants
-        self.x, self.y, self.z = (getattr(source, n) if self.file else np.asarray(source[n]) for n in "xyz")
-        if self.file:
-            self.path, self.label, of = source.path, source.label, source.parameters
-            self.constants = self._moduli(of)
-        self.error = float(source.parameters.get("traction_error", np.nan)) if self.file else np.nan
+        self.source = source
+        if isinstance(source, Stresses):
+            self.file: Optional[Stresses] = source
+            self.arrays: Mapping[str, Any] = {}
+            self.path, self.label = source.path, source.label
+            self.x, self.y, self.z, self.steps = source.x, source.y, source.z, source.times.size
+            self.constants = self._moduli(source.parameters)
+            self.error = float(source.parameters.get("traction_error", np.nan))
+        else:
+            self.file, self.arrays = None, source
+            self.path, self.label = label, os.path.splitext(os.path.basename(label))[0]
+            self.x, self.y, self.z = (np.asarray(source[name]) for name in "xyz")
+            self.steps, self.constants, self.error = np.size(source["time"]), constants, np.nan
+        if not self.steps:
+            raise Error(f"{self.path}: has no load steps: give the stresses of all steps of a cycle")
         if self.z[0] != 0.0:
             raise Error(f"{self.path}: its first depth is {self.z[0]:g} m; give petsam-stress depths from 0 on")
-        self.steps = source.times.size if self.file else np.size(source["time"])
 
     def _moduli(self, of):
         """Young's modulus and Poisson's ratio of the body; with layers at each depth, (z, 1, 1), or {} of a profile."""
@@ -101,7 +109,7 @@ class Cycle:
     @property
     def names(self) -> list[str]:
         """Names of the quantities and parameters."""
-        names = self.file.file if self.file else self.source
+        names = self.file.file if self.file else self.arrays
         return [name for name in names if name in self and name != "history" and "_normal_" not in name]
 
     def need(self, name: str) -> None:
@@ -127,7 +135,7 @@ class Cycle:
             if self.file:
                 yield self.file.field(name, step, rows=rows, columns=columns)
             else:
-                values = np.asarray(self.source[name])
+                values = np.asarray(self.arrays[name])
                 yield (values if name in FATIGUE else values[step])[:, rows, columns]
 
     def unit(self, name: str) -> str:
@@ -163,10 +171,7 @@ class Cycle:
         Error
             If the cycle has no such quantity.
         """
-        top = None
-        for values in self._part(name):
-            top = values if top is None else np.fmax(top, values)
-        return top
+        return functools.reduce(np.fmax, self._part(name))
 
     def on_plane(
         self, angle: float = 0.0, row: Optional[int] = None, column: Optional[int] = None
@@ -178,12 +183,12 @@ class Cycle:
         angle : float
             Angle of the plane's normal to x, degrees.
         row, column : int, optional
-            Indices along y and x of one point; None: all points.
+            Indices along y and x; None: all of them.
 
         Returns
         -------
         iterator of ndarray
-            Of each step the stress, (z, y, x), or (z, 1, 1) below a point, Pa.
+            Of each step the stress, (z, y, x), Pa; (z, 1, 1) below a point.
 
         Raises
         ------
@@ -191,7 +196,7 @@ class Cycle:
             If the cycle lacks a stress.
         """
         of = terms(angle)
-        window = () if row is None else (slice(row, row + 1), slice(column, column + 1))
+        window = [slice(None) if index is None else slice(index, index + 1) for index in (row, column)]
         for parts in zip(*(self._part(name, *window) for name in of)):
             yield sum(term * part for term, part in zip(of.values(), parts))
 
@@ -213,10 +218,10 @@ class Cycle:
         Error
             If the cycle lacks a stress.
         """
-        high = low = None
-        for values in self.on_plane(angle):
-            high = values if high is None else np.fmax(high, values)
-            low = values if low is None else np.fmin(low, values)
+        steps = self.on_plane(angle)
+        high = low = next(steps)
+        for values in steps:
+            high, low = np.fmax(high, values), np.fmin(low, values)
         return high, low
 
     def hot_spot(self, name: str) -> tuple[int, int]:
@@ -261,16 +266,15 @@ class Cycle:
         Error
             If the place is beyond the outermost cells.
         """
-        found = []
-        for letter, axis, wanted in (("y", self.y, y), ("x", self.x, x)):
-            half = 0.5 * (axis[1] - axis[0]) if axis.size > 1 else np.inf
-            if not axis[0] - half <= wanted <= axis[-1] + half:
-                limits = f"{axis[0]:g} to {axis[-1]:g} m"
-                raise Error(
-                    f"{self.path}: --at: {letter} = {wanted:g} m is not on the points, {limits}; choose one there"
-                )
-            found.append(int(np.argmin(np.abs(axis - wanted))))
-        return tuple(found)
+        return self._index("y", self.y, y), self._index("x", self.x, x)
+
+    def _index(self, letter, axis, wanted):
+        """Index of the nearest of the points along an axis; Error beyond the outermost cells."""
+        half = 0.5 * (axis[1] - axis[0]) if axis.size > 1 else np.inf
+        if not axis[0] - half <= wanted <= axis[-1] + half:
+            limits = f"{axis[0]:g} to {axis[-1]:g} m"
+            raise Error(f"{self.path}: --at: {letter} = {wanted:g} m is not on the points, {limits}; choose one there")
+        return int(np.argmin(np.abs(axis - wanted)))
 
     def line(self, name: str, row: int, column: int) -> np.ndarray:
         """The largest value over the steps along the depth below a point.

@@ -3,6 +3,7 @@
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .push import Push
 
@@ -30,7 +31,7 @@ class Backbone:
         """dQ/dD there, N/m; 0 where it slides."""
         return np.interp(np.abs(displacement), self.displacement, self.slope, right=0.0)
 
-    def derivatives(self, displacement) -> dict:
+    def derivatives(self, displacement: ArrayLike) -> dict[str, np.ndarray]:
         """Derivatives of the force by displacement, friction, compliance, scale, and bend, at displacements (m): those
         of the straight lines between the points of the table.
 
@@ -51,7 +52,12 @@ class Backbone:
 
 
 def force_of(
-    backbone: Backbone, displacement, rising, own=(0.0, 1.0, -1.0), lean=0.0, loss=0.0
+    backbone: Backbone,
+    displacement: np.ndarray,
+    rising: np.ndarray,
+    own: tuple[float, float, float] = (0.0, 1.0, -1.0),
+    lean: float = 0.0,
+    loss: float = 0.0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Force and its slope over the displacement of a closed loop, N and N/m; `own` are its offset of the force, largest
     and smallest displacement."""

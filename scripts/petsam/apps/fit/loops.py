@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 
@@ -104,7 +104,11 @@ def need_parameters(free: Sequence[str], fixed: Mapping[str, Any]) -> None:
 
 
 def fit(
-    loops: Sequence[Loop], push: Sequence[Push], free: Sequence[str] = (), profile: bool = True, **fixed: Any
+    loops: Sequence[Loop],
+    push: Union[Push, Sequence[Push]],
+    free: Sequence[str] = (),
+    profile: bool = True,
+    **fixed: Any,
 ) -> Fit:
     """Fits friction and the rig's compliance to one or several closed loops.
 

@@ -129,7 +129,7 @@ def plan(
     kinds = {f"{part:g} of sliding": float(np.interp(part * backbone.force[-1], backbone.force, backbone.displacement))
              for part in PARTS}  # fmt: skip
     kinds.update({f"{ratio:g} times the sliding stroke": ratio * slides for ratio in BEYOND})
-    sets = [(name,) for name in kinds]
+    sets: list[tuple[str, ...]] = [(name,) for name in kinds]
     sets += [
         ("0.3 of sliding", "0.6 of sliding", "0.9 of sliding"), ("0.6 of sliding", "1.5 times the sliding stroke")
     ]  # fmt: skip
@@ -141,8 +141,8 @@ def plan(
         rows.append([_deviation(loops, push, free, values, sizes, cycles) / friction for free in UNKNOWN])
         strokes.append(max(kinds[name] for name in names))
         forces.append(float(backbone(strokes[-1])))
-    names = [" and ".join(names) for names in sets]
-    return Plan(names, np.array(strokes), np.array(forces), np.array(rows), friction, wanted)
+    measured = [" and ".join(names) for names in sets]
+    return Plan(measured, np.array(strokes), np.array(forces), np.array(rows), friction, wanted)
 
 
 def _made(backbone, push, half, points):

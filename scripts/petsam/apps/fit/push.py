@@ -87,7 +87,7 @@ def ball(normal: float, radius: float, bodies: Mapping) -> Push:
     return Push(normal, force, first_loading(force, normal, slides), "ball in closed form (Cattaneo and Mindlin)")
 
 
-def options_of(path) -> dict[str, str]:
+def options_of(path: Union[str, os.PathLike]) -> dict[str, str]:
     """{name: value} of an options file of petsam; "" of an option without a value."""
     found = {}
     for number, line in enumerate(text_of(path).splitlines(), 1):

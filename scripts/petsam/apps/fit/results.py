@@ -213,7 +213,7 @@ def as_json(found: Result, worn: Optional[Wear] = None, body: str = "2") -> dict
     return numbers
 
 
-def write_friction(found: Result, path) -> None:
+def write_friction(found: Result, path: str) -> None:
     """Writes the friction over the cycles as -wear_friction reads it: from cycle 0 on, each known cycle."""
     rows = [(n, f.friction) for n, f in zip(found.numbers, found.each)]
     rows = [(0.0, rows[0][1]), *rows] if rows[0][0] > 0.0 else rows
@@ -221,7 +221,15 @@ def write_friction(found: Result, path) -> None:
         file.write("cycle,friction\n" + "".join(f"{n:.12g},{mu:.6g}\n" for n, mu in rows))
 
 
-def write_options(found: Result, push: Push, shape, width, name, worn=None, body="2") -> list[str]:
+def write_options(
+    found: Result,
+    push: Push,
+    shape: str,
+    width: Optional[float],
+    name: str,
+    worn: Optional[Wear] = None,
+    body: str = "2",
+) -> list[str]:
     """Writes NAME.opts and NAME-loop.csv, with which petsam computes the loop of the contact alone: its displacement is
     that of the record less the compliance times the force. Where the friction changes, or a coefficient of wear is
     known, NAME-life.opts repeats the closed cycle of NAME-life.csv for the cycles of the test. The options of bodies

@@ -375,23 +375,24 @@ def fit_profile(
         See family() and fit_scar().
     """
     start, (x, height) = None, _sound(x, height, True)
-    for last in [False] * (WIDENINGS - 1) + [True]:
+    left = WIDENINGS
+    while True:
+        left -= 1
         try:
-            one = one or family(shape, life, body, options, start)
+            used = one or family(shape, life, body, options, start)
         except _AtEdge:
             own = start or float(options_of(shape)[f"wear_coefficient{body}"])
-            if last:
+            if not left:
                 raise
             start = own / BEYOND
             continue
-        scar = fit_scar(one, x, height)
-        if last or not scar.end or scar.end > 0 and len(one.product) < OUTPUTS:
-            break
-        own = one.product[0] / (LEAST * life)
-        part = _begin(one, scar.x, scar.height, True)[0] / life / own
+        scar = fit_scar(used, x, height)
+        if not left or not scar.end or scar.end > 0 and len(used.product) < OUTPUTS:
+            return scar, used
+        own = used.product[0] / (LEAST * life)
+        part = _begin(used, scar.x, scar.height, True)[0] / life / own
         start = own * float(np.clip(part, *((2.0, BEYOND) if scar.end > 0 else (1.0 / BEYOND, 0.25))))
         one = None
-    return scar, one
 
 
 @brief
@@ -450,24 +451,25 @@ def split(
     """
     own = float(options_of(shape)[f"wear_coefficient{body}"])
     other = "wear_coefficient" + ("1" if body == "2" else "2")
-    ratios, found = list(ratios), []
-    while len(found) < len(ratios):
-        found.append(fit_profile(shape, life, x, height, body, {other: ratios[len(found)] * own})[0])
+    tried = list(ratios)
+    found: list[Scar] = []
+    while len(found) < len(tried):
+        found.append(fit_profile(shape, life, x, height, body, {other: tried[len(found)] * own})[0])
         misfits = np.array([scar.misfit for scar in found])
-        if len(found) == len(ratios) and misfits.argmin() == len(ratios) - 1 and ratios[-1] < MOST_RATIO:
-            ratios.append(GROWS * ratios[-1])
+        if len(found) == len(tried) and misfits.argmin() == len(tried) - 1 and tried[-1] < MOST_RATIO:
+            tried.append(GROWS * tried[-1])
     k = int(np.clip(np.argmin(misfits), 1, len(misfits) - 2))
-    curve = np.polyfit(ratios[k - 1 : k + 2], misfits[k - 1 : k + 2] ** 2, 2)  # of the mean square
+    curve = np.polyfit(tried[k - 1 : k + 2], misfits[k - 1 : k + 2] ** 2, 2)  # of the mean square
     scar = found[int(np.argmin(misfits))]
     best = float(-curve[1] / (2.0 * curve[0])) if curve[0] > 0.0 else np.nan
     least = float(np.polyval(curve, best))
     points = len(scar.x) * (1.0 - min(scar.neighbours, 0.99)) / (1.0 + max(scar.neighbours, 0.0))
     points = max(1.0, points - 4.0)  # independent ones, less those that the fit takes
     deviation = float(np.sqrt(max(least, 0.0) / (points * curve[0]))) if curve[0] > 0.0 else np.nan
-    doubt = _doubt_of_ratio(best, deviation, ratios, scar)
+    doubt = _doubt_of_ratio(best, deviation, tried, scar)
     if doubt:
         best = deviation = np.nan
-    return Split(best, deviation, np.array(ratios), misfits, scar, doubt)
+    return Split(best, deviation, np.array(tried), misfits, scar, doubt)
 
 
 def _doubt_of_ratio(best, deviation, ratios, scar):

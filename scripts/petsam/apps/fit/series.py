@@ -64,11 +64,11 @@ class Result(Tabled):
     rig_stiffness_sd: float
     contact_stiffness: float
     fit: Fit
-    files: Sequence = ()
-    each: Sequence = ()
-    numbers: Optional[np.ndarray] = None
-    energy: Optional[np.ndarray] = None
-    notes: Sequence = ()
+    files: Sequence[Cycles]
+    each: Sequence[Fit]
+    numbers: np.ndarray
+    energy: np.ndarray
+    notes: Sequence[str] = ()
 
     def table(self) -> list:
         """The columns: cycle, friction, its deviation, the rig's compliance, its deviation, energy.

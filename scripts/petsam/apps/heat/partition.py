@@ -238,7 +238,9 @@ def _check(heat, touches, period, resistance):
         raise Error(f"heat: resistance {resistance:g} K m2/W: expected a number >= 0")
 
 
-def _solved(one, other, touches, resistance, right, rtol):
+def _solved(
+    one: Conductor, other: Conductor, touches: np.ndarray, resistance: float, right: np.ndarray, rtol: float
+) -> np.ndarray:
     """The heat into body 2 by generalised conjugate residuals."""
     padded = one.padded
 

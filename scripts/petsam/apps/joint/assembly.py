@@ -53,7 +53,7 @@ class Assembly:
         self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
         self.force = np.zeros(self.modes)  # of the last step
-        self.iterations = []
+        self.iterations: list[int] = []
         self.opens = False  # True: patches may be open, such as while bolts are tightened
 
     @staticmethod

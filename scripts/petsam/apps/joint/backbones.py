@@ -28,7 +28,7 @@ from .arguments import modal as as_modal
 from .balance import Balance
 from .numbers import Numbers, energies, solved
 from .structure import Structure
-from .sweep import CYCLES, STEPS, BackboneWarning, Sweep
+from .sweep import CYCLES, STEPS, BackboneWarning, Sweep, of_vibrations
 
 UNMOVED = 1e-6  # displacement of a sensor that is rounding, relative to those by the modes
 LISTED = 6  # modes in the table
@@ -155,6 +155,7 @@ def _moved(sensor, shape):
     return moved
 
 
+@of_vibrations
 def backbone(
     structure: Structure, amplitudes: ArrayLike, mode: int = 1, sensor: Optional[ArrayLike] = None,
     steps: int = STEPS, harmonics: int = 0, report: Optional[Callable[[int, int], object]] = None,
@@ -163,17 +164,9 @@ def backbone(
 
     Parameters
     ----------
-    structure : Structure
-        A structure, or that of a Pair, in its preload.
     amplitudes : array of shape (k,)
         Displacements (m) at the sensor of a linear mode: the forces follow from them, and the amplitudes of the
         results are larger where the joint is softer.
-    mode : int
-        Number of the mode, from 1, by rising frequency while all that touches sticks.
-    sensor : array of shape (modes,), optional
-        Displacement of the sensor by each modal coordinate; None: amplitudes are modal (m kg^0.5).
-    steps : int
-        Load steps of a half cycle.
     harmonics : int
         0: quasi-static modal analysis; else the number of harmonics that are balanced: the resonance under a force
         along the mode, with the inertia of all modes and harmonics. The amplitudes are then those found.
@@ -183,11 +176,6 @@ def backbone(
     Returns
     -------
     Backbone
-
-    Raises
-    ------
-    Error
-        For wrong values, and where the structure finds no equilibrium.
     """
     harmonics = integer("harmonics", harmonics, 0)
     sweep = Balance(structure, mode, steps, harmonics) if harmonics else Sweep(structure, mode, steps)
@@ -225,6 +213,7 @@ def backbone(
     return found
 
 
+@of_vibrations
 def shake(
     structure: Structure, amplitude: float, mode: int = 1, sensor: Optional[ArrayLike] = None, steps: int = STEPS
 ) -> None:
@@ -233,21 +222,8 @@ def shake(
 
     Parameters
     ----------
-    structure : Structure
-        A structure in its preload.
     amplitude : float
         Of the vibration, as of backbone(), m.
-    mode : int
-        Number of the mode, from 1.
-    sensor : array of shape (modes,), optional
-        Displacement of the sensor by each modal coordinate; None: the amplitude is modal (m kg^0.5).
-    steps : int
-        Load steps of a half cycle.
-
-    Raises
-    ------
-    Error
-        For wrong values, and where the structure finds no equilibrium.
     """
     sweep = Sweep(structure, mode, steps)
     point = sweep.point(float(modal_amplitudes(sweep, [amplitude], sensor)[0]))

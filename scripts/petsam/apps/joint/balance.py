@@ -31,7 +31,7 @@ from .arguments import integer, modal, positive
 from .failures import BEYOND, NoSolution
 from .numbers import Numbers, energies, solved
 from .structure import Structure
-from .sweep import STEPS, Point, Sweep
+from .sweep import STEPS, Point, Sweep, of_vibrations
 
 TOLERANCE = 1e-5  # of the balance, relative to its forces
 NEAR = 0.01  # relative difference of amplitudes that are the same
@@ -306,6 +306,7 @@ class Response(Numbers):
         return energies(self.patches, self.names)
 
 
+@of_vibrations
 def forced(
     structure: Structure, force: ArrayLike, frequencies: ArrayLike, sensor: ArrayLike, steps: int = 2 * STEPS,
     harmonics: int = 3, report: Optional[Callable[[int, int], object]] = None,
@@ -314,16 +315,12 @@ def forced(
 
     Parameters
     ----------
-    structure : Structure
-        A structure in its preload.
     force : array of shape (modes,)
         Modal force, N times the displacement of its place by each modal coordinate.
     frequencies : array of shape (k,)
         Hz, in the order in which they are computed: each begins from what the one before has found.
     sensor : array of shape (modes,)
         Displacement of the sensor by each modal coordinate.
-    steps : int
-        Load steps of a half cycle.
     harmonics : int
         Number of harmonics that are balanced.
     report : callable, optional
@@ -332,11 +329,6 @@ def forced(
     Returns
     -------
     Response
-
-    Raises
-    ------
-    Error
-        For wrong values, and where the structure finds no equilibrium.
     """
     balance = Balance(structure, 1, steps, harmonics)
     force, sensor = (modal(name, one, structure.modes) for name, one in (("force", force), ("sensor", sensor)))

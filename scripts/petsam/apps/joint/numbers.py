@@ -13,7 +13,7 @@ PER_METRE = {"J": "J/m", "N": "N/m", "m3": "m3/m", "m kg^0.5": "m (kg/m)^0.5", "
 class Numbers(Tabled, Shown):
     """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"]."""
 
-    columns = {}  # {name: (unit, text)} of the kind of result
+    columns: dict[str, tuple[str, str]] = {}  # {name: (unit, text)} of the kind of result
     per_metre = False  # True: loads, energies and masses are those of sections in plane strain, per metre
     form = staticmethod("{:.10g}".format)
 

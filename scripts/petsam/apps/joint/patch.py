@@ -67,7 +67,7 @@ class Patch:
         self.by_load = np.array([name in by_load for name in self.coordinates])
         self.center = np.asarray(center, dtype=float)
         self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
-        self.given = {}  # what the last step prescribed, and the coordinates that it found
+        self.given: dict[str, float] = {}  # what the last step prescribed, and the coordinates that it found
         self.outgrown = False
         self.sign = np.array([-1.0 if name in DISPLACEMENTS else 1.0 for name in self.coordinates])
         order = [*DISPLACEMENTS, *self.cases]
@@ -164,7 +164,7 @@ class Patch:
         """
         z = np.zeros(len(self.coordinates))
         for k, name in enumerate(self.coordinates):
-            with contextlib.suppress(ContactError if name in self.cases else ()):
+            with contextlib.suppress(*([ContactError] if name in self.cases else [])):
                 z[k] = self.contact.number(name)
         return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
 

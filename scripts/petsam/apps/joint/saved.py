@@ -77,10 +77,10 @@ def read(path: Union[str, os.PathLike]) -> Saved:
         known = f"tables of petsam-joint begin with one of {', '.join(KINDS)}"
         cure = "results.h5 beside it" if columns[0].name == "case" else "one of those, or results of petsam -output"
         raise Error(f"{path}: its first column is {columns[0].name}: {known}; give {cure}")
-    kind, known = KINDS[columns[0].name]
+    kind, own = KINDS[columns[0].name]
     electrical = any(column.unit in ELECTRICAL.values() for column in columns)
-    known = {"assembly": ("", "the assembly"), **columns_of(electrical), **ERRORS, **known}
-    return Saved(kind, [column._replace(text=_text(column.name, known)) for column in columns])
+    texts = {"assembly": ("", "the assembly"), **columns_of(electrical), **ERRORS, **own}
+    return Saved(kind, [column._replace(text=_text(column.name, texts)) for column in columns])
 
 
 def _text(name, known):

@@ -8,6 +8,7 @@ from numpy.linalg import norm
 
 from ...core.brief import brief
 from ...core.errors import Unusable
+from ...core.keywords import explained
 from ...results.file import SLIP
 from .arguments import integer
 from .structure import Structure
@@ -19,6 +20,25 @@ SMALL = 0.5  # changes of the loads over those of the preload below which the co
 RTOL = 1e-6, 1e-12  # -tangential_rtol at these, and the least that rounding allows
 UNLIKE = 0.75  # difference of a cycle's energy and its loop, a polygon inside of it, above which they are rounding
 FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
+COMMON = """Parameters and errors of the functions of a structure that vibrates.
+
+Parameters
+----------
+structure : Structure
+    A structure, or that of a Pair, in its preload.
+mode : int
+    Number of the mode, from 1, by rising frequency while all that touches sticks.
+sensor : array of shape (modes,), optional
+    Displacement of the sensor by each modal coordinate; None: amplitudes are modal (m kg^0.5).
+steps : int
+    Load steps of a half cycle.
+
+Raises
+------
+Error
+    For wrong values, and where the structure finds no equilibrium.
+"""
+of_vibrations = explained(COMMON)
 
 
 class BackboneWarning(UserWarning):

@@ -27,7 +27,7 @@ from .failures import ENDS, NoSolution
 from .numbers import Numbers, reason
 from .patch import DISPLACEMENTS
 from .structure import Structure
-from .sweep import STEPS, Sweep
+from .sweep import STEPS, Sweep, of_vibrations
 
 PARTS = 2  # parts of each span of cycles
 WEAR = {
@@ -101,6 +101,7 @@ def _shown(name, unit):
     return f"{name}/({unit})" if "/" in unit else "/".join(filter(None, (name, unit)))
 
 
+@of_vibrations
 def wear(  # noqa: PLR0913  (as the options of petsam-joint wear)
     structure: Structure, amplitude: float, cycles: ArrayLike, mode: int = 1, sensor: Optional[ArrayLike] = None,
     steps: int = STEPS, measure: Optional[Callable[[Structure], dict]] = None,
@@ -110,18 +111,10 @@ def wear(  # noqa: PLR0913  (as the options of petsam-joint wear)
 
     Parameters
     ----------
-    structure : Structure
-        A structure in its preload.
     amplitude : float
         Of the vibration, as of backbone(); its modal force stays the same.
     cycles : array of shape (k,)
         Rising whole numbers of cycles at which the numbers are wanted, the first above 0.
-    mode : int
-        Number of the mode, from 1.
-    sensor : array of shape (modes,), optional
-        Displacement of the sensor by each modal coordinate; None: the amplitude is modal (m kg^0.5).
-    steps : int
-        Load steps of a half cycle.
     measure : callable, optional
         Returns, as measure(structure), {name: number} of a structure at rest, such as Pair.left; a name may have its
         unit: B1 [N].
@@ -131,11 +124,6 @@ def wear(  # noqa: PLR0913  (as the options of petsam-joint wear)
     Returns
     -------
     Wear
-
-    Raises
-    ------
-    Error
-        For wrong values, and where the structure finds no equilibrium.
     """
     cycles = np.atleast_1d(array("cycles", cycles, "rising whole numbers above 0"))
     if not (cycles.size and rising(cycles)):

@@ -79,6 +79,13 @@ class Window(NamedTuple):
         """Nominal area, m2."""
         return float(np.prod(self._size()))
 
+    @property
+    def sheared(self) -> Loop:
+        """The loop of a window that has one."""
+        if self.loop is None:
+            raise Unusable("friction: a loop needs one")
+        return self.loop
+
     def _size(self):
         return tuple(float(n * step) for n, step in zip(self.separation.shape[::-1], self.step))
 
@@ -127,10 +134,10 @@ def checked(count: int) -> list[int]:
 
 def spread_over(values: np.ndarray, places: list[int], count: int) -> np.ndarray:
     """Errors at all of so many pressures, from those at the checked places: between two the larger one."""
-    places = np.asarray(places)
+    at = np.asarray(places)
     found = np.empty(count)
     for k in range(count):
-        low, high = values[places <= k][-1], values[places >= k][0]
+        low, high = values[at <= k][-1], values[at >= k][0]
         found[k] = max(low, high)
     return found
 
@@ -149,7 +156,7 @@ def by_formula(window: Window, told: Callable[[float, float], object]) -> Found:
     """All numbers by the formula: no step has a shear."""
     from scipy.interpolate import CubicSpline, PchipInterpolator
 
-    loop, parts = window.loop, window.loop.parts()
+    loop, parts = window.sheared, window.sheared.parts()
     rows, approach, ratio = [], {}, {}
     with _noted() as (found, begins), window.contact() as contact:
         for pressure in _telling(window):
@@ -190,7 +197,7 @@ def by_loops(window: Window, told: Callable[[float, float], object]) -> Found:
 
 def check(window: Window, _: Callable[[float, float], object]) -> Found:
     """The loop alone, computed at the first pressure: one cycle, as that of similar bodies is closed."""
-    pressure, loop = window.pressures[0], window.loop
+    pressure, loop = window.pressures[0], window.sheared
     with _noted() as (found, begins), window.contact() as contact:
         begins(f"{pressure:.6g} Pa{window.name}")
         normal = pressure * window.area
@@ -297,8 +304,8 @@ def _sheared(row, curve, factor, loop, parts):
 
 def _cycled(contact, pressure, window):
     """The numbers of a computed loop at the committed pressure, and the displacements of the first loading, m."""
-    friction, _, steps = window.loop
-    parts, normal = friction * window.loop.parts(), pressure * window.area
+    friction, _, steps = window.sheared
+    parts, normal = friction * window.sheared.parts(), pressure * window.area
     with contact.copy() as trial:
         pressed = trial.number("disp_x")  # N alone moves dissimilar bodies
         _, start = _push(trial, normal, parts[:steps])
@@ -321,7 +328,8 @@ def _push(contact, normal, parts):
 
 def _loop(contact, normal, window, halves=HALVES):
     """Numbers of the last cycle of the load along x, of a contact that has been pushed to the first end of the loop."""
-    part, steps, ends, energies = window.loop.friction * window.loop.shear, window.loop.steps, [], []
+    loop, ends, energies = window.sheared, [], []
+    part, steps = loop.friction * loop.shear, loop.steps
     for k in range(halves):
         end = part if k % 2 else -part
         energy, places = _push(contact, normal, np.linspace(-end, end, 2 * steps + 1)[1:])

@@ -62,7 +62,7 @@ def given(forces, frame, nodes, sign):
     return frame_of(np.asarray(origin, dtype=float) * forces.length, x, z, -z / size), by
 
 
-def written(frame: Frame, length):
+def written(frame: Frame, length: float) -> str:
     """A frame as --frame has it, in the model's unit of length (m)."""
 
     def point(values):

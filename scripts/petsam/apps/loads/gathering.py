@@ -1,6 +1,7 @@
 """Rows of a file, one per node and time, as arrays over times and nodes; coordinates of a deck."""
 
 from dataclasses import dataclass, field
+from typing import Optional
 
 import numpy as np
 
@@ -19,9 +20,9 @@ OF = {"length": "m", "force": "N"}
 class Given:
     """Options on a file: the deck of its nodes, and the names of its units (None: not given)."""
 
-    deck: str = None
-    length: str = None
-    force: str = None
+    deck: Optional[str] = None
+    length: Optional[str] = None
+    force: Optional[str] = None
 
     def size(self, name, path, stated=None, where=""):
         """The size of the unit of `length` or `force` in SI: that of the option, or that the file states."""

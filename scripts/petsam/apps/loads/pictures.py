@@ -61,7 +61,8 @@ def loads(found: History) -> Figure:
     figure, ((top, side), (low, last)) = plt.subplots(2, 2, figsize=(9.6, 7.4), layout="constrained")
     _over_time(top, found, ["load_tx", "load_ty"], shear)
     _over_time(low, found, ["load_n"], normal)
-    _path(side, *tangential.T, shear, COLORS[2])
+    t_x, t_y = tangential.T
+    _path(side, t_x, t_y, shear, COLORS[2])
     side.set(xlabel=label(scalar("load_tx"), shear[1]), ylabel=label(scalar("load_ty"), shear[1]))
     side.set_aspect("equal", adjustable="datalim")
     side.legend()

@@ -125,7 +125,7 @@ class History(Tabled):
     @property
     def rounding(self) -> np.ndarray:
         """Magnitudes of the loads, (6,), up to which they are rounding."""
-        force, size = np.max(np.abs(self.loads[:, :3])), np.max(np.ptp(self.extent, axis=0))
+        force, size = float(np.max(np.abs(self.loads[:, :3]))), float(np.max(np.ptp(self.extent, axis=0)))
         return ROUNDING * force * np.array([1.0, 1.0, 1.0, size, size, size])
 
     def turns(self) -> dict:
@@ -282,8 +282,8 @@ def history(
             f"{forces.source}: all forces on {short(str(patch))} are 0, or rounding: name another set (RF of CalculiX "
             "is 0 at nodes without supports: use *CONTACT PRINT, CF)"
         )
-    make = automatic.of if isinstance(frame, str) else automatic.given
-    found, z_by = make(forces, nodes, sign) if isinstance(frame, str) else make(forces, frame, nodes, sign)
+    automatically = isinstance(frame, str)
+    found, z_by = automatic.of(forces, nodes, sign) if automatically else automatic.given(forces, frame, nodes, sign)
     x = (forces.x[..., nodes, :] - found.origin) @ found.axes.T
     force = sign * forces.force[:, nodes] @ found.axes.T
     couple = None if forces.couple is None else sign * forces.couple[:, nodes] @ found.axes.T

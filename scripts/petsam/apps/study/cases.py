@@ -103,9 +103,9 @@ class Case(NamedTuple):
         list of str
             Words of the command line.
         """
-        options = self.options if options is None else options
-        options = sorted(options.items(), key=lambda item: item[0] != "options_file")
-        return [word for name, value in options for word in (["-" + name] if value is None else ["-" + name, value])]
+        given = self.options if options is None else options
+        ordered = sorted(given.items(), key=lambda item: item[0] != "options_file")
+        return [word for name, value in ordered for word in (["-" + name] if value is None else ["-" + name, value])]
 
     def paths(self) -> dict[str, str]:
         """The files that petsam reads and this class does not write.

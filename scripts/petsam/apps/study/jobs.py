@@ -250,11 +250,11 @@ def run(
     """
     if isinstance(table, Mapping):
         folder = os.path.abspath(directory or "study")
-        table = _written(table, folder)
+        path = _written(table, folder)
     else:
-        table = os.fspath(table)
-        folder = os.path.abspath(directory or os.path.splitext(os.path.basename(table))[0])
-    jobs = Jobs(table, folder, tuple(command_line.words(options or {})), cores=cores, **how)
+        path = os.fspath(table)
+        folder = os.path.abspath(directory or os.path.splitext(os.path.basename(path))[0])
+    jobs = Jobs(path, folder, tuple(command_line.words(options or {})), cores=cores, **how)
     cases = jobs.cases()
     check_files(cases)
     jobs.prepare(cases)

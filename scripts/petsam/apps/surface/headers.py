@@ -5,7 +5,7 @@ its words, as programs of instruments write them: "# Width: 80 um", "x-length = 
 """
 
 import re
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 from ...core.errors import Error, short
 from ...core.texttable import COMMENTS, split
@@ -33,14 +33,14 @@ ORDER = re.compile(r"\b(?:first (?:row|line)|origin)\b.*?\b(top|upper|bottom|low
 class Header(NamedTuple):
     """Statements of a header, lengths in m; None where it makes none."""
 
-    unit: float = None  # of the heights
+    unit: Optional[float] = None  # of the heights
     size: tuple = (None, None)  # along x, y
     pixel: tuple = (None, None)
-    top: bool = None  # whether the first row has the largest y
+    top: Optional[bool] = None  # whether the first row has the largest y
     mentioned: tuple = ()  # units of lengths in brackets, of whatever quantity
     unread: tuple = ()  # numbers and texts of lines about lengths that no rule understands
     lines: dict = {}  # of unit, x and y: the number of the line
-    lateral: float = None  # m of the unit of lengths along x and y without one
+    lateral: Optional[float] = None  # m of the unit of lengths along x and y without one
 
 
 def _words(key):

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -25,6 +26,7 @@ from .readers.stated import How, Source, Stated
 
 __all__ = ["FORMATS", "read", "read_hdf5"]
 
+Read = TypeVar("Read")
 SMALLEST = 1e-7  # m: few instruments measure a surface that is smaller
 
 
@@ -182,7 +184,7 @@ def _need(path, family, quantity, unit, size, spans):
         raise Error(f"{path}: does not say {'; nor '.join(lacking)}: give the options{hint}")
 
 
-def _guarded(path, read_it):
+def _guarded(path: str | os.PathLike, read_it: Callable[[], Read]) -> Read:
     """Returns the value of read_it() for a file; errors of damaged files are raised as an Error."""
     try:
         if need_regular(path).st_size == 0:
@@ -318,11 +320,11 @@ def _missing(path, stated, given):
     return number if stated.missing is None else stated.missing
 
 
-def _stated(path, given):
+def _stated(path: str, given: Given) -> tuple[Stated, str]:
     """The statements of a file, and the family of its format."""
     word = given.missing if isinstance(given.missing, str) else None
     form = Form(given.decimal, given.skip_rows, given.skip_columns, (word.lower(),) if word else ())
-    source = Source(path, How(form, given.units, given.dataset, given.channel, given.format == "table"))
+    source = Source(path, How(form, words.unit(given.units), given.dataset, given.channel, given.format == "table"))
     stated, family = stated_of(source, given.format)
     if word and family != "table":
         raise Error(f"{path}: --missing {short(word)}: is a word, which only texts have: give a number")
@@ -375,4 +377,5 @@ def read(
     """
     path = os.fspath(path)
     given = Given(units, size, pixel, body, **more).in_metres()
-    return _combined(path, *_guarded(path, lambda: _stated(path, given)), given)
+    stated, family = _guarded(path, lambda: _stated(path, given))
+    return _combined(path, stated, family, given)

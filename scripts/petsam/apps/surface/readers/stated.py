@@ -3,7 +3,7 @@
 import os
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 import numpy as np
 
@@ -20,18 +20,18 @@ class Stated(NamedTuple):
     """Statements of a file about its values (all lengths in m); None where it makes none."""
 
     values: np.ndarray  # (rows, columns)
-    unit: float = None
-    size: tuple = None
-    center: tuple = None
-    quantity: str = None
-    top: bool = None  # whether the first row has the largest y
+    unit: Optional[float] = None
+    size: Optional[tuple] = None
+    center: Optional[tuple] = None
+    quantity: Optional[str] = None
+    top: Optional[bool] = None  # whether the first row has the largest y
     remarks: tuple = ()
     doubts: tuple = ()  # texts of warnings
     sides: tuple = (None, None)  # size along x, y of a file that may state only one of them
     lines: dict = {}  # of the statements unit, x and y in a text, and of its first values
     name: str = ""  # of the dataset
-    spans: tuple = None  # size along x, y in a unit that the file does not state
-    missing: float = None  # value of missing points, which the file states
+    spans: Optional[tuple] = None  # size along x, y in a unit that the file does not state
+    missing: Optional[float] = None  # value of missing points, which the file states
     layout: str = "array"  # what lists of points are looked for in: "array", "text", "library"; "grid": none can be
 
 
@@ -40,9 +40,9 @@ class How:
     """How a file is read: what no file states of itself."""
 
     form: Form = field(default_factory=Form)  # of a text
-    units: float = None  # m, as given beside the file
-    dataset: str = None
-    channel: str = None
+    units: Optional[float] = None  # m, as given beside the file
+    dataset: Optional[str] = None
+    channel: Optional[str] = None
     table: bool = False  # whether it is a text by the caller's word
     lengths: bool = True  # whether the values are lengths, whose unit is read
 
@@ -82,12 +82,12 @@ class Reader:
     """One format."""
 
     family = ""  # name for --format
-    states = ()  # what a file of it may state
+    states: tuple[str, ...] = ()  # what a file of it may state
 
-    def recognizes(self, source) -> bool:
+    def recognizes(self, source: Source) -> bool:
         """True if the file is one of this format."""
         raise NotImplementedError
 
-    def read(self, source) -> Stated:
+    def read(self, source: Source) -> Stated:
         """The statements of the file; Error with the cure for one that is no map."""
         raise NotImplementedError
