@@ -245,7 +245,9 @@ class Interface(Tabled, Shown):
         """
         columns = [("p/MPa", 8, "{:8.4g}", self.numbers["pressure"] / 1e6)]
         further = windows.LOADING in self.numbers
-        columns.append(("unloading: k_n/(N/mm3)" if further else "k_n/(N/mm3)", 12, "{:12.4g}", self.numbers["k_n"] / 1e9))
+        columns.append(
+            ("unloading: k_n/(N/mm3)" if further else "k_n/(N/mm3)", 12, "{:12.4g}", self.numbers["k_n"] / 1e9)
+        )
         columns.append(self._deviation("k_n"))
         if further:
             columns.append(("loading: k_n/(N/mm3)", 12, "{:12.4g}", self.numbers[windows.LOADING] / 1e9))
