@@ -24,23 +24,13 @@ Functions of materials, sphere and stress have their names here; the others are 
 
 import importlib
 
+from .cattaneo import cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius
+from .lubkin import lubkin_shear, lubkin_stick_radius, lubkin_torque_ratio, lubkin_twist, torsion_limit
+
 # fmt: off
 from .materials import Bodies, dundurs_beta, effective_modulus, effective_radius, shear_modulus, tangential_compliance
-from .sphere import (
-    Hertz,
-    Spheres,
-    cattaneo_displacement,
-    cattaneo_shear,
-    cattaneo_slip,
-    cattaneo_stick_radius,
-    hertz,
-    hertz_pressure,
-    lubkin_shear,
-    lubkin_stick_radius,
-    lubkin_torque_ratio,
-    lubkin_twist,
-    torsion_limit,
-)
+from .normal import Hertz, hertz, hertz_pressure
+from .sphere import Spheres
 from .stress import HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, sliding_surface
 
 # fmt: on

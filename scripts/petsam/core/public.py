@@ -46,7 +46,7 @@ def public(found: Any) -> Any:
     if inspect.isclass(found):
         _show(found, inspect.signature(found))
         if "__init__" in vars(found) and "Parameters" in keywords.sections(found.__doc__)[1]:
-            found.__init__ = _checked(found.__init__, found.__name__, found.__doc__)  # type: ignore[misc]
+            found.__init__ = _checked(found.__init__, found.__name__, found.__doc__)
     else:
         made = _checked(found, found.__name__, found.__doc__)
         _show(made, inspect.signature(found))
@@ -105,7 +105,7 @@ def _hint(hint, home):
     return Any
 
 
-def _kind(hint) -> Optional[tuple[Callable[[Any], bool], str]]:
+def _kind(hint: Any) -> Optional[tuple[Callable[[Any], bool], str]]:
     """A check of values by their hint, and its kind in words; None where nothing is checked."""
     origin, parts = typing.get_origin(hint), typing.get_args(hint)
     if hint == ArrayLike:
