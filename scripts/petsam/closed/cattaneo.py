@@ -56,60 +56,20 @@ def cattaneo_shear(r: ArrayLike, a: float, c: float, mu_p0: float) -> np.ndarray
 
 
 def cattaneo_displacement(a: float, c: float, mu_p0: float, compliance: float) -> float:
-    """Relative tangential displacement d_x of the bodies (Johnson eq. 7.42).
-
-    Parameters
-    ----------
-    a : float
-        Contact radius, m.
-    c : float
-        Stick radius, m; 0 gives the displacement at gross slip.
-    mu_p0 : float
-        Coefficient of friction times the maximum pressure, Pa.
-    compliance : float
-        That of tangential_compliance(), 1/Pa.
-
-    Returns
-    -------
-    float
-        Displacement, m.
-    """
+    """Relative tangential displacement d_x of the bodies, m, at a stick radius c (Johnson eq. 7.42); c = 0: gross
+    slip."""
     return 0.5 * np.pi * compliance * mu_p0 * (a**2 - c**2) / a
 
 
 def cattaneo_slip(
     r: ArrayLike, a: float, c: float, mu_p0: float, compliance: float, anisotropy: float = 0.0, angle: ArrayLike = 0.0
 ) -> np.ndarray:
-    """Slip s_x <= 0 of the Cattaneo-Mindlin shear; 0 for r <= c and outside the contact.
+    """Slip s_x <= 0, m, of the Cattaneo-Mindlin shear; 0 for r <= c and outside the contact.
 
-    Parameters
-    ----------
-    r : array_like
-        Distance from the contact's centre, m.
-    a : float
-        Contact radius, m.
-    c : float
-        Stick radius, m.
-    mu_p0 : float
-        Coefficient of friction times the maximum pressure, Pa.
-    compliance : float
-        That of tangential_compliance(), 1/Pa.
-    anisotropy : float
-        Sum of nu/(4 G) over both bodies, 1/Pa, or 0: see the notes.
-    angle : array_like
-        Angle from the direction of the force, rad.
-
-    Returns
-    -------
-    ndarray
-        Slip, m, of the shape of r and angle.
-
-    Notes
-    -----
-    With the default anisotropy = 0 this is the mean over all angles, which is the solution for nu = 0. With anisotropy
-    = sum of nu/(4 G) over both bodies it is u_x minus the rigid-body displacement for the given nu (from Johnson eqs
-    3.91a and 3.91b). For nu > 0 neither solves the contact problem without error, because there the shear q_y is not
-    zero.
+    With the default anisotropy = 0 this is the mean over all angles, which is the solution for nu = 0. With
+    anisotropy = sum of nu/(4 G) over both bodies it is u_x minus the rigid-body displacement for the given nu
+    (from Johnson eqs 3.91a and 3.91b), at the angle (rad) from the force. For nu > 0 neither solves the contact
+    problem without error, because there the shear q_y is not zero.
     """
     r = np.asarray(r, dtype=float)
     outside = np.maximum(r, c)

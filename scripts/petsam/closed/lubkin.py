@@ -25,38 +25,13 @@ from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 
 
 def torsion_limit(load_n: float, friction: float, a: float) -> float:
-    """Torque limit 3 pi/16 mu N a, at which the whole contact slips.
-
-    Parameters
-    ----------
-    load_n : float
-        Normal load, N.
-    friction : float
-        Coefficient of friction mu.
-    a : float
-        Contact radius, m.
-
-    Returns
-    -------
-    float
-        Torque limit, N m.
-    """
+    """Torque limit 3 pi/16 mu N a, N m, at which the whole contact slips."""
     return 3.0 * np.pi / 16.0 * friction * load_n * a
 
 
 def lubkin_torque_ratio(stick_ratio: ArrayLike) -> np.ndarray:
-    """The torque of a stick radius: 64/(3 pi^2) times the integral of t^2 E(k) over [c/a, 1], k^2 = 1 - t^2.
-
-    Parameters
-    ----------
-    stick_ratio : array_like
-        c/a, from 0 to 1.
-
-    Returns
-    -------
-    ndarray
-        M_z/M_lim, of the shape of stick_ratio.
-    """
+    """The torque over its limit at a ratio c/a: 64/(3 pi^2) times the integral of t^2 E(k) over [c/a, 1], k^2 = 1 -
+    t^2."""
     x = np.asarray(stick_ratio, dtype=float)[..., None]
     t = 0.5 * (1.0 + x + (1.0 - x) * GAUSS_NODES)
     integral = 0.5 * (1.0 - x[..., 0]) * np.sum(GAUSS_WEIGHTS * t**2 * ellipe(1.0 - t**2), axis=-1)
@@ -64,25 +39,7 @@ def lubkin_torque_ratio(stick_ratio: ArrayLike) -> np.ndarray:
 
 
 def lubkin_stick_radius(torque_ratio: float, a: float) -> float:
-    """The stick radius under a torque: the inverse of lubkin_torque_ratio().
-
-    Parameters
-    ----------
-    torque_ratio : float
-        M_z/M_lim, from 0 to 1.
-    a : float
-        Contact radius, m.
-
-    Returns
-    -------
-    float
-        Stick radius, m.
-
-    Raises
-    ------
-    Error
-        If the ratio is outside 0 to 1.
-    """
+    """The stick radius, m, under a torque over its limit, 0 to 1: the inverse of lubkin_torque_ratio()."""
     if not 0.0 <= torque_ratio <= 1.0:
         raise WrongArgument(f"torque_ratio must be in [0, 1], got {torque_ratio!r}")
     if torque_ratio in (0.0, 1.0):
@@ -91,28 +48,10 @@ def lubkin_stick_radius(torque_ratio: float, a: float) -> float:
 
 
 def lubkin_shear(r: ArrayLike, a: float, c: float, mu_p0: float) -> np.ndarray:
-    """Shear q_theta: mu p outside the stick radius, less within it.
+    """Shear q_theta, Pa: mu p outside the stick radius, less within it.
 
-    Parameters
-    ----------
-    r : array_like
-        Distance from the contact's centre, m.
-    a : float
-        Contact radius, m.
-    c : float
-        Stick radius, m.
-    mu_p0 : float
-        Coefficient of friction times the maximum pressure, Pa.
-
-    Returns
-    -------
-    ndarray
-        Shear, Pa, of the shape of r.
-
-    Notes
-    -----
-    For r < c it is q = mu p {1 + (2/pi) [(K - E) F(phi, k') - K E(phi, k')]} with k' = c/a, K and E of modulus sqrt(1 -
-    k'^2), and sin(phi) = sqrt((c^2 - r^2)/(a^2 - r^2))/k'.
+    For r < c it is q = mu p {1 + (2/pi) [(K - E) F(phi, k') - K E(phi, k')]} with k' = c/a, K and E of modulus
+    sqrt(1 - k'^2), and sin(phi) = sqrt((c^2 - r^2)/(a^2 - r^2))/k'.
     """
     full = hertz_pressure(r, a, mu_p0)
     if c <= 0.0:
@@ -128,23 +67,9 @@ def lubkin_shear(r: ArrayLike, a: float, c: float, mu_p0: float) -> np.ndarray:
 
 
 def lubkin_twist(a: float, c: float, mu_p0: float, compliance: float) -> float:
-    """Relative rotation r_z of the bodies: (mu p0/2) (1/G1 + 1/G2) [K(k) - E(k)], k^2 = 1 - c^2/a^2.
+    """Relative rotation r_z of the bodies, rad: (mu p0/2) (1/G1 + 1/G2) [K(k) - E(k)], k^2 = 1 - c^2/a^2.
 
-    Parameters
-    ----------
-    a : float
-        Contact radius, m.
-    c : float
-        Stick radius, m.
-    mu_p0 : float
-        Coefficient of friction times the maximum pressure, Pa.
-    compliance : float
-        1/G1 + 1/G2, 1/Pa.
-
-    Returns
-    -------
-    float
-        Rotation, rad; infinite at c = 0, as the limit torque is approached and not reached.
+    Infinite at c = 0, as the limit torque is approached and not reached.
     """
     m = (c / a) ** 2
     return 0.5 * mu_p0 * compliance * (ellipkm1(m) - ellipe(1.0 - m))

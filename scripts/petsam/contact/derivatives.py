@@ -24,32 +24,8 @@ class OneSidedWarning(UserWarning):
 
 
 def compute(contact: Handle, name: str, of: Optional[Sequence[str]], steps: tuple[int, int], rtol: float) -> Gradient:
-    """The gradient of the recorded steps of a contact.
-
-    Parameters
-    ----------
-    contact : Contact
-    name : str
-    of : sequence of str, optional
-        Parameters; None: all but those of the bodies and the shape.
-    steps : tuple of int
-        First and last step, -1: the usual ones.
-    rtol : float
-
-    Returns
-    -------
-    Gradient
-
-    Raises
-    ------
-    ContactError
-        If there is no such number, parameter or step.
-
-    Warns
-    -----
-    OneSidedWarning
-        If cells are on the border of their set.
-    """
+    """The Gradient of a number over recorded steps of a contact, by the parameters `of`: Contact.gradient() explains
+    it."""
     count, unit, text = ctypes.c_int(), ctypes.c_char_p(), None if of is None else ",".join(of).encode()
     contact._call(
         "gradient", name.encode(), *steps, text, ctypes.c_double(rtol), ctypes.byref(count), ctypes.byref(unit)

@@ -19,7 +19,7 @@ from .steps import Step
 
 
 class Handle:
-    """What all parts of Contact share: the calls of the library, names, numbers, files, and the end."""
+    """Shared by all parts of Contact: the calls of the library, names, numbers, files, and the end."""
 
     def __init__(self, *, comm: Any = None, **options: Any) -> None:
         self._contact = ctypes.c_void_p()
