@@ -43,7 +43,11 @@ FRAME = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"  # of words.po
 
 
 class Parser(argparse.ArgumentParser):
-    """A command line whose errors are printed in one line, without the usage before it."""
+    """A command line whose errors are printed in one line, without the usage before it; its description keeps its lines
+    unless another formatter_class is given."""
+
+    def __init__(self, *, formatter_class=argparse.RawDescriptionHelpFormatter, **given):
+        super().__init__(formatter_class=formatter_class, **given)
 
     def error(self, message):
         """Ends with the message; for an unknown option adds a similar one, if there is one."""

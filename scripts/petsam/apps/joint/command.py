@@ -36,7 +36,6 @@ of the material and of friction. -o NAME writes NAME.csv and NAME.png.
 --report NAME.html writes a page of any of these: the table with its errors, the pictures, and the options as inputs.
 """
 
-import argparse
 import contextlib
 import sys
 import warnings
@@ -207,12 +206,7 @@ def _structure_options(one):
 
 
 def _parser():
-    one = Parser(
-        prog="petsam-joint",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
+    one = Parser(prog="petsam-joint", description=__doc__, allow_abbrev=False)
     one.add_argument("action", choices=list(ACTIONS), help="what is computed")
     one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair")
     one.add_argument(

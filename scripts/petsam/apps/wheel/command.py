@@ -164,7 +164,7 @@ def _positions(one):
 
 def _parser():
     one = Parser(
-        prog="petsam-wheel", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        prog="petsam-wheel", description=__doc__,
         allow_abbrev=False,
     )  # fmt: skip
     _profiles(one)
