@@ -112,7 +112,11 @@ def lineage(module, name):
 
 
 def whole(module, node):
-    """Returns a class with the methods that it has of its bases in the package; anything else unchanged."""
+    """Returns a class with the methods that it has of its bases in the package, and a table() without a docstring with
+    that of Tabled; anything else unchanged."""
+    for part in definitions(node).values() if isinstance(node, ast.ClassDef) else ():
+        if part.name == "table" and not ast.get_docstring(part):
+            part.body.insert(0, definitions(definitions(tree_of("core.tables"))["Tabled"])["table"].body[0])
     for base in (getattr(base, "id", None) for base in getattr(node, "bases", [])):
         home = module if base in definitions(tree_of(module)) else origin(module, base)
         if home:

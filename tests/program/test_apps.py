@@ -4,11 +4,13 @@ import ast
 import shutil
 import sys
 
+import numpy as np
 import pytest
 
 import petsam
 from conftest import PROGRAM, environment
 from petsam import apps
+from petsam.plot import founds
 from support import ROOT, ball, finished, slide_limit
 
 CASE = ball(n=24)
@@ -74,8 +76,32 @@ def test_one_more_application_has_a_command_a_table_and_a_page(trial, loop):
     assert head == "settling_cycle [1],ratio [1]" and len(rows) == 2 and rows[-1].endswith(",1.0")
     ask(trial, "scripts/petsam-plot", "--report", "settled.html", "settled.csv")
     page = (trial / "settled.html").read_text()
-    assert "<h1>Settling</h1>" in page and "petsam-one" in page and "<figure>" in page
+    assert "<h1>Settling</h1>" in page and "petsam-one" in page and page.count("<figure>") == 1
+    assert "energy over that of the last cycle" in page and "Energies over the cycles" in page
+    (trial / "short.csv").write_text("settling_cycle [1]\n1\n")
+    told = ask(trial, "scripts/petsam-plot", "--report", "x.html", "short.csv", check=3)
+    assert (
+        "short.csv: its columns are settling_cycle [1]: give a table with the columns settling_cycle [1], ratio [1]"
+        in told
+    )
     assert "petsam-one begin" in ask(trial, "scripts/petsam-plot", "--report", "x.html", wrong(trial), check=3)
+
+
+def test_any_table_of_an_application_has_a_page_with_the_pictures_that_take_it_alone(tmp_path):
+    values = petsam.surface.Map(np.ones((3, 4)) * 1e-6, (8e-6, 6e-6), (0, 0), "height1", "flat", None)
+    petsam.plot.report(values, tmp_path / "map.html", {"friction": 0.3})
+    page = (tmp_path / "map.html").read_text()
+    assert page.count("<figure>") == 1 and "by petsam.plot.surface" in page and "12 rows" in page and "friction" in page
+    steel = {f"body{k}_{name}": value for k in (1, 2) for name, value in (("young", 210e9), ("poisson", 0.3))}
+    petsam.plot.report(petsam.fit.plan(petsam.fit.ball(100.0, 0.01, steel), 0.5, 2e7, cycles=1), tmp_path / "plan.html")
+    page = (tmp_path / "plan.html").read_text()  # texts beside numbers, and no picture
+    assert "0.9 of sliding" in page and "<figure>" not in page and "<h1>Relative standard deviations" in page
+    forces = petsam.loads.History
+    assert [*founds.drawing(forces.__new__(forces), petsam.apps.loads.PART)] == ["loads"]  # not that beside results
+    fit = petsam.fit.Result
+    assert [*founds.drawing(fit.__new__(fit), petsam.apps.fit.PART)] == ["fit"]
+    with pytest.raises(petsam.Error, match="report: expected results of petsam.open"):
+        petsam.plot.report(petsam.fit.Record.__new__(petsam.fit.Record), tmp_path / "x.html")
 
 
 def wrong(tree):

@@ -43,10 +43,11 @@ FRAME = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"  # of words.po
 
 class Parser(argparse.ArgumentParser):
     """A command line whose errors are printed in one line, without the usage before it. Names of options are given in
-    full, and an unknown one is reported before all else."""
+    full, and an unknown one is reported before all else; its description keeps its lines unless another formatter_class
+    is given."""
 
-    def __init__(self, *given, **options):
-        super().__init__(*given, **options, allow_abbrev=False)
+    def __init__(self, *, formatter_class=argparse.RawDescriptionHelpFormatter, **given):
+        super().__init__(formatter_class=formatter_class, allow_abbrev=False, **given)
 
     def parse_known_args(self, args=None, namespace=None):
         args = sys.argv[1:] if args is None else list(args)

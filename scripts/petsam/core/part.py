@@ -34,7 +34,7 @@ class Part(NamedTuple):
     libraries: tuple[str, ...] = ()  # that the program needs
     see: tuple[str, ...] = ()  # programs that its man page names
     pictures: Mapping[str, tuple[str, ...]] = {}  # functions that petsam.plot has, by module
-    report: str = ""  # module with RESULTS, title(found) and parts(found, inputs): the page of a result
+    report: str = ""  # module with RESULTS, title(found), parts(found, inputs, record): pages unlike plot/founds.py's
     tables: tuple[str, ...] = ()  # first columns of the CSV files that read() in the public list reads
 
     @property

@@ -1,6 +1,7 @@
 """Tables as CSV: columns with a name, a unit and a meaning; heads are `name [unit]`, of texts the name alone."""
 
 import csv
+import dataclasses
 import io
 import os
 import re
@@ -91,14 +92,45 @@ def to_dataframe(columns):
     return table
 
 
+def column(unit, text=""):
+    """A field of a dataclass of Tabled that is a column of its table, with the field's name."""
+    return dataclasses.field(metadata={"column": (unit, text)})
+
+
+def _fields(kind):
+    return (
+        [one for one in dataclasses.fields(kind) if "column" in one.metadata] if dataclasses.is_dataclass(kind) else []
+    )
+
+
 class Tabled:
-    """Base of classes with a table(): writes its columns as CSV and as a table of pandas."""
+    """Base of classes with a table(), by default of the fields by column(): writes its columns as CSV and as a table of
+    pandas, and reads a class of such fields alone."""
 
     form = staticmethod(repr)  # writes a number of the CSV
 
     def table(self) -> list:
-        """The columns, tables.Column each with name, unit, meaning and values."""
-        raise NotImplementedError
+        """The columns.
+
+        Returns
+        -------
+        list of tables.Column
+            Name, unit, meaning and values of each.
+        """
+        own = _fields(type(self))
+        if not own:
+            raise NotImplementedError
+        return [Column(one.name, *one.metadata["column"], getattr(self, one.name)) for one in own]
+
+    @classmethod
+    def read(cls, path):
+        """Reads a file of to_csv() as an object of this class; Error if it has other columns."""
+        columns, own = read_csv(path), [(one.name, one.metadata["column"][0]) for one in _fields(cls)]
+        if [(one.name, one.unit) for one in columns] != own:
+            heads = [", ".join(head(*one[:2]) for one in found) for found in (columns, own)]
+            raise Error(f"{path}: its columns are {heads[0]}: give a table with the columns {heads[1]}")
+        numpy = library("numpy")
+        return cls(**{one.name: numpy.array(one.values) for one in columns})
 
     def to_csv(self, path: Union[str, os.PathLike], *which: str) -> None:
         """Writes table(*which) as CSV, with heads `name [unit]`, to the file of this name."""

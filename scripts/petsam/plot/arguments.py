@@ -224,5 +224,4 @@ def _read(parser, given):
 
 def read(description):
     """Read the command line."""
-    form = argparse.RawDescriptionHelpFormatter
-    return _read(Parser(prog="petsam-plot", description=description, formatter_class=form), sys.argv[1:])
+    return _read(Parser(prog="petsam-plot", description=description), sys.argv[1:])

@@ -12,7 +12,7 @@ from ..core.version import __version__
 from ..results.file import Results
 from ..results.stresses import Stresses
 from ..results.studies import Study
-from . import frames, kinds, page, sheets
+from . import founds, frames, kinds, page, sheets
 from .style import need_kind
 
 CITED = "petsam: partial-slip contact of elastic bodies by the semi-analytical method"
@@ -40,7 +40,7 @@ def report(results: Any, path: Union[str, os.PathLike], inputs: Optional[Mapping
     Parameters
     ----------
     results : Results, Stresses, Study, or what an application has found
-        What petsam.open() returns; or a result of an application that has reports, as a joint.Backbone.
+        What petsam.open() returns; or a result of an application with a table(), as a joint.Backbone or a fit.Result.
     path : str
         Name of the page, which ends in .html; an older one is replaced.
     inputs : mapping, optional
@@ -52,8 +52,9 @@ def report(results: Any, path: Union[str, os.PathLike], inputs: Optional[Mapping
         If the page cannot be written, or no step has a solution.
     """
     application = application_of(results)
-    if application and application.report and isinstance(results, application.module(application.report).RESULTS):
-        _of_application(application, results, path, inputs or {})
+    module = _module(application, results) if application else None
+    if module:
+        _of_application(application, module, results, path, inputs or {})
         return
     if inputs:
         raise Error("report: inputs are for results of an application; files have their own: remove them")
@@ -114,16 +115,21 @@ def write(results, path, figures, dpi=page.DPI):
     save(path, results.label, _parts(results, pictures))
 
 
-def _of_application(application, found, path, inputs):
+def _module(application, found):
+    """The module of the page of what an application has found: its own, or that of all tables; None without one."""
+    own = application.module(application.report) if application.report else founds
+    return next((one for one in (own, founds) if isinstance(found, one.RESULTS)), None)
+
+
+def _of_application(application, module, found, path, inputs):
     """Writes the page of what an application has found."""
     path = page.name(os.fspath(path))
     need_replaceable(path)
     written = datetime.datetime.now().astimezone()
     rows = [("Program", f"{application.command} {__version__}"), ("Date", _date(written))]
-    module = application.module(application.report)
     title = module.title(found)
     head = page.element("header", page.element("h1", title), page.terms(rows))
-    numbers, *others = module.parts(found, inputs)
+    numbers, *others = module.parts(found, inputs, application)
     first = page.element("div", head, numbers, class_="many")  # on paper on one page
     save(path, title, [first, *others, _cited(__version__)])
 

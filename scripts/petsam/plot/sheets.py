@@ -93,6 +93,16 @@ def inputs(results):
     return page.section("Inputs", *parts, table, class_="page")
 
 
+def of_inputs(inputs):
+    """The section of inputs {name: value} of what an application has found, in a list; empty without any."""
+    if not inputs:
+        return []
+    rows = [as_input(name, value, {}) for name, value in inputs.items()]
+    caption = f"{counted(len(rows), 'input')}, in SI units with prefixes unless given with a unit"
+    table = page.table(caption, ("name", "value"), [row[:2] for row in rows], (1,))
+    return [page.section("Inputs", table, class_="page")]
+
+
 def shared(study):
     """The section of the options that all cases of a study have."""
     rows = given(study)
@@ -307,7 +317,8 @@ def some(count):
     return np.unique(np.linspace(0, count - 1, min(count, ROWS)).round().astype(int)).tolist()
 
 
-def _rest(count, noun):
+def rest(count, noun):
+    """How many rows a table has, and how many of them are shown."""
     return f"{counted(count, noun)}" if count <= ROWS else f"{ROWS} of {counted(count, noun)}, chosen evenly"
 
 
@@ -328,7 +339,7 @@ def history(results, columns=COLUMNS):
         for row in some(count)
     ]
     left = "; numbers that do not vary are left out" if results.program == "petsam" else ""
-    caption = f"{_rest(count, 'load step')}{left}"
+    caption = f"{rest(count, 'load step')}{left}"
     shape = "page many" if len(names) > PORTRAIT else "page"  # of paper
     return page.section("History", page.table(caption, ("step", "time", *names), rows), class_=shape)
 
@@ -342,7 +353,7 @@ def life(results):
         + tuple((float(results.wear[name][row]), results.wear_units[name]) for name in names)
         for row in some(count)
     ]
-    return page.section("Life", page.table(_rest(count, "computed cycle"), ("cycles before", *names), rows))
+    return page.section("Life", page.table(rest(count, "computed cycle"), ("cycles before", *names), rows))
 
 
 def beside(value, unit, size, largest):
@@ -387,5 +398,5 @@ def cases(study):
     kind = "verdict warning" if failed else "verdict fine"
     verdict = page.element("p", words if failed else "All cases finished.", class_=kind)
     left = f"; {len(names)} of {there} columns" if len(names) < there else ""
-    caption = _rest(study.cases.size, "case") + left
+    caption = rest(study.cases.size, "case") + left
     return page.section("Cases", verdict, page.table(caption, ("case", "exit code", *names), rows))

@@ -26,7 +26,6 @@ strings: the bolts must join the bodies. Rigid motions of the whole do not move 
 inertia balances load cases, and modes are elastic ones. Each material needs *DENSITY.
 """
 
-import argparse
 import math
 import os
 import re
@@ -145,7 +144,7 @@ def _pair_options(parser):
 
 def parser():
     """Creates the parser of the command line."""
-    found = Parser(prog=PROGRAM, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    found = Parser(prog=PROGRAM, description=__doc__)
     _body_options(found)
     _pair_options(found)
     patch = found.add_argument_group("the patch")

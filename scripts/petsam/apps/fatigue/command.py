@@ -13,7 +13,6 @@ Files are the blocks of a spectrum: damage is Palmgren and Miner's sum over --co
 Constants, in SI units or with their unit (1.76GPa), in a YAML file of lines NAME: VALUE or by --constant:
 """
 
-import argparse
 import os
 import sys
 
@@ -39,11 +38,7 @@ MOST = f"{strength.MOST:.0e}".replace("+", "")
 def arguments(given):
     """Reads the command line."""
     table = (f"  {name:16} {one.unit:9} {one.meaning}" for name, one in materials.CONSTANTS.items())
-    parser = Parser(
-        prog="petsam-fatigue",
-        description=__doc__ + "\n".join(table),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = Parser(prog="petsam-fatigue", description=__doc__ + "\n".join(table))
     parser.add_argument(
         "files", nargs="+", metavar="FILE.h5", help="of petsam-stress; several are blocks of a spectrum"
     )

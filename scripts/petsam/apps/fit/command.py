@@ -19,7 +19,6 @@ where friction changes, NAME.opts, with which petsam computes the contact's loop
 NAME-life.opts for a wear simulation of all cycles, where friction changes or wear is known, and a picture.
 """
 
-import argparse
 import json
 import math
 import sys
@@ -128,7 +127,7 @@ def _plan_options(parser):
 def arguments(given):
     """Reads the command line."""
     parser = Parser(
-        prog="petsam-fit", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        prog="petsam-fit", description=__doc__
     )  # fmt: skip
     parser.add_argument("files", nargs="*", metavar="LOOPS.csv", help="measured loops; several are one test")
     for group in (_test_options, _wear_options, _plan_options):

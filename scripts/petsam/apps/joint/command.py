@@ -36,7 +36,6 @@ of the material and of friction. -o NAME writes NAME.csv and NAME.png.
 --report NAME.html writes a page of any of these: the table with its errors, the pictures, and the options as inputs.
 """
 
-import argparse
 import sys
 
 from ...core.errors import Unusable
@@ -50,7 +49,7 @@ from .vibrations import of_backbone, of_band, of_response, of_wear
 
 
 def _parser():
-    one = Parser(prog="petsam-joint", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    one = Parser(prog="petsam-joint", description=__doc__)
     one.add_argument("action", choices=list(ACTIONS), help="what is computed")
     one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair")
     one.add_argument(

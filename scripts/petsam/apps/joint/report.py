@@ -36,9 +36,9 @@ def title(found):
     return _kind(found)[0]
 
 
-def parts(found, inputs):
+def parts(found, inputs, record):
     """Numbers, pictures and inputs, sections each."""
-    return [_numbers(found), _pictures(found), *_inputs({**_own_inputs(found), **inputs})]
+    return [_numbers(found), _pictures(found), *sheets.of_inputs({**_own_inputs(found), **inputs})]
 
 
 def _kind(found):
@@ -157,13 +157,3 @@ def _own_inputs(found):
         return {}
     known = {"friction": found.friction, "shear": found.shear}
     return {**found.bodies, **{name: value for name, value in known.items() if value is not None}}
-
-
-def _inputs(inputs):
-    """The section of inputs, if there are any."""
-    if not inputs:
-        return []
-    rows = [sheets.as_input(name, value, {}) for name, value in inputs.items()]
-    caption = f"{counted(len(rows), 'input')}, in SI units with prefixes unless given with a unit"
-    table = page.table(caption, ("name", "value"), [row[:2] for row in rows], (1,))
-    return [page.section("Inputs", table, class_="page")]

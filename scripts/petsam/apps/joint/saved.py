@@ -45,12 +45,6 @@ class Saved(Tabled, Shown):
     columns: list[Column]
 
     def table(self) -> list[Column]:
-        """The columns of the file, with their meanings.
-
-        Returns
-        -------
-        list of tables.Column
-        """
         return self.columns
 
 

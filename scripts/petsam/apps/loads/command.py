@@ -21,7 +21,6 @@ it. Prints ranges, reversals and the path of the contact's centre; warns of pull
 patches that move.
 """
 
-import argparse
 import os
 import re
 import sys
@@ -53,7 +52,7 @@ def _patch(text):
 
 def parser():
     """Creates the parser of the command line."""
-    found = Parser(prog=PROGRAM, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    found = Parser(prog=PROGRAM, description=__doc__)
     found.add_argument("file", metavar="FORCES", help="table, .dat or .frd of CalculiX, report of Abaqus")
     of = found.add_argument_group("the analysis")
     of.add_argument("--deck", metavar="NAME.inp", help="its deck: coordinates of the nodes, and sets")

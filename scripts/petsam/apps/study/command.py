@@ -27,7 +27,6 @@ results.h5. A study has at most 100000 cases. petsam-plot draws results.h5. For 
 the energies of some: --turns, --period, --cycle.
 """
 
-import argparse
 import os
 import sys
 
@@ -79,7 +78,6 @@ def arguments():
         prog="petsam-study",
         description=__doc__,
         usage="%(prog)s TABLE [option ...] [-- petsam's options for all cases]",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("table", metavar="TABLE", help="cases: .csv, or .yaml")
     parser.add_argument("-d", "--directory", help="folder of the cases and the tables (the table's name, here)")

@@ -15,7 +15,6 @@ this order. Options apply to both files; their maps are then aligned at their ce
 Heights of body 1 and heights of body 2 make a separation.
 """
 
-import argparse
 import os
 import shlex
 import sys
@@ -133,7 +132,7 @@ def _processing(parser):
 
 def arguments(words):
     """Read the command line."""
-    parser = Parser(prog="petsam-surface", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="petsam-surface", description=__doc__)
     parser.add_argument("files", nargs="*", metavar="FILE", help="one map, or two for a separation")
     _file_options(parser)
     made = parser.add_argument_group("a random surface instead of a file, with --size and --grid-n")

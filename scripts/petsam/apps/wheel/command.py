@@ -32,7 +32,6 @@ equivalent conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the de
 profile by the mean of all positions, and with --distance the profile after it, its estimated error, and NAME-wear.png.
 """
 
-import argparse
 import sys
 import warnings
 
@@ -54,7 +53,7 @@ WIDE, POINTS = 8e-3, 81  # m and number of displacements of the rigid geometry
 
 def _parser():
     one = Parser(
-        prog="petsam-wheel", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        prog="petsam-wheel", description=__doc__,
     )  # fmt: skip
     add_profiles(one)
     add_positions(one)

@@ -10,7 +10,6 @@ PART = Part(
     libraries=("numpy", "h5py", "matplotlib"),
     see=("petsam", "petsam-plot"),
     pictures={"pictures": ("settled",)},
-    report="report",
     tables=("settling_cycle",),
 )
 __all__, __getattr__, __dir__ = PART.face()

@@ -5,15 +5,13 @@ petsam-one loop.h5 -o settled       settled.csv, for petsam-plot --report
 Cycles begin at reversals of the displacement that does the most work.
 """
 
-from argparse import RawDescriptionHelpFormatter
-
 from ...core.line import Parser, guarded
 from ...results.file import Results
 from .settling import settling
 
 
 def carry_out():
-    parser = Parser(prog="petsam-one", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
+    parser = Parser(prog="petsam-one", description=__doc__)
     parser.add_argument("results", help="results of petsam")
     parser.add_argument("-o", "--output", required=True, metavar="NAME", help="NAME.csv")
     options = parser.parse_args()

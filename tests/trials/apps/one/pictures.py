@@ -7,17 +7,7 @@ from .settling import Settling
 
 
 def settled(found: Settling) -> Figure:
-    """Energies over the cycles.
-
-    Parameters
-    ----------
-    found : Settling
-        Of petsam.one.settling().
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Energies over the cycles."""
     figure, panel = plt.subplots()
-    panel.plot(found.cycle, found.ratio, "o")
+    panel.plot(found.settling_cycle, found.ratio, "o")
     return figure
