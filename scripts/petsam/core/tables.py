@@ -117,10 +117,11 @@ class Tabled:
         list of tables.Column
             Name, unit, meaning and values of each.
         """
-        own = _fields(type(self))
+        own: list[dataclasses.Field] = _fields(type(self))
         if not own:
             raise NotImplementedError
-        return [Column(one.name, *one.metadata["column"], getattr(self, one.name)) for one in own]
+        columns = [(one.name, one.metadata["column"]) for one in own]
+        return [Column(name, unit, text, getattr(self, name)) for name, (unit, text) in columns]
 
     @classmethod
     def read(cls, path):
