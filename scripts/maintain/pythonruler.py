@@ -13,7 +13,7 @@ import test_rooms as rooms  # noqa: E402
 SECTIONS = re.compile(r"^(Parameters|Returns|Raises|Attributes)\n-{3,}$", re.M)
 FIRST = re.compile(r"(What|Whether|Those|Of|Which)\b")  # words with which no sentence begins that is read once
 READER = re.compile(r"^def \w+\(text\b", re.M)
-OF_COMMANDS = ("command.py", "line.py", "arguments.py", "uses.py")
+OF_COMMANDS = ("command.py", "line.py", "arguments.py", "uses.py", "options.py", "inputs.py")
 
 
 def imported(name, path, known):

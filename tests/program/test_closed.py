@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipkm1
 
+from petsam.closed.cattaneo import cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius
 from petsam.closed.ellipse import hertz_ellipse, hertz_radii
 from petsam.closed.loop import (
     first_loading,
@@ -15,24 +16,13 @@ from petsam.closed.loop import (
     sliding_loop_energy,
     sliding_masing_load,
 )
+from petsam.closed.lubkin import lubkin_shear, lubkin_stick_radius, lubkin_torque_ratio, lubkin_twist, torsion_limit
 from petsam.closed.materials import effective_modulus, effective_radius, tangential_compliance
+from petsam.closed.normal import hertz, hertz_pressure
 from petsam.closed.plane import PlaneCells, contact_under_moment, plane_pressure, plane_shear, plane_tilt, stick_zone
 from petsam.closed.punch import Punch, punch_approach, punch_pressure, punch_radius, punch_torsion_limit
 from petsam.closed.quadrature import segments
 from petsam.closed.spence import SpencePunch, full_stick_load, goodman_friction
-from petsam.closed.sphere import (
-    cattaneo_displacement,
-    cattaneo_shear,
-    cattaneo_slip,
-    cattaneo_stick_radius,
-    hertz,
-    hertz_pressure,
-    lubkin_shear,
-    lubkin_stick_radius,
-    lubkin_torque_ratio,
-    lubkin_twist,
-    torsion_limit,
-)
 from petsam.closed.stress import HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, sliding_surface
 
 

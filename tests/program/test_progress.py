@@ -63,7 +63,9 @@ def test_short_works_have_no_lines(monkeypatch):
 def lines_of(command, monkeypatch, *words):
     """Lines of progress of petsam-joint."""
     lines = []
-    monkeypatch.setattr(petsam.apps.joint.command, "_tell", lines.append)
+    from petsam.apps.joint import vibrations
+
+    monkeypatch.setattr(vibrations, "Progress", lambda what: Progress(what, lines.append))
     command(*words)
     return lines
 
@@ -154,17 +156,17 @@ def ends(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.parametrize("action", STRUCTURE)
 def test_joint_judges_its_output_first(action, pair, ends, unbegun):
-    from petsam.apps.joint import command
+    from petsam.apps.joint import command, vibrations
 
-    unbegun((command, "Pair"), (command, "contents"))
+    unbegun((vibrations, "Pair"), (vibrations, "contents"))
     said = ends(command, action, *PAIR, *STRUCTURE[action], "-o", "none/out")
     assert "none/out.csv: cannot be written: its folder" in said and "does not exist" in said
 
 
 def test_stiffness_judges_its_output_first(tmp_path, ends, unbegun):
-    from petsam.apps.joint import command
+    from petsam.apps.joint import command, stiffnesses
 
-    unbegun((command, "interface"))
+    unbegun((stiffnesses, "interface"))
     words = ("stiffness", "scan.h5", "--pressure", "1MPa", "--friction", 0.3, "--body1", "steel", "--body2", "steel")
     assert "none/out.csv: cannot be written" in ends(command, *words, "-o", "none/out")
 
@@ -198,9 +200,9 @@ def test_study_judges_its_folder_first(tmp_path, ends, unbegun):
 
 @pytest.mark.parametrize("action", STRUCTURE)
 def test_joint_judges_sensors_and_bolts_before_any_is_tightened(action, pair, ends, unbegun):
-    from petsam.apps.joint import command
+    from petsam.apps.joint import command, vibrations
 
-    unbegun((command, "Pair"))
+    unbegun((vibrations, "Pair"))
     given = STRUCTURE[action]
     assert "--sensor TOP:z: expected NAME:x" in ends(command, action, *PAIR[:-1], "TOP:z", *given, code=2)
     assert "preload C: is no bolt" in ends(command, action, *PAIR[:4], "C=1", *PAIR[5:], *given, code=2)

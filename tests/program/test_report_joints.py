@@ -113,7 +113,7 @@ def test_the_command_says_what_it_wrote(tmp_path, monkeypatch, capsys):
     words = ["petsam-joint", "stiffness", "scan.h5", "--normal-only", "--pressure", "1MPa,2MPa", "--body1", "steel",
              "--body2", "steel", "-o", "a", "--report", "c.html"]  # fmt: skip
     monkeypatch.setattr("sys.argv", words)
-    monkeypatch.setattr(command, "interface", lambda *_, **__: interface())
+    monkeypatch.setattr(stiffnesses, "interface", lambda *_, **__: interface())
     monkeypatch.chdir(tmp_path)
     assert command.main() == 0
     said = [line[6:] for line in capsys.readouterr().out.splitlines() if line.startswith("wrote ")]

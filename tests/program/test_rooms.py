@@ -288,6 +288,13 @@ OF_COMMANDS = (
     ".core.line",
     ".plot.arguments",
     ".plot.uses",
+    ".joint.options",
+    ".joint.telling",
+    ".joint.stiffnesses",
+    ".joint.vibrations",
+    ".wheel.options",
+    ".wheel.inputs",
+    ".wheel.printing",
 )  # ends of the names of modules that read options
 
 

@@ -22,6 +22,7 @@ from petsam.apps.wheel import (
     batch,
     contacts,
     derailing,
+    printing,
     wearing,
 )
 from petsam.apps.wheel import batch as batches
@@ -345,7 +346,7 @@ def test_derailment_and_its_neighbours_are_printed(run):
 
 def test_warnings_of_positions_are_whole_sentences(capsys):
     notes = [("Y/Q is 1.25, above 0.8",), (), ("Y/Q is 1.5e0, above 0.8", "N is 3 kN"), ("Y/Q is 2, above 0.8",)]
-    wheel._warn_of_notes([batch.Found(None, "", one) for one in notes])
+    printing._warn_of_notes([batch.Found(None, "", one) for one in notes])
     lines = [line.partition("warning: ")[2] for line in capsys.readouterr().err.splitlines()]
     assert lines == [
         "position 1: Y/Q is 1.25, above 0.8; 2 other positions with such a warning: see the column note",

@@ -10,6 +10,8 @@ References
   (1958) 396-401.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq

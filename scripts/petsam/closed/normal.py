@@ -5,6 +5,8 @@ References
 - K. L. Johnson, Contact Mechanics, Cambridge University Press, 1985, chapters 3 and 4.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 
 from ..core.errors import Unusable, counted, there_are
 from ..results.gradients import MODULI
-from .derivatives import BULK, LOADS, WAYS, WEAR, OneSidedWarning
+from .derivatives import BULK, LOADS, USUAL, WAYS, WEAR, OneSidedWarning  # noqa: F401  (USUAL: for users)
 from .inprocess import Contact
 
 NUMBERS = ("energy", "wear_volume", *LOADS, *WAYS)  # that numbers() takes from a run that is not recorded

@@ -115,11 +115,18 @@ def slips(tried, name):
     return last[-1]
 
 
+def _within(word, name):
+    """True if a name has all letters of a word in their order, so that only some are missing."""
+    left = iter(name)
+    return all(letter in left for letter in word)
+
+
 def nearest(tried, names):
     """Returns the name of which a word may be a misspelling, in a list; an empty one if none is near.
 
     A word of less than 3 letters has no slips, one of less than 5 has 1, of less than 10 up to 2, a longer one up to 3.
-    Case does not count, and - is as _.
+    The beginning of a single name, of 3 letters or more, is near, too. Of
+    equally near names one of which letters are missing goes first. Case does not count, and - is as _.
     """
 
     def plain(word):
@@ -127,9 +134,14 @@ def nearest(tried, names):
 
     length = len(str(tried))
     most = 0 if length < 3 else 1 if length < 5 else 2 if length < 10 else 3
-    near = [(slips(plain(tried), plain(name)), k) for k, name in enumerate(names) if abs(len(name) - length) <= most]
-    least = min(near, default=(most + 1, 0))
-    return [names[least[1]]] if least[0] <= most else []
+    near = [
+        (slips(plain(tried), plain(name)), not _within(plain(tried), plain(name)), k)
+        for k, name in enumerate(names)
+        if abs(len(name) - length) <= most
+    ]
+    least = min(near, default=(most + 1, False, 0))
+    begun = [name for name in names if length > 2 and plain(name).startswith(plain(tried))]
+    return [names[least[2]]] if least[0] <= most else begun if len(begun) == 1 else []
 
 
 def there_are(tried, names, there="there are"):

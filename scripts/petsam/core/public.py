@@ -1,8 +1,9 @@
 """Public functions and classes: short signatures, and an Error for arguments of a wrong kind.
 
 The public list of a part gives its functions and classes by public(). An argument is checked by its hint where that is
-of numbers, arrays of numbers, texts, functions or classes of the package; values that have no such hint, and ranges,
-are the function's own affair. The message has the meaning of the argument by the docstring.
+of numbers, arrays of numbers, texts, functions or classes of the package, and where the function itself has no Error
+for it; values that have no such hint, and ranges, are the function's own affair. The message has the meaning of the
+argument by the docstring.
 """
 
 import dataclasses
@@ -26,6 +27,7 @@ LARGE = 40  # and of a default
 # warnings name the line of a call by its depth, and leave out frames with this name of a file
 FRAME = "<importlib._bootstrap of petsam>"
 TEXTS = (str, os.PathLike)
+RAW = (TypeError, ValueError, AttributeError, IndexError, KeyError)  # errors that say nothing of arguments
 _made: dict[Any, Any] = {}
 
 
@@ -69,24 +71,43 @@ def _show(found, signature):
 
 
 def _checked(function, owner, text):
-    """The function with a check of its arguments before it."""
+    """The function with a check of its arguments: its own errors of it go first, and objects that were given texts are
+    checked once they are made."""
     signature, home = inspect.signature(function), vars(sys.modules[function.__module__])
-    hints = {name: _hint(one.annotation, home) for name, one in signature.parameters.items()}
+    single = {
+        name: one for name, one in signature.parameters.items() if one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)
+    }
+    hints = {name: _hint(one.annotation, home) for name, one in single.items()}
     kinds = {name: kind for name, kind in ((name, _kind(hint)) for name, hint in hints.items()) if kind}
     if not kinds:
         return function
+
+    def wrong(args, given):
+        """The name of an argument of a wrong kind and the message about it; None: there is none, or the call itself
+        says what lacks."""
+        try:
+            values = signature.bind(*args, **given).arguments
+        except TypeError:
+            return None
+        for name, value in values.items():
+            if name in kinds and not kinds[name][0](value) and value is not signature.parameters[name].default:
+                return name, _message(owner, name, value, kinds[name][1], text)
+        return None
 
     @functools.wraps(function)
     def checked(*args: Any, **given: Any) -> Any:
         __tracebackhide__ = True
         try:
-            values = signature.bind(*args, **given).arguments
-        except TypeError:
-            values = {}  # the call itself says what lacks
-        for name, value in values.items():
-            if name in kinds and not kinds[name][0](value) and value is not signature.parameters[name].default:
-                raise WrongArgument(_message(owner, name, value, kinds[name][1], text))
-        return function(*args, **given)
+            found = function(*args, **given)
+        except (Error, *RAW) as error:
+            one = wrong(args, given)
+            if not one or (isinstance(error, Error) and (one[0] in str(error) or "number" not in one[1])):
+                raise
+            raise WrongArgument(one[1]) from error
+        texts = [value for value in (*args, *given.values()) if isinstance(value, (str, bytes))]
+        if function.__name__ == "__init__" and texts and (one := wrong(args, given)):
+            raise WrongArgument(one[1])
+        return found
 
     checked.__code__ = checked.__code__.replace(co_filename=FRAME)
     return checked
@@ -105,6 +126,10 @@ def _hint(hint, home):
     return Any
 
 
+def _article(name):
+    return "an" if name[0] in "AEIOU" else "a"
+
+
 def _kind(hint: Any) -> Optional[tuple[Callable[[Any], bool], str]]:
     """A check of values by their hint, and its kind in words; None where nothing is checked."""
     origin, parts = typing.get_origin(hint), typing.get_args(hint)
@@ -115,8 +140,10 @@ def _kind(hint: Any) -> Optional[tuple[Callable[[Any], bool], str]]:
     if hint is np.ndarray:
         return _numeric, "an array of numbers"
     if inspect.isclass(hint) and (hint in TEXTS or hint.__module__.startswith("petsam.")) and origin is None:
-        name = "a text" if hint is str else "a path" if hint is os.PathLike else f"a {hint.__name__} of petsam"
-        return lambda value: isinstance(value, hint), name
+        names: dict[Any, str] = {str: "a text", os.PathLike: "a path"}
+        name = names.get(hint, f"{_article(hint.__name__)} {hint.__name__} of petsam")
+        taken = (str, os.PathLike) if hint is str else hint
+        return lambda value: isinstance(value, taken), name
     if origin is typing.Union or str(origin) == "<class 'types.UnionType'>":
         return _either([_kind(part) for part in parts if part is not type(None)], type(None) in parts)
     if origin in (tuple, Sequence, list) and parts and {*parts} <= {float, int, Ellipsis}:

@@ -4,7 +4,7 @@ Or of a section in plane strain, 1 m thick: its nodes lie in a plane whose norma
 nothing varies along the normal.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Optional
 
 import numpy as np
@@ -64,9 +64,9 @@ class Mesh:
 
     nodes: np.ndarray
     blocks: list
-    node_sets: dict
-    surfaces: dict
-    node_numbers: np.ndarray
+    node_sets: dict = field(default_factory=dict)
+    surfaces: dict = field(default_factory=dict)
+    node_numbers: np.ndarray = field(default_factory=lambda: np.empty(0, int))  # of a deck; none of a mesh without one
     normal: Optional[np.ndarray] = None  # of a section
     thickness: float = 1.0  # of a section, that its forces are for, in the deck's unit
 
