@@ -6,6 +6,7 @@
 #define PETSAM_ADVICE_H
 
 #include <petsam/private/errors.h>
+#include <petsam/private/examination.h>
 #include <petsam/private/setup.h>
 
 /*
@@ -18,18 +19,6 @@ PETSC_INTERN PetscErrorCode SamAdviceEstimateContact(const SamSetup *setup, Pets
 
 /* SamAdviceRoundUp - rounds up to two digits. Not collective. */
 PETSC_INTERN double SamAdviceRoundUp(double x);
-
-/* SamExtent - the size of a contact. */
-typedef struct {
-  PetscInt  zones;  /* number of zones of contact, connected by the sides of cells, as contact_spots; 0: no contact */
-  PetscReal across; /* width of the narrow zones in cells: SamGridMeasureZones() with part = 0.1 */
-  PetscReal half_across; /* the same of the zones that hold half of the contact's cells */
-  PetscBool whole;       /* the widest zone spans the grid */
-  PetscReal half[2];     /* half widths of the bounding rectangle of the contact, m */
-  PetscReal change;      /* relative change of the peak pressure on cells half as wide: SamAdviceMeasurePeak() */
-  PetscInt  finer; /* factor by which the cells must be narrower to resolve the peak; 0: not even 16384 in a row do */
-} SamExtent;
-#define SAM_LARGEST_ROW 16384 /* most cells in a row of a grid that is advised */
 
 /* SamLoadRange - the largest loads of several steps. All members must be zero at first. */
 typedef struct {
@@ -48,75 +37,13 @@ typedef struct {
   PetscBool   open;                /* rotations or moments may make the contact larger than the closed-form solution */
 } SamLoadRange;
 
-/*
-  SamRing - the slip of dissimilar bodies in a ring at the edge of contact while N grows, of these steps (slipring.c).
-*/
-typedef struct {
-  PetscInt steps;
-  double   energy, error; /* J: dissipated, and its error by the cells, estimated after the last step */
-  double   width, moves;  /* sums of the ring's width and of the motion of the edge in a step, in cells, each times the
-                              energy of the step */
-  double   unsure;        /* error of the area of stick, relative to the area of contact, after the last step */
-  double   stick, worst;  /* the same relative to the area of stick, and its largest value at the end of such growth */
-} SamRing;
-
-/*
-  SamSlip - the dissipated energy of the steps so far, and how well the cells resolve it (slipzones.c). A branch is the
-  loading between two load reversals; lengths are in cells.
-*/
-typedef struct {
-  PetscInt  steps;
-  PetscBool rolls;         /* true: the contact rolls, and the other members are not computed */
-  PetscBool unsure;        /* true: some steps are too long for their energy to be known; it counts as 0 */
-  double    energy, error; /* energy by the sum over cells, and its estimated error, J */
-  double    closed;        /* energy by the closed form, J; NaN: there is none */
-  double    lag;           /* sum of the steps' errors of the energy by their length, J */
-  double    work;          /* largest tangential work T disp of a step, J */
-  double    branch, worst; /* energy of the current branch, and the largest error of any branch, J */
-  PetscReal narrow[2];     /* width of the slip zone and length of the edge in the branch with that error */
-  PetscReal width, length; /* width of the slip zone and length of the edge after the last step */
-  double    sticks;        /* fraction of the cells in contact that stick after the last step */
-  double    stuck;         /* change of the shear over mu p at the edge since all cells stick; 0: some slip */
-  double    tangential[2]; /* T after the last step, N */
-  double    toward[2];     /* change of T in the last step, N */
-  double    zone, high;    /* energy (J) of the unresolved slip zone and shear (Pa) at its end, by stuck.c */
-  double    missing;       /* energy of the unresolved slip zones of earlier branches, J */
-  PetscReal widest;        /* largest width of a slip zone in any step */
-  double    slipped;       /* maximum slip after the last step, m */
-  double    turned;        /* maximum slip at the last reversal, m; 0: there was none */
-  PetscReal across;        /* width of the stick zone after the last step */
-  PetscBool pushed;       /* true: the last step prescribes no tangential displacement; in rolling: not all creepages */
-  PetscBool together;     /* true: N and T have grown in proportion from zero */
-  double    part[2];      /* T over N in that case */
-  double    tilt;         /* largest displacement of the contact's edge by tilting, relative to the approach */
-  PetscBool joined;       /* true: the normal load has begun to grow */
-  double    coupling;     /* coupling over friction if N of dissimilar bodies grows in one step; else 0 */
-  double    before_touch; /* extra work of slip if the cells of dissimilar bodies had touched before each step, J */
-  PetscInt  growing;      /* number of steps in which cells come into contact, */
-  double    grown;        /* and fraction of the cells in contact that stick after the last one */
-  double    normal;       /* N times the approach after the last step, J */
-  double    share;        /* largest T over mu N before the first reversal */
-  double    first;        /* energy of the first branch once it has ended, J; 0: not yet */
-  SamRing   ring;         /* the slip of dissimilar bodies while N grows */
-} SamSlip;
-
 /* SamRollingError - the largest error of a computed load or creepage in steady rolling (steadyerrors.c). */
 typedef struct {
   double      error;       /* relative */
   PetscInt    step;        /* from 0 */
   const char *name;        /* borrowed */
   double      value, fine; /* computed value, and its extrapolation to fine grids */
-  PetscReal   width;       /* cells: of the slip zone in the last step */
 } SamRollingError;
-
-/* SamYielding - what the steps so far did to bodies that yield (yielding.c). */
-typedef struct {
-  double work, step; /* plastic work of all steps, and of that step which did most of it, J */
-  double pressure;   /* maximum pressure of any step, Pa */
-  double shear;      /* maximum shear of any step, also at the edge of stick between cells, Pa */
-  double dent;       /* residual_z_max of the last step, m */
-  double before;     /* that before the first step: of a restart, or of a copied contact */
-} SamYielding;
 
 /*
   SamAdviceFunction - receives advice: a text of one line, and the option (without dash) that mends it; empty if the
@@ -149,7 +76,8 @@ typedef struct {
   PetscReal         begun;             /* J: energy of the first computed cycle, once the next one begins */
   PetscBool         cycles;            /* true: computed cycles of a wear simulation, not all steps, are examined */
   SamSlip           slip;              /* energy of the steps so far, or of the last computed cycle */
-  SamYielding       yielding;          /* plastic work of the steps so far */
+  double            passed;            /* cells: width of the slip zone in the last step of steady rolling */
+  double            kept[SAM_LAWS][SAM_EXAMINATION_KEPT]; /* what laws keep for their doubts */
   PetscReal         half[2], across;   /* half widths (m) and cells across; by the closed-form solution if `closed` */
   SamDoubts         guesses;           /* errors that companion runs know better, */
   PetscBool         knows[SAM_CAUSES]; /* and true for causes for which there are such runs */

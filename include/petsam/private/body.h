@@ -65,6 +65,7 @@ PETSC_INTERN PetscErrorCode SamPairReference(SamPair pair);
 /*
   SamPairBody - returns body 1 (index 0) or 2 (index 1); borrowed.
   SamPairModulus - returns E* (Pa) of the materials at the surfaces.
+  SamPairStiffest - returns E* (Pa) of the stiffest materials of both bodies.
   SamPairIsUniform - returns true if each of the bodies has a single material.
   SamPairCoupling - returns the largest ratio of the normal displacement by shear to that by pressure, over waves with
   wave numbers from `first` to `last` (1/m). For uniform bodies it is Dundurs' beta.
@@ -72,6 +73,7 @@ PETSC_INTERN PetscErrorCode SamPairReference(SamPair pair);
 */
 PETSC_EXTERN SamBody   SamPairBody(SamPair pair, PetscInt body);
 PETSC_INTERN PetscReal SamPairModulus(SamPair pair);
+PETSC_INTERN double    SamPairStiffest(SamPair pair);
 PETSC_INTERN PetscBool SamPairIsUniform(SamPair pair);
 PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
 

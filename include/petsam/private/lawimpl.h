@@ -24,6 +24,9 @@
 #include <petsam/private/grid.h>
 #include <petsam/private/stresspart.h>
 
+/* SamExamination - the examination of a run's steps (private/examination.h). */
+typedef struct _n_SamExamination SamExamination;
+
 /*
   SamStrain - a tangential displacement that is linear in x and y: a point at (x, y) moves by (xx x + xy y, xy x + yy y)
   m.
@@ -169,11 +172,15 @@ struct _n_SamLaw {
   PetscInt            bytes;          /* memory per cell, bytes */
   PetscBool           uses[SAM_USES]; /* fields of a solved step that advance() uses */
   PetscBool           needs_friction; /* true: meaningless without friction */
-  PetscBool           forbids_jumps;  /* true: not possible in a wear simulation with cycle jumps */
-  PetscBool           of_body[2];     /* true: adds to the separation a field at a body's own points, if they slide */
-  PetscBool           any_motion;     /* true: valid in every motion, since it uses no slip of steps */
-  PetscBool           by_passages;    /* true: in steady rolling it acts in cycles of a wear simulation only */
-  void               *data;           /* data of the type, from PetscNew(); NULL: none */
+  PetscBool           slides;         /* true: the surfaces move past each other */
+  PetscBool           wears;         /* true: it removes material, as the results volume1, wear_depth1 and so on tell */
+  const char         *strained;      /* number that is above 0 once bodies have yielded by it; NULL: they do not */
+  const char         *with_shear;    /* numbers that follow the shear at the surface, separated by blanks; NULL: none */
+  PetscBool           forbids_jumps; /* true: not possible in a wear simulation with cycle jumps */
+  PetscBool           of_body[2];    /* true: adds to the separation a field at a body's own points, if they slide */
+  PetscBool           any_motion;    /* true: valid in every motion, since it uses no slip of steps */
+  PetscBool           by_passages;   /* true: in steady rolling it acts in cycles of a wear simulation only */
+  void               *data;          /* data of the type, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {
     /* reads and records options that the rows do not describe; `asked` on entry: selected by the word */
@@ -236,6 +243,13 @@ struct _n_SamLaw {
     PetscErrorCode (*advance)(SamLaw law, SamLawStep *step);
     /* prints the law's numbers of a step, on a line of its own */
     PetscErrorCode (*view)(SamLaw law, SamState state, PetscViewer viewer);
+    /* true if body 0 or 1 may yield by this law, so that no elastic solution in closed form describes it */
+    PetscBool (*yields)(SamLaw law, PetscInt body);
+    /* gets the smallest stress at which a body flows after this strain, Pa; infinite: none does */
+    PetscErrorCode (*flow)(SamLaw law, PetscReal strain, PetscReal *stress);
+    /* examines a solved step for doubt(), which adds, after the last step, doubts of numbers that the law protects */
+    PetscErrorCode (*examine)(SamLaw law, SamExamination *examination);
+    PetscErrorCode (*doubt)(SamLaw law, SamExamination *examination);
     /* writes a warning about a solved step; empty: none */
     PetscErrorCode (*advise)(SamLaw law, SamState state, char text[], size_t size);
   } ops;
@@ -257,22 +271,5 @@ PETSC_INTERN PetscErrorCode          SamLawCreate_Plastic(SamLaw law);
 PETSC_INTERN PetscErrorCode          SamLawCreate_AccumulatedSlip(SamLaw law);
 PETSC_INTERN PetscErrorCode          SamLawCreate_FrictionEnergy(SamLaw law);
 PETSC_INTERN const SamStressPartType SamStressPart_Bulk, SamStressPart_Layers, SamStressPart_Heat;
-
-/*
-  SAM_PLASTIC_THICK - the thickness of the layer in which a body yields first, relative to the half width of the
-  contact, above which the maximum plastic strain is more than 4 % too small.
-*/
-#define SAM_PLASTIC_THICK 0.2
-/*
-  SamPlasticGetYieldStress - returns the smallest yield stress (Pa) at the surface of a body of this law; infinite if
-  layers that do not yield lie on it. Not collective.
-*/
-PETSC_INTERN PetscReal SamPlasticGetYieldStress(SamLaw law);
-/*
-  SamPlasticGetFlowStress - returns the smallest stress (Pa) at which a body of this law flows after a plastic strain,
-  below its layers if it has any. SamPlasticYields - true if body 0 or 1 may yield. Not collective.
-*/
-PETSC_INTERN PetscReal SamPlasticGetFlowStress(SamLaw law, PetscReal strain);
-PETSC_INTERN PetscBool SamPlasticYields(SamLaw law, PetscInt body);
 
 #endif

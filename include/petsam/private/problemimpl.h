@@ -24,6 +24,22 @@ PETSC_INTERN PetscErrorCode SamProblemBegin(SamProblem problem, SamState state, 
 PETSC_INTERN PetscErrorCode SamProblemGetBalance(SamProblem problem, SamState state, const SamControl *control,
                                                  SamBalanceKind kind, SamBalance *balance);
 /*
+  What the laws of a problem do. None is collective.
+  SamProblemSlides - returns true if the surfaces move past each other.
+  SamProblemWears - returns true if material is removed.
+  SamProblemYields - returns true if a body may yield. SamProblemBodyYields - the same of body 0 or 1.
+*/
+PETSC_EXTERN PetscBool SamProblemSlides(SamProblem problem);
+PETSC_INTERN PetscBool SamProblemWears(SamProblem problem);
+PETSC_INTERN PetscBool SamProblemYields(SamProblem problem);
+PETSC_INTERN PetscBool SamProblemBodyYields(SamProblem problem, PetscInt body);
+/*
+  SamProblemGetFlow - gets the smallest stress (Pa) at which a body flows after a strain; infinite if none does.
+  SamProblemHasYielded - finds out if a body has yielded in the step of a state. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamProblemGetFlow(SamProblem problem, PetscReal strain, PetscReal *stress);
+PETSC_INTERN PetscBool      SamProblemHasYielded(SamProblem problem, SamState state);
+/*
   SamProblemDisplaces - returns true if a law may displace the surfaces by fields. Not collective.
   SamProblemDisplace - adds the displacements of the surfaces in a step by other causes than tractions, body 2 relative
   to body 1, to u_z (m, one component) and u_t (m, two components). `strain`: their linear part, which u_t does not

@@ -1,4 +1,4 @@
-"""What is computed of the steps of a contact: stresses, fatigue, and the gradient of a number."""
+"""Computed from the steps of a contact: stresses, fatigue, and the gradient of a number."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a contact returns: Step, Cycle of a life, and Stiffness."""
+"""Results of a contact: Step, Cycle of a wear simulation, and Stiffness."""
 
 from __future__ import annotations
 

@@ -257,6 +257,56 @@ PetscInt SamProblemGetBytes(SamProblem p)
   return bytes;
 }
 
+PetscBool SamProblemSlides(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->slides) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscBool SamProblemWears(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->wears) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscBool SamProblemBodyYields(SamProblem p, PetscInt body)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.yields && p->law[k]->ops.yields(p->law[k], body)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscBool SamProblemYields(SamProblem p)
+{
+  return SamProblemBodyYields(p, 0) || SamProblemBodyYields(p, 1) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode SamProblemGetFlow(SamProblem p, PetscReal strain, PetscReal *stress)
+{
+  PetscReal one;
+
+  PetscFunctionBegin;
+  *stress = PETSC_INFINITY;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.flow) {
+      PetscCall(p->law[k]->ops.flow(p->law[k], strain, &one));
+      *stress = PetscMin(*stress, one);
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamProblemHasYielded(SamProblem p, SamState state)
+{
+  for (PetscInt k = 0; k < p->laws; k++) {
+    const PetscInt id = p->law[k]->strained ? SamStateFindNumber(state, p->law[k]->strained) : -1;
+
+    if (id >= 0 && *SamStateReadNumbers(state, id) > 0) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 PetscBool SamProblemMoves(SamProblem p)
 {
   for (PetscInt k = 0; k < p->laws; k++)

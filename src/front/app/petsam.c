@@ -12,6 +12,8 @@
 #include <petsam/private/output.h>
 #include <petsam/private/file.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <time.h>
 
 enum { EXIT_STOPPED = 75 };
@@ -169,11 +171,11 @@ static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNee
 /* Returns the mean memory per cell of this rank, bytes, without kept steps. */
 static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *needs)
 {
-  const int   several = needs->steps > 1, friction = needs->friction, coupled = needs->coupled;
-  const Bytes first = step_bytes[SamGridIsRow(setup->grid)][0][friction][coupled];
-  const Bytes b     = step_bytes[SamGridIsRow(setup->grid)][several][friction][coupled];
-  double      cell = b.cell, contact = b.contact;
-  const void *slides = SamProblemGetLaw(setup->problem, SAM_LAW_SLIDE);
+  const int       several = needs->steps > 1, friction = needs->friction, coupled = needs->coupled;
+  const Bytes     first = step_bytes[SamGridIsRow(setup->grid)][0][friction][coupled];
+  const Bytes     b     = step_bytes[SamGridIsRow(setup->grid)][several][friction][coupled];
+  double          cell = b.cell, contact = b.contact;
+  const PetscBool slides = SamProblemSlides(setup->problem);
 
   if (needs->touches == SAM_TOUCHES_FIRST) cell = PetscMax(cell, first.cell + TOUCHING_BYTES);
   if (needs->touches == SAM_TOUCHES_LATER) cell += TOUCHING_BYTES;

@@ -11,6 +11,8 @@
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/setup.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 
 enum { AXES = SAM_STRESS_AXES };
 
@@ -98,7 +100,7 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
   PetscCall(SamContactGetSolution(c->setup->contact, &s));
   *step = (Step){.control = s->control};
   PetscCall(SamContactGetNumber(c->setup->contact, "contact_area", &step->area));
-  for (int k = 0; k < 4 && SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE); k++)
+  for (int k = 0; k < 4 && SamProblemSlides(c->setup->problem); k++)
     PetscCall(SamContactGetNumber(c->setup->contact, slides[k], &step->slide[k]));
   for (int f = 0; FieldOf(f); f++) {
     PetscBool has;
@@ -338,7 +340,7 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], Steps *st
                             .name       = "-elasticity",
                             .steps      = steps->steps,
                             .before     = steps->before && steps->before->field[0],
-                            .slides     = SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE) != NULL,
+                            .slides     = SamProblemSlides(c->setup->problem),
                             .slips      = SamMotionOf(c->setup->elasticity)->continues,
                             .has        = HasField,
                             .read       = ReadField,

@@ -567,29 +567,30 @@ PetscReal SamPlasticGetYieldStress(SamLaw law)
   return least;
 }
 
-PetscBool SamPlasticYields(SamLaw law, PetscInt body)
+static PetscBool Yields(SamLaw law, PetscInt body)
 {
   return isfinite(((const Plastic *)law->data)->material[body].yield) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-PetscReal SamPlasticGetFlowStress(SamLaw law, PetscReal strain)
+PetscErrorCode SamPlasticGetFlow(SamLaw law, PetscReal strain, PetscReal *stress)
 {
-  const SamPair pair  = SamElasticityGetPair(law->elasticity);
-  PetscReal     least = PETSC_INFINITY;
+  const SamPair pair = SamElasticityGetPair(law->elasticity);
 
+  PetscFunctionBegin;
+  *stress = PETSC_INFINITY;
   for (PetscInt b = 0; b < 2; b++) {
     const Material *const own = &((const Plastic *)law->data)->material[b];
     SamMises              m;
     PetscReal             flow;
 
-    if (!SamPlasticYields(law, b)) continue;
+    if (!Yields(law, b)) continue;
     m    = MaterialOf(own, SamBodySubstrate(SamPairBody(pair, b)));
     flow = (PetscReal)SamMisesYield(&m, (double)strain, NULL);
     for (PetscInt k = 0; k < m.backstresses; k++)
       flow += (PetscReal)(m.back[k][0] * (double)strain / (1 + m.back[k][1] * (double)strain));
-    least = PetscMin(least, flow);
+    *stress = PetscMin(*stress, flow);
   }
-  return least;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Destroy(SamLaw law)
@@ -1052,5 +1053,11 @@ PetscErrorCode SamLawCreate_Plastic(SamLaw law)
   law->ops.follow         = Follow;
   law->ops.advance        = Advance;
   law->ops.view           = View;
+  law->ops.yields         = Yields;
+  law->ops.flow           = SamPlasticGetFlow;
+  law->ops.examine        = SamPlasticExamine;
+  law->ops.doubt          = SamPlasticDoubt;
+  law->strained           = "plastic_max";
+  law->with_shear         = "plastic_max residual_z_max";
   PetscFunctionReturn(PETSC_SUCCESS);
 }

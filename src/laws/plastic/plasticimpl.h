@@ -4,6 +4,7 @@
 #define PETSAM_PLASTICIMPL_H
 
 #include <petsam/private/elasticityimpl.h>
+#include <petsam/private/lawimpl.h>
 #include <petsam/private/stressimpl.h>
 
 /* Components of stress and strain, in the order of SamStressComponent; shear strains are those of the tensor. */
@@ -47,5 +48,21 @@ PETSC_INTERN PetscErrorCode SamResidualEnd(PetscInt bodies, const SamResidual re
                                            const double *const traction[3], double s[]);
 PETSC_INTERN PetscErrorCode SamResidualLoadAt(SamResidual residual, PetscReal depth, const double *const traction[3],
                                               double s[]);
+
+/*
+  SAM_PLASTIC_THICK - the thickness of the layer in which a body yields first, relative to the half width of the
+  contact, above which the maximum plastic strain is more than 4 % too small.
+*/
+#define SAM_PLASTIC_THICK 0.2
+/*
+  SamPlasticGetYieldStress - returns the smallest yield stress (Pa) at the surface of a body of this law; infinite if
+  layers that do not yield lie on it. Not collective.
+  SamPlasticGetFlow - the law's method `flow`: below its layers if a body has any.
+  SamPlasticExamine, SamPlasticDoubt - its methods `examine` and `doubt` (plasticdoubt.c). Collective.
+*/
+PETSC_INTERN PetscReal      SamPlasticGetYieldStress(SamLaw law);
+PETSC_INTERN PetscErrorCode SamPlasticGetFlow(SamLaw law, PetscReal strain, PetscReal *stress);
+PETSC_INTERN PetscErrorCode SamPlasticExamine(SamLaw law, SamExamination *examination);
+PETSC_INTERN PetscErrorCode SamPlasticDoubt(SamLaw law, SamExamination *examination);
 
 #endif

@@ -391,6 +391,8 @@ static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
   law->ops.separation                                                             = Separation;
   law->ops.advance                                                                = Advance;
   law->ops.advise                                                                 = Advise;
+  law->ops.doubt                                                                  = SamWearDoubt;
+  law->wears                                                                      = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

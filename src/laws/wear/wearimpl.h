@@ -24,6 +24,8 @@ typedef struct {
   PetscBool jumps;          /* steps add to the wear load of the cycle; it is removed by cycle jumps */
 } SamWear;
 
+/* SamWearDoubt - the laws' method `doubt` (weardoubt.c). Collective. */
+PETSC_INTERN PetscErrorCode SamWearDoubt(SamLaw law, SamExamination *examination);
 /* SamLawIsWear - returns true if a law is of these types. Not collective. */
 PETSC_INTERN PetscBool SamLawIsWear(SamLaw law);
 /*

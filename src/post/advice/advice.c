@@ -13,6 +13,7 @@
 #include <petsam/private/gap.h>
 #include <petsam/private/law.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <math.h>
 
 /*
@@ -139,7 +140,7 @@ static void Touch(SamAdvice *a)
 /* Returns the fewest cells across that resolve the contact. */
 static int Fewest(const SamAdvice *a)
 {
-  return a->closed && !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? FEW_CLOSED : SAM_ADVICE_CELLS;
+  return a->closed && !SamProblemYields(a->setup->problem) ? FEW_CLOSED : SAM_ADVICE_CELLS;
 }
 
 /*
@@ -170,8 +171,8 @@ static void Unresolved(SamAdvice *a, double more, const char zones[], const char
                  shear > 0 ? " shear_max stick_area slip_max dissipated_energy" : "");
   if (a->closed) (void)snprintf(closed, sizeof(closed), ", %.2g in closed form", (double)a->across);
   /* a more special reason, with an error of 1, precedes this one */
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 - PETSC_SQRT_MACHINE_EPSILON, more, names, SAM_ADVICE_ACROSS "%s%s",
-               zones, (double)extent->across, extent->across == 1 ? "" : "s", closed, units);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1 - PETSC_SQRT_MACHINE_EPSILON, more, names, SAM_ACROSS "%s%s", zones,
+               (double)extent->across, extent->across == 1 ? "" : "s", closed, units);
 }
 
 /*
@@ -186,9 +187,9 @@ static void Cells(SamAdvice *a)
   const PetscBool whole  = !SamAdviceIsStrip(a, ends) && extent->whole;
   const int       fewest = Fewest(a);
   const PetscBool few    = !whole && extent->across < fewest;
-  const PetscBool sharp  = fabs(extent->change) > (a->worn ? SAM_ADVICE_WORN_PEAK : SAM_DOUBT_LARGE) && !extent->finer;
+  const PetscBool sharp  = fabs(extent->change) > (a->worn ? SAM_WORN_PEAK : SAM_DOUBT_LARGE) && !extent->finer;
   const double    change = fabs((double)extent->change), more = (fewest + SAME) / (double)a->across;
-  const double    error                  = change * (a->worn ? SAM_DOUBT_LARGE / SAM_ADVICE_WORN_PEAK : 1);
+  const double    error                  = change * (a->worn ? SAM_DOUBT_LARGE / SAM_WORN_PEAK : 1);
   const PetscBool none                   = few && WidthOf(a) < BORDER;
   const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
   const char     *units                  = absurd ? ": check the units, N, m, Pa" : "";
@@ -198,7 +199,7 @@ static void Cells(SamAdvice *a)
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   if (few)
     SamDoubtsAdd(&a->guesses, SAM_CAUSE_CELLS, SAM_DOUBT_LARGE * fewest / (double)extent->across, more, "contact_area",
-                 SAM_ADVICE_ACROSS "%s", zones, (double)extent->across, extent->across == 1 ? "" : "s", units);
+                 SAM_ACROSS "%s", zones, (double)extent->across, extent->across == 1 ? "" : "s", units);
   if (sharp)
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, 1, 0, "pressure_max",
                  "pressure_max grows without limit on finer cells, as at a sharp edge");
@@ -290,7 +291,7 @@ static void Images(SamAdvice *a)
 /* Advises on a contact that is wide relative to its radius, or a pressure beyond linear elasticity. */
 static void Size(SamAdvice *a)
 {
-  const double modulus = SamAdviceStiffness(a->setup->pair);
+  const double modulus = SamPairStiffest(a->setup->pair);
   PetscReal    most = 0, part = 0;
   char         ratio[192];
 
@@ -362,6 +363,35 @@ static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Asks the laws to examine the step, or to add their doubts. */
+enum { EXAMINE, DOUBT };
+static PetscErrorCode AskLaws(SamAdvice *a, int what)
+{
+  const SamSetup *s = a->setup;
+  SamExamination  x = {.contact    = s->contact,
+                       .grid       = s->grid,
+                       .elasticity = s->elasticity,
+                       .extent     = &a->extent,
+                       .slip       = &a->slip,
+                       .passed     = a->passed,
+                       .cycles     = a->cycles,
+                       .spent      = SamAdviceIsSpent(a),
+                       .doubts     = &a->doubts,
+                       .tell       = a->receive,
+                       .context    = a->context};
+  const SamLaw   *laws;
+  PetscInt        count;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetLaws(s->problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++) {
+    x.kept = a->kept[k];
+    if (what == EXAMINE && laws[k]->ops.examine) PetscCall((*laws[k]->ops.examine)(laws[k], &x));
+    if (what == DOUBT && laws[k]->ops.doubt) PetscCall((*laws[k]->ops.doubt)(laws[k], &x));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 void SamAdviceBeginCycle(SamAdvice *a)
 {
   a->begun  = a->begun > 0 ? a->begun : (PetscReal)a->slip.energy;
@@ -395,7 +425,7 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     }
   }
   if (of_laws) PetscCall(LookAtLaws(a, k));
-  PetscCall(SamAdviceAddYielding(a));
+  PetscCall(AskLaws(a, EXAMINE));
   if (SamMotionOf(a->setup->elasticity)->continues)
     PetscCall(SamAdviceAddSlip(a, step));
   else
@@ -409,9 +439,9 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
   a->error = PETSC_SUCCESS;
   PetscCall(SamAdviceMeasureStick(a));
   SamAdviceSlip(a);
-  PetscCall(SamAdviceWornStick(a));
   SamAdviceRolling(a);
-  SamAdviceYielding(a);
+  SamAdviceUnloaded(a);
+  if (!a->error) PetscCall(AskLaws(a, DOUBT));
   if (found) *found = PetscMax(a->slip.energy, a->slip.ring.energy) > 0 ? &a->slip : NULL;
   PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -439,7 +469,7 @@ static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadRan
 */
 static double ReachOf(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2], int k)
 {
-  return (double)(half[k] + lever[k]) * SAM_ADVICE_MARGIN + fabs((double)s->grid->center[k]);
+  return (double)(half[k] + lever[k]) * SAM_MARGIN + fabs((double)s->grid->center[k]);
 }
 
 /* True if the grid would hold a contact of these half widths. */
@@ -576,7 +606,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
       PeriodicOf(s));
   } else {
     /* No closed-form solution describes a contact that wears, tilts or yields, or ends within the grid. */
-    known = known && !SamProblemMoves(s->problem) && !most->open && !SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC);
+    known = known && !SamProblemMoves(s->problem) && !most->open && !SamProblemYields(s->problem);
     if (known && Fits(s, half, most->lever)) {
       AdviseCells(s, half, text, size);
       if (text[0]) PetscFunctionReturn(PETSC_SUCCESS);

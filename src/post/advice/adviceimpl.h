@@ -7,10 +7,7 @@
 
 #define SAM_ADVICE_GRIDS 192 /* characters of the text with the advised grids */
 #define SAM_ADVICE_CELLS 20  /* a contact with fewer cells across is not resolved, but for closed-form solutions */
-/* A reason: in which spots, how many cells, plural */
-#define SAM_ADVICE_ACROSS "the contact is %s%.3g cell%s across"
-#define SAM_ADVICE_MARGIN 1.1 /* ratio of the width of a sufficient grid to that of the contact */
-#define SAM_ADVICE_TEXT   64  /* characters of numbers in messages */
+#define SAM_ADVICE_TEXT  64  /* characters of numbers in messages */
 /* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
 #define SAM_ADVICE_STEEPEST 0.1
 /* From this ratio on, no larger grid is advised, and bodies that yield are rejected; */
@@ -18,19 +15,12 @@
 /* linear elasticity is taken to hold up to this pressure over E*. */
 #define SAM_ADVICE_HARDEST 0.2
 /*
-  Allowed relative change of the peak pressure on cells half as wide, after wear. It is larger than without, since a
-  surface worn on finer cells is smoother than heights interpolated between wide ones: in 7 random lives the change on
-  four times finer cells was a fourteenth to three quarters of the prediction by interpolated heights.
-*/
-#define SAM_ADVICE_WORN_PEAK 0.1
-/*
   SamAdviceSay - passes on advice, with a format of printf(); `setting`: see SamAdviceFunction.
   SamAdviceGridsFor - writes grids that resolve a contact of these half widths along the axes to refine: one as large as
   now with `factor` times more cells, and a smaller one with as many cells; empty: none.
   SamAdviceWritePair - writes two numbers as an option takes them: one for both if they are the same.
   SamAdviceWriteGrid - writes a grid of these widths, with cells as now.
   SamAdviceIsStrip - true if a single spot ends along one axis only; `ends`: the axes along which the contact ends.
-  SamAdviceStiffness - returns E* of the stiffest materials of both bodies, Pa.
   None is collective (say.c).
 */
 PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const char format[], ...)
@@ -41,7 +31,6 @@ PETSC_INTERN void      SamAdviceGridsFor(const SamSetup *setup, const PetscReal 
 PETSC_INTERN void      SamAdviceWriteGrid(const SamSetup *setup, const double width[2], char text[], size_t size);
 PETSC_INTERN void      SamAdviceWritePair(const char option[], const double x[2], char text[SAM_ADVICE_TEXT]);
 PETSC_INTERN PetscBool SamAdviceIsStrip(const SamAdvice *advice, PetscBool ends[2]);
-PETSC_INTERN double    SamAdviceStiffness(SamPair pair);
 /*
   SamAdviceEstimate - computes the half widths (m) of the contact under a load (N) or, without `force`, at an approach
   (m), by a closed-form solution; infinite along an axis along which surfaces are flat. `known`: there is a solution, of
@@ -93,24 +82,12 @@ PETSC_INTERN void           SamAdviceSlip(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);
 /*
-  SamAdviceZoneError - returns the error of the energy of a slip zone of this width with an edge of this length, both
-  in cells, relative to it. Not collective.
+  SamAdviceUnloaded - advises on the area of a row of few cells after the largest load (wholecells.c).
+  SamAdviceCountsCells - true if areas are those of whole cells in a row: the edges of bodies that may yield differ from
+  those of elastic bodies, and are not reconstructed. Both are collective.
 */
-PETSC_INTERN double SamAdviceZoneError(PetscReal width, PetscReal length);
-/*
-  SamAdviceWornStick - advises, after SamAdviceSlip(), on numbers that cells do not resolve because wear ends at a stick
-  zone (wornstick.c). Collective.
-*/
-PETSC_INTERN PetscErrorCode SamAdviceWornStick(SamAdvice *advice);
-/*
-  SamAdviceAddYielding - adds the plastic work of a step. SamAdviceYielding - advises, after the last step and after
-  SamAdviceSlip(), on plastic strain that cells, layers or steps do not resolve (yielding.c). SamAdviceCountsCells -
-  true if areas are those of whole cells in a row: the edges of bodies that may yield differ from those of elastic
-  bodies, and are not reconstructed. All are collective.
-*/
-PETSC_INTERN PetscErrorCode SamAdviceAddYielding(SamAdvice *advice);
-PETSC_INTERN void           SamAdviceYielding(SamAdvice *advice);
-PETSC_INTERN PetscBool      SamAdviceCountsCells(SamAdvice *advice);
+PETSC_INTERN void      SamAdviceUnloaded(SamAdvice *advice);
+PETSC_INTERN PetscBool SamAdviceCountsCells(SamAdvice *advice);
 /* SamAdviceMeshes - advises on numbers by the error of a body's compliance by its mesh (meshes.c). Collective. */
 PETSC_INTERN void SamAdviceMeshes(SamAdvice *advice);
 /*

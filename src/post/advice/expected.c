@@ -12,6 +12,7 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/parameters.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <math.h>
 #include <string.h>
 
@@ -51,14 +52,14 @@ static PetscErrorCode Expect(const SamAdvice *a, PetscReal *ratio, PetscReal *sh
 {
   const SamSetup     *s    = a->setup;
   const SamLoadRange *most = &a->most;
-  const SamLaw        law  = SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC);
   PetscReal           half[2], wide[2], mean, part;
   PetscBool           known = PETSC_FALSE;
   SamGapSteepness     steepness;
 
   PetscFunctionBegin;
   *ratio = *share = 0;
-  if (!law || most->open || !most->steps || SamProblemMoves(s->problem)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamProblemYields(s->problem) || most->open || !most->steps || SamProblemMoves(s->problem))
+    PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(EstimateLargest(s, most, half, &known));
   if (!known) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamAdviceCompare(s, half, text, size, ratio));
@@ -66,8 +67,10 @@ static PetscErrorCode Expect(const SamAdvice *a, PetscReal *ratio, PetscReal *sh
   part = *ratio;
   PetscCall(PetscArraycpy(wide, half, 2));
   for (PetscInt k = 0; most->force && k<PASSES && * ratio> 0; k++) {
-    const PetscReal times = PetscMax(1, mean / (BEARS * SamPlasticGetFlowStress(law, STRAIN * part)));
+    PetscReal flow, times;
 
+    PetscCall(SamProblemGetFlow(s->problem, STRAIN * part, &flow));
+    times = PetscMax(1, mean / (BEARS * flow));
     for (int c = 0; c < 2; c++) wide[c] = half[c] * (SamGridIsRow(s->grid) ? times : sqrt(times));
     PetscCall(SamAdviceCompare(s, wide, text, size, ratio));
     part = 0.5 * (part + *ratio);
@@ -112,13 +115,12 @@ PetscErrorCode SamAdviceRefuse(const SamAdvice *a)
 /* Advises on bulk stress and a film where no shear can follow them. */
 void SamAdviceIdle(SamAdvice *a)
 {
-  const SamLaw plastic = SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC);
-  PetscBool    rubs    = PETSC_TRUE;
+  PetscBool rubs = PETSC_TRUE;
 
   if (!a->error) a->error = SamProblemHasFriction(a->setup->problem, &rubs);
   if (a->error || rubs) return;
   for (PetscInt b = 0; b < 2; b++)
-    if (a->most.bulk[b] > 0 && !(plastic && SamPlasticYields(plastic, b)))
+    if (a->most.bulk[b] > 0 && !SamProblemBodyYields(a->setup->problem, b))
       SamAdviceSay(a, "",
                    "bulk%d_stress, up to %.3g Pa, has no effect on the contact: there is no friction, and body %d does "
                    "not yield: give -friction or -body%d_yield (only petsam-stress adds it)",

@@ -34,6 +34,7 @@
 #include <petsam/private/gap.h>
 #include <petsam/private/pressed.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <math.h>
 
 #define RING    3                 /* cells about the part that is solved again */
@@ -402,24 +403,14 @@ static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *e
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if bodies yield; on finer cells their pressure differs from that of the elastic patch. */
-static PetscErrorCode Yields(const SamSetup *s, PetscBool *yields)
-{
-  PetscReal strain = 0;
-
-  PetscFunctionBegin;
-  if (SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC)) PetscCall(SamContactGetNumber(s->contact, "plastic_max", &strain));
-  *yields = strain > 0 ? PETSC_TRUE : PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamAdviceMeasurePeak(const SamSetup *s, SamExtent *extent)
 {
   Local     l = {.gap = s->gap, .whole = s->grid};
   Patch    *a;
   PetscReal limit;
   PetscInt  at[2];
-  PetscBool level, yields = PETSC_FALSE;
+  PetscBool level;
+  SamState  state;
   double    most, numbers[2];
 
   PetscFunctionBegin;
@@ -428,8 +419,9 @@ PetscErrorCode SamAdviceMeasurePeak(const SamSetup *s, SamExtent *extent)
   PetscCall(SamProblemGetPressureLimit(s->problem, &limit));
   PetscCall(SamContactGetSolution(s->contact, &l.solution));
   PetscCall(SamGridFindPeak(s->grid, l.solution->pressure, at, &most));
-  PetscCall(Yields(s, &yields));
-  if (!(most > 0) || yields || most >= SAM_SATURATED * limit || s->grid->fewest < WIDE)
+  PetscCall(SamContactGetState(s->contact, &state));
+  /* The pressure of bodies that yield differs on finer cells from that of the elastic patch. */
+  if (!(most > 0) || SamProblemHasYielded(s->problem, state) || most >= SAM_SATURATED * limit || s->grid->fewest < WIDE)
     PetscFunctionReturn(PETSC_SUCCESS);
   l.wrap = SamElasticityGetTraits(s->elasticity).periodic;
   PetscCall(PetscNew(&a));

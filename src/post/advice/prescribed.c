@@ -5,6 +5,7 @@
 #include <petsam/private/law.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <petsam/private/grid.h>
 #include <math.h>
 
@@ -81,7 +82,6 @@ void SamAdviceMotion(SamAdvice *a)
   const SamLoadRange *most   = &a->most;
   const double        width  = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
   const SamProblem    p      = a->setup->problem;
-  const PetscBool     wears  = SamProblemGetLaw(p, SAM_LAW_ARCHARD) || SamProblemGetLaw(p, SAM_LAW_ENERGY);
 
   if (most->rotation > SAM_ADVICE_STEEPEST)
     SamAdviceSay(a, "",
@@ -97,7 +97,7 @@ void SamAdviceMotion(SamAdvice *a)
       "creep_spin %g 1/m is prescribed: its slip at the contact's edge is %.2g of the rolled distance, the limit is "
       "about %g: check the unit, 1/m",
       (double)most->spin, 0.5 * (double)most->spin * width, SAM_ADVICE_STEEPEST);
-  if (extent->zones && (double)most->slide > width && (!wears || HasPlace(a)) && !SamProblemGetLaw(p, SAM_LAW_SLIDE))
+  if (extent->zones && (double)most->slide > width && (!SamProblemWears(p) || HasPlace(a)) && !SamProblemSlides(p))
     SamAdviceSay(
       a, "",
       "the prescribed tangential displacement, %g m, exceeds the width of the contact, %.3g m: without -slide surfaces "
@@ -112,7 +112,7 @@ void SamAdviceMotion(SamAdvice *a)
 void SamAdviceDatum(SamAdvice *a)
 {
   const double    datum = (double)SamElasticityGetTraits(a->setup->elasticity).datum;
-  const PetscBool slide = SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE) ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool slide = SamProblemSlides(a->setup->problem);
 
   if (!(datum > 0)) return;
   for (PetscInt c = SAM_COMPONENT_N; c <= SAM_COMPONENT_TY; c++) {
@@ -134,7 +134,7 @@ void SamAdviceStroke(SamAdvice *a)
 {
   const double ratio = (double)(a->most.slide / PetscMax(a->extent.half[0], a->extent.half[1]));
 
-  if (a->stroke || !HasPlace(a) || !(ratio > STROKE) || SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE)) return;
+  if (a->stroke || !HasPlace(a) || !(ratio > STROKE) || SamProblemSlides(a->setup->problem)) return;
   a->stroke = PETSC_TRUE;
   SamAdviceSay(a, "",
                "the surfaces move by %.3g m, %.2g times the half width of the contact, and body 2 wears, but "

@@ -149,21 +149,3 @@ PetscErrorCode SamAdviceTell(SamAdvice *a)
   PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-double SamAdviceStiffness(SamPair pair)
-{
-  double compliance = 0;
-
-  for (PetscInt b = 0; b < 2; b++) {
-    const SamBody body  = SamPairBody(pair, b);
-    double        least = INFINITY;
-
-    for (PetscInt n = 1; n <= SamBodyCount(body); n++) {
-      const SamMaterial *m = SamBodyMaterialAt(body, SamBodyTop(body, n)); /* interfaces: that above */
-
-      least = PetscMin(least, (1 - (double)(m->poisson * m->poisson)) / (double)m->young);
-    }
-    compliance += least;
-  }
-  return 1 / compliance;
-}

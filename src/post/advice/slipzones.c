@@ -50,7 +50,6 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define WRONG    0.3   /* error of a branch relative to 1/(w^2 sqrt(m)) */
 #define GOOD     0.02  /* the same on an advised grid */
 #define ROUGH    0.25  /* the same above which the energy is unknown */
 #define NARROW   0.25  /* cells: the width below which the width of a zone is unknown */
@@ -165,16 +164,11 @@ static void Measure(const SamSetup *s, const Numbers *n, double edge, SamSlip *s
   slip->length = row ? LINE : PetscMax(slip->length, 1);
 }
 
-double SamAdviceZoneError(PetscReal width, PetscReal length)
-{
-  return WRONG / ((double)(width * width) * sqrt((double)length));
-}
-
 /* Adds the branch that ends with the present zone. */
 static void EndBranch(SamSlip *slip)
 {
-  const double error =
-    PetscMin(slip->width > 0 ? SamAdviceZoneError(slip->width, slip->length) : 1, 1) * PetscMax(slip->branch, 0);
+  const double error = PetscMin(slip->width > 0 ? SamZoneError((double)slip->width, (double)slip->length) : 1, 1) *
+                       PetscMax(slip->branch, 0);
 
   slip->error += error;
   if (error >= slip->worst) {
@@ -279,17 +273,21 @@ static double ExcessOf(double coupling, double t)
 /* Advises on dissimilar bodies whose N is applied in one step; called before the last branch ends. */
 static void Long(SamAdvice *a)
 {
-  SamSlip     *slip   = &a->slip;
-  const double excess = ExcessOf(slip->coupling, PetscMin(PetscMax(slip->share, SLIGHT), 1));
-  const double wrong  = (slip->first > 0 ? 2 * slip->first : slip->energy) * excess / (1 + excess);
-  const double error  = wrong < slip->energy ? wrong / (slip->energy - wrong) : INFINITY;
+  SamSlip      *slip   = &a->slip;
+  const double  excess = ExcessOf(slip->coupling, PetscMin(PetscMax(slip->share, SLIGHT), 1));
+  const double  wrong  = (slip->first > 0 ? 2 * slip->first : slip->energy) * excess / (1 + excess);
+  const double  error  = wrong < slip->energy ? wrong / (slip->energy - wrong) : INFINITY;
+  const SamLaw *laws;
+  PetscInt      count;
+
   if (!(slip->coupling > 0 && slip->work > 0 && slip->energy > NOTHING * slip->work)) return;
   SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, error < ROUGH && slip->share > SLIGHT ? error : 1, SEVERAL,
                "dissipated_energy", "%s", SLIPS_AS_N_GROWS);
-  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, SHEAR * error, SEVERAL,
-               SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? "shear_max plastic_max residual_z_max"
-                                                                    : "shear_max",
-               "%s", SLIPS_AS_N_GROWS);
+  SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, SHEAR * error, SEVERAL, "shear_max", "%s", SLIPS_AS_N_GROWS);
+  a->error = SamProblemGetLaws(a->setup->problem, &count, &laws);
+  for (PetscInt k = 0; !a->error && k < count; k++)
+    if (laws[k]->with_shear)
+      SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, SHEAR * error, SEVERAL, laws[k]->with_shear, "%s", SLIPS_AS_N_GROWS);
 }
 
 /*
@@ -560,7 +558,7 @@ static void Energy(SamAdvice *a)
   most  = known ? slip->closed : slip->energy + slip->missing;
   error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer && !slip->unsure ? 1 : 0;
   width = slip->missing > 0 && slip->missing >= slip->worst ? slip->narrow[0] : PetscMax(slip->narrow[0], NARROW);
-  factor = pow(SamAdviceZoneError(width, slip->narrow[1]) / GOOD, slip->narrow[1] > 1 ? 0.4 : 0.5);
+  factor = pow(SamZoneError((double)width, (double)slip->narrow[1]) / GOOD, slip->narrow[1] > 1 ? 0.4 : 0.5);
   if (isinf(slip->narrow[0])) /* no edge of contact lies on the grid */
     (void)snprintf(zones, sizeof(zones), "the contact has no edge");
   else if (slip->narrow[0] > 0)

@@ -8,24 +8,17 @@
   with several loads and creepages, compared with 384 cells, the largest errors were 2 % above w = 0.7, 7 % from 0.6 to
   0.7, 11 % from 0.5 to 0.6, 21 % from 0.4 to 0.5 and 39 % below. The area of stick is too small by up to 0.9 over the
   cells across it.
-
-  The volume worn by passages is too large by about the part 0.065 w^-1.3. On spheres with w of 0.4 to 5 cells, of whose
-  contact 17 or 28 % slipped, compared with 144 cells, the error was 22 % at w = 0.42, 13 % at 0.56, 9 % at 0.68, 8 % at
-  0.85, 5.6 % at 0.9 and 1.1, 3.6 % at 1.4, 2.5 % at 1.7 and 1.8.
 */
 #include "adviceimpl.h"
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <math.h>
 
-#define GOOD    0.015 /* error on an advised grid, relative to the number */
-#define SMALL   0.05  /* part of a moment over the radius of contact that counts as a force, and so on */
-#define CLEAR   0.65  /* cells: w of a slip zone whose maximum velocity is accurate */
-#define WIDE    0.8   /* w on a grid that is advised for the velocity */
-#define WORN    0.065 /* error of the worn volume at w = 1, relative to it, */
-#define FALLS   1.3   /* and the power of w by which it falls */
-#define ADVISED 0.04  /* error of it on an advised grid */
-#define STUCK   18    /* cells across a stick zone whose area has an error below 5 % */
+#define GOOD  0.015 /* error on an advised grid, relative to the number */
+#define SMALL 0.05  /* part of a moment over the radius of contact that counts as a force, and so on */
+#define CLEAR 0.65  /* cells: w of a slip zone whose maximum velocity is accurate */
+#define WIDE  0.8   /* w on a grid that is advised for the velocity */
+#define STUCK 18    /* cells across a stick zone whose area has an error below 5 % */
 
 /*
   Computes the errors of T_x, T_y, M_z, or of the corresponding creepages, relative to both forces and to the moment.
@@ -79,8 +72,8 @@ PetscErrorCode SamAdviceAddRolling(SamAdvice *a, PetscInt k, const SamStep *step
   PetscCall(SamContactGetNumber(a->setup->contact, "stick_area", &stick));
   for (int load = 0; load < 2 && area > 0 && a->setup->grid->axes == 2; load++)
     PetscCall(Compare(a, k, step, load ? PETSC_TRUE : PETSC_FALSE, sqrt((double)area / PETSC_PI)));
-  a->slip.pushed   = MustStick(&step->control);
-  a->rolling.width = area > 0 ? (area - stick) / (2 * sqrt(PETSC_PI * area * cell)) : 0;
+  a->slip.pushed = MustStick(&step->control);
+  a->passed      = area > 0 ? (double)((area - stick) / (2 * sqrt(PETSC_PI * area * cell))) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -95,23 +88,11 @@ static void Loads(SamAdvice *a)
                where, r->name, r->value, r->name, r->fine);
 }
 
-/* Advises on the volume that passages wear by Archard's law; the volume by the energy follows from loads and
-   creepages. */
-static void Wear(SamAdvice *a)
-{
-  const double width = (double)a->rolling.width, error = WORN * pow(width, -FALLS);
-
-  if (SamProblemGetLaw(a->setup->problem, SAM_LAW_ARCHARD) && width > 0)
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, error, pow(error / ADVISED, 1 / FALLS), "volume1 volume2",
-                 "the slip zone is %.2g cells wide", width);
-}
-
 void SamAdviceRolling(SamAdvice *a)
 {
   if (SamMotionOf(a->setup->elasticity)->continues || a->setup->grid->axes < 2) return;
   Loads(a);
-  Wear(a);
-  if (a->slip.across < INFINITY && a->rolling.width < CLEAR) /* not all cells stick */
-    SamAdvicePeaks(a, (double)a->rolling.width, WIDE / (double)a->rolling.width, "slip_velocity_max");
+  if (a->slip.across < INFINITY && a->passed < CLEAR) /* not all cells stick */
+    SamAdvicePeaks(a, a->passed, WIDE / a->passed, "slip_velocity_max");
   SamAdviceStick(a, STUCK);
 }

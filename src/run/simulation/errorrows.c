@@ -6,6 +6,7 @@
 #include <petsam/private/control.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <math.h>
 
 #define LARGE 0.12 /* error above which a warning is given: the median is two to three times the true one; */
@@ -71,7 +72,7 @@ double SamErrorsLeast(SamSimulation s, const SamStateNumber *number)
 
 PetscBool SamErrorsYields(SamSimulation s)
 {
-  return SamProblemGetLaw(s->setup.problem, SAM_LAW_PLASTIC) ? PETSC_TRUE : PETSC_FALSE;
+  return SamProblemYields(s->setup.problem);
 }
 
 double SamErrorsByCells(SamSimulation s, const SamStateNumber *number, double value, const double run[SAM_RUNS])

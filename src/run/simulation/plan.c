@@ -5,6 +5,7 @@
 #include <petsam/private/history.h>
 #include <petsam/private/table.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -181,7 +182,7 @@ PetscErrorCode SamLifeOptionsSetCycles(SamLifeOptions *w, PetscReal cycles, SamP
   PetscCheck(!w->outputs || cycles == 0 || w->output[w->outputs - 1] <= cycles, from->comm, SAM_ERR_USER,
              "-wear_output: %.6g is more than -wear_cycles %.6g", (double)w->output[w->outputs - 1], (double)cycles);
   w->cycles = cycles;
-  if (cycles > 0 && SamProblemGetLaw(problem, SAM_LAW_SLIDE)) Magnify(w);
+  if (cycles > 0 && SamProblemSlides(problem)) Magnify(w);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -208,7 +209,7 @@ static PetscReal Apart(SamProblem problem, const SamControl *last, const SamCont
                           SamControlPart(first, SamProblemGetConditions(problem), c);
 
   if ((c != SAM_COMPONENT_TX && c != SAM_COMPONENT_TY) || !SamElasticityGetTraits(bodies).periodic ||
-      !SamProblemGetLaw(problem, SAM_LAW_SLIDE) || SamControlWay(first, c) != SAM_BY_RIGID)
+      !SamProblemSlides(problem) || SamControlWay(first, c) != SAM_BY_RIGID)
     return fabs(apart);
   return fabs(remainder(apart, grid->width[c == SAM_COMPONENT_TY]));
 }

@@ -1,4 +1,4 @@
-"""What records of peaks hold, which have no loops."""
+"""Frictions and energies of records of peaks, which have no loops."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an interface has per area, over the pressure: Interface, with its tables, elements and cards."""
+"""Numbers of an interface per area, over the pressure: Interface, with its tables, elements and cards."""
 
 from __future__ import annotations
 

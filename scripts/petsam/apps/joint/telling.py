@@ -1,4 +1,4 @@
-"""What the actions of petsam-joint tell: their numbers, the warnings of a computation, the page of --report."""
+"""Lines that the actions of petsam-joint print: numbers, the warnings of a computation; and the page of --report."""
 
 import contextlib
 import sys

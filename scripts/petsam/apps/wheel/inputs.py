@@ -1,4 +1,4 @@
-"""What petsam-wheel reads: profiles in their places, and positions."""
+"""Inputs of petsam-wheel: profiles in their places, and positions."""
 
 import contextlib
 

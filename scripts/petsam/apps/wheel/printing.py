@@ -1,4 +1,4 @@
-"""What petsam-wheel prints: equilibria, patches, failures and doubts."""
+"""Lines that petsam-wheel prints: equilibria, patches, failures and doubts."""
 
 import argparse
 import re

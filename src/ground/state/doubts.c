@@ -1,5 +1,5 @@
 /* Errors of numbers by their causes: the largest of each is kept, and told in one line per cause. */
-#include <petsam/private/errors.h>
+#include <petsam/private/doubts.h>
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>

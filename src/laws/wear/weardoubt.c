@@ -1,5 +1,5 @@
 /*
-  Estimates the error of a grid in lives whose scar ends at a stick zone.
+  Doubts of worn surfaces: the error of a grid in lives whose scar ends at a stick zone, and of passages.
 
   Where cells stick, nothing wears, and beside them the depth grows from cycle to cycle. So a step of the depth forms at
   the edge of the stick zone, at which the pressure has a peak, in the limit like 1/sqrt(d) at the distance d from it
@@ -41,12 +41,16 @@
   1 + f^1.5. Of 84 random lives 24 had a maximum pressure or shear that was wrong by more than 5 % and that no change of
   the peak (finerpeak.c) tells: all are told but a shear that was wrong by 5.0 %.
 
+  The volume worn by passages is too large by about the part 0.065 w^-1.3. On spheres with w of 0.4 to 5 cells, of whose
+  contact 17 or 28 % slipped, compared with 144 cells, the error was 22 % at w = 0.42, 13 % at 0.56, 9 % at 0.68, 8 % at
+  0.85, 5.6 % at 0.9 and 1.1, 3.6 % at 1.4, 2.5 % at 1.7 and 1.8.
+
   Sources: M. Ciavarella, D. A. Hills, Eur. J. Mech. A/Solids 18 (1999) 491; V. L. Popov, Sci. Rep. 4 (2014) 3749.
 */
-#include "adviceimpl.h"
+#include "wearimpl.h"
 #include <petsam/private/contact.h>
-#include <petsam/private/law.h>
-#include <petsam/private/lawimpl.h>
+#include <petsam/private/examination.h>
+#include <petsam/private/motionimpl.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
@@ -54,15 +58,18 @@
 #include <petsam/private/pressed.h>
 #include <math.h>
 
-#define WORN    1e-3 /* depth, relative to the maximum, up to which a cell counts as not worn */
-#define YOUNG   1.5  /* error of the energy relative to that of the volume, of a young step, */
-#define LATE    5    /* and factors of the errors of a late one, of the energy */
-#define VOLUME  1.1  /* and of the volume */
-#define SHARP   1.5  /* power of the part of a step that is sharp */
-#define CREST   1.4  /* error of the maximum depth between two cells, relative to 1/(w^2 + 4) */
-#define CANCELS 9    /* largest number of cells along an edge whose errors count as independent */
-#define PEAKED  2    /* how many times narrower cells are advised for largest values */
-#define SLOW    1.5  /* ratio of the cells of a sufficient grid to those that an error in proportion to h would need */
+#define WORN    1e-3  /* depth, relative to the maximum, up to which a cell counts as not worn */
+#define YOUNG   1.5   /* error of the energy relative to that of the volume, of a young step, */
+#define LATE    5     /* and factors of the errors of a late one, of the energy */
+#define VOLUME  1.1   /* and of the volume */
+#define SHARP   1.5   /* power of the part of a step that is sharp */
+#define CREST   1.4   /* error of the maximum depth between two cells, relative to 1/(w^2 + 4) */
+#define CANCELS 9     /* largest number of cells along an edge whose errors count as independent */
+#define PEAKED  2     /* how many times narrower cells are advised for largest values */
+#define PASSED  0.065 /* error of the volume worn by passages, at a slip zone of one cell, relative to it, */
+#define FALLS   1.3   /* and the power of its width by which it falls */
+#define ADVISED 0.04  /* error of it on an advised grid */
+#define SLOW    1.5   /* ratio of the cells of a sufficient grid to those that an error in proportion to h would need */
 
 /* Sums over the faces of the edge: depth and pressure of first cells, pressures; and over all cells that are worn */
 enum { FACES, FIRST, BEYOND, LAST, BEFORE, CELLS, DEPTH, SUMS };
@@ -111,32 +118,32 @@ static void AddFaces(const Seen *s, double least, PetscInt i, PetscInt j, Edge *
 }
 
 /* Returns the depth of the scar of both bodies in a new field, and its maximum. */
-static PetscErrorCode GetDepth(const SamSetup *s, Vec *depth, PetscReal *most)
+static PetscErrorCode GetDepth(SamGrid grid, SamContact contact, Vec *depth, PetscReal *most)
 {
   Vec other;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(s->grid, 1, depth));
+  PetscCall(SamGridCreateVec(grid, 1, depth));
   PetscCall(VecDuplicate(*depth, &other));
-  PetscCall(SamContactGetField(s->contact, "wear_depth1", *depth));
-  PetscCall(SamContactGetField(s->contact, "wear_depth2", other));
+  PetscCall(SamContactGetField(contact, "wear_depth1", *depth));
+  PetscCall(SamContactGetField(contact, "wear_depth2", other));
   PetscCall(VecAXPY(*depth, 1, other));
   PetscCall(VecMax(*depth, NULL, most));
   PetscCall(VecDestroy(&other));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode MeasureEdge(const SamSetup *s, Edge *edge)
+static PetscErrorCode MeasureEdge(const SamExamination *x, Edge *edge)
 {
   const SamSolution *now;
-  const SamGrid      g = s->grid;
+  const SamGrid      g = x->grid;
   Seen               seen;
   Vec                depth;
   PetscReal          most;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetSolution(s->contact, &now));
-  PetscCall(GetDepth(s, &depth, &most));
+  PetscCall(SamContactGetSolution(x->contact, &now));
+  PetscCall(GetDepth(g, x->contact, &depth, &most));
   PetscCall(SamHaloBegin(g, now->pressure, 1, 1, PETSC_FALSE, &seen.p));
   PetscCall(SamHaloBegin(g, now->bound, 1, 1, PETSC_FALSE, &seen.b));
   PetscCall(SamHaloBegin(g, now->shear, 2, 1, PETSC_FALSE, &seen.q));
@@ -184,23 +191,23 @@ static void EstimatePeaks(const Edge *edge, double sharp, const double most[2], 
     e->shear = (peak[SHEAR] + PetscMax(sharp * peak[SHEAR], (young - 1) * peak[FIRST_BOUND])) / most[1] - 1;
 }
 
-static Errors Estimate(const SamAdvice *a, const Edge *edge, const double most[2])
+static Errors Estimate(const SamExamination *x, const Edge *edge, const double most[2])
 {
   const double *sum = edge->sum, step = PetscMax(sum[LAST] / sum[BEFORE] - 1, 0);
-  const double  along = sqrt(PetscMin(PetscMax((double)a->slip.length, 1), CANCELS)), width = sum[CELLS] / sum[FACES];
+  const double  along = sqrt(PetscMin(PetscMax((double)x->slip->length, 1), CANCELS)), width = sum[CELLS] / sum[FACES];
   const double  young = step * sum[FIRST] / sum[DEPTH] / along, sharp = SharpOf(sum, width);
   Errors        e = {.width = width};
 
-  e.volume = young + VOLUME * sharp / (width * along) + SamAdviceZoneError((PetscReal)width, a->slip.length);
+  e.volume = young + VOLUME * sharp / (width * along) + SamZoneError(width, (double)x->slip->length);
   e.depth  = e.volume + CREST / (width * width + 4) / (along * along);
-  if (a->cycles && a->slip.energy > 0 && !SamAdviceIsSpent(a))
+  if (x->cycles && x->slip->energy > 0 && !x->spent)
     e.energy = YOUNG * young + LATE * PetscMin(1, step * step) / (width * along);
   /* A change of the maximum elsewhere has been told. */
-  if (fabs((double)a->extent.change) <= SAM_ADVICE_WORN_PEAK) EstimatePeaks(edge, sharp, most, &e);
+  if (fabs((double)x->extent->change) <= SAM_WORN_PEAK) EstimatePeaks(edge, sharp, most, &e);
   return e;
 }
 
-static void Tell(SamAdvice *a, const Errors *e)
+static void Tell(SamExamination *x, const Errors *e)
 {
   const double crest = 1.05 * sqrt(CREST / SAM_DOUBT_LARGE - 4) / e->width;
   const struct {
@@ -213,27 +220,44 @@ static void Tell(SamAdvice *a, const Errors *e)
             {e->shear, PEAKED, "shear_max"}};
 
   for (size_t k = 0; k < sizeof(of) / sizeof(of[0]); k++)
-    SamDoubtsAdd(&a->doubts, SAM_CAUSE_CELLS, of[k].error, of[k].factor, of[k].names,
+    SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, of[k].error, of[k].factor, of[k].names,
                  "the scar is %.2g cells wide and ends at the edge of a stick zone", e->width);
 }
 
-PetscErrorCode SamAdviceWornStick(SamAdvice *a)
+/* Doubts scars that end at a stick zone. */
+static PetscErrorCode Stick(SamExamination *x)
 {
-  const SamSetup  *s    = a->setup;
-  const SamProblem p    = s->problem;
-  Edge             edge = {.sum = {0}};
-  Errors           errors;
-  PetscReal        most[2];
+  Edge      edge = {.sum = {0}};
+  Errors    errors;
+  PetscReal most[2];
 
   PetscFunctionBegin;
-  if (!(SamProblemGetLaw(p, SAM_LAW_ARCHARD) || SamProblemGetLaw(p, SAM_LAW_ENERGY)))
-    PetscFunctionReturn(PETSC_SUCCESS);
-  if (!a->slip.steps || a->slip.rolls || SamProblemGetLaw(p, SAM_LAW_SLIDE)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(MeasureEdge(s, &edge));
-  PetscCall(SamContactGetNumber(s->contact, "pressure_max", &most[0]));
-  PetscCall(SamContactGetNumber(s->contact, "shear_max", &most[1]));
+  PetscCall(MeasureEdge(x, &edge));
+  PetscCall(SamContactGetNumber(x->contact, "pressure_max", &most[0]));
+  PetscCall(SamContactGetNumber(x->contact, "shear_max", &most[1]));
   if (!(edge.sum[FACES] > 0 && edge.sum[BEFORE] > 0 && most[0] > 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  errors = Estimate(a, &edge, (const double[]){(double)most[0], (double)most[1]});
-  Tell(a, &errors);
+  errors = Estimate(x, &edge, (const double[]){(double)most[0], (double)most[1]});
+  Tell(x, &errors);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Doubts the volume that passages wear by Archard's law; that by the energy follows from loads and creepages. */
+static void Passages(SamExamination *x)
+{
+  const double error = PASSED * pow(x->passed, -FALLS);
+
+  if (x->passed > 0)
+    SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, error, pow(error / ADVISED, 1 / FALLS), "volume1 volume2",
+                 "the slip zone is %.2g cells wide", x->passed);
+}
+
+PetscErrorCode SamWearDoubt(SamLaw law, SamExamination *x)
+{
+  PetscFunctionBegin;
+  if (SamMotionOf(x->elasticity)->continues) {
+    if (x->slip->steps && !x->slip->rolls && !SamProblemSlides(SamContactGetProblem(x->contact))) PetscCall(Stick(x));
+  } else if (x->grid->axes == 2 && !((const SamWear *)law->data)->by_energy) {
+    Passages(x);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

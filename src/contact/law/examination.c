@@ -1,0 +1,17 @@
+/* What laws say of a run's steps when they are examined. */
+#include <petsam/private/examination.h>
+#include <petsam/private/lawimpl.h>
+#include <stdarg.h>
+
+PetscErrorCode SamExaminationSay(SamExamination *x, const char setting[], const char format[], ...)
+{
+  char    text[SAM_MESSAGE];
+  va_list values;
+
+  PetscFunctionBegin;
+  va_start(values, format);
+  (void)vsnprintf(text, sizeof(text), format, values);
+  va_end(values);
+  PetscCall((*x->tell)(x->context, text, setting));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
