@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error
 
 ORDER = 4  # Gauss points along the side of a face

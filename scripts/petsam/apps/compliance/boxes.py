@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from ...core.boxes import BOX, inside
-from ...core.cards import folded
+from ...core.decks import BOX, folded, inside
 
 
 def added(deck, settings):

@@ -6,7 +6,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error
 from . import images
 from .mesh import Block, Mesh

@@ -24,8 +24,8 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ...core import least
 from ...core.errors import Error, Unusable, short, there_are
+from . import least
 from .backbone import Backbone, derivatives, force_of, plain_force
 from .push import Push
 

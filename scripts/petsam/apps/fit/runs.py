@@ -24,8 +24,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...contact import gradient
-from ...core import least
 from ...core.errors import Error, Unusable, counted, there_are
+from . import least
 from .loops import LARGE, MISFIT, TRIALS, VAGUE
 
 TOLERANCES = {"normal_rtol": 1e-8, "tangential_rtol": 1e-6}  # of petsam, if the options have none

@@ -61,6 +61,7 @@ from .pair import Pair, contents
 from .structure import ENDS
 from .sweep import BackboneWarning
 from .wearing import rising, wear
+from .words import either, file_name
 
 OF_FILES = ("output", "report", "dpi")  # options of the written files
 BESIDE = (".h5", ".hdf5", ".txt", ".csv", ".npy")  # endings of --film
@@ -131,7 +132,7 @@ def _stiffness_options(one):
     resistance = partial(words.number, allowed=words.not_negative)
     group.add_argument(
         "--film", metavar="R",
-        type=word(words.either, form, resistance, partial(words.file, form=form, endings=BESIDE)),
+        type=word(either, form, resistance, partial(file_name, form=form, endings=BESIDE)),
         help="resistance of a film on the spots per area, m2 K/W, or Ohm m2, or a file with one at each point of the "
         "surface: a text, or HDF5 with a dataset film",
     )  # fmt: skip

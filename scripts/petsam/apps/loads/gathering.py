@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...core import units
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error, Unusable, counted, short
 from ..compliance import nodes_of
 from .forces import Forces
