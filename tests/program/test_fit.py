@@ -10,12 +10,11 @@ import pytest
 
 import petsam
 import petsam as package
-from petsam.apps.fit import command
+from petsam.apps.fit import command, least
 from petsam.apps.fit import loops as model
 from petsam.apps.fit.backbone import Backbone, force_of
 from petsam.apps.fit.loop import Loop
 from petsam.apps.fit.problem import SHARED, Problem
-from petsam.core import least
 from petsam.core.errors import Error
 
 STEEL = {"body1_young": 210e9, "body1_poisson": 0.3, "body2_young": 210e9, "body2_poisson": 0.3}

@@ -6,8 +6,9 @@ import itertools
 import numpy as np
 import pytest
 
+from petsam.apps.wheel.words import split_numbers
 from petsam.core.errors import Error
-from petsam.core.texttable import Form, Head, Headed, Table, Text, are_units, head_of, number_of, split_numbers
+from petsam.core.texttable import Form, Head, Headed, Table, Text, are_units, head_of, number_of
 
 
 @pytest.fixture

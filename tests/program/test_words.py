@@ -12,6 +12,8 @@ import pytest
 
 import support
 from petsam.apps.joint import command as joint
+from petsam.apps.joint import words as of_joint
+from petsam.apps.wheel import words as of_wheel
 from petsam.core import errors, line, tables, texttable, units, words
 
 
@@ -156,11 +158,11 @@ def test_number_without_a_unit_may_be_in_another_one():
 
 
 def test_slope_is_an_angle():
-    assert words.slope("1:40", "") == pytest.approx(math.atan(0.025)) == -words.slope("-1:40", "")
-    assert words.slope("0.025", "") == 0.025 and words.slope("1deg", "") == pytest.approx(math.pi / 180.0)
+    assert of_wheel.slope("1:40", "") == pytest.approx(math.atan(0.025)) == -of_wheel.slope("-1:40", "")
+    assert of_wheel.slope("0.025", "") == 0.025 and of_wheel.slope("1deg", "") == pytest.approx(math.pi / 180.0)
     for text in ("1:0", "1:-40", "1:2:3", ":", "1:", "x"):
         with pytest.raises(words.WordError):
-            words.slope(text, "a slope")
+            of_wheel.slope(text, "a slope")
 
 
 def test_points_are_numbers_between_colons():
@@ -208,10 +210,10 @@ def test_unknown_names_are_told_with_the_nearest():
         words.names("swt,basqin", known=("swt", "basquin"), what="criterion")
     with pytest.raises(words.WordError, match="^12: expected 1 or 2"):
         words.names("12", "1 or 2", "12")
-    assert words.choice("up", "up or down", ("up", "down")) == "up"
+    assert of_wheel.choice("up", "up or down", ("up", "down")) == "up"
     for text in ("u", "", "up,down"):
         with pytest.raises(words.WordError):
-            words.choice(text, "up or down", ("up", "down"))
+            of_wheel.choice(text, "up or down", ("up", "down"))
 
 
 def test_each_word_has_its_reader():
@@ -227,22 +229,22 @@ def test_each_word_has_its_reader():
 
 
 def test_pair_is_twice_one_or_two():
-    assert words.pair("a", "") == ("a", "a") and words.pair("a, b", "") == ("a", "b")
-    assert words.pair("a,b", "", whole=lambda text: True) == ("a,b", "a,b")
-    assert words.pair("1mm,2mm", "", partial(words.number, unit="m")) == (1e-3, 2e-3)
+    assert of_wheel.pair("a", "") == ("a", "a") and of_wheel.pair("a, b", "") == ("a", "b")
+    assert of_wheel.pair("a,b", "", whole=lambda text: True) == ("a,b", "a,b")
+    assert of_wheel.pair("1mm,2mm", "", partial(words.number, unit="m")) == (1e-3, 2e-3)
     for text in ("", "a,", ",a", "a,b,c"):
         with pytest.raises(words.WordError, match="expected LEFT,RIGHT"):
-            words.pair(text, "LEFT,RIGHT")
+            of_wheel.pair(text, "LEFT,RIGHT")
 
 
 def test_either_is_what_the_first_reader_takes(tmp_path):
     form, there = "a number, or a file", tmp_path / "there.any"
     there.write_text("")
-    readers = words.number, partial(words.file, form=form, endings=(".h5",))
-    assert words.either("1e-6", form, *readers) == 1e-6
-    assert [words.either(text, form, *readers) for text in ("new.H5", str(there))] == ["new.H5", str(there)]
+    readers = words.number, partial(of_joint.file_name, form=form, endings=(".h5",))
+    assert of_joint.either("1e-6", form, *readers) == 1e-6
+    assert [of_joint.either(text, form, *readers) for text in ("new.H5", str(there))] == ["new.H5", str(there)]
     with pytest.raises(words.WordError, match="^new.txt: expected a number, or a file$"):
-        words.either("new.txt", form, *readers)
+        of_joint.either("new.txt", form, *readers)
 
 
 def test_option_has_what_is_made_of_its_word():

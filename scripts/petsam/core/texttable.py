@@ -99,12 +99,6 @@ def head_words(line, separator, width):
     return words
 
 
-def split_numbers(line):
-    """The words of a line of numbers alone, which several signs may separate: semicolons, blanks, or commas."""
-    words = re.split(r"[;\s]\s*|,\s+", line.strip())
-    return line.strip().split(",") if len(words) == 1 else [word for word in words if word]
-
-
 def number_of(word, missing=()):
     """A word as a number, NaN for a missing point; None for another text."""
     small = word.lower()

@@ -4,9 +4,7 @@
 is whether a number is good, `together` whether those of a word are. A `reader` takes a word and has its own form.
 """
 
-import contextlib
 import math
-import os
 import re
 
 import numpy as np
@@ -124,15 +122,6 @@ def points(text, form, most, unit="1", count=3):
     return tuple(tuple(numbers(word, form, unit, count=count)) for word in words)
 
 
-def slope(text, form):
-    """An angle, rad, or that of a slope of one number to another, 1:40."""
-    rise, colon, run = text.removeprefix("-").partition(":")
-    if not colon:
-        return number(text, form, "rad")
-    angle = math.atan(number(rise, form, allowed=positive) / number(run, form, allowed=positive))
-    return -angle if text.startswith("-") else angle
-
-
 def span(text, form, unit="1", allowed=None, geometric=False, count=None):
     """An array of FIRST:LAST:COUNT in equal or geometric steps, or of numbers separated by commas, as many as count."""
     words = text.split(":")
@@ -184,20 +173,6 @@ def names(text, form="names separated by commas", known=None, what=""):
     return words
 
 
-def choice(text, form, known):
-    """One word of those that are known."""
-    if text not in known:
-        raise WordError(text, form)
-    return text
-
-
-def file(text, form, endings):
-    """The name of a file that exists, or of one with such an ending."""
-    if not os.path.exists(text) and os.path.splitext(text)[1].lower() not in endings:
-        raise WordError(text, form)
-    return text
-
-
 def each(text, form, *readers, rest=()):
     """Words separated by commas, each by its reader; `rest` has the values of the last ones, which may be left out."""
     words = text.split(",")
@@ -208,22 +183,6 @@ def each(text, form, *readers, rest=()):
         return (*(reader(word) for reader, word in zip(readers, words)), *rest[len(rest) - lacking :])
     except WordError as error:
         raise WordError(text, form, error.known) from error
-
-
-def pair(text, form, reader=str, whole=None):
-    """The values of two words, LEFT,RIGHT, or twice that of one, as of a text with a comma that is `whole`."""
-    words = [text] if whole is not None and whole(text) else [word.strip() for word in text.split(",")]
-    if len(words) > 2 or not all(words):
-        raise WordError(text, form)
-    return reader(words[0]), reader(words[-1])
-
-
-def either(text, form, *readers):
-    """Returns the value of the first of several readers that takes a word."""
-    for reader in readers:
-        with contextlib.suppress(WordError):
-            return reader(text)
-    raise WordError(text, form)
 
 
 def positive(value):

@@ -7,8 +7,9 @@ part are named `INSTANCE.NAME`, as in Abaqus; those of the assembly keep their n
 
 import numpy as np
 
-from ...core.cards import Card, folded, number_of, trimmed
+from ...core.decks import folded
 from ...core.errors import Error, short, there_are
+from .cards import Card, number_of, trimmed
 
 SETS = ("NSET", "ELSET", "NAME")  # parameters that name what a part has
 NAMING = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "SOLID SECTION")  # cards that name or use these

@@ -18,7 +18,7 @@ import numpy as np
 from scipy import sparse
 
 from ...core.brief import brief
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error
 
 ORDER = 4  # Gauss points along the side of a face

@@ -1,9 +1,8 @@
-"""Sets and surfaces by coordinates: by boxes (core/boxes.py)."""
+"""Sets and surfaces by coordinates: by boxes (core/decks.py)."""
 
 import numpy as np
 
-from ...core.boxes import BOX, inside
-from ...core.cards import folded
+from ...core.decks import BOX, folded, inside
 
 
 def added(deck, settings):

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...core.brief import brief
-from ...core.cards import folded, number_of, trimmed
+from ...core.decks import folded
 from ...core.errors import Error, short, there_are
+from .cards import number_of, trimmed
 from .checks import deviation
 from .elements import new_edges
 from .images import FLAT

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.brief import brief
-from ...core.cards import folded, number_of, read_cards, trimmed
+from ...core.decks import folded
 from ...core.errors import Error, short, there_are
 from . import section, sound
 from .assembly import flat, instance_names, label_of
+from .cards import number_of, read_cards, trimmed
 from .keywords import IGNORED, IN_STEPS, LOADS, READ, known, need_parameters, need_supported
 from .mesh import Block, Mesh
 from .shapes import KINDS, SHAPES

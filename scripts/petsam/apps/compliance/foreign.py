@@ -11,7 +11,7 @@ import io
 
 import numpy as np
 
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error, library, short, there_are
 from ...core.files import need_regular
 from . import section, sound

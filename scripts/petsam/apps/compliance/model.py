@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...core.brief import brief
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error, short
 from ...core.frames import Frame, frame_of
 from ...core.progress import Progress, quiet

@@ -7,7 +7,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from ...core.brief import brief
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error
 from . import images
 from .mesh import Block, Mesh

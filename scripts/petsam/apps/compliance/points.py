@@ -5,7 +5,7 @@ from typing import Union
 
 import numpy as np
 
-from ...core.cards import folded
+from ...core.decks import folded
 from .assembly import LABELS, label_of
 from .deck import Reader
 from .keywords import need_parameters

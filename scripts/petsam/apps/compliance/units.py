@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error
 
 

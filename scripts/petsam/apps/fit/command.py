@@ -27,7 +27,7 @@ from functools import partial
 import numpy as np
 
 from ...core import words
-from ...core.errors import UNSETTLED, Error, Unusable, counted, short
+from ...core.errors import Error, Unsettled, Unusable, counted, short
 from ...core.files import need_replaceable, same
 from ...core.line import Parser, add_choice, guarded, joined, quietly, word, wrote
 from ...plot.measured import read_profiles
@@ -227,7 +227,7 @@ def _measure(options, scar):
         print(results.worn_line(worn, options.body))
     if options.output:
         _write(options, found, pushes[0], worn, scar)
-    return UNSETTLED if found.state == "rejected" else 0
+    return Unsettled.code if found.state == "rejected" else 0
 
 
 def _peaks(options, records):
@@ -297,7 +297,7 @@ def _scar(options):
         f"wear_coefficient{options.body}_sd": plain(first.coefficient_sd),
         **more,
     }
-    return numbers, UNSETTLED if any(doubts) else 0
+    return numbers, Unsettled.code if any(doubts) else 0
 
 
 def _scar_line(scar):

@@ -7,8 +7,8 @@ from typing import Any, Union
 
 import numpy as np
 
-from ...core import least
 from ...core.errors import Error, Unusable, short, there_are
+from . import least
 from .loop import Fit, Loop
 from .problem import SHARED, Problem
 from .push import Push

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core import least
+from . import least
 from .backbone import Backbone, derivatives, force_of, plain_force
 
 # parameters that all loops of a fit have in common

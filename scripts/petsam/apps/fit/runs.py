@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...contact import gradient
-from ...core import least
 from ...core.brief import brief
 from ...core.errors import Error, Unusable, counted, there_are
+from . import least
 from .loops import LARGE, MISFIT, VAGUE
 from .problem import TRIALS
 

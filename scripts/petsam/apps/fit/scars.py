@@ -22,9 +22,9 @@ from typing import Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core import least
 from ...core.brief import brief
 from ...core.errors import Error
+from . import least
 from .push import options_of
 
 OF_BODIES = ("wear_coefficient1", "wear_coefficient2")

@@ -23,7 +23,6 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core import broyden
 from ...core.brief import brief
 from ...core.errors import Unusable
 from ...core.tables import Column
@@ -107,7 +106,7 @@ class Balance(Sweep):
                     force, change, found = np.zeros_like(guess), far(force, motion), None
                     continue
             if found is not None:
-                inverse = broyden.updated_inverse(inverse, _real(change), wrong - found)
+                inverse = _updated(inverse, _real(change), wrong - found)
             found = wrong
             change = _complex(-inverse @ wrong, force.shape)
         raise NoSolution(
@@ -369,3 +368,10 @@ def _real(values):
 def _complex(values, shape):
     real, imaginary = np.split(values, 2)
     return (real + 1j * imaginary).reshape(shape)
+
+
+def _updated(inverse: np.ndarray, moved: np.ndarray, changed: np.ndarray) -> np.ndarray:
+    """Returns the inverse (n, n) of slopes, updated by Broyden's rule, from their inverse, the step of the unknowns and
+    the change of the values, (n,)."""
+    turned = inverse @ changed
+    return inverse + np.outer(moved - turned, moved @ inverse) / (moved @ turned)

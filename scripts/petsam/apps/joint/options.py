@@ -7,6 +7,7 @@ import numpy as np
 from ...core import materials, words
 from ...core.line import word
 from .wearing import rising
+from .words import either, file_name
 
 BESIDE = (".h5", ".hdf5", ".txt", ".csv", ".npy")  # endings of --film
 
@@ -76,7 +77,7 @@ def add_stiffness(one):
     resistance = partial(words.number, allowed=words.not_negative)
     group.add_argument(
         "--film", metavar="R",
-        type=word(words.either, form, resistance, partial(words.file, form=form, endings=BESIDE)),
+        type=word(either, form, resistance, partial(file_name, form=form, endings=BESIDE)),
         help="resistance of a film on the spots per area, m2 K/W, or Ohm m2, or a file with one at each point of the "
         "surface: a text, or HDF5 with a dataset film",
     )  # fmt: skip

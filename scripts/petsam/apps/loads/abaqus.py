@@ -11,7 +11,7 @@ from collections import Counter
 
 import numpy as np
 
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error, counted, short, there_are
 from ...core.files import lines_of, text_of
 from ...core.texttable import split

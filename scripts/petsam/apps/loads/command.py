@@ -28,7 +28,7 @@ import sys
 import numpy as np
 
 from ...core import words
-from ...core.boxes import BOX
+from ...core.decks import BOX
 from ...core.errors import Error, counted, short
 from ...core.files import need_replaceable, same
 from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word, wrote

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...core.boxes import BOX, inside
-from ...core.cards import folded
+from ...core.decks import BOX, folded, inside
 from ...core.errors import Error, counted, short, there_are
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core import units
 from ...core.brief import brief
-from ...core.cards import folded
+from ...core.decks import folded
 from ...core.errors import Error, Unusable, counted, short
 from ..compliance import nodes_of
 from .forces import Forces

@@ -9,8 +9,9 @@ import numpy as np
 from ...core import units
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_regular
-from ...core.texttable import Form, Text, split_numbers
+from ...core.texttable import Form, Text
 from .profile import KINDS, Profile, ProfileWarning, Taken
+from .words import split_numbers
 
 FORM = Form(comments=("#", "!", "%"), behind=True)
 DIRECTIONS = {"down": 1.0, "up": -1.0}

@@ -13,9 +13,9 @@ import numpy as np
 from ...core import units
 from ...core.errors import Error, Unusable, short
 from ...core.files import lines_of, text_of
-from ...core.texttable import split_numbers
 from .columns import DIRECTIONS
 from .profile import KINDS, Profile, Taken
+from .words import split_numbers
 
 ENDINGS = (".whl", ".ban", ".mpt")
 FREE = 6  # lines

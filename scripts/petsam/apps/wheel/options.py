@@ -9,6 +9,7 @@ from functools import partial
 from ...core import materials, words
 from ...core.errors import Error, Unusable
 from ...core.line import word
+from .words import choice, pair, slope
 
 JUMPS = 10  # of the profile over the distance
 BUILT = ("s1002", "uic60")
@@ -40,15 +41,15 @@ def _length(form):
 def add_profiles(one):
     """Adds the options of profiles, track and wheelset."""
     group = one.add_argument_group("profiles")
-    profiles = word(words.pair, "one profile, or two of LEFT,RIGHT", whole=os.path.lexists)
+    profiles = word(pair, "one profile, or two of LEFT,RIGHT", whole=os.path.lexists)
     for name, made, ending in (("wheel", "s1002", ".prw"), ("rail", "uic60", ".prr")):
         group.add_argument(f"--{name}", required=True, type=profiles, metavar="PROFILE",
                            help=f"{made}, a file {ending} or of MiniProf, columns y and z; or LEFT,RIGHT")  # fmt: skip
-    group.add_argument("--unit", type=word(words.pair, "a unit of length, mm, or two of WHEEL,RAIL"), metavar="UNIT",
+    group.add_argument("--unit", type=word(pair, "a unit of length, mm, or two of WHEEL,RAIL"), metavar="UNIT",
                        help="unit of length of columns: mm; or WHEEL,RAIL")  # fmt: skip
     form = "down or up, or two of WHEEL,RAIL"
-    direction = partial(words.choice, form=form, known=("down", "up"))
-    group.add_argument("--z", type=word(words.pair, form, direction), metavar="down|up",
+    direction = partial(choice, form=form, known=("down", "up"))
+    group.add_argument("--z", type=word(pair, form, direction), metavar="down|up",
                        help="direction of z in the files, or WHEEL,RAIL; of columns it must be given")  # fmt: skip
     group.add_argument("--mirror", choices=("wheel", "rail", "both"), help="profiles whose y is to the gauge side")
     group.add_argument("--smooth", type=word(words.number, "a length above 0: 4mm", "m", words.positive), metavar="L",
@@ -56,7 +57,7 @@ def add_profiles(one):
     group = one.add_argument_group("track and wheelset")
     form = "an inclination towards the middle: 1:40 or 0.025 (rad); 0 of a profile in its place"
     group.add_argument(
-        "--cant", type=word(words.slope, form), default=0.0, metavar="1:N", help="of the rails, to the middle (0)"
+        "--cant", type=word(slope, form), default=0.0, metavar="1:N", help="of the rails, to the middle (0)"
     )
     group.add_argument("--gauge", type=_length("a length: 1435mm"), default=1.435, metavar="L", help="(1435mm)")
     group.add_argument("--gauge-height", type=_length("a length: 14mm"), default=0.014, metavar="L",

@@ -1,4 +1,4 @@
-"""Boxes of two corners as words, `0,0,4:4,4,4`, in the coordinates and units of a mesh."""
+"""Names in a deck, and boxes of two corners as words, `0,0,4:4,4,4`, in the coordinates and units of its mesh."""
 
 import re
 
@@ -8,6 +8,14 @@ NUMBER = r"[+-]?(?:\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|inf)"
 POINT = rf"{NUMBER},{NUMBER},{NUMBER}"
 BOX = re.compile(rf"{POINT}:{POINT}")
 NEAR = 1e-6  # of the extent of the mesh, by which nodes may be outside of a box
+
+
+def folded(name):
+    """A name of a set, surface, part or material as it is compared: without regard to case, as Abaqus and CalculiX do.
+
+    A part of it with letters beyond ASCII stays as it is: `upper` would make one name of two, of Fuß and FUSS.
+    """
+    return ".".join(part.upper() if part.isascii() else part for part in name.split("."))
 
 
 def inside(nodes, text):

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .errors import Error, short
-from .files import lines_of, text_of
+from ...core.errors import Error, short
+from ...core.files import lines_of, text_of
 
 DEPTH = 10  # depth of files that include files
 FILES = 1000  # number of included files
@@ -54,14 +54,6 @@ class Card:
         if not self.parameters.get(name):
             raise Error(f"{self.place}: *{self.name} has no {name}=: give it")
         return self.parameters[name]
-
-
-def folded(name):
-    """A name of a set, surface, part or material as it is compared: without regard to case, as Abaqus and CalculiX do.
-
-    A part of it with letters beyond ASCII stays as it is: `upper` would make one name of two, of Fuß and FUSS.
-    """
-    return ".".join(part.upper() if part.isascii() else part for part in name.split("."))
 
 
 class Cards:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .errors import library
+from ...core.errors import library
 
 ROUNDING = 3e-8  # of singular values of a Jacobian of columns of length 1: about the root of the rounding
 PART = 0.01  # of a parameter, squared, in directions without effect, from which on it is not held
