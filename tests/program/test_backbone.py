@@ -3,6 +3,7 @@
 import csv
 import functools
 import gc
+import importlib
 import re
 import subprocess
 import sys
@@ -439,7 +440,7 @@ def test_a_band_has_its_assemblies_and_their_scatter(tmp_path):
 
 def test_a_band_ends_where_its_assemblies_do(monkeypatch):
     """Of three amplitudes two have a solution as given, one without friction; vibrated is at the larger of the two."""
-    module, shaken, ends = sys.modules["petsam.apps.joint.bands"], [], iter((2, 1, 2))
+    module, shaken, ends = importlib.import_module("petsam.apps.joint.bands"), [], iter((2, 1, 2))
     numbers = {name: np.ones(3) for name in ("amplitude", "frequency", "damping")}
 
     def backbone(structure, amplitudes, sensor):
