@@ -24,7 +24,7 @@ PETSC_INTERN PetscErrorCode SamProblemBegin(SamProblem problem, SamState state, 
 PETSC_INTERN PetscErrorCode SamProblemGetBalance(SamProblem problem, SamState state, const SamControl *control,
                                                  SamBalanceKind kind, SamBalance *balance);
 /*
-  What the laws of a problem do. None is collective.
+  Questions about the laws of a problem. None is collective.
   SamProblemSlides - returns true if the surfaces move past each other.
   SamProblemWears - returns true if material is removed.
   SamProblemYields - returns true if a body may yield. SamProblemBodyYields - the same of body 0 or 1.

@@ -147,11 +147,15 @@ typedef struct _n_SamStressPartType {
   SamStressPartRegister - adds a type, which is borrowed, or replaces that of the same name; parts act in this order.
   Not collective, but to be called on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a type too many.
   SamStressPartGetType - returns the k-th type; NULL: there are no more. Not collective.
-  SamStressPartField - returns the k-th name of the fields that types read; NULL: there are no more. Not collective.
+  SamStressField - returns the k-th name of the fields of steps that evaluations read: the tractions, which no step
+  lacks, the slip, and those that types read, SAM_STRESS_FIELDS at most; NULL: there are no more. Not collective.
+  SamStressFieldFind - returns the number of such a name; SAM_STRESS_FIELDS: it is none. Not collective.
 */
+enum { SAM_STRESS_FIELDS = 16, SAM_STRESS_SLIP_FIELDS = 2 };
 PETSC_EXTERN PetscErrorCode           SamStressPartRegister(const SamStressPartType *type);
 PETSC_INTERN const SamStressPartType *SamStressPartGetType(PetscInt k);
-PETSC_INTERN const char              *SamStressPartField(PetscInt k);
+PETSC_INTERN const char              *SamStressField(PetscInt k);
+PETSC_INTERN PetscInt                 SamStressFieldFind(const char name[]);
 
 /*
   SamStressParts - one part of each type, for an evaluation. The source, the places and the control are borrowed.

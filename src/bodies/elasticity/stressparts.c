@@ -33,12 +33,25 @@ const SamStressPartType *SamStressPartGetType(PetscInt k)
   return k < count ? types[k] : NULL;
 }
 
-const char *SamStressPartField(PetscInt k)
+const char *SamStressField(PetscInt k)
 {
+  static const char *const own[SAM_STRESS_TRACTIONS + SAM_STRESS_SLIP_FIELDS] = {"pressure", "shear_x", "shear_y",
+                                                                                 "slip_x", "slip_y"};
+
+  if (k >= SAM_STRESS_FIELDS) return NULL;
+  if (k < SAM_STRESS_TRACTIONS + SAM_STRESS_SLIP_FIELDS) return own[k];
+  k -= SAM_STRESS_TRACTIONS + SAM_STRESS_SLIP_FIELDS;
   for (PetscInt t = 0; t < count; t++)
     for (PetscInt f = 0; f < SAM_STRESS_PART_FIELDS && types[t]->fields[f]; f++)
       if (k-- == 0) return types[t]->fields[f];
   return NULL;
+}
+
+PetscInt SamStressFieldFind(const char name[])
+{
+  for (PetscInt k = 0; SamStressField(k); k++)
+    if (!strcmp(SamStressField(k), name)) return k;
+  return SAM_STRESS_FIELDS;
 }
 
 /* ---- the parts of an evaluation ---- */

@@ -1,4 +1,4 @@
-/* What laws say of a run's steps when they are examined. */
+/* The texts of laws on the steps of a run that they examine. */
 #include <petsam/private/examination.h>
 #include <petsam/private/lawimpl.h>
 #include <stdarg.h>

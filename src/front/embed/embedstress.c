@@ -11,26 +11,16 @@
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/setup.h>
-#include <petsam/private/problem.h>
 #include <petsam/private/problemimpl.h>
 
 enum { AXES = SAM_STRESS_AXES };
-
-/* The fields of a step that are stored: tractions and slip, and those that parts of the stresses read */
-static const char *const own[] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
-enum { OWN = 5, FIELDS = 16 };
-
-static const char *FieldOf(int k)
-{
-  return k < OWN ? own[k] : k < FIELDS ? SamStressPartField(k - OWN) : NULL;
-}
 
 /* A step whose stresses can be evaluated */
 typedef struct {
   SamControl control;
   double     area;                     /* of contact, m2 */
   PetscReal  slide[4];                 /* m: slide, and rolled distance */
-  double    *field[FIELDS];            /* NULL: there is none; the first: there is no step */
+  double    *field[SAM_STRESS_FIELDS]; /* NULL: there is none; the first: there is no step */
   double    *layers[SAM_LAYER_GROUPS]; /* (SAM_STRESS_COMPONENTS, layers, cells): stresses in layers; NULL: none */
 } Step;
 
@@ -102,14 +92,14 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
   PetscCall(SamContactGetNumber(c->setup->contact, "contact_area", &step->area));
   for (int k = 0; k < 4 && SamProblemSlides(c->setup->problem); k++)
     PetscCall(SamContactGetNumber(c->setup->contact, slides[k], &step->slide[k]));
-  for (int f = 0; FieldOf(f); f++) {
+  for (int f = 0; SamStressField(f); f++) {
     PetscBool has;
 
-    PetscCall(SamContactHasField(c->setup->contact, FieldOf(f), &has));
-    if (!has && f >= OWN) continue;
+    PetscCall(SamContactHasField(c->setup->contact, SamStressField(f), &has));
+    if (!has && f >= SAM_STRESS_TRACTIONS + SAM_STRESS_SLIP_FIELDS) continue;
     PetscCall(SamAllocate(sizeof(double) * (size_t)n + 1, &step->field[f]));
     for (ptrdiff_t k = 0; k < n && !has; k++) step->field[f][k] = NAN; /* the motion has another field instead */
-    if (has) PetscCall(SamEmbedCopyField(c, FieldOf(f), step->field[f]));
+    if (has) PetscCall(SamEmbedCopyField(c, SamStressField(f), step->field[f]));
   }
   PetscCall(TakeLayers(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -117,7 +107,7 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 
 static void DestroyStep(Step *step)
 {
-  for (int f = 0; f < FIELDS; f++) SamFree(step->field[f]);
+  for (int f = 0; f < SAM_STRESS_FIELDS; f++) SamFree(step->field[f]);
   for (int g = 0; g < SAM_LAYER_GROUPS; g++) SamFree(step->layers[g]);
   *step = (Step){.area = 0};
 }
@@ -253,9 +243,9 @@ typedef struct {
 /* Returns a field of a step; NULL if it has none. */
 static const double *FindField(const Step *step, const char field[])
 {
-  for (int f = 0; FieldOf(f); f++)
-    if (!strcmp(FieldOf(f), field)) return step->field[f];
-  return NULL;
+  const PetscInt f = SamStressFieldFind(field);
+
+  return f < SAM_STRESS_FIELDS ? step->field[f] : NULL;
 }
 
 static PetscErrorCode ReadField(void *context, PetscInt k, const char field[], double values[])

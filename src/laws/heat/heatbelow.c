@@ -136,7 +136,7 @@ static PetscErrorCode Destroy(SamStressPart part)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of the temperature 64 bytes per cell, its kernels, and 312 nodes of each lag along x */
+/* The temperature takes 64 bytes per cell for its kernels, and 312 nodes for each lag along x. */
 static double Bytes(SamStressPart part)
 {
   const Below *const b     = (const Below *)part->data;

@@ -54,7 +54,7 @@
 #define STRAIN "plastic_max plastic_work residual_z_max" /* numbers of plastic strain */
 
 /*
-  What is kept of the steps: the plastic work of all, and of that which did most of it (J); the maximum pressure of any,
+  Numbers kept of the steps: the plastic work of all, and of that which did most of it (J); the maximum pressure of any,
   and maximum shear, also at the edge of stick between cells (Pa); residual_z_max after the last, and before the first:
   of a restart, or of a copied contact (m)
 */

@@ -12,15 +12,6 @@
 
 static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle",   "status",   "contact_area", "slide_x",
                                                          "slide_y", "rolled_x", "rolled_y"};
-/* The fields that can be read: these, the first of which no file lacks, and those that parts of the stresses read */
-static const char *const own[] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
-enum { REQUIRED = 3, OWN = 5, FIELDS = 16 };
-
-static const char *FieldOf(int k)
-{
-  return k < OWN ? own[k] : k < FIELDS ? SamStressPartField(k - OWN) : NULL;
-}
-
 /* A group with stresses in layers below the cells */
 typedef struct {
   char name[SAM_LAYER_NAME];
@@ -38,7 +29,7 @@ typedef struct {
   char          identity[32], follows[32]; /* identity of the file, and of the part before; empty: none */
   int           groups;                    /* number of groups with stresses in layers */
   Group         group[SAM_LAYER_GROUPS];
-  int           has[FIELDS], number[SAM_RESULTS_NUMBERS];
+  int           has[SAM_STRESS_FIELDS], number[SAM_RESULTS_NUMBERS];
   int           column[SAM_PARAMETERS]; /* true if a parameter is also a column of the history */
 } Facts;
 
@@ -47,7 +38,7 @@ typedef struct {
   Facts    facts;
   PetscInt steps; /* number from the run's start to the beginning of the next part */
   SamFile  file;
-  hid_t    field[FIELDS], stress[SAM_LAYER_GROUPS][SAM_STRESS_COMPONENTS];
+  hid_t    field[SAM_STRESS_FIELDS], stress[SAM_LAYER_GROUPS][SAM_STRESS_COMPONENTS];
 } Part;
 
 /* Place of the fields of a saved step */
@@ -162,22 +153,22 @@ typedef char Name[80];
 
 static void NameField(int k, Name name)
 {
-  (void)snprintf(name, sizeof(Name), "/%s", FieldOf(k));
+  (void)snprintf(name, sizeof(Name), "/%s", SamStressField(k));
 }
 
 static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
 {
   hsize_t shape[3];
-  hid_t   dataset[FIELDS], times;
+  hid_t   dataset[SAM_STRESS_FIELDS], times;
 
   PetscFunctionBegin;
   PetscCall(Open(f, "/history/time", 1, &facts->steps, &times));
   PetscCall(Open(f, "/time", 1, &facts->saved, &times));
-  for (int k = 0; FieldOf(k); k++) {
+  for (int k = 0; SamStressField(k); k++) {
     Name name;
 
     NameField(k, name);
-    facts->has[k] = k < REQUIRED || H5Lexists(f->id, name, H5P_DEFAULT) > 0;
+    facts->has[k] = k < SAM_STRESS_TRACTIONS || H5Lexists(f->id, name, H5P_DEFAULT) > 0;
     if (!facts->has[k]) continue;
     PetscCall(Open(f, name, 3, shape, &dataset[k]));
     facts->saved = PetscMin(facts->saved, shape[0]);
@@ -186,7 +177,7 @@ static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
           (unsigned long long)shape[1], facts->n[0], facts->n[1]);
   }
   shape[0] = facts->saved;
-  for (int k = 0; FieldOf(k); k++) {
+  for (int k = 0; SamStressField(k); k++) {
     Name name;
 
     NameField(k, name);
@@ -365,8 +356,9 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   PetscCall(SamFileBegin(part->file));
   ReadSeries(part->file, "/history/time", 0, steps, times);
   ReadSeries(part->file, "/time", 0, saved, saves);
-  for (int k = 0; FieldOf(k); k++)
-    if (facts->has[k]) part->field[k] = SamFileNote(part->file, H5Dopen2(part->file->id, FieldOf(k), H5P_DEFAULT));
+  for (int k = 0; SamStressField(k); k++)
+    if (facts->has[k])
+      part->field[k] = SamFileNote(part->file, H5Dopen2(part->file->id, SamStressField(k), H5P_DEFAULT));
   for (int g = 0; g < facts->groups; g++)
     for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->group[g].saved; c++) {
       Name name;
@@ -592,23 +584,15 @@ static PetscErrorCode CheckFinite(const Part *part, PetscInt n, const double val
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the number of a field, which may be missing; FIELDS: it is none of those that are read. */
-static int Find(const char field[])
-{
-  for (int k = 0; FieldOf(k); k++)
-    if (!strcmp(FieldOf(k), field)) return k;
-  return FIELDS;
-}
-
 PetscErrorCode SamResultsRead(SamResults r, PetscInt k, const char field[], double values[])
 {
   const Part *const part = r->saved[k].part;
-  const int         n    = Find(field);
+  const PetscInt    n    = SamStressFieldFind(field);
   Name              name;
 
   PetscFunctionBegin;
   (void)snprintf(name, sizeof(name), "/%s", field);
-  PetscCheck(n < FIELDS && part->facts.has[n], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s",
+  PetscCheck(n < SAM_STRESS_FIELDS && part->facts.has[n], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s",
              part->file->option, part->file->filename, name);
   PetscCall(SamFileBegin(part->file));
   SamFileReadFrame(part->file, part->field[n], H5T_NATIVE_DOUBLE, r->saved[k].index, values);
@@ -619,9 +603,9 @@ PetscErrorCode SamResultsRead(SamResults r, PetscInt k, const char field[], doub
 
 PetscBool SamResultsHas(SamResults r, PetscInt k, const char field[])
 {
-  const int n = Find(field);
+  const PetscInt n = SamStressFieldFind(field);
 
-  return n < FIELDS && r->saved[k].part->facts.has[n] ? PETSC_TRUE : PETSC_FALSE;
+  return n < SAM_STRESS_FIELDS && r->saved[k].part->facts.has[n] ? PETSC_TRUE : PETSC_FALSE;
 }
 
 const SamStateLayers *SamResultsGetLayers(SamResults r, PetscInt g)
