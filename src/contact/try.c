@@ -107,12 +107,6 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the option that selects a law, or its first one. */
-static const char *NameOf(SamLaw law)
-{
-  return law->option ? law->option : law->row_count ? law->rows[0].name : law->type;
-}
-
 PetscErrorCode SamContactSetUp(SamContact c)
 {
   const SamLaw *laws;
@@ -135,7 +129,8 @@ PetscErrorCode SamContactSetUp(SamContact c)
   for (PetscInt k = 0; k < count; k++)
     for (PetscInt j = 0; laws[k]->ops.follow && j < count; j++)
       PetscCheck((!laws[j]->ops.separation || !laws[j]->ops.limit) && (!laws[j]->ops.follow || j == k), c->grid->comm,
-                 SAM_ERR_USER, "-%s: not supported with -%s", NameOf(laws[k]), NameOf(laws[j]));
+                 SAM_ERR_USER, "-%s: not supported with -%s", SamLawFollowing(laws[k]),
+                 laws[j]->ops.follow ? SamLawFollowing(laws[j]) : SamLawOption(laws[j]));
   PetscCheck(isinf(limit) || SamNormalLimitsPressure(c->normal), c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
   PetscCall(SamNormalSetPressureLimit(c->normal, limit));

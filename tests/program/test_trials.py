@@ -51,7 +51,7 @@ def test_each_is_short_and_named_by_its_registry_alone():
     folder = ROOT / "tests/trials"
     registry = (folder / "trials.c").read_text()
     sources = sorted(set(folder.glob("*.c")) - {folder / "trials.c"})
-    assert len(sources) == len(re.findall(r"^ .*Register\(", registry, re.M)) == 9  # one has an option and a number
+    assert len(sources) == len(re.findall(r"^ .*Register\(", registry, re.M)) == 10  # one has an option and a number
     assert all(len(path.read_text().splitlines()) < 230 for path in sources)
 
 
@@ -123,6 +123,21 @@ def test_number_is_that_of_the_field_and_its_error_is_estimated(petsam, ranks):
     assert square == pytest.approx((p[p > 1e8] ** 2).sum() * 2.4e-3 * 2.2e-3 / (37 * 32), rel=1e-12)
     assert re.search(r"pressure_square/N2/m2 +[0-9.e+]+", said)
     assert "-square_above" in petsam(dict(SPHERE, square_above=-1), check=2).stderr
+
+
+@pytest.mark.parametrize("ranks, more", [(1, {}), (3, dict(load_tx=60, slip_direction="end"))])
+def test_stiffness_has_the_tangent_of_a_law_whose_offset_follows_the_pressure(petsam, ranks, more):
+    """A soft layer; the inverse of the stiffness is the difference of two loads."""
+    soft = 4e-15
+    case = dict(SPHERE, **more, cushion=soft, output_fields="usual,cushion", stiffness=True, normal_rtol=1e-11, tangential_rtol=1e-11)
+    found = []
+    for load in (700, 700 * (1 - 1e-4), 700 * (1 + 1e-4)):
+        petsam(dict(case, load_n=load), ranks=ranks)
+        found.append(petsam.read("disp_z", "pressure", "stiffness", "cushion"))
+    assert found[0][3] == pytest.approx(soft * found[0][1], abs=1e-9 * soft * found[0][1].max())
+    assert 1 / found[0][2][0, 0] == pytest.approx((found[2][0] - found[1][0]) / (700 * 2e-4), rel=1e-4)
+    petsam(dict(case, cushion=0, output_fields="usual"), ranks=ranks)
+    assert petsam.read("stiffness")[0][0, 0] > 1.05 * found[0][2][0, 0]
 
 
 @pytest.mark.parametrize("ranks", [1, 3])

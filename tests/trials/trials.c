@@ -9,6 +9,7 @@ PetscErrorCode SamPluginRegister(void)
   PetscCall(SamLawRegister("adhesion", CreateAdhesion));
   PetscCall(SamLawRegister("wetness", CreateWetness));
   PetscCall(SamLawRegister("square", CreateSquare));
+  PetscCall(SamLawRegister("cushion", CreateCushion));
   PetscCall(SamElasticityRegister("creeping", CreateCreeping));
   PetscCall(SamElasticityRegister("viscous", CreateViscous));
   PetscCall(SamElasticityRegister("conducting", CreateConducting));

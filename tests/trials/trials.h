@@ -6,6 +6,7 @@ PetscErrorCode                         CreateMisfit(SamLaw law);
 PetscErrorCode                         CreateAdhesion(SamLaw law);
 PetscErrorCode                         CreateWetness(SamLaw law);
 PetscErrorCode                         CreateSquare(SamLaw law);
+PetscErrorCode                         CreateCushion(SamLaw law);
 PetscErrorCode                         CreateCreeping(SamElasticity elasticity);
 PetscErrorCode                         CreateViscous(SamElasticity elasticity);
 PetscErrorCode                         CreateConducting(SamElasticity elasticity);

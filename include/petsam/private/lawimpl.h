@@ -146,10 +146,14 @@ PETSC_INTERN PetscErrorCode SamFramesWrite(SamElasticity elasticity, const Petsc
 /*
   SamLawListWords - appends the words of an option that selects laws, each after `between`. Collective.
   SamLawOrder - returns the place of a type among the registered types. Not collective.
+  SamLawOption - returns the option that selects a law, or its first option, or its type if it has none, for messages.
+  SamLawFollowing - returns that by which its offset follows the tractions. Neither is collective.
 */
 PETSC_INTERN PetscErrorCode SamLawListWords(SamElasticity elasticity, const char option[], const char between[],
                                             char words[], size_t size);
 PETSC_INTERN PetscInt       SamLawOrder(SamLawType type);
+PETSC_INTERN const char    *SamLawOption(SamLaw law);
+PETSC_INTERN const char    *SamLawFollowing(SamLaw law);
 
 struct _n_SamLaw {
   SamClassId          class_id;
@@ -174,6 +178,7 @@ struct _n_SamLaw {
   PetscBool           needs_friction; /* true: meaningless without friction */
   PetscBool           slides;         /* true: the surfaces move past each other */
   PetscBool           wears;         /* true: it removes material, as the results volume1, wear_depth1 and so on tell */
+  const char         *following; /* option by which it has the method `follow`; NULL: the one that selects it */
   const char         *strained;      /* number that is above 0 once bodies have yielded by it; NULL: they do not */
   const char         *with_shear;    /* numbers that follow the shear at the surface, separated by blanks; NULL: none */
   PetscBool           forbids_jumps; /* true: not possible in a wear simulation with cycle jumps */
@@ -228,9 +233,16 @@ struct _n_SamLaw {
       Judges the law's tried state by the tractions of the solved contact. With `again` it has set another one: the
       contact is solved with its offset, starting from the last tractions, and the method is called again. In its first
       call of a solve, the tractions are those without such a state, or those that another solve has found. Only one law
-      of a problem may have this method.
+      of a problem may have this method: two would judge each other's contact, which only an iteration over both states
+      solves.
     */
     PetscErrorCode (*follow)(SamLaw law, SamLawContact *contact, PetscBool *again);
+    /*
+      Adds to u_z (one component) and u_t (two components) the change of the law's displacements (m) by small changes of
+      the pressure and the shear (Pa) of the tried step; it is linear in these. A law with `follow` but without this
+      method has no tangent stiffness.
+    */
+    PetscErrorCode (*tangent)(SamLaw law, SamState state, Vec pressure, Vec shear, Vec u_z, Vec u_t);
     /* gets the largest pressure that the surfaces bear, Pa */
     PetscErrorCode (*limit)(SamLaw law, PetscReal *most);
     /* computes the largest shear of each cell */

@@ -64,6 +64,16 @@ PetscInt SamLawOrder(SamLawType type)
   return Find(type);
 }
 
+const char *SamLawOption(SamLaw law)
+{
+  return law->option ? law->option : law->row_count ? law->rows[0].name : law->type;
+}
+
+const char *SamLawFollowing(SamLaw law)
+{
+  return law->following ? law->following : SamLawOption(law);
+}
+
 /* ---- creation ---- */
 
 PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *law)

@@ -4,6 +4,7 @@
 #include <petsam/private/contact.h>
 #include <petsam/private/control.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/lawimpl.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/problemimpl.h>
 #include <petsam/private/solutionimpl.h>
@@ -156,14 +157,89 @@ static PetscErrorCode AddMotions(SamContact contact, SamWindow window, PetscInt 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- the response of laws ---- */
+
+/* Adds the displacements by all laws that follow the tractions, on the whole grid. */
+static PetscErrorCode AddTangents(SamContact contact, const Vec v[4])
+{
+  const SamLaw *laws;
+  SamState      state;
+  PetscInt      count;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(contact, &state));
+  PetscCall(SamProblemGetLaws(SamContactGetProblem(contact), &count, &laws));
+  for (PetscInt k = 0; k < count; k++)
+    if (laws[k]->ops.tangent) PetscCall(laws[k]->ops.tangent(laws[k], state, v[0], v[1], v[2], v[3]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Respond(void *context, Vec p, Vec q, Vec u_z, Vec u_t)
+{
+  const SamResponse *r    = (const SamResponse *)context;
+  const Vec          in[] = {p, q}, out[] = {u_z, u_t};
+
+  PetscFunctionBegin;
+  if (!r->window) {
+    PetscCall(AddTangents(r->contact, (const Vec[4]){p, q, u_z, u_t}));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  for (int d = 0; d < 2; d++) {
+    PetscCall(SamWindowPut(r->window, in[d], r->whole[d]));
+    PetscCall(VecZeroEntries(r->whole[2 + d]));
+  }
+  PetscCall(AddTangents(r->contact, r->whole));
+  for (int d = 0; d < 2; d++) {
+    PetscCall(SamWindowTake(r->window, r->whole[2 + d], r->u[d]));
+    PetscCall(VecAXPY(out[d], 1, r->u[d]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Returns true if a law's offset follows the tractions. */
+static PetscErrorCode HasTangent(SamContact contact, PetscBool *has)
+{
+  const SamLaw *laws;
+  PetscInt      count;
+
+  PetscFunctionBegin;
+  *has = PETSC_FALSE;
+  PetscCall(SamProblemGetLaws(SamContactGetProblem(contact), &count, &laws));
+  for (PetscInt k = 0; k < count; k++)
+    if (laws[k]->ops.tangent) *has = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetResponse(SamContact contact, SamWindow window, SamResponse *r, SamFrozen *f)
+{
+  PetscFunctionBegin;
+  *r         = (SamResponse){.contact = contact, .window = window};
+  f->respond = Respond;
+  f->context = r;
+  for (int k = 0; window && k < 4; k++) PetscCall(SamGridCreateVec(SamContactGetGrid(contact), k % 2 + 1, &r->whole[k]));
+  for (int d = 0; window && d < 2; d++) PetscCall(SamGridCreateVec(f->grid, d + 1, &r->u[d]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStiffnessThaw(SamResponse *r, SamFrozen *f)
+{
+  PetscFunctionBegin;
+  for (int k = 0; k < 4; k++) PetscCall(VecDestroy(&r->whole[k]));
+  for (int d = 0; d < 2; d++) PetscCall(VecDestroy(&r->u[d]));
+  PetscCall(SamFrozenDestroy(f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- all ---- */
+
 PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection direction, PetscInt count,
-                                  const SamCondition *const conditions[], SamFrozen *f)
+                                  const SamCondition *const conditions[], SamResponse *response, SamFrozen *f)
 {
   const SamSolution  *s;
   SamWindow           window;
   SamElasticity       part;
   PetscInt            first[2], n[2];
-  PetscBool           friction, coupled;
+  PetscBool           friction, coupled, follows;
   Vec                 fields[SAM_FROZEN_FIELDS] = {NULL};
   const SamProblem    problem                   = SamContactGetProblem(contact);
   const SamElasticity e                         = SamProblemGetElasticity(problem);
@@ -177,8 +253,10 @@ PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection dire
   PetscCall(SamGridGetSupport(whole, s->pressure, PETSC_FALSE, first, n));
   PetscCall(SamElasticityChoosePart(e, first, n, PETSC_TRUE, &window, &part));
   PetscCall(CreateFields(contact, direction, window, window ? SamWindowGetGrid(window) : whole, fields));
-  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled || count ? PETSC_TRUE : PETSC_FALSE, STIFFEST,
+  PetscCall(HasTangent(contact, &follows));
+  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled || count || follows ? PETSC_TRUE : PETSC_FALSE, STIFFEST,
                             SAM_FROZEN_STILL, f));
+  if (follows) PetscCall(SetResponse(contact, window, response, f));
   PetscCall(AddMotions(contact, window, count, conditions, f));
   for (int k = 0; k < SAM_FROZEN_FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -12,7 +12,8 @@
   solutions for the shear give.
 */
 #include "stiffnessimpl.h"
-#include <petsam/private/problemimpl.h>
+#include <petsam/private/lawimpl.h>
+#include <petsam/private/problem.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
@@ -166,12 +167,17 @@ static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffne
     }
 }
 
-static PetscErrorCode RefuseYield(SamContact contact)
+/* Refuses laws whose offset follows the tractions in an unknown way. */
+static PetscErrorCode CheckLaws(SamContact contact)
 {
-  const SamLaw law = SamProblemGetLaw(SamContactGetProblem(contact), SAM_LAW_PLASTIC);
+  const SamLaw *laws;
+  PetscInt      count;
 
   PetscFunctionBegin;
-  PetscCheck(!law, SamContactGetGrid(contact)->comm, SAM_ERR_USER, "-stiffness: not supported with -%s", law->option);
+  PetscCall(SamProblemGetLaws(SamContactGetProblem(contact), &count, &laws));
+  for (PetscInt k = 0; k < count; k++)
+    PetscCheck(!laws[k]->ops.follow || laws[k]->ops.tangent, SamContactGetGrid(contact)->comm, SAM_ERR_USER,
+               "-stiffness: not supported with -%s", SamLawFollowing(laws[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -194,18 +200,19 @@ static PetscErrorCode CheckConditions(SamContact contact, PetscInt count, const 
 PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, PetscInt count,
                                    const SamCondition *const conditions[], SamStiffness *stiffness)
 {
-  Systems s = {.error = 0, .motions = SAM_COMPONENTS + count};
+  Systems     s        = {.error = 0, .motions = SAM_COMPONENTS + count};
+  SamResponse response = {.window = NULL};
 
   PetscFunctionBegin;
   SamValidHandle(contact, SamContact, 1);
   SamValidPointer(stiffness, 5);
   PetscCall(CheckConditions(contact, count, conditions));
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
-  PetscCall(RefuseYield(contact));
+  PetscCall(CheckLaws(contact));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
-  PetscCall(SamStiffnessFreeze(contact, direction, count, conditions, &s.f));
+  PetscCall(SamStiffnessFreeze(contact, direction, count, conditions, &response, &s.f));
   if (s.f.coupled)
-    PetscCall(Solve(&s, SAM_FROZEN_BOTH, 0, s.motions, direction == SAM_STIFFNESS_REVERSAL));
+    PetscCall(Solve(&s, SAM_FROZEN_BOTH, 0, s.motions, direction == SAM_STIFFNESS_REVERSAL && !s.f.respond));
   else
     PetscCall(ComputeUncoupled(&s));
   PetscCall(Free(&s));
@@ -215,7 +222,7 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
                               .applies       = s.f.applies,
                               .preconditions = s.f.preconditions};
   Transform(&s, SamElasticityGetTraits(SamProblemGetElasticity(SamContactGetProblem(contact))).rotations, stiffness);
-  PetscCall(SamFrozenDestroy(&s.f));
+  PetscCall(SamStiffnessThaw(&response, &s.f));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -235,7 +242,7 @@ PetscErrorCode SamStiffnessDeclare(SamContact contact)
 
   PetscFunctionBegin;
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
-  PetscCall(RefuseYield(contact));
+  PetscCall(CheckLaws(contact));
   PetscCall(SamContactGetState(contact, &state));
   for (int k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
   PetscFunctionReturn(PETSC_SUCCESS);

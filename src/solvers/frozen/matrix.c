@@ -262,6 +262,7 @@ static PetscErrorCode ComputeDisplacements(SamFrozen *f)
   PetscCall(VecAXPY(f->u_z, 1, f->w_z));
   PetscCall(SamElasticityApplyNormalToTangential(f->elasticity, f->p, f->w_t));
   PetscCall(VecAXPY(f->u_t, 1, f->w_t));
+  if (f->respond) PetscCall((*f->respond)(f->context, f->p, f->q, f->u_z, f->u_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
