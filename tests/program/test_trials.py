@@ -129,7 +129,15 @@ def test_number_is_that_of_the_field_and_its_error_is_estimated(petsam, ranks):
 def test_stiffness_has_the_tangent_of_a_law_whose_offset_follows_the_pressure(petsam, ranks, more):
     """A soft layer; the inverse of the stiffness is the difference of two loads."""
     soft = 4e-15
-    case = dict(SPHERE, **more, cushion=soft, output_fields="usual,cushion", stiffness=True, normal_rtol=1e-11, tangential_rtol=1e-11)
+    case = dict(
+        SPHERE,
+        **more,
+        cushion=soft,
+        output_fields="usual,cushion",
+        stiffness=True,
+        normal_rtol=1e-11,
+        tangential_rtol=1e-11,
+    )
     found = []
     for load in (700, 700 * (1 - 1e-4), 700 * (1 + 1e-4)):
         petsam(dict(case, load_n=load), ranks=ranks)

@@ -50,8 +50,8 @@ typedef struct {
   /* adds to u_z and u_t the displacements by the tractions p and q that are not the elasticity's, on `grid`, in systems
      of both kinds; collective; NULL: there are none */
   PetscErrorCode (*respond)(void *context, Vec p, Vec q, Vec u_z, Vec u_t);
-  void         *context; /* of that function */
-  PetscBool     holds;   /* the loads whose components the frames have stay as they are */
+  void     *context; /* of that function */
+  PetscBool holds;   /* the loads whose components the frames have stay as they are */
   /* the system that is solved */
   SamFrozenPart   part;
   PetscBool       transposed; /* its matrix is the transposed one; no bound follows the slip then */

@@ -178,7 +178,7 @@ struct _n_SamLaw {
   PetscBool           needs_friction; /* true: meaningless without friction */
   PetscBool           slides;         /* true: the surfaces move past each other */
   PetscBool           wears;         /* true: it removes material, as the results volume1, wear_depth1 and so on tell */
-  const char         *following; /* option by which it has the method `follow`; NULL: the one that selects it */
+  const char         *following;     /* option by which it has the method `follow`; NULL: the one that selects it */
   const char         *strained;      /* number that is above 0 once bodies have yielded by it; NULL: they do not */
   const char         *with_shear;    /* numbers that follow the shear at the surface, separated by blanks; NULL: none */
   PetscBool           forbids_jumps; /* true: not possible in a wear simulation with cycle jumps */

@@ -216,7 +216,8 @@ static PetscErrorCode SetResponse(SamContact contact, SamWindow window, SamRespo
   *r         = (SamResponse){.contact = contact, .window = window};
   f->respond = Respond;
   f->context = r;
-  for (int k = 0; window && k < 4; k++) PetscCall(SamGridCreateVec(SamContactGetGrid(contact), k % 2 + 1, &r->whole[k]));
+  for (int k = 0; window && k < 4; k++)
+    PetscCall(SamGridCreateVec(SamContactGetGrid(contact), k % 2 + 1, &r->whole[k]));
   for (int d = 0; window && d < 2; d++) PetscCall(SamGridCreateVec(f->grid, d + 1, &r->u[d]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
