@@ -129,8 +129,7 @@ PetscErrorCode SamContactSetUp(SamContact c)
   for (PetscInt k = 0; k < count; k++)
     for (PetscInt j = 0; laws[k]->ops.follow && j < count; j++)
       PetscCheck((!laws[j]->ops.separation || !laws[j]->ops.limit) && (!laws[j]->ops.follow || j == k), c->grid->comm,
-                 SAM_ERR_USER, "-%s: not supported with -%s", SamLawFollowing(laws[k]),
-                 laws[j]->ops.follow ? SamLawFollowing(laws[j]) : SamLawOption(laws[j]));
+                 SAM_ERR_USER, "-%s: not supported with -%s", SamLawOption(laws[k]), SamLawOption(laws[j]));
   PetscCheck(isinf(limit) || SamNormalLimitsPressure(c->normal), c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
   PetscCall(SamNormalSetPressureLimit(c->normal, limit));

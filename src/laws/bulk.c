@@ -169,5 +169,6 @@ PetscErrorCode SamLawCreate_BulkStress(SamLaw law)
   law->ops.conditions = AddConditions;
   law->ops.check      = Check;
   law->ops.displace   = Displace;
+  law->ops.back       = SamLawNoBack;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -225,6 +225,7 @@ PetscErrorCode SamLawCreate_Coulomb(SamLaw law)
   law->ops.conditions     = AddConditions;
   law->ops.friction       = Friction;
   law->ops.bound          = Bound;
+  law->ops.back           = SamLawNoBack;
   law->ops.destroy        = Destroy;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

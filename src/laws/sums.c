@@ -59,6 +59,7 @@ static PetscErrorCode Create(SamLaw law, const Sum *sum)
   law->ops.setfromoptions                            = SetFromOptions;
   law->ops.declare                                   = Declare;
   law->ops.advance                                   = Advance;
+  law->ops.back                                      = SamLawNoBack;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

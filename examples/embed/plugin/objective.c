@@ -4,7 +4,7 @@
 
 #define NORM 8
 
-static PetscErrorCode Add(SamObjectiveStep *at)
+static PetscErrorCode Add(SamBackStep *at)
 {
   const PetscInt cells = at->grid->cells;
   SamTotal       total = {0};

@@ -31,4 +31,29 @@ PETSC_INTERN void           SamApproachShear(const SamApproach *a, double x, dou
 PETSC_INTERN PetscErrorCode SamApproachGaps(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                             Vec separation, Vec gap);
 
+/*
+  SamEntering - a step in which contact grows, on the way back: its cells on a part of the grid. `motion`: cotangents of
+  the motion of cells before they touch, two components, 1/m times the unit of the number.
+  SamEntered - cotangents of what that depends on: of the gap and the friction of each cell, of the loads and
+  displacements before the step and after it, of the growth of the strain xx, yy, xy, of kappa, and of the composite
+  modulus in plane strain, times minus that.
+  SamEnteringGoBack - computes them; the arrays exist. Collective.
+*/
+enum { SAM_ENTERED_BEFORE, SAM_ENTERED_NOW };
+typedef struct {
+  const SamApproach *approach;
+  PetscBool          fresh, plane; /* from no contact; in plane strain */
+  double             constant;     /* approach by N in plane strain, m2/N */
+  PetscReal          normal[2];    /* N before the step and after it */
+  SamGrid            grid;
+  const double
+    *gaps; /* of cells that come into contact, before the step, m; -1: the bodies touch first there; else 0 */
+  const double *friction, *motion;
+} SamEntering;
+typedef struct {
+  double *by_gap, *by_friction;
+  double  load[2][SAM_COMPONENTS], rigid[2][SAM_COMPONENTS], strain[3], kappa[2], uniform, by_modulus;
+} SamEntered;
+PETSC_INTERN PetscErrorCode SamEnteringGoBack(const SamEntering *in, SamEntered *found);
+
 #endif

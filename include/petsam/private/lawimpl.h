@@ -18,6 +18,7 @@
 #ifndef PETSAM_LAWIMPL_H
 #define PETSAM_LAWIMPL_H
 
+#include <petsam/private/backstep.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/balance.h>
 #include <petsam/law.h>
@@ -146,14 +147,17 @@ PETSC_INTERN PetscErrorCode SamFramesWrite(SamElasticity elasticity, const Petsc
 /*
   SamLawListWords - appends the words of an option that selects laws, each after `between`. Collective.
   SamLawOrder - returns the place of a type among the registered types. Not collective.
-  SamLawOption - returns the option that selects a law, or its first option, or its type if it has none, for messages.
-  SamLawFollowing - returns that by which its offset follows the tractions. Neither is collective.
+  SamLawOption - returns the option that messages name where the law is refused. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamLawListWords(SamElasticity elasticity, const char option[], const char between[],
                                             char words[], size_t size);
 PETSC_INTERN PetscInt       SamLawOrder(SamLawType type);
 PETSC_INTERN const char    *SamLawOption(SamLaw law);
-PETSC_INTERN const char    *SamLawFollowing(SamLaw law);
+/*
+  SamLawNoBack - the method `back` of a law that adds nothing: no step depends on its state, or what it changes is an
+  offset by conditions alone, or friction by a coefficient. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamLawNoBack(SamLaw law, SamBackStep *step);
 
 struct _n_SamLaw {
   SamClassId          class_id;
@@ -177,9 +181,10 @@ struct _n_SamLaw {
   PetscBool           uses[SAM_USES]; /* fields of a solved step that advance() uses */
   PetscBool           needs_friction; /* true: meaningless without friction */
   PetscBool           slides;         /* true: the surfaces move past each other */
-  PetscBool           wears;         /* true: it removes material, as the results volume1, wear_depth1 and so on tell */
-  const char         *following;     /* option by which it has the method `follow`; NULL: the one that selects it */
-  const char         *strained;      /* number that is above 0 once bodies have yielded by it; NULL: they do not */
+  PetscBool           wears;    /* true: it removes material, as the results volume1, wear_depth1 and so on tell */
+  const char         *number;   /* name of the number by which back() finds the derivative; NULL: none */
+  const char         *refused;  /* option that messages name where the law is refused; NULL: the one that selects it */
+  const char         *strained; /* number that is above 0 once bodies have yielded by it; NULL: they do not */
   const char         *with_shear;    /* numbers that follow the shear at the surface, separated by blanks; NULL: none */
   PetscBool           forbids_jumps; /* true: not possible in a wear simulation with cycle jumps */
   PetscBool           of_body[2];    /* true: adds to the separation a field at a body's own points, if they slide */
@@ -253,6 +258,14 @@ struct _n_SamLaw {
     PetscErrorCode (*friction)(SamLaw law, PetscReal *uniform, PetscBool *has);
     /* computes the law's tried state, and numbers of the step */
     PetscErrorCode (*advance)(SamLaw law, SamLawStep *step);
+    /* returns the value of the law's `number`: 0 if the law was not selected */
+    PetscReal (*number)(SamLaw law);
+    /*
+      Adds to the derivatives of a number of a history by what the law's state in the step depends on, and by the law's
+      `number`. What its state changes in later steps is in by_worn, for a law that removes material. A law without this
+      method has no gradient. In a history with cycle jumps it is not called.
+    */
+    PetscErrorCode (*back)(SamLaw law, SamBackStep *step);
     /* prints the law's numbers of a step, on a line of its own */
     PetscErrorCode (*view)(SamLaw law, SamState state, PetscViewer viewer);
     /* true if body 0 or 1 may yield by this law, so that no elastic solution in closed form describes it */

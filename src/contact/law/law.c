@@ -66,12 +66,16 @@ PetscInt SamLawOrder(SamLawType type)
 
 const char *SamLawOption(SamLaw law)
 {
+  if (law->refused) return law->refused;
   return law->option ? law->option : law->row_count ? law->rows[0].name : law->type;
 }
 
-const char *SamLawFollowing(SamLaw law)
+PetscErrorCode SamLawNoBack(SamLaw law, SamBackStep *step)
 {
-  return law->following ? law->following : SamLawOption(law);
+  PetscFunctionBegin;
+  (void)law;
+  (void)step;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- creation ---- */

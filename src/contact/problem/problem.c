@@ -271,6 +271,16 @@ PetscBool SamProblemWears(SamProblem p)
   return PETSC_FALSE;
 }
 
+PetscReal SamProblemWornVolume(SamProblem p, SamState state)
+{
+  static const char *const names[] = {"wear_volume1", "wear_volume2"};
+  PetscReal                volume  = 0;
+
+  for (int b = 0; b < 2 && SamProblemWears(p); b++)
+    volume += *SamStateReadNumbers(state, SamStateFindNumber(state, names[b]));
+  return volume;
+}
+
 PetscBool SamProblemBodyYields(SamProblem p, PetscInt body)
 {
   for (PetscInt k = 0; k < p->laws; k++)

@@ -48,13 +48,14 @@ static PetscErrorCode FindLaw(SamProblem problem, SamGrid grid, SamLaw *law)
   PetscInt      count;
 
   PetscFunctionBegin;
-  *law = NULL;
   PetscCall(SamProblemGetLaws(problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++) {
     PetscCheck(!laws[k]->forbids_jumps, grid->comm, PETSC_ERR_ARG_INCOMP,
                "Cycle jumps ignore what the law %s changes in skipped cycles", laws[k]->type);
-    if (SamLawIsWear(laws[k])) *law = laws[k];
+    PetscCheck(!laws[k]->wears || SamLawIsWear(laws[k]), grid->comm, SAM_ERR_USER,
+               "-%s: wears in each step, and has no cycle jumps: omit -wear_cycles", SamLawOption(laws[k]));
   }
+  PetscCall(SamWearFind(problem, law));
   PetscCheck(*law, grid->comm, PETSC_ERR_ARG_INCOMP, "The contact has no law of wear");
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,6 +10,7 @@
 #include <petsam/private/solverimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
+#include <petsam/private/problem.h>
 #include <petsam/private/wear.h>
 
 #define WEARS  "wears"       /* 1 if the step added to the wear load, 0 in cycles */
@@ -18,6 +19,19 @@
 PetscBool SamLawIsWear(SamLaw law)
 {
   return !strcmp(law->type, SAM_LAW_ARCHARD) || !strcmp(law->type, SAM_LAW_ENERGY);
+}
+
+PetscErrorCode SamWearFind(SamProblem problem, SamLaw *law)
+{
+  const SamLaw *laws;
+  PetscInt      count;
+
+  PetscFunctionBegin;
+  *law = NULL;
+  PetscCall(SamProblemGetLaws(problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++)
+    if (SamLawIsWear(laws[k])) *law = laws[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
@@ -50,7 +64,8 @@ PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
   ROW("wear_coefficient", "Archard's wear, depth = k p |ds|: k ()", body, .unit = "1/Pa", \
       .excludes = "wear_energy1,wear_energy2")
 #define ENERGY(body) ROW("wear_energy", "wear by energy, depth = alpha |q.ds|: alpha ()", body, .unit = "m3/J")
-static const SamOptionRow rows[2][2] = {{ARCHARD(1), ARCHARD(2)}, {ENERGY(1), ENERGY(2)}};
+static const SamOptionRow rows[2][2]      = {{ARCHARD(1), ARCHARD(2)}, {ENERGY(1), ENERGY(2)}};
+static const char *const  coefficients[2] = {"wear_coefficient", "wear_energy"}; /* of both bodies together */
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
@@ -392,6 +407,9 @@ static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
   law->ops.advance                                                                = Advance;
   law->ops.advise                                                                 = Advise;
   law->ops.doubt                                                                  = SamWearDoubt;
+  law->ops.number                                                                 = SamWearNumber;
+  law->ops.back                                                                   = SamWearBack;
+  law->number                                                                     = coefficients[by_energy];
   law->wears                                                                      = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

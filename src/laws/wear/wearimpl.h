@@ -3,6 +3,7 @@
 #define PETSAM_WEARIMPL_H
 
 #include <petsam/private/lawimpl.h>
+#include <petsam/problem.h>
 #include <petsam/wear.h>
 
 /*
@@ -26,8 +27,18 @@ typedef struct {
 
 /* SamWearDoubt - the laws' method `doubt` (weardoubt.c). Collective. */
 PETSC_INTERN PetscErrorCode SamWearDoubt(SamLaw law, SamExamination *examination);
-/* SamLawIsWear - returns true if a law is of these types. Not collective. */
-PETSC_INTERN PetscBool SamLawIsWear(SamLaw law);
+/*
+  SamWearNumber - returns the depth of both bodies per wear load, 1/Pa or m3/J. Not collective. SamWearBack - the laws'
+  method `back` (wearback.c). Collective.
+*/
+PETSC_INTERN PetscReal      SamWearNumber(SamLaw law);
+PETSC_INTERN PetscErrorCode SamWearBack(SamLaw law, SamBackStep *step);
+/*
+  SamLawIsWear - returns true if a law is of these types, and its data a SamWear. SamWearFind - finds such a law of a
+  problem; NULL: it has none. Neither is collective.
+*/
+PETSC_INTERN PetscBool      SamLawIsWear(SamLaw law);
+PETSC_INTERN PetscErrorCode SamWearFind(SamProblem problem, SamLaw *law);
 /*
   SamWearGetLimit - gets the limit on how many times a single step may remove a wear load of `most` per pressure (m)
   (wearlimit.c); infinite without wear. Collective.

@@ -194,11 +194,11 @@ static PetscErrorCode FieldOf(SamGrid g, PetscInt count, const double values[], 
 /* Freezes the sets of cells of the step. */
 static PetscErrorCode Freeze(System *s)
 {
-  const SamBack          *b  = s->b;
-  const SamObjectiveStep *at = &b->at;
-  const SamGrid           g  = b->grid;
-  double                 *bound, *path;
-  Vec                     fields[SAM_FROZEN_FIELDS] = {NULL};
+  const SamBack     *b  = s->b;
+  const SamBackStep *at = &b->at;
+  const SamGrid      g  = b->grid;
+  double            *bound, *path;
+  Vec                fields[SAM_FROZEN_FIELDS] = {NULL};
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(g->cells, &bound, g->cells, &path));
@@ -240,11 +240,11 @@ static PetscBool Turns(const System *s, PetscInt m)
 
 static Turned TurnedOf(const System *s, PetscInt m)
 {
-  const SamObjectiveStep *at = &s->b->at;
-  const PetscInt          k = s->f.cell[m], l = k + s->b->grid->cells;
-  const double            x = s->f.e[0][m], y = s->f.e[1][m];
-  Turned                  t = {.b0 = s->b->friction[k] * at->pressure_before[k]};
-  double                  weight, mx, my, size, across, part;
+  const SamBackStep *at = &s->b->at;
+  const PetscInt     k = s->f.cell[m], l = k + s->b->grid->cells;
+  const double       x = s->f.e[0][m], y = s->f.e[1][m];
+  Turned             t = {.b0 = s->b->friction[k] * at->pressure_before[k]};
+  double             weight, mx, my, size, across, part;
 
   t.r0[0]  = at->shear_before[k] / t.b0;
   t.r0[1]  = at->shear_before[l] / t.b0;
@@ -277,8 +277,8 @@ static PetscErrorCode TurnAll(System *s)
 /* Adds the derivatives by the shear and the bound before the step. */
 static void LeaveTurned(System *s)
 {
-  SamObjectiveStep *at    = &s->b->at;
-  const PetscInt    cells = s->b->grid->cells, n = s->f.count;
+  SamBackStep   *at    = &s->b->at;
+  const PetscInt cells = s->b->grid->cells, n = s->f.count;
 
   for (PetscInt m = 0; m < n; m++) {
     const PetscInt k = s->f.cell[m];
@@ -300,11 +300,11 @@ static void LeaveTurned(System *s)
 /* Counts the cells that are about to change their set. */
 static PetscErrorCode CountBorders(System *s)
 {
-  const SamBack          *b       = s->b;
-  const SamObjectiveStep *at      = &b->at;
-  const SamFrozen        *f       = &s->f;
-  const double            near_to = NEAR * (double)b->g->still;
-  double                  most[2] = {0, 0}, count = 0;
+  const SamBack     *b       = s->b;
+  const SamBackStep *at      = &b->at;
+  const SamFrozen   *f       = &s->f;
+  const double       near_to = NEAR * (double)b->g->still;
+  double             most[2] = {0, 0}, count = 0;
 
   PetscFunctionBegin;
   for (PetscInt m = 0; m < f->count; m++) {
@@ -377,10 +377,10 @@ static PetscErrorCode DisplaceSingle(const SamBack *b, double self, double moved
 /* Computes the displacements by V, and the right-hand side c + those. */
 static PetscErrorCode FindRight(System *s, double moved[])
 {
-  const SamBack          *b  = s->b;
-  const SamObjectiveStep *at = &b->at;
-  const SamGrid           g  = b->grid;
-  const SamFrozen        *f  = &s->f;
+  const SamBack     *b  = s->b;
+  const SamBackStep *at = &b->at;
+  const SamGrid      g  = b->grid;
+  const SamFrozen   *f  = &s->f;
 
   PetscFunctionBegin;
   if (b->coupled || b->rtol < SINGLE)
@@ -719,13 +719,14 @@ static PetscErrorCode SetCotangents(System *s, const double r[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamBackSolveNormal(SamBack *b, const double pressure[], const double soft[], const double right[],
+PetscErrorCode SamBackSolveNormal(void *back, const double pressure[], const double soft[], const double right[],
                                   const PetscBool force[3], double l[], double forces[3])
 {
-  System       s        = {.b = b};
-  const double given[3] = {0, 0, 0};
-  double       kept[SAM_COMPONENTS], touches;
-  Vec          fields[SAM_FROZEN_FIELDS] = {NULL};
+  SamBack *const b        = (SamBack *)back;
+  System         s        = {.b = b};
+  const double   given[3] = {0, 0, 0};
+  double         kept[SAM_COMPONENTS], touches;
+  Vec            fields[SAM_FROZEN_FIELDS] = {NULL};
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(l, b->grid->cells));

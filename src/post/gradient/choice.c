@@ -13,10 +13,9 @@
 #include <petsam/private/problem.h>
 #include <math.h>
 
-static const char *const fields[]  = {"gap", "friction"};
-static const char *const numbers[] = {"wear_coefficient", "wear_energy", "body1_young",
-                                      "body1_poisson",    "body2_young", "body2_poisson"};
-enum { FIELDS = 2, NUMBERS = SAM_GRADIENT_WEARS + SAM_GRADIENT_MODULI };
+static const char *const fields[] = {"gap", "friction"};
+static const char *const moduli[] = {"body1_young", "body1_poisson", "body2_young", "body2_poisson"};
+enum { FIELDS = 2 };
 
 /* ---- names ---- */
 
@@ -44,9 +43,11 @@ const char *SamGradientNumber(SamGradient g, PetscInt k)
   const char *const *names;
   PetscInt           count;
 
-  if (k < NUMBERS) return numbers[k];
+  if (k < g->laws) return g->law[k]->number;
+  k -= g->laws;
+  if (k < SAM_GRADIENT_MODULI) return moduli[k];
   (void)SamGapGetParameters(g->shape, NULL, &count, &names, NULL);
-  return k - NUMBERS < count ? names[k - NUMBERS] : NULL;
+  return k - SAM_GRADIENT_MODULI < count ? names[k - SAM_GRADIENT_MODULI] : NULL;
 }
 
 PetscBool SamGradientHas(SamGradient g, const char name[])
@@ -71,17 +72,20 @@ static const char *Find(const char names[], const char name[], size_t length)
   return NULL;
 }
 
-/* True if the bodies wear. */
-static PetscBool Wears(SamGradient g)
+/* True if one of the laws acts. */
+static PetscBool LawsAct(SamGradient g)
 {
-  return g->rate[0] != 0 || g->rate[1] != 0 ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt k = 0; k < g->laws; k++)
+    if (g->law[k]->ops.number(g->law[k]) != 0) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 PetscBool SamChoiceHas(SamGradient g, const char of[], const char name[])
 {
-  const PetscBool wear  = strncmp(name, "wear_", 5) ? PETSC_FALSE : PETSC_TRUE;
-  const PetscBool costs = !strncmp(name, "body", 4) || !strncmp(name, "gap_", 4) || (wear && !Wears(g));
+  PetscBool costs = !strncmp(name, "body", 4) || !strncmp(name, "gap_", 4);
 
+  for (PetscInt k = 0; k < g->laws; k++)
+    if (!strcmp(name, g->law[k]->number) && !LawsAct(g)) costs = PETSC_TRUE;
   if (!of[0]) return !costs || SamGradientIsOfSteps(name) ? PETSC_TRUE : PETSC_FALSE;
   return Find(of, name, strlen(name)) ? PETSC_TRUE : PETSC_FALSE;
 }
@@ -98,20 +102,22 @@ static PetscBool HaveOne(SamGradient g, const char of[], PetscInt first, PetscIn
 
 PetscBool SamChoiceHasModuli(SamGradient g, const char of[])
 {
-  return HaveOne(g, of, SAM_GRADIENT_WEARS, NUMBERS);
+  return HaveOne(g, of, g->laws, g->laws + SAM_GRADIENT_MODULI);
 }
 
 PetscBool SamChoiceAllowsSharing(SamGradient g)
 {
   const char *const of = g->found.of;
 
-  /* the moduli meet the shear of each step; what does not wear would wear in each of them */
-  return !SamChoiceHasModuli(g, of) && (Wears(g) || !HaveOne(g, of, 0, SAM_GRADIENT_WEARS)) ? PETSC_TRUE : PETSC_FALSE;
+  /* the moduli meet the shear of each step; a law that does not act would act in each of them */
+  return !SamChoiceHasModuli(g, of) && (LawsAct(g) || !HaveOne(g, of, 0, g->laws)) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscBool SamChoiceHasShape(SamGradient g, const char of[])
 {
-  return HaveOne(g, of, NUMBERS, NUMBERS + SAM_GAP_PARAMETERS);
+  const PetscInt first = g->laws + SAM_GRADIENT_MODULI;
+
+  return HaveOne(g, of, first, first + SAM_GAP_PARAMETERS);
 }
 
 PetscErrorCode SamChoiceCheck(SamGradient g, const char of[])
@@ -141,7 +147,7 @@ PetscErrorCode SamChoiceCheck(SamGradient g, const char of[])
 /* ---- values ---- */
 
 /* A parameter with one number: its kind, and its place among those of the kind */
-typedef enum { WEAR, MODULUS, SHAPE } Kind;
+typedef enum { LAW, MODULUS, SHAPE } Kind;
 
 /* Finds it; returns false if there is none of that name. */
 static PetscBool FindNumber(SamGradient g, const char name[], Kind *kind, PetscInt *place)
@@ -150,8 +156,8 @@ static PetscBool FindNumber(SamGradient g, const char name[], Kind *kind, PetscI
 
   for (PetscInt k = 0; (one = SamGradientNumber(g, k)); k++) {
     if (strcmp(name, one)) continue;
-    *kind  = k < SAM_GRADIENT_WEARS ? WEAR : k < NUMBERS ? MODULUS : SHAPE;
-    *place = k - (*kind == WEAR ? 0 : *kind == MODULUS ? SAM_GRADIENT_WEARS : NUMBERS);
+    *kind  = k < g->laws ? LAW : k < g->laws + SAM_GRADIENT_MODULI ? MODULUS : SHAPE;
+    *place = k - (*kind == LAW ? 0 : *kind == MODULUS ? g->laws : g->laws + SAM_GRADIENT_MODULI);
     return PETSC_TRUE;
   }
   return PETSC_FALSE;
@@ -160,7 +166,7 @@ static PetscBool FindNumber(SamGradient g, const char name[], Kind *kind, PetscI
 const PetscReal *SamChoiceFind(SamGradient g, const char name[])
 {
   const SamDerivatives  *d    = &g->found;
-  const PetscReal *const by[] = {[WEAR] = d->wear, [MODULUS] = d->moduli, [SHAPE] = d->shape};
+  const PetscReal *const by[] = {[LAW] = d->law, [MODULUS] = d->moduli, [SHAPE] = d->shape};
   Kind                   kind;
   PetscInt               place;
 
@@ -170,7 +176,8 @@ const PetscReal *SamChoiceFind(SamGradient g, const char name[])
 PetscErrorCode SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share)
 {
   SamPairConstants constants;
-  const PetscReal *values[] = {[WEAR] = g->rate, [MODULUS] = constants.modulus, [SHAPE] = NULL}, *by;
+  PetscReal        of_law[SAM_LAWS] = {0};
+  const PetscReal *values[]         = {[LAW] = of_law, [MODULUS] = constants.modulus, [SHAPE] = NULL}, *by;
   Kind             kind;
   PetscInt         place;
 
@@ -178,6 +185,7 @@ PetscErrorCode SamChoiceGetShare(SamGradient g, const char name[], PetscReal *sh
   (void)SamPairGetConstants(SamElasticityGetPair(SamProblemGetElasticity(SamContactGetProblem(g->contact))),
                             &constants);
   PetscCall(SamGapGetParameters(g->shape, NULL, NULL, NULL, &values[SHAPE]));
+  for (PetscInt k = 0; k < g->laws; k++) of_law[k] = g->law[k]->ops.number(g->law[k]);
   *share = 0;
   by     = SamChoiceFind(g, name);
   if (by && FindNumber(g, name, &kind, &place) && isfinite(values[kind][place])) *share = values[kind][place] * *by;

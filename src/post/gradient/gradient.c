@@ -39,29 +39,32 @@
 
 /* ---- the object ---- */
 
-/* Adds the coefficients of wear of a law; refuses laws whose derivative is not computed. */
-static PetscErrorCode CheckLaw(SamGradient g, SamLaw law)
+/* Adds the laws of all types with a number by which there is a derivative: those of the contact, or new ones, which
+   would act if their number were not 0. */
+static PetscErrorCode AddLaws(SamGradient g)
 {
-  static const char *const known[]  = {SAM_LAW_COULOMB,        SAM_LAW_BULK_STRESS, SAM_LAW_BODIES,
-                                       SAM_LAW_ARCHARD,        SAM_LAW_ENERGY,      SAM_LAW_ACCUMULATED_SLIP,
-                                       SAM_LAW_FRICTION_ENERGY};
-  PetscBool                is_known = PETSC_FALSE;
-  SamParameters            parameters;
+  const SamProblem  problem = SamContactGetProblem(g->contact);
+  const SamLawType *types;
+  const SamLaw     *own;
+  PetscInt          count, owned;
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(known) / sizeof(known[0]); k++)
-    if (!strcmp(law->type, known[k])) is_known = PETSC_TRUE;
-  PetscCheck(is_known, law->grid->comm, SAM_ERR_USER, "the gradient with -%s: its derivative is not computed: omit it",
-             law->option ? law->option : law->type);
-  if (strcmp(law->type, SAM_LAW_ARCHARD) && strcmp(law->type, SAM_LAW_ENERGY)) PetscFunctionReturn(PETSC_SUCCESS);
-  parameters.count = 0;
-  PetscCall(SamLawAddParameters(law, &parameters));
-  for (PetscInt k = 0; k < parameters.count; k++)
-    for (PetscInt n = 0; n < SAM_GRADIENT_WEARS; n++) {
-      const char *wear = SamGradientNumber(g, n);
+  PetscCall(SamLawGetTypes(&count, &types));
+  PetscCall(SamProblemGetLaws(problem, &owned, &own));
+  for (PetscInt k = 0; k < count; k++) {
+    SamLaw law = NULL;
 
-      if (!strncmp(parameters.list[k].name, wear, strlen(wear))) g->rate[n] += parameters.list[k].value[0];
-    }
+    for (PetscInt m = 0; m < owned; m++)
+      if (!strcmp(own[m]->type, types[k])) law = own[m];
+    if (law)
+      PetscCall(SamLawReference(law));
+    else
+      PetscCall(SamLawCreate(SamProblemGetElasticity(problem), types[k], &law));
+    if (law->number && law->ops.back)
+      g->law[g->laws++] = law;
+    else
+      PetscCall(SamLawDestroy(&law));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,7 +84,9 @@ static PetscErrorCode Check(SamGradient g)
              "the gradient with -tangential_rtol %.6g: cells that stick are not certain: expected at most %.6g",
              (double)((SamSolver)SamContactGetTangential(g->contact))->rtol, LEAST_RTOL);
   PetscCall(SamProblemGetLaws(problem, &count, &laws));
-  for (PetscInt k = 0; k < count; k++) PetscCall(CheckLaw(g, laws[k]));
+  for (PetscInt k = 0; k < count; k++)
+    PetscCheck(laws[k]->ops.back, comm, SAM_ERR_USER, "the gradient with -%s: its derivative is not computed: omit it",
+               SamLawOption(laws[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -105,6 +110,7 @@ PetscErrorCode SamGradientCreate(SamContact contact, SamGap shape, SamGradient *
   g->shape   = shape;
   g->still   = PetscMin(ERRORS * ((SamSolver)SamContactGetTangential(contact))->rtol, SAM_FROZEN_STILL);
   ierr       = Check(g);
+  if (!ierr) ierr = AddLaws(g);
   if (ierr) PetscCall(SamGradientDestroy(&g));
   PetscCall(ierr);
   *gradient = g;
@@ -131,8 +137,8 @@ PetscErrorCode SamGradientDestroy(SamGradient *gradient)
   g = *gradient;
   SamGradientForget(g);
   SamContactSetSettles(g->contact, PETSC_FALSE);
+  for (PetscInt k = 0; k < g->laws; k++) PetscCall(SamLawDestroy(&g->law[k]));
   PetscCall(PetscFree(g->record));
-  PetscCall(PetscFree(g->jump));
   PetscCall(ClearFound(&g->found));
   PetscCall(PetscFree(*gradient));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -141,7 +147,7 @@ PetscErrorCode SamGradientDestroy(SamGradient *gradient)
 void SamGradientForget(SamGradient g)
 {
   while (g->count > 0) (void)SamRecordDestroy(&g->record[--g->count]);
-  while (g->jumps > 0) (void)SamJumpDestroy(&g->jump[--g->jumps]);
+  (void)SamLifeBackDestroy(&g->life);
   g->rows = g->cycle = 0;
   (void)VecDestroy(&g->friction);
   (void)VecDestroy(&g->touched);
@@ -155,19 +161,28 @@ PetscInt SamGradientGetSteps(SamGradient g)
 
 PetscErrorCode SamGradientBeginLife(SamGradient g, PetscInt rows, PetscInt cycle, const SamLifeSettings *set)
 {
-  const MPI_Comm comm = SamContactGetGrid(g->contact)->comm;
+  const MPI_Comm comm   = SamContactGetGrid(g->contact)->comm;
+  PetscInt       acting = 0;
 
   PetscFunctionBegin;
   PetscCheck(set->fixed, comm, SAM_ERR_USER,
              "the gradient of a wear simulation: the lengths of its jumps depend on the parameters: give -wear_jump");
   PetscCheck(!set->magnified, comm, SAM_ERR_USER,
              "the gradient of a wear simulation whose surfaces slide is not computed");
-  PetscCheck(g->rate[0] == 0 || g->rate[1] == 0, comm, SAM_ERR_USER,
-             "the gradient of a wear simulation: expected one law of wear");
+  for (PetscInt k = 0; k < g->laws; k++) acting += g->law[k]->ops.number(g->law[k]) != 0;
+  PetscCheck(acting <= 1, comm, SAM_ERR_USER, "the gradient of a wear simulation: expected one law of wear");
   PetscCheck(g->count == 0, comm, PETSC_ERR_ORDER,
              "the gradient of a wear simulation: steps have been recorded before it: begin after a reset");
   g->rows  = rows;
   g->cycle = cycle;
+  PetscCall(SamLifeBackCreate(g->contact, cycle, &g->life));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientRecordJump(SamGradient g, const SamLifePart *part)
+{
+  PetscFunctionBegin;
+  PetscCall(SamLifeBackRecord(g->life, part, g->count));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -188,21 +203,12 @@ static PetscErrorCode ChoosePart(SamBack *b)
   const SamGrid       whole = SamContactGetGrid(g->contact);
   const SamElasticity e     = SamProblemGetElasticity(SamContactGetProblem(g->contact));
   PetscInt            first[2], n[2];
-  double             *touched;
   Vec                 all;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(g->touched, &all));
   PetscCall(VecCopy(g->touched, all));
-  PetscCall(VecGetArray(all, &touched));
-  for (PetscInt k = 0; k < g->jumps; k++) {
-    const double *p;
-
-    PetscCall(VecGetArrayRead(g->jump[k].field[SAM_JUMP_PRESSURE], &p));
-    for (PetscInt m = 0; m < whole->cells; m++) touched[m] = p[m] > 0 ? 1 : touched[m];
-    PetscCall(VecRestoreArrayRead(g->jump[k].field[SAM_JUMP_PRESSURE], &p));
-  }
-  PetscCall(VecRestoreArray(all, &touched));
+  if (g->life) PetscCall(SamLifeBackTouch(g->life, all));
   PetscCall(SamGridGetSupport(whole, all, PETSC_FALSE, first, n));
   PetscCall(VecDestroy(&all));
   PetscCheck(n[0] > 0, whole->comm, SAM_ERR_USER, "the gradient: there is no contact in any step of the history");
@@ -233,12 +239,13 @@ static PetscErrorCode PutArray(SamBack *b, const double array[], Vec *whole)
 /* Reads the tractions of a step, for objectives that need other steps than the present one. */
 static PetscErrorCode ReadStep(void *context, PetscInt step, Vec tractions, const PetscReal **bulk)
 {
-  SamRecord *const r     = &((SamGradient)context)->record[step];
-  const PetscInt   cells = SamContactGetGrid(((SamGradient)context)->contact)->cells;
-  double          *to;
+  const SamGradient g     = ((SamBack *)context)->g;
+  SamRecord *const  r     = &g->record[step];
+  const PetscInt    cells = SamContactGetGrid(g->contact)->cells;
+  double           *to;
 
   PetscFunctionBegin;
-  PetscCall(SamStoreTake((SamGradient)context, r));
+  PetscCall(SamStoreTake(g, r));
   PetscCall(VecZeroEntries(tractions));
   PetscCall(VecGetArray(tractions, &to));
   for (PetscInt c = 0; c < 3; c++) /* pressure and shear are the first values */
@@ -249,36 +256,16 @@ static PetscErrorCode ReadStep(void *context, PetscInt step, Vec tractions, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-enum { ARRAYS = 23 }; /* fields of one component that a pass needs besides those of the steps */
-
-/* Gives a wear simulation its arrays, to be freed with PetscFree(). */
-static PetscErrorCode BeginLife(SamBack *b, double **arrays)
-{
-  const PetscInt cells = (PetscInt)PetscMax(b->grid->cells, 1);
-  SamLifeBack   *life  = &b->life;
-  double **const one[] = {&life->by_worn,  &life->by_start, &life->by_whole, &life->by_wear, &life->by_mean,
-                          &life->by_shift, &life->by_slip,  &life->touches,  &life->load};
-  enum { COUNT = sizeof(one) / sizeof(one[0]) };
-
-  PetscFunctionBegin;
-  *arrays    = NULL;
-  life->left = b->g->jumps;
-  if (!b->g->jumps) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscCalloc1(COUNT * cells, arrays));
-  for (int k = 0; k < COUNT; k++) *one[k] = *arrays + k * cells;
-  PetscCall(SamBackGetLoad(b, life->load));
-  b->at.load = life->load;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+enum { ARRAYS = 22 }; /* fields of one component that a pass needs besides those of the steps */
 
 static PetscErrorCode Begin(SamBack *b, double **arrays)
 {
   const PetscInt         cells = (PetscInt)PetscMax(b->grid->cells, 1);
-  SamObjectiveStep      *at    = &b->at;
+  SamBackStep           *at    = &b->at;
   double                *next;
-  double **const         one[] = {&b->friction, &b->worn,        &b->gamma,          &b->beta,
-                                  &b->by_gap,   &b->by_friction, &at->by_pressure,   &at->by_pressure_before,
-                                  &at->by_worn, &b->ahead,       &b->entered.by_gap, &b->entered.by_friction},
+  double **const         one[] = {&b->friction, &b->rubbed,       &b->gamma,          &b->beta,
+                                  &at->by_gap,  &at->by_friction, &at->by_pressure,   &at->by_pressure_before,
+                                  &at->by_worn, &at->by_open,     &b->entered.by_gap, &b->entered.by_friction},
                  **const two[] = {&b->later, &b->tau, &at->by_shear, &at->by_slip, &at->by_shear_before};
 
   PetscFunctionBegin;
@@ -286,15 +273,17 @@ static PetscErrorCode Begin(SamBack *b, double **arrays)
   next = *arrays;
   for (size_t k = 0; k < sizeof(one) / sizeof(one[0]); k++, next += cells) *one[k] = next;
   for (size_t k = 0; k < sizeof(two) / sizeof(two[0]); k++, next += 2 * cells) *two[k] = next;
-  at->by_friction = b->by_friction;
-  at->friction    = b->friction;
-  at->grid        = b->grid;
-  at->area        = (double)(b->grid->dx * b->grid->dy);
-  at->rate        = b->g->rate;
-  at->elasticity  = SamProblemGetElasticity(SamContactGetProblem(b->g->contact));
-  at->window      = b->window;
-  at->read        = ReadStep;
-  at->context     = b->g;
+  at->friction   = b->friction;
+  at->rubbed     = b->rubbed;
+  at->grid       = b->grid;
+  at->area       = (double)(b->grid->dx * b->grid->dy);
+  at->elasticity = SamProblemGetElasticity(SamContactGetProblem(b->g->contact));
+  at->window     = b->window;
+  at->context    = b;
+  at->read       = ReadStep;
+  at->take       = SamBackTake;
+  at->normal     = SamBackSolveNormal;
+  at->open       = SamBackAddOpen;
   PetscCall(SamBackTake(b, b->g->friction, b->friction));
   PetscCall(SamGridCreateVec(SamContactGetGrid(b->g->contact), SAM_RECORD_VALUES, &b->whole));
   for (int k = 0; k < 2; k++)
@@ -308,7 +297,7 @@ static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
   SamRecord *const     r     = &b->g->record[k];
   const ptrdiff_t      cells = b->grid->cells;
   const SamFrameOfStep now   = b->before;
-  SamObjectiveStep    *at    = &b->at;
+  SamBackStep         *at    = &b->at;
 
   PetscFunctionBegin;
   b->before = b->now;
@@ -328,14 +317,16 @@ static PetscErrorCode Select(SamBack *b, PetscInt k, PetscInt64 end[2])
   at->by_end = r->by_end;
   at->rigid  = r->rigid;
   at->bulk   = r->bulk;
+  at->volume = r->volume;
+  SamBackFindRubbed(at, b->rubbed);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Moves what has been added to the step before to the present step. */
 static PetscErrorCode Pass(SamBack *b)
 {
-  SamObjectiveStep *at    = &b->at;
-  const PetscInt    cells = b->grid->cells;
+  SamBackStep   *at    = &b->at;
+  const PetscInt cells = b->grid->cells;
 
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(at->by_pressure, at->by_pressure_before, cells));
@@ -343,9 +334,8 @@ static PetscErrorCode Pass(SamBack *b)
   PetscCall(PetscArrayzero(at->by_pressure_before, cells));
   PetscCall(PetscArrayzero(at->by_shear_before, 2 * cells));
   PetscCall(PetscArrayzero(at->by_slip, 2 * cells));
-  PetscCall(PetscArrayzero(at->by_worn, cells));
   PetscCall(PetscArraycpy(at->by_rigid, b->by_rigid_before, SAM_COMPONENTS));
-  PetscCall(PetscArraycpy(b->by_load, b->by_load_before, SAM_COMPONENTS));
+  PetscCall(PetscArraycpy(at->by_load, b->by_load_before, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(b->strain, b->strain_before, 3));
   PetscCall(PetscArrayzero(b->by_rigid_before, SAM_COMPONENTS));
   PetscCall(PetscArrayzero(b->by_load_before, SAM_COMPONENTS));
@@ -360,37 +350,37 @@ static PetscErrorCode Pass(SamBack *b)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds to the derivatives what the present step wears, whose depth is in the gap of all later steps. */
-static PetscErrorCode Wear(SamBack *b)
+/* Lets laws add what their state in the present step depends on. In a wear simulation it is that of jumps. */
+static PetscErrorCode AddLawsBack(SamBack *b)
 {
-  SamObjectiveStep *at    = &b->at;
-  const PetscReal  *rate  = b->g->rate;
-  const PetscInt    nx    = b->grid->nx;
-  SamTotal          by[2] = {{0}};
-  double           *rubbed, *factor, sums[2];
+  const SamGradient g = b->g;
+  const SamLaw     *laws;
+  PetscInt          count;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < b->grid->cells; k++) b->worn[k] += at->by_worn[k];
-  if (b->g->cycle > 0) PetscFunctionReturn(PETSC_SUCCESS); /* jumps wear, not steps */
-  PetscCall(PetscMalloc2(b->grid->cells, &rubbed, b->grid->cells, &factor));
-  SamBackRubbed(at, rubbed);
-  for (PetscInt j = 0; j < b->grid->rows; j++) {
-    double row[2] = {0, 0};
-
-    for (PetscInt k = j * nx; k < (j + 1) * nx; k++) {
-      const double mu = b->friction[k];
-
-      factor[k] = b->worn[k] * (rate[0] + rate[1] * mu);
-      row[0] += b->worn[k] * rubbed[k];
-      row[1] += b->worn[k] * mu * rubbed[k];
-      b->by_friction[k] += b->worn[k] * rate[1] * rubbed[k];
-    }
-    SamAddAll(2, by, row);
+  if (g->life) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamProblemGetLaws(SamContactGetProblem(g->contact), &count, &laws));
+  for (PetscInt k = 0; k < count; k++) {
+    if (laws[k]->number) continue;
+    b->at.by_number = NULL;
+    PetscCall(laws[k]->ops.back(laws[k], &b->at));
   }
-  if (rate[0] != 0 || rate[1] != 0) PetscCall(SamBackAddRubbed(at, factor));
-  PetscCall(SamSumTotals(b->grid->comm, 2, by, sums));
-  for (PetscInt n = 0; n < 2; n++) b->g->found.wear[n] += sums[n];
-  PetscCall(PetscFree2(rubbed, factor));
+  for (PetscInt k = 0; k < g->laws; k++) {
+    b->at.by_number = &g->found.law[k];
+    PetscCall(g->law[k]->ops.back(g->law[k], &b->at));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Begins with the jumps of a wear simulation, whose law of wear is the one that acts. */
+static PetscErrorCode BeginLife(SamBack *b)
+{
+  const SamGradient g = b->g;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < g->laws; k++)
+    if (g->law[k]->ops.number(g->law[k]) != 0) b->at.by_number = &g->found.law[k];
+  PetscCall(SamLifeBackBegin(g->life, &b->at));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -426,26 +416,27 @@ static PetscErrorCode ClearWithoutFriction(SamGradient g)
 /* Passes back over the steps, and gets the results. */
 static PetscErrorCode GoBack(SamBack *b, const SamObjective *objective)
 {
-  SamDerivatives *found = &b->g->found;
-  PetscInt64      end[2];
+  SamDerivatives   *found = &b->g->found;
+  const SamLifeBack life  = b->g->life;
+  PetscInt64        end[2];
 
   PetscFunctionBegin;
   PetscCall(SamRecordUnpack(b, &b->g->record[b->g->count - 1], &b->before));
   for (PetscInt k = b->g->count - 1; k >= 0; k--) {
-    PetscCall(SamBackPassJumps(b, k + 1));
+    if (life) PetscCall(SamLifeBackPass(life, k + 1));
     PetscCall(Pass(b));
     PetscCall(Select(b, k, end));
-    PetscCall(SamBackAddCycle(b, k));
+    if (life) PetscCall(SamLifeBackAddCycle(life, b->g->record[k].place));
     PetscCall((*objective->add)(&b->at));
-    PetscCall(Wear(b));
+    PetscCall(AddLawsBack(b));
     PetscCall(SamBackSolve(b, k));
     PetscCall(SamBackRead(b, k));
     if (b->g->record[k].grows) PetscCall(SamBackLeaveEntered(b, k));
   }
   found->value = b->at.number;
   if (isnan(b->at.number)) PetscCall(SamSumTotals(b->grid->comm, 1, &b->at.value, &found->value));
-  PetscCall(PutArray(b, b->by_gap, &found->gap));
-  PetscCall(PutArray(b, b->by_friction, &found->friction));
+  PetscCall(PutArray(b, b->at.by_gap, &found->gap));
+  PetscCall(PutArray(b, b->at.by_friction, &found->friction));
   PetscCall(ClearWithoutFriction(b->g));
   if (SamChoiceHasShape(b->g, found->of)) PetscCall(SamChoiceAddShape(b->g));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -453,7 +444,7 @@ static PetscErrorCode GoBack(SamBack *b, const SamObjective *objective)
 
 static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
 {
-  double        *arrays, *of_life;
+  double        *arrays;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
@@ -461,7 +452,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
   b->at.moduli = SamChoiceHasModuli(b->g, b->g->found.of);
   if (b->at.moduli) PetscCall(CreateOther(b));
   PetscCall(Begin(b, &arrays));
-  PetscCall(BeginLife(b, &of_life));
+  if (b->g->life) PetscCall(BeginLife(b));
   ierr = GoBack(b, objective);
   if (objective->end && b->at.data) PetscCall((*objective->end)(b->at.data));
   for (int k = 0; k < 2; k++) {
@@ -474,7 +465,7 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
   PetscCall(VecDestroy(&b->whole));
   PetscCall(SamElasticityDestroy(&b->other));
   PetscCall(PetscFree(arrays));
-  PetscCall(PetscFree(of_life));
+  if (b->g->life) PetscCall(SamLifeBackEnd(b->g->life));
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -514,7 +505,7 @@ PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBoo
   PetscFunctionBegin;
   PetscCall(SamObjectiveFind(comm, name, &objective));
   PetscCall(CheckComponent(e, name, force, component));
-  if (objective->check) PetscCall((*objective->check)(e, g->rate, name));
+  if (objective->check) PetscCall((*objective->check)(SamContactGetProblem(g->contact), name));
   PetscCall(SamChoiceCheck(g, of));
   if (!SamChoiceHasModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(g->cycle == 0, comm, SAM_ERR_USER,
@@ -643,7 +634,7 @@ PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt s
 /* ---- a line of text ---- */
 
 enum {
-  SHARES = 1 + 2 * SAM_COMPONENTS + SAM_GRADIENT_BULKS + SAM_GRADIENT_MODULI + SAM_GRADIENT_WEARS + SAM_GAP_PARAMETERS,
+  SHARES = 1 + 2 * SAM_COMPONENTS + SAM_GRADIENT_BULKS + SAM_GRADIENT_MODULI + SAM_LAWS + SAM_GAP_PARAMETERS,
   TOLD   = 5
 };
 

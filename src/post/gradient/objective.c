@@ -1,5 +1,7 @@
 /* Numbers of a load history that have a gradient: what a step adds to them, and their derivatives. */
 #include "gradientimpl.h"
+#include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <math.h>
 
 #define NORM 8 /* power of the norm of the pressure */
@@ -8,164 +10,57 @@ static SamObjective list[SAM_OBJECTIVES];
 static PetscInt     listed  = 0;
 static PetscBool    has_own = PETSC_FALSE; /* the objectives below are in the list */
 
-/* ---- friction ---- */
-
-/* Returns the weights of the pressures before and after the step in what a cell slips against. */
-static void GetShares(const SamObjectiveStep *at, PetscInt k, double *before, double *after)
-{
-  const double share = at->share[k];
-
-  /* outside of the recorded cells the share is 0, and so are pressure and slip */
-  *before = share > 0 ? share : 0;
-  *after  = share < 0 ? 0 : 1 - *before;
-}
-
-void SamBackRubbed(const SamObjectiveStep *at, double rubbed[])
-{
-  for (PetscInt k = 0; k < at->grid->cells; k++) {
-    double before, after;
-
-    GetShares(at, k, &before, &after);
-    rubbed[k] =
-      (before * at->pressure_before[k] + after * at->pressure[k]) * hypot(at->slip[k], at->slip[k + at->grid->cells]);
-  }
-}
-
-/* Adds the derivatives by the part of its slip with which a cell turns round; `turning`: that of the number by it. */
-static void AddTurning(SamObjectiveStep *at, PetscInt k, double turning, double length)
-{
-  const PetscInt l  = k + at->grid->cells;
-  const double   b0 = at->friction[k] * at->pressure_before[k], x = at->slip[k] / length, y = at->slip[l] / length;
-  const double   qx = at->shear_before[k] / b0, qy = at->shear_before[l] / b0, back = qx * x + qy * y;
-
-  at->by_slip[k] += turning * (qx - back * x) / length;
-  at->by_slip[l] += turning * (qy - back * y) / length;
-  at->by_shear_before[k] += turning * x / b0;
-  at->by_shear_before[l] += turning * y / b0;
-  at->by_pressure_before[k] -= turning * back / at->pressure_before[k];
-  at->by_friction[k] -= turning * back / at->friction[k];
-}
-
-/* Adds the derivatives by the two slips that determine how far all cells slide alike. */
-static void AddEnds(SamObjectiveStep *at, double by_alike)
-{
-  const SamGrid g = at->grid;
-
-  for (int n = 0; n < 2; n++) {
-    const PetscInt64 k = at->end[n] - (PetscInt64)g->row_start * g->nx;
-    double           length;
-
-    if (at->end[n] < 0 || k < 0 || k >= g->cells) continue;
-    length = hypot(at->slip[k], at->slip[k + g->cells]);
-    at->by_slip[k] += by_alike * at->by_end[n] * at->slip[k] / length;
-    at->by_slip[k + g->cells] += by_alike * at->by_end[n] * at->slip[k + g->cells] / length;
-  }
-}
-
-PetscErrorCode SamBackAddRubbed(SamObjectiveStep *at, const double factor[])
-{
-  const SamGrid g     = at->grid;
-  SamTotal      total = {0};
-  double        by_alike;
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < g->rows; j++) {
-    double row = 0;
-
-    for (PetscInt k = j * g->nx; k < (j + 1) * g->nx; k++) {
-      const double length = hypot(at->slip[k], at->slip[k + g->cells]);
-      double       before, after, against, shift;
-
-      GetShares(at, k, &before, &after);
-      against = before * at->pressure_before[k] + after * at->pressure[k];
-      at->by_pressure[k] += factor[k] * after * length;
-      at->by_pressure_before[k] += factor[k] * before * length;
-      if (!(length > 0) || at->share[k] < 0) continue;
-      at->by_slip[k] += factor[k] * against * at->slip[k] / length;
-      at->by_slip[k + g->cells] += factor[k] * against * at->slip[k + g->cells] / length;
-      shift = factor[k] * (at->pressure_before[k] - at->pressure[k]) * length;
-      row += shift * at->by_alike[k];
-      if (at->by_back[k] != 0) AddTurning(at, k, shift * at->by_back[k], length);
-    }
-    SamAdd(&total, row);
-  }
-  PetscCall(SamSumTotals(g->comm, 1, &total, &by_alike));
-  AddEnds(at, by_alike);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the numbers ---- */
 
-static PetscBool IsOf(const SamObjectiveStep *at)
+static PetscBool IsOf(const SamBackStep *at)
 {
   return at->step >= at->first && at->step <= at->last ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Adds the sum over cells of a factor times what rubs, and its derivatives; with friction or without. */
-static PetscErrorCode AddWork(SamObjectiveStep *at, PetscBool friction)
+/* Frictional work of the steps. */
+static PetscErrorCode AddEnergy(SamBackStep *at)
 {
   const SamGrid g = at->grid;
-  double       *rubbed, *factor;
+  double       *factor;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(g->cells, &rubbed, g->cells, &factor));
-  SamBackRubbed(at, rubbed);
+  if (!IsOf(at)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(g->cells, &factor));
   for (PetscInt j = 0; j < g->rows; j++) {
     double row = 0;
 
     for (PetscInt k = j * g->nx; k < (j + 1) * g->nx; k++) {
-      factor[k] = at->area * (friction ? at->friction[k] : at->rate[0] + at->rate[1] * at->friction[k]);
-      row += factor[k] * rubbed[k];
-      if (friction) at->by_friction[k] += at->area * rubbed[k];
+      factor[k] = at->area * at->friction[k];
+      row += factor[k] * at->rubbed[k];
+      at->by_friction[k] += at->area * at->rubbed[k];
     }
     SamAdd(&at->value, row);
   }
-  if (friction) PetscCall(SamBackAddRubbed(at, factor));
-  PetscCall(PetscFree2(rubbed, factor));
+  PetscCall(SamBackAddRubbed(at, factor));
+  PetscCall(PetscFree(factor));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Frictional work of the steps. */
-static PetscErrorCode AddEnergy(SamObjectiveStep *at)
+static PetscErrorCode CheckVolume(SamProblem problem, const char name[])
 {
   PetscFunctionBegin;
-  if (IsOf(at)) PetscCall(AddWork(at, PETSC_TRUE));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CheckVolume(SamElasticity elasticity, const PetscReal rate[], const char name[])
-{
-  PetscFunctionBegin;
-  PetscCheck(rate[0] != 0 || rate[1] != 0, SamElasticityGetGrid(elasticity)->comm, SAM_ERR_USER,
+  PetscCheck(SamProblemWears(problem), SamProblemGetGrid(problem)->comm, SAM_ERR_USER,
              "the gradient of %s: the contact has no coefficient of wear: give -wear_coefficient1 or another", name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the volume that a wear simulation has worn. */
-static void AddWornVolume(SamObjectiveStep *at)
-{
-  const double factor = at->area * (double)(at->rate[0] + at->rate[1]);
-
-  for (PetscInt j = 0; j < at->grid->rows; j++) {
-    double row = 0;
-
-    for (PetscInt k = j * at->grid->nx; k < (j + 1) * at->grid->nx; k++) row += factor * at->load[k];
-    SamAdd(&at->value, row);
-  }
-}
-
-/* Volume that both bodies have lost after the last of the steps; its derivatives come from the depth (gradient.c). */
-static PetscErrorCode AddVolume(SamObjectiveStep *at)
+/* Volume that both bodies have lost after the last of the steps. */
+static PetscErrorCode AddVolume(SamBackStep *at)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; at->step == at->last && k < at->grid->cells; k++) at->by_worn[k] += at->area;
-  if (at->load && at->step == at->last) AddWornVolume(at);
-  if (!at->load && at->step <= at->last) PetscCall(AddWork(at, PETSC_FALSE));
+  if (at->step != at->last) PetscFunctionReturn(PETSC_SUCCESS);
+  at->number = (double)at->volume;
+  for (PetscInt k = 0; k < at->grid->cells; k++) at->by_worn[k] += at->area;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* (sum p^r dA)^(1/r) of the last of the steps. */
-static PetscErrorCode AddNorm(SamObjectiveStep *at)
+static PetscErrorCode AddNorm(SamBackStep *at)
 {
   const SamGrid g     = at->grid;
   SamTotal      total = {0};
@@ -204,29 +99,6 @@ static void SetUnit(PetscInt component, double x, double y, double unit[3])
   }
 }
 
-PetscErrorCode SamBackSumMoments(const SamBack *b, const double values[], double sums[3])
-{
-  const SamGrid g        = b->grid;
-  SamTotal      total[3] = {{0}};
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < g->rows; j++) {
-    const double y      = (double)SamGridY(g, g->row_start + j);
-    double       row[3] = {0};
-
-    for (PetscInt i = 0; i < g->nx; i++) {
-      const double one = values[j * g->nx + i];
-
-      row[0] += one;
-      row[1] += (double)SamGridX(g, i) * one;
-      row[2] += y * one;
-    }
-    SamAddAll(3, total, row);
-  }
-  PetscCall(SamSumTotals(g->comm, 3, total, sums));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 void SamBackAddLoad(SamGrid g, PetscInt component, double factor, double by_pressure[], double by_shear[])
 {
   for (PetscInt j = 0; j < g->rows; j++)
@@ -242,7 +114,7 @@ void SamBackAddLoad(SamGrid g, PetscInt component, double factor, double by_pres
 }
 
 /* A load that is found, summed over the steps. */
-static PetscErrorCode AddLoad(SamObjectiveStep *at)
+static PetscErrorCode AddLoad(SamBackStep *at)
 {
   const SamGrid g = at->grid;
 
@@ -264,7 +136,7 @@ static PetscErrorCode AddLoad(SamObjectiveStep *at)
 }
 
 /* A displacement that is found, summed over the steps. */
-static PetscErrorCode AddRigid(SamObjectiveStep *at)
+static PetscErrorCode AddRigid(SamBackStep *at)
 {
   PetscFunctionBegin;
   if (!IsOf(at)) PetscFunctionReturn(PETSC_SUCCESS);

@@ -16,23 +16,6 @@
 
 /* ---- sums over the cells ---- */
 
-/* Adds the products of two arrays of n components, cell by cell. */
-static PetscErrorCode Dot(SamGrid g, PetscInt n, const double a[], const double b[], double *sum)
-{
-  SamTotal total = {0};
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < g->rows; j++) {
-    double row = 0;
-
-    for (PetscInt c = 0; c < n; c++)
-      for (PetscInt k = j * g->nx + c * g->cells, end = k + g->nx; k < end; k++) row += a[k] * b[k];
-    SamAdd(&total, row);
-  }
-  PetscCall(SamSumTotals(g->comm, 1, &total, sum));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Sums of the cotangents with the rigid motions and the stretches */
 enum { GAMMA, GAMMA_X, GAMMA_Y, TAU_X, TAU_Y, X_TAU_X, Y_TAU_Y, Y_TAU_X, X_TAU_Y, SUMS };
 
@@ -147,8 +130,8 @@ static PetscErrorCode FindProducts(const SamBack *b, SamElasticity e, PetscBool 
     if (n == 2 && !coupled) break;
     PetscCall((*apply[n])(e, n == 0 || n == 2 ? p : q, tangential ? v : u));
     PetscCall(VecGetArrayRead(tangential ? v : u, &values));
-    PetscCall(Dot(g, tangential ? 2 : 1, tangential ? b->tau : b->gamma, values, n == 3 ? &more : sum));
-    if (!tangential) PetscCall(Dot(g, 1, b->ahead, values, &of_open));
+    PetscCall(SamBackDot(g, tangential ? 2 : 1, tangential ? b->tau : b->gamma, values, n == 3 ? &more : sum));
+    if (!tangential) PetscCall(SamBackDot(g, 1, b->at.by_open, values, &of_open));
     PetscCall(VecRestoreArrayRead(tangential ? v : u, &values));
     if (n == 0) found->normal += of_open;
     if (n == 3) found->coupling += more + of_open;
@@ -202,12 +185,12 @@ PetscErrorCode SamBackRead(SamBack *b, PetscInt step)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < g->cells; k++) {
-    b->by_gap[k] += b->gamma[k];
-    b->worn[k] += b->gamma[k];
-    b->by_friction[k] += b->at.pressure[k] * b->beta[k];
+    b->at.by_gap[k] += b->gamma[k];
+    b->at.by_worn[k] += b->gamma[k];
+    b->at.by_friction[k] += b->at.pressure[k] * b->beta[k];
   }
   PetscCall(SumMotions(b, sums));
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) b->g->found.load[row][c] += b->forces[c] + b->by_load[c];
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) b->g->found.load[row][c] += b->forces[c] + b->at.by_load[c];
   rigid[SAM_COMPONENT_N] += -sums[GAMMA];
   rigid[SAM_COMPONENT_MX] += sums[GAMMA_Y];
   rigid[SAM_COMPONENT_MY] += -sums[GAMMA_X];
@@ -220,6 +203,6 @@ PetscErrorCode SamBackRead(SamBack *b, PetscInt step)
   sums[Y_TAU_X] += b->strain[2];
   PetscCall(ReadBulk(b, step, sums, stretch));
   if (b->other) PetscCall(ReadModuli(b, step, sums, stretch));
-  PetscCall(PetscArrayzero(b->ahead, g->cells));
+  PetscCall(PetscArrayzero(b->at.by_open, g->cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,7 +3,7 @@
 #include <petsam/private/contact.h>
 #include <petsam/private/control.h>
 #include <petsam/private/pressed.h>
-#include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <petsam/private/solutionimpl.h>
 #include <math.h>
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
@@ -219,8 +219,7 @@ static PetscErrorCode RecordEntering(SamGradient g, const SamSolution *now, SamR
 /* True if the bodies have worn between the step before and that of the place: in each step, or by jumps. */
 static PetscBool HasWorn(SamGradient g, PetscInt place)
 {
-  if (g->cycle == 0) return g->rate[0] != 0 || g->rate[1] != 0 ? PETSC_TRUE : PETSC_FALSE;
-  return g->jumps > 0 && g->jump[g->jumps - 1].after == place ? PETSC_TRUE : PETSC_FALSE;
+  return g->life ? SamLifeBackJumped(g->life, place) : SamProblemWears(SamContactGetProblem(g->contact));
 }
 
 /*
@@ -253,6 +252,7 @@ static PetscErrorCode FindSame(SamGradient g, const SamSolution *now, PetscInt p
 static void CopyControl(SamGradient g, const SamSolution *s, SamRecord *r)
 {
   const SamConditions conditions = SamProblemGetConditions(SamContactGetProblem(g->contact));
+  SamState            state;
 
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     r->force[c] = s->control.force[c];
@@ -261,6 +261,8 @@ static void CopyControl(SamGradient g, const SamSolution *s, SamRecord *r)
   }
   for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
     r->bulk[k] = SamControlGet(&s->control, SamConditionsFind(conditions, SamBulkName(k)));
+  (void)SamContactGetState(g->contact, &state);
+  r->volume = SamProblemWornVolume(SamContactGetProblem(g->contact), state);
 }
 
 /* Checks that the tried step follows the recorded ones, and its rule of slip. */
@@ -317,10 +319,11 @@ PetscErrorCode SamGradientRecord(SamGradient g, PetscInt row, SamLifePlace where
 
 /* ---- on the way back ---- */
 
-PetscErrorCode SamBackTake(const SamBack *b, Vec whole, double array[])
+PetscErrorCode SamBackTake(const void *back, Vec whole, double array[])
 {
-  const double *values;
-  Vec           part;
+  const SamBack *b = (const SamBack *)back;
+  const double  *values;
+  Vec            part;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(b->grid, 1, &part));

@@ -124,7 +124,7 @@ typedef struct {
 } Map;
 
 /* Creates the map of bodies with another Poisson's ratio. */
-static PetscErrorCode CreateOther(const SamObjectiveStep *at, const Wanted *w, Map *m)
+static PetscErrorCode CreateOther(const SamBackStep *at, const Wanted *w, Map *m)
 {
   SamPair       others;
   SamElasticity elasticity;
@@ -139,7 +139,7 @@ static PetscErrorCode CreateOther(const SamObjectiveStep *at, const Wanted *w, M
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Create(const SamObjectiveStep *at, const Wanted *w, Map *m)
+static PetscErrorCode Create(const SamBackStep *at, const Wanted *w, Map *m)
 {
   PetscFunctionBegin;
   m->grid = SamElasticityGetGrid(at->elasticity);
@@ -188,7 +188,7 @@ static PetscErrorCode Apply(const Map *m, SamStress stress, Vec field)
 }
 
 /* Computes the stresses of a step, with the bulk and the initial stress, in six components. */
-static PetscErrorCode Evaluate(const SamObjectiveStep *at, const Wanted *w, PetscInt step, Map *m)
+static PetscErrorCode Evaluate(const SamBackStep *at, const Wanted *w, PetscInt step, Map *m)
 {
   const PetscInt   cells = m->grid->cells;
   const PetscReal *bulk;
@@ -228,7 +228,7 @@ static double Quantity(const double s[], PetscInt cells, PetscInt k, int quantit
 }
 
 /* Computes the norm of values of the cells, and replaces them by its derivatives by them. */
-static PetscErrorCode FindNorm(SamObjectiveStep *at, SamGrid g, double value[])
+static PetscErrorCode FindNorm(SamBackStep *at, SamGrid g, double value[])
 {
   SamTotal total = {0};
   double   most  = 0, sum;
@@ -281,7 +281,7 @@ static PetscErrorCode AddTransposed(Map *m, SamStressTraction traction, int comp
 }
 
 /* Adds the derivatives by the bulk stress of the step. */
-static PetscErrorCode AddBulk(SamObjectiveStep *at, SamGrid g, const Wanted *w, const double by[])
+static PetscErrorCode AddBulk(SamBackStep *at, SamGrid g, const Wanted *w, const double by[])
 {
   SamTotal total[3] = {{0}};
   double   sums[3];
@@ -303,7 +303,7 @@ static PetscErrorCode AddBulk(SamObjectiveStep *at, SamGrid g, const Wanted *w, 
   Adds the derivative by Poisson's ratio: the stresses by tractions are linear in it, and so is that along a row of
   cells in plane strain by a bulk stress. `by`: those by the stresses.
 */
-static PetscErrorCode AddPoisson(SamObjectiveStep *at, const Wanted *w, Map *m, const double by[])
+static PetscErrorCode AddPoisson(SamBackStep *at, const Wanted *w, Map *m, const double by[])
 {
   const PetscInt   cells = m->grid->cells, nx = m->grid->nx;
   const PetscBool  plane = SamElasticityGetTraits(at->elasticity).plane;
@@ -338,7 +338,7 @@ static PetscErrorCode AddPoisson(SamObjectiveStep *at, const Wanted *w, Map *m, 
 }
 
 /* Adds the derivatives by the tractions and the bulk stress of the step, by those by the stresses, which are `by`. */
-static PetscErrorCode AddStresses(SamObjectiveStep *at, const Wanted *w, Map *m, const double by[])
+static PetscErrorCode AddStresses(SamBackStep *at, const Wanted *w, Map *m, const double by[])
 {
   const PetscInt cells = at->grid->cells;
   const double  *found;
@@ -363,7 +363,7 @@ static PetscErrorCode AddStresses(SamObjectiveStep *at, const Wanted *w, Map *m,
 
 /* ---- a component, or von Mises' stress ---- */
 
-static PetscErrorCode AddOfStep(SamObjectiveStep *at, const Wanted *w, Map *m)
+static PetscErrorCode AddOfStep(SamBackStep *at, const Wanted *w, Map *m)
 {
   const PetscInt cells = m->grid->cells;
   double        *s, *value, by[SAM_STRESS_COMPONENTS];
@@ -393,7 +393,7 @@ typedef struct {
   double  *by; /* of each of these cells, of each component, in each step */
 } Cycle;
 
-static SamFatigueConstants ConstantsOf(const SamObjectiveStep *at, const Wanted *w)
+static SamFatigueConstants ConstantsOf(const SamBackStep *at, const Wanted *w)
 {
   SamPairConstants constants;
 
@@ -425,7 +425,7 @@ static void SlopesOfConstants(const SamFatigueCycle *cycle, SamFatigueParameter 
 }
 
 /* Gathers the stresses of all steps of the cycle. */
-static PetscErrorCode Gather(const SamObjectiveStep *at, const Wanted *w, Cycle *c, double all[])
+static PetscErrorCode Gather(const SamBackStep *at, const Wanted *w, Cycle *c, double all[])
 {
   const PetscInt cells = c->map.grid->cells, states = at->last - at->first + 1;
 
@@ -462,8 +462,8 @@ static PetscErrorCode KeepCells(const double value[], PetscInt cells, size_t siz
 }
 
 /* Adds the derivatives of the norm by the moduli for stresses as they are; `weight`: those by the cells' parameters. */
-static PetscErrorCode AddConstants(SamObjectiveStep *at, const Wanted *w, Cycle *c,
-                                   const SamFatigueConstants *constants, const double weight[])
+static PetscErrorCode AddConstants(SamBackStep *at, const Wanted *w, Cycle *c, const SamFatigueConstants *constants,
+                                   const double weight[])
 {
   const PetscInt states = at->last - at->first + 1, nx = c->map.grid->nx;
   const size_t   size     = SAM_STRESS_COMPONENTS * (size_t)states;
@@ -492,7 +492,7 @@ static PetscErrorCode AddConstants(SamObjectiveStep *at, const Wanted *w, Cycle 
 }
 
 /* Finds the parameters of all cells and their norm, and its derivatives by the stresses. */
-static PetscErrorCode FindSlopes(SamObjectiveStep *at, const Wanted *w, Cycle *c)
+static PetscErrorCode FindSlopes(SamBackStep *at, const Wanted *w, Cycle *c)
 {
   const PetscInt            cells = c->map.grid->cells, states = at->last - at->first + 1;
   const SamFatigueConstants constants = ConstantsOf(at, w);
@@ -516,7 +516,7 @@ static PetscErrorCode FindSlopes(SamObjectiveStep *at, const Wanted *w, Cycle *c
 }
 
 /* Adds the derivatives by the stresses of one step. */
-static PetscErrorCode AddOfCycle(SamObjectiveStep *at, const Wanted *w, Cycle *c)
+static PetscErrorCode AddOfCycle(SamBackStep *at, const Wanted *w, Cycle *c)
 {
   const PetscInt cells = c->map.grid->cells, states = at->last - at->first + 1;
   double        *by;
@@ -547,16 +547,16 @@ static PetscErrorCode EndCycle(void *data)
 
 /* ---- the objectives ---- */
 
-static PetscErrorCode Check(SamElasticity elasticity, const PetscReal rate[], const char name[])
+static PetscErrorCode Check(SamProblem problem, const char name[])
 {
-  const SamElasticityTraits traits = SamElasticityGetTraits(elasticity);
-  const SamPair             pair   = SamElasticityGetPair(elasticity);
-  const MPI_Comm            comm   = SamElasticityGetGrid(elasticity)->comm;
-  const char               *why    = NULL;
+  const SamElasticity       elasticity = SamProblemGetElasticity(problem);
+  const SamElasticityTraits traits     = SamElasticityGetTraits(elasticity);
+  const SamPair             pair       = SamElasticityGetPair(elasticity);
+  const MPI_Comm            comm       = SamElasticityGetGrid(elasticity)->comm;
+  const char               *why        = NULL;
   Wanted                    w;
 
   PetscFunctionBegin;
-  (void)rate;
   PetscCall(Read(comm, name, &w));
   if (!traits.stress || traits.periodic) why = "periodic bodies";
   if (traits.patch) why = "finite bodies";
@@ -567,7 +567,7 @@ static PetscErrorCode Check(SamElasticity elasticity, const PetscReal rate[], co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddStress(SamObjectiveStep *at)
+static PetscErrorCode AddStress(SamBackStep *at)
 {
   Wanted w;
   Map    m;
@@ -581,7 +581,7 @@ static PetscErrorCode AddStress(SamObjectiveStep *at)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddParameter(SamObjectiveStep *at)
+static PetscErrorCode AddParameter(SamBackStep *at)
 {
   Wanted w;
   Cycle *c;

@@ -12,11 +12,7 @@
   Tangential loads that are found depend on the shear, whose adjoint depends on their cotangents: the caller finds
   both (adjoint.c).
 */
-#include "gradientimpl.h"
-#include <petsam/private/body.h>
-#include <petsam/private/contact.h>
-#include <petsam/private/control.h>
-#include <petsam/private/problem.h>
+#include <petsam/private/entering.h>
 #include <math.h>
 
 #define LEVEL 1e-9 /* tilt of a cell below this part of the approach is rounding */
@@ -73,33 +69,14 @@ static void AddCell(const SamApproach *a, const Cell *c, double sums[SUMS], doub
 
 /* ---- the sums ---- */
 
-/* Spreads the gaps of the step's entering cells over the part of the grid, 0 elsewhere. */
-static PetscErrorCode TakeGaps(const SamBack *b, const SamRecord *r, double gaps[])
-{
-  double *to;
-  Vec     whole;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(SamContactGetGrid(b->g->contact), 1, &whole));
-  PetscCall(VecGetArray(whole, &to));
-  for (PetscInt m = 0; m < r->entering; m++) to[r->entered[m]] = r->distance[m];
-  PetscCall(VecRestoreArray(whole, &to));
-  PetscCall(SamBackTake(b, whole, gaps));
-  PetscCall(VecDestroy(&whole));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Sums the cotangents over the entering cells; sets those of their gaps and frictions. */
-static PetscErrorCode SumCells(SamBack *b, const SamRecord *r, const double lambda[], SamEntered *e, double sums[SUMS])
+static PetscErrorCode SumCells(const SamEntering *in, SamEntered *e, double sums[SUMS])
 {
-  const SamGrid  g            = b->grid;
+  const SamGrid  g            = in->grid;
   const PetscInt n            = g->cells;
   SamTotal       totals[SUMS] = {{0}};
-  double        *gaps;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &gaps));
-  PetscCall(TakeGaps(b, r, gaps));
   PetscCall(PetscArrayzero(e->by_gap, n));
   PetscCall(PetscArrayzero(e->by_friction, n));
   for (PetscInt j = 0; j < g->rows; j++) {
@@ -108,12 +85,12 @@ static PetscErrorCode SumCells(SamBack *b, const SamRecord *r, const double lamb
     for (PetscInt k = j * g->nx; k < (j + 1) * g->nx; k++) {
       const Cell cell = {(double)SamGridX(g, k - j * g->nx),
                          (double)SamGridY(g, g->row_start + j),
-                         gaps[k],
-                         b->friction[k],
-                         {lambda[k] - b->at.by_slip[k], lambda[k + n] - b->at.by_slip[k + n]}};
+                         in->gaps[k],
+                         in->friction[k],
+                         {in->motion[k], in->motion[k + n]}};
 
-      if (!(gaps[k] > 0)) continue;
-      AddCell(&r->approach, &cell, row, &e->by_gap[k], &e->by_friction[k]);
+      if (!(in->gaps[k] > 0)) continue;
+      AddCell(in->approach, &cell, row, &e->by_gap[k], &e->by_friction[k]);
       row[MOVED] += e->by_gap[k];
       row[MOVED + 1] += cell.x * e->by_gap[k];
       row[MOVED + 2] += cell.y * e->by_gap[k];
@@ -121,21 +98,18 @@ static PetscErrorCode SumCells(SamBack *b, const SamRecord *r, const double lamb
     SamAddAll(SUMS, totals, row);
   }
   PetscCall(SamSumTotals(g->comm, SUMS, totals, sums));
-  PetscCall(PetscFree(gaps));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- loads and displacements ---- */
 
-enum { BEFORE, NOW };
+enum { BEFORE = SAM_ENTERED_BEFORE, NOW = SAM_ENTERED_NOW };
 
 /* Finds the cotangents of the loads from those of the ratios, the centre and the approach in plane strain. */
-static void FindLoads(const SamRecord *r, const double sums[SUMS], PetscBool plane, double constant, SamEntered *e)
+static void FindLoads(const SamEntering *in, const double sums[SUMS], SamEntered *e)
 {
-  const SamRecord   *last    = r->fresh ? NULL : r - 1;
-  const SamApproach *a       = &r->approach;
-  const double       normal  = last ? (double)last->load[SAM_COMPONENT_N] : 0;
-  const double       growth  = (double)r->load[SAM_COMPONENT_N] - normal;
+  const SamApproach *a      = in->approach;
+  const double       normal = (double)in->normal[BEFORE], growth = (double)in->normal[NOW] - normal;
   const PetscInt     along[] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY}, turn[] = {SAM_COMPONENT_MY, SAM_COMPONENT_MX};
   double             by_growth = 0;
 
@@ -143,160 +117,75 @@ static void FindLoads(const SamRecord *r, const double sums[SUMS], PetscBool pla
     e->load[NOW][along[k]]    = sums[RATIO + k] / growth;
     e->load[BEFORE][along[k]] = -sums[RATIO + k] / growth;
     by_growth -= sums[RATIO + k] * a->ratio[k] / growth;
-    if (!last) continue;
+    if (in->fresh) continue;
     e->load[BEFORE][turn[k]] = (k ? -1 : 1) * sums[CENTER + k] / normal;
     e->load[BEFORE][SAM_COMPONENT_N] -= sums[CENTER + k] * a->center[k] / normal;
   }
-  if (plane && last) by_growth += constant * sums[UNIFORM];
+  if (in->plane && !in->fresh) by_growth += in->constant * sums[UNIFORM];
   e->load[NOW][SAM_COMPONENT_N] += by_growth;
   e->load[BEFORE][SAM_COMPONENT_N] -= by_growth;
 }
 
 /* Finds the cotangents of the displacements, which have made the approach, the tilt and the gap. */
-static void FindRigid(const SamRecord *r, const double sums[SUMS], SamEntered *e)
+static void FindRigid(const SamEntering *in, const double sums[SUMS], SamEntered *e)
 {
   const double   tilt[2] = {sums[TILT], sums[TILT + 1]};
   const PetscInt of =
-    r->fresh ? NOW : BEFORE; /* the gap is that of the displacements before the step, or of the bodies */
+    in->fresh ? NOW : BEFORE; /* the gap is that of the displacements before the step, or of the bodies */
 
   e->rigid[NOW][SAM_COMPONENT_N]  = e->uniform;
   e->rigid[NOW][SAM_COMPONENT_MY] = tilt[0];
   e->rigid[NOW][SAM_COMPONENT_MX] = -tilt[1];
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) e->rigid[BEFORE][c] = -e->rigid[NOW][c];
-  if (!r->fresh) e->rigid[of][SAM_COMPONENT_N] -= sums[MOVED];
+  if (!in->fresh) e->rigid[of][SAM_COMPONENT_N] -= sums[MOVED];
   e->rigid[of][SAM_COMPONENT_MY] -= sums[MOVED + 1];
   e->rigid[of][SAM_COMPONENT_MX] += sums[MOVED + 2];
 }
 
 /* Takes the gap where the bodies touch first, in a step from no contact, off all others: the mean of the cells where
    they do. */
-static PetscErrorCode AddLeast(SamBack *b, const SamRecord *r, const double sums[SUMS], SamEntered *e)
+static PetscErrorCode AddLeast(const SamEntering *in, const double sums[SUMS], SamEntered *e)
 {
-  const SamGrid g = b->grid;
-  double       *gaps, all[3] = {0}; /* number of these cells, and sums of x and y */
+  const SamGrid g      = in->grid;
+  double        all[3] = {0}; /* number of these cells, and sums of x and y */
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(g->cells, &gaps));
-  PetscCall(TakeGaps(b, r, gaps));
   for (PetscInt k = 0; k < g->cells; k++) {
-    if (gaps[k] >= 0) continue;
+    if (in->gaps[k] >= 0) continue;
     all[0] += 1;
     all[1] += (double)SamGridX(g, k % g->nx);
     all[2] += (double)SamGridY(g, g->row_start + k / g->nx);
   }
   PetscCall(SamSum(g->comm, 3, all));
   for (PetscInt k = 0; k < g->cells; k++)
-    if (gaps[k] < 0) e->by_gap[k] -= sums[MOVED] / all[0];
+    if (in->gaps[k] < 0) e->by_gap[k] -= sums[MOVED] / all[0];
   e->rigid[NOW][SAM_COMPONENT_MY] += sums[MOVED] * all[1] / all[0];
   e->rigid[NOW][SAM_COMPONENT_MX] -= sums[MOVED] * all[2] / all[0];
-  PetscCall(PetscFree(gaps));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamBackEnter(SamBack *b, PetscInt step, const double lambda[])
+PetscErrorCode SamEnteringGoBack(const SamEntering *in, SamEntered *e)
 {
-  const SamRecord   *r     = &b->g->record[step];
-  const PetscBool    plane = SamElasticityGetTraits(b->elasticity).plane;
-  const SamApproach *a     = &r->approach;
-  SamEntered        *e     = &b->entered;
-  const double       constant =
-    4 / (PETSC_PI * (double)SamPairModulus(SamElasticityGetPair(b->elasticity))); /* approach by N in plane strain */
-  double sums[SUMS];
+  const SamApproach *a = in->approach;
+  double             sums[SUMS];
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(e->load, sizeof(e->load)));
   PetscCall(PetscMemzero(e->rigid, sizeof(e->rigid)));
-  PetscCall(SumCells(b, r, lambda, e, sums));
+  PetscCall(SumCells(in, e, sums));
   e->uniform = 0;
-  if (!plane && !r->fresh) { /* the approach about the centre is that of the origin and of the tilt */
+  if (!in->plane && !in->fresh) { /* the approach about the centre is that of the origin and of the tilt */
     e->uniform = sums[UNIFORM];
     for (int k = 0; k < 2; k++) {
       sums[TILT + k] += sums[UNIFORM] * a->center[k];
       sums[CENTER + k] += sums[UNIFORM] * a->tilt[k];
     }
   }
-  FindLoads(r, sums, plane, constant, e);
-  FindRigid(r, sums, e);
-  if (r->fresh) PetscCall(AddLeast(b, r, sums, e));
-  e->by_modulus = plane && !r->fresh ? sums[UNIFORM] * a->uniform : 0;
+  FindLoads(in, sums, e);
+  FindRigid(in, sums, e);
+  if (in->fresh) PetscCall(AddLeast(in, sums, e));
+  e->by_modulus = in->plane && !in->fresh ? sums[UNIFORM] * a->uniform : 0;
   for (int k = 0; k < 2; k++) e->kappa[k] = sums[KAPPA + k];
   for (int k = 0; k < 3; k++) e->strain[k] = sums[STRAIN + k];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- what they add ---- */
-
-/* Adds the displacements by a field to an array: normal ones, or tangential ones by the coupling. */
-static PetscErrorCode AddDisplacements(SamBack *b, const double values[], PetscBool tangential, double sums[])
-{
-  const SamGrid  g = b->grid;
-  const double  *u;
-  double        *to;
-  const PetscInt components = tangential ? 2 : 1;
-  Vec            field, moved;
-
-  PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(g, 1, &field));
-  PetscCall(SamGridCreateVec(g, components, &moved));
-  PetscCall(VecGetArrayWrite(field, &to));
-  PetscCall(PetscArraycpy(to, values, g->cells));
-  PetscCall(VecRestoreArrayWrite(field, &to));
-  PetscCall(
-    (tangential ? SamElasticityApplyNormalToTangential : SamElasticityApplyNormal)(b->elasticity, field, moved));
-  PetscCall(VecGetArrayRead(moved, &u));
-  for (PetscInt k = 0; k < components * g->cells; k++) sums[k] += u[k];
-  PetscCall(VecRestoreArrayRead(moved, &u));
-  PetscCall(VecDestroy(&field));
-  PetscCall(VecDestroy(&moved));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamBackAddOpen(SamBack *b, const double by_gap[], const double by_lift[])
-{
-  SamObjectiveStep *at = &b->at;
-  double            sums[3];
-
-  PetscFunctionBegin;
-  PetscCall(SamBackSumMoments(b, by_gap, sums));
-  at->by_rigid[SAM_COMPONENT_N] -= sums[0];
-  at->by_rigid[SAM_COMPONENT_MY] -= sums[1];
-  at->by_rigid[SAM_COMPONENT_MX] += sums[2];
-  PetscCall(AddDisplacements(b, by_gap, PETSC_FALSE, at->by_pressure));
-  if (b->coupled) PetscCall(AddDisplacements(b, by_lift, PETSC_TRUE, at->by_shear));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-void SamBackAddEntered(SamBack *b)
-{
-  const SamEntered *e = &b->entered;
-
-  for (PetscInt k = 0; k < b->grid->cells; k++) {
-    b->by_gap[k] += e->by_gap[k];
-    b->worn[k] += e->by_gap[k];
-    b->by_friction[k] += e->by_friction[k];
-  }
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) b->by_load[c] += e->load[NOW][c];
-  for (int k = 0; k < 3; k++) b->strain[k] += e->strain[k];
-  for (int k = 0; k < 2; k++) b->kappa[k] = e->kappa[k];
-  b->by_modulus = e->by_modulus;
-}
-
-PetscErrorCode SamBackLeaveEntered(SamBack *b, PetscInt step)
-{
-  const SamRecord  *r  = &b->g->record[step];
-  const SamEntered *e  = &b->entered;
-  SamObjectiveStep *at = &b->at;
-
-  PetscFunctionBegin;
-  if (r->fresh) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    b->by_load_before[c] += e->load[BEFORE][c];
-    b->by_rigid_before[c] += e->rigid[BEFORE][c];
-    if (!r[-1].force[c])
-      SamBackAddLoad(b->grid, c, at->area * e->load[BEFORE][c], at->by_pressure_before, at->by_shear_before);
-  }
-  for (int k = 0; k < 3; k++) b->strain_before[k] -= e->strain[k];
-  PetscCall(PetscArraycpy(b->ahead, e->by_gap, b->grid->cells));
-  PetscCall(AddDisplacements(b, e->by_gap, PETSC_FALSE, at->by_pressure_before));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
