@@ -369,6 +369,7 @@ PetscErrorCode SamLawCreate_Slide(SamLaw law)
   law->ops.separation     = Separation;
   law->ops.advance        = Advance;
   law->ops.advise         = Advise;
+  law->ops.back           = SamLawNoBack;
   law->slides             = PETSC_TRUE;
   law->ops.destroy        = Destroy;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -796,6 +796,24 @@ def test_a_contact_of_few_cells(cells):
     assert found["load_n"][0] == pytest.approx(change, rel=5e-3) and found.gap.sum() == pytest.approx(1.0, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    "more",
+    [
+        dict(heat="steady", body1_conductivity=50, body1_heat_capacity=3.6e6, body2_conductivity=7,
+             body2_heat_capacity=3.6e6, body2_speed=0.1),
+        dict(slide=True),
+    ],
+)  # fmt: skip
+def test_laws_that_no_step_depends_on_leave_the_gradient_as_it_is(more):
+    """Temperatures that change nothing, and surfaces that slide without heights that go with a body."""
+    history = {"time": [0.0, 1.0, 2.0], "load_n": [500.0] * 3, "disp_x": [0.0, 2e-5, -1e-5]}
+    found = []
+    for laws in {}, more:
+        contact = record(contact_of(BODIES, 24, **laws)[0], history)[0]
+        found.append(contact.gradient("energy"))
+    assert np.array_equal(found[0].gap, found[1].gap) and found[0].value == found[1].value != 0
+
+
 @pytest.mark.filterwarnings("ignore")
 def test_refusals():
     """What has no derivative is named, with what to take instead."""
@@ -804,9 +822,10 @@ def test_refusals():
                body2_heat_capacity=3.6e6)  # fmt: skip
     path = dict(friction_law="slip_path", friction_path_final=0.5, friction_path_length=2e-6)
     for change, words in (
-        (hot, "heat"), (dict(pressure_limit=1e9), "pressure_limit"), (dict(tangential_rtol=1e-4), "tangential_rtol"),
+        (dict(hot, body2_speed=1, body2_expansion=1e-5), "body2_expansion"), (dict(pressure_limit=1e9), "pressure_limit"), (dict(tangential_rtol=1e-4), "tangential_rtol"),
         (dict(body2_yield=5e8), "yield"), (dict(rolling="steady"), "rolling"), (dict(coupling="none"), "coupling"),
         (dict(slide=True, wear_coefficient1=1e-12), "slide"), (path, "friction_law"),
+        (dict(hot, friction_temperature="20,100,-0.1"), "friction_temperature"),
     ):  # fmt: skip
         ball = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=16, grid_size=SIZE, friction=0.3)
         direction = None if "rolling" in change else "end"

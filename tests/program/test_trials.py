@@ -51,7 +51,7 @@ def test_each_is_short_and_named_by_its_registry_alone():
     folder = ROOT / "tests/trials"
     registry = (folder / "trials.c").read_text()
     sources = sorted(set(folder.glob("*.c")) - {folder / "trials.c"})
-    assert len(sources) == len(re.findall(r"^ .*Register\(", registry, re.M)) == 10  # one has an option and a number
+    assert len(sources) + 1 == len(re.findall(r"^ .*Register\(", registry, re.M)) == 12  # one has a law and a stress
     assert all(len(path.read_text().splitlines()) < 230 for path in sources)
 
 
@@ -146,6 +146,78 @@ def test_stiffness_has_the_tangent_of_a_law_whose_offset_follows_the_pressure(pe
     assert 1 / found[0][2][0, 0] == pytest.approx((found[2][0] - found[1][0]) / (700 * 2e-4), rel=1e-4)
     petsam(dict(case, cushion=0, output_fields="usual"), ranks=ranks)
     assert petsam.read("stiffness")[0][0, 0] > 1.05 * found[0][2][0, 0]
+
+
+# wear above a threshold of p |ds|: a sphere that slides by S under N
+SLIDE, LEAST, RATE = 2e-5, 2e3, 1e-15
+SCAR = dict(SPHERE, threshold_wear=RATE, threshold_least=LEAST, grid_n=(93, 80), load_n=700, history="slides.csv",
+            output_fields="usual,wear_depth1")  # fmt: skip
+
+
+def sliding(tmp_path, steps=((700, 0), (700, 3e-5), (700, 5e-5))):
+    """A history by N and disp_x, whose last step slides by SLIDE if there is no partial slip left."""
+    rows = [f"{k + 1},{n},{x}" for k, (n, x) in enumerate(steps)]
+    (tmp_path / "slides.csv").write_text("\n".join(["time,load_n,disp_x", *rows]) + "\n")
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_third_law_of_wear_removes_what_is_above_its_threshold(petsam, tmp_path, ranks):
+    """The pressure is Hertz's: in the last step 2 pi a2 (p0 S (1 - t3)/3 - c (1 - t2)/2) with t = c/(p0 S)."""
+    sliding(tmp_path)
+    petsam(dict(SCAR, load_n=None), ranks=ranks)
+    with h5py.File(tmp_path / "out.h5") as f:
+        volume, depth, slip = f["history/wear_volume1"][:], f["wear_depth1"][:], f["slip_x"][:]
+    a = (3 * 700 * 0.1 / (4 * MODULUS)) ** (1 / 3)
+    p0 = 1.5 * 700 / (np.pi * a**2)
+    t = LEAST / (p0 * SLIDE)
+    expected = RATE * 2 * np.pi * a**2 * (p0 * SLIDE * (1 - t**3) / 3 - LEAST * (1 - t**2) / 2)
+    assert np.abs(slip[2] - slip[1])[depth[2] > 0] == pytest.approx(SLIDE, rel=1e-5)
+    assert volume[2] - volume[1] == pytest.approx(expected, rel=4e-3)
+    assert volume[2] == pytest.approx(depth[2].sum() * 2.4e-3 * 2.2e-3 / (93 * 80), rel=1e-12)
+    wide = RATE * (p0 * SLIDE - LEAST)
+    assert (depth[2] - depth[1]).max() == pytest.approx(wide, rel=1e-3)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_third_law_of_wear_goes_back_doubts_and_leaves_a_stress(petsam, tmp_path, ranks):
+    """Derivatives by differences of runs, a warning of few cells, and the stress added to that by tractions."""
+    steps = ((700, 0), (700, 4e-5), (760, -3e-5), (690, 2e-5))
+    case = dict(SCAR, load_n=None, threshold_wear=4e-12, grid_n=(37, 32), normal_rtol=1e-12, tangential_rtol=1e-12)
+    case.update(threshold_stress=3e8, threshold_depth=1e-4, slip_direction="end")
+
+    def run(rate=4e-12, load=0, check=0, **more):
+        sliding(tmp_path, [(n + load * (k == 2), x) for k, (n, x) in enumerate(steps)])
+        return petsam(dict(case, threshold_wear=rate, **more), ranks=ranks, check=check)
+
+    for name in "wear_volume", "energy":
+        run(gradient=name)
+        with h5py.File(tmp_path / "out.h5") as f:
+            found = f[f"gradient/{name}"]
+            by = [found["threshold_wear"][()] if "threshold_wear" in found else found.attrs["threshold_wear"],
+                  found["load_n"][2]]  # fmt: skip
+            value = found.attrs["value"]
+        values = []
+        for change in (dict(rate=4e-12 * (1 + 1e-4)), dict(rate=4e-12 * (1 - 1e-4)), dict(load=0.02), dict(load=-0.02)):
+            run(**change)
+            with h5py.File(tmp_path / "out.h5") as f:
+                one = f["history/wear_volume1"][-1], f["history/dissipated_energy"][:].sum()
+            values.append(one[name == "energy"])
+        assert value == pytest.approx(np.mean(values[:2]), rel=1e-6)
+        assert by[0] == pytest.approx((values[0] - values[1]) / 8e-16, rel=1e-4)
+        assert by[1] == pytest.approx((values[2] - values[3]) / 0.04, rel=1e-4)
+    below = []
+    for left in 0, 3e8:
+        run(threshold_stress=left)
+        (depth,) = petsam.read("wear_depth1")
+        petsam(dict(input="out.h5", body=1, depths="20um,80um", output="s.h5"), program="petsam-stress")
+        below.append(petsam.read("stress_xx", "stress_yy", "stress_zz", file="s.h5"))
+    for k, share in enumerate((3e8, 3e8, 0)):
+        for plane, z in zip(below[1][k] - below[0][k], (2e-5, 8e-5)):
+            assert plane == pytest.approx(np.where(depth > 0, -share * np.exp(-z / 1e-4), 0), abs=1)
+    said = run(threshold_least=3.7e4)
+    assert "cells wear" in said.stderr + said.stdout
+    sliding(tmp_path, ((700, 0), (700, 3e-5), (700, 0)))
+    assert "has no cycle jumps" in petsam(dict(case, wear_cycles=20), check=2).stderr
 
 
 @pytest.mark.parametrize("ranks", [1, 3])
@@ -284,6 +356,12 @@ def test_tangential_displacement_creeps_under_the_same_shear(petsam, tmp_path, r
     moved, stick = moved[sheared], stick[sheared]
     assert moved == pytest.approx(moved[0] * creep(times[sheared] - start), rel=1e-6)
     assert stick == pytest.approx(stick[0], rel=1e-5)
+
+
+def test_gradients_of_a_body_that_remembers_are_refused(petsam, tmp_path):
+    """What it remembers of a step acts in later ones, which no derivative contains."""
+    (tmp_path / "h.csv").write_text("time,load_n\n0,700\n1,700\n")
+    assert "with -elasticity" in petsam(dict(VISCOUS, gradient="disp_z"), check=2).stderr
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

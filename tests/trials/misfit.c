@@ -95,5 +95,6 @@ PetscErrorCode CreateMisfit(SamLaw law)
   law->ops.setfromoptions = SetFromOptions;
   law->ops.declare        = Declare;
   law->ops.displace       = Displace;
+  law->ops.back           = SamLawNoBack;
   return 0;
 }

@@ -61,5 +61,6 @@ PetscErrorCode CreateSquare(SamLaw law)
   law->ops.setfromoptions = SetFromOptions;
   law->ops.declare        = Declare;
   law->ops.advance        = Advance;
+  law->ops.back           = SamLawNoBack;
   return 0;
 }

@@ -10,6 +10,8 @@ PetscErrorCode SamPluginRegister(void)
   PetscCall(SamLawRegister("wetness", CreateWetness));
   PetscCall(SamLawRegister("square", CreateSquare));
   PetscCall(SamLawRegister("cushion", CreateCushion));
+  PetscCall(SamLawRegister("threshold", CreateThreshold));
+  PetscCall(SamStressPartRegister(&ThresholdStress));
   PetscCall(SamElasticityRegister("creeping", CreateCreeping));
   PetscCall(SamElasticityRegister("viscous", CreateViscous));
   PetscCall(SamElasticityRegister("conducting", CreateConducting));

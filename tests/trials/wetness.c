@@ -40,5 +40,6 @@ PetscErrorCode CreateWetness(SamLaw law)
   law->ops.conditions = AddConditions;
   law->ops.check      = Check;
   law->ops.bound      = Bound;
+  law->ops.back       = SamLawNoBack;
   return 0;
 }

@@ -45,12 +45,12 @@ typedef struct {
   double *by_number;    /* by the number of the law that is asked (SamLaw, `number`), on all ranks */
   /* of the pass, with its context; collective */
   void *context;
-  /* gets the tractions of any step on the whole grid, pressure and shear (Pa, three components), and its bulk stresses */
+  /* gets the tractions of a step on the whole grid, pressure and shear (Pa, three components), and its bulk stresses */
   PetscErrorCode (*read)(void *context, PetscInt step, Vec tractions, const PetscReal **bulk);
   /* takes a field of the whole grid to an array of this part */
   PetscErrorCode (*take)(const void *context, Vec whole, double array[]);
-  /* solves the adjoint of a normal problem with this pressure (Pa), whose surfaces also yield by `soft` (m/Pa), and some
-     given loads: l, 0 outside of the contact, and the derivatives by the loads */
+  /* solves the adjoint of a normal problem with this pressure (Pa), whose surfaces also yield by `soft` (m/Pa), and
+     some given loads: l, 0 outside of the contact, and the derivatives by the loads */
   PetscErrorCode (*normal)(void *context, const double pressure[], const double soft[], const double right[],
                            const PetscBool force[3], double l[], double forces[3]);
   /* adds to the derivatives by the tractions and displacements of the step those by the gap, and by the lift by the
@@ -61,8 +61,8 @@ typedef struct {
 /*
   SamBackFindRubbed - computes what is rubbed in the step. Not collective.
   SamBackAddRubbed - adds the derivatives of the sum over cells of a factor times what is rubbed. Collective.
-  SamBackDot - sums the products of two arrays of so many components over all cells of the part. SamBackSumMoments - sums an array, and its
-  products with x and with y (m). Both are the same on any number of ranks. Collective.
+  SamBackDot - sums the products of two arrays of so many components over all cells of the part. SamBackSumMoments -
+  sums an array, and its products with x and with y (m). Both are the same on any number of ranks. Collective.
 */
 PETSC_INTERN void           SamBackFindRubbed(const SamBackStep *step, double rubbed[]);
 PETSC_EXTERN PetscErrorCode SamBackAddRubbed(SamBackStep *step, const double factor[]);

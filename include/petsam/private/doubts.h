@@ -42,7 +42,7 @@ typedef struct {
   PetscInt count;
   SamDoubt of[SAM_DOUBTS];
 } SamDoubts;
-PETSC_INTERN void   SamDoubtsAdd(SamDoubts *doubts, SamCause cause, double error, double factor, const char names[],
+PETSC_EXTERN void   SamDoubtsAdd(SamDoubts *doubts, SamCause cause, double error, double factor, const char names[],
                                  const char why[], ...) PETSC_ATTRIBUTE_FORMAT(6, 7);
 PETSC_INTERN void   SamDoubtsSet(SamDoubts *doubts, SamCause cause, double error, double factor, const char names[],
                                  const char why[], ...) PETSC_ATTRIBUTE_FORMAT(6, 7);

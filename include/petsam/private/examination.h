@@ -114,7 +114,7 @@ struct _n_SamExamination {
 /*
   SamExaminationSay - passes on a text, with a format of printf(); `setting` as that of `tell`. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamExaminationSay(SamExamination *x, const char setting[], const char format[], ...)
+PETSC_EXTERN PetscErrorCode SamExaminationSay(SamExamination *x, const char setting[], const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(3, 4);
 
 #endif

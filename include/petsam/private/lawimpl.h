@@ -108,7 +108,7 @@ struct _n_SamLawStep {
 /*
   SamLawAddToSum - sets the tried generation of a field to the committed one plus `more`. Collective.
 */
-PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
+PETSC_EXTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
 /*
   The frames of both bodies (frames.c). The grid goes with body 1; the point x + D of body 2 lies under its point x,
   where D is the slide (m). A field of body 2 is stored at the points that lie under the cells at D = 0. The law slide
@@ -157,7 +157,7 @@ PETSC_INTERN const char    *SamLawOption(SamLaw law);
   SamLawNoBack - the method `back` of a law that adds nothing: no step depends on its state, or what it changes is an
   offset by conditions alone, or friction by a coefficient. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamLawNoBack(SamLaw law, SamBackStep *step);
+PETSC_EXTERN PetscErrorCode SamLawNoBack(SamLaw law, SamBackStep *step);
 
 struct _n_SamLaw {
   SamClassId          class_id;
@@ -181,8 +181,8 @@ struct _n_SamLaw {
   PetscBool           uses[SAM_USES]; /* fields of a solved step that advance() uses */
   PetscBool           needs_friction; /* true: meaningless without friction */
   PetscBool           slides;         /* true: the surfaces move past each other */
-  PetscBool           wears;    /* true: it removes material, as the results volume1, wear_depth1 and so on tell */
-  const char         *number;   /* name of the number by which back() finds the derivative; NULL: none */
+  PetscBool           wears;          /* true: it removes material: its numbers wear_volume1 and wear_volume2 tell */
+  const char         *number;         /* name of the number by which back() finds the derivative; NULL: none */
   const char         *refused;  /* option that messages name where the law is refused; NULL: the one that selects it */
   const char         *strained; /* number that is above 0 once bodies have yielded by it; NULL: they do not */
   const char         *with_shear;    /* numbers that follow the shear at the surface, separated by blanks; NULL: none */

@@ -32,7 +32,7 @@ PETSC_INTERN PetscErrorCode SamProblemGetBalance(SamProblem problem, SamState st
 */
 PETSC_EXTERN PetscBool SamProblemSlides(SamProblem problem);
 PETSC_INTERN PetscBool SamProblemWears(SamProblem problem);
-PETSC_INTERN PetscReal SamProblemWornVolume(SamProblem problem, SamState state);
+PETSC_INTERN PetscReal SamProblemWornVolume(SamState state);
 PETSC_INTERN PetscBool SamProblemYields(SamProblem problem);
 PETSC_INTERN PetscBool SamProblemBodyYields(SamProblem problem, PetscInt body);
 /*

@@ -271,13 +271,16 @@ PetscBool SamProblemWears(SamProblem p)
   return PETSC_FALSE;
 }
 
-PetscReal SamProblemWornVolume(SamProblem p, SamState state)
+PetscReal SamProblemWornVolume(SamState state)
 {
   static const char *const names[] = {"wear_volume1", "wear_volume2"};
   PetscReal                volume  = 0;
 
-  for (int b = 0; b < 2 && SamProblemWears(p); b++)
-    volume += *SamStateReadNumbers(state, SamStateFindNumber(state, names[b]));
+  for (int b = 0; b < 2; b++) {
+    const PetscInt id = SamStateFindNumber(state, names[b]);
+
+    if (id >= 0) volume += *SamStateReadNumbers(state, id);
+  }
   return volume;
 }
 

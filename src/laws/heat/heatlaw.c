@@ -189,8 +189,12 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   }
   for (int b = 0; b < 2; b++) PetscCall(TakeMaterial(law, from, b));
   PetscCall(CheckBodies(law, h, from));
+  law->ops.back = SamLawNoBack;
   PetscCall(SamHeatLawExpand(law, from));
   law->follows_slip = h->changes ? PETSC_TRUE : PETSC_FALSE;
+  if (h->wears) law->refused = "wear_temperature";
+  if (h->changes) law->refused = "friction_temperature";
+  if (law->refused) law->ops.back = NULL; /* the step depends on the temperature */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

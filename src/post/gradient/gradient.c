@@ -27,6 +27,7 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <petsam/private/solverimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/solution.h>
@@ -84,9 +85,14 @@ static PetscErrorCode Check(SamGradient g)
              "the gradient with -tangential_rtol %.6g: cells that stick are not certain: expected at most %.6g",
              (double)((SamSolver)SamContactGetTangential(g->contact))->rtol, LEAST_RTOL);
   PetscCall(SamProblemGetLaws(problem, &count, &laws));
-  for (PetscInt k = 0; k < count; k++)
+  for (PetscInt k = 0; k < count; k++) {
     PetscCheck(laws[k]->ops.back, comm, SAM_ERR_USER, "the gradient with -%s: its derivative is not computed: omit it",
                SamLawOption(laws[k]));
+    PetscCheck(!SamProblemSlides(problem) || !(laws[k]->of_body[0] || laws[k]->of_body[1]), comm, SAM_ERR_USER,
+               "the gradient with -slide and heights that go with a body, here by -%s: its derivative is not computed: "
+               "omit one of them",
+               SamLawOption(laws[k]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

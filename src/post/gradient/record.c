@@ -262,7 +262,7 @@ static void CopyControl(SamGradient g, const SamSolution *s, SamRecord *r)
   for (PetscInt k = 0; k < SAM_GRADIENT_BULKS; k++)
     r->bulk[k] = SamControlGet(&s->control, SamConditionsFind(conditions, SamBulkName(k)));
   (void)SamContactGetState(g->contact, &state);
-  r->volume = SamProblemWornVolume(SamContactGetProblem(g->contact), state);
+  r->volume = SamProblemWornVolume(state);
 }
 
 /* Checks that the tried step follows the recorded ones, and its rule of slip. */
