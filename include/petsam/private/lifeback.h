@@ -6,15 +6,15 @@
 #include <petsam/private/life.h>
 
 /*
-  SamLifeBack - the recorded parts of the jumps of a contact's wear simulation, and their part of a pass back. The lengths
-  of jumps are fixed.
+  SamLifeBack - the recorded parts of the jumps of a contact's wear simulation, and their part of a pass back. The
+  lengths of jumps are fixed.
 
   SamLifeBackCreate - creates it, without any jump, for a history whose cycle has so many rows. The contact is borrowed.
   SamLifeBackRecord - records a part of a jump, after so many steps. SamLifeBackJumped - returns true if one is recorded
   there; not collective. SamLifeBackTouch - sets a field of the contact's grid to 1 in cells that jumps press.
 
-  In a pass, between SamLifeBackBegin() and SamLifeBackEnd(): SamLifeBackPass() goes back over the parts of jumps after so
-  many steps, SamLifeBackAddCycle() adds what the wear of the cycle of the present step is repeated by. The step is that
+  In a pass, between SamLifeBackBegin() and SamLifeBackEnd(): SamLifeBackPass() goes back over the parts of jumps after
+  so many steps, SamLifeBackAddCycle() adds what the wear of the cycle of the present step is repeated by. The step is that
   of SamLifeBackBegin(); `by_number` is that of the law of wear.
 
   Collective.
