@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLORS, STYLE, bar, drawn, field, frame, note, plt
+from ...plot.style import COLORS, bar, drawn, field, frame, note, plt
 from ...plot.units import label, scale
 from .basis import LinePatch, written
 from .result import Compliance
@@ -118,7 +118,7 @@ def _panels(body, unit, name=""):
     return panels
 
 
-@drawn(STYLE, Compliance)
+@drawn(Compliance)
 def compliance(found: Compliance) -> Figure:
     """The patches of a body, or of a pair: on the mesh, deflections, the spectrum, convergence by degree.
 

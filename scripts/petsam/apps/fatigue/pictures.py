@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ...plot.bodies import FATIGUE
-from ...plot.style import STYLE, colors, drawn, logarithmic, note, plt
+from ...plot.style import colors, drawn, logarithmic, note, plt
 from ...plot.units import label, largest, number, plain, scale
 from . import cracks
 from .spectrum import Lives
@@ -67,7 +67,7 @@ def _kitagawa(panel, cracked, constants, length, unit):
     panel.legend()
 
 
-@drawn(STYLE, Lives)
+@drawn(Lives)
 def lives(found: Lives) -> Figure:
     """The lines over the depth, and two panels of a short crack.
 

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLORS, STYLE, curve, drawn, need_kind, note, plt
+from ...plot.style import COLORS, curve, drawn, note, plt
 from ...plot.symbols import scalar
 from ...plot.units import label, largest, plain, scale
 from ...results.file import Results
@@ -43,7 +43,7 @@ def _center(panel, found):
     panel.legend()
 
 
-@drawn(STYLE, History)
+@drawn(History)
 def loads(found: History) -> Figure:
     """N, T_x and T_y over time, the path of T, and that of the contact's centre.
 
@@ -71,7 +71,7 @@ def loads(found: History) -> Figure:
     return figure
 
 
-@drawn(STYLE)
+@drawn(History, Results)
 def loads_beside(found: History, results: Results) -> Figure:
     """Pressure and shear of the analysis beside those of petsam, along y = 0 at the last saved step.
 
@@ -86,8 +86,6 @@ def loads_beside(found: History, results: Results) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    need_kind("loads_beside", [found], "History", lambda one: isinstance(one, History))
-    need_kind("loads_beside", [results], "Results", lambda one: isinstance(one, Results))
     nodes, row = found.line(float(results.times[-1])), int(np.argmin(np.abs(results.y)))
     shear = np.hypot(*(results.field(f"shear_{axis}", -1)[row] for axis in "xy"))
     ours = {"pressure": results.field("pressure", -1)[row], "shear": shear}

@@ -6,7 +6,7 @@ from matplotlib.ticker import FixedLocator, MaxNLocator
 from mpl_toolkits.axes_grid1 import make_axes_locatable
 
 from ...core.units import shown
-from ...plot.style import COLORS, STYLE, drawn, extent, field, note, plt
+from ...plot.style import COLORS, drawn, extent, field, note, plt
 from ...plot.units import label, largest, scale
 from .basics import QUANTITIES
 from .maps import Map, peak_to_valley, rms_height, rms_slope
@@ -53,7 +53,7 @@ def _profiles(axes, one, lateral, height):
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)  # where no curve can be
 
 
-@drawn(STYLE, Map)
+@drawn(Map)
 def surface(one: Map) -> Figure:
     """A map, and profiles through its middle along x and y; a profile alone.
 
