@@ -30,7 +30,7 @@ PART = "relative"  # the first word of the meaning of an error that is relative 
 
 
 def contents(found, record):
-    """What the page has: the usual contents, or those of the application's own module."""
+    """The contents of the page: the usual ones, or those of the application's own module."""
     own = record.module(record.report).contents(found) if record.report else {}
     usual = {"title": _title, "columns": lambda one: one.table(), "pictures": lambda one: _captions(one, record)}
     return {**{name: usual[name](found) for name in usual.keys() - own.keys()}, **own}

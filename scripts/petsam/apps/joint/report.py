@@ -25,7 +25,7 @@ KINDS = {
 
 
 def contents(found):
-    """What plot/founds.py lays out; a table from a file has the title of its kind, and a picture of its columns."""
+    """The contents that plot/founds.py lays out; a table from a file has the title of its kind, and a picture of its columns."""
     title, pictures = KINDS[found.kind if isinstance(found, Saved) else type(found)]
     columns = _columns(found)
     return {
@@ -59,7 +59,7 @@ def _columns(found):
 
 
 def _facts(found):
-    """What holds for all rows, (name, value) each."""
+    """The facts that hold for all rows, (name, value) each."""
     if isinstance(found, Backbone):
         stuck = ", ".join(f"{one:.6g}" for one in found.stuck)
         facts = [("Mode", (found.linear, "Hz", 9)), ("Modes while all that touches sticks", f"{stuck} Hz")]
