@@ -39,7 +39,6 @@ from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
 from ...core.hdf5 import need_own
 from ...core.line import Parser, guarded, word, wrote
-from ...core.progress import to_stderr
 from ...core.units import shown
 from ...plot.saving import write
 from . import basis, model, several, writing
@@ -339,7 +338,10 @@ def carry_out(options, given):
         need_replaceable(options.picture)
     command = shlex.join([PROGRAM, *given])
     start = time.monotonic()
-    say = lambda text: to_stderr(f"  {time.monotonic() - start:.0f} s: {text}")  # noqa: E731
+
+    def say(text):
+        print(f"  {time.monotonic() - start:.0f} s: {text}", file=sys.stderr, flush=True)
+
     found = model.computed(options.mesh, options.settings, command, say, SECONDS)
     body = found.bodies[0]
     for text in body.remarks:

@@ -12,7 +12,7 @@ from ...core.brief import brief
 from ...core.decks import folded
 from ...core.errors import Error, short
 from ...core.frames import Frame
-from ...core.progress import Progress, quiet
+from ...core.progress import Progress
 from . import (
     bolts,
     boxes,
@@ -346,7 +346,7 @@ def _stress(model, found, cases):
     return where, stresses.remaining(where, found), single
 
 
-def computed(source, settings, command="", say=quiet, every=0.0):
+def computed(source, settings, command="", say=None, every=0.0):
     """The Compliance of a deck or a mesh (Model); command: what made it, for the file; say: called with the lines of
     Progress, at most one in `every` seconds."""
     progress = Progress("part", say, every)

@@ -24,7 +24,6 @@ from ...core.files import need_replaceable, same
 from ...core.line import Parser, guarded, word, wrote
 from ...core.progress import Progress
 from ...plot import saving
-from ...plot.arguments import NAMES, POINT, numbers
 from ...results.stresses import Stresses
 from . import evaluation, materials, spectrum, strength
 from .stresses import Cycle
@@ -64,7 +63,9 @@ def arguments(given):
         metavar="NAME,...",
         help=f"of {', '.join(CRITERIA)} (all with constants and data)",
     )
-    what.add_argument("--counts", type=numbers(), metavar="N,...", help="cycles of each file in the spectrum (1)")
+    what.add_argument(
+        "--counts", type=word(words.numbers), metavar="N,...", help="cycles of each file in the spectrum (1)"
+    )
     what.add_argument(
         "--plane",
         type=word(words.number, "degrees from -180 to 180", "degrees", least=-180.0, most=180.0),
@@ -73,12 +74,19 @@ def arguments(given):
         help="angle of the plane's normal to x (0)",
     )
     where = parser.add_argument_group("line along the depth").add_mutually_exclusive_group()
-    where.add_argument("--at", type=POINT, metavar="X,Y", help="below this place, such as -0.5mm,0")
+    where.add_argument(
+        "--at",
+        type=word(words.numbers, "X,Y, such as 0.1mm,0", "m", count=2),
+        metavar="X,Y",
+        help="below this place, such as -0.5mm,0",
+    )
     where.add_argument(
         "--hot", metavar="NAME", help="below the maximum of this parameter on the surface (the first one)"
     )
     out = parser.add_argument_group("output")
-    out.add_argument("--quantity", type=NAMES, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
+    out.add_argument(
+        "--quantity", type=word(words.names), metavar="NAME,...", help="on the line, maxima of the cycle (parameters)"
+    )
     out.add_argument("--csv", metavar="NAME.csv", help="write the lines: columns name [unit], SI")
     out.add_argument("--labels", metavar="TEXT,...", help="the files' names in the picture (their file names)")
     out.add_argument("-o", "--output", metavar="NAME", help="picture: .png, .pdf or .svg (NAME_depth.png of the file)")

@@ -25,7 +25,7 @@ KINDS = {
 
 
 def contents(found):
-    """The contents that plot/founds.py lays out; a table from a file has the title of its kind, and a picture of its columns."""
+    """The contents for plot/founds.py; a table of a file has its kind's title, and a picture of its columns."""
     title, pictures = KINDS[found.kind if isinstance(found, Saved) else type(found)]
     columns = _columns(found)
     return {

@@ -20,9 +20,7 @@ def recorded(kind):
 def write_page(args, result):
     """Writes the page of --report, if it is given, with the options as inputs."""
     if args.report:
-        from ...plot.reports import report
-
-        report(result, args.report, _given(args))
+        result.report(args.report, _given(args))
         wrote(args.report)
 
 
