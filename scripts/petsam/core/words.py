@@ -1,8 +1,8 @@
 """Reading of a word: a number with its unit and range, several, a span, a name with its value, words by other readers.
 
 `form` describes what an option expects, as "a length above 0, such as 1mm"; any other word raises WordError. Numbers
-are good between their ends, `above` or `least` and `below` or `most`, or where `allowed` says so; `together` says
-whether those of a word are. A `reader` takes a word and has its own form.
+are good between their ends, `above` or `least` and `below` or `most`, or where `allowed` is true; `together` is whether
+those of a word are. A `reader` takes a word and has its own form.
 """
 
 import functools
