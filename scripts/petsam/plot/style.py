@@ -78,6 +78,11 @@ def points(axes, x, y, color, mark="o", **style):
     axes.plot(x, y, mark, color=color, **style)
 
 
+def joined(axes, x, y, color, mark, **style):
+    """The larger points of a quantity that depends on a few parameters, joined by a thin line."""
+    points(axes, x, y, color, mark, **{"markersize": 5, "linewidth": 1.0, "zorder": 2, **style})
+
+
 def cross(axes, x, y, gid=None):
     """A black cross with a white edge at a point, whole on the edge of a panel too."""
     axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6, clip_on=False, zorder=5, gid=gid)
@@ -157,6 +162,12 @@ class _Beside:
         inches = figure.get_size_inches()[0] / getattr(figure, "scaled", 1.0)
         box = self.panel.get_position()
         return type(box).from_bounds(box.x1 + self.GAP / inches, box.y0, self.WIDTH / inches, box.height)
+
+
+def frame(axes, title, x, y, x_limits=None, y_limits=None):
+    """Title, labels and limits of a panel; without limits these follow the data."""
+    limits = {"xlim": x_limits, "ylim": y_limits}
+    axes.set(title=title, xlabel=x, ylabel=y, **{name: pair for name, pair in limits.items() if pair})
 
 
 def field(axes, values, edges, low=0.0, high=None, color_map="viridis", norm=None):

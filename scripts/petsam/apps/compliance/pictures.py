@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLORS, bar, drawn, field, note, plt
+from ...plot.style import COLORS, bar, drawn, field, frame, note, plt
 from ...plot.units import label, scale
 from .basis import LinePatch, written
 from .result import Compliance
@@ -11,12 +11,6 @@ from .result import Compliance
 CELLS = 80  # of the patch in a map
 COLUMNS = 3
 SIDE = 3.6  # inches of a panel
-
-
-def _frame(axes, title, x, y, x_limits=None, y_limits=None):
-    """Title, labels and limits of a panel; without limits these follow the data."""
-    limits = {"xlim": x_limits, "ylim": y_limits}
-    axes.set(title=title, xlabel=x, ylabel=y, **{name: pair for name, pair in limits.items() if pair})
 
 
 def _outline(body):
@@ -44,7 +38,7 @@ def _mesh(axes, bodies, unit):
         axes.plot(*corners.T, color=COLORS[1], linewidth=1.6)
     axes.autoscale()
     axes.grid(False)
-    _frame(
+    frame(
         axes,
         "patch on the mesh" if len(bodies) == 1 else "patches on the mesh",
         label("x", unit[1]),
@@ -73,7 +67,7 @@ def _map(axes, body, coefficients, title, unit, field_unit="m"):
     edges = [v * unit[0] for v in (x - a, x + a, y - b, y + b)]
     shown = values[largest] * size[0]
     image = field(axes, shown, edges, shown.min(), shown.max())
-    _frame(axes, title, label("x", unit[1]), label("y", unit[1]))
+    frame(axes, title, label("x", unit[1]), label("y", unit[1]))
     bar(axes, image, label(f"u_{'xyz'[largest]}", size[1]))
 
 
@@ -85,7 +79,7 @@ def _line(axes, body, coefficients, title, unit, field_unit):
     for axis, name in ((0, "u_x"), (2, "u_z")):
         axes.plot(x * unit[0], values[:, axis] * size[0], color=COLORS[axis], label=name)
     axes.legend()
-    _frame(axes, title, label("x", unit[1]), label("u", size[1]))
+    frame(axes, title, label("x", unit[1]), label("u", size[1]))
 
 
 def _unit_load(body, direction):
@@ -100,13 +94,13 @@ def _spectrum(axes, body, title):
     values = np.sort(np.abs(body.eigenvalues))[::-1]
     axes.semilogy(1 + np.arange(len(values)), np.maximum(values, 1e-300), ".", color=COLORS[0])
     axes.set_ylim(max(values[0] * 1e-12, values[-1] * 0.5, 1e-300), 2.0 * values[0])
-    _frame(axes, title, "number", "magnitude")
+    frame(axes, title, "number", "magnitude")
 
 
 def _convergence(axes, body, title):
     changes = np.maximum(body.changes, 1e-16)
     axes.semilogy(np.arange(len(changes)), changes, "o-", color=COLORS[2], markersize=4)
-    _frame(axes, title, "degree", f"difference from degree {written(body.patch.degree)}")
+    frame(axes, title, "degree", f"difference from degree {written(body.patch.degree)}")
 
 
 def _panels(body, unit, name=""):

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ...core.errors import Error
 from ...plot.fields import STATES
-from ...plot.style import COLORS, bar, drawn, logarithmic, plt
+from ...plot.style import COLORS, bar, drawn, joined, logarithmic, plt
 from ...plot.units import label as labelled
 from ...plot.units import on_axis, plain
 from ...results.fields import OPEN, SLIP
@@ -86,12 +86,6 @@ def _say_last(ax, x, y, above=True):
     ax.annotate(text, (x[-1], y[-1]), fontsize=9, **place)
 
 
-def _joined(ax, x, y, color, mark, **style):
-    """White points with a coloured edge, joined by a thin line."""
-    look = {"markersize": 5, "linewidth": 1.0, "markerfacecolor": "white", "zorder": 2, **style}
-    ax.plot(x, y, mark, color=color, **look)
-
-
 @drawn(Backbone, style=WHOLE)
 def backbone(found: Backbone) -> Figure:
     """Change of the frequency, and damping, over the amplitude.
@@ -112,7 +106,7 @@ def backbone(found: Backbone) -> Figure:
     _changes(left, found.linear, "while all that touches sticks")
     label = "modal amplitude, 1e-6 m kg$^{1/2}$" if found.unit == MODAL else "amplitude, µm"
     for ax, values, above in ((left, _relative(found.frequency, found.linear), False), (right, damping, True)):
-        _joined(ax, reach, values, COLORS[0], "o-")
+        joined(ax, reach, values, COLORS[0], "o-")
         _say_last(ax, reach, values, above)
         ax.set_xlabel(label)
     logarithmic(left, "x")
@@ -318,7 +312,7 @@ def saved(found: Saved) -> Figure:
         for name, color, mark in zip(dict.fromkeys(curves), itertools.cycle(COLORS), itertools.cycle(MARKS)):
             x, y = (np.array(one.values)[curves == name] for one in (columns[below], column))
             factors = [on_axis(one.unit, one.values) for one in (columns[below], column)]
-            _joined(ax, factors[0][0] * x, factors[1][0] * y, color, mark + "-", label=name or None)
+            joined(ax, factors[0][0] * x, factors[1][0] * y, color, mark + "-", label=name or None)
         heads = [labelled(plain(one.name), unit) for one, (_, unit) in zip((columns[below], column), factors)]
         ax.set(xlabel=heads[0], ylabel=heads[1])
     if "assembly" in columns:
