@@ -8,7 +8,8 @@ from typing import Optional
 Say = Callable[[str], object]
 
 
-def _to_stderr(text: str) -> None:
+def to_stderr(text: str) -> None:
+    """Prints a line on stderr at once."""
     print(text, file=sys.stderr, flush=True)
 
 
@@ -23,7 +24,7 @@ class Progress:
     `what` is the noun of a unit, "window"; `say` is called with each line, at most once in `every` seconds, and not
     before these have passed; by default it prints the line on stderr at once, with None nothing."""
 
-    def __init__(self, what: str, say: Optional[Say] = _to_stderr, every: float = 0.0) -> None:
+    def __init__(self, what: str, say: Optional[Say] = to_stderr, every: float = 0.0) -> None:
         self.form, self.say, self.every = what + " {} of {}", say, every
         self.start = self.last = time.monotonic()
 
