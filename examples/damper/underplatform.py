@@ -284,7 +284,7 @@ def damper(  # noqa: PLR0913  (as the numbers of a damper)
 
 def _value(name, value, unit, most=None):
     """A number above 0, or a text with its unit; infinite ones only up to `most`."""
-    good = (lambda one: 0.0 < one <= most) if most else words.positive
+    good = (lambda one: 0.0 < one <= most) if most else (lambda one: 0.0 < one < np.inf)
     form = f"a number above 0, in {unit}, or a text with its unit, of {units.names(unit)}"
     if not isinstance(value, str):
         return real(name, value, form, good)

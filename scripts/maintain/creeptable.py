@@ -296,7 +296,7 @@ def _along(plan, rolling, towards, coefficients, ratio):
 
 
 def make(
-    plan: Plan, folder: str, jobs: int = 1, say: Say = to_stderr, checked: Optional[tuple[int, int]] = None
+    plan: Plan, folder: str, jobs: int = 1, say: Optional[Say] = to_stderr, checked: Optional[tuple[int, int]] = None
 ) -> Contents:
     """A table, from the cases that a folder already has, and those that remain.
 
@@ -416,7 +416,7 @@ def _single(ratio, poisson, cells, creepages):
 
 def check(
     table: CreepTable, count: int, cells: int, seed: int = 1, poisson: Optional[float] = None, jobs: int = 1,
-    say: Say = to_stderr,
+    say: Optional[Say] = to_stderr,
 ) -> np.ndarray:  # fmt: skip
     """Errors of a table on random cases: a/b from 0.1 to 10 within its range, v to 0.95, all directions.
 

@@ -1,6 +1,8 @@
 """Applications: one more is found by its folder (tests/trials/apps), and one that is deleted leaves no gap."""
 
 import ast
+import dataclasses
+import re
 import shutil
 import sys
 
@@ -10,6 +12,7 @@ import pytest
 import petsam
 from conftest import PROGRAM, environment
 from petsam import apps
+from petsam.core.tables import Tabled, column
 from petsam.plot import founds
 from support import ROOT, ball, finished, slide_limit
 
@@ -89,7 +92,7 @@ def test_one_more_application_has_a_command_a_table_and_a_page(trial, loop):
 
 def test_any_table_of_an_application_has_a_page_with_the_pictures_that_take_it_alone(tmp_path):
     values = petsam.surface.Map(np.ones((3, 4)) * 1e-6, (8e-6, 6e-6), (0, 0), "height1", "flat", None)
-    petsam.plot.report(values, tmp_path / "map.html", {"friction": 0.3})
+    values.report(tmp_path / "map.html", {"friction": 0.3})
     page = (tmp_path / "map.html").read_text()
     assert page.count("<figure>") == 1 and "by petsam.plot.surface" in page and "12 rows" in page and "friction" in page
     steel = {f"body{k}_{name}": value for k in (1, 2) for name, value in (("young", 210e9), ("poisson", 0.3))}
@@ -102,6 +105,25 @@ def test_any_table_of_an_application_has_a_page_with_the_pictures_that_take_it_a
     assert [*founds.drawing(fit.__new__(fit), petsam.apps.fit.PART)] == ["fit"]
     with pytest.raises(petsam.Error, match="report: expected results of petsam.open"):
         petsam.plot.report(petsam.fit.Record.__new__(petsam.fit.Record), tmp_path / "x.html")
+
+
+@pytest.mark.parametrize("error, text, shown", [("1", "relative error", "5 %"), ("m", "its error", "0.05")])
+def test_errors_stand_beside_the_numbers_of_any_table_and_constants_apart(tmp_path, error, text, shown):
+    @dataclasses.dataclass
+    class Found(Tabled):
+        """Depths of a test; and more."""
+
+        at: list = column("m", "where it is")
+        depth: list = column("m", "how deep it is")
+        depth_error: list = column(error, text)
+        load: list = column("N", "load")
+
+    Found.__module__ = "petsam.apps.wheel.found"
+    Found([0.0, 1.0], [1.0, 2.0], [0.05, 0.05], [7.0, 7.0]).report(tmp_path / "f.html")
+    page = (tmp_path / "f.html").read_text()
+    assert "<h1>Depths of a test</h1>" in page and "Load, of all rows" in page and 'value="7.0"' in page
+    heads = re.findall(r'<th scope="col"[^>]*>(.*?)</th>', page)
+    assert heads == ["at", "depth"] and len(re.findall(rf"&plusmn; [^/]*{shown}", page)) == 2
 
 
 def wrong(tree):
@@ -151,6 +173,7 @@ __all__, __getattr__, __dir__ = PART.face()
         ("", "has no attribute 'PART'"),
         (RECORD.format('pictures={"x": ("saving",)}'), "pictures of its record: saving"),
         (RECORD.format('pictures={"x": ("backbone",)}'), "pictures of its record: backbone"),
+        (RECORD.format('expressions={"x": ("life_swt",)}'), "expressions of its record: life_swt"),
         (RECORD.format('tables=("a",)'), "tables of its record: a"),
         (RECORD.format('top=("nothere",)'), "top of its record: nothere"),
     ],

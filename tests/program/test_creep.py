@@ -11,7 +11,6 @@ import pytest
 
 import petsam
 from petsam.apps.wheel import creep
-from petsam.core.progress import quiet
 from support import ROOT
 
 sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
@@ -35,7 +34,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def contents(folder):
-    return creeptable.make(PLAN, str(folder / "parts"), say=quiet, checked=(3, 64))
+    return creeptable.make(PLAN, str(folder / "parts"), say=None, checked=(3, 64))
 
 
 @pytest.fixture(scope="module")
@@ -244,7 +243,7 @@ def test_nodes_are_petsams_solutions(table, contents):
 
 
 def test_random_cases_are_petsams_solutions(table):
-    errors = creeptable.check(table, 60, PLAN.cells, seed=5, say=quiet).max(axis=1)
+    errors = creeptable.check(table, 60, PLAN.cells, seed=5, say=None).max(axis=1)
     assert np.median(errors) < 0.006 and errors.max() < 0.07
 
 
@@ -425,7 +424,7 @@ def test_an_interrupted_table_is_completed(folder, tmp_path, file):
     kept = next((parts / PLAN.key).glob("F2-1.npy"))
     kept.unlink()
     others = {path: path.stat().st_mtime_ns for path in (parts / PLAN.key).iterdir()}
-    again = creeptable.make(PLAN, str(parts), jobs=2, say=quiet, checked=(3, 64))
+    again = creeptable.make(PLAN, str(parts), jobs=2, say=None, checked=(3, 64))
     again.write(tmp_path / "table")
     assert kept.exists() and all(path.stat().st_mtime_ns == time for path, time in others.items())
     assert (tmp_path / "table").read_bytes() == file.read_bytes()

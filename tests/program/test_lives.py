@@ -67,6 +67,17 @@ def test_exponents_without_their_sign_are_refused():
         Expander({}).expand("{life_basquin(1e8, -1e8, 1e9, 0.1)}")
 
 
+def test_lives_in_the_tables_of_studies_are_those_of_the_curves_and_finite():
+    for name, values in (
+        ("swt", (1e6, 115e9, 2.03e9, -0.104, 0.841, -0.69)),
+        ("fatemi_socie", (5e-3, 72e9, 0.3, 3e8, -0.1, 0.2, -0.6)),
+        ("basquin", (300e6, -300e6, 1000e6, -0.1)),
+    ):
+        told = Expander({}).expand(f"{{life_{name}({', '.join(map(repr, values))})}}")
+        assert float(told) == pytest.approx(float(getattr(strength, name)(*values)), rel=1e-12)
+    assert Expander({}).expand("{life_basquin(1e5, -1e5, 1e9, -0.1)}") == "1000000000000"  # endless
+
+
 def test_ends_of_lives_factors_and_damage():
     values = strength.swt(np.array([0.0, 1.0, 1e12, np.nan]), **SWT)
     assert values[0] == values[1] == np.inf and values[2] == strength.LEAST and np.isnan(values[3])

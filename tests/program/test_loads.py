@@ -170,7 +170,7 @@ def test_page_help_and_commands_have_one_frame():
     for text in (page, header, *programs):
         assert "x, y and z are right-handed, with z into body 2" in " ".join(text.split())
     assert "(out of the page)" in page and "y = z x x" in page
-    axes = frames.frame_of((0, 0, 0), (1, 0, 0), (0, 0, -1), np.array([0.0, 0.0, 1.0])).axes
+    axes = frames.Frame.of((0, 0, 0), (1, 0, 0), (0, 0, -1), np.array([0.0, 0.0, 1.0])).axes
     assert axes[1].tolist() == [0.0, -1.0, 0.0]  # with x to the right and n up, +y is into the page
 
 

@@ -1,6 +1,5 @@
 """petsam-plot's options: none that no picture uses is taken silently; load steps that histories and loops show."""
 
-import argparse
 import shutil
 
 import h5py
@@ -8,6 +7,7 @@ import numpy as np
 import pytest
 
 import petsam
+from petsam.core.line import Parser
 from petsam.plot import arguments, loops, series, uses
 from petsam.results.stresses import Stresses
 from petsam.results.studies import Study
@@ -46,7 +46,7 @@ def test_options_that_a_picture_uses_are_taken(draw, path, tmp_path, words, pict
 
 def given(**options):
     """Options as they are read from an empty command line, but for some."""
-    parser = argparse.ArgumentParser()
+    parser = Parser()
     for group in (arguments._pictures, arguments._quantities, arguments._steps, arguments._look):
         group(parser)
     parsed = parser.parse_args([])

@@ -166,11 +166,10 @@ def test_slope_is_an_angle():
 
 
 def test_points_are_numbers_between_colons():
-    assert words.points("0,0,0:1,0,0.5", "", 3) == ((0.0, 0.0, 0.0), (1.0, 0.0, 0.5))
-    assert words.points("1mm,2mm", "", 1, "m", 2) == ((1e-3, 2e-3),)
+    assert words.frame("0,0,0:1,0,0.5") == ((0.0, 0.0, 0.0), (1.0, 0.0, 0.5))
     for text in ("0,0", "0,0,0:", "0,0,0:1,0,0:0,0,1:1,1,1", ""):
-        with pytest.raises(words.WordError, match="expected a frame"):
-            words.points(text, "a frame", 3)
+        with pytest.raises(words.WordError, match="expected ORIGIN"):
+            words.frame(text)
 
 
 def test_bounds_may_be_left_out():
@@ -192,8 +191,38 @@ def test_numbers_may_be_judged_together():
         words.span("3mm,4mm", "one, or FIRST:LAST:COUNT", "m", count=1)
 
 
+@pytest.mark.parametrize(
+    "ends, good, bad",
+    [
+        (dict(above=0.0), ("1e-300", "1e300"), ("0", "-1", "inf")),
+        (dict(least=0.0), ("0", "7"), ("-1e-300", "inf")),
+        (dict(below=1.0), ("0.999", "-5"), ("1", "-inf")),
+        (dict(least=-180.0, most=180.0), ("-180", "180"), ("180.1", "-181")),
+        (dict(above=-1.0, below=0.5), ("-0.9", "0.4"), ("-1", "0.5")),
+    ],
+)
+def test_numbers_have_ends(ends, good, bad):
+    for text in good:
+        assert (
+            words.number(text, **ends) == float(text) == words.numbers(text, **ends)[0] == words.span(text, "", **ends)
+        )
+        assert words.named(f"a={text}", "", **ends) == ("a", float(text))
+    for text in bad:
+        for reader in (words.number, words.numbers, words.span):
+            with pytest.raises(words.WordError, match="expected a number in its range"):
+                reader(text, "a number in its range", **ends)
+
+
+@pytest.mark.parametrize("reader, text", [(words.integer, "1"), (words.integers, "2,1"), (words.bounds, "1:3")])
+def test_whole_numbers_have_ends(reader, text):
+    assert reader(text, "", least=1, below=4)
+    for ends in (dict(above=1), dict(least=2), dict(below=1), dict(most=0)):
+        with pytest.raises(words.WordError):
+            reader(text, "", **ends)
+
+
 def test_names_have_values_of_any_reader():
-    step = partial(words.integer, allowed=words.within(0))
+    step = partial(words.integer, least=0)
     assert words.named("a_1=3", "NAME=STEP", reader=step, known=r"\w{1,5}") == ("a_1", 3)
     assert words.named("a=b=c", "NAME=VALUE", reader=str) == ("a", "b=c")
     assert words.named("210GPa", "[SET=]E", "Pa", bare="") == ("", 210e9)
@@ -217,7 +246,7 @@ def test_unknown_names_are_told_with_the_nearest():
 
 
 def test_each_word_has_its_reader():
-    length, share = partial(words.number, unit="m"), partial(words.number, allowed=words.part)
+    length, share = partial(words.number, unit="m"), partial(words.number, least=0.0, below=1.0)
     assert words.each("2um,5%", "", length, share) == pytest.approx((2e-6, 0.05))
     assert words.each("2um", "", length, share, rest=(0.0,)) == (pytest.approx(2e-6), 0.0)
     assert words.each("2um,5%", "", length, share, rest=(0.0,)) == pytest.approx((2e-6, 0.05))

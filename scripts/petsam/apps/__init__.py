@@ -44,9 +44,12 @@ def _checked(record, others, known):
     """The record, if it states what is there, and nothing that another one or `known`, what plot has, stands for."""
     pictures = [name for names in record.pictures.values() for name in names]
     tables = {name for one in others for name in one.tables}
+    functions = [name for names in record.expressions.values() for name in names]
+    called = {name for one in others for names in one.expressions.values() for name in names}
     taken = {
         "top": [name for name in record.top if name not in record.listed],
         "tables": [name for name in record.tables if "read" not in record.listed or name in tables],
+        "expressions": [name for name in functions if name in called],
         "pictures": [name for name in pictures if name in known or any(one.pictured(name) for one in others)],
     }
     for field, wrong in taken.items():

@@ -38,19 +38,19 @@ PERIOD = word(
     words.numbers, "a time above 0, or T,START: 20ms,1s", "s", count=(1, 2),
     together=lambda found: found[0] > 0.0, to=lambda found: (*found, None)[:2],
 )  # fmt: skip
-FRAME = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"  # of words.points
 
 
 class Parser(argparse.ArgumentParser):
     """A command line whose errors are printed in one line, without the usage before it. Names of options are given in
     full, and an unknown one is reported before all else; its description keeps its lines unless another formatter_class
-    is given."""
+    is given. `texts`: options whose values may be any word that begins with a minus."""
 
-    def __init__(self, *, formatter_class=argparse.RawDescriptionHelpFormatter, **given):
+    def __init__(self, *, texts=(), formatter_class=argparse.RawDescriptionHelpFormatter, **given):
         super().__init__(formatter_class=formatter_class, allow_abbrev=False, **given)
+        self.texts = texts
 
     def parse_known_args(self, args=None, namespace=None):
-        args = sys.argv[1:] if args is None else list(args)
+        args = self.joined(sys.argv[1:] if args is None else args)
         self._need_known(args)
         return super().parse_known_args(args, namespace)
 
@@ -78,39 +78,36 @@ class Parser(argparse.ArgumentParser):
         near = found and nearest(found[1], names)
         return f": is --{near[0]} meant?" if near else ""
 
+    def joined(self, words):
+        """Joins values that begin with a minus to their options, as argparse would take them for options: numbers, and
+        any word after the options of `texts`."""
+        found = []
+        for word in words:
+            before = found[-1] if found else ""
+            if before in self.texts or (re.match(r"-[\d.]", word) and re.fullmatch(r"--[a-z][a-z0-9-]*", before)):
+                found[-1] += "=" + word
+            else:
+                found.append(word)
+        return found
+
+    def add_resolution(self, group=None):
+        """Adds --dpi, to a group of options if it is given."""
+        form = "a whole number from {} to {}".format(*RANGE)
+        kind = word(words.integer, form, least=RANGE[0], most=RANGE[1])
+        text = "pixels per inch of a PNG, {} to {} ({}); journals ask for 300".format(*RANGE, DPI)
+        (group or self).add_argument("--dpi", type=kind, default=DPI, metavar="N", help=text)
+
+    def add_choice(self, group):
+        """Adds --no-picture to a group of options, and --dpi, which has no meaning beside it."""
+        one = group.add_mutually_exclusive_group()
+        one.add_argument("--no-picture", action="store_true", help="draw none")
+        self.add_resolution(one)
+
 
 def wrote(*names):
     """Prints a line for each file that a command has written."""
     for name in names:
         print(f"wrote {name}")
-
-
-def joined(words, texts=()):
-    """Joins values that begin with a minus to their options, as argparse would take them for options: numbers, and any
-    word after the options of texts."""
-    found = []
-    for word in words:
-        before = found[-1] if found else ""
-        if before in texts or (re.match(r"-[\d.]", word) and re.fullmatch(r"--[a-z][a-z0-9-]*", before)):
-            found[-1] += "=" + word
-        else:
-            found.append(word)
-    return found
-
-
-def add_resolution(group):
-    """Adds --dpi to a group of options."""
-    form = "a whole number from {} to {}".format(*RANGE)
-    kind = word(words.integer, form, words.within(*RANGE))
-    text = "pixels per inch of a PNG, {} to {} ({}); journals ask for 300".format(*RANGE, DPI)
-    group.add_argument("--dpi", type=kind, default=DPI, metavar="N", help=text)
-
-
-def add_choice(group):
-    """Adds --no-picture, and --dpi, which has no meaning beside it."""
-    one = group.add_mutually_exclusive_group()
-    one.add_argument("--no-picture", action="store_true", help="draw none")
-    add_resolution(one)
 
 
 def fail(command, error, code=FILE):
@@ -132,16 +129,9 @@ def _flush():
         raise
 
 
-def quietly(body, *given):
-    """Returns the exit code of body(*given), 0 of none, without warnings of numbers that overflow and of letters that a
-    font lacks."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return body(*given) or 0
-
-
-def guarded(command, body):
-    """Returns the exit code of body(), which is a command; unexpected errors end with a line, too."""
+def guarded(command, body, quiet=False):
+    """Returns the exit code of body(), which is a command, 0 of none; unexpected errors end with a line, too. `quiet`:
+    without warnings of numbers that overflow and of letters that a font lacks."""
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:  # closed: the next opened file would get its number
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), "r" if number == 0 else "w"))
@@ -150,7 +140,10 @@ def guarded(command, body):
             stream.reconfigure(errors="backslashreplace")  # names of files may not be text
     try:
         try:
-            return body()
+            with warnings.catch_warnings():
+                if quiet:
+                    warnings.simplefilter("ignore")
+                return body() or 0
         finally:
             _flush()
     except KeyboardInterrupt:

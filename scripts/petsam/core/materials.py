@@ -122,7 +122,7 @@ def elastic(text: str) -> tuple[float, float]:
             find(text)
         return (
             words.number(young, form, "Pa", lambda value: value > 0.0),
-            words.number(poisson, form, allowed=lambda value: 0.0 <= value < 0.5),
+            words.number(poisson, form, least=0.0, below=0.5),
         )
     except words.WordError as error:
         raise words.WordError(text, form) from error

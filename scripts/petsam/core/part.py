@@ -34,7 +34,8 @@ class Part(NamedTuple):
     libraries: tuple[str, ...] = ()  # that the program needs
     see: tuple[str, ...] = ()  # programs that its man page names
     pictures: Mapping[str, tuple[str, ...]] = {}  # functions that petsam.plot has, by module
-    report: str = ""  # module with RESULTS, title(found), parts(found, inputs, record): pages unlike plot/founds.py's
+    report: str = ""  # module with contents(found) of pages, where the usual ones of plot/founds.py lack something
+    expressions: Mapping[str, tuple[str, ...]] = {}  # functions of numbers in the tables of petsam-study, by module
     tables: tuple[str, ...] = ()  # first columns of the CSV files that read() in the public list reads
 
     @property

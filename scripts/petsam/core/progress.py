@@ -3,8 +3,14 @@
 import sys
 import time
 from collections.abc import Callable
+from typing import Optional
 
 Say = Callable[[str], object]
+
+
+def to_stderr(text: str) -> None:
+    """Prints a line on stderr at once."""
+    print(text, file=sys.stderr, flush=True)
 
 
 def clock(seconds: float) -> str:
@@ -13,21 +19,12 @@ def clock(seconds: float) -> str:
     return f"{minutes}:{rest:02d}" if minutes < 60 else "{}:{:02d}:{:02d}".format(*divmod(minutes, 60), rest)
 
 
-def to_stderr(text: str) -> None:
-    """Prints a line on stderr at once."""
-    print(text, file=sys.stderr, flush=True)
-
-
-def quiet(_: str) -> None:
-    """Prints nothing: in notebooks, and in functions that no command has called."""
-
-
 class Progress:
     """A line for each unit of a work that ends, with an estimate of the time left: "window 2 of 5, about 1:33 left".
     `what` is the noun of a unit, "window"; `say` is called with each line, at most once in `every` seconds, and not
-    before these have passed."""
+    before these have passed; by default it prints the line on stderr at once, with None nothing."""
 
-    def __init__(self, what: str, say: Say = to_stderr, every: float = 0.0) -> None:
+    def __init__(self, what: str, say: Optional[Say] = to_stderr, every: float = 0.0) -> None:
         self.form, self.say, self.every = what + " {} of {}", say, every
         self.start = self.last = time.monotonic()
 
@@ -52,6 +49,6 @@ class Progress:
 
     def _tell(self, text):
         now = time.monotonic()
-        if now - self.last >= self.every:
+        if self.say and now - self.last >= self.every:
             self.last = now
             self.say(text)

@@ -5,7 +5,7 @@ by provide(), and who needs one takes it by provided() when it is called.
 """
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Optional, Union
 
 from .part import Part
@@ -36,7 +36,8 @@ def application_of(found: Any) -> Optional[Part]:
 class Shown:
     """A result that has a report as a page."""
 
-    def report(self, path: Union[str, os.PathLike]) -> None:
+    def report(self, path: Union[str, os.PathLike], inputs: Optional[Mapping[str, Any]] = None) -> None:
         """Writes a page of HTML with the inputs, numbers, errors and pictures of these results. Its path ends in .html;
-        an older page is replaced. Raises an Error if the page cannot be written, or no step has a solution."""
-        provided("report")(self, path)
+        an older page is replaced. `inputs` are {name: value} of those that a result of an application does not have
+        itself. Raises an Error if the page cannot be written, or no step has a solution."""
+        provided("report")(self, path, inputs)

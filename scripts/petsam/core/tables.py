@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, Union
 
 from .errors import Error, library
 from .files import lines_of, need_replaceable, text_of
+from .shown import Shown
 
 HEAD = re.compile(r"(.*?)(?: \[(.*)\])?", re.DOTALL)
 
@@ -103,9 +104,9 @@ def _fields(kind):
     )
 
 
-class Tabled:
-    """Base of classes with a table(), by default of the fields by column(): writes its columns as CSV and as a table of
-    pandas, and reads a class of such fields alone."""
+class Tabled(Shown):
+    """Base of classes with a table(), by default of the fields by column(): writes its columns as CSV, as a table of
+    pandas and on a page, and reads a class of such fields alone."""
 
     form = staticmethod(repr)  # writes a number of the CSV
 

@@ -296,6 +296,11 @@ class Head(NamedTuple):
     word: str
     joined: bool = False
 
+    @property
+    def measure(self):
+        """The unit of SI of its quantity, and the size of its unit, as of measure()."""
+        return measure(self.unit)
+
 
 def measure(unit):
     """The unit of SI of a unit's quantity, and its size; "" of a number without one, None of an unknown one."""

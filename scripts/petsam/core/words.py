@@ -1,10 +1,13 @@
 """Reading of a word: a number with its unit and range, several, a span, a name with its value, words by other readers.
 
-`form` describes what an option expects, as "a length above 0, such as 1mm"; any other word raises WordError. `allowed`
-is whether a number is good, `together` whether those of a word are. A `reader` takes a word and has its own form.
+`form` describes what an option expects, as "a length above 0, such as 1mm"; any other word raises WordError. Numbers
+are good between their ends, `above` or `least` and `below` or `most`, or where `allowed` is true; `together` is whether
+those of a word are. A `reader` takes a word and has its own form.
 """
 
+import functools
 import math
+import operator
 import re
 
 import numpy as np
@@ -13,6 +16,7 @@ from . import units
 from .errors import Error, short, there_are
 
 SIDES = "one or two lengths above 0, such as 1e-3 (m) or 1mm: X[,Y]"
+FRAME = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
 LARGEST_RATIO = 100.0  # of the two sides of a surface or a patch: beyond it, the comma was a decimal comma
 MOST = 10000  # numbers of a span
 
@@ -25,6 +29,21 @@ class WordError(Error):
         self.known = known
 
 
+def _with_ends(reader):
+    """Gives a reader of numbers the keywords of their ends, instead of `allowed`; numbers are finite then."""
+
+    @functools.wraps(reader)
+    def read(text, *given, above=None, least=None, below=None, most=None, **options):
+        ends = ((above, operator.gt), (least, operator.ge), (below, operator.lt), (most, operator.le))
+        tests = [(end, is_in) for end, is_in in ends if end is not None]
+        if tests:
+            options["allowed"] = lambda value: math.isfinite(value) and all(is_in(value, end) for end, is_in in tests)
+        return reader(text, *given, **options)
+
+    return read
+
+
+@_with_ends
 def number(text, form="a number", unit="1", allowed=None, bare=""):
     """A finite number, or one that `allowed` takes, in the unit of SI; the word may have another unit of the same
     quantity after it, and is in the unit `bare` without one."""
@@ -38,6 +57,7 @@ def number(text, form="a number", unit="1", allowed=None, bare=""):
     return value
 
 
+@_with_ends
 def integer(text, form="a whole number", allowed=None):
     """A whole number."""
     if not re.fullmatch(r"[+-]?[0-9]{1,18}", text) or not (allowed is None or allowed(int(text))):
@@ -45,6 +65,7 @@ def integer(text, form="a whole number", allowed=None):
     return int(text)
 
 
+@_with_ends
 def numbers(text, form="numbers separated by commas", unit="1", allowed=None, count=None, together=None):
     """Numbers separated by commas, each with its unit or all without one, but 0 needs none; as many as count, a number
     or several."""
@@ -103,6 +124,7 @@ def limits(text, form="LOW,HIGH, the lower one first"):
     return found
 
 
+@_with_ends
 def integers(text, form="whole numbers separated by commas", allowed=None, count=None):
     """Whole numbers separated by commas."""
     words = text.split(",")
@@ -114,14 +136,15 @@ def integers(text, form="whole numbers separated by commas", allowed=None, count
         raise WordError(text, form, error.known) from error
 
 
-def points(text, form, most, unit="1", count=3):
-    """Up to so many points or directions, each of `count` numbers, separated by colons: tuples."""
+def frame(text):
+    """Origin of a frame, and up to two directions, x and z, separated by colons: tuples of three numbers."""
     words = text.split(":")
-    if len(words) > most:
-        raise WordError(text, form)
-    return tuple(tuple(numbers(word, form, unit, count=count)) for word in words)
+    if len(words) > 3:
+        raise WordError(text, FRAME)
+    return tuple(tuple(numbers(word, FRAME, count=3)) for word in words)
 
 
+@_with_ends
 def span(text, form, unit="1", allowed=None, geometric=False, count=None):
     """An array of FIRST:LAST:COUNT in equal or geometric steps, or of numbers separated by commas, as many as count."""
     words = text.split(":")
@@ -130,12 +153,13 @@ def span(text, form, unit="1", allowed=None, geometric=False, count=None):
     if len(words) != 3 or "," in text:
         raise WordError(text, form)
     first, last = (number(word, form, unit, allowed) for word in words[:2])
-    steps = integer(words[2], form, within(2, MOST))
+    steps = integer(words[2], form, least=2, most=MOST)
     if not geometric:
         return np.linspace(first, last, steps)
     return np.array([float(f"{value:.12g}") for value in np.geomspace(first, last, steps)])
 
 
+@_with_ends
 def bounds(text, form, allowed=None, together=None):
     """The whole numbers of FIRST:LAST; None for one that is left out."""
     words = [word.strip() for word in text.split(":")]
@@ -148,6 +172,7 @@ def bounds(text, form, allowed=None, together=None):
     return found
 
 
+@_with_ends
 def named(text, form, unit="1", allowed=None, reader=None, known=None, bare=None):
     """Name and number of NAME=NUMBER, or what another reader makes of the word after a name that the pattern `known`
     fits; a word without a name gets the name `bare`."""
@@ -185,29 +210,9 @@ def each(text, form, *readers, rest=()):
         raise WordError(text, form, error.known) from error
 
 
-def positive(value):
-    """True if a number is above 0 and finite."""
-    return 0.0 < value < math.inf
-
-
-def not_negative(value):
-    """True if a number is 0 or more, and finite."""
-    return 0.0 <= value < math.inf
-
-
-def part(value):
-    """True if a number is a part of 1: from 0 to below 1."""
-    return 0.0 <= value < 1.0
-
-
-def within(low, high=math.inf):
-    """A test of whether a number is from `low` to `high`."""
-    return lambda value: low <= value <= high
-
-
 def sides(text):
     """One or two positive lengths, m: x and y."""
-    found = numbers(text, SIDES, "m", positive, count=(1, 2))
+    found = numbers(text, SIDES, "m", above=0.0, count=(1, 2))
     x, y = found[0], found[-1]
     if max(x, y) > LARGEST_RATIO * min(x, y):
         raise Error(f"{short(text)}: is {x:g} m x {y:g} m: decimals have a point, not a comma")

@@ -8,7 +8,7 @@ from functools import partial
 
 from ..core import words
 from ..core.errors import short
-from ..core.line import PERIOD, Parser, add_resolution, joined, word
+from ..core.line import PERIOD, Parser, word
 from ..results.cycles import PAIRS
 from . import bodies, page
 
@@ -148,7 +148,7 @@ def _look(parser):
     )
     look.add_argument(
         "--percentile", metavar="P",
-        type=word(words.number, "a number above 0, at most 100", allowed=lambda value: 0.0 < value <= 100.0),
+        type=word(words.number, "a number above 0, at most 100", above=0.0, most=100.0),
         help="colours up to this percentile of the cells that are not 0 (100, less where peaks would darken the rest)",
     )  # fmt: skip
     for letter in "xy":
@@ -158,7 +158,7 @@ def _look(parser):
     form = "millimetres from {:g} to {:g}, or a length such as 9cm".format(*(1e3 * width for width in WIDTHS))
     look.add_argument(
         "--width",
-        type=word(words.number, form, "m", words.within(*WIDTHS), bare="mm", to=lambda metres: 1e3 * metres),
+        type=word(words.number, form, "m", least=WIDTHS[0], most=WIDTHS[1], bare="mm", to=lambda metres: 1e3 * metres),
         metavar="MM",
         help="width of the picture, mm; texts are scaled, to no less than 4.5 points",
     )
@@ -177,7 +177,7 @@ def _look(parser):
         help="write one page instead of pictures: inputs, numbers, errors, check, history, and the pictures",
     )  # fmt: skip
     look.add_argument("--format", choices=[end[1:] for end in FORMATS], help="instead of an end of the name (png)")
-    add_resolution(look)
+    parser.add_resolution(look)
 
 
 def _check_report(parser, options):
@@ -217,7 +217,7 @@ def _read(parser, given):
     for group in (_pictures, _quantities, _steps, _look):
         group(parser)
     parser.set_defaults(spelling="--scalar")
-    options = parser.parse_args(joined(given))
+    options = parser.parse_args(given)
     _check(parser, options)
     return options
 

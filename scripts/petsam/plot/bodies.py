@@ -9,15 +9,12 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import Bbox
 
 from ..core.errors import Error
+from ..results.stresses import FATIGUE
 from .fields import PIXELS, Layout
 from .style import DAMAGE, bar, colors, cross, extent, field, heading, named, need_few, note, plt
 from .units import label, largest, number, plain, scale
 
 SYMBOLS = {name: f"$\\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
-FATIGUE = {
-    "crossland": "Crossland", "dang_van": "Dang Van", "findley": "Findley", "swt": "Smith, Watson and Topper",
-    "fatemi_socie": "Fatemi and Socie", "ruiz_1": "Ruiz 1", "ruiz_2": "Ruiz 2",
-}  # fmt: skip
 SHORT = {
     "crossland": "Crossland", "dang_van": "Dang Van", "findley": "Findley", "swt": "SWT", "fatemi_socie": "FS",
     "ruiz_1": "Ruiz 1", "ruiz_2": "Ruiz 2",
@@ -215,7 +212,7 @@ def profiles(steps, component=None, at=(0.0, 0.0)):
     component = _one([file for file, _ in steps], component)
     data = [_section(file, _dataset(component), index, at, slice(0, 1))[0] for file, index in steps]
     length, unit = scale("m", max(np.ptp(_line(file, at)[1]) for file, _ in steps) / 2)
-    factor, prefixed = scale("Pa", largest(data))
+    factor, prefixed = scale("Pa", *data)
     for (file, index), values, tint in zip(steps, data, colors(len(steps))):
         axis, along, _, _, where = _line(file, at)
         axes.plot(length * along, factor * values, color=tint, linewidth=1.3, label=plain(file.title(index)))

@@ -35,7 +35,7 @@ import os
 from ..core.errors import Error
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
-from ..core.line import guarded, quietly, wrote
+from ..core.line import guarded, wrote
 from ..core.shown import applications
 from ..core.tables import read_csv
 from ..results.file import NotSaved
@@ -257,4 +257,4 @@ def draw_all(options):
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
 
-    return guarded("petsam-plot", lambda: quietly(draw_all, arguments.read(__doc__)))
+    return guarded("petsam-plot", lambda: draw_all(arguments.read(__doc__)), quiet=True)

@@ -111,7 +111,7 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
         for axis in sides
     ]
     every = [line[0] for side in lines for line in side]
-    length, unit = scale("m", largest(data["along"] for data in every))
+    length, unit = scale("m", *(data["along"] for data in every))
     tops = [largest(data[name] for data in every for name in row[0]) for row in rows]
     if not names:
         by_name = {row[0][0]: top for row, top in zip(rows, tops)}

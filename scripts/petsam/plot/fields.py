@@ -233,7 +233,7 @@ def maps(snapshots, whole=False, names=None, choice=None):
     data, names = _gather(snapshots, names, whole)
     layout = Layout(data, len(names))
     need_few(layout.rows, "steps and files")
-    length, unit = scale("m", largest(np.array(one["extent"]) for one in data))
+    length, unit = scale("m", *(np.array(one["extent"]) for one in data))
     figure, axes = plt.subplots(layout.rows, layout.columns, figsize=layout.size, squeeze=False, layout="constrained")
     for column, name in enumerate(names):
         having = [(one, results) for one, (results, _) in zip(data, snapshots) if name in one]

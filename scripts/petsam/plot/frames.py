@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 from ..core.errors import counted
 from ..results.fields import OPEN
 from . import colours, crossings, fields, looks, noise, page, symbols
-from .style import STYLE, drawn
+from .style import drawn
 
 STEPS = 20  # saved steps at most, chosen evenly
 FIELDS = 4  # beside each other at most
@@ -57,7 +57,7 @@ def spans(results, indices, part):
     return {name: found[name] for name in (shown or names[:1])[:FIELDS]}
 
 
-@drawn(STYLE)
+@drawn()
 def _picture(results, index, name, span, part):
     if results.is_plane:
         span = span if span[1] > span[0] else None

@@ -104,7 +104,7 @@ def _map(panel, one, values, layout, length, percentile):
 
 def _curve(panel, one, values, length):
     """A curve over x with the edges of contact and of stick; no remark."""
-    factor, unit = scale(one["unit"], largest([values]))
+    factor, unit = scale(one["unit"], values)
     x = length * one["x"]
     panel.axhline(0.0, color="0.6", linewidth=0.8)
     for inside, dash in EDGES:
@@ -133,7 +133,7 @@ def gradient(files, whole=False):
             raise Error(f"{one.path}: --gradient: plane problems do not go into a picture of others")
     data = [_read(one, each, whole) for one in files for each in drawn(one)]
     need_few(len(data), "gradients")
-    length, unit = scale("m", largest([axis for one in data for axis in (one["x"], one["y"])]))
+    length, unit = scale("m", *(axis for one in data for axis in (one["x"], one["y"])))
     if files[0].is_plane:
         layout, size = None, (9.4, 2.7 * len(data) + 0.6)
     else:

@@ -43,6 +43,10 @@ limits : tuple, optional
     Range of the colours, (low, high), SI units.
 log : str or list of str
     Axes that are logarithmic: "x", "y".
+xlim, ylim : tuple, optional
+    Part of the axes, (low, high), SI units.
+width : float, optional
+    Width of the picture, mm.
 
 Returns
 -------
@@ -72,15 +76,7 @@ def _second(text):
 
 @dataclass(frozen=True)
 class Look:
-    """The look of all pictures.
-
-    Parameters
-    ----------
-    xlim, ylim : tuple, optional
-        Part of the axes, (low, high), SI units.
-    width : float, optional
-        Width of the picture, mm.
-    """
+    """The look of all pictures."""
 
     xlim: Span = None
     ylim: Span = None

@@ -33,7 +33,7 @@ def loop_axes(results, pair=None):
     pair = pair or busiest(results[0])
     if pair is None:
         raise Error(f"{results[0].path}: no load varies, a loop needs several steps")
-    return {name: scale(results[0].units[name], largest(one.series(name) for one in results)) for name in PAIRS[pair]}
+    return {name: scale(results[0].units[name], *(one.series(name) for one in results)) for name in PAIRS[pair]}
 
 
 def _last_cycle(results, names):
@@ -116,7 +116,7 @@ def cycle_loops(found, pair=None, numbers=None):
     force, way = factors
     pair = force.removeprefix("load_")
     known = [sliding.numbers(one.results, cycle, pair) for one, cycle in chosen]
-    joules, unit = scale(results[0].work_unit, largest([np.array([of.energy for of in known])]))
+    joules, unit = scale(results[0].work_unit, *(of.energy for of in known))
     figure, axes = plt.subplots(figsize=(7.6, 4.8), constrained_layout=True)
     tints = [tint(k, len(chosen)) for k in range(len(chosen))] if len(found) == 1 else colors(len(chosen))
     for (one, cycle), of, color in zip(chosen, known, tints):
@@ -159,7 +159,7 @@ def energy(found, logs=()):
     data = [_energies(one) for one in found]
     many, words = counted(largest(numbers for numbers, _ in data))
     many, words = (many, words) if many < 1e-2 else (1.0, "cycle")
-    joules, unit = scale(found[0].results.work_unit, largest(energies for _, energies in data))
+    joules, unit = scale(found[0].results.work_unit, *(energies for _, energies in data))
     figure, axes = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
     for one, (numbers, energies), color in zip(found, data, colors(len(found))):
         computed = " computed" if one.results.has_life else ""

@@ -22,7 +22,7 @@ from ..results.stresses import Stresses
 from ..results.studies import Study
 from . import bodies, colours, crossings, fields, gradients, looks, loops, planes, series, tables, wear
 from .keywords import COMMON, Cycles, Frames, Look, Names, Point, Saved, Span, StepRange, Times, Turns, Values, listed
-from .style import STYLE, drawn, need_kind
+from .style import drawn, need_kind
 
 ORIGIN = (0.0, 0.0)
 
@@ -32,7 +32,7 @@ def picture(draw, program="petsam"):
     that many have."""
 
     @functools.wraps(draw)
-    @drawn(STYLE)
+    @drawn()
     def adapted(*files, look, **options):
         need_kind(draw.__name__, files, "results of petsam.open()", lambda one: hasattr(one, "program"))
         if not files:

@@ -52,9 +52,8 @@ def report(results: Any, path: Union[str, os.PathLike], inputs: Optional[Mapping
         If the page cannot be written, or no step has a solution.
     """
     application = application_of(results)
-    module = _module(application, results) if application else None
-    if module:
-        _of_application(application, module, results, path, inputs or {})
+    if application and isinstance(results, founds.RESULTS):
+        _of_application(application, results, path, inputs or {})
         return
     if inputs:
         raise Error("report: inputs are for results of an application; files have their own: remove them")
@@ -115,21 +114,16 @@ def write(results, path, figures, dpi=page.DPI):
     save(path, results.label, _parts(results, pictures))
 
 
-def _module(application, found):
-    """The module of the page of what an application has found: its own, or that of all tables; None without one."""
-    own = application.module(application.report) if application.report else founds
-    return next((one for one in (own, founds) if isinstance(found, one.RESULTS)), None)
-
-
-def _of_application(application, module, found, path, inputs):
+def _of_application(application, found, path, inputs):
     """Writes the page of what an application has found."""
     path = page.name(os.fspath(path))
     need_replaceable(path)
     written = datetime.datetime.now().astimezone()
     rows = [("Program", f"{application.command} {__version__}"), ("Date", _date(written))]
-    title = module.title(found)
+    shown = founds.contents(found, application)
+    title = shown["title"]
     head = page.element("header", page.element("h1", title), page.terms(rows))
-    numbers, *others = module.parts(found, inputs, application)
+    numbers, *others = founds.parts(found, shown, inputs)
     first = page.element("div", head, numbers, class_="many")  # on paper on one page
     save(path, title, [first, *others, _cited(__version__)])
 

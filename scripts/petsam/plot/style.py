@@ -24,7 +24,6 @@ STYLE = {
     "legend.frameon": False, "legend.fontsize": 8.5, "legend.title_fontsize": 9,
     "savefig.dpi": DPI, "mathtext.fontset": "dejavusans",
 }  # fmt: skip
-WHOLE = {**STYLE, "axes.formatter.useoffset": False}  # ticks have whole numbers, not what is beyond an offset
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#5a5a5a")  # of Okabe and Ito: for all eyes
 PANELS = 64  # maximum panels of a picture, one below the other or side by side
 MARKED = 80  # points of a curve up to which each is marked; more would form a band
@@ -34,16 +33,17 @@ DAMAGE = "YlOrRd"  # colours of what is zero over most of a picture: light there
 CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed-form solution
 
 
-def drawn(style, kind=None):
-    """Makes a function that draws a figure draw it in a style; pyplot, which would show it twice in a notebook, forgets
-    the figure. With a kind it draws nothing else than objects of this class."""
+def drawn(*kinds, style=None):
+    """Makes a function that draws a figure draw it in the house's style, and more of it if given; pyplot, which would
+    show it twice in a notebook, forgets the figure. With kinds it draws nothing else than objects of these classes, the
+    first of the first one, and further ones of the last."""
 
     def of(draw):
         @functools.wraps(draw)
         def drawing(*given, **options):
-            if kind:
-                need_kind(draw.__name__, given, kind.__name__, lambda one: isinstance(one, kind))
-            with plt.rc_context(style):
+            for one, kind in zip(given, [*kinds, *kinds[-1:] * len(given)]):
+                need_kind(draw.__name__, [one], kind.__name__, lambda one, kind=kind: isinstance(one, kind))
+            with plt.rc_context({**STYLE, **(style or {})}):
                 figure = draw(*given, **options)
             plt.close(figure)
             return figure

@@ -222,7 +222,7 @@ def _draw(panel, curves, name, other, across, logs):
     """One column over the other of all curves."""
     data = [(study.column(other)[0][cases].astype(float), numbers(study, name, "--scalar")[0][cases])
             for study, _, _, _, cases in curves]  # fmt: skip
-    factor, unit = on_axis(numbers(curves[0][0], name, "--scalar")[1], largest(y for _, y in data))
+    factor, unit = on_axis(numbers(curves[0][0], name, "--scalar")[1], *(y for _, y in data))
     for (study, text, color, mark, cases), (x, y) in zip(curves, data):
         order = np.argsort(x, kind="stable")
         error = f"{name.removesuffix('_end')}_error"
@@ -275,4 +275,4 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
 def _abscissa(curves, other):
     """Factor and unit of what is drawn over."""
     _, unit = numbers(curves[0][0], other, "--against")
-    return on_axis(unit, largest(numbers(study, other, "--against")[0][cases] for study, _, _, _, cases in curves))
+    return on_axis(unit, *(numbers(study, other, "--against")[0][cases] for study, _, _, _, cases in curves))

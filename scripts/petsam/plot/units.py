@@ -24,30 +24,32 @@ def written(unit):
     return re.sub(r"(?<=[\w²³]) (?=[A-Za-z])", "·", unit)
 
 
-def scale(unit, largest):
-    """Factor and unit with the prefix in which largest has up to three digits before the point.
+def scale(unit, *values):
+    """Factor and unit with the prefix in which the largest of some values, numbers or arrays, has up to three digits
+    before the point.
 
     Areas and volumes have more: six from µm² to mm², nine from µm³ to mm³. There 0.001 stands for its own unit.
     """
-    first = BASE.match(unit)
-    if not first or not np.isfinite(largest) or largest == 0.0:
+    first, top = BASE.match(unit), largest(values)
+    if not first or top == 0.0:
         return 1.0, "" if unit == "1" else written(unit)
     power, least = POWERS.get(first[0], 1), LEAST.get(first[0], 1.0)
     # no kilometres, and no kilo-radians
     small_only = first[0] in ("m", *POWERS, "rad")
     prefixes = [(size**power, prefix) for size, prefix in PREFIXES if size <= 1.0 or not small_only]
     if unit == "m2":  # 5000 mm² are no 0.005 m²
-        prefixes = [(size, prefix) for size, prefix in prefixes if size < 1.0 or largest >= 0.1]
-    size, prefix = next((pair for pair in prefixes if largest >= least * pair[0] * (1.0 - 1e-9)), prefixes[-1])
+        prefixes = [(size, prefix) for size, prefix in prefixes if size < 1.0 or top >= 0.1]
+    size, prefix = next((pair for pair in prefixes if top >= least * pair[0] * (1.0 - 1e-9)), prefixes[-1])
     return 1.0 / size, prefix + written(unit)
 
 
-def on_axis(unit, largest):
+def on_axis(unit, *values):
     """The same for an axis, on which small numbers without a unit are those times a power of ten: 0.5 to 2, not 0.0005
     to 0.0020, which runs into its neighbours."""
-    if unit != "1" or not 0.0 < largest < 0.01:
-        return scale(unit, largest)
-    power = 3 * int(np.floor(np.log10(largest) / 3.0 + 1e-9))
+    top = largest(values)
+    if unit != "1" or not 0.0 < top < 0.01:
+        return scale(unit, top)
+    power = 3 * int(np.floor(np.log10(top) / 3.0 + 1e-9))
     return 10.0**-power, "10" + str(power).translate(RAISED)
 
 
@@ -92,7 +94,7 @@ def label(text, unit):
 
 def largest(arrays):
     """Largest magnitude of the finite numbers in arrays, 0 without any."""
-    finite = (np.abs(a[np.isfinite(a)]) for a in arrays)
+    finite = (np.abs(a[np.isfinite(a)]) for a in map(np.asarray, arrays))
     return max((float(np.max(a)) for a in finite if a.size), default=0.0)
 
 

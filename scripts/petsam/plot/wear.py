@@ -74,7 +74,7 @@ def _loops(panel, one, factors, loops):
     """Draws the loops of one file's cycles."""
     cycles, energies, points = loops
     factor, words = counted(cycles[-1])
-    joules, unit = scale(one.work_unit, largest([energies]))
+    joules, unit = scale(one.work_unit, energies)
     for k, (cycle, energy, values) in enumerate(zip(cycles, energies, points)):
         y, x = (size * values(name) for name, (size, _) in factors.items())
         text = f"{factor * cycle:.3g}: {joules * energy:.3g} {unit}"
@@ -240,7 +240,7 @@ def scar(steps, at=None, whole=False, measured=None):
         for index in indices
         for axis in sides
     )
-    units = scale("m", largest(axis for one, _ in steps for axis in (one.x, one.y))), scale("m", depth)
+    units = scale("m", *(axis for one, _ in steps for axis in (one.x, one.y))), scale("m", depth)
     size = (11.5 if len(sides) > 1 else 7.5, 3.2 * len(rows) + 0.3)
     figure, axes = plt.subplots(
         len(rows), len(sides), figsize=size, squeeze=False, sharey="row", constrained_layout=True
@@ -270,7 +270,7 @@ def _life_panel(panel, files, names, title):
     if len(names) > 1:
         names = [name for name in names if name[-1] in bodies]
         title += f" of body {bodies[0]}" if len(names) == 1 else ""
-    factor, unit = scale(files[0].wear_units[names[0]], largest(one.wear[name] for one in files for name in names))
+    factor, unit = scale(files[0].wear_units[names[0]], *(one.wear[name] for one in files for name in names))
     for one, color in zip(files, colors(len(files))):
         for name, style in zip(names, BODIES):
             panel.plot(one.wear["cycle"], factor * one.wear[name], style, color=color, **LOOK)

@@ -11,7 +11,11 @@ from .file import Results
 from .studies import Study, is_study
 
 # parameters of a cycle; the critical plane's normal is in NAME_normal_x, _y, _z
-FATIGUE = ("crossland", "dang_van", "findley", "swt", "fatemi_socie", "ruiz_1", "ruiz_2")
+# fatigue parameters, and what they are called
+FATIGUE = {
+    "crossland": "Crossland", "dang_van": "Dang Van", "findley": "Findley", "swt": "Smith, Watson and Topper",
+    "fatemi_socie": "Fatemi and Socie", "ruiz_1": "Ruiz 1", "ruiz_2": "Ruiz 2",
+}  # fmt: skip
 AXES = ("time", "z", "y", "x")
 
 

@@ -6,7 +6,6 @@ import os
 from collections.abc import Callable, Mapping
 
 from ...core.errors import Unusable
-from ...core.progress import quiet
 from . import model
 from .result import Compliance
 from .settings import settings
@@ -14,7 +13,7 @@ from .settings import settings
 
 def of_deck(
     deck: str | os.PathLike, patch: float | tuple, contact: str, supports: object = (),
-    progress: Callable = quiet, **more: object,
+    progress: Callable | None = None, **more: object,
 ) -> Compliance:  # fmt: skip
     """The compliance of a body, or of a pair joined by bolts, from a deck of CalculiX or Abaqus (.inp).
 
@@ -88,6 +87,6 @@ def of_mesh(
     Error
         As of of_deck().
     """
-    contact, progress = more.pop("contact", None), more.pop("progress", quiet)
+    contact, progress = more.pop("contact", None), more.pop("progress", None)
     given = settings(contact, patch, supports, materials=(young, poisson, density), **more)
     return model.computed(mesh, given, "petsam.compliance.of_mesh()", progress)

@@ -38,8 +38,7 @@ from ...core import materials, words
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
 from ...core.hdf5 import need_own
-from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word, wrote
-from ...core.progress import to_stderr
+from ...core.line import Parser, guarded, word, wrote
 from ...core.units import shown
 from ...plot.saving import write
 from . import basis, model, several, writing
@@ -50,8 +49,8 @@ PROGRAM = "petsam-compliance"
 RIGID = {6: "six", 4: "four"}  # motions of bodies, of sections
 SECONDS = 5.0  # between two lines of progress
 MODULUS, LENGTH = "a modulus above 0, such as 210GPa", "a length above 0, such as 1e-3 (m) or 1mm"
-modulus = partial(words.number, form=MODULUS, unit="Pa", allowed=words.positive)
-length = partial(words.number, form=LENGTH, unit="m", allowed=words.positive)
+modulus = partial(words.number, form=MODULUS, unit="Pa", above=0.0)
+length = partial(words.number, form=LENGTH, unit="m", above=0.0)
 
 
 def degree(found):
@@ -89,18 +88,17 @@ def _body_options(parser):
     body.add_argument("--units", choices=tuple(UNITS), default="m", help="m: m, N, Pa; mm: mm, N, MPa (m)")
     body.add_argument(
         "--frame",
-        type=word(words.points, FRAME, 3),
+        type=word(words.frame),
         default=((0.0, 0.0, 0.0),),
         metavar="ORIGIN[:X[:Z]]",
         help="of the contact in the deck's coordinates and units; Z points into the body (0,0,0:1,0,0, surface normal)",
     )
-    positive, ratio = words.positive, lambda value: -1.0 < value < 0.5
-    for name, form, unit, allowed, text in (
-        ("young", MODULUS, "Pa", positive, "Young's modulus of a mesh without materials, Pa"),
-        ("poisson", "a ratio from -1 to 0.5", "1", ratio, "its Poisson's ratio"),
-        ("density", "a density above 0, in kg/m3", "kg/m3", positive, "its density, kg/m3"),
+    for name, form, unit, ends, text in (
+        ("young", MODULUS, "Pa", dict(above=0.0), "Young's modulus of a mesh without materials, Pa"),
+        ("poisson", "a ratio from -1 to 0.5", "1", dict(above=-1.0, below=0.5), "its Poisson's ratio"),
+        ("density", "a density above 0, in kg/m3", "kg/m3", dict(above=0.0), "its density, kg/m3"),
     ):
-        reads = word(words.named, form, unit, allowed, bare="")
+        reads = word(words.named, form, unit, **ends, bare="")
         body.add_argument(f"--{name}", type=reads, action="append", metavar="[SET=]VALUE", help=text)
     body.add_argument(
         "--material", type=word(words.named, "[SET=]NAME, such as steel", reader=materials.find, bare=""),
@@ -108,7 +106,7 @@ def _body_options(parser):
         help="the three of a material by its name, where they are not given: steel, Ti-6Al-4V, ... (petsam.materials)",
     )  # fmt: skip
     form = "NAME=STEP, a name of at most 20 letters, digits or _ and a step of the deck"
-    case = word(words.named, form, reader=partial(words.integer, allowed=words.not_negative), known=NAME)
+    case = word(words.named, form, reader=partial(words.integer, least=0), known=NAME)
     body.add_argument("--case", type=case, action="append", metavar="NAME=STEP", help="load case: a step of the deck")
 
 
@@ -128,7 +126,7 @@ def _pair_options(parser):
     )
     pair.add_argument(
         "--modes",
-        type=word(words.integer, f"an integer from 1 to {MOST_OF_PAIR}", words.within(1, MOST_OF_PAIR)),
+        type=word(words.integer, f"an integer from 1 to {MOST_OF_PAIR}", least=1, most=MOST_OF_PAIR),
         default=0,
         metavar="N",
         help="number of modes without contact; needs *DENSITY",
@@ -161,7 +159,7 @@ def parser():
     form = f"an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and y: 12,6"
     patch.add_argument(
         "--degree",
-        type=word(words.integers, form, words.not_negative, count=(1, 2), to=degree),
+        type=word(words.integers, form, least=0, count=(1, 2), to=degree),
         default=6,
         metavar="N|NX,NY",
         help=f"of the polynomials: the sum in x and y, 0 to {HIGHEST}, or the largest in x and in y, up to "
@@ -185,7 +183,7 @@ def parser():
     out = found.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the deck's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
-    add_choice(out)
+    found.add_choice(out)
     return found
 
 
@@ -240,7 +238,7 @@ def settings(options):
 def arguments(given):
     """Reads the command line; what is to be computed of it as `settings`."""
     reader = parser()
-    options = reader.parse_args(joined(given))
+    options = reader.parse_args(given)
     try:
         options.settings = settings(options)
     except Unusable as error:
@@ -340,7 +338,10 @@ def carry_out(options, given):
         need_replaceable(options.picture)
     command = shlex.join([PROGRAM, *given])
     start = time.monotonic()
-    say = lambda text: to_stderr(f"  {time.monotonic() - start:.0f} s: {text}")  # noqa: E731
+
+    def say(text):
+        print(f"  {time.monotonic() - start:.0f} s: {text}", file=sys.stderr, flush=True)
+
     found = model.computed(options.mesh, options.settings, command, say, SECONDS)
     body = found.bodies[0]
     for text in body.remarks:
@@ -367,9 +368,9 @@ def carry_out(options, given):
 
 def _run():
     given = sys.argv[1:]
-    return quietly(carry_out, arguments(given), given)
+    return carry_out(arguments(given), given)
 
 
 def main():
     """Returns the exit code: 0, 2 for bad usage, 3 for a file or a body that is rejected."""
-    return guarded(PROGRAM, _run)
+    return guarded(PROGRAM, _run, quiet=True)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core.brief import brief
 from ...core.errors import Error
-from ...core.progress import Progress, quiet
+from ...core.progress import Progress
 from .remainder import Remainder, Side, scatter
 
 ORDER = 4  # Gauss points along the side of an element
@@ -141,7 +141,7 @@ def solved(mesh, fields, solver, cutoff, progress=None):
         local, weight = block.shape.rule(ORDER)
         chosen, stride = np.flatnonzero(near), max(1, POINTS // len(weight))
         work += [(index, local, weight, chosen[i : i + stride]) for i in range(0, len(chosen), stride)]
-    progress = progress or Progress("group", quiet)
+    progress = progress or Progress("group", None)
     progress.begin("half-space fields", "half-space fields in {} of {} groups of elements")
     for done, (index, local, weight, elements) in enumerate(work, 1):
         nodal, energy = _element_forces(mesh.volume(index, local, weight, elements), fields, cutoff)

@@ -21,7 +21,7 @@ by the half-space's equilibrium and that of w_j, where <phi_i, w> is that of w o
 
 import numpy as np
 
-from ...core.progress import Progress, quiet
+from ...core.progress import Progress
 from .mesh import some
 from .remainder import Remainder, half_space, scatter
 
@@ -65,7 +65,7 @@ def solved(sides, solver, supported, progress=None, tie=None):
     compliance = np.zeros((columns, columns))
     groups = [(side, *group) for side in sides for group in other_faces(side.mesh, side.fields.patch, supported)]
     total = sum(len(faces.elements) for _, faces, _ in groups)
-    done, progress = 0, progress or Progress("face", quiet)
+    done, progress = 0, progress or Progress("face", None)
     progress.begin("half-space fields", "half-space fields on {} of {} faces")
     for side, faces, fixed in groups:
         for piece in pieces(faces):

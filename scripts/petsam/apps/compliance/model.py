@@ -11,8 +11,8 @@ import numpy as np
 from ...core.brief import brief
 from ...core.decks import folded
 from ...core.errors import Error, short
-from ...core.frames import Frame, frame_of
-from ...core.progress import Progress, quiet
+from ...core.frames import Frame
+from ...core.progress import Progress
 from . import (
     bolts,
     boxes,
@@ -137,7 +137,7 @@ class Model:
             raise Error(f"{path}: surface {settings.contact} has no element faces: define it by TYPE=ELEMENT")
         outward = sum(mesh.gauss(group, 2).area.sum(axis=(0, 1)) for group in faces)
         origin, x, z = (list(settings.frame) + [None, None])[:3]
-        self.frame = frame_of(np.array(origin) * units.length, x, z, outward, mesh.normal)
+        self.frame = Frame.of(np.array(origin) * units.length, x, z, outward, mesh.normal)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
         self.planes = [self._plane(name, nodes) for name, nodes in zip(settings.symmetry, symmetric)]
         planes = np.concatenate([np.zeros(0, dtype=int), *(nodes for nodes, _ in self.planes)])
@@ -346,7 +346,7 @@ def _stress(model, found, cases):
     return where, stresses.remaining(where, found), single
 
 
-def computed(source, settings, command="", say=quiet, every=0.0):
+def computed(source, settings, command="", say=None, every=0.0):
     """The Compliance of a deck or a mesh (Model); command: what made it, for the file; say: called with the lines of
     Progress, at most one in `every` seconds."""
     progress = Progress("part", say, every)

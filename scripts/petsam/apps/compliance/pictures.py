@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLORS, STYLE, bar, drawn, field, frame, note, plt
+from ...plot.style import COLORS, bar, drawn, field, frame, note, plt
 from ...plot.units import label, scale
 from .basis import LinePatch, written
 from .result import Compliance
@@ -62,7 +62,7 @@ def _map(axes, body, coefficients, title, unit, field_unit="m"):
         return
     values = (patch.values(*_points(patch)) @ coefficients).T.reshape(3, CELLS, CELLS)
     largest = int(np.argmax(np.max(np.abs(values), axis=(1, 2))))
-    size = scale("m", float(np.max(np.abs(values)))) if field_unit == "m" else (1.0, field_unit)
+    size = scale("m", values) if field_unit == "m" else (1.0, field_unit)
     (x, y), (a, b) = patch.center, patch.half
     edges = [v * unit[0] for v in (x - a, x + a, y - b, y + b)]
     shown = values[largest] * size[0]
@@ -75,7 +75,7 @@ def _line(axes, body, coefficients, title, unit, field_unit):
     """u_x and u_z of a displacement on the patch of a section."""
     x = body.patch.center[0] + body.patch.half[0] * np.linspace(-1.0, 1.0, CELLS)
     values = body.patch.values(x, np.zeros(CELLS)) @ coefficients
-    size = scale("m", float(np.max(np.abs(values)))) if field_unit == "m" else (1.0, field_unit)
+    size = scale("m", values) if field_unit == "m" else (1.0, field_unit)
     for axis, name in ((0, "u_x"), (2, "u_z")):
         axes.plot(x * unit[0], values[:, axis] * size[0], color=COLORS[axis], label=name)
     axes.legend()
@@ -118,7 +118,7 @@ def _panels(body, unit, name=""):
     return panels
 
 
-@drawn(STYLE, Compliance)
+@drawn(Compliance)
 def compliance(found: Compliance) -> Figure:
     """The patches of a body, or of a pair: on the mesh, deflections, the spectrum, convergence by degree.
 

@@ -18,5 +18,6 @@ PART = Part(
     libraries=("numpy", "h5py", "matplotlib", "yaml"),
     see=("petsam", "petsam-stress", "petsam-plot", "petsam-study"),
     pictures={"pictures": ("lives",)},
+    expressions={"strength": ("life_swt", "life_fatemi_socie", "life_basquin")},
 )
 __all__, __getattr__, __dir__ = PART.face()

@@ -21,10 +21,9 @@ import numpy as np
 from ...core import words
 from ...core.errors import Error, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, add_choice, guarded, joined, quietly, word, wrote
+from ...core.line import Parser, guarded, word, wrote
 from ...core.progress import Progress
 from ...plot import saving
-from ...plot.arguments import NAMES, POINT, numbers
 from ...results.stresses import Stresses
 from . import evaluation, materials, spectrum, strength
 from .stresses import Cycle
@@ -64,26 +63,35 @@ def arguments(given):
         metavar="NAME,...",
         help=f"of {', '.join(CRITERIA)} (all with constants and data)",
     )
-    what.add_argument("--counts", type=numbers(), metavar="N,...", help="cycles of each file in the spectrum (1)")
+    what.add_argument(
+        "--counts", type=word(words.numbers), metavar="N,...", help="cycles of each file in the spectrum (1)"
+    )
     what.add_argument(
         "--plane",
-        type=word(words.number, "degrees from -180 to 180", "degrees", lambda value: abs(value) <= 180.0),
+        type=word(words.number, "degrees from -180 to 180", "degrees", least=-180.0, most=180.0),
         default=0.0,
         metavar="DEGREES",
         help="angle of the plane's normal to x (0)",
     )
     where = parser.add_argument_group("line along the depth").add_mutually_exclusive_group()
-    where.add_argument("--at", type=POINT, metavar="X,Y", help="below this place, such as -0.5mm,0")
+    where.add_argument(
+        "--at",
+        type=word(words.numbers, "X,Y, such as 0.1mm,0", "m", count=2),
+        metavar="X,Y",
+        help="below this place, such as -0.5mm,0",
+    )
     where.add_argument(
         "--hot", metavar="NAME", help="below the maximum of this parameter on the surface (the first one)"
     )
     out = parser.add_argument_group("output")
-    out.add_argument("--quantity", type=NAMES, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
+    out.add_argument(
+        "--quantity", type=word(words.names), metavar="NAME,...", help="on the line, maxima of the cycle (parameters)"
+    )
     out.add_argument("--csv", metavar="NAME.csv", help="write the lines: columns name [unit], SI")
     out.add_argument("--labels", metavar="TEXT,...", help="the files' names in the picture (their file names)")
     out.add_argument("-o", "--output", metavar="NAME", help="picture: .png, .pdf or .svg (NAME_depth.png of the file)")
-    add_choice(out)
-    options = parser.parse_args(joined(given))
+    parser.add_choice(out)
+    options = parser.parse_args(given)
     options.counts = options.counts or [1.0] * len(options.files)
     if len(options.counts) != len(options.files) or not all(0.0 < count < np.inf for count in options.counts):
         parser.error(f"--counts: {len(options.files)} files need as many numbers above 0")
@@ -201,4 +209,4 @@ def carry_out(options):
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data."""
-    return guarded("petsam-fatigue", lambda: quietly(carry_out, arguments(sys.argv[1:])))
+    return guarded("petsam-fatigue", lambda: carry_out(arguments(sys.argv[1:])), quiet=True)

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.bodies import FATIGUE
-from ...plot.style import STYLE, colors, drawn, logarithmic, note, plt
-from ...plot.units import label, largest, number, plain, scale
+from ...plot.style import colors, drawn, logarithmic, note, plt
+from ...plot.units import label, number, plain, scale
+from ...results.stresses import FATIGUE
 from . import cracks
 from .spectrum import Lives
 
@@ -22,7 +22,7 @@ def _title(name):
 def _over_depth(panel, lines, names, length, unit):
     """One parameter of all lines over depth, or several lives or factors: a colour per line, a dash per name."""
     unit_of, kind = lines[0][1].columns[names[0]][0], names[0].split("_")[0]
-    factor, prefixed = scale(unit_of, largest(one.columns[names[0]][1] for _, one in lines))
+    factor, prefixed = scale(unit_of, *(one.columns[names[0]][1] for _, one in lines))
     several = kind in KINDS and len(names) > 1  # one alone stands beside the axis
     for (who, one), tint in zip(lines, colors(len(lines))):
         for name, dash in zip(names, DASHES):
@@ -67,7 +67,7 @@ def _kitagawa(panel, cracked, constants, length, unit):
     panel.legend()
 
 
-@drawn(STYLE, Lives)
+@drawn(Lives)
 def lives(found: Lives) -> Figure:
     """The lines over the depth, and two panels of a short crack.
 

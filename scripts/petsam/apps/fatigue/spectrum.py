@@ -127,7 +127,7 @@ def lives(  # noqa: PLR0913  (as the options of petsam-fatigue)
     if len(counts) != len(cycles) or not all(0.0 < one < np.inf for one in counts):
         raise Error(f"counts: {len(cycles)} files need as many numbers above 0")
     names = list(criteria or evaluation.possible(cycles[0], known, plane))
-    on_line = quantities or [name for name in FATIGUE[:MOST] if name in cycles[0]] or ["mises"]
+    on_line = quantities or [name for name in [*FATIGUE][:MOST] if name in cycles[0]] or ["mises"]
     _judge(cycles, names, on_line, known, plane)
     row, column, place = _place(cycles[0], below, names)
     ended, values = _counter(report, len(names) - ("crack" in names) + len(cycles)), {}

@@ -127,6 +127,14 @@ def basquin(high: ArrayLike, low: ArrayLike, sigma_f: float, b: float, ultimate:
     return _life(lambda n: sigma_f * (2 * n) ** b, amplitude)
 
 
+def _of_one(curve):
+    """A function of one value, and of the constants of its curve, whose life is finite: at most MOST."""
+    return lambda *values: min(float(curve(*values)), MOST)
+
+
+life_swt, life_fatemi_socie, life_basquin = _of_one(swt), _of_one(fatemi_socie), _of_one(basquin)
+
+
 def factor(values: ArrayLike, limit: float) -> np.ndarray:
     """Safety factors: the limit relative to the values of a parameter.
 

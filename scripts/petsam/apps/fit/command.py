@@ -29,7 +29,7 @@ import numpy as np
 from ...core import words
 from ...core.errors import Error, Unsettled, Unusable, counted, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, add_choice, guarded, joined, quietly, word, wrote
+from ...core.line import Parser, guarded, word, wrote
 from ...plot.measured import read_profiles
 from . import cutting, peaks, planning, push, reading, results, scars, series
 from .results import plain
@@ -45,7 +45,7 @@ WRITTEN = (
     ".png",
     "-scar.png",
 )
-part = partial(words.number, form="a part from 0 to below 1: 0.5% or 0.005", allowed=words.part)
+part = partial(words.number, form="a part from 0 to below 1: 0.5% or 0.005", least=0.0, below=1.0)
 
 
 def _with_deviation(form, reader):
@@ -55,20 +55,21 @@ def _with_deviation(form, reader):
 
 def _test_options(parser):
     need = parser.add_argument_group("the test")
-    newton = word(words.numbers, "normal loads above 0: 100N, or one for each file", "N", words.positive)
+    newton = word(words.numbers, "normal loads above 0: 100N, or one for each file", "N", above=0.0)
     need.add_argument("--normal", type=newton, metavar="N", help="normal load, or one for each file")
     need.add_argument("--shape", metavar="NAME.opts", required=True, help="petsam's options of bodies, gap and grid")
-    length = word(words.number, "a length above 0, such as 10mm", "m", words.positive)
+    length = word(words.number, "a length above 0, such as 10mm", "m", above=0.0)
     need.add_argument("--width", type=length, metavar="L", help="length of a contact in plane strain")
     need.add_argument("--displacement", metavar="NAME", help="column of the displacement, where several may be meant")
     need.add_argument("--force", metavar="NAME", help="column of the force")
     chosen = word(
-        words.bounds, "cycles FIRST:LAST, from 1: 2: or 3:10", words.within(1),
-        lambda found: (found[0] or 1) <= (found[1] or math.inf), to=lambda found: slice((found[0] or 1) - 1, found[1]),
+        words.bounds, "cycles FIRST:LAST, from 1: 2: or 3:10", least=1,
+        together=lambda found: (found[0] or 1) <= (found[1] or math.inf),
+        to=lambda found: slice((found[0] or 1) - 1, found[1]),
     )  # fmt: skip
     need.add_argument("--cycles", type=chosen, default=slice(None), metavar="FIRST:LAST", help="of each file (all)")
     rig = parser.add_argument_group("the rig")
-    stiffness = word(words.number, "a stiffness above 0 with its unit, such as 20N/um", "N/m", words.positive)
+    stiffness = word(words.number, "a stiffness above 0 with its unit, such as 20N/um", "N/m", above=0.0)
     rig.add_argument("--rig", type=stiffness, metavar="K", help="stiffness of the rig, if it is known: 20N/um")
     rig.add_argument(
         "--lean", action="store_true", help="a spring beside the contact, whose force grows while it slides"
@@ -91,7 +92,7 @@ def _test_options(parser):
 def _wear_options(parser):
     wear = parser.add_argument_group("wear")
     form = "a volume above 0 and its deviation, from 0 to below 1: 1.2e6um3,10%"
-    volume = partial(words.number, unit="m3", allowed=words.positive)
+    volume = partial(words.number, unit="m3", above=0.0)
     wear.add_argument(
         "--volume",
         type=_with_deviation(form, volume),
@@ -103,17 +104,15 @@ def _wear_options(parser):
         "--split", action="store_true", help="with --scar: the other body's coefficient by its shape, too"
     )
     wear.add_argument("--body", choices=("1", "2"), default="2", help="that has lost it (2)")
-    least = word(words.number, "a number of cycles above 0", allowed=words.positive)
+    least = word(words.number, "a number of cycles above 0", above=0.0)
     wear.add_argument("--life", type=least, metavar="N", help="cycles of the whole test (those of the files)")
 
 
 def _plan_options(parser):
     plan = parser.add_argument_group("planning")
     plan.add_argument("--plan", action="store_true", help="how well which strokes would give the friction")
-    plan.add_argument(
-        "--friction", type=word(words.number, "a friction above 0", allowed=words.positive), help="assumed"
-    )
-    noise = (partial(words.number, unit=unit, allowed=words.positive) for unit in ("m", "N"))
+    plan.add_argument("--friction", type=word(words.number, "a friction above 0", above=0.0), help="assumed")
+    noise = (partial(words.number, unit=unit, above=0.0) for unit in ("m", "N"))
     form = "two numbers above 0, of displacement and force: 20nm,1N"
     plan.add_argument(
         "--noise",
@@ -134,8 +133,8 @@ def arguments(given):
         group(parser)
     out = parser.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME", help="NAME.json and so on")
-    add_choice(out)
-    options = parser.parse_args(joined(given))
+    parser.add_choice(out)
+    options = parser.parse_args(given)
     return _checked(parser, options)
 
 
@@ -326,4 +325,4 @@ def carry_out(options):
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data, 10 for no numbers."""
-    return guarded("petsam-fit", lambda: quietly(carry_out, arguments(sys.argv[1:])))
+    return guarded("petsam-fit", lambda: carry_out(arguments(sys.argv[1:])), quiet=True)

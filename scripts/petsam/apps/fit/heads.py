@@ -9,7 +9,7 @@ from typing import NamedTuple, Optional
 
 from ...core import units
 from ...core.errors import Error, short, there_are
-from ...core.texttable import heads_of, measure
+from ...core.texttable import heads_of
 
 QUANTITIES = {"displacement": "m", "force": "N", "time": "s", "energy": "J"}
 EXAMPLES = {"m": "Displacement (um)", "N": "Force (N)"}
@@ -80,10 +80,10 @@ def _across(name):
     return _has(name, ACROSS) and not _has(name, ALONG)
 
 
-def _quantity(unit):
-    """Quantity of a unit of a head, and its size; "" of none, None of one that no column here is of."""
-    si, size = measure(unit)
-    if si == "N/m" or PER_LENGTH.fullmatch(unit or ""):
+def _quantity(head):
+    """Quantity of a head, and the size of its unit; "" of none, None of one that no column here is of."""
+    si, size = head.measure
+    if si == "N/m" or PER_LENGTH.fullmatch(head.unit or ""):
         return "N/m", 1.0
     return (si, size) if si in ("", *QUANTITIES.values()) else (None, 1.0)
 
@@ -91,8 +91,9 @@ def _quantity(unit):
 def columns(path, head, below=None):
     """The columns of the cells of a head's line of names, which may have units, and of its line of units, if any."""
     found = []
-    for k, (name, unit, cell, joined) in enumerate(heads_of(path, head, below)):
-        si, size = _quantity(unit)
+    for k, one in enumerate(heads_of(path, head, below)):
+        name, unit, cell, joined = one
+        si, size = _quantity(one)
         if si == "N/m":
             raise Error(f"{path}: column {short(name)}: is a force per length, {unit}: multiply by the length")
         found.append(Column(name or cell or unit or "", si, size, k, unit, cell, joined))

@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike
 
 from ...core.brief import brief
 from ...core.errors import Unusable, short
-from ...core.shown import Shown
 from ...core.tables import Column, Tabled
 from .arguments import positive, real
 from .backbones import COLUMNS, Backbone, backbone, shake
@@ -40,7 +39,7 @@ NUMBERS = ("frequency", "damping")
 
 @brief
 @dataclass
-class Band(Tabled, Shown):
+class Band(Tabled):
     """Backbones of a joint.
 
     Attributes

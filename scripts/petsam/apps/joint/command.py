@@ -40,15 +40,15 @@ import sys
 
 from ...core.errors import Unusable
 from ...core.files import need_replaceable
-from ...core.line import Parser, add_resolution, guarded, joined, word
-from ...plot import page
-from ...plot.saving import DPI
+from ...core.line import Parser, guarded, word
 from .options import add_stiffness, add_structure, whole
 from .stiffnesses import of_stiffness
 from .vibrations import of_backbone, of_band, of_response, of_wear
+from .words import ending
 
 
 def _parser():
+    page = word(ending, form="a name that ends in .html", endings=(".html",))
     one = Parser(prog="petsam-joint", description=__doc__)
     one.add_argument("action", choices=list(ACTIONS), help="what is computed")
     one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair")
@@ -56,10 +56,8 @@ def _parser():
         "--steps", type=whole(1), help="load steps of a half cycle (8, response 16) or quarter (stiffness 8)"
     )
     one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv and NAME.png, and other files of NAME")
-    one.add_argument(
-        "--report", type=word(page.name), metavar="NAME.html", help="write a page with inputs, numbers and pictures"
-    )
-    add_resolution(one)
+    one.add_argument("--report", type=page, metavar="NAME.html", help="write a page with inputs, numbers and pictures")
+    one.add_resolution()
     add_stiffness(one)
     add_structure(one)
     return one
@@ -82,9 +80,10 @@ def _need(reader, args):
 
 def _run():
     reader = _parser()
-    args = reader.parse_args(joined(sys.argv[1:]))
+    args = reader.parse_args()
+    args.given = reader.joined(sys.argv[1:])
     _need(reader, args)
-    if args.dpi != DPI and not args.output:
+    if args.dpi != reader.get_default("dpi") and not args.output:
         raise Unusable("--dpi: is for the picture, which --output writes; give both or none")
     if args.area is not None and not args.output:
         raise Unusable("--area: is for NAME.json, which --output writes; give both or none")

@@ -2,7 +2,6 @@
 
 import warnings
 
-from ...core.shown import Shown
 from ...core.tables import Column, Tabled
 from .failures import ENDS, NoSolution
 from .sweep import BackboneWarning
@@ -10,7 +9,7 @@ from .sweep import BackboneWarning
 PER_METRE = {"J": "J/m", "N": "N/m", "m3": "m3/m", "m kg^0.5": "m (kg/m)^0.5", "m/s2 kg^0.5": "m/s2 (kg/m)^0.5"}
 
 
-class Numbers(Tabled, Shown):
+class Numbers(Tabled):
     """Arrays by their names, in the attribute `numbers`; self.frequency is numbers["frequency"]."""
 
     columns: dict[str, tuple[str, str]] = {}  # {name: (unit, text)} of the kind of result

@@ -15,7 +15,7 @@ BESIDE = (".h5", ".hdf5", ".txt", ".csv", ".npy")  # endings of --film
 def _conductivity(text):
     """A conductivity, or the name of a material that has one."""
     if not materials.has(text):
-        return words.number(text, allowed=words.positive)
+        return words.number(text, above=0.0)
     materials.conductivity(text)
     return text
 
@@ -23,12 +23,12 @@ def _conductivity(text):
 def _spans(form, example, unit, geometric=True):
     """Reader of FIRST:LAST:COUNT, or of values above 0 separated by commas."""
     form = f"FIRST:LAST:COUNT, or {form} above 0 separated by commas: {example}"
-    return word(words.span, form, unit, words.positive, geometric=geometric)
+    return word(words.span, form, unit, above=0.0, geometric=geometric)
 
 
 def whole(least):
     """Reader of a whole number from this one on."""
-    return word(words.integer, f"a whole number, {least} or more", words.within(least))
+    return word(words.integer, f"a whole number, {least} or more", least=least)
 
 
 def _both(form, first, second):
@@ -53,7 +53,7 @@ def add_stiffness(one):
         )  # fmt: skip
     group.add_argument(
         "--hardness",
-        type=word(words.number, "a pressure above 0, such as 5GPa", "Pa", words.positive),
+        type=word(words.number, "a pressure above 0, such as 5GPa", "Pa", above=0.0),
         help="maximum pressure, where the surfaces yield: 5GPa",
     )
     group.add_argument("--shear", type=word(words.number), help="shear of the loop over friction times pressure (0.5)")
@@ -74,7 +74,7 @@ def add_stiffness(one):
         "--electrical", action="store_true", default=None, help="a current instead of heat: units S/m, S/m2, Ohm m2"
     )
     form = "a number, 0 or more, or a file with one at each point: 1e-6, film.h5"
-    resistance = partial(words.number, allowed=words.not_negative)
+    resistance = partial(words.number, least=0.0)
     group.add_argument(
         "--film", metavar="R",
         type=word(either, form, resistance, partial(file_name, form=form, endings=BESIDE)),
@@ -82,7 +82,7 @@ def add_stiffness(one):
         "surface: a text, or HDF5 with a dataset film",
     )  # fmt: skip
     form = "THICKNESS,CONDUCTIVITY, a length and a number above 0, or a material: 2um,317 or 2um,gold"
-    layer = _both(form, partial(words.number, unit="m", allowed=words.positive), _conductivity)
+    layer = _both(form, partial(words.number, unit="m", above=0.0), _conductivity)
     for body in "12":
         group.add_argument(
             f"--layer{body}", type=layer, metavar="T,LAM", action="append",
@@ -90,15 +90,15 @@ def add_stiffness(one):
             "be repeated from the surface inwards",
         )  # fmt: skip
     form = "LAM,M, a conductivity above 0 and a length, 0 or more: 0.026,0.37um"
-    jump = partial(words.number, unit="m", allowed=words.not_negative)
+    jump = partial(words.number, unit="m", least=0.0)
     group.add_argument(
-        "--gas", type=_both(form, partial(words.number, allowed=words.positive), jump), metavar="LAM,M",
+        "--gas", type=_both(form, partial(words.number, above=0.0), jump), metavar="LAM,M",
         help="conductivity of what fills the gap, W/(m K), and length of the temperature jump: air 0.026,0.37um",
     )  # fmt: skip
     group.add_argument("--cores", type=whole(1), help="processes for the windows (all available cores)")
     group.add_argument(
         "--area",
-        type=word(words.number, "an area above 0, such as 2mm2", "m2", words.positive),
+        type=word(words.number, "an area above 0, such as 2mm2", "m2", above=0.0),
         help="area of the elements in NAME.json, such as 2mm2 (1 m2: they are per area)",
     )
 
@@ -108,7 +108,7 @@ def add_structure(one):
     group = one.add_argument_group("backbone, band, wear and response")
     group.add_argument("--contact", metavar="NAME", help="file of petsam's options: -grid_n, -friction, -gap_type, ...")
     group.add_argument(
-        "--preload", type=word(words.named, "BOLT=FORCE, such as B1=12kN", "N", words.not_negative),
+        "--preload", type=word(words.named, "BOLT=FORCE, such as B1=12kN", "N", least=0.0),
         action="append", metavar="BOLT=N",
         help="initial tension of a bolt, such as B1=12kN; may be repeated: bolts are tightened in this order",
     )  # fmt: skip
@@ -133,7 +133,7 @@ def add_structure(one):
         help="also the largest amplitude with polynomials of a degree lower by 2",
     )  # fmt: skip
     form = "friction=S or preload=S, a standard deviation as a part of it: friction=0.1"
-    scatter = word(words.named, form, allowed=words.part, known="friction|preload")
+    scatter = word(words.named, form, least=0.0, below=1.0, known="friction|preload")
     group.add_argument(
         "--scatter", type=scatter, action="append", metavar="NAME=S",
         help="standard deviation of friction or preload as a part of it, may be repeated: friction=0.1",
@@ -143,7 +143,7 @@ def add_structure(one):
     group = one.add_argument_group("response")
     group.add_argument(
         "--force",
-        type=word(words.named, "SENSOR:D=FORCE, such as TIP:z=0.5N", "N", words.positive),
+        type=word(words.named, "SENSOR:D=FORCE, such as TIP:z=0.5N", "N", above=0.0),
         metavar="SENSOR:D=N",
         help="amplitude of the force, and where it acts; also the sensor",
     )

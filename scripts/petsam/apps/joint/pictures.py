@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike
 
 from ...core.errors import Error
 from ...plot.fields import STATES
-from ...plot.style import COLORS, STYLE, WHOLE, bar, drawn, joined, logarithmic, plt
+from ...plot.style import COLORS, bar, drawn, joined, logarithmic, plt
 from ...plot.units import label as labelled
-from ...plot.units import largest, on_axis, plain
+from ...plot.units import on_axis, plain
 from ...results.fields import OPEN, SLIP
 from .backbones import MODAL, Backbone
 from .balance import Response
@@ -26,12 +26,13 @@ from .properties import Interface
 from .saved import Saved
 from .wearing import Wear
 
+WHOLE = {"axes.formatter.useoffset": False}  # ticks have whole numbers, not what is beyond an offset
 THIN = {"markersize": 5.0, "linewidth": 1.0, "capsize": 3.0}
 MARKS = "os^Dv"
 HATCH, HATCHED = "////", "0.25"  # of what slips
 
 
-@drawn(STYLE, Interface)
+@drawn(Interface)
 def interface(found: Interface) -> Figure:
     """The stiffnesses and the real contact area over the pressure.
 
@@ -85,7 +86,7 @@ def _say_last(ax, x, y, above=True):
     ax.annotate(text, (x[-1], y[-1]), fontsize=9, **place)
 
 
-@drawn(WHOLE, Backbone)
+@drawn(Backbone, style=WHOLE)
 def backbone(found: Backbone) -> Figure:
     """Change of the frequency, and damping, over the amplitude.
 
@@ -156,7 +157,7 @@ def _line(left, right, x, fields, highest):
         ax.set(xlabel="$x$, mm", ylabel="pressure in the preload, MPa", xlim=(x[0], x[-1]), ylim=(0.0, 1.05 * highest))
 
 
-@drawn({**STYLE, "axes.grid": False}, Backbone)
+@drawn(Backbone, style={"axes.grid": False})
 def slip_zones(found: Backbone, *, bolts: Optional[Mapping[str, ArrayLike]] = None) -> Figure:
     """The patches of a backbone, one below the other: pressure in the preload, and where the largest amplitude makes
     them slip. Those of sections are lines over x.
@@ -197,7 +198,7 @@ def slip_zones(found: Backbone, *, bolts: Optional[Mapping[str, ArrayLike]] = No
     return figure
 
 
-@drawn(WHOLE, Band)
+@drawn(Band, style=WHOLE)
 def band(found: Band) -> Figure:
     """The bands of the frequency's change and of damping over the amplitude.
 
@@ -230,7 +231,7 @@ def band(found: Band) -> Figure:
     return figure
 
 
-@drawn(WHOLE, Response)
+@drawn(Response, style=WHOLE)
 def response(found: Response) -> Figure:
     """Amplitude and phase over the frequency.
 
@@ -252,7 +253,7 @@ def response(found: Response) -> Figure:
     return figure
 
 
-@drawn(WHOLE, Wear)
+@drawn(Wear, style=WHOLE)
 def joint_wear(found: Wear) -> Figure:
     """Change of the frequency, and damping, over the cycles.
 
@@ -287,7 +288,7 @@ SAVED = {  # of the columns of a file: the one below, and those that are drawn o
 }
 
 
-@drawn(WHOLE, Saved)
+@drawn(Saved, style=WHOLE)
 def saved(found: Saved) -> Figure:
     """Columns of a table over the first one of its kind; of a band a curve for each assembly.
 
@@ -310,7 +311,7 @@ def saved(found: Saved) -> Figure:
     for ax, column in zip(axes[0], shown):
         for name, color, mark in zip(dict.fromkeys(curves), itertools.cycle(COLORS), itertools.cycle(MARKS)):
             x, y = (np.array(one.values)[curves == name] for one in (columns[below], column))
-            factors = [on_axis(one.unit, largest([np.array(one.values)])) for one in (columns[below], column)]
+            factors = [on_axis(one.unit, one.values) for one in (columns[below], column)]
             joined(ax, factors[0][0] * x, factors[1][0] * y, color, mark + "-", label=name or None)
         heads = [labelled(plain(one.name), unit) for one, (_, unit) in zip((columns[below], column), factors)]
         ax.set(xlabel=heads[0], ylabel=heads[1])
@@ -319,7 +320,7 @@ def saved(found: Saved) -> Figure:
     return figure
 
 
-@drawn(STYLE, Interface)
+@drawn(Interface)
 def conductance(*found: Interface) -> Figure:
     """The conductance per area over the pressure, of one interface or of several: bare, with a film, with gas.
 

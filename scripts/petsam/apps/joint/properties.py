@@ -9,7 +9,6 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 
 from ...core.errors import Unusable
-from ...core.shown import Shown
 from ...core.tables import Column, Tabled
 from . import decks, elements, windows
 from .conductance import Conductors
@@ -50,7 +49,7 @@ class Outcome(NamedTuple):
     note: str  # how the loops were found, in words
 
 
-class Interface(Tabled, Shown):
+class Interface(Tabled):
     """Numbers of an interface at nominal pressures, each an array: pressure, k_n, k_t_x, area ... (COLUMNS).
 
     Parameters

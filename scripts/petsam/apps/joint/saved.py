@@ -6,7 +6,6 @@ from typing import Union
 
 from ...core.brief import brief
 from ...core.errors import Error
-from ...core.shown import Shown
 from ...core.tables import Column, Tabled, read_csv
 from .backbones import COLUMNS, Backbone
 from .balance import RESPONSE, Response
@@ -30,7 +29,7 @@ ERRORS = {f"{name}_error": ("1", text) for name, text in OF_FORMULA.items()}
 
 @brief
 @dataclass
-class Saved(Tabled, Shown):
+class Saved(Tabled):
     """A table from a CSV file of a joint.
 
     Attributes

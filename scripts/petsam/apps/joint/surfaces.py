@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...closed.materials import effective_modulus
+from ...closed.materials import Bodies
 from ...core.errors import Error, MissingFile, Unusable
 from ..surface import read_hdf5
 
@@ -48,7 +48,7 @@ def modulus(bodies):
     constants = [bodies.get(f"body{k}_{name}") for k in "12" for name in ("young", "poisson")]
     if None in constants:
         return 0.0
-    return effective_modulus(*constants) if any(map(np.isfinite, constants[::2])) else 0.0
+    return Bodies(*constants).e_star if any(map(np.isfinite, constants[::2])) else 0.0
 
 
 def need_fitting(separation, step, pressures, friction, bodies):

@@ -9,7 +9,7 @@ from numpy.linalg import norm
 from ...core.brief import brief
 from ...core.errors import Unusable
 from ...core.keywords import explained
-from ...results.file import SLIP
+from ...results.fields import SLIP
 from .arguments import integer
 from .structure import Structure
 

@@ -4,7 +4,7 @@ import contextlib
 import sys
 import warnings
 
-from ...core.line import joined, wrote
+from ...core.line import wrote
 
 OF_FILES = ("output", "report", "dpi")  # options of the written files
 
@@ -20,15 +20,13 @@ def recorded(kind):
 def write_page(args, result):
     """Writes the page of --report, if it is given, with the options as inputs."""
     if args.report:
-        from ...plot.reports import report
-
-        report(result, args.report, _given(args, joined(sys.argv[1:])))
+        result.report(args.report, _given(args))
         wrote(args.report)
 
 
-def _given(args, given):
+def _given(args):
     """{name: text} of the action, the file, and the options as they are given, but those of the written files."""
-    shown, rest = {"action": args.action, "file": args.file}, iter(given)
+    shown, rest = {"action": args.action, "file": args.file}, iter(args.given)
     for one in rest:
         if not one.startswith("--"):
             continue

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple, Optional
 
 import numpy as np
 
-from ...closed.materials import shear_modulus
+from ...closed.materials import Bodies
 from ...contact.errors import AdviceWarning
 from ...contact.inprocess import Contact
 from ...core.errors import Unusable
@@ -118,10 +118,8 @@ def need_computing(bodies: dict[str, Any]) -> str:
         return f"the formula is for elastic half-spaces without the option {others[0]}"
     if given & ELASTIC != ELASTIC:
         return "the formula needs both bodies' moduli"
-    ratios = []
-    for k in "12":
-        young, poisson = float(bodies[f"body{k}_young"]), float(bodies[f"body{k}_poisson"])
-        ratios.append((1.0 - 2.0 * poisson) / shear_modulus(young, poisson) if np.isfinite(young) else 0.0)
+    two = Bodies.of(bodies)
+    ratios = [(1.0 - 2.0 * nu) / g for nu, g in zip((two.poisson1, two.poisson2), two.shear_moduli)]
     if abs(ratios[0] - ratios[1]) > 1e-9 * max(ratios):
         return "the bodies are elastically dissimilar, so that pressure and shear are coupled"
     return ""

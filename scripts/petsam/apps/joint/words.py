@@ -8,7 +8,12 @@ from ...core.words import WordError
 
 def file_name(text, form, endings):
     """The name of a file that exists, or of one with such an ending."""
-    if not os.path.exists(text) and os.path.splitext(text)[1].lower() not in endings:
+    return text if os.path.exists(text) else ending(text, form, endings)
+
+
+def ending(text, form, endings):
+    """A name that ends in one of these."""
+    if not text.lower().endswith(endings):
         raise WordError(text, form)
     return text
 

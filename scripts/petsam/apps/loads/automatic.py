@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...core.errors import Unusable
-from ...core.frames import Frame, frame_of
+from ...core.frames import Frame
 
 FLAT = 0.2  # thickness of the nodes over their second extent, up to which they have a plane
 
@@ -46,7 +46,7 @@ def of(forces, nodes, sign):
     if values[-1] > 0.0:
         along = vectors[:, -1] - (vectors[:, -1] @ z) * z
         along = along * np.sign(along[np.argmax(np.abs(along))])
-    return frame_of(origin, along, z, -z), by
+    return Frame.of(origin, along, z, -z), by
 
 
 def given(forces, frame, nodes, sign):
@@ -59,7 +59,7 @@ def given(forces, frame, nodes, sign):
     size = np.linalg.norm(z)
     if not size > 0.0:
         raise Unusable("--frame: its z is 0: give a direction into body 2")
-    return frame_of(np.asarray(origin, dtype=float) * forces.length, x, z, -z / size), by
+    return Frame.of(np.asarray(origin, dtype=float) * forces.length, x, z, -z / size), by
 
 
 def written(frame: Frame, length: float) -> str:

@@ -31,7 +31,7 @@ from ...core import words
 from ...core.decks import BOX
 from ...core.errors import Error, counted, short
 from ...core.files import need_replaceable, same
-from ...core.line import FRAME, Parser, add_choice, guarded, joined, quietly, word, wrote
+from ...core.line import Parser, guarded, word, wrote
 from ...core.units import shown
 from .resultants import ROUNDING
 
@@ -71,7 +71,7 @@ def parser():
     )
     patch.add_argument(
         "--frame",
-        type=word(words.points, FRAME, 3, besides=("auto",)),
+        type=word(words.frame, besides=("auto",)),
         action="append",
         metavar="ORIGIN[:X[:Z]]",
         help="of the contact, or auto; one for all patches, or one for each, in their order",
@@ -85,14 +85,14 @@ def parser():
         help="of petsam with the history of one patch: also NAME-beside.png, CPRESS and CSHEAR of the table (columns "
         "cpress, cshear1, cshear2) beside petsam's along y = 0",
     )
-    add_choice(out)
+    found.add_choice(out)
     return found
 
 
 def arguments(given):
     """Reads the command line; patches with their frames and outputs as `wanted`."""
     reader = parser()
-    options = reader.parse_args(joined(given))
+    options = reader.parse_args(given)
     if options.frame is None:
         reader.error("--frame: give the frame of the contact, ORIGIN:X:Z, or auto")
     base = os.path.splitext(os.path.basename(options.file))[0]
@@ -187,10 +187,6 @@ def carry_out(options):
             wrote(_beside(output))
 
 
-def _run():
-    return quietly(carry_out, arguments(sys.argv[1:]))
-
-
 def main():
     """Returns the exit code: 0, 2 for bad usage, 3 for a file that is rejected."""
-    return guarded(PROGRAM, _run)
+    return guarded(PROGRAM, lambda: carry_out(arguments(sys.argv[1:])), quiet=True)

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLORS, STYLE, curve, drawn, need_kind, note, plt
+from ...plot.style import COLORS, curve, drawn, note, plt
 from ...plot.symbols import scalar
-from ...plot.units import label, largest, plain, scale
+from ...plot.units import label, plain, scale
 from ...results.file import Results
 from .resultants import History
 
@@ -34,7 +34,7 @@ def _path(panel, x, y, unit, tint):
 
 def _center(panel, found):
     """The path of the contact's centre over the nodes."""
-    unit = scale("m", largest([found.x[:, :2]]) or largest([found.center]))
+    unit = scale("m", found.x[:, :2] if np.any(found.x[:, :2]) else found.center)
     few = found.x[:: max(1, len(found.x) // NODES)]
     panel.plot(unit[0] * few[:, 0], unit[0] * few[:, 1], ".", color="0.75", markersize=2.5, label="nodes")
     _path(panel, *found.center.T, unit, COLORS[3])
@@ -43,7 +43,7 @@ def _center(panel, found):
     panel.legend()
 
 
-@drawn(STYLE, History)
+@drawn(History)
 def loads(found: History) -> Figure:
     """N, T_x and T_y over time, the path of T, and that of the contact's centre.
 
@@ -57,7 +57,7 @@ def loads(found: History) -> Figure:
     matplotlib.figure.Figure
     """
     tangential = found.loads[:, 1:3]
-    shear, normal = scale("N", largest([tangential])), scale("N", largest([found.loads[:, 0]]))
+    shear, normal = scale("N", tangential), scale("N", found.loads[:, 0])
     figure, ((top, side), (low, last)) = plt.subplots(2, 2, figsize=(9.6, 7.4), layout="constrained")
     _over_time(top, found, ["load_tx", "load_ty"], shear)
     _over_time(low, found, ["load_n"], normal)
@@ -71,7 +71,7 @@ def loads(found: History) -> Figure:
     return figure
 
 
-@drawn(STYLE)
+@drawn(History, Results)
 def loads_beside(found: History, results: Results) -> Figure:
     """Pressure and shear of the analysis beside those of petsam, along y = 0 at the last saved step.
 
@@ -86,15 +86,13 @@ def loads_beside(found: History, results: Results) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    need_kind("loads_beside", [found], "History", lambda one: isinstance(one, History))
-    need_kind("loads_beside", [results], "Results", lambda one: isinstance(one, Results))
     nodes, row = found.line(float(results.times[-1])), int(np.argmin(np.abs(results.y)))
     shear = np.hypot(*(results.field(f"shear_{axis}", -1)[row] for axis in "xy"))
     ours = {"pressure": results.field("pressure", -1)[row], "shear": shear}
-    length = scale("m", largest([nodes["x"]]))
+    length = scale("m", nodes["x"])
     figure, panels = plt.subplots(1, 2, figsize=(9.6, 4.0), layout="constrained")
     for panel, name, symbol in zip(panels, ours, ("$p$", "$|q|$")):
-        unit = scale("Pa", largest([ours[name], nodes[name]]))
+        unit = scale("Pa", ours[name], nodes[name])
         panel.plot(length[0] * results.x, unit[0] * ours[name], color=COLORS[0], label="petsam")
         panel.plot(length[0] * nodes["x"], unit[0] * nodes[name], "o", color=COLORS[1], markersize=4, label="analysis")
         panel.set(xlabel=label("$x$", length[1]), ylabel=label(f"{name} {symbol}", unit[1]))

@@ -32,7 +32,7 @@ import sys
 
 from ...core import words
 from ...core.errors import Error, counted
-from ...core.line import PERIOD, Parser, guarded, joined, word, wrote
+from ...core.line import PERIOD, Parser, guarded, word, wrote
 from . import slurm, tables
 from .jobs import Jobs, check_files
 from .progress import Progress, standing, summary
@@ -42,7 +42,7 @@ from .runs import Study
 MOST = 1 << 30  # maximum of numbers on the command line
 
 
-POSITIVE = word(words.integer, f"an integer from 1 to {MOST}", words.within(1, MOST))
+POSITIVE = word(words.integer, f"an integer from 1 to {MOST}", least=1, most=MOST)
 
 
 def _cycle_options(parser):
@@ -61,21 +61,13 @@ def _cycle_options(parser):
     )
 
 
-def _taken(given):
-    """Join --sbatch to its value, which begins with dashes."""
-    found = list(given)
-    while "--sbatch" in found[:-1]:
-        at = found.index("--sbatch")
-        found[at : at + 2] = [f"--sbatch={found[at + 1]}"]
-    return found
-
-
 def arguments():
     """Read the command line: the options, and the words after --."""
     given = sys.argv[1:]
     at = given.index("--") if "--" in given else len(given)
     parser = Parser(
         prog="petsam-study",
+        texts=["--sbatch"],
         description=__doc__,
         usage="%(prog)s TABLE [option ...] [-- petsam's options for all cases]",
     )
@@ -103,7 +95,7 @@ def arguments():
     )
     parser.add_argument("--sbatch", metavar="WORDS", default="", help="options of sbatch for --slurm")
     _cycle_options(parser)
-    options = parser.parse_args(joined(_taken(given[:at])))
+    options = parser.parse_args(given[:at])
     if options.sbatch and not options.slurm:
         parser.error("--sbatch requires --slurm")
     options.words = given[at + 1 :]

@@ -11,23 +11,19 @@ import re
 import warnings
 
 from ...core.errors import short
+from ...core.shown import applications
 
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log", "pi")}
 FUNCTIONS.update(abs=abs, min=min, max=max)
 
 
-def _life(name):
-    """Cycles of a value, and of the constants of its curve, by a criterion of petsam.fatigue.strength."""
-
-    def life(*values):
-        from ..fatigue import strength
-
-        return min(float(getattr(strength, name)(*values)), strength.MOST)
-
-    return life
+def _later(record, module, name):
+    """A function of an application, whose module is imported when it is called."""
+    return lambda *values: getattr(record.module(module), name)(*values)
 
 
-FUNCTIONS.update({f"life_{name}": _life(name) for name in ("swt", "fatemi_socie", "basquin")})
+for _one in applications():
+    FUNCTIONS.update({name: _later(_one, module, name) for module, names in _one.expressions.items() for name in names})
 OPERATORS = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,

@@ -26,7 +26,7 @@ from ...core import words
 from ...core.errors import Error, short
 from ...core.files import need_replaceable, same
 from ...core.hdf5 import need_own
-from ...core.line import Parser, add_choice, guarded, joined, quietly, word, wrote
+from ...core.line import Parser, guarded, word, wrote
 from ...core.roughness import self_affine
 from ...core.units import shown
 from ...plot.saving import write
@@ -56,17 +56,17 @@ def _lengths(count, form):
     return word(words.numbers, form, "m", count=count, to=tuple)
 
 
-COUNT = word(words.integer, "an integer from 0", words.within(0))
+COUNT = word(words.integer, "an integer from 0", least=0)
 NUMBER = word(words.number)
 BODIES = word(words.names, "1 or 2, or one of them for each file: 1,2", "12", to=lambda found: [*map(int, found)])
-HURST = word(words.number, "a Hurst exponent above 0, at most 1", allowed=lambda value: 0.0 < value <= 1.0)
+HURST = word(words.number, "a Hurst exponent above 0, at most 1", above=0.0, most=1.0)
 WINDOW = word(
     words.numbers, "four lengths X0,X1,Y0,Y1 with X0 < X1 and Y0 < Y1", "m", count=4,
     together=lambda found: found[0] < found[1] and found[2] < found[3], to=tuple,
 )  # fmt: skip
 # cells in x and y; 0 stands for a y that is not given
 CELLS = word(
-    words.integers, f"one or two integers from 2 to {MOST}: NX[,NY]", words.within(2, MOST), count=(1, 2),
+    words.integers, f"one or two integers from 2 to {MOST}: NX[,NY]", least=2, most=MOST, count=(1, 2),
     to=lambda found: (*found, 0)[:2],
 )  # fmt: skip
 
@@ -132,7 +132,7 @@ def _processing(parser):
 
 def arguments(words):
     """Read the command line."""
-    parser = Parser(prog="petsam-surface", description=__doc__)
+    parser = Parser(prog="petsam-surface", description=__doc__, texts=["--missing"])
     parser.add_argument("files", nargs="*", metavar="FILE", help="one map, or two for a separation")
     _file_options(parser)
     made = parser.add_argument_group("a random surface instead of a file, with --size and --grid-n")
@@ -161,8 +161,8 @@ def arguments(words):
     out = parser.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the first file's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
-    add_choice(out)
-    options = parser.parse_args(joined(words, ["--missing"]))
+    parser.add_choice(out)
+    options = parser.parse_args(words)
     _check_random(parser, options)
     if len(options.files) > 2:
         parser.error(f"{len(options.files)} files: use one, or two for a separation")
@@ -356,9 +356,9 @@ def carry_out(options, words):
 
 def _run():
     words = sys.argv[1:]
-    return quietly(carry_out, arguments(words), words)
+    return carry_out(arguments(words), words)
 
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks information."""
-    return guarded("petsam-surface", _run)
+    return guarded("petsam-surface", _run, quiet=True)

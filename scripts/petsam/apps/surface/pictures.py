@@ -6,8 +6,8 @@ from matplotlib.ticker import FixedLocator, MaxNLocator
 from mpl_toolkits.axes_grid1 import make_axes_locatable
 
 from ...core.units import shown
-from ...plot.style import COLORS, STYLE, drawn, extent, field, note, plt
-from ...plot.units import label, largest, scale
+from ...plot.style import COLORS, drawn, extent, field, note, plt
+from ...plot.units import label, scale
 from .basics import QUANTITIES
 from .maps import Map, peak_to_valley, rms_height, rms_slope
 
@@ -53,7 +53,7 @@ def _profiles(axes, one, lateral, height):
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)  # where no curve can be
 
 
-@drawn(STYLE, Map)
+@drawn(Map)
 def surface(one: Map) -> Figure:
     """A map, and profiles through its middle along x and y; a profile alone.
 
@@ -66,8 +66,8 @@ def surface(one: Map) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    lateral = scale("m", largest([one.axis(0)] if one.is_profile else [one.axis(0), one.axis(1)]))
-    height = scale("m", largest([one.values]))
+    lateral = scale("m", *(one.axis(k) for k in range(1 if one.is_profile else 2)))
+    height = scale("m", one.values)
     ratio = one.size[1] / one.size[0]
     if one.is_profile:
         figure, second = plt.subplots(figsize=(SIDE + 1.5, 4.3))

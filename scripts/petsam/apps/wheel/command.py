@@ -41,7 +41,7 @@ from ...core import tables
 from ...core.environment import cores as all_cores
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, add_choice, guarded, joined, wrote
+from ...core.line import Parser, guarded, wrote
 from ...core.progress import Progress
 from .inputs import need_ready, states_of, vehicle_of
 from .options import JUMPS, add_positions, add_profiles, check_positions, check_profiles, reworded, unlike, warn
@@ -59,14 +59,14 @@ def _parser():
     add_positions(one)
     out = one.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME", help="NAME.csv, NAME.png and so on")
-    add_choice(out)
+    one.add_choice(out)
     return one
 
 
 def arguments(given):
     """Reads the command line."""
     parser = _parser()
-    options = parser.parse_args(joined(given))
+    options = parser.parse_args(given)
     check_profiles(parser, options)
     check_positions(parser, options)
     if options.wear is None:

@@ -52,7 +52,7 @@ def add_profiles(one):
     group.add_argument("--z", type=word(pair, form, direction), metavar="down|up",
                        help="direction of z in the files, or WHEEL,RAIL; of columns it must be given")  # fmt: skip
     group.add_argument("--mirror", choices=("wheel", "rail", "both"), help="profiles whose y is to the gauge side")
-    group.add_argument("--smooth", type=word(words.number, "a length above 0: 4mm", "m", words.positive), metavar="L",
+    group.add_argument("--smooth", type=word(words.number, "a length above 0: 4mm", "m", above=0.0), metavar="L",
                        help="smooth measured profiles: 4mm for 1 um of noise, 8mm for 5 um")  # fmt: skip
     group = one.add_argument_group("track and wheelset")
     form = "an inclination towards the middle: 1:40 or 0.025 (rad); 0 of a profile in its place"
@@ -77,9 +77,7 @@ def add_profiles(one):
     for name in ("wheel", "rail"):
         group.add_argument(f"--{name}-material", type=word(material), metavar="MATERIAL",
                            help="steel or another name, or modulus and ratio, 210GPa,0.3 (steel)")  # fmt: skip
-    coefficient = word(
-        words.number, "a coefficient of friction from 0 to below 10", allowed=lambda mu: 0.0 <= mu < 10.0
-    )
+    coefficient = word(words.number, "a coefficient of friction from 0 to below 10", least=0.0, below=10.0)
     group.add_argument("--friction", type=coefficient, default=0.3, metavar="MU", help="(0.3)")
     group.add_argument("--cell", type=_length("a length: 0.2mm"), default=2e-4, metavar="L", help="of a grid (0.2mm)")
 
@@ -91,9 +89,9 @@ def add_positions(one):
     group.add_argument("--y", type=sweep, metavar="Y", help="lateral displacement, or FIRST:LAST:COUNT")
     angle = word(words.number, "an angle: 2mrad, 0.002 (rad) or 0.1deg", "rad")
     group.add_argument("--yaw", type=angle, metavar="A", help="2mrad, 0.002 (rad) or 0.1deg (0)")
-    speed = word(words.number, "a speed above 0: 20 (m/s) or 72km/h", "m/s", words.positive)
+    speed = word(words.number, "a speed above 0: 20 (m/s) or 72km/h", "m/s", above=0.0)
     group.add_argument("--speed", type=speed, metavar="V", help="forward speed: 20 (m/s) or 72km/h")
-    newton = word(words.number, "a force above 0: 100kN", "N", words.positive)
+    newton = word(words.number, "a force above 0: 100kN", "N", above=0.0)
     group.add_argument("--load", type=newton, metavar="N", help="axle load with the weight of the wheelset")
     group.add_argument(
         "--offset", type=_length("a length: 10mm"), metavar="L", help="y of its line in the wheelset (0)"
@@ -105,15 +103,15 @@ def add_positions(one):
     group.add_argument("--rolling", choices=("free", "radii"), default="free",
                        help="without a pitch rate: without torque (free), or by the mean of both radii")  # fmt: skip
     group.add_argument("--table", metavar="FILE.csv", help="positions of a simulation of the vehicle")
-    whole = word(words.integer, "a whole number, 1 or more", words.within(1))
+    whole = word(words.integer, "a whole number, 1 or more", least=1)
     group.add_argument("--cores", type=whole, metavar="N", help="processes (all available cores)")
     group = one.add_argument_group("wear of the wheel")
-    coefficient = word(words.number, "a coefficient above 0: 1e-14", allowed=words.positive)
+    coefficient = word(words.number, "a coefficient above 0: 1e-14", above=0.0)
     group.add_argument("--wear", type=coefficient, metavar="K", help="coefficient of wear: 1e-14 (m3/J, or 1/Pa)")
     group.add_argument(
         "--law", choices=("energy", "archard"), help="volume per frictional work (default), or per force and slip"
     )
-    distance = word(words.number, "a distance above 0: 100000km or 1e8 (m)", "m", words.positive)
+    distance = word(words.number, "a distance above 0: 100000km or 1e8 (m)", "m", above=0.0)
     group.add_argument("--distance", type=distance, metavar="D", help="update the profile over it: 100000km")
     even = word(words.integer, "an even number, 2 or more", lambda value: value >= 2 and value % 2 == 0)
     group.add_argument("--jumps", type=even, metavar="N", help="updates of the profile over the distance (10)")

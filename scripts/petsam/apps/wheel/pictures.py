@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ...core.errors import Error
-from ...plot.style import COLORS, STYLE, bar, curve, drawn, field, plt
+from ...plot.style import COLORS, bar, curve, drawn, field, plt
 from .batch import Batch, Vehicle
 from .conicity import Geometry, equivalent_conicity
 from .equilibrium import Equilibrium
@@ -20,7 +20,7 @@ REACH = 0.045  # m beside the contact that a section shows
 AMPLITUDES = np.linspace(0.5e-3, 8e-3, 31)  # of the equivalent conicity, m
 
 
-@drawn(STYLE)
+@drawn()
 def wheels(vehicle: Vehicle, found: Equilibrium) -> Figure:
     """Sections of both wheels on their rails with the patches, and pressure and slip of each patch.
 
@@ -92,7 +92,7 @@ def _patch(axes, side, patch):
     bar(axes, image, "pressure, MPa; slip in ‰" if np.nanmax(sliding) > 1e-3 else "pressure, MPa")
 
 
-@drawn(STYLE)
+@drawn()
 def over_y(shape: Geometry, batch: Optional[Batch] = None, amplitudes: Sequence[float] = AMPLITUDES) -> Figure:
     """Contact points, rolling radius difference and equivalent conicity (EN 15302), and T-gamma of a sweep.
 
@@ -147,7 +147,7 @@ def _work(axes, batch):
     axes.legend()
 
 
-@drawn(STYLE, Worn)
+@drawn(Worn)
 def worn_profile(found: Worn) -> Figure:
     """The worn profile beside the new one, and the depth with its error.
 

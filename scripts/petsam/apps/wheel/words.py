@@ -3,7 +3,7 @@
 import math
 import re
 
-from ...core.words import WordError, number, positive
+from ...core.words import WordError, number
 
 
 def split_numbers(line):
@@ -17,7 +17,7 @@ def slope(text, form):
     rise, colon, run = text.removeprefix("-").partition(":")
     if not colon:
         return number(text, form, "rad")
-    angle = math.atan(number(rise, form, allowed=positive) / number(run, form, allowed=positive))
+    angle = math.atan(number(rise, form, above=0.0) / number(run, form, above=0.0))
     return -angle if text.startswith("-") else angle
 
 
