@@ -14,8 +14,8 @@
   there; not collective. SamLifeBackTouch - sets a field of the contact's grid to 1 in cells that jumps press.
 
   In a pass, between SamLifeBackBegin() and SamLifeBackEnd(): SamLifeBackPass() goes back over the parts of jumps after
-  so many steps, SamLifeBackAddCycle() adds what the wear of the cycle of the present step is repeated by. The step is that
-  of SamLifeBackBegin(); `by_number` is that of the law of wear.
+  so many steps, SamLifeBackAddCycle() adds what the wear of the cycle of the present step is repeated by. The step is
+  that of SamLifeBackBegin(); `by_number` is that of the law of wear.
 
   Collective.
 */

@@ -1,6 +1,6 @@
 /*
-  A step that wears, on the way back: the depth k w, of the wear load w = p |ds| or mu p |ds|, is in the gap of all later
-  steps.
+  A step that wears, on the way back: the depth k w, of the wear load w = p |ds| or mu p |ds|, is in the gap of all
+  later steps.
 */
 #include "wearimpl.h"
 
