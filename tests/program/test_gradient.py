@@ -822,7 +822,8 @@ def test_refusals():
                body2_heat_capacity=3.6e6)  # fmt: skip
     path = dict(friction_law="slip_path", friction_path_final=0.5, friction_path_length=2e-6)
     for change, words in (
-        (dict(hot, body2_speed=1, body2_expansion=1e-5), "body2_expansion"), (dict(pressure_limit=1e9), "pressure_limit"), (dict(tangential_rtol=1e-4), "tangential_rtol"),
+        (dict(hot, body2_speed=1, body2_expansion=1e-5), "body2_expansion"),
+        (dict(pressure_limit=1e9), "pressure_limit"), (dict(tangential_rtol=1e-4), "tangential_rtol"),
         (dict(body2_yield=5e8), "yield"), (dict(rolling="steady"), "rolling"), (dict(coupling="none"), "coupling"),
         (dict(slide=True, wear_coefficient1=1e-12), "slide"), (path, "friction_law"),
         (dict(hot, friction_temperature="20,100,-0.1"), "friction_temperature"),

@@ -183,7 +183,7 @@ struct _n_SamLaw {
   PetscBool           slides;         /* true: the surfaces move past each other */
   PetscBool           wears;          /* true: it removes material: its numbers wear_volume1 and wear_volume2 tell */
   const char         *number;         /* name of the number by which back() finds the derivative; NULL: none */
-  const char         *refused;  /* option that messages name where the law is refused; NULL: the one that selects it */
+  const char         *named;    /* option that messages name where the law is refused; NULL: the one that selects it */
   const char         *strained; /* number that is above 0 once bodies have yielded by it; NULL: they do not */
   const char         *with_shear;    /* numbers that follow the shear at the surface, separated by blanks; NULL: none */
   PetscBool           forbids_jumps; /* true: not possible in a wear simulation with cycle jumps */

@@ -66,7 +66,7 @@ PetscInt SamLawOrder(SamLawType type)
 
 const char *SamLawOption(SamLaw law)
 {
-  if (law->refused) return law->refused;
+  if (law->named) return law->named;
   return law->option ? law->option : law->row_count ? law->rows[0].name : law->type;
 }
 

@@ -313,7 +313,7 @@ PetscErrorCode SamHeatLawExpand(SamLaw law, const SamOptions *from)
   law->displaces                 = PETSC_TRUE;
   law->ops.displace              = Displace;
   law->ops.follow                = Follow;
-  law->refused                   = h->expansion[0] != 0 ? "body1_expansion" : "body2_expansion";
+  law->named                     = h->expansion[0] != 0 ? "body1_expansion" : "body2_expansion";
   law->ops.check                 = Check;
   law->bytes += 320;
   PetscFunctionReturn(PETSC_SUCCESS);

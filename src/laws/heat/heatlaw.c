@@ -192,9 +192,9 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   law->ops.back = SamLawNoBack;
   PetscCall(SamHeatLawExpand(law, from));
   law->follows_slip = h->changes ? PETSC_TRUE : PETSC_FALSE;
-  if (h->wears) law->refused = "wear_temperature";
-  if (h->changes) law->refused = "friction_temperature";
-  if (law->refused) law->ops.back = NULL; /* the step depends on the temperature */
+  if (h->wears) law->named = "wear_temperature";
+  if (h->changes) law->named = "friction_temperature";
+  if (law->named) law->ops.back = NULL; /* the step depends on the temperature */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
