@@ -24,6 +24,11 @@ LIMITS = {
     "flags of the motion in contact": (19, 12),
     "calls of a body's materials outside of bodies": (39, 0),
     "files outside of bodies that call them": (14, 0),
+    "files outside of its home that name heat": (5, 6),
+    "files outside of its home that name plastic": (10, 14),
+    "files outside of its home that name wear": (22, 22),
+    "files outside of its home that name gradient": (12, 12),
+    "files outside of its home that name layers": (46, 25),
     "files in the largest circle of C files": (3, 3),
     "modules in the largest circle of Python modules": (3, 3),
     "fitted or chosen numbers in advice": (125, 40),
@@ -39,6 +44,16 @@ LIMITS = {
 }
 NUMBERS = r"^#define [A-Z_0-9]+ +\(?-?[0-9.]"  # fitted or chosen
 MATERIALS = r"\bSamBody(?:MaterialAt|Substrate|SubstrateTop|Count|Top|At)\("
+
+# a capability: its rooms, its headers, and how code names it; a gradient by the class and the option, as solvers have
+# conjugate ones
+HOMES = {
+    "heat": ("laws/heat", r"(private/)?heat", "heat"),
+    "plastic": ("laws/plastic", r"(private/)?plastic", "plastic"),
+    "wear": ("laws/wear", r"(private/)?(wear|life)", "wear"),
+    "gradient": ("post/gradient", r"(private/)?(gradient|objective|backstep)", 'SamGradient|"-?gradient'),
+    "layers": ("bodies", r"(private/)?layer", "layer"),
+}
 
 
 def code(path):
@@ -56,6 +71,19 @@ def found(pattern, folder, but=()):
         if count:
             counts[path] = count
     return counts
+
+
+def named_outside(capability):
+    """C files besides those of a capability whose code, strings included, names it."""
+    room, headers, words = HOMES[capability]
+    include = ROOT / "include" / "petsam"
+    files = [path for path in sorted(SRC.rglob("*.[ch]")) if SRC / room not in path.parents]
+    files += [
+        path
+        for path in [*sorted(include.rglob("*.h")), ROOT / "include" / "petsam.h"]
+        if not re.match(headers, str(path.relative_to(include)) if include in path.parents else path.name)
+    ]
+    return [path for path in files if re.search(words, code(path), re.I)]
 
 
 def fitted_by_laws():
@@ -93,6 +121,7 @@ def measure(build):
         sum(found(r"(?:->|\.)(?:rolls|streams|continues)\b", SRC / "contact").values()),
         sum(materials.values()),
         len(materials),
+        *(len(named_outside(name)) for name in HOMES),
         max(map(len, rooms.circles(rooms.arrows(build).keys())), default=1),
         max(map(len, rooms.circles(rooms.imports())), default=1),
         sum(found(NUMBERS, SRC / "post" / "advice").values()) + fitted_by_laws(),

@@ -332,3 +332,16 @@ PetscErrorCode SamContactAdvise(SamContact c, PetscInt *k, char text[], size_t s
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+SamLawType SamContactSummarize(SamContact c, PetscInt k, PetscInt step, PetscReal *weight, char text[], size_t size)
+{
+  const SamLaw *laws;
+  PetscInt      count;
+
+  text[0] = '\0';
+  *weight = 0;
+  (void)SamProblemGetLaws(c->problem, &count, &laws);
+  if (k >= count) return NULL;
+  if (laws[k]->ops.summarize) (*laws[k]->ops.summarize)(laws[k], c->state, step, weight, text, size);
+  return laws[k]->type;
+}

@@ -141,7 +141,7 @@ static PetscErrorCode DeclareOutcome(SamContact c)
 
 /* ---- fields that are computed ---- */
 
-enum { SLIP_X, SLIP_Y, GAP, STATE, PRESSURE_CENTER, SHEAR_CENTER_X, SHEAR_CENTER_Y, ASIDE_X, ASIDE_Y, POWER, WEAR };
+enum { SLIP_X, SLIP_Y, GAP, STATE, PRESSURE_CENTER, SHEAR_CENTER_X, SHEAR_CENTER_Y, ASIDE_X, ASIDE_Y, POWER, PASSAGE };
 
 static PetscErrorCode GetComponent(SamGrid grid, Vec from, PetscInt component, Vec to)
 {
@@ -187,8 +187,8 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
     PetscCall(SamSolutionComputeStates(s, field));
     break;
   case POWER:
-  case WEAR:
-    PetscCall(SamSolutionComputeRolling(c->problem, s, which == WEAR, field));
+  case PASSAGE:
+    PetscCall(SamSolutionComputeRolling(c->problem, s, which == PASSAGE, field));
     break;
   case PRESSURE_CENTER:
     PetscCall(SamSolutionComputePressureCenter(c->problem, s, field));
@@ -235,7 +235,7 @@ static PetscErrorCode Offer(SamContact c)
     {"power_density", "Pa", "frictional power per area, over the rolling speed", SAM_FIELD_REAL, SAM_RESULT_OFFERED,
      Compute, c, POWER, -1},
     {"wear_passage", "Pa m", "pressure times slip of a point that passes, the same along x", SAM_FIELD_REAL,
-     SAM_RESULT_OFFERED, Compute, c, WEAR, -1}};
+     SAM_RESULT_OFFERED, Compute, c, PASSAGE, -1}};
   const size_t count =
     sizeof(results) / sizeof(results[0]) - (c->motion->streams ? 0 : 2); /* the last two: rolling only */
 

@@ -34,6 +34,12 @@ def test_comments_do_not_count(tmp_path):
     assert ruler.found(ruler.MATERIALS, tmp_path) == {path: 1}
 
 
+def test_a_file_names_a_capability_in_code_and_strings_outside_of_its_home():
+    found = [str(path.relative_to(ROOT)) for path in ruler.named_outside("heat")]
+    assert "src/laws/register.c" in found and "src/ground/base/materials.c" in found  # SamLawCreate_Heat; a string
+    assert not any("laws/heat" in name or name == "src/contact/try.c" for name in found)
+
+
 @pytest.mark.parametrize(
     "text, shows",
     [

@@ -196,4 +196,11 @@ PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
 */
 PETSC_INTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool *current);
 
+/*
+  SamContactSummarize - gets what the k-th law writes about the last step, whose number in the run is given, and its
+  weight (SamLaw, `summarize`); returns the law's type; NULL: there are no more laws. Not collective.
+*/
+PETSC_EXTERN SamLawType SamContactSummarize(SamContact contact, PetscInt k, PetscInt step, PetscReal *weight,
+                                            char text[], size_t size);
+
 #endif

@@ -268,6 +268,11 @@ struct _n_SamLaw {
     PetscErrorCode (*back)(SamLaw law, SamBackStep *step);
     /* prints the law's numbers of a step, on a line of its own */
     PetscErrorCode (*view)(SamLaw law, SamState state, PetscViewer viewer);
+    /*
+      Writes a line about a step, whose number in the run is given from 1, and its weight: the line of the greatest
+      weight is printed at the end of a run of several steps. An empty line is none. Not collective.
+    */
+    void (*summarize)(SamLaw law, SamState state, PetscInt step, PetscReal *weight, char text[], size_t size);
     /* true if body 0 or 1 may yield by this law, so that no elastic solution in closed form describes it */
     PetscBool (*yields)(SamLaw law, PetscInt body);
     /* gets the smallest stress at which a body flows after this strain, Pa; infinite: none does */

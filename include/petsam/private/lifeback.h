@@ -10,6 +10,7 @@
   lengths of jumps are fixed.
 
   SamLifeBackCreate - creates it, without any jump, for a history whose cycle has so many rows. The contact is borrowed.
+  Errors: SAM_ERR_USER for jumps of other lengths, and surfaces that slide.
   SamLifeBackRecord - records a part of a jump, after so many steps. SamLifeBackJumped - returns true if one is recorded
   there; not collective. SamLifeBackTouch - sets a field of the contact's grid to 1 in cells that jumps press.
 
@@ -20,7 +21,8 @@
   Collective.
 */
 typedef struct _n_SamLifeBack *SamLifeBack;
-PETSC_INTERN PetscErrorCode    SamLifeBackCreate(SamContact contact, PetscInt cycle, SamLifeBack *life);
+PETSC_INTERN PetscErrorCode    SamLifeBackCreate(SamContact contact, PetscInt cycle, const SamLifeSettings *settings,
+                                                 SamLifeBack *life);
 PETSC_INTERN PetscErrorCode    SamLifeBackDestroy(SamLifeBack *life);
 PETSC_INTERN PetscErrorCode    SamLifeBackRecord(SamLifeBack life, const SamLifePart *part, PetscInt steps);
 PETSC_INTERN PetscBool         SamLifeBackJumped(SamLifeBack life, PetscInt steps);

@@ -160,8 +160,8 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const
   frictional power per area over the rolling speed (Pa). `wears`: it computes instead the integral along x of pressure
   times slip (Pa m), the same in all cells of a row. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *solution, PetscBool wears,
-                                                      Vec field);
+PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *solution,
+                                                      PetscBool passage, Vec field);
 
 /*
   SamSolutionDeclareNumbers - declares the numbers of /history, by their names in the motion, that

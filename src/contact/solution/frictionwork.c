@@ -45,7 +45,7 @@ static PetscErrorCode RestoreOptional(Vec field, double **values)
   The centred slip of a cell in 1 m of rolled distance is u_t at the cell, as the mean of its two sides, minus the
   creepage. The power of a shear on the mean of u_t is zero, so that the sum over cells is the work of the loads.
 */
-PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *s, PetscBool wears, Vec field)
+PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *s, PetscBool passage, Vec field)
 {
   SamIncrement  increment;
   SamValues     v;
@@ -70,7 +70,7 @@ PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *
       to[k] = -(v.q[k] * sx + v.q[l] * sy);
       sum += v.p[k] * hypot(sx, sy) * (double)grid->dx;
     }
-    for (PetscInt i = 0; wears && i < grid->nx; i++) to[first + i] = sum;
+    for (PetscInt i = 0; passage && i < grid->nx; i++) to[first + i] = sum;
   }
   PetscCall(VecRestoreArrayWrite(field, &to));
   PetscCall(SamValuesRestore(s, &v));

@@ -186,35 +186,25 @@ static PetscErrorCode PrintSlip(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportKeepHeat(SamReport r, SamContact contact)
+void SamReportKeepSummaries(SamReport r, SamContact contact)
 {
-  SamReportHeat heat = {.step = r->number + 1};
-  SamState      state;
+  SamReportSummary one;
 
-  PetscFunctionBegin;
-  PetscCall(SamContactGetState(contact, &state));
-  heat.power = SamReportNumber(state, "heat_power");
-  heat.share = SamReportNumber(state, "heat_share_2");
-  heat.most  = SamReportNumber(state, "temperature_max");
-  if (!isnan(heat.most) && (!r->heat.step || heat.most > r->heat.most)) r->heat = heat;
-  if (r->heat.step == heat.step) r->heat_unit = SamStateUnitOf(state, "heat_power");
-  PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < SAM_LAWS; k++) {
+    SamReportSummary *kept = &r->summary[k];
+
+    one.name = SamContactSummarize(contact, k, r->number + 1, &one.weight, one.text, sizeof(one.text));
+    if (!one.name) break;
+    if (one.text[0] && (!kept->text[0] || one.weight > kept->weight)) *kept = one;
+  }
 }
 
-/* Prints the heat of the hottest of several steps; a single one has told it. */
-static PetscErrorCode PrintHeat(SamReport r)
+/* Prints the laws' lines about one of several steps; a single step has been printed. */
+static PetscErrorCode PrintSummaries(SamReport r)
 {
-  const SamReportHeat *h           = &r->heat;
-  char                 divided[64] = "";
-
   PetscFunctionBegin;
-  if (!h->step || r->steps < 2) PetscFunctionReturn(PETSC_SUCCESS);
-  if (h->share >= 0 && h->share <= 1) /* else the bodies heat or cool each other */
-    (void)snprintf(divided, sizeof(divided), " (%.1f %% into body 1, %.1f %% into body 2)", 100 * (1 - h->share),
-                   100 * h->share);
-  PetscCall(PetscPrintf(r->comm,
-                        "  %-10s  at most %.4g K in contact, in step %" PetscInt_FMT ", by %.4g %s of friction%s\n",
-                        "heat", h->most, h->step, h->power, r->heat_unit, divided));
+  for (int k = 0; k < SAM_LAWS && r->steps > 1; k++)
+    if (r->summary[k].text[0]) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", r->summary[k].name, r->summary[k].text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -287,7 +277,7 @@ PetscErrorCode SamReportClosing(SamReport r)
   PetscCall(PrintEdges(r));
   PetscCall(PrintEnergy(r));
   PetscCall(PrintSlip(r));
-  PetscCall(PrintHeat(r));
+  PetscCall(PrintSummaries(r));
   if (r->offer > 0)
     PetscCall(PetscPrintf(r->comm,
                           "  %-10s  of all numbers by -errors companion, which adds about %.0f %% of the time\n",

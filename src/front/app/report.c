@@ -283,7 +283,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
     KeepWorst(r, step);
     PetscCall(KeepEdges(r, contact));
     PetscCall(KeepEnergy(r, contact, step));
-    PetscCall(SamReportKeepHeat(r, contact));
+    SamReportKeepSummaries(r, contact);
   }
   /* No energy is reported for a run that failed, or that ended at the edge of the grid. */
   if (step->status != SAM_STATUS_CONVERGED) r->energy[1] = -INFINITY;

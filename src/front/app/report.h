@@ -37,11 +37,12 @@ typedef struct {
   PetscInt  step;
 } SamReportWorst;
 
-/* The frictional power, W, its part into body 2, and the maximum temperature, K, of a step from 1; 0: there is none */
+/* A law's line about the step of the greatest weight; borrowed name; empty: none */
 typedef struct {
-  PetscInt step;
-  double   power, share, most;
-} SamReportHeat;
+  PetscReal   weight;
+  const char *name;
+  char        text[192];
+} SamReportSummary;
 
 /*
   SamReport - reports a run on stdout, and warnings and failures of steps on stderr, both from rank 0. Order of calls:
@@ -54,29 +55,28 @@ struct _n_SamReport {
   PetscBool          quiet, profile;
   const SamAccuracy *accuracy; /* borrowed; NULL: none is asked for */
   /* status */
-  PetscMPIInt    rank;
-  PetscBool      logging;                   /* true if PETSc's log has the times */
-  double         start, first, begin;       /* MPI_Wtime() at the start of the report, of the first step, of this one */
-  double         parts_before;              /* seconds spent on the parts of the closing table before the first step */
-  double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
-  PetscInt       steps, number, done;
-  PetscBool      shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
-  const char    *energy_unit;               /* unit of the dissipated energy */
-  PetscInt       cycles;                    /* lines printed for computed cycles */
-  PetscReal      jump;                      /* cycles in the last of these */
-  PetscBool      living;                    /* the run is a life */
-  SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
-  SamReportWorst edges;     /* smallest reconstructed share of the edges; step 0: reconstruction is disabled */
-  double         offer;     /* time that companion runs would add, relative to that of this run; 0: nothing is said */
-  PetscReal      energy[2]; /* energy dissipated so far, and the estimate of its error, J */
-  SamProgress    progress;
-  SamContact     contact;     /* contact whose monitors are set; borrowed */
-  SamExtent      extent;      /* of the contact in step `extent_step`, */
-  PetscInt       extent_step; /* from 1; 0: unknown */
-  SamSlip        slip;        /* of all steps; unknown without steps */
-  SamReportHeat  heat;        /* of the hottest step, */
-  const char    *heat_unit;   /* and the unit of its power */
-  PetscBool      edge_told;   /* true once a contact at the grid's edge, which is allowed, has been reported */
+  PetscMPIInt      rank;
+  PetscBool        logging;             /* true if PETSc's log has the times */
+  double           start, first, begin; /* MPI_Wtime() at the start of the report, of the first step, of this one */
+  double           parts_before;        /* seconds spent on the parts of the closing table before the first step */
+  double           recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
+  PetscInt         steps, number, done;
+  PetscBool        shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
+  const char      *energy_unit;               /* unit of the dissipated energy */
+  PetscInt         cycles;                    /* lines printed for computed cycles */
+  PetscReal        jump;                      /* cycles in the last of these */
+  PetscBool        living;                    /* the run is a life */
+  SamReportWorst   worst[3];                  /* normal, tangential, equilibrium */
+  SamReportWorst   edges;     /* smallest reconstructed share of the edges; step 0: reconstruction is disabled */
+  double           offer;     /* time that companion runs would add, relative to that of this run; 0: nothing is said */
+  PetscReal        energy[2]; /* energy dissipated so far, and the estimate of its error, J */
+  SamProgress      progress;
+  SamContact       contact;           /* contact whose monitors are set; borrowed */
+  SamExtent        extent;            /* of the contact in step `extent_step`, */
+  PetscInt         extent_step;       /* from 1; 0: unknown */
+  SamSlip          slip;              /* of all steps; unknown without steps */
+  SamReportSummary summary[SAM_LAWS]; /* of each law */
+  PetscBool        edge_told;         /* true once a contact at the grid's edge, which is allowed, has been reported */
   /* lines of steps that are not in the results yet */
   PetscBool holds; /* lines wait */
   char     *held;
@@ -114,8 +114,9 @@ PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, 
 /* SamReportClosing - prints times by part and largest residuals, if asked for, files written, time and memory used.
    Collective. */
 PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
-/* SamReportKeepHeat - notes the heat of a step with a solution if it is the hottest so far. Collective. */
-PETSC_INTERN PetscErrorCode SamReportKeepHeat(SamReport report, SamContact contact);
+/* SamReportKeepSummaries - keeps what laws write about a step with a solution, of each that of the greatest weight.
+   Not collective. */
+PETSC_INTERN void SamReportKeepSummaries(SamReport report, SamContact contact);
 
 /* ---- the parts ---- */
 

@@ -437,6 +437,22 @@ static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Summarizes the hottest step. */
+static void Summarize(SamLaw law, SamState state, PetscInt step, PetscReal *weight, char text[], size_t size)
+{
+  const double *numbers     = SamStateReadNumbers(state, SamStateFindNumber(state, "temperature_max"));
+  char          divided[64] = "";
+
+  (void)law;
+  if (isnan(numbers[MAXIMUM])) return;
+  *weight = numbers[MAXIMUM];
+  if (numbers[SHARE] >= 0 && numbers[SHARE] <= 1) /* else the bodies heat or cool each other */
+    (void)snprintf(divided, sizeof(divided), " (%.1f %% into body 1, %.1f %% into body 2)", 100 * (1 - numbers[SHARE]),
+                   100 * numbers[SHARE]);
+  (void)snprintf(text, size, "at most %.4g K in contact, in step %" PetscInt_FMT ", by %.4g %s of friction%s",
+                 numbers[MAXIMUM], step, numbers[POWER], SamStateUnitOf(state, "heat_power"), divided);
+}
+
 static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t size)
 {
   const SamHeatLaw *h       = (const SamHeatLaw *)law->data;
@@ -492,6 +508,7 @@ PetscErrorCode SamLawCreate_Heat(SamLaw law)
   law->ops.bound                 = SamHeatLawBound;
   law->ops.advance               = Advance;
   law->ops.view                  = View;
+  law->ops.summarize             = Summarize;
   law->ops.advise                = Advise;
   law->ops.destroy               = Destroy;
   law->uses[SamHeatLawUses(law)] = PETSC_TRUE;

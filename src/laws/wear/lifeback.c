@@ -49,12 +49,17 @@ struct _n_SamLifeBack {
 
 /* ---- recording ---- */
 
-PetscErrorCode SamLifeBackCreate(SamContact contact, PetscInt cycle, SamLifeBack *life)
+PetscErrorCode SamLifeBackCreate(SamContact contact, PetscInt cycle, const SamLifeSettings *set, SamLifeBack *life)
 {
   const SamProblem problem = SamContactGetProblem(contact);
+  const MPI_Comm   comm    = SamContactGetGrid(contact)->comm;
   SamLifeBack      l;
 
   PetscFunctionBegin;
+  PetscCheck(set->fixed, comm, SAM_ERR_USER,
+             "the gradient of a wear simulation: the lengths of its jumps depend on the parameters: give -wear_jump");
+  PetscCheck(!set->magnified, comm, SAM_ERR_USER,
+             "the gradient of a wear simulation whose surfaces slide is not computed");
   PetscCall(PetscNew(&l));
   l->grid  = SamContactGetGrid(contact);
   l->cycle = cycle;

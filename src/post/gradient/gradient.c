@@ -171,17 +171,13 @@ PetscErrorCode SamGradientBeginLife(SamGradient g, PetscInt rows, PetscInt cycle
   PetscInt       acting = 0;
 
   PetscFunctionBegin;
-  PetscCheck(set->fixed, comm, SAM_ERR_USER,
-             "the gradient of a wear simulation: the lengths of its jumps depend on the parameters: give -wear_jump");
-  PetscCheck(!set->magnified, comm, SAM_ERR_USER,
-             "the gradient of a wear simulation whose surfaces slide is not computed");
   for (PetscInt k = 0; k < g->laws; k++) acting += g->law[k]->ops.number(g->law[k]) != 0;
-  PetscCheck(acting <= 1, comm, SAM_ERR_USER, "the gradient of a wear simulation: expected one law of wear");
+  PetscCheck(acting <= 1, comm, SAM_ERR_USER, "the gradient of cycle jumps: expected one law of those with a number");
   PetscCheck(g->count == 0, comm, PETSC_ERR_ORDER,
-             "the gradient of a wear simulation: steps have been recorded before it: begin after a reset");
+             "the gradient of cycle jumps: steps have been recorded before them: begin after a reset");
   g->rows  = rows;
   g->cycle = cycle;
-  PetscCall(SamLifeBackCreate(g->contact, cycle, &g->life));
+  PetscCall(SamLifeBackCreate(g->contact, cycle, set, &g->life));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -515,7 +511,7 @@ PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBoo
   PetscCall(SamChoiceCheck(g, of));
   if (!SamChoiceHasModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(g->cycle == 0, comm, SAM_ERR_USER,
-             "the gradient by the moduli in a wear simulation is not computed: leave the moduli out");
+             "the gradient by the moduli over cycle jumps is not computed: leave the moduli out");
   none = SamPairGetConstants(SamElasticityGetPair(e), &constants);
   if (SamElasticityGetTraits(e).patch) none = "the bodies are finite";
   PetscCheck(!none, comm, SAM_ERR_USER, "the gradient by the moduli is not computed, as %s: leave the moduli out",
