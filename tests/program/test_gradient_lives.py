@@ -166,7 +166,7 @@ def test_a_record_has_one_simulation():
     contact.reset()
     contact.live(10, history_of({}))
     assert np.array_equal(contact.gradient("wear_volume", ["gap"]).gap, first.gap)
-    with pytest.raises(petsam.Error, match="steps have been recorded before it"):
+    with pytest.raises(petsam.Error, match="steps have been recorded before them"):
         contact.live(10, history_of({}))
 
 
