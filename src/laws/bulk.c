@@ -64,18 +64,18 @@ static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, cons
   const double        stress = (double)all[k];
   double              follows;
   SamElasticityTraits traits;
-  const SamMaterial  *m;
+  SamBodyPlace        m;
 
   PetscFunctionBegin;
-  m       = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body));
+  m       = SamBodyAt(SamPairBody(SamElasticityGetPair(law->elasticity), body), INFINITY);
   traits  = SamElasticityGetTraits(law->elasticity);
-  follows = k == YY ? 0 + m->poisson * all[XX] : 0; /* avoids -0 */
+  follows = k == YY ? 0 + m.poisson * all[XX] : 0; /* avoids -0 */
   if (traits.plane && k != XX && (stress == 0 || stress == follows))
     SamControlSetCondition(control, one, follows);
-  else if (stress != 0 && isinf(m->young))
+  else if (stress != 0 && isinf(m.young))
     (void)snprintf(why, size, "body%d_young is inf: a rigid body does not stretch", (int)body + 1);
-  else if (!(fabs(stress) <= m->young))
-    SamExplainStress(stress, (double)m->young, 0, 1, why, size);
+  else if (!(fabs(stress) <= m.young))
+    SamExplainStress(stress, (double)m.young, 0, 1, why, size);
   else if (stress != 0 && SamMotionOf(law->elasticity)->streams)
     (void)snprintf(why, size, "has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x");
   else if (stress != 0 && !traits.stretch)
@@ -114,13 +114,13 @@ static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *con
   (void)adds;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
   for (int body = 0; body < 2; body++) {
-    const SamMaterial *m  = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body));
-    const PetscReal    nu = m->poisson, sign = body ? 1 : -1;
+    const SamBodyPlace m  = SamBodyAt(SamPairBody(SamElasticityGetPair(law->elasticity), body), INFINITY);
+    const PetscReal    nu = m.poisson, sign = body ? 1 : -1;
 
     Get(law, control, body, s);
-    e->xx += sign * (s[XX] - nu * s[YY]) / m->young;
-    e->yy += sign * (s[YY] - nu * s[XX]) / m->young;
-    e->xy += sign * (1 + nu) * s[XY] / m->young;
+    e->xx += sign * (s[XX] - nu * s[YY]) / m.young;
+    e->yy += sign * (s[YY] - nu * s[XX]) / m.young;
+    e->xy += sign * (1 + nu) * s[XY] / m.young;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -129,16 +129,16 @@ static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *con
    plane. */
 static void AddUniform(SamStressPart part, PetscInt step, PetscReal depth, double stress[SAM_STRESS_COMPONENTS])
 {
-  const SamMaterial *const m = SamBodyMaterialAt(part->body, depth), *const last = SamBodySubstrate(part->body);
-  PetscReal s[COMPONENTS];
+  const SamBodyPlace m = SamBodyAt(part->body, depth), last = SamBodyAt(part->body, INFINITY);
+  PetscReal          s[COMPONENTS];
 
   for (PetscInt k = 0; k < COMPONENTS; k++) {
     const char *const name = SamBulkName((part->places->body - 1) * COMPONENTS + k);
 
     s[k] = SamControlGet(&part->control[step], SamConditionsFind(part->conditions, name));
   }
-  if (m != last && !isinf(last->young)) {
-    const double nu = (double)last->poisson, own = (double)m->poisson, ratio = (double)(m->young / last->young);
+  if (!m.last && !isinf(last.young)) {
+    const double nu = (double)last.poisson, own = (double)m.poisson, ratio = (double)(m.young / last.young);
     const double xx = s[XX] - nu * s[YY], yy = s[YY] - nu * s[XX];
 
     s[XX] = ratio * (xx + own * yy) / (1 - own * own);

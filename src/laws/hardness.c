@@ -54,7 +54,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
-    const double of = (double)SamBodyMaterialAt(SamPairBody(SamElasticityGetPair(law->elasticity), b), 0)->young;
+    const double of = (double)SamBodyAt(SamPairBody(SamElasticityGetPair(law->elasticity), b), 0).young;
 
     young = b ? PetscMin(young, of) : of;
   }

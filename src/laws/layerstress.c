@@ -44,7 +44,7 @@ static double MiddleOf(SamStressPart part, PetscInt g, PetscInt layer)
 /* Returns the depth at which the substrate, and with it the layers of all groups, begin. */
 static double TopOf(SamStressPart part)
 {
-  return (double)SamBodySubstrateTop(part->body);
+  return (double)SamBodyAt(part->body, INFINITY).top;
 }
 
 /* Returns the depth of the bottom of the last layer. */

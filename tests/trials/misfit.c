@@ -29,18 +29,18 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
 static PetscErrorCode Compute(void *owner, SamState state, PetscInt component, Vec field)
 {
-  const SamLaw             law  = (SamLaw)owner;
-  const Misfit *const      m    = (const Misfit *)law->data;
-  const PetscInt           n    = law->grid->cells;
-  const SamMaterial *const body = SamBodyMaterialAt(SamPairBody(SamElasticityGetPair(law->elasticity), 1), 0);
-  double                  *s;
+  const SamLaw        law  = (SamLaw)owner;
+  const Misfit *const m    = (const Misfit *)law->data;
+  const PetscInt      n    = law->grid->cells;
+  const SamBodyPlace  body = SamBodyAt(SamPairBody(SamElasticityGetPair(law->elasticity), 1), 0);
+  double             *s;
 
   (void)state;
   PetscCall(VecGetArray(field, &s));
   for (PetscInt k = 0; k < LAYERS * n; k++)
     s[k] = component > SAM_STRESS_YY
              ? 0
-             : -body->young * m->strain / (1 - body->poisson) * exp(-((double)(k / n) + 0.5) * 2 / LAYERS);
+             : -body.young * m->strain / (1 - body.poisson) * exp(-((double)(k / n) + 0.5) * 2 / LAYERS);
   return VecRestoreArray(field, &s);
 }
 

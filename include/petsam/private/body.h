@@ -8,13 +8,18 @@
 PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
 
 /*
-  SamBodyCount - returns the number of materials.
-  SamBodyAt - returns the index of the material at a depth (m), 0 at the surface. An interface belongs to the material
-  above it.
-  SamBodyMaterialAt - returns the material at a depth; borrowed.
-  SamBodyTop - returns the depth (m) at which the n-th material begins; infinite for n = SamBodyCount().
-  SamBodySubstrate - returns the last material; borrowed.
-  SamBodySubstrateTop - returns the depth (m) at which it begins.
+  SamBodyPlace - a body at a depth: the material there, the depths between which it lies, and its number from the surface
+  on. An interface belongs to the material above it.
+*/
+typedef struct {
+  PetscReal young, poisson; /* Pa, infinite: rigid; 1 */
+  PetscReal top, bottom;    /* m; below the last material infinite */
+  PetscInt  number;         /* 0 at the surface */
+  PetscBool last;           /* true: there is no other below it */
+} SamBodyPlace;
+/*
+  SamBodyAt - returns the place at a depth (m); infinite: in the last material.
+  SamBodyBelow - returns a place in the next material below one that is not the last.
   SamBodyIsRigid - returns true if the whole body is rigid.
   SamBodyNamed - returns what the options took from the table of materials, for a reader; empty: nothing. Borrowed.
   SamBodyConstant - returns a constant of the table for the last material, by its name there ("conductivity"), in its
@@ -27,16 +32,12 @@ typedef struct {
   double stress;       /* E alpha, Pa/K: of thermal stress */
   double poisson;
 } SamExpansion;
-PETSC_INTERN SamExpansion       SamBodyExpansion(SamBody body, double alpha);
-PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
-PETSC_INTERN PetscInt           SamBodyAt(SamBody body, PetscReal depth);
-PETSC_EXTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);
-PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
-PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
-PETSC_INTERN PetscReal          SamBodySubstrateTop(SamBody body);
-PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
-PETSC_EXTERN const char        *SamBodyNamed(SamBody body);
-PETSC_INTERN double             SamBodyConstant(SamBody body, const char name[]);
+PETSC_INTERN SamExpansion SamBodyExpansion(SamBody body, double alpha);
+PETSC_EXTERN SamBodyPlace SamBodyAt(SamBody body, PetscReal depth);
+PETSC_INTERN SamBodyPlace SamBodyBelow(SamBody body, SamBodyPlace place);
+PETSC_INTERN PetscBool    SamBodyIsRigid(SamBody body);
+PETSC_EXTERN const char  *SamBodyNamed(SamBody body);
+PETSC_INTERN double       SamBodyConstant(SamBody body, const char name[]);
 
 /*
   SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); at a jump, the

@@ -39,6 +39,16 @@ struct _n_SamPair {
   PetscReal  film[2];  /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
 };
 
+/*
+  SamBodyCount - returns the number of materials. SamBodyNumberAt - returns the number of the material at a depth (m).
+  SamBodyMaterialAt - returns the material there; borrowed. SamBodyTop - returns the depth (m) at which the n-th material
+  begins; infinite for n = SamBodyCount(). SamBodySubstrate - returns the last material; borrowed. None is collective.
+*/
+PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
+PETSC_INTERN PetscInt           SamBodyNumberAt(SamBody body, PetscReal depth);
+PETSC_INTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);
+PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
+PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
 /* SamPairFilm - returns the displacement of the surfaces by unit shear in the film, m/Pa. Not collective. */
 PETSC_INTERN PetscReal SamPairFilm(SamPair pair);
 /* SamPairIsCoupled - returns true if pressure moves the surfaces tangentially by more than rounding. Not collective. */

@@ -102,12 +102,7 @@ PetscReal SamBodyTop(SamBody body, PetscInt n)
   return depth;
 }
 
-PetscReal SamBodySubstrateTop(SamBody body)
-{
-  return SamBodyTop(body, body->count - 1);
-}
-
-PetscInt SamBodyAt(SamBody body, PetscReal depth)
+PetscInt SamBodyNumberAt(SamBody body, PetscReal depth)
 {
   PetscInt n = 0;
 
@@ -117,12 +112,30 @@ PetscInt SamBodyAt(SamBody body, PetscReal depth)
 
 const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth)
 {
-  return &body->material[SamBodyAt(body, depth)];
+  return &body->material[SamBodyNumberAt(body, depth)];
 }
 
 const SamMaterial *SamBodySubstrate(SamBody body)
 {
   return &body->material[body->count - 1];
+}
+
+SamBodyPlace SamBodyAt(SamBody body, PetscReal depth)
+{
+  const PetscInt           n = SamBodyNumberAt(body, depth);
+  const SamMaterial *const m = &body->material[n];
+
+  return (SamBodyPlace){.young   = m->young,
+                        .poisson = m->poisson,
+                        .top     = SamBodyTop(body, n),
+                        .bottom  = SamBodyTop(body, n + 1),
+                        .number  = n,
+                        .last    = n + 1 < body->count ? PETSC_FALSE : PETSC_TRUE};
+}
+
+SamBodyPlace SamBodyBelow(SamBody body, SamBodyPlace place)
+{
+  return SamBodyAt(body, nextafter(place.bottom, INFINITY));
 }
 
 PetscBool SamBodyIsRigid(SamBody body)

@@ -265,7 +265,7 @@ static SamRadialSource SourceOf(SamLayered l)
     const SamBody body                    = l->pair->body[b];
     double        total[SAM_WAVE_SYMBOLS] = {0};
 
-    of.thickness[b] = (double)SamBodySubstrateTop(body);
+    of.thickness[b] = (double)SamBodyAt(body, INFINITY).top;
     of.longest      = PetscMax(of.longest, of.thickness[b]);
     SamBodySymbols(body, b ? 1 : -1, SAM_LONG_WAVE / PetscMax(of.thickness[b], l->depth), total, of.image[b]);
   }

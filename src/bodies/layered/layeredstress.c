@@ -96,7 +96,7 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
   if ((double)depth == l->depth) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSplineDestroy(&l->table));
   l->depth    = (double)depth;
-  l->material = SamBodyAt(l->body, depth);
+  l->material = SamBodyNumberAt(l->body, depth);
   l->z        = l->depth - (double)SamBodyTop(l->body, l->material);
   l->decay    = l->material ? l->depth : 2 * (double)l->body->material[0].thickness - l->z;
   PetscCheck(!isinf(l->body->material[l->material].young), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
@@ -262,7 +262,7 @@ PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *se
   PetscCall(SamStressCreate(grid, settings, number, stress));
   PetscCall(PetscNew(&l));
   PetscCall(SamBodyReference(body));
-  *l                 = (Layered){.body = body, .depth = -1, .base = (double)SamBodySubstrateTop(body)};
+  *l                 = (Layered){.body = body, .depth = -1, .base = (double)SamBodyAt(body, INFINITY).top};
   thick              = body->material[0].thickness >= THICK * grid->side[1];
   (*stress)->data    = l;
   (*stress)->poisson = body->material[0].poisson;

@@ -156,14 +156,14 @@ static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *
 /* Returns the depth at which the layers of plastic strain of body 0 or 1 begin: below layers of other materials, m. */
 static PetscReal TopOf(SamLaw law, PetscInt body)
 {
-  return SamBodySubstrateTop(SamPairBody(SamElasticityGetPair(law->elasticity), body));
+  return SamBodyAt(SamPairBody(SamElasticityGetPair(law->elasticity), body), INFINITY).top;
 }
 
 static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt body, const char option[], double stress,
                                   double most)
 {
   const SamPair pair  = SamElasticityGetPair(law->elasticity);
-  const double  young = (double)SamBodySubstrate(SamPairBody(pair, body))->young;
+  const double  young = (double)SamBodyAt(SamPairBody(pair, body), INFINITY).young;
   char          why[160];
 
   PetscFunctionBegin;
@@ -268,9 +268,9 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *parameters)
 
 /* ---- the operators ---- */
 
-static SamMises MaterialOf(const Material *from, const SamMaterial *elastic)
+static SamMises MaterialOf(const Material *from, SamBodyPlace elastic)
 {
-  SamMises m = {.shear        = (double)elastic->young / (2 * (1 + (double)elastic->poisson)),
+  SamMises m = {.shear        = (double)elastic.young / (2 * (1 + (double)elastic.poisson)),
                 .yield        = (double)from->yield,
                 .hardening    = from->hardening,
                 .backstresses = from->count / 2};
@@ -298,7 +298,7 @@ static PetscErrorCode SetUp(SamLaw law)
     PetscCall(SamResidualCreate(law->elasticity, b + 1, x->layers, p->thickness, PETSC_TRUE, &p->residual[p->bodies]));
     body->body     = b;
     body->top      = TopOf(law, b);
-    body->material = MaterialOf(&x->material[b], SamBodySubstrate(SamPairBody(pair, b)));
+    body->material = MaterialOf(&x->material[b], SamBodyAt(SamPairBody(pair, b), INFINITY));
     body->initial  = x->material[b].initial;
     body->first    = p->bodies++ * x->layers;
   }
@@ -584,7 +584,7 @@ PetscErrorCode SamPlasticGetFlow(SamLaw law, PetscReal strain, PetscReal *stress
     PetscReal             flow;
 
     if (!Yields(law, b)) continue;
-    m    = MaterialOf(own, SamBodySubstrate(SamPairBody(pair, b)));
+    m    = MaterialOf(own, SamBodyAt(SamPairBody(pair, b), INFINITY));
     flow = (PetscReal)SamMisesYield(&m, (double)strain, NULL);
     for (PetscInt k = 0; k < m.backstresses; k++)
       flow += (PetscReal)(m.back[k][0] * (double)strain / (1 + m.back[k][1] * (double)strain));
@@ -643,7 +643,7 @@ static void CheckBulk(SamLaw law, const SamControl *control, PetscInt body, Pets
   if (!isfinite(m->yield)) return;
   GetBulk(law, control, body, bulk, &first);
   if (!first) return;
-  material = MaterialOf(m, SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body)));
+  material = MaterialOf(m, SamBodyAt(SamPairBody(SamElasticityGetPair(law->elasticity), body), INFINITY));
   for (PetscInt l = 0; l < x->layers; l++) {
     double s[PARTS];
 

@@ -136,17 +136,16 @@ static PetscErrorCode CreateSpectra(SamResidual r)
 PetscErrorCode SamResidualCheckBodies(SamElasticity e, PetscInt body)
 {
   const SamElasticityType type = SamElasticityGetType(e);
-  const SamBody           of   = SamPairBody(e->pair, body - 1);
+  const SamBodyPlace      last = SamBodyAt(SamPairBody(e->pair, body - 1), INFINITY);
 
   PetscFunctionBegin;
   PetscCheck(!strcmp(type, SAM_ELASTICITY_HALFSPACE) || !strcmp(type, SAM_ELASTICITY_PERIODIC) ||
                !strcmp(type, SAM_ELASTICITY_PLANE) || !strcmp(type, SAM_ELASTICITY_PLANE_PERIODIC),
              e->grid->comm, SAM_ERR_USER, "-body%" PetscInt_FMT "_yield: not supported with bodies of type %s", body,
              type);
-  PetscCheck(!isinf(SamBodySubstrate(of)->young), e->grid->comm, SAM_ERR_USER,
-             "-body%" PetscInt_FMT "_yield: the body%s is rigid", body,
-             SamBodyCount(of) > 1 ? " below its layers" : "");
-  PetscCheck(SamBodyCount(of) == 1 || !strcmp(type, SAM_ELASTICITY_HALFSPACE), e->grid->comm, SAM_ERR_USER,
+  PetscCheck(!isinf(last.young), e->grid->comm, SAM_ERR_USER, "-body%" PetscInt_FMT "_yield: the body%s is rigid", body,
+             last.number > 0 ? " below its layers" : "");
+  PetscCheck(last.number == 0 || !strcmp(type, SAM_ELASTICITY_HALFSPACE), e->grid->comm, SAM_ERR_USER,
              "-body%" PetscInt_FMT
              "_yield: not supported below layers of bodies of type %s, only of type " SAM_ELASTICITY_HALFSPACE,
              body, type);
@@ -176,7 +175,7 @@ static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body
 {
   const PetscReal period[2] = {r->period * r->grid->dx, (PetscReal)r->waves * r->grid->dy};
   const SamBody   of        = SamPairBody(e->pair, body - 1);
-  PetscReal       top       = SamBodySubstrateTop(of);
+  PetscReal       top       = SamBodyAt(of, INFINITY).top;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(r->body.layers, &r->stress));
@@ -185,7 +184,7 @@ static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body
     PetscCall(SamStressSetDepth(r->stress[l], top + r->thickness[l] / 2));
     top += r->thickness[l];
   }
-  if (SamBodyCount(of) > 1) PetscCall(CreateHold(r, of));
+  if (!SamBodyAt(of, 0).last) PetscCall(CreateHold(r, of));
   if (images) PetscCall(SamImagesCreate(r->grid, period, &r->body, &r->images));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -193,10 +192,10 @@ static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body
 PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers, const PetscReal thickness[],
                                  PetscBool images, SamResidual *residual)
 {
-  const PetscBool    periodic = SamElasticityGetTraits(e).periodic;
-  const SamMaterial *material;
-  SamResidual        r;
-  PetscInt           h[2];
+  const PetscBool periodic = SamElasticityGetTraits(e).periodic;
+  SamBodyPlace    material;
+  SamResidual     r;
+  PetscInt        h[2];
 
   PetscFunctionBegin;
   PetscCall(SamResidualCheckBodies(e, body));
@@ -205,10 +204,10 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscCall(SamGridReference(r->grid));
   r->elasticity = e; /* borrowed: the law that owns this object has a reference */
   r->number     = body;
-  material      = SamBodySubstrate(SamPairBody(e->pair, body - 1));
+  material      = SamBodyAt(SamPairBody(e->pair, body - 1), INFINITY);
   PetscCall(PetscMalloc1(layers, &r->thickness));
   PetscCall(PetscArraycpy(r->thickness, thickness, layers));
-  r->body = (SamWaveBody){layers, r->thickness, material->young / (2 * (1 + material->poisson)), material->poisson};
+  r->body = (SamWaveBody){layers, r->thickness, material.young / (2 * (1 + material.poisson)), material.poisson};
   r->sign = body == 1 ? -1 : 1;
   r->mode = periodic ? SAM_FOURIER_PERIODIC : SAM_FOURIER_PADDED;
   PetscCall(SamFourierCreate(r->grid, periodic ? SAM_FOURIER_EXACT : SAM_FOURIER_FAST, &e->fft, &r->fourier));

@@ -35,7 +35,7 @@ static PetscErrorCode EstimateLargest(const SamSetup *s, const SamLoadRange *mos
 
   PetscFunctionBegin;
   PetscCall(SamAdviceEstimate(s, most->force, most->normal, half, known));
-  for (PetscInt b = 0; b < 2; b++) top = PetscMax(top, SamBodySubstrateTop(SamPairBody(s->pair, b)));
+  for (PetscInt b = 0; b < 2; b++) top = PetscMax(top, SamBodyAt(SamPairBody(s->pair, b), INFINITY).top);
   if (*known || top == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamAdviceEstimateContact(s, most->force, most->normal, half, known));
   for (int k = 0; k < s->grid->axes; k++) least = PetscMin(least, half[k]);

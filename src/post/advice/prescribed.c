@@ -147,7 +147,7 @@ static void ExplainLargest(const SamAdvice *a, char why[], size_t size)
 {
   double young[2], stress = (double)a->most.stress;
 
-  for (PetscInt b = 0; b < 2; b++) young[b] = (double)SamBodySubstrate(SamPairBody(a->setup->pair, b))->young;
+  for (PetscInt b = 0; b < 2; b++) young[b] = (double)SamBodyAt(SamPairBody(a->setup->pair, b), INFINITY).young;
   SamExplainStress(stress, PetscMin(young[0], young[1]), SLIGHT, INFINITY, why, size);
   if (!why[0] && isinf(young[0])) young[0] = young[1];
   if (!why[0] && isinf(young[1])) young[1] = young[0];

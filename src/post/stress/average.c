@@ -20,7 +20,7 @@
 /* Checks that the mean is over one material. */
 static PetscErrorCode CheckMaterial(SamEvaluation e)
 {
-  const PetscReal deepest = e->depth[e->depths - 1], bottom = SamBodyTop(SamEvaluationBody(e), 1);
+  const PetscReal deepest = e->depth[e->depths - 1], bottom = SamBodyAt(SamEvaluationBody(e), 0).bottom;
 
   PetscFunctionBegin;
   PetscCheck(

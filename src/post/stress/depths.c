@@ -228,31 +228,31 @@ SamBody SamEvaluationBody(SamEvaluation e)
 }
 
 /* Returns the material whose bottom is at a depth, but for rounding; the last material if there is none. */
-static PetscInt InterfaceAt(SamBody body, PetscReal depth)
+static SamBodyPlace InterfaceAt(SamBody body, PetscReal depth)
 {
-  PetscInt n = 0;
+  SamBodyPlace place = SamBodyAt(body, 0);
 
-  while (n + 1 < SamBodyCount(body) && PetscAbsReal(depth - SamBodyTop(body, n + 1)) > ROUNDING * depth) n++;
-  return n;
+  while (!place.last && PetscAbsReal(depth - place.bottom) > ROUNDING * depth) place = SamBodyBelow(body, place);
+  return place;
 }
 
 /* Splits depths at interfaces without a side: the depth itself becomes the side above, the next one the side below. */
 static PetscErrorCode SplitInterfaces(SamEvaluation e)
 {
-  const SamBody   body = SamEvaluationBody(e);
-  const PetscInt  last = SamBodyCount(body) - 1;
-  const PetscReal base = isinf(SamBodySubstrate(body)->young) ? SamBodySubstrateTop(body) : INFINITY; /* it is rigid */
-  PetscReal      *depth;
-  int            *side;
-  PetscInt        n = 0;
+  const SamBody      body = SamEvaluationBody(e);
+  const SamBodyPlace last = SamBodyAt(body, INFINITY);
+  const PetscReal    base = isinf(last.young) ? last.top : INFINITY; /* it is rigid */
+  PetscReal         *depth;
+  int               *side;
+  PetscInt           n = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(2 * e->depths, &depth, 2 * e->depths, &side));
   for (PetscInt k = 0; k < e->depths; k++) {
-    const PetscInt  interface = InterfaceAt(body, e->depth[k]);
-    const PetscBool is        = (PetscBool)(interface < last);
-    const PetscReal bottom    = is ? SamBodyTop(body, interface + 1) : e->depth[k];
-    const PetscBool rigid     = (PetscBool)(is && bottom == base);
+    const SamBodyPlace above  = InterfaceAt(body, e->depth[k]);
+    const PetscBool    is     = (PetscBool)!above.last;
+    const PetscReal    bottom = is ? above.bottom : e->depth[k];
+    const PetscBool    rigid  = (PetscBool)(is && bottom == base);
 
     PetscCheck(!e->side[k] || is, e->comm, SAM_ERR_USER,
                "-depths: %.6g%c names a side of an interface, and there is none: omit the sign", (double)e->depth[k],

@@ -92,16 +92,18 @@ static PetscErrorCode CheckCycle(SamEvaluation e)
 /* Checks the constants of fatigue: one for all materials, or one for each elastic material. */
 static PetscErrorCode CheckConstants(SamEvaluation e)
 {
-  const SamBody  body      = SamEvaluationBody(e);
-  const PetscInt materials = SamBodyCount(body) - (isinf(SamBodySubstrate(body)->young) ? 1 : 0);
+  const SamBody      body      = SamEvaluationBody(e);
+  const SamBodyPlace last      = SamBodyAt(body, INFINITY);
+  const PetscInt     materials = last.number + (isinf(last.young) ? 0 : 1);
+  SamBodyPlace       place     = SamBodyAt(body, 0);
 
   PetscFunctionBegin;
   PetscCheck(e->materials == 1 || e->materials == materials || !e->cycle, e->comm, SAM_ERR_USER,
              "-fatigue: lists of %" PetscInt_FMT " constants for %" PetscInt_FMT " materials in depth: " SAM_ONE_EACH,
              e->materials, materials);
-  for (PetscInt m = 0; m < (e->materials > 1 ? materials : 1); m++) {
+  for (PetscInt m = 0; m < (e->materials > 1 ? materials : 1); m++, place = SamBodyBelow(body, place)) {
     const double yield = (double)e->constants[m].yield;
-    const double young = (double)SamBodyMaterialAt(body, SamBodyTop(body, m + 1))->young;
+    const double young = (double)place.young;
     char         why[160];
 
     SamExplainStress(yield, young, SAM_LEAST_CONSTANT, SAM_MOST_STRENGTH, why, sizeof(why));

@@ -185,15 +185,15 @@ PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluat
 
 PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
 {
-  const SamMaterial *surface = SamBodyMaterialAt(SamEvaluationBody(e), 0);
+  const SamBodyPlace surface = SamBodyAt(SamEvaluationBody(e), 0);
   const PetscReal    body    = (PetscReal)e->body;
   PetscReal          values[SAM_MATERIALS];
 
   PetscFunctionBegin;
   PetscCall(SamParametersAddReals(p, "body", PETSC_TRUE, 1, &body));
   if (e->passing) PetscCall(SamParametersAddText(p, "passing", PETSC_TRUE, "true"));
-  PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &surface->young));
-  PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &surface->poisson));
+  PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &surface.young));
+  PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &surface.poisson));
   PetscCall(SamElasticityAddParameters(e->source.bodies, p));
   for (const SamQuantity *q = SamQuantityTable; q->name; q++)
     for (int k = 0; k < 2 && q->constant[k].name && e->wants[q - SamQuantityTable]; k++) {

@@ -106,12 +106,13 @@ static void ComputePoint(Cycle *c, PetscInt quantity, PetscInt i, double values[
   const SamEvaluation e = c->e;
   const SamQuantity  *q = &SamQuantityTable[quantity];
   const PetscInt      n = c->points->count, depth = c->points->depth + i / c->points->plane;
-  SamFatigueConstants constants = e->constants[e->materials > 1 ? SamBodyAt(SamEvaluationBody(e), e->depth[depth]) : 0];
+  const SamBodyPlace  place                     = SamBodyAt(SamEvaluationBody(e), e->depth[depth]);
+  SamFatigueConstants constants                 = e->constants[e->materials > 1 ? place.number : 0];
   double              value[SAM_QUANTITY_PARTS] = {0};
 
   (e->passing ? GatherPassing : GatherStates)(c, i);
-  constants.young   = SamBodyMaterialAt(SamEvaluationBody(e), e->depth[depth])->young;
-  constants.poisson = SamBodyMaterialAt(SamEvaluationBody(e), e->depth[depth])->poisson;
+  constants.young   = place.young;
+  constants.poisson = place.poisson;
   c->at.constants   = &constants;
   c->at.slip        = i < c->surface ? c->slip : NULL;
   value[0]          = (*q->of_cycle)(&c->at, value + 1);

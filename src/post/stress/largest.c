@@ -17,7 +17,7 @@ static SamLargest *LargestOfQuantity(SamEvaluation e, PetscInt quantity)
 
 PetscErrorCode SamLargestClear(SamEvaluation e)
 {
-  const PetscInt materials = SamBodyCount(SamEvaluationBody(e));
+  const PetscInt materials = SamBodyAt(SamEvaluationBody(e), INFINITY).number + 1;
   SamLargest    *end;
 
   PetscFunctionBegin;
@@ -125,8 +125,8 @@ static void KeepOwn(SamEvaluation e, PetscInt step, const SamPoints *p, const do
 {
   const SamBody body = SamEvaluationBody(e);
 
-  for (PetscInt k = 0; k < p->depths && SamBodyCount(body) > 1; k++) {
-    const PetscInt kind  = SAM_LARGEST_OWN + SAM_OWN * SamBodyAt(body, e->depth[p->depth + k]);
+  for (PetscInt k = 0; k < p->depths && !SamBodyAt(body, 0).last; k++) {
+    const PetscInt kind  = SAM_LARGEST_OWN + SAM_OWN * SamBodyAt(body, e->depth[p->depth + k]).number;
     const PetscInt begin = k * p->plane, end = begin + p->plane;
 
     KeepLargestPrincipal(e, LargestOf(e, kind + SAM_OWN_PRINCIPAL, step), p, s, mises, begin, end);
@@ -193,7 +193,7 @@ static const struct {
 
 static PetscErrorCode DescribeOwn(SamEvaluation e, PetscInt n, PetscInt kind, SamLargestSeries *of)
 {
-  const PetscBool substrate = n + 1 == SamBodyCount(SamEvaluationBody(e));
+  const PetscBool substrate = n == SamBodyAt(SamEvaluationBody(e), INFINITY).number;
   char            name[32] = "substrate", shown[32] = "substrate";
 
   PetscFunctionBegin;

@@ -31,13 +31,13 @@ static void Strain(SamEvaluation e, const SamPoints *p, const double *const s[],
   for (PetscInt k = 0; k < p->depths; k++) {
     const double      *from[SAM_STRESS_COMPONENTS];
     double            *to[SAM_STRESS_COMPONENTS];
-    const SamMaterial *m = SamBodyMaterialAt(SamEvaluationBody(e), e->depth[p->depth + k]);
+    const SamBodyPlace m = SamBodyAt(SamEvaluationBody(e), e->depth[p->depth + k]);
 
     for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++) {
       from[c] = s[c] + k * (ptrdiff_t)p->plane;
       to[c]   = values[c] + k * (ptrdiff_t)p->plane;
     }
-    SamStressStrain(p->plane, m->young, m->poisson, from, to);
+    SamStressStrain(p->plane, m.young, m.poisson, from, to);
   }
 }
 
