@@ -54,7 +54,7 @@ PetscErrorCode SamLawCreate_Bodies(SamLaw law)
   for (SamElasticity o = law->elasticity; o; o = o->inner) {
     if (o->ops.declare || o->ops.conditions || o->ops.begin || o->ops.advance) law->always = PETSC_TRUE;
     if (o->ops.displace) law->always = law->displaces = PETSC_TRUE;
-    if (o->ops.begin) law->forbids_jumps = PETSC_TRUE;
+    if (o->ops.begin) law->forbids_jumps = law->remembers = PETSC_TRUE;
     if (o->ops.begin) law->any_motion = PETSC_FALSE;
     if (o->ops.begin) law->ops.back = NULL; /* what it remembers of a step acts in later ones */
     if (o->ops.begin) law->named = "elasticity";

@@ -181,10 +181,11 @@ struct _n_SamLaw {
   PetscBool           uses[SAM_USES]; /* fields of a solved step that advance() uses */
   PetscBool           needs_friction; /* true: meaningless without friction */
   PetscBool           slides;         /* true: the surfaces move past each other */
-  PetscBool           wears;          /* true: it removes material: its numbers wear_volume1 and wear_volume2 tell */
-  const char         *number;         /* name of the number by which back() finds the derivative; NULL: none */
-  const char         *named;    /* option that messages name where the law is refused; NULL: the one that selects it */
-  const char         *strained; /* number that is above 0 once bodies have yielded by it; NULL: they do not */
+  PetscBool           remembers; /* true: bodies move by what they remember of earlier steps: no elastic closed form */
+  PetscBool           wears;     /* true: it removes material: its numbers wear_volume1 and wear_volume2 tell */
+  const char         *number;    /* name of the number by which back() finds the derivative; NULL: none */
+  const char         *named;     /* option that messages name where the law is refused; NULL: the one that selects it */
+  const char         *strained;  /* number that is above 0 once bodies have yielded by it; NULL: they do not */
   const char         *with_shear;    /* numbers that follow the shear at the surface, separated by blanks; NULL: none */
   PetscBool           forbids_jumps; /* true: not possible in a wear simulation with cycle jumps */
   PetscBool           of_body[2];    /* true: adds to the separation a field at a body's own points, if they slide */

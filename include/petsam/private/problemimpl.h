@@ -26,11 +26,13 @@ PETSC_INTERN PetscErrorCode SamProblemGetBalance(SamProblem problem, SamState st
 /*
   Questions about the laws of a problem. None is collective.
   SamProblemSlides - returns true if the surfaces move past each other.
+  SamProblemRemembers - returns true if bodies move by what they remember of earlier steps, besides their elasticity.
   SamProblemWears - returns true if material is removed. SamProblemWornVolume - returns the volume (m3) that the last
   solution has removed of both bodies, 0 if none is removed.
   SamProblemYields - returns true if a body may yield. SamProblemBodyYields - the same of body 0 or 1.
 */
 PETSC_EXTERN PetscBool SamProblemSlides(SamProblem problem);
+PETSC_INTERN PetscBool SamProblemRemembers(SamProblem problem);
 PETSC_INTERN PetscBool SamProblemWears(SamProblem problem);
 PETSC_INTERN PetscReal SamProblemWornVolume(SamState state);
 PETSC_INTERN PetscBool SamProblemYields(SamProblem problem);

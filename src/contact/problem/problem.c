@@ -264,6 +264,13 @@ PetscBool SamProblemSlides(SamProblem p)
   return PETSC_FALSE;
 }
 
+PetscBool SamProblemRemembers(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->remembers) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 PetscBool SamProblemWears(SamProblem p)
 {
   for (PetscInt k = 0; k < p->laws; k++)

@@ -68,7 +68,8 @@ static PetscErrorCode Has(SamProblem p, PetscReal *friction, PetscBool *has)
   PetscFunctionBegin;
   PetscCall(SamLawGetFriction(law, friction));
   PetscCall(SamProblemGetLaws(p, &count, &laws));
-  for (PetscInt k = 0; k < count; k++) usual = usual && (laws[k] == law || laws[k]->always || laws[k]->accumulates);
+  for (PetscInt k = 0; k < count; k++)
+    usual = usual && !laws[k]->remembers && (laws[k] == law || laws[k]->always || laws[k]->accumulates);
   *has = usual && *friction > 0 && !traits.periodic && !traits.patch && SamPairIsUniform(pair) &&
          SamPairFilm(pair) == 0 &&
          SamPairCoupling(pair, PETSC_PI / (double)grid->length, PETSC_PI / (double)grid->side[1]) < ALIKE;
