@@ -121,8 +121,8 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscCall(SamProblemGetLaws(c->problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++)
     if (!laws[k]->any_motion)
-      PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, laws[k]->option ? "-" : "",
-                                laws[k]->option ? laws[k]->option : laws[k]->type));
+      PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm,
+                                laws[k]->named || laws[k]->option ? "-" : "", SamLawOption(laws[k])));
   PetscCheck(SamTangentialAsSolver(c->tangential)->upwind == c->traits.upwind, c->grid->comm, SAM_ERR_USER,
              "-tangential_type: does not solve this problem: use %s",
              c->traits.upwind ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);

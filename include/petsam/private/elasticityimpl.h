@@ -85,7 +85,8 @@ struct _n_SamElasticity {
   SamElasticityOps            ops;
   SamElasticityTraits         traits;
   SamElasticityCreateFunction create;
-  PetscBool                   wraps; /* made by SamElasticityWrap() */
+  const char                 *option; /* that messages name where what it remembers is rejected; NULL: -elasticity */
+  PetscBool                   wraps;  /* made by SamElasticityWrap() */
   void                       *data;
   SamMotion                   motion; /* motion of the bodies, for users of the operator; NULL: the usual one */
   PetscReal film; /* compliance of the film, m/Pa, that the class adds to tangential products; 0 if the type adds it */
