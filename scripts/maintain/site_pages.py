@@ -82,6 +82,7 @@ PARTS = (
             "examples/dovetail/README.md",
             "examples/rolling/README.md",
             "examples/heat/README.md",
+            "examples/viscous/README.md",
             "examples/gradient/README.md",
             "examples/wheel/README.md",
             "examples/creep/README.md",

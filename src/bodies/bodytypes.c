@@ -1,5 +1,5 @@
 /* The types of elasticity of the library, and what may be added to bodies. */
-#include <petsam/private/elasticityimpl.h>
+#include "viscous/viscous.h"
 
 PetscErrorCode SamElasticityRegisterAll(void)
 {
@@ -16,5 +16,6 @@ PetscErrorCode SamElasticityRegisterAll(void)
     if (!SamElasticityIsRegistered(types[k].name)) /* else one of the user's, which replaces it */
       PetscCall(SamElasticityRegister(types[k].name, types[k].create));
   PetscCall(SamElasticityRegisterAddition(&SamElasticityCompliances));
+  PetscCall(SamElasticityRegisterAddition(&SamElasticityViscous));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,190 @@
+"""Bodies that relax: closed solutions, limits, balance of energy, order in the step, ranks and restarts."""
+
+import h5py
+import numpy as np
+import pytest
+
+import petsam as package
+from support import bodies
+
+# three terms, of which the times and parts of the creep are known
+PARTS, TIMES = (0.5, 0.3, 0.15), (0.01, 0.1, 1.0)
+CREEP = (
+    (0.760686034166275, 0.018740461355115), (2.112506661468029, 0.234187564244963),
+    (16.12680730436569, 4.557071974399922),
+)  # fmt: skip
+BALL = dict(friction=0, gap_type="sphere", gap_radius1=1, gap_radius2="inf", errors="none")
+RIGID = dict(body1_young="inf", body1_poisson=0)
+
+
+def creep(t):
+    """J(t)/J(0)."""
+    return 1 + sum(a * (1 - np.exp(-t / theta)) for a, theta in CREEP)
+
+
+def relaxing(body, parts=PARTS, times=TIMES):
+    return {f"body{body}_relax_moduli": parts, f"body{body}_relax_times": times}
+
+
+def table(**columns):
+    names = list(columns)
+    return dict(time=np.asarray(columns["time"], float), **{n: np.asarray(columns[n], float) for n in names[1:]})
+
+
+@pytest.mark.parametrize("which, poisson", [(1, 0.3), (2, 0.3), (2, 0.5)])
+def test_bodies_that_creep_differently_sink_in_as_lee_and_radok(which, poisson):
+    """z^1.5 = 3 N/4 (c1 + c2 J(t)) for R = 1, c = (1 - nu2)/E; the other body is elastic, with another nu."""
+    other, load = 3 - which, 1e-3
+    c1, c2 = (1 - 0.25) / 4, (1 - poisson) / 2  # (1 - nu)/(2 G), G = 2 and 1
+    times = np.concatenate([[0], np.logspace(-4, 1, 21)])
+    size = 2.5 * (0.75 * load * (c1 + c2 * creep(10))) ** (1 / 3)
+    run = package.run(
+        **BALL, **relaxing(which), grid_n=48, grid_size=size, history=table(time=times, load_n=load + 0 * times),
+        output_fields="none",
+        **{f"body{other}_young": 5, f"body{other}_poisson": 0.25, f"body{which}_young": 2 * (1 + poisson),
+           f"body{which}_poisson": poisson},
+    )  # fmt: skip
+    closed = (0.75 * load * (c1 + c2 * creep(times))) ** (2 / 3)
+    assert run["disp_z"][:] == pytest.approx(closed, rel=2e-3)
+    assert run["disp_z"][-1] == pytest.approx(closed[-1], rel=3e-4)
+
+
+def test_a_contact_that_shrinks_is_that_of_ting_in_second_order():
+    """G = (1 + exp(-t))/2, approach 0.01 t to t = 1 and back; forces of Ting's (1966) integral."""
+    known = {1: 0.00322453474215, 1.25: 0.00168380510256, 1.5: 0.000583836270247}
+    found = {}
+    for duration in (1 / 4, 1 / 8, 1 / 16):
+        t = np.arange(0, 1.5 + 1e-9, duration)
+        depth = 0.01 * np.where(t > 1, 2 - t, t) - 1e-12
+        run = package.run(
+            **BALL, **RIGID, body2_young=2.6, body2_poisson=0.3, **relaxing(2, (0.5,), (1.0,)), grid_n=96,
+            grid_size=0.25, history=table(time=t, disp_z=depth), output_fields="none",
+        )  # fmt: skip
+        found[duration] = {at: run["load_n"][np.argmin(abs(t - at))] for at in known}
+    for at, force in known.items():
+        assert found[1 / 16][at] == pytest.approx(force, rel=1e-3)
+        changes = [found[1 / 4][at] - found[1 / 8][at], found[1 / 8][at] - found[1 / 16][at]]
+        assert 3 < changes[0] / changes[1] < 5
+
+
+@pytest.mark.parametrize("poisson, both", [(0.5, False), (0.3, True)])
+def test_a_stuck_contact_creeps_along_the_surface_and_keeps_its_shear(poisson, both):
+    """N relaxed, then T_x stepped and held: the displacement follows the creep of the bodies, the shear stays."""
+    held = 200 + np.array([0, 0.01, 0.1, 1, 10])
+    times = np.concatenate([[0, 100, 200 - 1e-6], held])
+    run = package.run(
+        **{**BALL, "friction": 50}, body1_young=6 if not both else 2.6, body1_poisson=poisson,
+        body2_young=2 * (1 + poisson), body2_poisson=poisson, **relaxing(2), **(relaxing(1) if both else {}),
+        grid_n=32, grid_size=0.9 if both else 0.4, slip_direction="end", normal_rtol=1e-11, tangential_rtol=1e-11,
+        history=table(time=times, load_n=1e-3 + 0 * times, load_tx=1e-4 * (times >= 200)),
+    )  # fmt: skip
+    c1, c2 = (1, 1) if both else (0.5, 1)
+    moved = (run["disp_x"][:] - run["disp_x"][2])[3:]
+    grows = (c1 * (creep(held - 200) if both else 1) + c2 * creep(held - 200)) / (c1 + c2)
+    assert moved / moved[0] == pytest.approx(grows, rel=1e-4)
+    assert run["shear_x"][-1] == pytest.approx(run["shear_x"][3], abs=1e-9 * run["shear_x"][3].max())
+
+
+@pytest.mark.parametrize("dissimilar", [False, True])
+def test_work_is_dissipated_by_friction_and_by_the_bodies(dissimilar):
+    """Pushed in, sheared and pulled off, with time to recover: the rest of the balance falls in second order."""
+    rest = []
+    for steps in (24, 48):
+        t = np.linspace(0, 2, steps + 1)
+        late = 2 + np.array([0.05, 0.1, 0.3, 1, 3, 10, 50])
+        down, along = 0.009 * np.sin(np.pi * t / 2), 0.002 * np.sin(np.pi * t)
+        history = table(
+            time=np.concatenate([t, late]), disp_z=np.concatenate([[-1e-5], down[1:], -1e-5 + 0 * late]),
+            disp_x=np.concatenate([along, 0 * late]),
+        )  # fmt: skip
+        first = dict(body1_young=5, body1_poisson=0.2) if dissimilar else RIGID
+        run = package.run(
+            **{**BALL, "friction": 0.3 * dissimilar}, **first, body2_young=2.6, body2_poisson=0.3,
+            **relaxing(2, (0.5, 0.2), (0.3, 1)), grid_n=40, grid_size=0.25, history=history, output_fields="none",
+            normal_rtol=1e-10, tangential_rtol=1e-10,
+        )  # fmt: skip
+        work = sum(
+            np.sum((force[1:] + force[:-1]) / 2 * np.diff(way))
+            for force, way in (
+                (np.nan_to_num(run["load_n"][:]), history["disp_z"]),
+                (np.nan_to_num(run["load_tx"][:]), history["disp_x"]),
+            )
+        )
+        lost = np.nansum(run["viscous_energy"][:]) + np.nansum(run["dissipated_energy"][:])
+        rest.append(abs(work - lost) / work)
+    assert rest[1] < 5e-4 and rest[1] < 0.5 * rest[0]
+
+
+@pytest.mark.parametrize("kind", ["halfspace", "plane", "periodic"])
+def test_limits_are_elastic_bodies(kind):
+    """Times far below and above those of the history: the relaxed and the sudden modulus."""
+    case = dict(
+        bodies(), friction=0.3, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", elasticity=kind,
+        grid_n=64 if kind == "plane" else 24, grid_size=2e-3, slip_direction="end", normal_rtol=1e-12,
+        tangential_rtol=1e-11, errors="none",
+    )  # fmt: skip
+    load = 1e5 if kind == "plane" else 100
+    history = table(time=[1, 2, 3, 4], load_n=[load, load, load, 0.8 * load], load_tx=[0, 0, 0.12 * load, -0.1 * load])
+
+    def run(young, **more):
+        return package.run(**{**case, "body1_young": young, "body2_young": young}, **more, history=history)
+
+    for times, young in (((1e-9, 3e-9), 105e9), ((1e9, 3e9), 210e9)):
+        found = run(210e9, **relaxing(1, (0.3, 0.2), times), **relaxing(2, (0.3, 0.2), times))
+        elastic = run(young)
+        for name in ("pressure", "shear_x"):
+            for k in (1, 2, 3):
+                assert found[name][k] == pytest.approx(elastic[name][k], abs=1e-6 * np.abs(elastic[name][k]).max())
+
+
+@pytest.mark.parametrize("second", [{}, relaxing(2, (0.4,), (0.7,))])
+def test_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path, second):
+    (tmp_path / "h.csv").write_text("time,load_n,load_tx\n0,500,0\n0.1,700,60\n0.3,700,-40\n1,600,30\n")
+    case = dict(
+        bodies(), body2_young=70e9, **relaxing(1, (0.5, 0.2), (0.1, 1)), **second, friction=0.4, gap_type="sphere",
+        gap_radius1=0.1, gap_radius2="inf", grid_n=(37, 30), grid_size=2.4e-3, history="h.csv", overwrite=True,
+        slip_direction="end",
+    )  # fmt: skip
+    case = {k: ",".join(map(str, v)) if isinstance(v, tuple) and "relax" in k else v for k, v in case.items()}
+    petsam(dict(case, output="one.h5", checkpoint="c.h5", checkpoint_every=2))
+    petsam(dict(case, output="three.h5"), ranks=3)
+    petsam(dict(case, output="on.h5", restart="c.h5.1"), ranks=2)
+    names = "pressure", "shear_x", "shear_y", "history/viscous_energy", "history/disp_x"
+    with h5py.File(tmp_path / "one.h5") as one:
+        for file in "three.h5", "on.h5":
+            with h5py.File(tmp_path / file) as other:
+                for name in names:
+                    assert one[name][-1].tobytes() == other[name][-1].tobytes(), (file, name)
+        assert one["history/viscous_energy"][1:].min() > 0
+    said = petsam(dict(case, output="on.h5", restart="c.h5", body1_relax_times="0.1,2"), check=2).stderr
+    assert "body1_relax_times" in said
+
+
+def test_stresses_are_those_by_the_tractions(petsam, stress, tmp_path):
+    (tmp_path / "h.csv").write_text("time,load_n\n0,500\n1,500\n")
+    case = dict(bodies(), friction=0, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=32, grid_size=2.4e-3,
+                history="h.csv", output="v.h5", body2_relax_moduli="0.6", body2_relax_times="0.2")  # fmt: skip
+    petsam(case)
+    stress(dict(input="v.h5", output="s.h5", depths="50um,200um"))
+    with h5py.File(tmp_path / "v.h5", "r+") as f:
+        for name in ("body2_relax_moduli", "body2_relax_times"):
+            del f.attrs[name]
+    stress(dict(input="v.h5", output="e.h5", depths="50um,200um"))
+    with h5py.File(tmp_path / "s.h5") as s, h5py.File(tmp_path / "e.h5") as e:
+        assert np.array_equal(s["mises"][:], e["mises"][:]) and s["mises"][:].max() > 0
+
+
+def test_stiffness_is_that_of_the_step(tmp_path, petsam):
+    """Of two histories that differ in the last load."""
+    case = dict(
+        bodies(), body1_relax_moduli="0.6", body1_relax_times="0.4", friction=0, gap_type="sphere", gap_radius1=0.1,
+        gap_radius2="inf", grid_n=32, grid_size=2.4e-3, history="h.csv", stiffness=True, normal_rtol=1e-12,
+        output="k.h5", overwrite=True,
+    )  # fmt: skip
+    found = []
+    for load in (700, 699.93, 700.07):
+        (tmp_path / "h.csv").write_text(f"time,load_n\n0,500\n0.3,{load}\n")
+        petsam(case)
+        with h5py.File(tmp_path / "k.h5") as f:
+            found.append((f["history/disp_z"][-1], f["history/stiffness"][-1].reshape(6, 6)[0, 0]))
+    assert 1 / found[0][1] == pytest.approx((found[2][0] - found[1][0]) / 0.14, rel=1e-4)
