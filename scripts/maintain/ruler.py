@@ -34,7 +34,7 @@ LIMITS = {
     "fitted or chosen numbers in advice": (125, 40),
     "options of a command line outside of commands": (0, 0),
     "options in no example or page": (0, 0),
-    "names that applications use of the library": (156, 110),
+    "names that applications use of the library": (138, 110),
     "names that applications use of each other": (6, 6),
     "names of applications that the library uses": (0, 0),
     "documented names of the package": (220, 220),

@@ -435,5 +435,5 @@ def table_of(path):
     """The rows of a CSV of petsam, {name: text} each, by the names of the heads without their units."""
     with open(path, encoding="utf-8", newline="") as file:
         rows = csv.DictReader(file)
-        rows.fieldnames = [tables.split(head)[0] for head in rows.fieldnames]
+        rows.fieldnames = [tables.Column.headed(head, "", None).name for head in rows.fieldnames]
         return list(rows)

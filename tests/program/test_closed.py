@@ -17,12 +17,13 @@ from petsam.closed.loop import (
     sliding_masing_load,
 )
 from petsam.closed.lubkin import lubkin_shear, lubkin_stick_radius, lubkin_torque_ratio, lubkin_twist, torsion_limit
-from petsam.closed.materials import effective_modulus, effective_radius, tangential_compliance
+from petsam.closed.materials import Bodies, effective_modulus, effective_radius, tangential_compliance
 from petsam.closed.normal import hertz, hertz_pressure
 from petsam.closed.plane import PlaneCells, contact_under_moment, plane_pressure, plane_shear, plane_tilt, stick_zone
 from petsam.closed.punch import Punch, punch_approach, punch_pressure, punch_radius, punch_torsion_limit
 from petsam.closed.quadrature import segments
 from petsam.closed.spence import SpencePunch, full_stick_load, goodman_friction
+from petsam.closed.sphere import Spheres
 from petsam.closed.stress import HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, sliding_surface
 
 
@@ -425,3 +426,12 @@ def test_closed_solutions_agree_with_quadrature():
     assert len(found) > 100
     wrong = [f"{name}: {error:.2e}, at most {bound:.0e}" for name, error, bound in found if not abs(error) <= bound]
     assert not wrong, "\n".join(wrong)
+
+
+def test_first_loading_of_spheres_is_the_displacement_at_the_stick_radius():
+    steel = dict(body1_young=210e9, body1_poisson=0.3, body2_young=70e9, body2_poisson=0.33)
+    spheres = Spheres(Bodies.of(steel), 0.02, 0.4, 50.0)
+    loads = np.linspace(0.0, spheres.limit, 9)
+    assert spheres.first_loading(loads) == pytest.approx(
+        [spheres.displacement(spheres.stick_radius(load)) for load in loads], rel=1e-12, abs=1e-18
+    )

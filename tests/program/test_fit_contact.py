@@ -258,6 +258,17 @@ def test_numbers_of_a_run_are_those_of_its_passes_back():
     assert isinstance(single([0.4]), float)
 
 
+def test_numbers_have_their_derivative_where_there_is_one():
+    unlike = {**OPTIONS, "slip_direction": "end"}
+    plain = petsam.gradient.numbers(unlike, LOOP, ["energy"], ["friction"])
+    values, slopes = plain.derivative([0.4])
+    step = 1e-4
+    difference = (plain([0.4 + step]) - plain([0.4 - step])) / (2.0 * step)
+    assert plain.shape == (1,) and values == pytest.approx(plain([0.4]), rel=1e-9)
+    assert slopes[:, 0] == pytest.approx(difference, rel=1e-2)
+    assert petsam.gradient.numbers(unlike, LOOP, "energy", ["friction", "gap_radius1"]).derivative is None
+
+
 @pytest.mark.parametrize(("change", "words"), [
     (dict(measured={"load_x": (np.zeros(14), 1.0)}), "is load_tx meant"),
     (dict(measured={"disp_x": (np.zeros(14), 1.0)}), "measured disp_x: the history prescribes it"),

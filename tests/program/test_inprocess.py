@@ -186,7 +186,8 @@ with petsam.Contact(wear_coefficient1=1e-14, **case) as contact:
     error = refused("gross slip", lambda: contact.run(slides), petsam.NoEquilibrium)
     assert len(error.steps) == 2 and error.step.time == 3 and abs(error.steps[1].load_tx - 100) < 1e-6
     for name in ("", "load_tx,load_ty", "load_tx ", "load_tx;", "a\\nb"):  # each name has its value
-        refused("is no name", lambda: contact.try_step(load_n=1000, **{name: 1}), petsam.PrescribedError)
+        error = refused("is no name", lambda: contact.try_step(load_n=1000, **{name: 1}), petsam.PrescribedError)
+        assert error.step is None and not error.steps
         refused("is no name", lambda: contact.try_step(roll=1e-6, load_n=1000, **{name: 1}), petsam.PrescribedError)
         refused("is no name", lambda: contact.run({"time": [1.0], "load_n": [1e3], name: [1.0]}))
         refused("is no name", lambda: contact.live(10, {"time": [1.0], "load_n": [1e3], name: [1.0]}))

@@ -8,7 +8,7 @@ import pytest
 
 import conftest
 import petsam
-from petsam.core.tables import split
+from petsam.core.tables import Column
 from petsam.plot import bodies, looks
 from petsam.plot.style import STYLE, logarithmic, plt
 from petsam.plot.units import bracketed, on_axis, size_of
@@ -47,7 +47,7 @@ def table(path):
 
 def size_in(label):
     """Size of the unit of a label in a table."""
-    return size_of(", " + split(label)[1])
+    return size_of(", " + Column.headed(label, "", None).unit)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """Numbers of a fretting cycle against Mindlin and Deresiewicz's loops, slip amplitudes against Cattaneo's slip."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -92,6 +94,9 @@ def test_the_regime_is_that_of_the_step_that_slips_most(solve, tmp_path, way, re
 
 
 def test_regimes_of_several_cycles():
-    assert sliding.regime_of(["stick", "partial slip"]) == "partial slip"
-    assert sliding.regime_of(["stick"]) == "stick" and sliding.regime_of(["gross slip"] * 2) == "gross slip"
-    assert sliding.regime_of(["partial slip", "gross slip"]) == "mixed"
+    areas = dict(stick_area=np.array([2.0, 2.0, 1.0, 0.0, 0.0]), contact_area=np.array([2.0, 2.0, 2.0, 2.0, 2.0]))
+    results = SimpleNamespace(series=areas.get)
+    stick, partial, gross = slice(0, 2), slice(1, 3), slice(3, 5)
+    assert sliding.regime(results, stick, partial) == "partial slip"
+    assert sliding.regime(results, stick) == "stick" and sliding.regime(results, gross, gross) == "gross slip"
+    assert sliding.regime(results, partial, gross) == sliding.regime(results, gross, stick) == "mixed"

@@ -8,7 +8,7 @@ import pytest
 
 from petsam.apps.wheel.words import split_numbers
 from petsam.core.errors import Error
-from petsam.core.texttable import Form, Head, Headed, Table, Text, are_units, head_of, number_of
+from petsam.core.texttable import Form, Head, Table, Text, are_units, head_of, number_of
 
 
 @pytest.fixture
@@ -73,7 +73,7 @@ def test_a_name_that_ends_as_a_unit_is_known_as_a_whole(write):
 
 def test_names_with_blanks_between_blanks_end_at_brackets_or_two_blanks(write):
     for head in ("Total time [s] Friction force [N]", "Total time  Friction force"):
-        assert Headed(write(f"{head}\n1 2\n"), "point", "points").words == [
+        assert Text(write(f"{head}\n1 2\n")).headed("point", "points").words == [
             word.strip() for word in (["Total time [s]", "Friction force [N]"] if "[" in head else head.split("  "))
         ]
 
@@ -82,14 +82,14 @@ def test_words_in_quotation_marks_are_those_of_the_csv_library(write):
     words = ["a", "b,c", 'say ""', "", " d", "0,1e-4"]
     with open(write(""), "w", newline="") as file:
         csv.writer(file).writerows([["h"] * len(words), words])
-    table = Headed(file.name, "case", "cases")
+    table = Text(file.name).headed("case", "cases")
     assert table.body == [(2, [word.strip() for word in words])]
 
 
 def test_the_head_decides_what_separates(write):
-    table = Headed(write("a;b\n0,1;1,2,3\n"), "case", "cases", separators=(";", ","))
+    table = Text(write("a;b\n0,1;1,2,3\n")).headed("case", "cases", separators=(";", ","))
     assert table.body == [(2, ["0,1", "1,2,3"])]
-    assert Headed(write("a\nb c\n"), "case", "cases", separators=(";", ",")).body == [(2, ["b c"])]
+    assert Text(write("a\nb c\n")).headed("case", "cases", separators=(";", ",")).body == [(2, ["b c"])]
 
 
 @pytest.mark.parametrize(

@@ -478,7 +478,7 @@ def test_a_wheel_that_lifts_without_a_flange_does_not_tip_by_it(axle):
 @pytest.mark.parametrize("y, yaw", [(0.0, 0.0), (3e-3, 1e-3), (-4.8e-3, 1e-2)])
 def test_the_estimated_wear_is_below_the_solved_one_and_near_it(vehicle, y, yaw):
     states, law = [State(Position(y=y, yaw=yaw, speed=20.0), LOAD)], Law("energy", 1e-14)
-    solved = wearing.rates(vehicle, states, law)[1].max()
+    solved = wearing.rates(vehicle, states, law).depth_per_distance.max()
     assert 0.1 * solved < wearing.estimate(vehicle, states, law) < 1.2 * solved
 
 
@@ -739,9 +739,10 @@ def test_wear_takes_off_what_the_rates_say_and_has_an_error(vehicle):
     states = [State(Position(y=y, yaw=1e-3, speed=20.0), LOAD, weight) for y, weight in ((-2e-3, 1.0), (3e-3, 2.0))]
     law = Law("energy", 1e-14)
     few = petsam.wheel.wear(vehicle, states, 5e6, law, 2)
-    profile, rates, failures = wearing.rates(vehicle, states, law)
-    assert not failures and not few.failures
-    area = float(np.sum(rates * np.gradient(profile.lengths))) * 5e6
+    rates = wearing.rates(vehicle, states, law)
+    assert not rates.failures and not few.failures
+    lengths = np.append(0.0, np.cumsum(np.hypot(np.diff(rates.y), np.diff(rates.z))))
+    area = float(np.sum(rates.depth_per_distance * np.gradient(lengths))) * 5e6
     assert few.area[-1] == pytest.approx(area, rel=0.1)
     deepest, error = few.deepest
     assert 0.0 < error < 0.5 * deepest

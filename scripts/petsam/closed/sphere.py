@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .cattaneo import cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius
+from .loop import first_loading
 from .lubkin import lubkin_shear, lubkin_stick_radius, lubkin_twist, torsion_limit
 from .materials import Bodies, effective_radius
 from .normal import Hertz, hertz, hertz_pressure
@@ -161,6 +162,21 @@ class Spheres:
             Displacement, m.
         """
         return cattaneo_displacement(self.hertz.radius, c, self.mu_p0, self.bodies.tangential_compliance)
+
+    def first_loading(self, load_tx: ArrayLike) -> np.ndarray:
+        """The displacement d_x of the first loading, which loop.first_loading() has in closed form.
+
+        Parameters
+        ----------
+        load_tx : array_like
+            Tangential load T_x, N, from 0 to limit.
+
+        Returns
+        -------
+        ndarray
+            Displacement, m, of the shape of load_tx.
+        """
+        return first_loading(load_tx, self.limit, self.gross)
 
     def torsion_stick_radius(self, load_mz: float) -> float:
         """Lubkin's stick radius c.

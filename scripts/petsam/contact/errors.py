@@ -28,9 +28,15 @@ class ContactError(Error):
     ----------
     results : Results or None
         Of petsam.run(): the steps so far.
+    step : Step or None
+        The step that failed, if one did.
+    steps : list of Step or Cycle
+        Of Contact.run() and Contact.live(): those before it; of an EdgeContact those up to it.
     """
 
     results: Any = None
+    step: Any = None
+    steps: Sequence = ()
 
     def __init__(self, code: int, message: str) -> None:
         super().__init__(code, message)  # makes it picklable
@@ -44,7 +50,11 @@ class ContactError(Error):
         return type(self), self.args, {name: value for name, value in vars(self).items() if name != "results"}
 
 
-class PrescribedError(ContactError, TypeError):
+class StepError(ContactError):
+    """A step that cannot be taken: one that was rejected, or that has no solution."""
+
+
+class PrescribedError(StepError, TypeError):
     """A prescribed value of a step was rejected: an unknown name, two names for one component, a value out of range.
 
     Parameters
@@ -62,44 +72,24 @@ class MissingInput(ContactError, MissingFile):
         self.args, self.code, self.message = (code, message), code, message
 
 
-class NotConverged(ContactError):
+class NotConverged(StepError):
     """A step or a stiffness did not converge.
 
     Parameters
     ----------
     code, message : int, str
         See ContactError.
-
-    Attributes
-    ----------
-    step : Step or None
-        The step.
-    steps : list of Step or Cycle
-        Of Contact.run() and Contact.live(): those before it.
     """
 
-    step: Any = None
-    steps: Sequence = ()
 
-
-class NoEquilibrium(ContactError):
+class NoEquilibrium(StepError):
     """No equilibrium exists for a step: gross slip, or a moment that no pressure balances.
 
     Parameters
     ----------
     code, message : int, str
         See ContactError.
-
-    Attributes
-    ----------
-    step : Step or None
-        The step.
-    steps : list of Step or Cycle
-        Of Contact.run() and Contact.live(): those before it.
     """
-
-    step: Any = None
-    steps: Sequence = ()
 
 
 class EdgeContact(ContactError):
@@ -109,17 +99,7 @@ class EdgeContact(ContactError):
     ----------
     code, message : int, str
         See ContactError.
-
-    Attributes
-    ----------
-    step : Step or None
-        The step.
-    steps : list of Step or Cycle
-        Of Contact.run() and Contact.live(): those up to it.
     """
-
-    step: Any = None
-    steps: Sequence = ()
 
 
 class EdgeContactWarning(UserWarning):

@@ -17,7 +17,7 @@ fine grids.
 
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Callable, Optional
 
 import numpy as np
@@ -31,16 +31,20 @@ from .inprocess import Contact
 NUMBERS = ("energy", "wear_volume", *LOADS, *WAYS)  # that numbers() takes from a run that is not recorded
 OPTIONS = ("friction", *MODULI, *(f"{name}{body}" for name in WEAR for body in (1, 2)))  # that function() may change
 SETTLES = 1e-8  # tolerance of the shear by which the direction of slip at mid step is found completely
+RTOL = 1e-6  # relative residual of the systems of a pass back
 GOLDEN = (5**0.5 - 1) / 2
 IMAGINARY = 1e-30  # part of a value by which a shape's derivative is found, without any error of differences
 
 
 @dataclass(frozen=True)
 class _Evaluation:
-    """A function of parameters, and the shape of the numbers that it returns."""
+    """A function of parameters, the shape of the numbers that it returns, the options of its contacts, and a function
+    that returns the numbers with their derivatives: None where a parameter has none."""
 
     of: Callable[[ArrayLike], Any]
-    shape: tuple[int, ...]
+    shape: tuple[int, ...] = ()
+    options: Mapping[str, Any] = field(default_factory=dict)
+    derivative: Optional[Callable[[ArrayLike], tuple[Any, np.ndarray]]] = None
 
     def __call__(self, x: ArrayLike) -> Any:
         return self.of(x)
@@ -54,7 +58,7 @@ def function(
     *,
     gap: Optional[ArrayLike] = None,
     scales: ArrayLike = 1.0,
-    rtol: float = 1e-6,
+    rtol: float = RTOL,
 ) -> Callable[[ArrayLike], tuple[Any, np.ndarray]]:
     """A function of parameters that returns a number and its derivatives: one run, and one pass back, for each call.
 
@@ -95,26 +99,9 @@ def function(
         By the call, if a step has no solution, as in gross slip, or the number has no derivative.
     """
     model = _Model(options, history, objective, parameters, gap, scales)
-    for name in model.names:
-        if name not in (*OPTIONS, *model.columns):
-            every = [*OPTIONS, *model.columns]
-            raise Unusable(f"parameter {name}: there is no derivative by it{there_are(name, every)}")
-    of = [*(["gap"] if model.shaped else []), *dict.fromkeys(_derivative(name) for name in model.names)]
-
-    def evaluate(x: ArrayLike) -> tuple[Any, np.ndarray]:
-        with model.solved(x, record=True) as (contact, _, parts):
-            found = [contact.gradient(name, of, steps, rtol) for name, steps in model.wanted]
-        by = [
-            [
-                np.sum(each.gap * part[1]) if part else _by_name(each, one, history)
-                for one, part in zip(parameters, parts)
-            ]
-            for each in found
-        ]
-        values, slopes = np.array([each.value for each in found]), np.reshape(by, (len(found), -1)) * scales
-        return (values, slopes) if model.several else (float(values[0]), slopes[0])
-
-    return _Evaluation(evaluate, (len(model.wanted),) if model.several else ())
+    for name in model.underived:
+        raise Unusable(f"parameter {name}: there is no derivative by it{there_are(name, [*OPTIONS, *model.columns])}")
+    return model.derivative(rtol)
 
 
 def numbers(
@@ -142,7 +129,8 @@ def numbers(
     Returns
     -------
     callable
-        x -> number; of a list x -> numbers (objectives,).
+        x -> number; of a list x -> numbers (objectives,). Its attributes are shape, () or (objectives,); options, those
+        of its contacts; and derivative, function() of the same, or None if there is no derivative by a parameter.
 
     Raises
     ------
@@ -162,7 +150,7 @@ def numbers(
             values = np.array([_number(steps, name, part) for name, part in model.wanted])
         return values if model.several else float(values[0])
 
-    return evaluate
+    return _Evaluation(evaluate, model.shape, model.options, None if model.underived else model.derivative())
 
 
 class _Model:
@@ -182,9 +170,11 @@ class _Model:
         self.names = [one for one in parameters if isinstance(one, str)]
         if not len(parameters) or not self.wanted:
             raise Unusable("there are no parameters, or no numbers: give some of both")
+        self.underived = [name for name in self.names if name not in (*OPTIONS, *self.columns)]
         for name in self.names:
             if self.names.count(name) > 1:
                 raise Unusable(f"parameter {name} is listed twice")
+        self.shape = (len(self.wanted),) if self.several else ()
         self.shaped = gap is not None or len(self.names) < len(parameters)
         for name, value in {**options, **dict.fromkeys(self.names, "a parameter")}.items():
             if self.shaped and name.startswith("gap_") and (name, value) != ("gap_type", "flat"):
@@ -210,6 +200,25 @@ class _Model:
             if self.columns:
                 scaled = {one: np.asarray(values) * factors.get(one, 1.0) for one, values in self.history.items()}
             yield contact, contact.run(scaled), parts
+
+    def derivative(self, rtol: float = RTOL) -> Callable[[ArrayLike], tuple[Any, np.ndarray]]:
+        """The function of x that returns what is wanted with its derivatives."""
+        of = [*(["gap"] if self.shaped else []), *dict.fromkeys(_derivative(name) for name in self.names)]
+
+        def evaluate(x: ArrayLike) -> tuple[Any, np.ndarray]:
+            with self.solved(x, record=True) as (contact, _, parts):
+                found = [contact.gradient(name, of, steps, rtol) for name, steps in self.wanted]
+            by = [
+                [
+                    np.sum(each.gap * part[1]) if part else _by_name(each, one, self.history)
+                    for one, part in zip(self.parameters, parts)
+                ]
+                for each in found
+            ]
+            values, slopes = np.array([each.value for each in found]), np.reshape(by, (len(found), -1)) * self.scales
+            return (values, slopes) if self.several else (float(values[0]), slopes[0])
+
+        return _Evaluation(evaluate, self.shape, self.options)
 
 
 def _fits(scales, count):

@@ -141,12 +141,12 @@ def _remove(folder, process):
 def _command(ranks):
     if isinstance(ranks, bool) or not isinstance(ranks, (int, np.integer)) or ranks < 1:
         raise Error(f"ranks {short(repr(ranks))}: expected an integer >= 1")
-    launcher = [*environment.launcher(), "-n", str(ranks)] if ranks > 1 else []
+    words = environment.command()(ranks) if ranks > 1 else [environment.petsam()]
     cores = environment.cores()
-    if ranks > cores and environment.is_local(launcher):
+    if ranks > cores and environment.is_local(words):
         text = f"ranks={ranks}: this process may use {cores} cores; more ranks take turns, and are slower: use fewer"
         warnings.warn(text, AdviceWarning, stacklevel=3)
-    return [*launcher, environment.petsam()]
+    return words
 
 
 def _write_history(path, table):
@@ -185,13 +185,10 @@ def _column(name, values):
 def _execute(words, report):
     """Runs a command; returns its exit code, and the lines that it has written about errors."""
     with tempfile.TemporaryFile() as complaint:
-        try:
-            process = subprocess.Popen(
-                words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=complaint, text=True, errors="replace",
-                env=environment.run_environment(), preexec_fn=environment.following(),
-            )  # fmt: skip
-        except (OSError, ValueError) as error:
-            raise Error(f"{short(words[0])} cannot be started: {getattr(error, 'strerror', None) or error}") from error
+        process = environment.start(
+            words, stdout=subprocess.PIPE, stderr=complaint, text=True, errors="replace",
+            preexec_fn=environment.following(),
+        )  # fmt: skip
         try:
             for line in process.stdout:
                 if report:

@@ -17,7 +17,7 @@ import sys
 import threading
 from pathlib import Path
 
-from .errors import Error, Missing
+from .errors import Error, Missing, short
 
 SCRIPTS = Path(__file__).resolve().parents[2]
 TREE = SCRIPTS.parent  # the repository, prefix/share/petsam, or prefix/lib/pythonX.Y of an installed wheel
@@ -152,6 +152,12 @@ def _version(command):
         process.wait()
 
 
+def command(words=None):
+    """Returns a function of a number of ranks: the words that start petsam by the launcher of these words."""
+    launched, program = launcher(words), petsam()
+    return lambda ranks: [*launched, "-n", str(ranks), program]
+
+
 def cores():
     """Number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -168,8 +174,17 @@ def is_local(words):
     return mpirun and alone and not any(ELSEWHERE.match(word) for word in words[1:])
 
 
-def run_environment():
-    """The environment of a run: one thread a rank, and Open MPI's consent to the superuser, whom a container has."""
+def start(words, **how):
+    """Starts a program of a run, with nothing to read; Error if it cannot be started. `how`: as subprocess.Popen takes
+    it."""
+    try:
+        return subprocess.Popen(words, stdin=subprocess.DEVNULL, env=_variables(), **how)
+    except (OSError, ValueError) as error:  # no program for this system, or too many words
+        raise Error(f"{short(words[0])} cannot be started: {getattr(error, 'strerror', None) or error}") from error
+
+
+def _variables():
+    """The variables of a run: one thread a rank, and Open MPI's consent to the superuser, whom a container has."""
     variables = dict(os.environ)
     variables.setdefault("OMP_NUM_THREADS", "1")
     if os.geteuid() == 0:

@@ -34,9 +34,13 @@ class Progress:
         self.form, self.start = form or self.form, time.monotonic()
         self._tell(text)
 
-    def left(self, done: int, total: int) -> float:
-        """Returns the time, s, that the other units take if they take as long as those that are done, at least one."""
-        return (time.monotonic() - self.start) / done * (total - done)
+    def since(self) -> str:
+        """Returns the time since the begin, as clock() writes it."""
+        return clock(time.monotonic() - self.start)
+
+    def left(self, done: int, total: int) -> str:
+        """Returns the time that the other units take if they take as long as those that are done, at least one."""
+        return clock((time.monotonic() - self.start) / done * (total - done))
 
     def estimate(self, seconds: float) -> None:
         """Prints the time left, s, which is known before the first unit has ended."""
@@ -45,7 +49,7 @@ class Progress:
     def __call__(self, done: int, total: int, name: str = "") -> None:
         """Prints that a unit, which may have a name, has ended: the number of units done, and of all."""
         text = self.form.format(done, total) + (f": {name}" if name else "")
-        self._tell(text + (f", about {clock(self.left(done, total))} left" if done < total else ""))
+        self._tell(text + (f", about {self.left(done, total)} left" if done < total else ""))
 
     def _tell(self, text):
         now = time.monotonic()

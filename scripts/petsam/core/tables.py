@@ -22,16 +22,16 @@ class Column(NamedTuple):
     text: str
     values: object
 
+    @classmethod
+    def headed(cls, head, text, values):
+        """The column of a head, whose name and unit are "" where it has none."""
+        name, unit = HEAD.fullmatch(head).groups()
+        return cls(name, unit or "", text, values)
+
 
 def head(name, unit):
     """The head of a column in a file: pressure [Pa]."""
     return f"{name} [{unit}]" if unit else name
-
-
-def split(text):
-    """Name and unit of a head, each "" where it has none."""
-    name, unit = HEAD.fullmatch(text).groups()
-    return name, unit or ""
 
 
 def csv_text(columns, form=repr):
@@ -67,23 +67,24 @@ def read_csv(path):
     rows = [row for _, row in numbered]
     if not rows:
         raise Error(f"{path}: no table: expected a line of heads, as name [unit], and lines of values")
-    for k, text in enumerate(heads, 1):
-        if not split(text)[0].strip():
+    columns = [Column.headed(text, "", None) for text in heads]
+    for k, one in enumerate(columns, 1):
+        if not one.name.strip():
             raise Error(f"{path}: line {first}: column {k} has no name: give one, as pressure [Pa]")
     for line, row in numbered:
         if len(row) != len(heads):
             raise Error(f"{path}: line {line}: has {len(row)} values, and there are {len(heads)} columns")
-    return [Column(*split(text), "", _values(path, text, values)) for text, values in zip(heads, zip(*rows))]
+    return [one._replace(values=_values(path, one, values)) for one, values in zip(columns, zip(*rows))]
 
 
-def _values(path, text, values):
+def _values(path, one, values):
     """The values of a column: texts, or with a unit numbers; an empty cell is NaN."""
-    if not split(text)[1]:
+    if not one.unit:
         return list(values)
     try:
         return [float(value or "nan") for value in values]
     except ValueError as error:
-        raise Error(f"{path}: column {text}: {error}") from None
+        raise Error(f"{path}: column {head(one.name, one.unit)}: {error}") from None
 
 
 def to_dataframe(columns):

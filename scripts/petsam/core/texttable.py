@@ -48,6 +48,10 @@ class Form:
     comments: tuple = COMMENTS
     behind: bool = False  # whether comments may stand behind words, too
 
+    def number(self, word):
+        """A word as a number, NaN for a missing point; None for another text."""
+        return number_of(word, self.missing)
+
 
 def separator_of(line):
     """Returns the separator of the words of a line; None: white space."""
@@ -88,17 +92,6 @@ def words_of(line, separator):
     return words
 
 
-def head_words(line, separator, width):
-    """The words of a head above rows of so many words: where blanks separate them, names may have blanks, too, and are
-    what two blanks or a bracket end."""
-    words = words_of(line, separator)
-    if separator is None and len(words) != width:
-        for other in (re.split(r"\s{2,}", line.strip()), re.findall(r"[^\[({]*[\[({][^\])}]*[\])}]", line)):
-            if len(other) == width:
-                return [word.strip() for word in other]
-    return words
-
-
 def number_of(word, missing=()):
     """A word as a number, NaN for a missing point; None for another text."""
     small = word.lower()
@@ -132,7 +125,7 @@ def _row(path, number, words, separator, form, decimal):
             return np.array([float(word) for word in words])
     except ValueError:
         pass
-    values = [number_of(word, form.missing) for word in words]
+    values = [form.number(word) for word in words]
     if None in values:
         word = words[values.index(None)]
         if decimal != "comma" and _has_decimal_commas(words, separator):
@@ -145,10 +138,10 @@ def _row(path, number, words, separator, form, decimal):
     return np.array(values, dtype=float)
 
 
-def _is_header(words, decimal, missing=()):
+def _is_header(words, decimal, form):
     """True if no word is a number, so that the line can only name something."""
     words = [word.replace(",", ".") for word in words] if decimal == "comma" else words
-    return not any(number_of(word, missing) is not None and word for word in words)
+    return not any(form.number(word) is not None and word for word in words)
 
 
 def _first_row(lines, form, decimal):
@@ -161,10 +154,10 @@ def _first_row(lines, form, decimal):
     usual = max(set(counts), key=counts.count) if counts else 0
     for k, (_, line) in enumerate(lines):
         words, separator = split(line, decimal)
-        if _is_header(words, decimal, form.missing) and not _has_decimal_commas(words, separator):
+        if _is_header(words, decimal, form) and not _has_decimal_commas(words, separator):
             continue
-        texts = [word for word in words if word[:1].isalpha() and number_of(word, form.missing) is None]
-        after = _is_header(split(lines[k + 1][1], decimal)[0], decimal, form.missing) if k + 1 < len(lines) else False
+        texts = [word for word in words if word[:1].isalpha() and form.number(word) is None]
+        after = _is_header(split(lines[k + 1][1], decimal)[0], decimal, form) if k + 1 < len(lines) else False
         if not texts or counts[k] == usual and not after:
             return k
     return len(lines)
@@ -235,6 +228,20 @@ class Text:
             return words_of(line, separator)
         except ValueError as error:
             raise Error(f"{self.path}: line {number}: {error}") from error
+
+    def head(self, number, line, separator, width):
+        """The words of a head above rows of so many words: where blanks separate them, names may have blanks, too, and
+        are what two blanks or a bracket end."""
+        words = self.words(number, line, separator)
+        if separator is None and len(words) != width:
+            for other in (re.split(r"\s{2,}", line.strip()), re.findall(r"[^\[({]*[\[({][^\])}]*[\])}]", line)):
+                if len(other) == width:
+                    return [word.strip() for word in other]
+        return words
+
+    def headed(self, row, kind, separators=None):
+        """The text as a head and rows of as many words: see Headed."""
+        return Headed(self, row, kind, separators)
 
     def rows(self, separator):
         """Numbers of the lines kept, and their words between these separators."""
@@ -366,22 +373,30 @@ def heads_of(path, words, below=None):
     return found
 
 
+def heads_above(path, words, before=None):
+    """The Heads of the words just above rows of numbers. Where these are units, names are in the row before, `before`;
+    all are empty without one."""
+    if are_units(words):
+        return heads_of(path, before or [""] * len(words), words)
+    return heads_of(path, words)
+
+
 class Headed:
     """A head (`words`, in the line `head`), and rows of as many words. Messages name a row's purpose, `row`, and the
     content of rows, `kind`. `separators` may separate the words, the last one where the head has none; None for any, or
     blanks."""
 
-    def __init__(self, path, row, kind, separators=None, text=None):
-        self.path, self.kind, self.text = path, kind, text or Text(path)
+    def __init__(self, text, row, kind, separators=None):
+        self.path, self.kind, self.text = text.path, kind, text
         if not self.text.kept:
-            raise Error(f"{path}: is empty: give a head and a line per {row}")
+            raise Error(f"{self.path}: is empty: give a head and a line per {row}")
         self.head, line = self.text.kept[0]
         separator = separator_of(line)
         if separators and separator not in separators:
             separator = separators[-1]
         (_, self.words), *self._rows = self.text.rows(separator)
         if self._rows:
-            self.words = head_words(line, separator, len(self._rows[0][1]))
+            self.words = self.text.head(self.head, line, separator, len(self._rows[0][1]))
 
     @cached_property
     def decimal(self):
@@ -406,7 +421,7 @@ class Table(Headed):
     head."""
 
     def __init__(self, path, known, row, kind):
-        super().__init__(path, row, kind)
+        super().__init__(Text(path), row, kind)
         below = self._rows[0][1] if self._rows else []
         below = self._rows.pop(0)[1] if len(below) == len(self.words) and are_units(below) else None
         self.columns, self.units, self.others = {}, {}, []

@@ -153,6 +153,11 @@ class Cycles:
         steps = self.results.series(ENERGY)
         return np.array([float(np.sum(steps[one.first + 1 : one.last + 1])) for one in self.found])
 
+    @cached_property
+    def pair(self) -> Optional[str]:
+        """The load and its displacement that do most work: see busiest()."""
+        return busiest(self.results)
+
     def numbered(self, number: float) -> Cycle:
         """The cycle of a number.
 

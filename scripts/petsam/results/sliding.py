@@ -12,7 +12,7 @@ slip to gross slip a sphere passes an energy ratio of 0.2 and a sliding ratio of
 Wear 185 (1995) 35-46).
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
 import numpy as np
@@ -97,23 +97,22 @@ def _width(way, force):
     return float(np.ptp(way[crossing] + part * (after - way)[crossing]))
 
 
-def regime(results: "Results", rows: slice) -> str:
-    """The regime of a cycle: that of the step that slips most; rows: of the steps that have a solution, as
-    Cycle.rows."""
+def regime(results: "Results", *parts: slice) -> str:
+    """The regime of cycles, one at least: mixed where some slip grossly and some do not, else that which slips most;
+    parts: of the steps that have a solution, as Cycle.rows."""
+    found = {_regime(results, rows) for rows in parts}
+    if "gross slip" in found and len(found) > 1:
+        return "mixed"
+    return max(found, key=REGIMES.index)
+
+
+def _regime(results, rows):
+    """The regime of the step of a part that slips most."""
     stick, contact = (results.series(name)[rows] for name in ("stick_area", "contact_area"))
     touching = contact > 0.0
     if np.any(touching & (stick <= 0.0)):
         return "gross slip"
     return "partial slip" if np.any(stick < contact * (1.0 - 1e-9)) else "stick"
-
-
-def regime_of(regimes: Iterable[str]) -> str:
-    """The regime of several cycles, one at least: mixed where some slip grossly and some do not, else that which
-    slips most."""
-    found = set(regimes)
-    if "gross slip" in found and len(found) > 1:
-        return "mixed"
-    return max(found, key=REGIMES.index)
 
 
 def numbers(results: "Results", cycle: Cycle, pair: Optional[str] = None) -> Numbers:

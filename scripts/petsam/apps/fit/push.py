@@ -13,9 +13,8 @@ from typing import Optional, Union
 
 import numpy as np
 
-from ...closed.loop import first_loading
-from ...closed.materials import Bodies, effective_radius
-from ...closed.sphere import cattaneo_displacement, hertz
+from ...closed.materials import Bodies
+from ...closed.sphere import Spheres
 from ...core import materials, words
 from ...core.brief import brief
 from ...core.errors import Error, Unusable, library, short
@@ -80,11 +79,13 @@ def ball(normal: float, radius: float, bodies: Mapping) -> Push:
     -------
     Push
     """
-    two = Bodies.of(bodies)
-    contact = hertz(normal, radius, two.e_star)
-    slides = cattaneo_displacement(contact.radius, 0.0, contact.pressure, two.tangential_compliance)
-    force = normal * _dense(FINE)
-    return Push(normal, force, first_loading(force, normal, slides), "ball in closed form (Cattaneo and Mindlin)")
+    return _of_spheres(Spheres(Bodies.of(bodies), radius, 1.0, normal))
+
+
+def _of_spheres(spheres):
+    """The push of spheres at a friction of 1."""
+    force = spheres.load_n * _dense(FINE)
+    return Push(spheres.load_n, force, spheres.first_loading(force), "ball in closed form (Cattaneo and Mindlin)")
 
 
 def options_of(path: Union[str, os.PathLike]) -> dict[str, str]:
@@ -154,10 +155,11 @@ def _ball_of(path, options, normal):
             for b in (1, 2)
             for name, unit in units.items()
         }
-        radii = [words.number(options[f"gap_radius{b}"], "a radius", "m", lambda value: value == value) for b in (1, 2)]
+        for name in ("gap_radius1", "gap_radius2"):
+            bodies[name] = words.number(options[name], "a radius", "m", lambda value: value == value)
     except (KeyError, words.WordError) as error:
         raise Error(f"{path}: -{error.args[0]} of a sphere is missing or no number") from error
-    return ball(normal, effective_radius(*radii), bodies)
+    return _of_spheres(Spheres.of({**bodies, "friction": 1.0}, normal))
 
 
 def _computed(path, options, normal, width):

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core.brief import brief
 from ...core.errors import Error, counted, short
-from ...core.texttable import THOUSANDS, Form, Text, are_units, head_words, number_of
+from ...core.texttable import THOUSANDS, Form, Text
 from . import heads
 
 FORM = Form(missing=("lost",), comments=("#", "%", "//"))
@@ -56,7 +56,7 @@ class Record:
 
 def _number(text):
     """The number of a cell, NaN of one that is missing; None of another text. A comma within a cell is no separator."""
-    value = number_of(text.strip('"').replace(",", "."), FORM.missing)
+    value = FORM.number(text.strip('"').replace(",", "."))
     return None if value is not None and np.isinf(value) else value
 
 
@@ -76,21 +76,19 @@ def _ends(row, width):
     return len(row) >= width and not any(row[width:])
 
 
-def _columns(path, lines, rows, separator):
+def _columns(text, lines, rows):
     """The columns, and the place of the first row of numbers."""
+    path = text.path
     first = next((k for k, row in enumerate(rows) if _numbers(row) and not lines[k][2]), None)
     if first is None:
         raise Error(f"{path}: expected a head with names and units, and rows of numbers")
     for k in range(first, len(rows)):  # numbers of an instrument's header have texts of another width above them
         width = len(rows[k])
-        above = [head_words(lines[j][1], separator, width) for j in range(max(0, k - 2), k)]
+        above = [text.head(*lines[j][:2], text.separator, width) for j in range(max(0, k - 2), k)]
         if not _numbers(rows[k]) or not above or not _ends(rows[k], len(above[-1])) or not _texts(above[-1]):
             continue
-        names, below = above[-1], None
-        if are_units(names):
-            named = len(above) == 2 and len(above[0]) == len(names) and _texts(above[0])
-            names, below = above[0] if named else [""] * len(names), names
-        return heads.columns(path, names, below), k
+        named = len(above) == 2 and len(above[0]) == len(above[-1]) and _texts(above[0])
+        return heads.columns(path, above[-1], above[0] if named else None), k
     number, width = lines[first][0], len(rows[first])
     if first and _texts(rows[first - 1]):
         raise Error(
@@ -122,9 +120,9 @@ def read(path: Union[str, os.PathLike], displacement: Optional[str] = None, forc
     text = Text(path, FORM)
     if len(text.kept) < 2:
         raise Error(f"{path}: expected a head with names and units, and rows of numbers")
-    lines, separator = text.every, text.separator
-    rows = [text.words(number, line, separator) for number, line, _ in lines]
-    columns, start = _columns(path, lines, rows, separator)
+    lines = text.every
+    rows = [text.words(number, line, text.separator) for number, line, _ in lines]
+    columns, start = _columns(text, lines, rows)
     body = [(number, row) for (number, _, comment), row in zip(lines[start:], rows[start:]) if not comment]
     values, notes = _values(path, columns, body)
     return _record(str(path), columns, values, displacement, force, notes)

@@ -195,15 +195,13 @@ class _Problem:
             self._check(name)
         self.within = [k for k, name in enumerate(self.names) if name not in self.beside]
         inside = [shapes[self.names[k]] for k in self.within]
-        options = {"errors": "none", "tangential_rtol": gradient.SETTLES, **options}
-        given = dict(gap=gap, scales=self.scales[self.within])
-        self.numbers = gradient.numbers(options, history, self.measured.wanted, inside, **given)
-        columns = list(history) if isinstance(history, Mapping) else []
-        derived = all(not isinstance(one, str) or one in (*gradient.OPTIONS, *columns) for one in inside)
-        self.slopes, self.runs, self.passes, self.last = None, 0, 0, None
-        if derived and len(self.measured.values) <= len(inside):
-            self.slopes = gradient.function(options, history, self.measured.wanted, inside, **given)
-        rtol = max(float(options.get(name, usual)) for name, usual in TOLERANCES.items())
+        self.numbers = gradient.numbers(
+            {"errors": "none", **options}, history, self.measured.wanted, inside, gap=gap,
+            scales=self.scales[self.within],
+        )  # fmt: skip
+        few = len(self.measured.values) <= len(inside)
+        self.slopes, self.runs, self.passes, self.last = self.numbers.derivative if few else None, 0, 0, None
+        rtol = max(float(self.numbers.options.get(name, usual)) for name, usual in TOLERANCES.items())
         self.step, self.ways = float(np.clip(np.sqrt(rtol), NEAR, FAR)), np.eye(len(inside))
 
     def _check(self, name):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...contact.errors import NoEquilibrium, NotConverged, PrescribedError
+from ...contact.errors import StepError
 from ...core.errors import Unusable
 
 
@@ -16,7 +16,7 @@ class Apart(NoSolution):
     """The structure pulls the bodies apart."""
 
 
-BEYOND = (NoEquilibrium, NotConverged, PrescribedError, Apart)  # of a guess that contacts do not bear
+BEYOND = (StepError, Apart)  # of a guess that contacts do not bear
 ENDS = (NoSolution, *BEYOND)  # of a step
 
 

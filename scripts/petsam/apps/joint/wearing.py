@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from ...contact.errors import ContactError
 from ...core.brief import brief
 from ...core.errors import Unusable
-from ...core.tables import Column, split
+from ...core.tables import Column
 from .arguments import array
 from .backbones import modal_amplitudes
 from .failures import ENDS, NoSolution
@@ -70,8 +70,7 @@ class Wear(Numbers):
         list of str
             A line of heads, and one for each number of cycles.
         """
-        shown = (_shown(*split(name)) for name in self.measured)
-        heads = "".join(f" {name:>12}" for name in shown)
+        heads = "".join(f" {_shown(one):>12}" for one in self._measured())
         lines = [
             f"{'cycles':>10} {'f/Hz':>13} {'+-':>8} {'zeta':>10} {'+-':>8} {self._head('W', 'J'):>10} "
             f"{self._head('volume', 'm3'):>10}{heads}"
@@ -92,13 +91,16 @@ class Wear(Numbers):
         list of tables.Column
             A column for each name.
         """
-        heads = [(*split(name), values) for name, values in self.measured.items()]
-        return [Column(name, unit or "1", "measured after the cycles", values) for name, unit, values in heads]
+        return [one._replace(unit=one.unit or "1") for one in self._measured()]
+
+    def _measured(self):
+        """Their columns, with the unit "" where a name states none."""
+        return [Column.headed(name, "measured after the cycles", values) for name, values in self.measured.items()]
 
 
-def _shown(name, unit):
+def _shown(one):
     """The head of a printed column."""
-    return f"{name}/({unit})" if "/" in unit else "/".join(filter(None, (name, unit)))
+    return f"{one.name}/({one.unit})" if "/" in one.unit else "/".join(filter(None, (one.name, one.unit)))
 
 
 @of_vibrations

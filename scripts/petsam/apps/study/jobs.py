@@ -152,8 +152,7 @@ class Jobs:
         Missing
             If there is no launcher or program.
         """
-        launched, program = environment.launcher(self.launcher), environment.petsam()
-        return lambda ranks: [*launched, "-n", str(ranks), program]
+        return environment.command(self.launcher)
 
     def write(self, cases: Sequence[Case]) -> tuple[list[str], Optional[str]]:
         """Writes the tables of the results.

@@ -6,7 +6,6 @@ import time
 
 from ...core import progress
 from ...core.errors import counted
-from ...core.progress import clock
 from .runs import LOG, MEANINGS, STOPPED, record
 
 
@@ -28,7 +27,7 @@ class Progress(progress.Progress):
         self.live, self.shown = sys.stdout.isatty() and not quiet, 0.0
 
     def _left(self):
-        return clock(self.left(self.done, self.total)) if self.done else "?"
+        return self.left(self.done, self.total) if self.done else "?"
 
     def report(self, case, code):
         """A case has ended, or (None) is being run by another study."""
@@ -57,7 +56,7 @@ class Progress(progress.Progress):
             self.shown = time.monotonic()
             print(
                 f"\r\033[K{running} running, {waiting} waiting, {self.done - self.failed} done, {self.failed} failed, "
-                f"{clock(self.shown - self.start)} since the start, {self._left()} left",
+                f"{self.since()} since the start, {self._left()} left",
                 end="",
                 flush=True,
             )

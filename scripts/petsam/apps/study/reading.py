@@ -9,7 +9,7 @@ import yaml
 
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_regular
-from ...core.texttable import Form, Headed, Text
+from ...core.texttable import Form, Text
 from .expressions import check
 
 CSV, YAML = 64 << 20, 1 << 20  # maximum bytes of a table; reading YAML takes long
@@ -90,7 +90,7 @@ def read_csv(path):
         raise TableError(f"{path}: expected a line of option names and at least one case")
     try:
         # as in histories: spreadsheets write semicolons where the decimal sign is a comma
-        table = Headed(path, "case", "cases", separators=(";", ","), text=text)
+        table = text.headed("case", "cases", separators=(";", ","))
         names = [_plain(name) for name in table.words]
         _check_columns(path, table.head, names)
         rows = table.body

@@ -169,19 +169,12 @@ class Run:
     def _popen(self, words, log):
         try:
             # its own session: the terminal's Ctrl-C reaches the study alone, which then ends the runs in order
-            return subprocess.Popen(
-                words,
-                cwd=self.folder,
-                stdin=subprocess.DEVNULL,
-                stdout=log,
-                stderr=subprocess.STDOUT,
-                env=environment.run_environment(),
-                start_new_session=True,
+            return environment.start(
+                words, cwd=self.folder, stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
                 pass_fds=(self.lock,),
-            )
-        except (OSError, ValueError) as error:  # no program for this system, or too many words
-            reason = getattr(error, "strerror", None) or error
-            raise Error(f"case {self.case.name}: {short(words[0])} cannot be started: {reason}") from error
+            )  # fmt: skip
+        except Error as error:
+            raise Error(f"case {self.case.name}: {error}") from error
 
     def _lock(self):
         lock = os.open(os.path.join(self.folder, "lock"), os.O_RDWR | os.O_CREAT, 0o666)

@@ -75,10 +75,9 @@ def of_cycles(results, figures):
 
 def _ratios(results, whole):
     """Energy ratio and sliding ratio of the last of some cycles."""
-    pair = cycles.busiest(results) if len(whole) else None
-    if pair is None:
+    if not len(whole) or whole.pair is None:
         return {}
-    last = sliding.numbers(results, whole.numbered(-1), pair)
+    last = sliding.numbers(results, whole.numbered(-1), whole.pair)
     return {f"{name}_cycle_last": (getattr(last, name), "1") for name in ("energy_ratio", "sliding_ratio")}
 
 
@@ -86,7 +85,7 @@ def _regime(results, figures):
     """Code of the regime: of all cycles, or without any of all steps."""
     whole = [] if results.has_life else cycles.find(results, figures.turns, figures.period)
     parts = [cycle.rows for cycle in whole] or [slice(None)]
-    return sliding.REGIMES.index(sliding.regime_of(sliding.regime(results, rows) for rows in parts))
+    return sliding.REGIMES.index(sliding.regime(results, *parts))
 
 
 def scalars(path, figures=LAST):

@@ -37,7 +37,6 @@ import warnings
 
 import numpy as np
 
-from ...core import tables
 from ...core.environment import cores as all_cores
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
@@ -119,7 +118,7 @@ def carry_out(options):
     print_all(options, found, table)
     written = []
     if options.output:
-        tables.write_csv(options.output + ".csv", table)
+        found.to_csv(options.output + ".csv")
         written.append(".csv")
         if ".png" in endings:
             _picture(options, vehicle, found)
@@ -159,24 +158,20 @@ def _wear(options, vehicle, states, cores, endings):
 
     law = wearing.Law(options.law or "energy", options.wear)
     if options.distance is None:
-        profile, rates, failures = wearing.rates(vehicle, states, law, cores)
-        print(f"wear: at most {rates.max():.4g} m per m, at y {1e3 * profile.y[int(np.argmax(rates))]:.2f} mm")
-        columns = [
-            tables.Column("y", "m", "of the profile", profile.y), tables.Column("z", "m", "down", profile.z),
-            tables.Column("depth_per_distance", "1", "worn depth per distance", rates),
-        ]  # fmt: skip
+        worn = wearing.rates(vehicle, states, law, cores)
+        rates, where = worn.depth_per_distance, worn.y[int(np.argmax(worn.depth_per_distance))]
+        print(f"wear: at most {rates.max():.4g} m per m, at y {1e3 * where:.2f} mm")
     else:
         report = Progress("jump", every=EVERY)
         worn = profiles.wear(vehicle, states, options.distance, law, options.jumps or JUMPS, cores, report)
         deepest, error = worn.deepest
         print(f"wear: {1e6 * deepest:.4g} +- {1e6 * error:.2g} um at most after {options.distance / 1e3:g} km; "
               f"worn area {1e6 * worn.area[-1]:.4g} mm2")  # fmt: skip
-        columns, failures = worn.table(), worn.failures
-    for text in failures[:SHOWN]:
+    for text in worn.failures[:SHOWN]:
         warn(f"wear: {text}")
     if not options.output:
         return []
-    tables.write_csv(options.output + "-wear.csv", columns)
+    worn.to_csv(options.output + "-wear.csv")
     if "-wear.png" in endings:
         saving.write(pictures.worn_profile(worn), options.output + "-wear.png", options.dpi)
     return [ending for ending in endings if ending.startswith("-wear")]

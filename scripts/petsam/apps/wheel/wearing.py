@@ -263,15 +263,25 @@ def wear(
     return Worn(new, _off(new, depth), depth, np.abs(depth - half), distance, jumps, area, one.failures)
 
 
-def rates(
-    vehicle: batch.Vehicle, states: Sequence[State], law: Law, cores: int = 1
-) -> tuple[Profile, np.ndarray, list[str]]:
-    """The wheel's profile with points at equal distances, worn depth per distance at them, (n,), and the failures:
-    positions without an equilibrium, which wear nothing. See wear()."""
+@brief
+@dataclass(frozen=True)
+class Rates(tables.Tabled):
+    """The wear of a wheel's profile as it is: its points at equal distances, worn depth per distance at them, (n,), and
+    the failures: positions without an equilibrium, which wear nothing."""
+
+    failures: list[str]
+    y: np.ndarray = tables.column("m", "of the profile")
+    z: np.ndarray = tables.column("m", "down")
+    depth_per_distance: np.ndarray = tables.column("1", "worn depth per distance")
+
+
+def rates(vehicle: batch.Vehicle, states: Sequence[State], law: Law, cores: int = 1) -> Rates:
+    """The Rates of the wheel's profile. See wear()."""
     weights = shares(states)
     new = _dense(vehicle.wheel.profile)
     one = _Wear(vehicle, list(states), weights, law, cores)
-    return new, one.rates(new), one.failures
+    depths = one.rates(new)
+    return Rates(one.failures, new.y, new.z, depths)
 
 
 def _off(profile, depth):
