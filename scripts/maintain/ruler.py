@@ -14,8 +14,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SRC = ROOT / "src"
-sys.path.insert(0, str(ROOT / "tests" / "program"))
+sys.path[:0] = [str(ROOT / "tests" / "program"), str(ROOT / "tests" / "mutants")]
 
+import check  # noqa: E402
 import pythonruler  # noqa: E402
 
 # count: what it is at most now, and what it should be
@@ -31,7 +32,7 @@ LIMITS = {
     "files outside of its home that name layers": (46, 25),
     "files in the largest circle of C files": (3, 3),
     "modules in the largest circle of Python modules": (3, 3),
-    "fitted or chosen numbers in advice": (125, 40),
+    "fitted numbers in advice that no mutant guards": (49, 0),
     "options of a command line outside of commands": (0, 0),
     "options in no example or page": (0, 0),
     "names that applications use of the library": (138, 110),
@@ -42,7 +43,8 @@ LIMITS = {
     "readers of words in commands": (6, 8),
     "docstrings that begin with What, Whether, Those, Of, Which": (0, 0),
 }
-NUMBERS = r"^#define [A-Z_0-9]+ +\(?-?[0-9.]"  # fitted or chosen
+NUMBER = r"^#define ([A-Z_0-9]+) +(\(?-?[0-9.].*)"  # fitted or chosen
+DOUBTED = ("src/post/advice/*.[ch]", "src/laws/*/*doubt.c", "include/petsam/private/examination.h")  # their files
 MATERIALS = r"\bSamBody(?:MaterialAt|Substrate|SubstrateTop|Count|Top|NumberAt)\("
 
 # a capability: its rooms, its headers, and how code names it; a gradient by the class and the option, as solvers have
@@ -86,10 +88,35 @@ def named_outside(capability):
     return [path for path in files if re.search(words, code(path), re.I)]
 
 
-def fitted_by_laws():
-    """Fitted or chosen numbers in the doubts of laws, and in what they share with the advice."""
-    files = [*SRC.glob("laws/*/*doubt.c"), ROOT / "include" / "petsam" / "private" / "examination.h"]
-    return sum(len(re.findall(NUMBERS, code(path), re.M)) for path in files)
+def fitted():
+    """Files and names of the fitted or chosen numbers in the advice, and in the doubts of laws."""
+    files = sorted(path for pattern in DOUBTED for path in ROOT.glob(pattern))
+    return [(path, match[1]) for path in files for match in re.finditer(NUMBER, code(path), re.M)]
+
+
+def uses(name, text):
+    """How many times a text has a name, other than where it is defined."""
+    return len(re.findall(rf"(?<!#define )\b{name}\b", text))
+
+
+def guards(mutant, name, total):
+    """True if a mutant changes the value of a number, or takes it out of all `total` places that use it."""
+    old, new = (re.search(rf"#define {name} +(.*)", re.sub(r"/\*.*", "", text)) for text in (mutant.old, mutant.new))
+    if old:
+        return bool(new) and old[1].strip() != new[1].strip()
+    return uses(name, mutant.old) == total > 0 == uses(name, mutant.new)
+
+
+def unguarded(mutants):
+    """Files and names of the fitted or chosen numbers that none of these mutants guards."""
+    found = []
+    sources = {path: code(path) for folder in (SRC, ROOT / "include") for path in folder.rglob("*.[ch]")}
+    for path, name in fitted():
+        places = sources if path.suffix == ".h" else [path]  # where the name means this number
+        total = sum(uses(name, sources[place]) for place in places)
+        if not any(ROOT / m.file in places and guards(m, name, total) for m in mutants):
+            found.append((path, name))
+    return found
 
 
 PAGES = (".md", ".sh", ".py", ".opts", ".csv", ".yaml", ".ipynb")
@@ -124,7 +151,7 @@ def measure(build):
         *(len(named_outside(name)) for name in HOMES),
         max(map(len, rooms.circles(rooms.arrows(build).keys())), default=1),
         max(map(len, rooms.circles(rooms.imports())), default=1),
-        sum(found(NUMBERS, SRC / "post" / "advice").values()) + fitted_by_laws(),
+        len(unguarded(check.all_mutants())),
         len(rooms.command_line_outside_commands()),
         len(options_in_no_page(build)),
         *pythonruler.measure(),

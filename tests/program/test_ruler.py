@@ -54,3 +54,29 @@ def test_a_file_names_a_capability_in_code_and_strings_outside_of_its_home():
 )
 def test_a_page_shows_an_option_not_a_word(text, shows):
     assert ruler.shown("heat", text) == shows
+
+
+@pytest.mark.parametrize(
+    "old, new, file, guards",
+    [
+        ("#define RATIO 0.5", "#define RATIO 1", "one.c", True),
+        ("#define RATIO 0.5 /* of widths */", "#define RATIO 0.5 /* of the widths */", "one.c", False),
+        ("#define RATIO 0.5", "", "one.c", False),
+        ("#define RATIO 0.5", "#define RATIO 1", "two.c", False),
+        ("x = RATIO * y + RATIO;", "x = y;", "one.c", True),
+        ("x = RATIO * y", "x = y", "one.c", False),  # another place still uses it
+        ("x = RATIO * y + RATIO;", "x = y + RATIO;", "one.c", False),
+    ],
+)
+def test_a_number_is_guarded_by_a_change_of_its_value_or_of_all_its_uses(  # noqa: PLR0913
+    old, new, file, guards, tmp_path, monkeypatch
+):
+    path = tmp_path / "src" / "post" / "advice" / "one.c"
+    path.parent.mkdir(parents=True)
+    path.write_text("#define RATIO 0.5 /* of widths */\nx = RATIO * y + RATIO;\n")
+    mutant = ruler.check.Mutant("", f"src/post/advice/{file}", old, new, ())
+    monkeypatch.setattr(ruler, "ROOT", tmp_path)
+    monkeypatch.setattr(ruler, "SRC", tmp_path / "src")
+    monkeypatch.setattr(ruler, "DOUBTED", ("src/post/advice/*.[ch]",))
+    assert ruler.unguarded([]) == [(path, "RATIO")]
+    assert ruler.unguarded([mutant]) == ([] if guards else [(path, "RATIO")])

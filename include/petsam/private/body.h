@@ -8,8 +8,8 @@
 PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
 
 /*
-  SamBodyPlace - a body at a depth: the material there, the depths between which it lies, and its number from the surface
-  on. An interface belongs to the material above it.
+  SamBodyPlace - a body at a depth: the material there, the depths between which it lies, and its number from the
+  surface on. An interface belongs to the material above it.
 */
 typedef struct {
   PetscReal young, poisson; /* Pa, infinite: rigid; 1 */

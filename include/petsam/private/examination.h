@@ -90,7 +90,7 @@ static inline double SamZoneError(double width, double length)
   SamExamination - what a law is asked about: the contact after a step, and what has been found of all steps so far. Of
   closed loops in a wear simulation only the last computed cycle counts (`cycles`).
 */
-#define SAM_EXAMINATION_KEPT 8 /* numbers that a law keeps */
+enum { SAM_EXAMINATION_KEPT = 8 }; /* numbers that a law keeps */
 typedef struct _n_SamExamination SamExamination;
 struct _n_SamExamination {
   SamContact       contact;

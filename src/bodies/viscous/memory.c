@@ -4,7 +4,8 @@
 
   The energy is dissipated by the dashpots of the terms, w = p - c being the traction on one,
 
-      W = sum a_j/theta_j int w.C w dt,   w = A exp(-t/theta) + B,   B = theta (p_new - p_old)/dt,   A = p_old - c_old - B,
+      W = sum a_j/theta_j int w.C w dt,   w = A exp(-t/theta) + B,
+      B = theta (p_new - p_old)/dt,   A = p_old - c_old - B,
 
   exact for tractions that are linear in time: A.CA theta (1 - e2)/2 + 2 A.CB theta (1 - e) + B.CB dt, e2 = exp(-2 x).
 */

@@ -1,8 +1,8 @@
 /*
   The creep that belongs to a relaxation, both as sums of exponentials.
 
-  With s times its Laplace transform a modulus becomes G(s) = g_0 + sum g_k s tau_k/(1 + s tau_k), g_0 = 1 - sum g_k, and
-  the creep is 1/G(s). Its poles s = -1/theta are where
+  With s times its Laplace transform a modulus becomes G(s) = g_0 + sum g_k s tau_k/(1 + s tau_k), g_0 = 1 - sum g_k,
+  and the creep is 1/G(s). Its poles s = -1/theta are where
 
       F(theta) = g_0 + sum g_k tau_k/(tau_k - theta) = 0,
 

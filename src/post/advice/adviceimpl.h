@@ -5,9 +5,9 @@
 #include <petsam/private/advice.h>
 #include <petsam/private/baseimpl.h>
 
-#define SAM_ADVICE_GRIDS 192 /* characters of the text with the advised grids */
-#define SAM_ADVICE_CELLS 20  /* a contact with fewer cells across is not resolved, but for closed-form solutions */
-#define SAM_ADVICE_TEXT  64  /* characters of numbers in messages */
+#define SAM_ADVICE_CELLS 20 /* a contact with fewer cells across is not resolved, but for closed-form solutions */
+/* characters of texts: of the advised grids, and of numbers in messages */
+enum { SAM_ADVICE_GRIDS = 192, SAM_ADVICE_TEXT = 64 };
 /* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
 #define SAM_ADVICE_STEEPEST 0.1
 /* From this ratio on, no larger grid is advised, and bodies that yield are rejected; */
