@@ -1,5 +1,7 @@
 """Bodies that relax: closed solutions, limits, balance of energy, order in the step, ranks and restarts."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -188,3 +190,43 @@ def test_stiffness_is_that_of_the_step(tmp_path, petsam):
         with h5py.File(tmp_path / "k.h5") as f:
             found.append((f["history/disp_z"][-1], f["history/stiffness"][-1].reshape(6, 6)[0, 0]))
     assert 1 / found[0][1] == pytest.approx((found[2][0] - found[1][0]) / 0.14, rel=1e-4)
+
+
+def test_equal_times_are_one_part():
+    """0.2 and 0.3 of one time are 0.5, in any order of times."""
+    case = dict(BALL, **RIGID, body2_young=2.6, body2_poisson=0.3, grid_n=24, grid_size=0.3, output_fields="none",
+                history=table(time=[0, 0.1, 1], load_n=[1e-3] * 3))  # fmt: skip
+    one = package.run(**case, **relaxing(2, (0.5, 0.1), (0.2, 3)))
+    two = package.run(**case, **relaxing(2, (0.2, 0.1, 0.3), (0.2, 3, 0.2)))
+    assert two["disp_z"][:] == pytest.approx(one["disp_z"][:], rel=1e-9)
+
+
+def test_bodies_of_equal_moduli_that_creep_differently_are_coupled():
+    """Alike under a sudden load, they slip over each other as one of them creeps: as elastic ones of its modulus."""
+    case = dict(BALL, friction=0.2, body1_young=2.6, body1_poisson=0.2, body2_young=2.6, body2_poisson=0.2,
+                grid_n=32, grid_size=0.3, slip_direction="end")  # fmt: skip
+    run = package.run(**case, **relaxing(2, (0.6,), (1.0,)), history=table(time=[0, 100], load_n=[1e-3] * 2))
+    assert np.abs(run["shear_x"][0]).max() == 0 and np.abs(run["shear_x"][1]).max() > 1e-3 * run["pressure"][1].max()
+
+
+def test_short_steps_lose_no_digits():
+    """A million times shorter than the time: what creeps is that of the two rows, not rounding."""
+    case = dict(BALL, **RIGID, body2_young=2.6, body2_poisson=0.3, grid_n=24, grid_size=0.3, output_fields="none",
+                normal_rtol=1e-13, **relaxing(2, (0.5,), (1.0,)))  # fmt: skip
+    times = np.array([0, 1e-9, 2e-9])
+    run = package.run(**case, history=table(time=times, load_n=[1e-3] * 3))
+    grown = run["disp_z"][1:] / run["disp_z"][0] - 1
+    assert grown == pytest.approx(2 / 3 * 0.5 * times[1:], rel=2e-2)  # J' = a/theta = 1/2 at 0, z^1.5 as J
+
+
+def test_no_closed_form_of_elastic_bodies_is_compared(petsam, tmp_path):
+    (tmp_path / "h.csv").write_text("time,load_n,load_tx\n0,500,0\n1,500,40\n2,500,-40\n")
+    case = dict(bodies(), friction=0.3, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=32,
+                grid_size=4.4e-3, history="h.csv", output="o.h5")  # fmt: skip
+    relaxes = dict(body1_relax_moduli="0.9", body1_relax_times="0.2", body2_relax_moduli="0.9", body2_relax_times="0.2")
+    assert (
+        "closed form" not in petsam(case, relaxes).stdout and "closed form" in petsam(case, dict(overwrite=True)).stdout
+    )
+    small = petsam(case, relaxes, dict(grid_size=2.2e-3, overwrite=True), check=None).stderr
+    size = [float(word) for word in re.findall(r"-grid_size ([0-9.e-]+)", small)]
+    assert size and min(size) > 2.9e-3  # of the relaxed contact, 10^(1/3) times as wide as that of a sudden load

@@ -42,7 +42,8 @@ struct _n_SamPair {
 /*
   SamBodyCount - returns the number of materials. SamBodyNumberAt - returns the number of the material at a depth (m).
   SamBodyMaterialAt - returns the material there; borrowed. SamBodyTop - returns the depth (m) at which the n-th
-  material begins; infinite for n = SamBodyCount(). SamBodySubstrate - returns the last material; borrowed. None is collective.
+  material begins; infinite for n = SamBodyCount(). SamBodySubstrate - returns the last material; borrowed. None is
+  collective.
 */
 PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
 PETSC_INTERN PetscInt           SamBodyNumberAt(SamBody body, PetscReal depth);

@@ -13,7 +13,7 @@
       c_new = e c_old + (m - e) p_old + (1 - m) p_new.
 
   So the step is that of elastic bodies that give way by 1 + sum a_j (1 - m_j) times as much, and have moved before any
-  traction of the step by sum a_j C (e c_old + (m - e) p_old) (memory.c). It is of second order in dt; a step without
+  traction of the step by sum a_j C (e c_old + (m - e) p_old) (viscousmemory.c). It is of second order in dt; a step without
   duration is a jump. Stresses are those by the tractions, as of elastic bodies, since Poisson's ratio is constant.
 
   Where all bodies that are not rigid have the same creep, the operator is that of the elastic pair times a factor. Else
@@ -24,7 +24,6 @@
 #include <petsam/private/base.h>
 #include <petsam/private/body.h>
 #include <petsam/private/elasticity.h>
-#include <petsam/private/law.h>
 #include <petsam/private/parameters.h>
 #include <math.h>
 #include <string.h>
@@ -353,7 +352,8 @@ static PetscErrorCode Wrap(SamElasticity *elasticity, const SamViscous *settings
     PetscCall(AddTerms(e, b));
   }
   Compare(e);
-  e->option = options[v->relaxes[0] ? 0 : 1][0];
+  e->traits.stretch = PETSC_FALSE; /* the strain by a uniform stress creeps, too */
+  e->option         = options[v->relaxes[0] ? 0 : 1][0];
   PetscCall(SamElasticityDestroy(elasticity));
   *elasticity = e;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -400,8 +400,6 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
     PetscCheck(counts[0] == counts[1], from->comm, SAM_ERR_USER,
                "-%s%s: %" PetscInt_FMT " times for %" PetscInt_FMT " parts of -%s%s: give one for each",
                SamOptionsPrefix(from), options[b][1], counts[1], counts[0], SamOptionsPrefix(from), options[b][0]);
-    for (PetscInt k = 3 * b; k < 3 * b + 3; k++)
-      PetscCall(SamOptionsExclude(from, options[b][0], SamBulkName(k), "the strain by bulk stress is not computed"));
     settings.relaxes[b] = counts[0];
     PetscCall(CheckBody(*elasticity, from, &settings, b));
   }

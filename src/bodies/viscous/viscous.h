@@ -46,7 +46,7 @@ struct SamViscous {
   SamViscousFactor - returns the displacement of body 0 or 1 by tractions at the end of the present step, relative to
   that by a sudden load.
   SamViscousMemoryDeclare, SamViscousMemoryBegin, SamViscousMemoryDisplace, SamViscousMemoryAdvance - the type's methods
-  of these names (memory.c).
+  of these names (viscousmemory.c).
   SamViscousApply - adds to u_z and u_t (components one after the other) `weight` times the displacements of a body
   under a sudden traction p, q; body -1: of both.
 */

@@ -12,7 +12,6 @@
 #include "viscous.h"
 #include <petsam/private/base.h>
 #include <petsam/private/control.h>
-#include <petsam/private/law.h>
 #include <petsam/private/state.h>
 #include <math.h>
 #include <stdio.h>
@@ -134,29 +133,15 @@ PetscErrorCode SamViscousMemoryBegin(SamElasticity e, SamState state, const SamC
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses bulk stress, whose strain would be that of an elastic body. */
-static PetscErrorCode CheckBulk(SamElasticity e, SamConditions conditions, const SamControl *control)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_BULKS && control && conditions; k++) {
-    const SamCondition *bulk = SamConditionsFind(conditions, SamBulkName(k));
-
-    PetscCheck(!bulk || SamControlGet(control, bulk) == 0 || !((const SamViscous *)e->data)->relaxes[k / 3],
-               e->grid->comm, SAM_ERR_USER,
-               "-%s: the strain of a body that relaxes, by bulk stress, is not computed: omit it, or "
-               "-body%" PetscInt_FMT "_relax_moduli",
-               SamBulkName(k), k / 3 + 1);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamViscousMemoryDisplace(SamElasticity e, SamConditions conditions, SamState state,
                                         const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds)
 {
   const Vec to[WAYS] = {u_z, u_t};
 
   PetscFunctionBegin;
-  PetscCall(CheckBulk(e, conditions, control));
+  (void)e;
+  (void)conditions;
+  (void)control;
   for (PetscInt way = 0; way < WAYS && state; way++) {
     const Vec u = SamStateReadField(state, SamStateFindField(state, moved[way]));
 
