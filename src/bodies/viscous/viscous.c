@@ -14,7 +14,8 @@
 
   So the step is that of elastic bodies that give way by 1 + sum a_j (1 - m_j) times as much, and have moved before any
   traction of the step by sum a_j C (e c_old + (m - e) p_old) (viscousmemory.c). It is of second order in dt; a step
-  without duration is a jump. Stresses are those by the tractions, as of elastic bodies, since Poisson's ratio is constant.
+  without duration is a jump. Stresses are those by the tractions, as of elastic bodies, since Poisson's ratio is
+  constant.
 
   Where all bodies that are not rigid have the same creep, the operator is that of the elastic pair times a factor. Else
   it is the sum of each body on a rigid one, and the inverse of the elastic pair remains the preconditioner.
