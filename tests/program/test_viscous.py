@@ -164,8 +164,9 @@ def test_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path, second):
 
 def test_stresses_are_those_by_the_tractions(petsam, stress, tmp_path):
     (tmp_path / "h.csv").write_text("time,load_n\n0,500\n1,500\n")
-    case = dict(bodies(), friction=0, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=32, grid_size=2.4e-3,
-                history="h.csv", output="v.h5", body2_relax_moduli="0.6", body2_relax_times="0.2")  # fmt: skip
+    case = dict(bodies(), friction=0, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=32,
+                grid_size=2.4e-3, history="h.csv", output="v.h5", body2_relax_moduli="0.6",
+                body2_relax_times="0.2")  # fmt: skip
     petsam(case)
     stress(dict(input="v.h5", output="s.h5", depths="50um,200um"))
     with h5py.File(tmp_path / "v.h5", "r+") as f:
@@ -223,7 +224,7 @@ def test_no_closed_form_of_elastic_bodies_is_compared(petsam, tmp_path):
     (tmp_path / "h.csv").write_text("time,load_n,load_tx\n0,500,0\n1,500,40\n2,500,-40\n")
     case = dict(bodies(), friction=0.3, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=32,
                 grid_size=4.4e-3, history="h.csv", output="o.h5")  # fmt: skip
-    relaxes = dict(body1_relax_moduli="0.9", body1_relax_times="0.2", body2_relax_moduli="0.9", body2_relax_times="0.2")
+    relaxes = {f"body{b}_relax_{k}": v for b in (1, 2) for k, v in (("moduli", "0.9"), ("times", "0.2"))}
     assert (
         "closed form" not in petsam(case, relaxes).stdout and "closed form" in petsam(case, dict(overwrite=True)).stdout
     )

@@ -16,7 +16,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#define SHORT  1e-2 /* steps of a smaller part of the time have their weights by series */
 #define ENERGY "viscous_energy"
 
 enum { NORMAL, TANGENTIAL, WAYS };
@@ -84,8 +83,8 @@ static void SetWeights(SamViscousTerm *term, PetscReal duration)
   const double x = (double)(duration / term->time), e = exp(-x), mean = x > 0 ? -expm1(-x) / x : 1;
 
   term->kept   = e;
-  term->before = x < SHORT ? x * (1 / 2.0 - x * (1 / 3.0 - x * (1 / 8.0 - x / 30))) : mean - e;
-  term->now    = x < SHORT ? x * (1 / 2.0 - x * (1 / 6.0 - x * (1 / 24.0 - x / 120))) : 1 - mean;
+  term->before = mean - e;
+  term->now    = 1 - mean;
 }
 
 /* Adds the displacement of a body (-1: both) by the terms, each as it would be without traction in the step. */
