@@ -1,4 +1,4 @@
-"""A ball on a body that relaxes: its creep under a load, and a push there and back, beside closed solutions.
+"""A ball on a body that relaxes: its creep under a load, and a push there and back, beside closed-form solutions.
 
 build/venv/bin/python examples/viscous/ball.py
 """
