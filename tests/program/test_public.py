@@ -64,6 +64,9 @@ MISTAKES = (
         lambda: petsam.joint.interface("x.h5", "1MPa"),
         "pressures '1MPa': expected .* array of .*: write pressures=1000000$",
     ),
+    (lambda: petsam.run(3), "run: options 3: expected a mapping of names and values"),
+    (lambda: petsam.study.run(3), "run: table 3: expected a text or a path or a mapping"),
+    (lambda: petsam.open(3), "open: path 3: expected a text or a path"),
     (lambda: petsam.fit.ball(10.0, "5 kg", {}), r"ball: radius '5 kg': expected a number \(Normal load \(N\) .*\)$"),
 )
 

@@ -13,7 +13,7 @@ import os
 import re
 import sys
 import typing
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional
 
 import numpy as np
@@ -139,6 +139,8 @@ def _kind(hint: Any) -> Optional[tuple[Callable[[Any], bool], str]]:
         return _real, "a number" if hint is float else "a whole number"
     if hint is np.ndarray:
         return _numeric, "an array of numbers"
+    if Mapping in (hint, origin) or origin is dict:
+        return lambda value: isinstance(value, Mapping), "a mapping of names and values"
     if inspect.isclass(hint) and (hint in TEXTS or hint.__module__.startswith("petsam.")) and origin is None:
         names: dict[Any, str] = {str: "a text", os.PathLike: "a path"}
         name = names.get(hint, f"{_article(hint.__name__)} {hint.__name__} of petsam")

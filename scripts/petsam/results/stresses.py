@@ -5,7 +5,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from ..core.errors import Error, short, there_are
+from ..core.errors import Error, WrongArgument, short, there_are
 from .datafile import WHOLE, Datafile, NotSaved, _own, _some, need_index
 from .file import Results
 from .studies import Study, is_study
@@ -332,6 +332,8 @@ class Stresses(Datafile):
 def open_any(path: Union[str, os.PathLike], label: Optional[str] = None) -> Any:
     """Opens a file as Results, Stresses or Study by its contents. `label`: its name in pictures, by default the file's
     name. Raises MissingFile if there is no such file, and an Error if it cannot be read."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise WrongArgument(f"open: path {short(repr(path))}: expected a text or a path")
     if is_study(path):
         return Study(path, label)
     try:

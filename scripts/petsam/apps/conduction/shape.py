@@ -100,6 +100,8 @@ def of(  # noqa: PLR0913  (each body has a conductivity and layers)
     Films lie on the area of contact, of which counted cells are too many: their resistance is raised by the counted
     over the reconstructed area (`contact_area`).
     """
+    if not hasattr(contact, "number"):
+        raise Error(f"conduction: {contact!r}: expected a contact with a step, or results")
     bodies = Body(lam1, layers1 or ()).checked(), Body(lam2, layers2 or ()).checked()
     periodic = _is_periodic(contact, layers1, layers2)
     pressure = contact["pressure"]
