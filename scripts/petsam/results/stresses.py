@@ -334,6 +334,7 @@ def open_any(path: Union[str, os.PathLike], label: Optional[str] = None) -> Any:
     name. Raises MissingFile if there is no such file, and an Error if it cannot be read."""
     if not isinstance(path, (str, os.PathLike)):
         raise WrongArgument(f"open: path {short(repr(path))}: expected a text or a path")
+    path = os.fsdecode(path)
     if is_study(path):
         return Study(path, label)
     try:
