@@ -179,4 +179,4 @@ def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any
     """
     from .results.stresses import open_any
 
-    return open_any(path if isinstance(path, os.PathLike) else path, label)
+    return open_any(path, label)

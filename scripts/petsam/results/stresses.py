@@ -332,7 +332,7 @@ class Stresses(Datafile):
 def open_any(path: Union[str, os.PathLike], label: Optional[str] = None) -> Any:
     """Opens a file as Results, Stresses or Study by its contents. `label`: its name in pictures, by default the file's
     name. Raises MissingFile if there is no such file, and an Error if it cannot be read."""
-    if not isinstance(path, (str, os.PathLike)):
+    if not isinstance(path, (str, bytes, os.PathLike)):
         raise WrongArgument(f"open: path {short(repr(path))}: expected a text or a path")
     path = os.fsdecode(path)
     if is_study(path):
