@@ -85,6 +85,7 @@ struct _n_SamElasticity {
   SamElasticityOps            ops;
   SamElasticityTraits         traits;
   SamElasticityCreateFunction create;
+  PetscInt                    bytes;  /* memory of what it remembers, per cell */
   const char                 *option; /* that messages name where what it remembers is rejected; NULL: -elasticity */
   PetscBool                   wraps;  /* made by SamElasticityWrap() */
   void                       *data;
