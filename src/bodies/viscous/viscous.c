@@ -29,6 +29,8 @@
 #include <math.h>
 #include <string.h>
 
+#define OPERATORS 300 /* memory per cell of the operators of both bodies, bytes */
+
 static SamViscous *DataOf(SamElasticity e)
 {
   return (SamViscous *)e->data;
@@ -353,6 +355,7 @@ static PetscErrorCode Wrap(SamElasticity *elasticity, const SamViscous *settings
     PetscCall(AddTerms(e, b));
   }
   Compare(e);
+  e->bytes          = 48 * (v->terms + 2) + (v->alike ? 0 : OPERATORS);
   e->traits.stretch = PETSC_FALSE; /* the strain by a uniform stress creeps, too */
   e->option         = options[v->relaxes[0] ? 0 : 1][0];
   PetscCall(SamElasticityDestroy(elasticity));
