@@ -51,7 +51,7 @@ def test_each_is_short_and_named_by_its_registry_alone():
     folder = ROOT / "tests/trials"
     registry = (folder / "trials.c").read_text()
     sources = sorted(set(folder.glob("*.c")) - {folder / "trials.c"})
-    assert len(sources) + 1 == len(re.findall(r"^ .*Register\(", registry, re.M)) == 12  # one has a law and a stress
+    assert len(sources) + 1 == len(re.findall(r"^ .*Register\(", registry, re.M)) == 13  # one has a law and a stress
     assert all(len(path.read_text().splitlines()) < 230 for path in sources)
 
 
@@ -146,6 +146,20 @@ def test_stiffness_has_the_tangent_of_a_law_whose_offset_follows_the_pressure(pe
     assert 1 / found[0][2][0, 0] == pytest.approx((found[2][0] - found[1][0]) / (700 * 2e-4), rel=1e-4)
     petsam(dict(case, cushion=0, output_fields="usual"), ranks=ranks)
     assert petsam.read("stiffness")[0][0, 0] > 1.05 * found[0][2][0, 0]
+
+
+def test_an_option_alone_selects_a_law(petsam):
+    """Friction that grows with the pressure: all slides under the sum of mu p (1 + p/p0)."""
+    for ranks in 1, 2:
+        petsam(dict(SPHERE, steep_pressure=600e6, disp_x=1e-4), ranks=ranks)
+        p, load = petsam.read("pressure", "load_tx")
+        cell = 2.4e-3 * 2.2e-3 / (37 * 32)
+        assert load == pytest.approx(0.3 * (p * (1 + p / 600e6)).sum() * cell, rel=1e-6)
+
+
+def test_gradients_of_friction_that_is_no_coefficient_are_rejected(petsam):
+    said = petsam(dict(SPHERE, steep_pressure=600e6, load_tx=60, slip_direction="end", gradient="energy"), check=2)
+    assert "not a coefficient of friction times the pressure" in said.stderr
 
 
 # wear above a threshold of p |ds|: a sphere that slides by S under N

@@ -231,3 +231,25 @@ def test_no_closed_form_of_elastic_bodies_is_compared(petsam, tmp_path):
     small = petsam(case, relaxes, dict(grid_size=2.2e-3, overwrite=True), check=None).stderr
     size = [float(word) for word in re.findall(r"-grid_size ([0-9.e-]+)", small)]
     assert size and min(size) > 2.9e-3  # of the relaxed contact, 10^(1/3) times as wide as that of a sudden load
+
+
+def test_times_far_above_the_steps_dissipate_nothing():
+    """A term of 1e12 s beside steps of 1e-6 s and of seconds: the energy is that without it."""
+    lost = []
+    for parts, times in (((0.3, 0.2), (0.1, 1)), ((0.3, 0.2, 0.2), (0.1, 1, 1e12))):
+        run = package.run(
+            **BALL, **RIGID, body2_young=2.6, body2_poisson=0.3, **relaxing(2, parts, times), grid_n=24, grid_size=0.4,
+            history=table(time=[0, 0.5, 1, 1 + 1e-6, 2, 30], load_n=[1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4]),
+            output_fields="none",
+        )  # fmt: skip
+        lost.append(run["viscous_energy"][:])
+    assert lost[1] == pytest.approx(lost[0], rel=1e-6, abs=1e-9 * lost[0].max()) and lost[0].min() >= 0
+
+
+def test_errors_by_the_steps_are_estimated_without_friction(petsam, tmp_path):
+    (tmp_path / "h.csv").write_text("time,load_n\n0,100\n1,500\n2,700\n")
+    case = dict(bodies(), friction=0, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=32,
+                grid_size=2.8e-3, history="h.csv", output="o.h5", errors="companion", body2_relax_moduli="0.6",
+                body2_relax_times="0.5")  # fmt: skip
+    said = petsam(case).stdout
+    assert "by steps" in said and "by steps: none" not in said

@@ -11,6 +11,7 @@ PetscErrorCode SamPluginRegister(void)
   PetscCall(SamLawRegister("square", CreateSquare));
   PetscCall(SamLawRegister("cushion", CreateCushion));
   PetscCall(SamLawRegister("threshold", CreateThreshold));
+  PetscCall(SamLawRegister("steep", CreateSteep));
   PetscCall(SamStressPartRegister(&ThresholdStress));
   PetscCall(SamElasticityRegister("creeping", CreateCreeping));
   PetscCall(SamElasticityRegister("viscous", CreateViscous));

@@ -13,5 +13,6 @@ PetscErrorCode                         CreateViscous(SamElasticity elasticity);
 PetscErrorCode                         CreateConducting(SamElasticity elasticity);
 PetscErrorCode                         CreateWave(SamGap gap);
 PetscErrorCode                         CreateThreshold(SamLaw law);
+PetscErrorCode                         CreateSteep(SamLaw law);
 PETSC_INTERN const struct _n_SamMotion Guided;
 PETSC_INTERN const SamStressPartType   ThresholdStress;

@@ -194,7 +194,8 @@ struct _n_SamLaw {
   void               *data;          /* data of the type, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {
-    /* reads and records options that the rows do not describe; `asked` on entry: selected by the word */
+    /* reads and records options that the rows do not describe; `asked` on entry: selected by the word, on return: by
+       the options. Without it the law is selected where `option` is given */
     PetscErrorCode (*setfromoptions)(SamLaw law, const SamOptions *from, PetscBool *asked);
     PetscErrorCode (*addparameters)(SamLaw law, SamParameters *parameters);
     PetscErrorCode (*destroy)(SamLaw law); /* frees what `data` refers to; SamLawDestroy() frees `data` itself */

@@ -68,7 +68,8 @@ def busiest(results: Results) -> Optional[str]:
 
     def work(pair):
         load, way = (results.series(name) for name in PAIRS[pair])
-        return float(np.ptp(load) * np.ptp(way)) if load.size else 0.0
+        there = np.isfinite(load) & np.isfinite(way)  # a displacement without contact is unknown
+        return float(np.ptp(load[there]) * np.ptp(way[there])) if there.any() else 0.0
 
     # tangential loads come before normal ones, which dissipate nothing
     best = max(TANGENTIAL, key=work)

@@ -394,7 +394,6 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
   PetscInt   counts[2];
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsHeading(from, "Bodies that relax"));
   for (PetscInt b = 0; b < 2; b++) {
     PetscCall(SamOptionsReals(from, &rows[b][0], settings.moduli[b], &counts[0]));
     PetscCall(SamOptionsReals(from, &rows[b][1], settings.times[b], &counts[1]));

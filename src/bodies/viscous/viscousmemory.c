@@ -2,12 +2,12 @@
   What viscoelastic bodies remember: the tractions of the last step, and for each term those that follow them
   (viscous.c); how they move by that before any traction of a step, and the energy that they dissipate.
 
-  The energy is dissipated by the dashpots of the terms, w = p - c being the traction on one,
+  The energy is dissipated by the dashpots of the terms, w = p - c being the traction on one. With w_0 before the step
+  and D = p_new - p_old, w = w_0 exp(-t/theta) + D (1 - exp(-t/theta)) theta/dt, so that for tractions linear in time
 
-      W = sum a_j/theta_j int w.C w dt,   w = A exp(-t/theta) + B,
-      B = theta (p_new - p_old)/dt,   A = p_old - c_old - B,
+      sum a_j/theta_j int w.C w dt = sum a_j (x m (1 + e)/2 w_0.C w_0 + x m^2 w_0.C D + f D.C D),
 
-  exact for tractions that are linear in time: A.CA theta (1 - e2)/2 + 2 A.CB theta (1 - e) + B.CB dt, e2 = exp(-2 x).
+  m = (1 - e)/x, f = (1 - 2 m + m (1 + e)/2)/x = x/3 - x^2/4 + ..., which no time makes large.
 */
 #include "viscous.h"
 #include <petsam/private/base.h>
@@ -17,6 +17,7 @@
 #include <stdio.h>
 
 #define ENERGY "viscous_energy"
+#define SHORT  1e-2 /* duration over the time below which a weight is a series */
 
 enum { NORMAL, TANGENTIAL, WAYS };
 static const char *const last[WAYS]  = {"viscous_last_pressure", "viscous_last_shear"};
@@ -176,16 +177,25 @@ static PetscErrorCode AddDot(SamGrid g, PetscInt components, Vec a, Vec b, doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Gets the weights of w_0.C w_0, w_0.C D and D.C D in the energy of a term; x: the duration over the time. */
+static void GetWeights(double x, double weights[3])
+{
+  const double e = exp(-x), m = -expm1(-x) / x;
+
+  weights[0] = x * m * (1 + e) / 2;
+  weights[1] = x * m * m;
+  weights[2] = x < SHORT ? x * (1 / 3.0 - x * (1 / 4.0 - x * (7 / 60.0 - x / 24))) : (1 - 2 * m + m * (1 + e) / 2) / x;
+}
+
 /* Adds the energy that a term of a body (-1: of both) dissipates in the step. */
 static PetscErrorCode AddTerm(SamElasticity e, SamState state, PetscInt j, PetscInt body, const Vec traction[WAYS],
                               double *energy)
 {
-  const SamViscous     *v    = (const SamViscous *)e->data;
-  const SamViscousTerm *t    = &v->term[j];
-  const double          part = body < 0 ? PetscMax(t->part[0], t->part[1]) : t->part[body], time = (double)t->time,
-               dt = (double)v->duration, kept = (double)t->kept, area = (double)(e->grid->dx * e->grid->dy);
-  double dots[3] = {0}; /* A.CA, B.CA, B.CB */
-  Vec    w[2][WAYS], u[2][WAYS];
+  const SamViscous     *v       = (const SamViscous *)e->data;
+  const SamViscousTerm *t       = &v->term[j];
+  const double          part    = body < 0 ? PetscMax(t->part[0], t->part[1]) : t->part[body];
+  double                dots[3] = {0}, weights[3];
+  Vec                   w[2][WAYS], u[2][WAYS]; /* w_0 and D, and their displacements */
 
   PetscFunctionBegin;
   if (part == 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -196,10 +206,9 @@ static PetscErrorCode AddTerm(SamElasticity e, SamState state, PetscInt j, Petsc
       PetscCall(SamGridCreateVec(e->grid, way + 1, &w[k][way]));
       PetscCall(SamGridCreateVec(e->grid, way + 1, &u[k][way]));
     }
-    PetscCall(VecAXPY(w[1][way], time / dt, traction[way]));
-    if (before) PetscCall(VecAXPY(w[1][way], -time / dt, before));
-    PetscCall(VecAXPY(w[0][way], -1, w[1][way]));
-    if (before) PetscCall(VecAXPY(w[0][way], 1, before));
+    PetscCall(VecCopy(traction[way], w[1][way]));
+    if (before) PetscCall(VecAXPY(w[1][way], -1, before));
+    if (before) PetscCall(VecCopy(before, w[0][way]));
     if (memory) PetscCall(VecAXPY(w[0][way], -1, memory));
   }
   for (int k = 0; k < 2; k++)
@@ -213,8 +222,8 @@ static PetscErrorCode AddTerm(SamElasticity e, SamState state, PetscInt j, Petsc
       PetscCall(VecDestroy(&u[k][way]));
     }
   }
-  *energy +=
-    area * part / time * (dots[0] * time * (1 - kept * kept) / 2 + 2 * dots[1] * time * (1 - kept) + dots[2] * dt);
+  GetWeights((double)(v->duration / t->time), weights);
+  for (int k = 0; k < 3; k++) *energy += (double)(e->grid->dx * e->grid->dy) * part * weights[k] * dots[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -148,6 +148,7 @@ PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBoo
   *asked = PETSC_FALSE;
   (void)snprintf(option, sizeof(option), "%s %s", law->option ? law->option : "", law->word ? law->word : "");
   if (law->word) PetscCall(SamOptionsHas(from, option, asked));
+  if (!law->word && law->option && !law->ops.setfromoptions) PetscCall(SamOptionsHas(from, law->option, asked));
   PetscCall(SamOptionsRead(from, law->heading, law->row_count, law->rows, law->data, NULL));
   if (law->ops.setfromoptions) PetscCall(law->ops.setfromoptions(law, from, asked));
   PetscFunctionReturn(PETSC_SUCCESS);

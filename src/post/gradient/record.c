@@ -52,6 +52,27 @@ static PetscErrorCode ComputeFriction(SamGradient g, const SamSolution *s, Vec f
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define PROPORTIONAL 1e-9 /* relative to the largest bound: rounding */
+
+/* Refuses friction that is no coefficient times the pressure. */
+static PetscErrorCode CheckProportional(SamGrid grid, const SamSolution *s, Vec friction)
+{
+  PetscReal change, most;
+  Vec       rest;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(friction, &rest));
+  PetscCall(VecPointwiseMult(rest, friction, s->pressure));
+  PetscCall(VecAXPY(rest, -1, s->bound));
+  PetscCall(VecNorm(rest, NORM_INFINITY, &change));
+  PetscCall(VecNorm(s->bound, NORM_INFINITY, &most));
+  PetscCall(VecDestroy(&rest));
+  PetscCheck(change <= PROPORTIONAL * most, grid->comm, SAM_ERR_USER,
+             "the gradient: the bound of the shear is not a coefficient of friction times the pressure: its derivative "
+             "is not computed");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Keeps the friction and the gap of the first step, and refuses others in later steps. */
 static PetscErrorCode KeepFields(SamGradient g, const SamSolution *s)
 {
@@ -64,6 +85,7 @@ static PetscErrorCode KeepFields(SamGradient g, const SamSolution *s)
   PetscCall(PetscObjectStateGet((PetscObject)SamProblemGetGap(SamContactGetProblem(g->contact)), &gap));
   PetscCall(SamGridCreateVec(grid, 1, &friction));
   PetscCall(ComputeFriction(g, s, friction));
+  PetscCall(CheckProportional(grid, s, friction));
   if (!g->friction) {
     g->friction = friction;
     g->gap      = gap;

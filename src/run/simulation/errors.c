@@ -14,6 +14,7 @@
 #include "errorsimpl.h"
 #include <petsam/private/gap.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
 #include <math.h>
 
 #define LEAST  4  /* fewest cells per row whose half still makes a grid */
@@ -45,7 +46,8 @@ PetscErrorCode SamErrorsReadOptions(SamSimulation s, const SamOptions *from)
 static PetscBool DependsOnSteps(SamSimulation s)
 {
   if (!SamMotionOf(s->setup.elasticity)->continues) return PETSC_FALSE;
-  return s->needs.friction || SamProblemMoves(s->setup.problem) || SamErrorsYields(s);
+  return s->needs.friction || SamProblemMoves(s->setup.problem) || SamProblemRemembers(s->setup.problem) ||
+         SamErrorsYields(s);
 }
 
 /* A companion run: how often the cells are halved, 0: there is none; and its steps per row of the history. */
