@@ -85,10 +85,11 @@ PETSC_EXTERN PetscErrorCode SamConditionsAdd(SamConditions conditions, const Sam
   See also: SamControlInitialize(), SamControlSet(), SamContactTry().
 */
 typedef struct {
-  PetscReal time;                  /* s; stored with the results; the solution does not depend on it */
+  PetscReal time; /* s; stored with the results; of all solutions only those of bodies that remember depend on it */
   PetscBool force[SAM_COMPONENTS]; /* true: the load is given and the displacement is found; false: the reverse */
   PetscBool creep[SAM_COMPONENTS]; /* true: the creepage is given instead of the displacement; `force` is then false */
   PetscReal value[SAM_COMPONENTS]; /* the given load (N, N m), displacement (m, rad) or creepage (1, 1/m) */
+  PetscBool sudden;   /* true: the way here takes no time for bodies that remember, as that to the first row does */
   PetscBool together; /* from no contact: all loads grow in proportion; false: N first, then the tangential loads */
   PetscReal condition[SAM_CONDITIONS]; /* values of conditions by their places, where `given` is not 0 */
   unsigned char given[SAM_CONDITIONS];

@@ -104,7 +104,7 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   Collective.
 
   In:     c      - the contact
-          time   - the time of the step (s); it is only stored
+          time   - the time of the step (s); it is stored, and bodies that relax do so over it
           names  - names of the prescribed values, separated by commas, like the columns of a history:
                    "load_n,disp_x,bulk2_stress_xx,friction_scale"
           values - one value for each name (N, N m, m, rad, or the unit of the condition): as many as there are commas,

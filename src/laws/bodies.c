@@ -25,7 +25,10 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
 {
   PetscFunctionBegin;
-  CALL(law, begin, state, control, duration);
+  PetscCheck(duration >= 0, law->grid->comm, SAM_ERR_USER,
+             "time %.6g: goes back by %.6g s, and the bodies remember earlier steps: give later times",
+             (double)control->time, -(double)duration);
+  CALL(law, begin, state, control, control->sudden ? 0 : duration);
   law->revision++; /* the pressure has to be solved again */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -169,6 +169,9 @@ def test_stresses_are_those_by_the_tractions(petsam, stress, tmp_path):
                 body2_relax_times="0.2")  # fmt: skip
     petsam(case)
     stress(dict(input="v.h5", output="s.h5", depths="50um,200um"))
+    for words in dict(quantities="strain"), dict(fatigue="swt", steps="all"):
+        said = stress(dict(input="v.h5", output="n.h5", depths="50um"), words, check=2).stderr
+        assert "not those of elastic bodies" in said
     with h5py.File(tmp_path / "v.h5", "r+") as f:
         for name in ("body2_relax_moduli", "body2_relax_times"):
             del f.attrs[name]
@@ -253,3 +256,27 @@ def test_errors_by_the_steps_are_estimated_without_friction(petsam, tmp_path):
                 body2_relax_times="0.5")  # fmt: skip
     said = petsam(case).stdout
     assert "by steps" in said and "by steps: none" not in said
+
+
+@pytest.mark.parametrize("steps", [dict(steps=4), dict(step_rtol=1e-3)])
+def test_the_way_to_the_first_row_is_sudden_in_any_number_of_steps(steps):
+    case = dict(
+        {**BALL, "friction": 0.3}, body1_young=5, body1_poisson=0.2, body2_young=2.6, body2_poisson=0.2,
+        **relaxing(2, (0.6,), (1.0,)), grid_n=24, grid_size=0.3, history=table(time=[5, 6], load_n=[1e-3] * 2),
+        output_fields="none",
+    )  # fmt: skip
+    one, several = package.run(**case), package.run(**case, **steps)
+    first = np.nonzero(several["time"][:] == 5)[0][0]
+    assert several["disp_z"][first] == pytest.approx(one["disp_z"][0], rel=1e-4)
+    assert np.nanmax(np.abs(several["viscous_energy"][: first + 1])) == 0
+
+
+def test_time_does_not_go_back_in_process():
+    contact = package.Contact(
+        **BALL, **RIGID, body2_young=2.6, body2_poisson=0.3, **relaxing(2), grid_n=16, grid_size=0.4
+    )
+    contact.try_step(time=0, load_n=1e-3)
+    contact.commit()
+    with pytest.raises(package.Error, match="goes back by 1 s"):
+        contact.try_step(time=-1, load_n=1e-3)
+    contact.try_step(time=1, load_n=1e-3)

@@ -132,4 +132,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, cons
 PETSC_INTERN PetscErrorCode SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
                                                       const SamFourierSettings *settings, SamStress *stress);
 
+/* SamElasticityRemembers - returns true if the bodies move by what they remember of earlier steps, so that their
+   strains are not those of elastic ones. Not collective. */
+PETSC_INTERN PetscBool SamElasticityRemembers(SamElasticity elasticity);
+
 #endif

@@ -288,6 +288,13 @@ SamElasticityTraits SamElasticityGetTraits(SamElasticity e)
   return traits;
 }
 
+PetscBool SamElasticityRemembers(SamElasticity e)
+{
+  for (; e; e = e->inner)
+    if (e->ops.begin) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
 {
   PetscFunctionBegin;

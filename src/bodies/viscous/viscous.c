@@ -29,7 +29,9 @@
 #include <math.h>
 #include <string.h>
 
-#define OPERATORS 300 /* memory per cell of the operators of both bodies, bytes */
+#define LEAST     1e-9 /* least modulus of a relaxed body, as a part of that under a sudden load */
+#define LONGEST   1e18 /* longest time, s */
+#define OPERATORS 300  /* memory per cell of the operators of both bodies, bytes */
 
 static SamViscous *DataOf(SamElasticity e)
 {
@@ -316,9 +318,6 @@ static PetscErrorCode AddTerms(SamElasticity e, PetscInt body)
     PetscInt j = 0;
 
     while (j < v->terms && (double)v->term[j].time != creep.time[k]) j++;
-    PetscCheck(j < SAM_VISCOUS_TERMS, e->grid->comm, SAM_ERR_USER,
-               "-%s: with the times of the other body there are more than %d different ones", options[body][1],
-               SAM_VISCOUS_TERMS);
     v->term[j].time       = creep.time[k];
     v->term[j].part[body] = creep.part[k];
     v->terms              = PetscMax(v->terms, j + 1);
@@ -373,10 +372,14 @@ static PetscErrorCode CheckBody(SamElasticity e, const SamOptions *from, const S
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < v->relaxes[b]; k++) sum += (double)v->moduli[b][k];
-  PetscCheck(sum < 1, from->comm, SAM_ERR_USER,
-             "-%s%s: the parts of the modulus add up to %.6g: expected less than 1, as the rest is the modulus of a "
-             "relaxed body",
-             prefix, options[b][0], sum);
+  PetscCheck(sum <= 1 - LEAST, from->comm, SAM_ERR_USER,
+             "-%s%s: the parts of the modulus add up to %.6g: expected less than 1, by %g at least, as the rest is the "
+             "modulus of a relaxed body",
+             prefix, options[b][0], sum, LEAST);
+  for (PetscInt k = 0; k < v->relaxes[b]; k++)
+    PetscCheck(v->times[b][k] >= 1 / LONGEST && v->times[b][k] <= LONGEST, from->comm, SAM_ERR_USER,
+               "-%s%s %.6g: expected times from %g to %g s", prefix, options[b][1], (double)v->times[b][k], 1 / LONGEST,
+               LONGEST);
   PetscCheck(!SamBodyIsRigid(e->pair->body[b]), from->comm, SAM_ERR_USER,
              "-%s%s: body %" PetscInt_FMT " is rigid and does not relax: omit it", prefix, options[b][0], b + 1);
   PetscCheck(SamPairIsUniform(e->pair), from->comm, SAM_ERR_USER,
@@ -403,6 +406,8 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
     PetscCheck(counts[0] == counts[1], from->comm, SAM_ERR_USER,
                "-%s%s: %" PetscInt_FMT " times for %" PetscInt_FMT " parts of -%s%s: give one for each",
                SamOptionsPrefix(from), options[b][1], counts[1], counts[0], SamOptionsPrefix(from), options[b][0]);
+    PetscCall(SamOptionsExclude(from, options[b][0], "slide",
+                                "what the bodies remember does not slide with them: give a column roll"));
     settings.relaxes[b] = counts[0];
     PetscCall(CheckBody(*elasticity, from, &settings, b));
   }

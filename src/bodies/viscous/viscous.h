@@ -8,7 +8,7 @@
   SamCreep - the creep of a material relative to its displacement under a sudden load, J(t)/J(0) = 1 + sum a_j (1 -
   exp(-t/theta_j)).
 */
-#define SAM_CREEP_TERMS 12
+#define SAM_CREEP_TERMS 10
 typedef struct {
   PetscInt count;
   double   part[SAM_CREEP_TERMS], time[SAM_CREEP_TERMS]; /* a_j; theta_j, s */
@@ -24,7 +24,7 @@ PETSC_INTERN void SamCreepFromRelaxation(PetscInt count, const PetscReal parts[]
   SamViscous - the data of the type. A term is a time theta of one body or of both; its field of tractions c follows
   those of the contact: theta c' + c = p. In a step p is linear in time: c_new = kept c + before p_old + now p_new.
 */
-#define SAM_VISCOUS_TERMS 16
+#define SAM_VISCOUS_TERMS (2 * SAM_CREEP_TERMS)
 typedef struct {
   PetscReal time;              /* theta, s */
   double    part[2];           /* of the bodies, a_j; 0: the body has no such term */

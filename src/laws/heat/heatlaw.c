@@ -194,6 +194,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   law->follows_slip = h->changes ? PETSC_TRUE : PETSC_FALSE;
   if (h->wears) law->named = "wear_temperature";
   if (h->changes) law->named = "friction_temperature";
+  law->nonlocal = law->follows_slip;
   if (law->named) law->ops.back = NULL; /* the step depends on the temperature */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

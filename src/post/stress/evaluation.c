@@ -162,6 +162,10 @@ static PetscErrorCode CreateParts(SamEvaluation e)
                                 .moves   = e->slide ? PETSC_TRUE : PETSC_FALSE};
   for (PetscInt q = 0; SamQuantityTable[q].name; q++)
     if (SamQuantityTable[q].of_part) wanted[SamQuantityTable[q].of_part - 1] = e->wants[q];
+  for (PetscInt q = 0; SamQuantityTable[q].name; q++)
+    PetscCheck(!e->wants[q] || !SamQuantityTable[q].elastic || !SamElasticityRemembers(e->source.bodies), e->comm,
+               SAM_ERR_USER, "%s: its strains are not those of elastic bodies, as the bodies of %s relax: omit it",
+               SamQuantityTable[q].with ? SamQuantityTable[q].with : SamQuantityTable[q].name, e->source.name);
   PetscCall(
     SamStressPartsCreate(&e->source, &e->places, SamProblemGetConditions(e->problem), e->control, wanted, &e->parts));
   PetscFunctionReturn(PETSC_SUCCESS);

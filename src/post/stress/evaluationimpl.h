@@ -25,6 +25,7 @@ typedef struct {
     last       makes the component, in the place of the first array, from them; NULL: the arrays are the components
     of_cycle   instead: a parameter of the cycle; `more`: the other components
     of_part    instead: the number of a part's type, from 1, whose quantity it is (SamQuantitiesAddParts())
+    elastic    true: it contains strains, by the constants of elastic bodies
     shown      its name where the largest value is printed
     with       the option that its constants need
 */
@@ -39,6 +40,7 @@ typedef struct {
   void (*last)(PetscInt n, double *const values[]);
   SamFatigueParameter *of_cycle;
   PetscInt             of_part;
+  PetscBool            elastic;
   const char          *shown, *with;
   SamQuantityConstant  constant[2];
 } SamQuantity;

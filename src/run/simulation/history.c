@@ -547,6 +547,7 @@ SamControl SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part)
                         ? ValueOfRow(h, p, r) / (double)steps
                         : BETWEEN(apart ? WayApart(p, way) : way, ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r)));
 #undef BETWEEN
+  control.sudden = r == 0 ? PETSC_TRUE : PETSC_FALSE;
   control.together =
     (r == 0 && h->together) || (r ? (k - h->start) % h->increments : k) + 1 < steps || ContinuesAfter(h, r);
   return control;

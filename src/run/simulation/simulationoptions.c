@@ -62,7 +62,7 @@ static PetscErrorCode CheckLaws(SamSimulation s, const SamOptions *from)
     PetscCheck(!laws[k]->forbids_jumps || !s->needs.life, from->comm, SAM_ERR_USER,
                "-%s with -wear_cycles: cycle jumps ignore what it changes in skipped cycles: repeat the rows in "
                "-history, or omit one option",
-               laws[k]->option);
+               SamLawOption(laws[k]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
