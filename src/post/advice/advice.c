@@ -68,15 +68,14 @@ PetscErrorCode SamAdviceEstimateContact(const SamSetup *s, PetscBool force, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same for elastic bodies without layers; `known`: there is a solution, and it is of finite size. */
+/* The same for bodies without layers; `known`: there is a solution, and it is of finite size. */
 PetscErrorCode SamAdviceEstimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2],
                                  PetscBool *known)
 {
   PetscFunctionBegin;
   PetscCall(SamAdviceEstimateContact(s, force, value, half, known));
   for (int k = 0; k < s->grid->axes; k++)
-    if (!isfinite(half[k]) || half[k] <= 0 || !SamPairIsUniform(s->pair) || SamProblemRemembers(s->problem))
-      *known = PETSC_FALSE;
+    if (!isfinite(half[k]) || half[k] <= 0 || !SamPairIsUniform(s->pair)) *known = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
