@@ -118,7 +118,14 @@ def write_heights(folder):
     rough = np.cos(np.arange(42.0).reshape(6, 7))
     wave = np.cos(4 * np.pi * (np.arange(64) + 0.5) / 64)
     heights = dict(um=0.9 * rough, tilt=1e-6 * (rough + np.arange(6.0)[:, None]))
-    for name, values in dict(heights, steep=9e-5 * (wave + wave[:, None])).items():
+    x = (np.arange(64) - 31.5) / 64
+    radius = np.hypot(x, x[:, None])
+    tip = 4e-5 * radius**2
+    tip[32, 32] -= 3e-8
+    heights.update(
+        steep=9e-5 * (wave + wave[:, None]), round=4e-5 * radius**2, tip=tip, disk=2e-4 * np.maximum(radius - 0.2, 0)
+    )
+    for name, values in heights.items():
         with h5py.File(folder / f"{name}.h5", "w") as f:
             f["height"] = values
     (folder / "cut.h5").write_bytes((folder / "good.h5").read_bytes()[:600])
@@ -228,7 +235,7 @@ def assert_answered(row, done, folder, before):
     assert told and all(text in told[0] for text in says), (says, told)
     assert len(told[0]) <= (400 if row.code else 480), told
     assert "PETSC ERROR" not in done.stderr and "HDF5-DIAG" not in done.stderr
-    assert len(others) == (2 if row.code == 2 else 1), done.stderr
+    assert len(others or told) == (2 if row.code == 2 else 1), done.stderr
     if row.code in (2, 3):
         assert stamps(folder) == before, "files changed"
         assert row.code == 3 or not done.stdout, done.stdout

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kinds.energies import compare
-from support import ball, doubts, history, slide_limit
+from support import SPHERE, ball, doubts, history, slide_limit
 
 CASE = ball(n=20)
 LIMIT = slide_limit(CASE)[0]
@@ -51,6 +51,13 @@ def test_no_remedy_proposes_an_option_that_those_given_exclude(given, petsam, tm
     case = {**{name: value for name, value in CASE.items() if name != "load_n"}, **given}
     said = petsam(dict(case, **history(tmp_path / "h.csv", "time,load_n,disp_x", *moves))).stderr
     assert "the load steps are long" in said and "use -steps" in said and "-step_rtol" not in said
+
+
+def test_energy_that_long_steps_make_is_not_put_down_to_the_cells(petsam):
+    """T and M_z grow in proportion to N, and hardly cause slip: what there is in two steps is of their length."""
+    done = petsam(SPHERE, dict(load_tx=30.0, load_mz=0.01, steps=2, grid_n=32))
+    assert doubts(done, "steps")[1]["dissipated_energy"] == 1
+    assert "dissipated_energy" not in doubts(done, "cells")[1]
 
 
 @pytest.mark.parametrize("part", [0.3, 0.6])

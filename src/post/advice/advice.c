@@ -25,7 +25,6 @@
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius suggests that the radius is in another unit. */
 #define FLATTEST 1e-3
-#define NARROW   0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
 #define BORDER   4    /* margin in cells of a sufficient grid; a narrower contact is none */
 #define SAME     2    /* cells by which two widths, one counted and one computed, may differ */
 #define ABSURD   4096 /* number of cells per row that wrong units may ask for */
@@ -42,7 +41,7 @@ static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(s->contact, &solution));
-  PetscCall(SamGridMeasureZones(s->grid, solution->pressure, NARROW, wrap, &extent->across));
+  PetscCall(SamGridMeasureZones(s->grid, solution->pressure, SAM_ADVICE_STRAY, wrap, &extent->across));
   PetscCall(SamGridMeasureZones(s->grid, solution->pressure, 0.5, wrap, &extent->half_across));
   PetscCall(SamGridCountZones(s->grid, solution->pressure, wrap, &extent->zones));
   PetscCall(SamGridGetSupport(s->grid, solution->pressure, wrap, first, n));

@@ -8,6 +8,10 @@
 #define SAM_ADVICE_CELLS 20 /* a contact with fewer cells across is not resolved, but for closed-form solutions */
 /* characters of texts: of the advised grids, and of numbers in messages */
 enum { SAM_ADVICE_GRIDS = 192, SAM_ADVICE_TEXT = 64 };
+/* Share of the edges of contact that are reconstructed, from which on they are known to a fraction of a cell */
+#define SAM_ADVICE_KNOWN  0.9
+#define SAM_ADVICE_STRAY  0.1  /* part of the cells, in the narrowest zones, that is ignored in their width */
+#define SAM_ADVICE_NARROW 0.25 /* cells: the width below which that of a zone or ring of slip is unknown */
 /* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
 #define SAM_ADVICE_STEEPEST 0.1
 /* From this ratio on, no larger grid is advised, and bodies that yield are rejected; */

@@ -37,18 +37,18 @@
 #include <petsam/private/problemimpl.h>
 #include <math.h>
 
-#define RING    3                 /* cells about the part that is solved again */
-#define WIDE    18                /* cells of a patch in each direction, */
-#define FINE    (2 * WIDE)        /* on the finer grid, */
-#define INNER   (FINE - 4 * RING) /* and of the part that is solved again there */
-#define MARGIN  4                 /* finer cells at the border of that part, in which no peak is searched */
-#define LEVEL   0.9               /* a peak is resolved if a cell beside it has at least this part of it */
-#define CENTRAL 6                 /* number of places of an interpolation, */
-#define VARYING 4                 /* number of places of an interpolation that avoids edges */
-#define TIP     0.08              /* part of the fourth differences that counts, */
-#define RIDGE   0.1103            /* and of the change of slope at a ridge: ln 2/(2 pi) */
-#define SHARP   0.4               /* change at a sharp edge, the largest that interpolation can detect */
-#define SETTLED 0.03              /* change of the peak on cells half as wide as those of an advised grid */
+#define RING    3                        /* cells about the part that is solved again */
+#define WIDE    18                       /* cells of a patch in each direction, */
+#define FINE    (WIDE * 2)               /* on the finer grid, */
+#define INNER   (FINE - 4 * RING)        /* and of the part that is solved again there */
+#define MARGIN  4                        /* finer cells at the border of that part, in which no peak is searched */
+#define LEVEL   0.9                      /* a peak is resolved if a cell beside it has at least this part of it */
+#define CENTRAL 6                        /* number of places of an interpolation, */
+#define VARYING 4                        /* number of places of an interpolation that avoids edges */
+#define TIP     0.08                     /* part of the fourth differences that counts, */
+#define RIDGE   (M_LN2 / (2 * PETSC_PI)) /* and of the change of slope at a ridge */
+#define SHARP   0.4                      /* change at a sharp edge, the largest that interpolation can detect */
+#define SETTLED 0.03                     /* change of the peak on cells half as wide as those of an advised grid */
 
 /* Pressure of the cells of the last patch, and their gap without the shape */
 typedef struct {

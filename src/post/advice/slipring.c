@@ -34,7 +34,6 @@
 
 #define WRONG   0.5 /* error of the energy by the cells, relative to it and to w to the power of */
 #define FALLS   -1.4
-#define NARROW  0.25      /* cells: the width below which a ring's width is unknown */
 #define WIDE    6.0       /* cells across the ring on an advised grid */
 #define UNKNOWN 0.25      /* the same above which the energy is unknown */
 #define SIDE    0.25      /* least part of the edge that slips; fewer cells are stray */
@@ -129,13 +128,13 @@ PetscErrorCode SamAdviceAddRing(SamAdvice *a, const SamRingStep *now)
 /* The mean width of the ring in cells, weighted by the energy */
 static double WidthOf(const SamRing *ring)
 {
-  return PetscMax(ring->width / ring->energy, NARROW);
+  return PetscMax(ring->width / ring->energy, SAM_ADVICE_NARROW);
 }
 
 /* Returns the part of the ring's width that the contact's edge passes in a step. */
 static double MovesOf(const SamRing *ring)
 {
-  return ring->moves / PetscMax(ring->width, NARROW * ring->energy);
+  return ring->moves / PetscMax(ring->width, SAM_ADVICE_NARROW * ring->energy);
 }
 
 static void Cells(SamAdvice *a)

@@ -52,8 +52,6 @@
 
 #define GOOD     0.02  /* the same on an advised grid */
 #define ROUGH    0.25  /* the same above which the energy is unknown */
-#define NARROW   0.25  /* cells: the width below which the width of a zone is unknown */
-#define ACCEPTED 0.9   /* share of reconstructed edges above which the edges are known */
 #define ALIKE    1e-6  /* smaller couplings of bodies, or relative changes of a load, count as none */
 #define REVERSED 1.02  /* increase of the part of cells that stick, relative to the step before, at a reversal */
 #define ROUNDING 1e-16 /* energy, relative to the normal work, that is rounding of the shear */
@@ -73,7 +71,6 @@
 #define SPECK    0.01  /* width of a stick zone, relative to the contact's, below which no grid is advised for it */
 #define SPENT    1e-3  /* energy of a cycle relative to that of the first one, below which it is unknown */
 #define STUCK    7     /* cells across a stick zone whose area has an error below 5 % */
-#define STRAY    0.1   /* part of the sticking cells, in the narrowest zones, that is ignored */
 #define HIGHER   0.9   /* shear of a narrow zone, relative to the largest found, above which it may be larger */
 #define SHEAR    2.5   /* largest error of the shear, relative to that of the energy, if N is applied in one step, */
 #define SEVERAL  8     /* and number of steps in which it is small */
@@ -160,7 +157,7 @@ static void Measure(const SamSetup *s, const Numbers *n, double edge, SamSlip *s
     slip->width = n->faces > 0 ? n->width / cell : INFINITY;
   else
     slip->width = edge > 0 ? PetscMax(area / edge, 0) : INFINITY;
-  slip->length = n->accepted >= ACCEPTED || SamGapHasFile(s->gap) ? edge : IsRound(s->gap) ? edge / ROUND : 1;
+  slip->length = n->accepted >= SAM_ADVICE_KNOWN || SamGapHasFile(s->gap) ? edge : IsRound(s->gap) ? edge / ROUND : 1;
   slip->length = row ? LINE : PetscMax(slip->length, 1);
 }
 
@@ -503,7 +500,7 @@ PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
   PetscCall(VecGetArray(zone, &state));
   for (PetscInt k = 0; k < cells; k++) state[k] = state[k] == SAM_CELL_STICK ? 1 : 0;
   PetscCall(VecRestoreArray(zone, &state));
-  PetscCall(SamGridMeasureZones(s->grid, zone, STRAY, SamElasticityGetTraits(s->elasticity).periodic,
+  PetscCall(SamGridMeasureZones(s->grid, zone, SAM_ADVICE_STRAY, SamElasticityGetTraits(s->elasticity).periodic,
                                 &a->slip.across)); /* 0 without a zone */
   PetscCall(VecDestroy(&zone));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -557,7 +554,8 @@ static void Energy(SamAdvice *a)
   }
   most  = known ? slip->closed : slip->energy + slip->missing;
   error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer && !slip->unsure ? 1 : 0;
-  width = slip->missing > 0 && slip->missing >= slip->worst ? slip->narrow[0] : PetscMax(slip->narrow[0], NARROW);
+  width = slip->narrow[0];
+  if (!(slip->missing > 0 && slip->missing >= slip->worst)) width = PetscMax(width, SAM_ADVICE_NARROW);
   factor = pow(SamZoneError((double)width, (double)slip->narrow[1]) / GOOD, slip->narrow[1] > 1 ? 0.4 : 0.5);
   if (isinf(slip->narrow[0])) /* no edge of contact lies on the grid */
     (void)snprintf(zones, sizeof(zones), "the contact has no edge");
@@ -625,7 +623,7 @@ static PetscBool Missed(SamAdvice *a)
 void SamAdviceSlip(SamAdvice *a)
 {
   const double zone  = SAM_STUCK_WIDTH * a->slip.stuck; /* used before the last branch ends */
-  const double width = zone > 0 ? zone : PetscMax((double)a->slip.width, NARROW);
+  const double width = zone > 0 ? zone : PetscMax((double)a->slip.width, SAM_ADVICE_NARROW);
 
   if (!a->slip.steps || a->slip.rolls) return;
   Long(a);
@@ -635,7 +633,7 @@ void SamAdviceSlip(SamAdvice *a)
   SamAdviceRing(a, LITTLE * a->slip.work);
   (SamAdviceIsSpent(a) ? Spent : Energy)(a);
   if (!Missed(a))
-    SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW),
+    SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, SAM_ADVICE_NARROW),
                    "slip_max shear_max");
   if (!SamAdviceIsSpent(a) && (zone > 0 || !((double)a->slip.widest < PEAKED))) LastPeak(a, width, a->slip.high);
   LastSlip(a);

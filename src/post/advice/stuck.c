@@ -8,7 +8,7 @@
     s = mean q/mean mu p = 3 K/(A h),
 
   and the zone of Cattaneo is as wide as w = 2 K/A = 2/3 s h. Its energy per length of the edge is pi A^2 w^3/(12 E*),
-  which with A = 1.5 mean mu p/sqrt(h) is 0.175 (mean mu p)^2 h^2 s^3/E*; the shear at its end is A sqrt(w). After a
+  which with A = 1.5 mean mu p/sqrt(h) is pi/18 (mean mu p)^2 h^2 s^3/E*; the shear at its end is A sqrt(w). After a
   load reversal the same holds for the change of q and twice the bound. If loads move the contact's edge, the part of
   the shear's change that is within mu times the change of the pressure causes no slip (Ciavarella 1998).
 
@@ -24,8 +24,10 @@
 #include <petsam/private/body.h>
 #include <math.h>
 
-#define WORK    0.175 /* energy of the zone per length of the edge, relative to b^2 h^2 s^3/E*, b = mean mu p, */
-#define HIGHEST 1.22  /* and the shear at its end, relative to b sqrt(s): 1.5 sqrt(2/3) */
+/* Energy of the zone per length of the edge, relative to b^2 h^2 s^3/E*, b = mean mu p, */
+#define WORK (PETSC_PI / 18)
+/* and the shear at its end, relative to b sqrt(s): 1.5 sqrt(2/3) */
+#define HIGHEST 1.22
 
 /* Sums over the contact's last cells: b^2 h^2 times the length of the edge, and the same times s^3 of the step */
 enum { EDGE, CUBES, SUMS };

@@ -3,16 +3,13 @@
 #include <petsam/private/contact.h>
 #include <petsam/private/problemimpl.h>
 
-/* Edges are known to a fraction of a cell if at least this share of them is reconstructed. */
-#define KNOWN 0.9
-
 PetscBool SamAdviceCountsCells(SamAdvice *a)
 {
   PetscReal accepted = 1;
 
   if (a->error || !SamGridIsRow(a->setup->grid) || !SamProblemYields(a->setup->problem)) return PETSC_FALSE;
   a->error = SamContactGetNumber(a->setup->contact, "edge_accepted", &accepted);
-  return !a->error && accepted < KNOWN ? PETSC_TRUE : PETSC_FALSE;
+  return !a->error && accepted < SAM_ADVICE_KNOWN ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Advises on the area of a row of few cells after the largest load. */
