@@ -92,6 +92,14 @@ def maps(
         The range of the colours ends at the value that this part of the cells, %, does not exceed.
     log : str or list of str
         "colors" for logarithmic colours.
+
+    Examples
+    --------
+    >>> import petsam
+    >>> ball = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", body1="steel", body2="steel")
+    >>> run = petsam.run(ball, grid_n=32, grid_size=2.4e-3, friction=0.2, load_n=500, load_tx=60)
+    >>> figure = petsam.plot.maps(run, field=["pressure", "state"])
+    >>> figure.savefig("ball.png")
     """
     choice = colours.Choice(limits, "colors" in listed(log), percentile)
     return fields.maps(frames.snapshots(files), whole_grid, listed(field) or None, choice)

@@ -126,6 +126,16 @@ def work(results: "Results", cycle: Union[int, cycles.Cycle] = -1, intervals: Op
     The work of a cell in a step is the mean of its bounds before and after the step times the length of its slip; those
     of a step are scaled so that their sum is its dissipated_energy, which also knows how cells begin to slide. Steps
     of unequal lengths are divided into equal intervals with constant power within each step.
+
+    Examples
+    --------
+    >>> import petsam
+    >>> ball = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", body1="steel", body2="steel")
+    >>> loop = dict(time=[0, 1, 2, 3, 4, 5], load_n=[500] * 6, load_tx=[0, 60, 0, -60, 0, 60])
+    >>> run = petsam.run(ball, grid_n=32, grid_size=2.4e-3, friction=0.2, history=loop, steps=2)
+    >>> work = petsam.heat.work(run)
+    >>> bool(abs(work.energy / run["dissipated_energy"][-8:].sum() - 1) < 1e-6)
+    True
     """
     _need_bodies(results)
     found = cycle if isinstance(cycle, cycles.Cycle) else cycles.find(results).numbered(cycle)
