@@ -244,7 +244,8 @@ lint: $(PROGRAMS:%=$(B)/help/%.h) ## cppcheck over the sources
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name setup.py ! -name install-dependencies.sh ! -name quickstart.sh)
 share  = $(DESTDIR)$(prefix)/share/petsam
 # the manual's parts outside of scripts and examples
-MANUAL := README.md CHANGES.md src/README.md tests/README.md tests/bench/README.md
+MANUAL := README.md CHANGES.md src/README.md tests/README.md tests/bench/README.md tests/trials/README.md
+TRIALS := $(sort $(wildcard tests/trials/*.[ch]))
 
 install: all pages ## install program, library, headers, petsam.pc, scripts, examples, man pages, completions: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig
@@ -258,7 +259,7 @@ install: all pages ## install program, library, headers, petsam.pc, scripts, exa
 	for f in $(SHARED); do install -D -m $$(test -x $$f && echo 755 || echo 644) $$f $(share)/$$f || exit 1; done
 	for f in $(LINKS); do ln -sf petsam-plot $(share)/scripts/$$f || exit 1; done
 	for f in $(TOOLS); do ln -sf ../share/petsam/scripts/$$f $(DESTDIR)$(prefix)/bin/$$f || exit 1; done
-	for f in $(MANUAL); do install -D -m 644 $$f $(share)/$$f || exit 1; done
+	for f in $(MANUAL) $(TRIALS); do install -D -m 644 $$f $(share)/$$f || exit 1; done
 	install -m 644 LICENSE CITATION.cff $(share)
 	for f in $(PAGES); do [ ! -e $(B)/share/$$f ] || install -D -m 644 $(B)/share/$$f $(DESTDIR)$(prefix)/share/$$f || exit 1; done
 	for f in $(TOOLS); do \

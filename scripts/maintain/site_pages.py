@@ -137,6 +137,7 @@ PARTS = (
         (
             "src/README.md",
             "tests/README.md",
+            "tests/trials/README.md",
             "tests/bench/README.md",
             "scripts/packaging/README.md",
             "scripts/packaging/paper.md",

@@ -212,8 +212,8 @@ def test_sections_are_those_of_maps(stress, heated, tmp_path):
         (dict(body1_expansion=0.02), "steel has 12e-6"),
         (dict(body2_expansion=1e-5, body2_young="inf"), "is rigid and does not expand"),
         (dict(body1_expansion=1e-5, load_n=None, disp_z=1e-3), "give load_n"),
-        (dict(body1_expansion=1e-5, body1_yield=1e7), "-heat: not supported with -body1_yield"),
-        (dict(body1_expansion=1e-5, pressure_limit=1e9), "-heat: not supported with -pressure_limit"),
+        (dict(body1_expansion=1e-5, body1_yield=1e7), "-body1_expansion: not supported with -body1_yield"),
+        (dict(body1_expansion=1e-5, pressure_limit=1e9), "-body1_expansion: not supported with -pressure_limit"),
         (dict(body1_expansion=1e-5, heat=None), "heat steady"),
         (
             dict(body1_expansion=1e-5, elasticity="plane", gap_type="cylinder", body1_speed=1, body2_speed=1),

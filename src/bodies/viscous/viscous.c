@@ -184,21 +184,27 @@ PetscErrorCode SamViscousApply(SamElasticity e, PetscInt body, double weight, Ve
 
 /* ---- approximate inverses ---- */
 
+/* Gets the influence of a cell on itself under a sudden load, which the class keeps, without that of the film. */
+static PetscErrorCode GetSudden(SamElasticity of, PetscReal self[2])
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetSelfInfluence(of, &self[0], &self[1]));
+  self[1] -= of->film;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
 {
   const SamViscous *v = DataOf(e);
   PetscReal         one[2];
 
   PetscFunctionBegin;
-  if (v->finest->alike) {
-    PetscCall((*e->inner->ops.getselfinfluence)(e->inner, normal, tangential));
-    *normal *= FactorOf(e, AnyOf(e));
-    *tangential *= FactorOf(e, AnyOf(e));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
   *normal = *tangential = 0;
   for (PetscInt b = 0; b < 2; b++) {
-    PetscCall((*v->body[b]->ops.getselfinfluence)(v->body[b], &one[0], &one[1]));
+    const PetscBool all = v->finest->alike;
+
+    if (all && b != AnyOf(e)) continue;
+    PetscCall(GetSudden(all ? e->inner : v->body[b], one));
     *normal += FactorOf(e, b) * one[0];
     *tangential += FactorOf(e, b) * one[1];
   }
@@ -211,7 +217,7 @@ static PetscErrorCode GetInverse(SamElasticity e, double *factor)
   PetscReal sudden[2], now[2];
 
   PetscFunctionBegin;
-  PetscCall((*e->inner->ops.getselfinfluence)(e->inner, &sudden[0], &sudden[1]));
+  PetscCall(GetSudden(e->inner, sudden));
   PetscCall(GetSelfInfluence(e, &now[0], &now[1]));
   *factor = (double)(sudden[0] / now[0]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -372,14 +378,15 @@ static PetscErrorCode CheckBody(SamElasticity e, const SamOptions *from, const S
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < v->relaxes[b]; k++) sum += (double)v->moduli[b][k];
-  PetscCheck(sum <= 1 - LEAST, from->comm, SAM_ERR_USER,
-             "-%s%s: the parts of the modulus add up to %.6g: expected less than 1, by %g at least, as the rest is the "
-             "modulus of a relaxed body",
-             prefix, options[b][0], sum, LEAST);
+  PetscCheck(
+    sum <= 1 - LEAST, from->comm, SAM_ERR_USER,
+    "-%s%s: the parts of the modulus add up to %.6g: expected less than 1, by %.6g at least, as the rest is the "
+    "modulus of a relaxed body",
+    prefix, options[b][0], sum, LEAST);
   for (PetscInt k = 0; k < v->relaxes[b]; k++)
     PetscCheck(v->times[b][k] >= 1 / LONGEST && v->times[b][k] <= LONGEST, from->comm, SAM_ERR_USER,
-               "-%s%s %.6g: expected times from %g to %g s", prefix, options[b][1], (double)v->times[b][k], 1 / LONGEST,
-               LONGEST);
+               "-%s%s %.6g: expected times from %.6g to %.6g s", prefix, options[b][1], (double)v->times[b][k],
+               1 / LONGEST, LONGEST);
   PetscCheck(!SamBodyIsRigid(e->pair->body[b]), from->comm, SAM_ERR_USER,
              "-%s%s: body %" PetscInt_FMT " is rigid and does not relax: omit it", prefix, options[b][0], b + 1);
   PetscCheck(SamPairIsUniform(e->pair), from->comm, SAM_ERR_USER,
