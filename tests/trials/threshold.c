@@ -112,7 +112,7 @@ static PetscErrorCode Back(SamLaw law, SamBackStep *step)
     load[k]   = LoadOf(t, step->rubbed[k]);
     factor[k] = load[k] > 0 ? t->rate * step->by_worn[k] : 0;
   }
-  PetscCall(SamBackDot(step->grid, 1, step->by_worn, load, &sum));
+  PetscCall(SamGridDot(step->grid, 1, step->by_worn, load, &sum));
   *step->by_number += sum;
   PetscCall(SamBackAddRubbed(step, factor));
   return PetscFree2(load, factor);

@@ -61,13 +61,11 @@ typedef struct {
 /*
   SamBackFindRubbed - computes what is rubbed in the step. Not collective.
   SamBackAddRubbed - adds the derivatives of the sum over cells of a factor times what is rubbed. Collective.
-  SamBackDot - sums the products of two arrays of so many components over all cells of the part. SamBackSumMoments -
-  sums an array, and its products with x and with y (m). Both are the same on any number of ranks. Collective.
+  SamBackSumMoments - sums an array over all cells of the part, and its products with x and with y (m), the same on any
+  number of ranks. Collective.
 */
 PETSC_INTERN void           SamBackFindRubbed(const SamBackStep *step, double rubbed[]);
 PETSC_EXTERN PetscErrorCode SamBackAddRubbed(SamBackStep *step, const double factor[]);
-PETSC_EXTERN PetscErrorCode SamBackDot(SamGrid part, PetscInt components, const double a[], const double b[],
-                                       double *sum);
 PETSC_INTERN PetscErrorCode SamBackSumMoments(SamGrid part, const double values[], double sums[3]);
 
 #endif

@@ -112,4 +112,9 @@ PETSC_INTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, Pet
    transforms take well; from 1e9 on n itself. Not collective. */
 PETSC_INTERN double SamGridRoundUp(double n);
 
+/* SamGridDot - sums the products of two arrays of so many components over all cells, the same on any number of ranks.
+   Collective. */
+PETSC_EXTERN PetscErrorCode SamGridDot(SamGrid grid, PetscInt components, const double a[], const double b[],
+                                       double *sum);
+
 #endif

@@ -1,5 +1,5 @@
 /*
-  What viscoelastic bodies remember: the tractions of the last step, and for each term those that follow them
+  The memory of viscoelastic bodies: the tractions of the last step, and for each term those that follow them
   (viscous.c); how they move by that before any traction of a step, and the energy that they dissipate.
 
   The energy is dissipated by the dashpots of the terms, w = p - c being the traction on one. With w_0 before the step
@@ -153,26 +153,18 @@ PetscErrorCode SamViscousMemoryDisplace(SamElasticity e, SamConditions condition
 
 /* ---- its end ---- */
 
-/* Sums the products of two fields of the same number of components, the same on any number of ranks. */
+/* Adds the sum of the products of two fields of the same number of components. */
 static PetscErrorCode AddDot(SamGrid g, PetscInt components, Vec a, Vec b, double *sum)
 {
-  SamTotal      total = {0};
   const double *x, *y;
   double        one;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(a, &x));
   PetscCall(VecGetArrayRead(b, &y));
-  for (PetscInt j = 0; j < g->rows; j++) {
-    double row = 0;
-
-    for (PetscInt c = 0; c < components; c++)
-      for (PetscInt k = j * g->nx + c * g->cells, end = k + g->nx; k < end; k++) row += x[k] * y[k];
-    SamAdd(&total, row);
-  }
+  PetscCall(SamGridDot(g, components, x, y, &one));
   PetscCall(VecRestoreArrayRead(b, &y));
   PetscCall(VecRestoreArrayRead(a, &x));
-  PetscCall(SamSumTotals(g->comm, 1, &total, &one));
   *sum += one;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

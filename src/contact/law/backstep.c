@@ -93,22 +93,6 @@ PetscErrorCode SamBackAddRubbed(SamBackStep *at, const double factor[])
 
 /* ---- sums over the cells ---- */
 
-PetscErrorCode SamBackDot(SamGrid g, PetscInt n, const double a[], const double b[], double *sum)
-{
-  SamTotal total = {0};
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < g->rows; j++) {
-    double row = 0;
-
-    for (PetscInt c = 0; c < n; c++)
-      for (PetscInt k = j * g->nx + c * g->cells, end = k + g->nx; k < end; k++) row += a[k] * b[k];
-    SamAdd(&total, row);
-  }
-  PetscCall(SamSumTotals(g->comm, 1, &total, sum));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamBackSumMoments(SamGrid g, const double values[], double sums[3])
 {
   SamTotal total[3] = {{0}};

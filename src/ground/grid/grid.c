@@ -447,3 +447,19 @@ double SamGridRoundUp(double n)
   }
   return n;
 }
+
+PetscErrorCode SamGridDot(SamGrid g, PetscInt n, const double a[], const double b[], double *sum)
+{
+  SamTotal total = {0};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < g->rows; j++) {
+    double row = 0;
+
+    for (PetscInt c = 0; c < n; c++)
+      for (PetscInt k = j * g->nx + c * g->cells, end = k + g->nx; k < end; k++) row += a[k] * b[k];
+    SamAdd(&total, row);
+  }
+  PetscCall(SamSumTotals(g->comm, 1, &total, sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

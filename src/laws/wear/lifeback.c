@@ -29,7 +29,7 @@ typedef struct {
 } Jump;
 
 /*
-  What jumps depend on, on the way back: cotangents of the wear load after the last event, and within a jump of that at
+  The jumps' part of a pass back: cotangents of the wear load after the last event, and within a jump of that at
   its start and of that after it as a whole; of the cycle whose wear is repeated its wear load, its mean pressure, its
   shift, its slip (of cells that touch never in it), and its mean normal loads and displacements.
 */
@@ -166,7 +166,7 @@ static PetscErrorCode AddWear(SamLifeBack life, double factor, const double a[],
   double sum;
 
   PetscFunctionBegin;
-  PetscCall(SamBackDot(life->at->grid, 1, a, b, &sum));
+  PetscCall(SamGridDot(life->at->grid, 1, a, b, &sum));
   *life->at->by_number += factor * sum;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -27,7 +27,7 @@ PetscErrorCode SamWearBack(SamLaw law, SamBackStep *step)
     factor[m]  = step->by_worn[m] * (k * share);
     if (w->by_energy) step->by_friction[m] += step->by_worn[m] * k * step->rubbed[m];
   }
-  PetscCall(SamBackDot(step->grid, 1, by_load, step->rubbed, &sum));
+  PetscCall(SamGridDot(step->grid, 1, by_load, step->rubbed, &sum));
   *step->by_number += sum;
   if (k != 0) PetscCall(SamBackAddRubbed(step, factor));
   PetscCall(PetscFree2(by_load, factor));

@@ -130,8 +130,8 @@ static PetscErrorCode FindProducts(const SamBack *b, SamElasticity e, PetscBool 
     if (n == 2 && !coupled) break;
     PetscCall((*apply[n])(e, n == 0 || n == 2 ? p : q, tangential ? v : u));
     PetscCall(VecGetArrayRead(tangential ? v : u, &values));
-    PetscCall(SamBackDot(g, tangential ? 2 : 1, tangential ? b->tau : b->gamma, values, n == 3 ? &more : sum));
-    if (!tangential) PetscCall(SamBackDot(g, 1, b->at.by_open, values, &of_open));
+    PetscCall(SamGridDot(g, tangential ? 2 : 1, tangential ? b->tau : b->gamma, values, n == 3 ? &more : sum));
+    if (!tangential) PetscCall(SamGridDot(g, 1, b->at.by_open, values, &of_open));
     PetscCall(VecRestoreArrayRead(tangential ? v : u, &values));
     if (n == 0) found->normal += of_open;
     if (n == 3) found->coupling += more + of_open;
