@@ -20,16 +20,19 @@ typedef enum {
 /*
   SamSolution - the solution of a load step: tractions, rigid displacements and relative elastic displacements u.
   A field has one component, or two: on each rank all of x, then all of y. With the separation h of the bodies, by their
-  shape and by the laws between them, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid.
+  shape and by the laws between them, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid. Where the
+  surfaces attract each other, bodies are loaded by the pressure of contact less the tension, and `load` contains what
+  contact bears because of the tension: the given loads are those of both.
 */
 typedef struct {
   SamControl  control;               /* prescribed values */
   PetscReal   rolled;                /* m: length of the path that the bodies roll in the step */
   PetscReal   roll[2];               /* m: that path along x and y */
   SamSlipRule rule;                  /* of the step; undefined in a committed solution */
-  PetscReal   load[SAM_COMPONENTS];  /* N, N m: given or found */
+  PetscReal   load[SAM_COMPONENTS];  /* N, N m: given or found, which contact bears */
   PetscReal   rigid[SAM_COMPONENTS]; /* m, rad: given or found */
-  Vec         pressure;              /* Pa */
+  Vec         pressure;              /* Pa: that of contact, >= 0 */
+  Vec         tension;               /* Pa, >= 0: by which the surfaces attract each other; NULL: they do not */
   Vec         bound;                 /* largest shear, Pa */
   Vec         shear;                 /* Pa, two components: acts on body 2 */
   Vec         displacement_z;        /* m: relative elastic displacement u_z */

@@ -27,7 +27,9 @@ struct _n_SamContact {
   SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
   SamStepCache     cache;                          /* steps of the previous cycle */
   PetscObjectState revision[SAM_GENERATIONS];      /* of the problem at the pressure; -1: another problem */
+  PetscBool        attracts;                       /* the surfaces attract each other */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
+  PetscInt         tension, pull;                  /* field and number of surfaces that attract each other */
   PetscInt         aside;                          /* field `aside` of the last step that needed it */
   PetscInt         time, solution, apart, creeps, control, residuals, counts, status, window, slip,
     steps;                                    /* numbers, see generations.c */
@@ -48,14 +50,15 @@ static inline PetscBool SamContactRolls(SamContact c)
   return c->generation[SAM_TRIED].rolled != 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* True if steps may start from the same steps one cycle before. A kept step has the change of its displacement as the
+/* True if steps may start from the same steps one cycle before. The tension between surfaces may have another branch
+   there. A kept step has the change of its displacement as the
    product of its change of shear, so that only tractions may cause displacements, besides a uniform strain. Laws that
    displace by fields (load cases, sliding surfaces, plastic strain) have a part in that change which does not follow
    from the shear. Of coupled bodies the product is not used. */
 static inline PetscBool SamContactRecalls(SamContact c)
 {
-  return c->set.warm_start && c->motion->continues && !SamContactRolls(c) && !SamProblemFollowsSlip(c->problem) &&
-         (SamContactIsCoupled(c) || !SamProblemDisplaces(c->problem));
+  return c->set.warm_start && c->motion->continues && !c->attracts && !SamContactRolls(c) &&
+         !SamProblemFollowsSlip(c->problem) && (SamContactIsCoupled(c) || !SamProblemDisplaces(c->problem));
 }
 
 /* ---- what is prescribed (prescription.c) ---- */

@@ -28,11 +28,26 @@ static PetscErrorCode DeclareFields(SamContact c)
                                                  {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE,
                                                   SAM_RESULT_OFFERED, SAM_MOVES_CONTINUED, 0, PETSC_FALSE}};
 
-  static const SamStateField aside = {"aside",         "m",       NULL, 2,          2, PETSC_TRUE, PETSC_FALSE,
-                                      SAM_RESULT_NONE, SAM_STAYS, 0,    PETSC_FALSE};
+  static const SamStateField tension = {.name = "tension",
+                                        .unit = "Pa",
+                                        .text = "tension by which the surfaces attract each other, mean over the cell",
+                                        .components  = 1,
+                                        .generations = 2,
+                                        .kept        = PETSC_TRUE,
+                                        .result      = SAM_RESULT_USUAL,
+                                        .motion      = SAM_STAYS,
+                                        .separates   = PETSC_TRUE};
+  static const SamStateField aside   = {"aside",         "m",       NULL, 2,          2, PETSC_TRUE, PETSC_FALSE,
+                                        SAM_RESULT_NONE, SAM_STAYS, 0,    PETSC_FALSE};
 
   PetscFunctionBegin;
-  for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareField(c->state, &tractions[k], &c->tractions[k]));
+  for (int k = 0; k < 3; k++) {
+    SamStateField field = tractions[k];
+
+    if (k == 0 && c->attracts) field.result = SAM_RESULT_NONE; /* results have the pressure less the tension */
+    PetscCall(SamStateDeclareField(c->state, &field, &c->tractions[k]));
+  }
+  if (c->attracts) PetscCall(SamStateDeclareField(c->state, &tension, &c->tension));
   PetscCall(SamStateDeclareField(c->state, &aside, &c->aside));
   for (int k = 0; k < 2; k++) {
     SamStateField field = displacements[k];
@@ -95,6 +110,10 @@ static PetscErrorCode DeclareControl(SamContact c)
     Declare(c, "control", "1", "what was prescribed", SAM_NUMBER_REAL, CONTROL, PETSC_TRUE, PETSC_FALSE, &c->control));
   PetscCall(Declare(c, "approach_apart", "m", "approach that bodies without contact and load are computed with",
                     SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_FALSE, &c->apart));
+  if (c->attracts)
+    PetscCall(Declare(c, "pull_max", SamComponentNames[SAM_COMPONENT_N].load_unit,
+                      "largest pull that the surfaces have borne", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
+                      &c->pull));
   PetscCall(Declare(c, "window", "1", "part of the grid that was solved on", SAM_NUMBER_INT, 4, PETSC_TRUE, PETSC_FALSE,
                     &c->window));
   PetscCall(
@@ -141,7 +160,20 @@ static PetscErrorCode DeclareOutcome(SamContact c)
 
 /* ---- fields that are computed ---- */
 
-enum { SLIP_X, SLIP_Y, GAP, STATE, PRESSURE_CENTER, SHEAR_CENTER_X, SHEAR_CENTER_Y, ASIDE_X, ASIDE_Y, POWER, PASSAGE };
+enum {
+  PRESSURE,
+  SLIP_X,
+  SLIP_Y,
+  GAP,
+  STATE,
+  PRESSURE_CENTER,
+  SHEAR_CENTER_X,
+  SHEAR_CENTER_Y,
+  ASIDE_X,
+  ASIDE_Y,
+  POWER,
+  PASSAGE
+};
 
 static PetscErrorCode GetComponent(SamGrid grid, Vec from, PetscInt component, Vec to)
 {
@@ -167,6 +199,9 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c, &s));
   switch (which) {
+  case PRESSURE:
+    PetscCall(VecWAXPY(field, -1, s->tension, s->pressure));
+    break;
   case SLIP_X:
   case SLIP_Y:
     PetscCall(VecGetArrayWrite(field, &slips));
@@ -192,6 +227,7 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
     break;
   case PRESSURE_CENTER:
     PetscCall(SamSolutionComputePressureCenter(c->problem, s, field));
+    if (s->tension) PetscCall(VecAXPY(field, -1, s->tension));
     break;
   default:
     PetscCall(SamSolutionComputeShearCenter(c->problem, s, which - SHEAR_CENTER_X, field));
@@ -211,6 +247,9 @@ PetscErrorCode SamContactFindEdge(SamContact c, SamEdgeOf which, const SamEdge *
 
 static PetscErrorCode Offer(SamContact c)
 {
+  const SamStateResult pressure = {
+    "pressure", "Pa", "contact pressure less tension, mean over the cell", SAM_FIELD_REAL, SAM_RESULT_USUAL, Compute, c,
+    PRESSURE,   -1};
   const SamStateResult results[] = {
     {"slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL, SAM_RESULT_USUAL,
      Compute, c, SLIP_X, -1},
@@ -240,6 +279,7 @@ static PetscErrorCode Offer(SamContact c)
     sizeof(results) / sizeof(results[0]) - (c->motion->streams ? 0 : 2); /* the last two: rolling only */
 
   PetscFunctionBegin;
+  if (c->attracts) PetscCall(SamStateOffer(c->state, &pressure));
   for (size_t k = 0; k < count; k++) {
     const SamMotionName *name  = SamMotionFindName(c->motion, results[k].name);
     SamStateResult       offer = results[k];
@@ -273,6 +313,7 @@ PetscErrorCode SamContactDeclare(SamContact c)
   PetscFunctionBegin;
   if (c->declared == now) PetscFunctionReturn(PETSC_SUCCESS);
   c->declared = now;
+  c->attracts = SamProblemAttracts(c->problem);
   PetscCall(DeclareFields(c));
   PetscCall(Offer(c));
   PetscCall(DeclareControl(c));
@@ -315,6 +356,17 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Begins the tension of a step as that of the step before. */
+static PetscErrorCode BeginTension(SamContact c, SamSolution *s)
+{
+  const Vec last = SamStateGetField(c->state, c->tension, SAM_COMMITTED);
+
+  PetscFunctionBegin;
+  PetscCall(SamStateSetField(c->state, c->tension, &s->tension));
+  PetscCall(last ? VecCopy(last, s->tension) : VecZeroEntries(s->tension));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
 {
   SamSolution       *s      = &c->generation[SAM_TRIED];
@@ -328,6 +380,7 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   if (s->rolled != 0 && before) PetscCall(Move(c, s->roll));
   PetscCall(SamContactFindRule(c, s));
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
+  if (c->attracts) PetscCall(BeginTension(c, s));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));
   PetscCall(SamProblemBegin(c->problem, c->state, control, before ? control->time - before->control.time : 0));
@@ -369,6 +422,11 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
   PetscCall(PetscArraycpy(n + c->solution, step->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(n + c->solution + SAM_COMPONENTS, step->rigid, SAM_COMPONENTS));
   n[c->apart] = tried->rigid[SAM_COMPONENT_N];
+  if (c->attracts) {
+    const double before = SamStateNumbers(c->state, 0, SAM_COMMITTED)[c->pull];
+
+    n[c->pull] = PetscMax(before > 0 ? before : 0, -(double)step->load[SAM_COMPONENT_N]);
+  }
   for (PetscInt k = 0; k < 3 && tried->rolled != 0; k++) {
     const PetscInt     m      = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
     const SamSolution *before = SamContactBefore(c);
@@ -402,6 +460,8 @@ PetscErrorCode SamContactRefresh(SamContact c)
     PetscCall(SamStateRestoreField(c->state, c->tractions[0], g, &s->pressure));
     PetscCall(SamStateRestoreField(c->state, c->tractions[1], g, &s->bound));
     PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
+    s->tension = g == SAM_BEFORE || !c->attracts ? NULL : SamStateGetField(c->state, c->tension, g);
+    PetscCall(SamSolutionTake(c->problem, s));
     s->displacement_z = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[0], g);
     s->displacement_t = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[1], g);
     s->aside = g == SAM_COMMITTED && n[c->slip + SAM_SLIP_ASIDE] ? SamStateGetField(c->state, c->aside, g) : NULL;

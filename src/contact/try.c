@@ -268,17 +268,20 @@ static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char faile
                              .rolled         = s->rolled,
                              .pressure       = s->pressure,
                              .shear          = s->shear,
+                             .tension        = s->tension,
                              .last           = {last ? last->pressure : NULL, last ? last->shear : NULL},
                              .bound          = s->bound,
                              .rigid          = s->rigid,
                              .known_pressure = known_pressure};
 
   PetscFunctionBegin;
+  PetscCall(SamSolutionCreateTotal(c->problem, s, &step.total));
   PetscCall(CreateFields(c, &step));
   PetscCall(SamProblemAdvance(c->problem, &step));
   (void)snprintf(failed, size, "%s", step.failed);
   if (step.moves) c->revision[SAM_TRIED] = -1;
   for (int use = 0; use < SAM_USES; use++) PetscCall(VecDestroy(&step.field[use]));
+  PetscCall(SamSolutionDestroyTotal(s, &step.total));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -310,7 +313,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, PetscBool 
   if (same_pressure) PetscCall(SamVecCopyNonzero(last->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->state, c->set.coupling, same_pressure, before, s, &step->check));
   PetscCall(Advance(c, known_pressure, failed, sizeof(failed)));
-  PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
+  PetscCall(SamSolutionGiven(c->problem, s, step->load));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
   PetscCall(SamSolutionComputeNumbers(c->problem, c->state, before, s, same_pressure, c->set.edges));
   if (c->set.spots) PetscCall(SamSolutionComputeSpots(c->problem, c->state, s));

@@ -45,7 +45,7 @@ static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *con
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   PetscFunctionBegin;
-  CALL(law, advance, step->state, step->pressure, step->shear);
+  CALL(law, advance, step->state, step->total, step->shear);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

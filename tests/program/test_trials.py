@@ -66,18 +66,21 @@ def test_gap_has_its_closed_contact(petsam, ranks):
 
 
 @pytest.mark.parametrize("part, tension, ranks", [(0.2, 0.15, 1), (0.02, 0.25, 3)])
-def test_adhesion_is_the_contact_under_the_load_and_the_tension(petsam, part, tension, ranks):
+def test_contact_bears_a_constant_tension_besides_the_load(petsam, part, tension, ranks):
     """A uniform tension does not bend periodic bodies, so that the contact is Westergaard's under the sum."""
-    petsam(dict(WAVE, load_n=(part + tension) * FULL * AREA))
+    wave = dict(WAVE, normal_rtol=1e-8)
+    petsam(dict(wave, load_n=(part + tension) * FULL * AREA))
     expected = petsam.read("pressure", "gap", "contact_area")
-    petsam(dict(WAVE, load_n=part * FULL * AREA, adhesion=tension * FULL), ranks=ranks)
-    for found, wanted in zip(petsam.read("pressure", "gap", "contact_area"), expected):
+    petsam(dict(wave, load_n=part * FULL * AREA, constant_tension=tension * FULL), ranks=ranks)
+    total, gap, area, pull, load = petsam.read("pressure", "gap", "contact_area", "tension", "load_n")
+    assert (pull == tension * FULL).all() and load == part * FULL * AREA
+    for found, wanted in zip((total + pull, gap, area), expected):
         assert found == pytest.approx(wanted, rel=1e-6, abs=1e-7 * np.max(wanted))
 
 
 @pytest.mark.parametrize("given", [{}, {"disp_z": 6e-6}])
-def test_adhesion_of_half_spaces_is_the_contact_of_surfaces_that_it_has_lifted(petsam, tmp_path, given):
-    """By Love's closed form for the whole grid, which lies aside: the check knows the displacement by the law alone."""
+def test_constant_tension_is_the_contact_of_surfaces_that_it_has_lifted(petsam, tmp_path, given):
+    """By Love's closed form for the whole grid, which lies aside: the check knows the displacement by the tension."""
     tension, size, center = 2e7, (2.4e-3, 2.2e-3), (2e-4, -1e-4)
     x, y = (c + s * ((np.arange(n) + 0.5) / n - 0.5) for c, s, n in zip(center, size, SPHERE["grid_n"]))
     x, y = np.meshgrid(x, y)
@@ -88,8 +91,10 @@ def test_adhesion_of_half_spaces_is_the_contact_of_surfaces_that_it_has_lifted(p
             f["height"] = heights
     case = dict(SPHERE, gap_type="file", gap_radius1=None, gap_radius2=None, grid_center=center)
     case.update(given, load_n=None if given else 700)
-    petsam(dict(case, gap_file="gap.h5", adhesion=tension))
+    petsam(dict(case, gap_file="gap.h5", constant_tension=tension))
     found, load, residual, fine = petsam.read("pressure", "load_n", "normal_residual", "equilibrium_residual")
+    found += tension
+    load += tension * np.prod(size)
     assert residual < 1e-8 and fine < 1e-12
     area = np.prod(size)
     moments = dict(load_mx=tension * area * center[1] * -1, load_my=tension * area * center[0])

@@ -6,7 +6,7 @@ PetscErrorCode SamPluginRegister(void);
 PetscErrorCode SamPluginRegister(void)
 {
   PetscCall(SamLawRegister("misfit", CreateMisfit));
-  PetscCall(SamLawRegister("adhesion", CreateAdhesion));
+  PetscCall(SamLawRegister("constant_tension", CreateTension));
   PetscCall(SamLawRegister("wetness", CreateWetness));
   PetscCall(SamLawRegister("square", CreateSquare));
   PetscCall(SamLawRegister("cushion", CreateCushion));

@@ -4,7 +4,7 @@
 #include <petsam/private/stresspart.h>
 
 PetscErrorCode                         CreateMisfit(SamLaw law);
-PetscErrorCode                         CreateAdhesion(SamLaw law);
+PetscErrorCode                         CreateTension(SamLaw law);
 PetscErrorCode                         CreateWetness(SamLaw law);
 PetscErrorCode                         CreateSquare(SamLaw law);
 PetscErrorCode                         CreateCushion(SamLaw law);

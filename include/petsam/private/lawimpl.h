@@ -12,8 +12,8 @@
       }
 
   A law declares its stored fields and numbers once, in the state of a contact, and finds them there by name. In a step
-  the methods are called in this order: check(), begin(), load(), displace(), separation() and limit() of all laws, the
-  normal problem, bound(), the tangential problem, load() and displace() for the check, advance().
+  the methods are called in this order: check(), begin(), displace(), separation() and limit() of all laws, the normal
+  problem with attract(), bound(), the tangential problem, displace() and attract() for the check, advance().
 */
 #ifndef PETSAM_LAWIMPL_H
 #define PETSAM_LAWIMPL_H
@@ -97,9 +97,11 @@ struct _n_SamLawStep {
   const SamControl *control;
   PetscReal         rolled;          /* m: rolled distance of the step (SamProblemGetRolled()) */
   Vec               pressure, shear; /* Pa */
-  Vec               last[2];         /* pressure and shear of the previous step, NULL: none */
-  Vec               bound;           /* bound of the shear, Pa */
-  const PetscReal  *rigid;           /* m, rad: the displacements of the step, by SamComponent */
+  Vec               tension;         /* Pa, by which the surfaces attract each other; NULL: they do not */
+  Vec               total;   /* Pa: pressure less tension, which loads the bodies; the pressure without tension */
+  Vec               last[2]; /* pressure and shear of the previous step, NULL: none */
+  Vec               bound;   /* bound of the shear, Pa */
+  const PetscReal  *rigid;   /* m, rad: the displacements of the step, by SamComponent */
   PetscBool         known_pressure;  /* true: pressure of an earlier step, whose yielding the gap already contains */
   char              failed[192];     /* set by a law whose check of the step fails: the reason */
   PetscBool         moves;           /* set by a law that changes the separation, so that the pressure changes */
@@ -227,10 +229,12 @@ struct _n_SamLaw {
     PetscErrorCode (*displace)(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t,
                                SamStrain *strain, PetscBool *adds);
     /*
-      Adds the loads, by SamComponent (N, N m), with which the law presses or shifts body 1 besides the given loads. The
-      loads of a solution contain them: they are those of its tractions.
+      Adds the tension (Pa, not negative, mean over each cell) by which the surfaces attract each other at this gap (m),
+      which is 0 in contact. It may depend on the gap alone, and must not grow with it: the contact finds both together
+      (contact/step/attract.c). The tension acts on the bodies as a negative pressure, in contact and outside, so that
+      contact bears its resultants besides the given loads.
     */
-    PetscErrorCode (*load)(SamLaw law, SamState state, const SamControl *control, PetscReal load[]);
+    PetscErrorCode (*attract)(SamLaw law, Vec gap, Vec tension);
     /*
       Adds the law's part of the separation (m, one component) to h. SAM_COMMITTED: the part from which the next step
       starts; SAM_TRIED: the part in the gap of the last solution, the tried one, or else the committed one. h NULL:

@@ -6,8 +6,8 @@
 
 /*
   SamIsPressed - returns true if a cell with this pressure (Pa) is in contact. Solvers set the pressure of open cells to
-  exactly 0. A law by which open surfaces attract each other adds a load and a displacement (lawimpl.h), so that this
-  pressure is what contact bears besides the attraction. Not collective.
+  exactly 0. Where surfaces attract each other, this pressure is what contact bears besides the tension (SamSolution). Not
+  collective.
 */
 static inline PetscBool SamIsPressed(double pressure)
 {

@@ -18,11 +18,12 @@ PETSC_INTERN PetscErrorCode SamProblemCheckControl(SamProblem problem, SamContro
 PETSC_INTERN PetscErrorCode SamProblemBegin(SamProblem problem, SamState state, const SamControl *control,
                                             PetscReal duration);
 /*
-  SamProblemGetBalance - gets the components of one kind of a control as a balance for the solvers, with the loads that
-  laws add to the given ones. Collective.
+  SamProblemAttracts - returns true if the surfaces attract each other. Not collective.
+  SamProblemAttract - computes the tension (Pa) by which they do at this gap (m), by all laws; both have one component.
+  Collective.
 */
-PETSC_INTERN PetscErrorCode SamProblemGetBalance(SamProblem problem, SamState state, const SamControl *control,
-                                                 SamBalanceKind kind, SamBalance *balance);
+PETSC_INTERN PetscBool      SamProblemAttracts(SamProblem problem);
+PETSC_INTERN PetscErrorCode SamProblemAttract(SamProblem problem, Vec gap, Vec tension);
 /*
   Questions about the laws of a problem. None is collective.
   SamProblemSlides - returns true if the surfaces move past each other.

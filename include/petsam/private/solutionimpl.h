@@ -52,6 +52,20 @@ static inline double        SamRigidRowAt(SamRigidRow row, double xi)
 PETSC_INTERN void SamRigidGap(const SamRigid *motion, SamRigidRow row, const double u[], const double h[],
                               double value[]);
 /*
+  SamSolutionCreateTotal - gets the pressure of contact less the tension (Pa), which loads the bodies. It is borrowed
+  from the solution without tension, else created; SamSolutionDestroyTotal() returns or frees it.
+  SamSolutionGiven - gets the loads (N, N m) of a solution without those that contact bears because of the tension, by
+  SamComponent: prescribed ones as they were prescribed. SamSolutionTake - does the reverse with the loads of a solution.
+  SamSolutionTensionError - gets the load of a change of the tension (Pa), relative to that which contact bears, or that
+  of the changed tension. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionTensionError(SamProblem problem, const SamSolution *solution, Vec change,
+                                                    PetscReal *error);
+PETSC_INTERN PetscErrorCode SamSolutionCreateTotal(SamProblem problem, const SamSolution *solution, Vec *total);
+PETSC_INTERN PetscErrorCode SamSolutionDestroyTotal(const SamSolution *solution, Vec *total);
+PETSC_INTERN PetscErrorCode SamSolutionGiven(SamProblem problem, const SamSolution *solution, PetscReal load[]);
+PETSC_INTERN PetscErrorCode SamSolutionTake(SamProblem problem, SamSolution *solution);
+/*
   SamSolutionCreateSeparation - gets the separation (m) of the bodies: the gap of the problem plus the parts of its
   laws, for the next step or in the last solution of a state (lawimpl.h; NULL: none). It is borrowed from the problem if
   no law adds to it, else created; SamSolutionDestroySeparation() returns or frees it. Collective.

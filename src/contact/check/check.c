@@ -14,8 +14,8 @@
 #include <petsam/private/problem.h>
 #include <petsam/private/state.h>
 
-/* Adds the tangential displacement by the pressure, and the normal displacement by the shear. */
-static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const SamSolution *s)
+/* Adds the tangential displacement by the total pressure, and the normal displacement by the shear. */
+static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, Vec total, const SamSolution *s)
 {
   Vec u;
 
@@ -25,7 +25,7 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
   PetscCall(VecAXPY(s->displacement_z, 1, u));
   PetscCall(VecDestroy(&u));
   PetscCall(SamGridCreateVec(grid, 2, &u));
-  PetscCall(SamElasticityApplyNormalToTangential(elasticity, s->pressure, u));
+  PetscCall(SamElasticityApplyNormalToTangential(elasticity, total, u));
   PetscCall(VecAXPY(s->displacement_t, 1, u));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -36,17 +36,20 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
                                            const SamSolution *s, PetscReal *most)
 {
   PetscReal           shear;
+  Vec                 total;
   const SamElasticity elasticity = SamProblemGetElasticity(problem);
 
   PetscFunctionBegin;
-  if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
+  PetscCall(SamSolutionCreateTotal(problem, s, &total));
+  if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, total, s->displacement_z));
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (shear != 0)
     PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
   else
     PetscCall(SamVecZero(s->displacement_t));
   if (SamElasticityGetTraits(elasticity).coupled && coupling)
-    PetscCall(AddCoupling(elasticity, SamProblemGetGrid(problem), s));
+    PetscCall(AddCoupling(elasticity, SamProblemGetGrid(problem), total, s));
+  PetscCall(SamSolutionDestroyTotal(s, &total));
   PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
   PetscCall(SamProblemDisplace(problem, state, &s->control, u_z_known ? NULL : s->displacement_z, s->displacement_t,
                                NULL, NULL));
@@ -196,6 +199,36 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
 }
 
 /*
+  Checks the tension by its difference from that of the gap: its displacement relative to that by all tractions, which is
+  the scale of the gap's error, and its load.
+*/
+static PetscErrorCode CheckTension(SamProblem problem, SamState state, const SamSolution *s, PetscReal most,
+                                   SamCheck *check)
+{
+  PetscReal     error, load;
+  Vec           separation, gap, tension;
+  const SamGrid grid = SamProblemGetGrid(problem);
+
+  PetscFunctionBegin;
+  if (!s->tension) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(grid, 1, &gap));
+  PetscCall(SamGridCreateVec(grid, 1, &tension));
+  PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
+  PetscCall(SamSolutionComputeGap(problem, s, s->displacement_z, separation, gap));
+  PetscCall(SamSolutionDestroySeparation(problem, &separation));
+  PetscCall(SamProblemAttract(problem, gap, tension));
+  PetscCall(VecAXPY(tension, -1, s->tension));
+  PetscCall(SamElasticityApplyNormal(SamProblemGetElasticity(problem), tension, gap));
+  PetscCall(VecNorm(gap, NORM_INFINITY, &error));
+  PetscCall(SamSolutionTensionError(problem, s, tension, &load));
+  check->normal = PetscMax(check->normal, load);
+  if (error > 0) check->normal = PetscMax(check->normal, most > 0 ? error / most : INFINITY);
+  PetscCall(VecDestroy(&tension));
+  PetscCall(VecDestroy(&gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
   Sums over the cells: squares of the residual, of q, of D(q - ds/c), and of the residual's least scale, which is a part
   of the bound. Also the largest |q| - mu p and the largest mu p.
 */
@@ -330,6 +363,7 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   SamBalance given[2];
   PetscReal  most;
   SamGrid    grid;
+  Vec        total;
 
   PetscFunctionBegin;
   SamValidHandle(problem, SamProblem, 1);
@@ -342,11 +376,13 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   PetscCall(PetscMemzero(check, sizeof(*check)));
   PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution, &most));
   PetscCall(CheckNormal(problem, state, solution, most, check));
+  PetscCall(CheckTension(problem, state, solution, most, check));
   if (SamElasticityGetTraits(SamProblemGetElasticity(problem)).periodic) check->edge = 0;
   PetscCall(CheckTangential(problem, state, before, solution, check));
-  PetscCall(SamProblemGetBalance(problem, state, &solution->control, SAM_BALANCE_NORMAL, &given[0]));
-  PetscCall(SamProblemGetBalance(problem, state, &solution->control, SAM_BALANCE_TANGENTIAL, &given[1]));
-  PetscCall(CheckEquilibrium(grid, &given[0], solution->pressure, check));
+  for (int kind = 0; kind < 2; kind++) given[kind] = SamControlGetBalance(&solution->control, (SamBalanceKind)kind);
+  PetscCall(SamSolutionCreateTotal(problem, solution, &total));
+  PetscCall(CheckEquilibrium(grid, &given[0], total, check));
+  PetscCall(SamSolutionDestroyTotal(solution, &total));
   PetscCall(CheckEquilibrium(grid, &given[1], solution->shear, check));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);

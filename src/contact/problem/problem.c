@@ -353,19 +353,19 @@ PetscErrorCode SamProblemBegin(SamProblem p, SamState state, const SamControl *c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemGetBalance(SamProblem p, SamState state, const SamControl *control, SamBalanceKind kind,
-                                    SamBalance *balance)
+PetscBool SamProblemAttracts(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.attract) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode SamProblemAttract(SamProblem p, Vec gap, Vec tension)
 {
   PetscFunctionBegin;
-  *balance = SamControlGetBalance(control, kind);
-  for (PetscInt k = 0; k < p->laws; k++) {
-    PetscReal load[SAM_COMPONENTS] = {0};
-
-    if (!p->law[k]->ops.load) continue;
-    PetscCall(p->law[k]->ops.load(p->law[k], state, control, load));
-    for (PetscInt n = 0; n < 3; n++)
-      if (balance->force[n]) balance->load[n] += load[SamComponentsOf[kind][n]];
-  }
+  PetscCall(VecZeroEntries(tension));
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.attract) PetscCall(p->law[k]->ops.attract(p->law[k], gap, tension));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

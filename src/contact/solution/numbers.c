@@ -271,6 +271,28 @@ static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSol
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds what the tension does: the pressure that the field `pressure` has, and its elastic energy. */
+static PetscErrorCode AddTension(SamProblem problem, const SamSolution *s, double numbers[NUMBERS])
+{
+  const SamGrid grid = SamProblemGetGrid(problem);
+  const double *t, *u;
+  PetscReal     most, work;
+  Vec           total;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolutionCreateTotal(problem, s, &total));
+  PetscCall(VecMax(total, NULL, &most));
+  PetscCall(SamSolutionDestroyTotal(s, &total));
+  PetscCall(VecGetArrayRead(s->tension, &t));
+  PetscCall(VecGetArrayRead(s->displacement_z, &u));
+  PetscCall(SamGridDot(grid, 1, t, u, &work));
+  PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
+  PetscCall(VecRestoreArrayRead(s->tension, &t));
+  numbers[PRESSURE_MAX] = (double)most;
+  numbers[STORED_ENERGY] -= 0.5 * (double)(grid->dx * grid->dy * work);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                          const SamSolution *s, PetscBool same_pressure, PetscBool edges)
 {
@@ -283,6 +305,7 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   PetscCall(SamProblemHasFriction(problem, &friction));
   streams = SamMotionOf(SamProblemGetElasticity(problem))->streams;
   PetscCall(SumCells(problem, before, s, numbers));
+  if (s->tension) PetscCall(AddTension(problem, s, numbers));
   PetscCall(SamSolutionFollowClosed(problem, state, before, s, numbers[STICK_CELLS], &numbers[CLOSED]));
   if (streams) numbers[STORED_ENERGY] = NAN;                  /* u_t is per rolled distance */
   if (streams || s->rolled != 0) numbers[ENERGY_ERROR] = NAN; /* it is estimated elsewhere */

@@ -98,9 +98,12 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
   const SamSolver            solver = SamTangentialAsSolver(w->task->tangential);
   Passes                     p      = {.w = w, .has_shear = has_shear, .rtol = BOUND_PART * rtol};
   SamPassEnd                 end;
+  Vec                        total;
 
   PetscFunctionBegin;
-  if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->task->elasticity, w->s->pressure, w->pushed));
+  PetscCall(SamSolutionCreateTotal(w->task->problem, w->s, &total));
+  if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->task->elasticity, total, w->pushed));
+  PetscCall(SamSolutionDestroyTotal(w->s, &total));
   if (w->pushed && !w->task->coupled) PetscCall(VecSet(w->pushed, 0));
   if (w->pushed)
     PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &w->s->control, NULL, w->pushed, NULL, NULL));

@@ -66,7 +66,7 @@ static PetscErrorCode TakePressure(SamSolve *w)
 
 /*
   Computes the separation for the normal problem: the sum of the bodies' separation, of the offsets and, for coupled
-  bodies, of the lift, which w->h holds.
+  bodies, of the lift, which w->h holds, less the displacement by the tension.
 */
 static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
@@ -74,6 +74,7 @@ static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
   if (w->task->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
   if (w->h && !w->task->coupled) PetscCall(VecCopy(w->separation, w->h));
   if (w->h) PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &w->s->control, w->h, NULL, NULL, NULL));
+  if (w->pulled) PetscCall(VecAXPY(w->h, -1, w->pulled));
   *h = w->h ? w->h : w->separation;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -113,10 +114,36 @@ static PetscBool IsKnown(const SamSolve *w)
   return SamControlIsSame(&before, &w->s->control, SAM_BALANCE_NORMAL);
 }
 
+PetscErrorCode SamSolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
+{
+  SamBalance balance = w->normal;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3; k++)
+    if (balance.force[k]) balance.rigid[k] = w->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]]; /* of the last pass */
+  PetscCall(SamNormalSolveKeeping(w->task->normal, h, &balance, has_pressure, w->s->pressure,
+                                  w->task->coupled ? &w->pressure_product : NULL));
+  SamBalanceStore(&balance, w->s->load, w->s->rigid);
+  PetscCall(Count(SamNormalAsSolver(w->task->normal), w->counts + SAM_COUNT_NORMAL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Solves the normal problem with this separation, and with the tension of its gap. */
+static PetscErrorCode SolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
+{
+  PetscFunctionBegin;
+  if (!SamSolveIsApart(w)) {
+    PetscCall(SamSolvePressure(w, h, has_pressure));
+    if (w->pulled && SamNormalAsSolver(w->task->normal)->effort != SAM_EFFORT_RESIDUAL_ONLY)
+      PetscCall(SamSolveAttraction(w, h));
+  }
+  if (SamSolveIsApart(w)) PetscCall(SamSolveFailApart(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has_shear)
 {
-  SamBalance balance   = w->normal;
-  Vec        predicted = NULL, h = NULL;
+  Vec predicted = NULL, h = NULL;
 
   PetscFunctionBegin;
   if (w->task->same_pressure) {
@@ -132,14 +159,9 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
     PetscCall(SamGridCreateVec(w->task->grid, 1, &predicted));
     PetscCall(SamVecCopyNonzero(w->s->pressure, predicted));
   }
-  for (PetscInt k = 0; k < 3; k++)
-    if (balance.force[k]) balance.rigid[k] = w->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]]; /* of the last pass */
-  PetscCall(SamNormalSolveKeeping(w->task->normal, h, &balance, has_pressure, w->s->pressure,
-                                  w->task->coupled ? &w->pressure_product : NULL));
+  PetscCall(SolvePressure(w, h, has_pressure));
   if (has_shear) PetscCall(FollowPressure(w->task->grid, predicted, w->s->pressure, w->s->shear));
   PetscCall(VecDestroy(&predicted));
-  SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(Count(SamNormalAsSolver(w->task->normal), w->counts + SAM_COUNT_NORMAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

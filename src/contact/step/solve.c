@@ -22,12 +22,12 @@
 static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
 {
   PetscFunctionBegin;
-  *w              = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
-  w->has_pressure = task->start.pressure;
-  w->has_shear    = task->start.shear;
-  w->counts       = SamStateNumbers(task->state, task->counts, SAM_TRIED);
-  PetscCall(SamProblemGetBalance(task->problem, task->state, &w->s->control, SAM_BALANCE_NORMAL, &w->normal));
-  PetscCall(SamProblemGetBalance(task->problem, task->state, &w->s->control, SAM_BALANCE_TANGENTIAL, &w->tangential));
+  *w                  = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
+  w->has_pressure     = task->start.pressure;
+  w->has_shear        = task->start.shear;
+  w->counts           = SamStateNumbers(task->state, task->counts, SAM_TRIED);
+  w->normal           = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
+  w->tangential       = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   w->tangential.ahead = SamElasticitySpinAhead(task->elasticity);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
@@ -39,9 +39,13 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
   PetscCall(PetscArraycpy(w->rigid, task->start.rigid, 3));
   PetscCall(SamSolutionCreateSeparation(task->problem, task->state, SAM_COMMITTED, &w->separation));
   if (task->coupled) PetscCall(SamGridCreateVec(task->grid, 2, &w->shear_product.field));
-  if (task->coupled || SamProblemDisplaces(task->problem)) {
+  if (task->coupled || w->s->tension || SamProblemDisplaces(task->problem))
     PetscCall(SamGridCreateVec(task->grid, 1, &w->h));
-    PetscCall(SamGridCreateVec(task->grid, 2, &w->pushed));
+  if (task->coupled || SamProblemDisplaces(task->problem)) PetscCall(SamGridCreateVec(task->grid, 2, &w->pushed));
+  if (w->s->tension && !task->same_pressure) {
+    PetscCall(SamGridCreateVec(task->grid, 1, &w->pulled));
+    PetscCall(SamElasticityApplyNormal(task->elasticity, w->s->tension, w->pulled));
+    PetscCall(SamSolveBearTension(w));
   }
   if (!task->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 1, &w->lift));
@@ -57,6 +61,7 @@ static PetscErrorCode End(SamSolve *w)
   PetscFunctionBegin;
   PetscCall(SamSolutionDestroySeparation(w->task->problem, &w->separation));
   PetscCall(VecDestroy(&w->slip));
+  PetscCall(VecDestroy(&w->pulled));
   PetscCall(VecDestroy(&w->pushed));
   PetscCall(VecDestroy(&w->lift));
   PetscCall(VecDestroy(&w->touching));

@@ -15,14 +15,15 @@ typedef struct {
   PetscBool          has_pressure, has_shear; /* the tried solution holds a guess */
   PetscBool          known_pressure;          /* the pressure is that of the kept step */
   PetscBool          holds;                   /* the field `aside` stays as it is */
-  SamBalance         normal, tangential;      /* as prescribed */
+  SamBalance         normal, tangential;      /* as prescribed; contact also bears the loads of the tension */
   double             rigid[3];                /* guess of the tangential rigid displacements */
   double            *counts;                  /* iteration counts of the solvers, in the state */
   Vec                separation;              /* of the bodies in their state after the step before */
   Vec                slip;          /* the length of the slip of this step, by the last shear; NULL: none yet */
   SamProduct         shear_product; /* C q of the tried solution; only if coupled or solved twice */
-  /* only if coupled or with an offset */
-  Vec h;      /* separation plus lift plus offset */
+  Vec                pulled;        /* normal displacement by the tension, as a pressure; NULL: there is none */
+  /* only if coupled, with an offset or with tension */
+  Vec h;      /* separation plus lift plus offset, less what is pulled */
   Vec pushed; /* tangential displacement by pressure and offset, set by SamSolveShear() */
   /* only if coupled */
   Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
@@ -45,6 +46,18 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
 PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
+/*
+  SamSolvePressure - solves the normal problem once, with this separation (m) and the tension so far. Collective.
+  SamSolveAttraction - solves it again with the tension of its gap, until both belong together; changes h (attract.c).
+  SamSolveBearTension - sets the loads of contact by those given and the tension. Collective.
+  SamSolveIsApart - true if contact would have to pull, so that there is no solution; SamSolveFailApart - says so in the
+  step. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h, PetscBool has_pressure);
+PETSC_INTERN PetscErrorCode SamSolveAttraction(SamSolve *solve, Vec h);
+PETSC_INTERN PetscErrorCode SamSolveBearTension(SamSolve *solve);
+PETSC_INTERN PetscBool      SamSolveIsApart(const SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveFailApart(SamSolve *solve);
 /* SamSolveCreateOffset - creates w - S of the tangential problem: all displacements but those by the shear, minus the
    slip so far; NULL: zero. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveCreateOffset(SamSolve *solve, Vec *offset);

@@ -103,7 +103,7 @@ PetscErrorCode SamLifeNotePass(SamLife l, PetscInt k, const SamStep *step, SamRa
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(l->contact, &s));
-  PetscCall(SamProblemGetBalance(l->problem, l->memory, &step->control, SAM_BALANCE_NORMAL, &pass->balance));
+  pass->balance = SamControlGetBalance(&step->control, SAM_BALANCE_NORMAL);
   (void)SamFramesGetSlide(l->memory, SAM_TRIED, pass->slide);
   PetscCall(FindWear(l, s, rate));
   if (rate == &l->start) PetscCall(SamLifeNoteStride(l, rate->shift, rate->pressure, s->pressure));

@@ -470,7 +470,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
     PetscCall(SamWearGetLimit(l->law, most, &rate->limit));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamProblemGetBalance(l->problem, l->memory, &mean, SAM_BALANCE_NORMAL, &rate->balance));
+  rate->balance = SamControlGetBalance(&mean, SAM_BALANCE_NORMAL);
   PetscCall(FindShift(l, rate));
   PetscCall(FindCoefficient(l, &mean, rate));
   PetscFunctionReturn(PETSC_SUCCESS);

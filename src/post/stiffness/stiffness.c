@@ -176,8 +176,9 @@ static PetscErrorCode CheckLaws(SamContact contact)
   PetscFunctionBegin;
   PetscCall(SamProblemGetLaws(SamContactGetProblem(contact), &count, &laws));
   for (PetscInt k = 0; k < count; k++)
-    PetscCheck((!laws[k]->ops.follow || laws[k]->ops.tangent) && !laws[k]->nonlocal, SamContactGetGrid(contact)->comm,
-               SAM_ERR_USER, "-stiffness: not supported with -%s", SamLawOption(laws[k]));
+    PetscCheck(((!laws[k]->ops.follow && !laws[k]->ops.attract) || laws[k]->ops.tangent) && !laws[k]->nonlocal,
+               SamContactGetGrid(contact)->comm, SAM_ERR_USER, "-stiffness: not supported with -%s",
+               SamLawOption(laws[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,0 +1,181 @@
+/*
+  The tension by which surfaces attract each other, together with the pressure: t = T(g), where the tension t (Pa) of a
+  gap g that t itself makes smaller.
+
+  A given t is a load on the bodies and a displacement of their surfaces, under which the normal problem has one
+  solution, with the gap g(t). Passes t <- T(g(t)) begin with the tension of the step before. More tension nowhere makes
+  the gap wider, and a narrower gap has no less tension; so passes from a state with too little tension rise to the least
+  tension above it that is a solution, and those from one with too much fall to the largest below. That is where a slow
+  motion arrives, also where it jumps: of several states the one that the history leads to.
+
+  Passes multiply the error by the slope of T times the displacement of the zone in which the tension falls by a unit
+  tension. Where they converge already, Anderson's method accelerates them (ground/grid/mixing.c); elsewhere it would
+  leave the way to that state.
+
+  Under given loads the pull may be more than any tension holds: then contact would have to pull, and there is no
+  solution.
+
+  Sources: Maugis 1992, J. Colloid Interface Sci. 150, 243-269; Medina, Dini 2014, Int. J. Solids Struct. 51, 2620-2632.
+*/
+#include "stepimpl.h"
+#include <petsam/private/balance.h>
+#include <petsam/private/check.h>
+#include <petsam/private/elasticity.h>
+#include <petsam/private/mixing.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/solver.h>
+#include <petsam/private/state.h>
+#include <math.h>
+
+#define PASSES 1000
+#define PART   0.5  /* of the tolerance: largest error of the last pass */
+#define NEAR   1e-2 /* error below which passes are accelerated, */
+#define FALLS  0.9  /* if it falls in a pass by this factor */
+
+typedef struct {
+  SamSolve *w;
+  SamMixing mixing;
+  Vec       h, gap, found, change, weight;
+  PetscReal error, before; /* of the tension of the last pass and of the one before it */
+} Passes;
+
+/* Computes the tension of the gap and the error of the last one: how far the change moves the surfaces, relative to all
+   their displacement, and its load relative to that of contact. */
+static PetscErrorCode Find(Passes *p)
+{
+  SamSolve *const w = p->w;
+  PetscReal       contact, pulled, moved, error;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityApplyNormal(w->task->elasticity, w->s->pressure, p->change));
+  PetscCall(SamSolutionComputeGap(w->task->problem, w->s, p->change, p->h, p->gap));
+  PetscCall(SamProblemAttract(w->task->problem, p->gap, p->found));
+  PetscCall(VecNorm(p->change, NORM_INFINITY, &contact));
+  PetscCall(VecNorm(w->pulled, NORM_INFINITY, &pulled));
+  PetscCall(VecWAXPY(p->gap, -1, w->s->tension, p->found));
+  PetscCall(SamElasticityApplyNormal(w->task->elasticity, p->gap, p->change));
+  PetscCall(VecNorm(p->change, NORM_INFINITY, &moved));
+  PetscCall(SamSolutionTensionError(w->task->problem, w->s, p->gap, &error));
+  p->before = p->error;
+  p->error  = PetscMax(error, moved > 0 ? moved / PetscMax(PetscMax(contact, pulled), moved) : 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Accelerates the next tension, which then is no longer that of the gap. */
+static PetscErrorCode Accelerate(Passes *p)
+{
+  SamSolve *const w = p->w;
+  double         *t;
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(p->weight, 1, w->s->tension, p->found));
+  PetscCall(SamMixingNext(p->mixing, p->weight, p->found, w->s->tension));
+  PetscCall(VecGetArray(w->s->tension, &t));
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) t[k] = PetscMax(t[k], 0);
+  PetscCall(VecRestoreArray(w->s->tension, &t));
+  PetscCall(VecCopy(w->pulled, p->change));
+  PetscCall(SamElasticityApplyNormal(w->task->elasticity, w->s->tension, w->pulled));
+  PetscCall(VecAYPX(p->change, -1, w->pulled));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes the next tension, with its displacement and its loads. */
+static PetscErrorCode Proceed(Passes *p)
+{
+  SamSolve *const w = p->w;
+
+  PetscFunctionBegin;
+  if (p->error < NEAR && p->error < FALLS * p->before) {
+    PetscCall(Accelerate(p));
+  } else {
+    PetscCall(VecCopy(p->found, w->s->tension));
+    PetscCall(VecAXPY(w->pulled, 1, p->change));
+    SamMixingRestart(p->mixing);
+  }
+  PetscCall(VecAXPY(p->h, -1, p->change));
+  PetscCall(SamSolveBearTension(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveBearTension(SamSolve *w)
+{
+  PetscReal loads[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  if (w->s->tension) PetscCall(SamBalanceGetLoads(w->task->grid, SAM_BALANCE_NORMAL, w->s->tension, loads));
+  for (PetscInt k = 0; k < 3; k++)
+    if (w->normal.force[k]) w->normal.load[k] = w->s->control.value[SamComponentsOf[SAM_BALANCE_NORMAL][k]] + loads[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamSolveIsApart(const SamSolve *w)
+{
+  return w->s->tension && w->normal.force[0] && w->normal.load[0] < 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode SamSolveFailApart(SamSolve *w)
+{
+  const SamComponentName *name = &SamComponentNames[SAM_COMPONENT_N];
+  const char *const       unit = SamUnitOn(w->task->grid, name->load_unit);
+  const double most = *SamStateNumbers(w->task->state, SamStateFindNumber(w->task->state, "pull_max"), SAM_COMMITTED);
+  char         message[sizeof(w->step->message)], borne[96] = "";
+
+  PetscFunctionBegin;
+  if (most > 0)
+    (void)snprintf(borne, sizeof(borne), " (largest pull that they have borne so far: %.6g %s)", most, unit);
+  (void)snprintf(message, sizeof(message),
+                 "%s = %.8g %s pulls the surfaces apart: their tension does not hold it%s: give %s, which follows them "
+                 "past their largest pull",
+                 name->load, (double)w->s->control.value[SAM_COMPONENT_N], unit, borne, name->rigid);
+  PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FailPasses(Passes *p)
+{
+  char message[sizeof(p->w->step->message)];
+
+  PetscFunctionBegin;
+  (void)snprintf(message, sizeof(message),
+                 "the tension did not converge with the gap in %d passes, last change %.2g: use smaller load steps, or "
+                 "finer cells",
+                 PASSES, (double)p->error);
+  PetscCall(SamStepFail(p->w->step, SAM_STATUS_NOT_CONVERGED, message));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Iterate(Passes *p)
+{
+  SamSolve *const w = p->w;
+  PetscReal       rtol;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolverGetTolerances(SamNormalAsSolver(w->task->normal), &rtol, NULL));
+  for (PetscInt pass = 1; pass <= PASSES; pass++) {
+    PetscCall(Find(p));
+    if (w->task->set->coupling_monitor)
+      PetscCall(PetscPrintf(w->task->grid->comm, "%5" PetscInt_FMT " tension change %.6e\n", pass, (double)p->error));
+    if (p->error <= PART * rtol) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(Proceed(p));
+    if (SamSolveIsApart(w)) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(SamSolvePressure(w, p->h, PETSC_TRUE));
+    if (SamSolverGetReason(SamNormalAsSolver(w->task->normal)) < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(FailPasses(p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveAttraction(SamSolve *w, Vec h)
+{
+  Passes        p         = {.w = w, .h = h, .error = INFINITY};
+  Vec *const    created[] = {&p.gap, &p.found, &p.change, &p.weight};
+  const SamGrid grid      = w->task->grid;
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 4; k++) PetscCall(SamGridCreateVec(grid, 1, created[k]));
+  PetscCall(SamMixingCreate(grid, 1, &p.mixing));
+  PetscCall(Iterate(&p));
+  PetscCall(SamMixingDestroy(&p.mixing));
+  for (int k = 0; k < 4; k++) PetscCall(VecDestroy(created[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
