@@ -68,7 +68,7 @@ def test_gap_has_its_closed_contact(petsam, ranks):
 @pytest.mark.parametrize("part, tension, ranks", [(0.2, 0.15, 1), (0.02, 0.25, 3)])
 def test_contact_bears_a_constant_tension_besides_the_load(petsam, part, tension, ranks):
     """A uniform tension does not bend periodic bodies, so that the contact is Westergaard's under the sum."""
-    wave = dict(WAVE, normal_rtol=1e-8)
+    wave = dict(WAVE, normal_rtol=1e-10)
     petsam(dict(wave, load_n=(part + tension) * FULL * AREA))
     expected = petsam.read("pressure", "gap", "contact_area")
     petsam(dict(wave, load_n=part * FULL * AREA, constant_tension=tension * FULL), ranks=ranks)
