@@ -1,6 +1,7 @@
 /* The laws that come with the library, and their parts of the stresses in a body, in the order in which they act. */
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/law.h>
+#include "adhesion/adhesion.h"
 
 PetscErrorCode SamLawRegisterAll(void)
 {
@@ -21,6 +22,7 @@ PetscErrorCode SamLawRegisterAll(void)
   PetscCall(SamLawRegister(SAM_LAW_ENERGY, SamLawCreate_Energy));
   PetscCall(SamLawRegister(SAM_LAW_HARDNESS, SamLawCreate_Hardness));
   PetscCall(SamLawRegister(SAM_LAW_PLASTIC, SamLawCreate_Plastic));
+  PetscCall(SamLawRegister(SAM_LAW_ADHESION, SamLawCreate_Adhesion));
   PetscCall(SamLawRegister(SAM_LAW_ACCUMULATED_SLIP, SamLawCreate_AccumulatedSlip));
   PetscCall(SamLawRegister(SAM_LAW_FRICTION_ENERGY, SamLawCreate_FrictionEnergy));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -31,26 +31,45 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, Vec to
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes u_z (unless it is given) and u_t with the coupling; and max |u_z| before offsets, which could cancel it. */
+/* Subtracts the displacement by the tension, and raises its largest value. */
+static PetscErrorCode SubtractTension(SamElasticity elasticity, SamGrid grid, const SamSolution *s, PetscReal *most)
+{
+  PetscReal pulled;
+  Vec       u;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 1, &u));
+  PetscCall(SamElasticityApplyNormal(elasticity, s->tension, u));
+  PetscCall(VecNorm(u, NORM_INFINITY, &pulled));
+  PetscCall(VecAXPY(s->displacement_z, -1, u));
+  PetscCall(VecDestroy(&u));
+  *most = PetscMax(*most, pulled);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes u_z (unless it is given) and u_t with the coupling; and max |u_z| before other displacements, also that by
+   tension, could cancel it. */
 static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s, PetscReal *most)
 {
   PetscReal           shear;
   Vec                 total;
+  const SamGrid       grid       = SamProblemGetGrid(problem);
   const SamElasticity elasticity = SamProblemGetElasticity(problem);
+  const PetscBool     coupled    = SamElasticityGetTraits(elasticity).coupled && coupling;
 
   PetscFunctionBegin;
-  PetscCall(SamSolutionCreateTotal(problem, s, &total));
-  if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, total, s->displacement_z));
+  if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (shear != 0)
     PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
   else
     PetscCall(SamVecZero(s->displacement_t));
-  if (SamElasticityGetTraits(elasticity).coupled && coupling)
-    PetscCall(AddCoupling(elasticity, SamProblemGetGrid(problem), total, s));
+  PetscCall(SamSolutionCreateTotal(problem, s, &total));
+  if (coupled) PetscCall(AddCoupling(elasticity, grid, total, s));
   PetscCall(SamSolutionDestroyTotal(s, &total));
   PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
+  if (s->tension && !u_z_known) PetscCall(SubtractTension(elasticity, grid, s, most));
   PetscCall(SamProblemDisplace(problem, state, &s->control, u_z_known ? NULL : s->displacement_z, s->displacement_t,
                                NULL, NULL));
   PetscCall(SamElasticityTrim(elasticity));

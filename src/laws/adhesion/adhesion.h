@@ -1,0 +1,31 @@
+/* Adhesion: the tension between surfaces, by its range and its work. */
+#ifndef PETSAM_ADHESION_H
+#define PETSAM_ADHESION_H
+
+#include <petsam/private/lawimpl.h>
+
+#define SAM_LAW_ADHESION "adhesion"
+
+/* SamAdhesion - the data of the law. */
+typedef enum { SAM_ADHESION_MAUGIS, SAM_ADHESION_EXPONENTIAL } SamAdhesionKind;
+typedef struct {
+  SamAdhesionKind kind;
+  PetscReal       work;  /* of adhesion, J/m2 */
+  PetscReal       range; /* gap at which the tension ends (Maugis), or by which it falls to 1/e, m */
+} SamAdhesion;
+
+/*
+  SamAdhesionStrength - returns the tension of surfaces in contact, Pa.
+  SamAdhesionCells - computes the tension (Pa) or, as `energy`, its energy (J/m2, not positive) in each cell, as means
+  over the cells, from the gap (m); adds to `values` of one component (adhesioncells.c). Collective.
+  SamAdhesionDoubt - the law's method (adhesiondoubt.c). SamLawCreate_Adhesion - creates the law, for the registry.
+*/
+static inline double SamAdhesionStrength(const SamAdhesion *a)
+{
+  return (double)(a->work / a->range);
+}
+PETSC_INTERN PetscErrorCode SamAdhesionCells(SamLaw law, Vec gap, PetscBool energy, Vec values);
+PETSC_INTERN PetscErrorCode SamLawCreate_Adhesion(SamLaw law);
+PETSC_INTERN PetscErrorCode SamAdhesionDoubt(SamLaw law, SamExamination *examination);
+
+#endif

@@ -1,0 +1,87 @@
+/*
+  The tension of a gap and its energy, as means over cells.
+
+    Maugis:       s = w/h for g < h, else 0;    energy -s max(h - g, 0)
+    exponential:  s = w/h exp(-g/h);            energy -w exp(-g/h)
+
+  The constant tension ends within cells, at the line g = h. In a cell the gap is taken as linear, by differences from
+  the cells beside it: it differs from that at the centre by u + v, each uniformly distributed, over widths A >= B. Then
+  the part of the cell with u + v < m, m = h - g, is a trapezoid's distribution function, and the mean of max(m - u - v,
+  0) its integral. With whole cells instead, the pull is of first order in the width of the cells, and the edge of the
+  tension moves by whole cells only.
+*/
+#include "adhesion.h"
+#include <petsam/private/elasticity.h>
+#include <petsam/private/rows.h>
+#include <math.h>
+
+/* Returns the part of a cell with u + v < m. */
+static double Part(double m, double a, double b)
+{
+  const double end = 0.5 * (a + b) - fabs(m);
+  double       tail;
+
+  if (end <= 0) return m > 0 ? 1 : 0;
+  if (2 * fabs(m) <= a - b) return 0.5 + m / a;
+  tail = end * end / (2 * a * b);
+  return m > 0 ? 1 - tail : tail;
+}
+
+/* Returns the mean of max(m - u - v, 0) over a cell. */
+static double Depth(double m, double a, double b)
+{
+  const double end = 0.5 * (a + b) - fabs(m);
+
+  if (end <= 0) return m > 0 ? m : 0;
+  if (2 * fabs(m) <= a - b) return m * m / (2 * a) + 0.5 * m + a / 8 + b * b / (24 * a);
+  return (m > 0 ? m : 0) + end * end * end / (6 * a * b);
+}
+
+/* The gap about this rank's cells */
+typedef struct {
+  SamHalo seen;
+  SamGrid grid;
+} Gap;
+
+/* Returns by how much the gap changes over a cell along an axis, from the cells beside it that the grid has. */
+static double Change(const Gap *gap, PetscInt axis, PetscInt i, PetscInt j)
+{
+  const PetscInt at = axis ? j : i, n = axis ? gap->grid->ny : gap->grid->nx;
+  const PetscInt low = gap->seen.wraps || at > 0 ? 1 : 0, high = gap->seen.wraps || at < n - 1 ? 1 : 0;
+  const double   before = SamHaloAt(&gap->seen, 0, axis ? i : i - low, axis ? j - low : j),
+               after    = SamHaloAt(&gap->seen, 0, axis ? i : i + high, axis ? j + high : j);
+
+  return low + high ? fabs(after - before) / (double)(low + high) : 0;
+}
+
+static double OfCell(const SamAdhesion *a, const Gap *gap, PetscBool energy, PetscInt i, PetscInt j)
+{
+  const double strength = SamAdhesionStrength(a), range = (double)a->range, g = SamHaloAt(&gap->seen, 0, i, j);
+  double       along[2], wide, narrow, left;
+
+  if (a->kind == SAM_ADHESION_EXPONENTIAL) {
+    left = exp(-PetscMax(g, 0) / range);
+    return energy ? -(double)a->work * left : strength * left;
+  }
+  for (PetscInt axis = 0; axis < 2; axis++) along[axis] = axis < gap->grid->axes ? Change(gap, axis, i, j) : 0;
+  wide   = PetscMax(along[0], along[1]);
+  narrow = PetscMin(along[0], along[1]);
+  return energy ? -strength * Depth(range - g, wide, narrow) : strength * Part(range - g, wide, narrow);
+}
+
+PetscErrorCode SamAdhesionCells(SamLaw law, Vec field, PetscBool energy, Vec values)
+{
+  const SamGrid grid = law->grid;
+  Gap           gap  = {.grid = grid};
+  double       *to;
+
+  PetscFunctionBegin;
+  PetscCall(SamHaloBegin(grid, field, 1, 1, SamElasticityGetTraits(law->elasticity).periodic, &gap.seen));
+  PetscCall(VecGetArray(values, &to));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++)
+      to[(ptrdiff_t)j * grid->nx + i] += OfCell((const SamAdhesion *)law->data, &gap, energy, i, grid->row_start + j);
+  PetscCall(VecRestoreArray(values, &to));
+  PetscCall(SamHaloEnd(&gap.seen));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,37 @@
+/*
+  Doubts of adhesion: the edge of the tension that the cells do not resolve, and tension that leaves the grid.
+
+  Between the edge of contact and that of the tension lies a zone whose least width is about the cohesive length
+  E* w/s_0^2. If it has m cells, numbers are wrong by about RESOLVED/m.
+*/
+#include "adhesion.h"
+#include <petsam/private/body.h>
+#include <petsam/private/elasticity.h>
+#include <petsam/private/examination.h>
+#include <petsam/private/state.h>
+#include <math.h>
+
+#define RESOLVED 0.05
+#define LEAST    2    /* cells below which the edge stays where it is, so that nothing is known */
+#define BORDER   1e-3 /* tension at the border of the grid over the largest one */
+#define TOLD     "load_n disp_z contact_area adhesion_area pressure_max pull_max"
+
+PetscErrorCode SamAdhesionDoubt(SamLaw law, SamExamination *x)
+{
+  const SamAdhesion *a        = (const SamAdhesion *)law->data;
+  const SamGrid      grid     = x->grid;
+  const double       strength = SamAdhesionStrength(a);
+  const double       length   = (double)(SamPairModulus(SamElasticityGetPair(x->elasticity)) * a->range) / strength;
+  const double       cells    = length / (double)(grid->axes > 1 ? PetscMax(grid->dx, grid->dy) : grid->dx);
+  const double       error    = cells < LEAST ? 1 : RESOLVED / cells;
+  double             border;
+
+  PetscFunctionBegin;
+  SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, error, PetscMax(LEAST, RESOLVED / SAM_DOUBT_LARGE) / cells, TOLD,
+               "the edge of the tension, E* w/s^2 = %.3g m, is %.2g cells wide", length, cells);
+  PetscCall(SamContactGetNumber(x->contact, "adhesion_border", &border));
+  if (border > BORDER)
+    SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, border, 0, TOLD,
+                 "the tension at the border of the grid is %.2g of its maximum: take a larger grid", border);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
