@@ -5,6 +5,8 @@ import re
 import h5py
 import numpy as np
 import pytest
+from scipy.optimize import fsolve
+from scipy.special import iv, kve
 
 import petsam as package
 from support import bodies
@@ -403,3 +405,48 @@ def test_time_does_not_go_back_in_process():
     with pytest.raises(package.Error, match="goes back by 1 s"):
         contact.try_step(time=-1, load_n=1e-3)
     contact.try_step(time=1, load_n=1e-3)
+
+
+def hunter(growth, length):
+    """Edges, and moment of the pressure per load, of Hunter's (1961) rolling cylinder: E* = R = 1, N = pi/4.
+
+    J(t) = 1 + growth (1 - exp(-t/theta)), length = V theta. Contact from m - h to m + h.
+    """
+    load = np.pi / 4
+
+    def coefficients(m, h):
+        return (1 + growth) * load / (np.pi * h), -(m - length) / 2, -h / 4
+
+    def residual(unknowns):
+        m, h = unknowns
+        a, b, c = coefficients(m, h)
+        y, z = h / length, (1 + growth) * h / length
+        ahead = a * kve(0, y) + b * (kve(1, y) - 1 / y) + c * (kve(2, y) - 2 * (1 / y + 1 / y**2))
+        return (a * iv(0, z) - b * iv(1, z) + c * iv(2, z)) / iv(0, z), np.pi * y * ahead - np.pi / 2 * (m + h)
+
+    m, h = fsolve(residual, (0.2, (1 + growth) ** 0.25), xtol=1e-13)
+    a, b, _ = coefficients(m, h)
+    moment = (h * np.pi * (m * a + h * b / 2) - length * load) / (1 + growth)
+    return m - h, m + h, moment / load
+
+
+@pytest.mark.parametrize("growth, length, ends, cells", [(1, 1, (-6, 2.25), 360), (10, 0.1, (-4.4, 3.8), 200)])
+def test_a_cylinder_rolls_as_that_of_hunter(growth, length, ends, cells):
+    """In steps of a cell until it is steady; the moment resists the rolling."""
+    closed = hunter(growth, length)
+    if length == 1:
+        assert closed == pytest.approx((-1.01489455271, 1.36980365535, 0.262159497125), rel=1e-10)
+    width, nu = ends[1] - ends[0], 0.3
+    step, k = width / cells, np.arange(cells)
+    run = package.run(
+        **{**BALL, "elasticity": "plane"}, **RIGID, body2_young=1 - nu**2, body2_poisson=nu,
+        **relaxing(2, (growth / (1 + growth),), (1 / (1 + growth),)), grid_n=cells, grid_size=width,
+        grid_center=(ends[0] + ends[1]) / 2, output_fields="pressure",
+        history=table(time=k * step / length, load_n=np.pi / 4 + 0 * k, rot_y=0 * k, roll=step * (k > 0)),
+    )  # fmt: skip
+    places = ends[0] + step * (np.nonzero(run["pressure"][-1].ravel())[0] + 0.5)
+    assert run["load_my"][-1] / (np.pi / 4) == pytest.approx(closed[2], rel=2e-3)
+    assert run["load_my"][-1] == pytest.approx(run["load_my"][-20], rel=1e-4)
+    assert (places[0] - step / 2, places[-1] + step / 2) == pytest.approx(
+        closed[:2], abs=0.01 * (closed[1] - closed[0])
+    )
