@@ -88,6 +88,23 @@ def test_bodies_of_constant_bulk_modulus_sink_in_as_lee_and_radok(which, relaxes
     assert run["disp_z"][-1] == pytest.approx(closed[-1], rel=1e-4)
 
 
+def test_forces_of_a_growing_contact_are_elastic_ones_without_what_creeps():
+    """J of the pressure is the elastic pressure of the same approach, so the forces follow from J's terms alone."""
+    times = np.cumsum([0.02, 0.03, 0.05, 0.1, 0.1, 0.2, 0.5])
+    case = dict(BALL, **RIGID, **constants(2, 1, 2), grid_n=48, grid_size=0.25, output_fields="none", normal_rtol=1e-12,
+                history=table(time=times, disp_z=0.009 * times**0.5))  # fmt: skip
+    found, elastic = (package.run(**case, **more)["load_n"][:] for more in (relaxing(2, bulk=True), {}))
+    parts, thetas = np.array(CREEP + CREEP_BULK).T
+    x = np.diff(times)[:, None] / thetas
+    kept, mean = np.exp(-x), -np.expm1(-x) / x
+    forces, memory = [elastic[0]], np.zeros(6)
+    for k, force in enumerate(elastic[1:]):  # (1 - nu)/G is (1 + 3/7)/2 under a sudden load
+        known = kept[k] * memory + (mean[k] - kept[k]) * forces[-1]
+        forces.append((force - 0.7 * parts @ known) / (1 + 0.7 * parts @ (1 - mean[k])))
+        memory = known + (1 - mean[k]) * forces[-1]
+    assert found == pytest.approx(forces, rel=1e-9)
+
+
 def test_a_stuck_contact_of_constant_bulk_modulus_creeps_as_its_poisson_ratio_rises():
     """(2 - nu)/G of Mindlin's compliance is (3 a + b)/2; alike, the bodies stay uncoupled, and T leaves N alone."""
     held = 200 + np.array([0, 0.01, 0.1, 0.3, 1, 10])
