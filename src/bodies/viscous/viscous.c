@@ -251,7 +251,8 @@ enum { MODULI, TIMES, KIND, OPTIONS };
   }
 static const char *const options[2][OPTIONS] = {NAMES("1"), NAMES("2")};
 
-#define KINDS "constant_poisson,constant_bulk"
+#define POISSON "constant_poisson"
+#define BULK    "constant_bulk"
 #define ROWS(body) \
   { \
     {"body" body "_relax_moduli", \
@@ -269,11 +270,11 @@ static const char *const options[2][OPTIONS] = {NAMES("1"), NAMES("2")};
        .needs = "body" body "_relax_moduli"}, \
     { \
       "body" body "_relax", "what stays constant: Poisson's ratio or the bulk modulus", SAM_OPTION_ENUM, \
-        .words = KINDS, .needs = "body" body "_relax_moduli" \
+        .words = POISSON "," BULK, .needs = "body" body "_relax_moduli" \
     } \
   }
 static const SamOptionRow rows[2][OPTIONS] = {ROWS("1"), ROWS("2")};
-static const char *const  kinds[2]         = {"constant_poisson", "constant_bulk"};
+static const char *const  kinds[2]         = {POISSON, BULK};
 
 static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
 {
@@ -292,11 +293,18 @@ static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
 static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
                                    SamStress *stress)
 {
+  const PetscInt  b = body - 1;
+  const PetscBool without =
+    SamViscousHasBulk(e, 1 - b) || SamBodyIsRigid(e->pair->body[1 - b]) ? PETSC_TRUE : PETSC_FALSE;
+
   PetscFunctionBegin;
-  PetscCheck(!SamViscousHasBulk(e, body - 1), e->grid->comm, SAM_ERR_USER,
-             "-%s constant_bulk: the stresses in this body are not available, as they depend on what it remembers: ask "
-             "for those of the other body, or use constant_poisson",
-             options[body - 1][KIND]);
+  PetscCheck(!SamViscousHasBulk(e, b), e->grid->comm, SAM_ERR_USER,
+             "-%s " BULK ": the stresses in body %" PetscInt_FMT
+             " are not available, as they depend on earlier tractions: run with " POISSON "%s",
+             options[b][KIND], body,
+             without ? ""
+             : b     ? ", or give -body 1"
+                     : ", or give -body 2");
   PetscCall((*e->inner->ops.createstress)(e->inner, body, settings, stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -425,7 +433,7 @@ static PetscErrorCode AddFromParameters(SamElasticity *elasticity, const SamPara
     settings.relaxes[b] = PetscMin(moduli->count, SAM_CREEP_TERMS);
     PetscCall(PetscArraycpy(settings.moduli[b], moduli->value, settings.relaxes[b]));
     PetscCall(PetscArraycpy(settings.times[b], times->value, settings.relaxes[b]));
-    settings.bulk[b] = kind && !strcmp(kind->text, kinds[1]) ? 1 : 0;
+    settings.bulk[b] = kind && !strcmp(kind->text, BULK) ? 1 : 0;
   }
   if (settings.relaxes[0] + settings.relaxes[1] > 0) PetscCall(Wrap(elasticity, &settings));
   PetscFunctionReturn(PETSC_SUCCESS);
