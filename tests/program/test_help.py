@@ -127,6 +127,7 @@ def test_beginning_of_two_topics_is_refused(petsam):
             ["-body1", "-body1_young", "-body1_poisson", "-body1_layer_file", "-body1_layers"]
             + [f"-body1_layer_{name}" for name in ("young", "poisson", "thickness")]
             + ["-body1_initial_stress", "-body1_compliance", "-body1_relax_moduli", "-body1_relax_times"]
+            + ["-body1_relax"]
             + ["-body1_conductivity", "-body1_heat_capacity"]
             + [
                 "-body1_bulk_temperature",

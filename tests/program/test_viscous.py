@@ -5,6 +5,8 @@ import re
 import h5py
 import numpy as np
 import pytest
+from scipy.optimize import fsolve
+from scipy.special import iv, kve
 
 import petsam as package
 from support import bodies
@@ -15,6 +17,11 @@ CREEP = (
     (0.760686034166275, 0.018740461355115), (2.112506661468029, 0.234187564244963),
     (16.12680730436569, 4.557071974399922),
 )  # fmt: skip
+# the same material with the bulk modulus 2 for G(0) = 1: the creep of 3/(3 K + G), 3/7 under a sudden load
+CREEP_BULK = (
+    (0.032585222852021, 0.010764780637964), (0.02256860139057, 0.104866285057829),
+    (0.012142515781021, 1.024947446700901),
+)  # fmt: skip
 BALL = dict(friction=0, gap_type="sphere", gap_radius1=1, gap_radius2="inf", errors="none")
 RIGID = dict(body1_young="inf", body1_poisson=0)
 
@@ -24,8 +31,20 @@ def creep(t):
     return 1 + sum(a * (1 - np.exp(-t / theta)) for a, theta in CREEP)
 
 
-def relaxing(body, parts=PARTS, times=TIMES):
-    return {f"body{body}_relax_moduli": parts, f"body{body}_relax_times": times}
+def creep_bulk(t):
+    """3/(3 K + G) as a creep function."""
+    return 3 / 7 + sum(b * (1 - np.exp(-t / theta)) for b, theta in CREEP_BULK)
+
+
+def relaxing(body, parts=PARTS, times=TIMES, bulk=False):
+    kind = {f"body{body}_relax": "constant_bulk"} if bulk else {}
+    return {f"body{body}_relax_moduli": parts, f"body{body}_relax_times": times, **kind}
+
+
+def constants(body, shear, bulk):
+    """Young's modulus and Poisson's ratio of a shear and a bulk modulus."""
+    young, poisson = 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
+    return {f"body{body}_young": young, f"body{body}_poisson": poisson}
 
 
 def table(**columns):
@@ -49,6 +68,75 @@ def test_bodies_that_creep_differently_sink_in_as_lee_and_radok(which, poisson):
     closed = (0.75 * load * (c1 + c2 * creep(times))) ** (2 / 3)
     assert run["disp_z"][:] == pytest.approx(closed, rel=2e-3)
     assert run["disp_z"][-1] == pytest.approx(closed[-1], rel=3e-4)
+
+
+@pytest.mark.parametrize("which, relaxes", [(2, False), (1, True)])
+def test_bodies_of_constant_bulk_modulus_sink_in_as_lee_and_radok(which, relaxes):
+    """z^1.5 = 3 N/8 times the sum of (1 - nu)/G as creep functions, (a + b)/2; the other body has nu = 0.25, G = 2."""
+    other, load = 3 - which, 1e-3
+    times = np.concatenate([[0], np.logspace(-4, 1, 21)])
+    creeps = (creep(times) + creep_bulk(times)) / 2 + 0.75 / 2 * (creep(times) if relaxes else 1)
+    closed = (0.375 * load * creeps) ** (2 / 3)
+    run = package.run(
+        **BALL, **constants(which, 1, 2), **relaxing(which, bulk=True), **(relaxing(other) if relaxes else {}),
+        **{f"body{other}_young": 5, f"body{other}_poisson": 0.25}, grid_n=64, grid_size=2.5 * closed[-1] ** 0.5,
+        history=table(time=times, load_n=load + 0 * times), output_fields="none",
+    )  # fmt: skip
+    if not relaxes:
+        assert closed[[0, 13, 21]] == pytest.approx([0.00550531344401, 0.0083472785839, 0.0236917848524], rel=1e-11)
+    assert run["disp_z"][:] == pytest.approx(closed, rel=1e-3)
+    assert run["disp_z"][-1] == pytest.approx(closed[-1], rel=1e-4)
+
+
+def test_forces_of_a_growing_contact_are_elastic_ones_without_what_creeps():
+    """J of the pressure is the elastic pressure of the same approach, so the forces follow from J's terms alone."""
+    times = np.cumsum([0.02, 0.03, 0.05, 0.1, 0.1, 0.2, 0.5])
+    case = dict(BALL, **RIGID, **constants(2, 1, 2), grid_n=48, grid_size=0.25, output_fields="none", normal_rtol=1e-12,
+                history=table(time=times, disp_z=0.009 * times**0.5))  # fmt: skip
+    found, elastic = (package.run(**case, **more)["load_n"][:] for more in (relaxing(2, bulk=True), {}))
+    parts, thetas = np.array(CREEP + CREEP_BULK).T
+    x = np.diff(times)[:, None] / thetas
+    kept, mean = np.exp(-x), -np.expm1(-x) / x
+    forces, memory = [elastic[0]], np.zeros(6)
+    for k, force in enumerate(elastic[1:]):  # (1 - nu)/G is (1 + 3/7)/2 under a sudden load
+        known = kept[k] * memory + (mean[k] - kept[k]) * forces[-1]
+        forces.append((force - 0.7 * parts @ known) / (1 + 0.7 * parts @ (1 - mean[k])))
+        memory = known + (1 - mean[k]) * forces[-1]
+    assert found == pytest.approx(forces, rel=1e-9)
+
+
+def test_a_stuck_contact_of_constant_bulk_modulus_creeps_as_its_poisson_ratio_rises():
+    """(2 - nu)/G of Mindlin's compliance is (3 a + b)/2; alike, the bodies stay uncoupled, and T leaves N alone."""
+    held = 200 + np.array([0, 0.01, 0.1, 0.3, 1, 10])
+    times = np.concatenate([[0, 100, 200 - 1e-6], held])
+    run = package.run(
+        **{**BALL, "friction": 50}, **constants(1, 1, 2), **constants(2, 1, 2), **relaxing(1, bulk=True),
+        **relaxing(2, bulk=True), grid_n=32, grid_size=0.9, slip_direction="end", normal_rtol=1e-11,
+        tangential_rtol=1e-11, history=table(time=times, load_n=1e-3 + 0 * times, load_tx=1e-4 * (times >= 200)),
+    )  # fmt: skip
+    moved, since = (run["disp_x"][:] - run["disp_x"][2])[3:], held - 200
+    assert moved / moved[0] == pytest.approx((3 * creep(since) + creep_bulk(since)) / (3 + 3 / 7), rel=1e-3)
+    assert np.abs(run["shear_x"][2]).max() == 0 and np.abs(run["shear_x"][3:]).max() > 0
+    assert run["disp_z"][3:] == pytest.approx(np.full(6, run["disp_z"][2]), rel=1e-6)
+
+
+def test_bodies_alike_but_for_what_stays_constant_are_coupled():
+    case = dict(BALL, friction=0.2, **constants(1, 1, 2), **constants(2, 1, 2), grid_n=32, grid_size=0.3,
+                slip_direction="end", history=table(time=[0, 100], load_n=[1e-3] * 2))  # fmt: skip
+    moduli = (0.6,), (1.0,)
+    shear = {
+        bulk: package.run(**case, **relaxing(1, *moduli, True), **relaxing(2, *moduli, bulk))["shear_x"]
+        for bulk in (True, False)
+    }
+    assert np.abs(shear[True]).max() == 0
+    assert np.abs(shear[False][0]).max() == 0 and np.abs(shear[False][1]).max() > 0
+
+
+def test_an_incompressible_body_has_no_other_constant():
+    case = dict(BALL, friction=0.3, body1_young=5, body1_poisson=0.2, body2_young=3, body2_poisson=0.5, grid_n=24,
+                grid_size=0.4, history=table(time=[0, 0.1, 1], load_n=[1e-3] * 3))  # fmt: skip
+    one, two = (package.run(**case, **relaxing(2, bulk=bulk)) for bulk in (True, False))
+    assert np.array_equal(one["shear_x"], two["shear_x"]) and np.array_equal(one["disp_z"], two["disp_z"])
 
 
 def test_a_contact_that_shrinks_is_that_of_ting_in_second_order():
@@ -87,8 +175,8 @@ def test_a_stuck_contact_creeps_along_the_surface_and_keeps_its_shear(poisson, b
     assert run["shear_x"][-1] == pytest.approx(run["shear_x"][3], abs=1e-9 * run["shear_x"][3].max())
 
 
-@pytest.mark.parametrize("dissimilar", [False, True])
-def test_work_is_dissipated_by_friction_and_by_the_bodies(dissimilar):
+@pytest.mark.parametrize("dissimilar, bulk", [(False, False), (True, False), (True, True)])
+def test_work_is_dissipated_by_friction_and_by_the_bodies(dissimilar, bulk):
     """Pushed in, sheared and pulled off, with time to recover: the rest of the balance falls in second order."""
     rest = []
     for steps in (24, 48):
@@ -102,7 +190,7 @@ def test_work_is_dissipated_by_friction_and_by_the_bodies(dissimilar):
         first = dict(body1_young=5, body1_poisson=0.2) if dissimilar else RIGID
         run = package.run(
             **{**BALL, "friction": 0.3 * dissimilar}, **first, body2_young=2.6, body2_poisson=0.3,
-            **relaxing(2, (0.5, 0.2), (0.3, 1)), grid_n=40, grid_size=0.25, history=history, output_fields="none",
+            **relaxing(2, (0.5, 0.2), (0.3, 1), bulk), grid_n=40, grid_size=0.25, history=history, output_fields="none",
             normal_rtol=1e-10, tangential_rtol=1e-10,
         )  # fmt: skip
         work = sum(
@@ -139,7 +227,36 @@ def test_limits_are_elastic_bodies(kind):
                 assert found[name][k] == pytest.approx(elastic[name][k], abs=1e-6 * np.abs(elastic[name][k]).max())
 
 
-@pytest.mark.parametrize("second", [{}, relaxing(2, (0.4,), (0.7,))])
+@pytest.mark.parametrize("kind", ["halfspace", "plane", "periodic"])
+@pytest.mark.parametrize("both", [True, False])
+def test_limits_of_constant_bulk_modulus_are_elastic_bodies(kind, both):
+    """Of a body that keeps its bulk modulus, and one that keeps it or Poisson's ratio: of G(inf) and what is kept."""
+    case = dict(
+        friction=0.3, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", elasticity=kind,
+        grid_n=64 if kind == "plane" else 24, grid_size=2e-3, slip_direction="end", normal_rtol=1e-12,
+        tangential_rtol=1e-11, errors="none", coupling_rtol=1e-9,
+    )  # fmt: skip
+    load = 1e5 if kind == "plane" else 100
+    # the first row, a sudden one, leaves hardly any shear to later ones
+    loads = dict(load_n=[1e-9 * load, load, load, 0.8 * load], load_tx=[0, 0, 0.12 * load, -0.1 * load])
+    history = table(time=[1, 2, 3, 4], **loads)
+
+    def run(shear, more):
+        second = constants(2, 0.5e11 * shear, 1e11 if both else 1e11 * shear)
+        return package.run(**case, **constants(1, 1e11 * shear, 1.5e11), **second, **more, history=history)
+
+    for times, shear in (((1e-9, 3e-9), 0.5), ((1e9, 3e9), 1)):
+        found = run(1, {**relaxing(1, (0.3, 0.2), times, True), **relaxing(2, (0.3, 0.2), times, both)})
+        elastic = run(shear, {})
+        for name in ("pressure", "shear_x"):
+            for k in (1, 2, 3):
+                assert found[name][k] == pytest.approx(elastic[name][k], abs=1e-6 * np.abs(elastic[name][k]).max())
+
+
+SECOND = [{}, relaxing(2, (0.4,), (0.7,)), relaxing(2, (0.4,), (0.7,), True)]
+
+
+@pytest.mark.parametrize("second", SECOND, ids=["elastic", "constant_poisson", "constant_bulk"])
 def test_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path, second):
     (tmp_path / "h.csv").write_text("time,load_n,load_tx\n0,500,0\n0.1,700,60\n0.3,700,-40\n1,600,30\n")
     case = dict(
@@ -160,6 +277,20 @@ def test_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path, second):
         assert one["history/viscous_energy"][1:].min() > 0
     said = petsam(dict(case, output="on.h5", restart="c.h5", body1_relax_times="0.1,2"), check=2).stderr
     assert "body1_relax_times" in said
+    said = petsam(dict(case, output="on.h5", restart="c.h5", body1_relax="constant_bulk"), check=2).stderr
+    assert "-body1_relax is constant_poisson there" in said
+
+
+@pytest.mark.parametrize("body", [1, 2])
+def test_stresses_of_a_body_of_constant_bulk_modulus_are_rejected(petsam, stress, tmp_path, body):
+    (tmp_path / "h.csv").write_text("time,load_n\n0,500\n1,500\n")
+    relax = {f"body{body}_relax_moduli": "0.6", f"body{body}_relax_times": "0.2", f"body{body}_relax": "constant_bulk"}
+    case = dict(bodies(), **relax, friction=0, gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", grid_n=32,
+                grid_size=2.4e-3, history="h.csv", output="v.h5")  # fmt: skip
+    petsam(case)
+    said = stress(dict(input="v.h5", output="s.h5", depths="50um", body=body), check=2).stderr
+    assert f"-body{body}_relax constant_bulk: the stresses in body {body}" in said and f"give -body {3 - body}" in said
+    stress(dict(input="v.h5", output="s.h5", depths="50um", body=3 - body))
 
 
 def test_stresses_are_those_by_the_tractions(petsam, stress, tmp_path):
@@ -292,3 +423,48 @@ def test_time_does_not_go_back_in_process():
     with pytest.raises(package.Error, match="goes back by 1 s"):
         contact.try_step(time=-1, load_n=1e-3)
     contact.try_step(time=1, load_n=1e-3)
+
+
+def hunter(growth, length):
+    """Edges, and moment of the pressure per load, of Hunter's (1961) rolling cylinder: E* = R = 1, N = pi/4.
+
+    J(t) = 1 + growth (1 - exp(-t/theta)), length = V theta. Contact from m - h to m + h.
+    """
+    load = np.pi / 4
+
+    def coefficients(m, h):
+        return (1 + growth) * load / (np.pi * h), -(m - length) / 2, -h / 4
+
+    def residual(unknowns):
+        m, h = unknowns
+        a, b, c = coefficients(m, h)
+        y, z = h / length, (1 + growth) * h / length
+        ahead = a * kve(0, y) + b * (kve(1, y) - 1 / y) + c * (kve(2, y) - 2 * (1 / y + 1 / y**2))
+        return (a * iv(0, z) - b * iv(1, z) + c * iv(2, z)) / iv(0, z), np.pi * y * ahead - np.pi / 2 * (m + h)
+
+    m, h = fsolve(residual, (0.2, (1 + growth) ** 0.25), xtol=1e-13)
+    a, b, _ = coefficients(m, h)
+    moment = (h * np.pi * (m * a + h * b / 2) - length * load) / (1 + growth)
+    return m - h, m + h, moment / load
+
+
+@pytest.mark.parametrize("growth, length, ends, cells", [(1, 1, (-6, 2.25), 360), (10, 0.1, (-4.4, 3.8), 200)])
+def test_a_cylinder_rolls_as_that_of_hunter(growth, length, ends, cells):
+    """In steps of a cell until it is steady; the moment resists the rolling."""
+    closed = hunter(growth, length)
+    if length == 1:
+        assert closed == pytest.approx((-1.01489455271, 1.36980365535, 0.262159497125), rel=1e-10)
+    width, nu = ends[1] - ends[0], 0.3
+    step, k = width / cells, np.arange(cells)
+    run = package.run(
+        **{**BALL, "elasticity": "plane"}, **RIGID, body2_young=1 - nu**2, body2_poisson=nu,
+        **relaxing(2, (growth / (1 + growth),), (1 / (1 + growth),)), grid_n=cells, grid_size=width,
+        grid_center=(ends[0] + ends[1]) / 2, output_fields="pressure",
+        history=table(time=k * step / length, load_n=np.pi / 4 + 0 * k, rot_y=0 * k, roll=step * (k > 0)),
+    )  # fmt: skip
+    places = ends[0] + step * (np.nonzero(run["pressure"][-1].ravel())[0] + 0.5)
+    assert run["load_my"][-1] / (np.pi / 4) == pytest.approx(closed[2], rel=1e-3)
+    assert run["load_my"][-1] == pytest.approx(run["load_my"][-20], rel=1e-4)
+    assert (places[0] - step / 2, places[-1] + step / 2) == pytest.approx(
+        closed[:2], abs=0.01 * (closed[1] - closed[0])
+    )

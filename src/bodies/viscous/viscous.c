@@ -1,24 +1,29 @@
 /*
   Bodies of a linear viscoelastic material: an addition to half-spaces or periods of one elastic material each.
 
-  The shear modulus relaxes as a sum of exponentials (a generalised Maxwell model), Poisson's ratio is constant. So the
-  displacement of a body creeps like J(t)/J(0) = 1 + sum a_j (1 - exp(-t/theta_j)) under a constant traction (prony.c),
-  and under any history
+  The shear modulus G relaxes as a sum of exponentials (a generalised Maxwell model). The surface of a body is displaced
+  by two creep functions, a of 1/G and b of 3/(3 K + G), K being the bulk modulus, in place of the constants
 
-      u(t) = C (p + sum a_j c_j),   theta_j c_j' + c_j = p,
+      (1 - nu)/G = (a + b)/2,   nu/G = (a - b)/2,   (1 - 2 nu)/G = b.
 
-  with C of the elastic body under a sudden load, whose Young's modulus is given, and c_j a traction that follows p.
-  With p linear in time in a step, x = dt/theta, e = exp(-x), m = (1 - e)/x:
+  If Poisson's ratio is constant, b is (1 - 2 nu) a; if K is, b comes from moduli that relax by less (prony.c). Each is
+  a(0) + sum a_j (1 - exp(-t/theta_j)), so that under any history
+
+      u(t) = C p + sum C_j c_j,   theta_j c_j' + c_j = p,
+
+  with C of the elastic bodies under a sudden load, whose Young's moduli are given, C_j of the constants of a term, and
+  c_j a traction that follows p. With p linear in time in a step, x = dt/theta, e = exp(-x), m = (1 - e)/x:
 
       c_new = e c_old + (m - e) p_old + (1 - m) p_new.
 
-  So the step is that of elastic bodies that give way by 1 + sum a_j (1 - m_j) times as much, and have moved before any
-  traction of the step by sum a_j C (e c_old + (m - e) p_old) (viscousmemory.c). It is of second order in dt; a step
-  without duration is a jump. Stresses are those by the tractions, as of elastic bodies, since Poisson's ratio is
-  constant.
+  So the step is that of elastic bodies with the constants of C and the sum of (1 - m_j) C_j, which have moved before
+  any traction of the step by sum C_j (e c_old + (m - e) p_old) (viscousmemory.c). It is of second order in dt; a step
+  without duration is a jump. Stresses are those by the tractions, as of elastic bodies, if Poisson's ratio is constant.
 
-  Where all bodies that are not rigid have the same creep, the operator is that of the elastic pair times a factor. Else
-  it is the sum of each body on a rigid one, and the inverse of the elastic pair remains the preconditioner.
+  A pair has three constants (SamPairConstants), to which its displacements are proportional. So those of all terms are
+  products of the elastic pair with factors; and where the tangential ones, of two constants, do not keep their ratio,
+  or the terms couple what a sudden load does not, also of another pair. The inverse of the elastic pair remains the
+  preconditioner.
   Source: E. H. Lee, J. R. M. Radok, J. Appl. Mech. 27 (1960) 438-444.
 */
 #include "viscous.h"
@@ -31,154 +36,153 @@
 
 #define LEAST     1e-9 /* least modulus of a relaxed body, as a part of that under a sudden load */
 #define LONGEST   1e18 /* longest time, s */
-#define OPERATORS 300  /* memory per cell of the operators of both bodies, bytes */
+#define OPERATORS 150  /* memory per cell of the operators of the other bodies, bytes */
 
 static SamViscous *DataOf(SamElasticity e)
 {
   return (SamViscous *)e->data;
 }
 
-double SamViscousFactor(const SamViscous *v, PetscInt body)
-{
-  double factor = 1;
-
-  for (PetscInt j = 0; j < v->terms; j++) factor += v->term[j].part[body] * (double)v->term[j].now;
-  return factor;
-}
-
-/* Returns the factor of a body in the present step, on any grid. */
-static double FactorOf(SamElasticity e, PetscInt body)
-{
-  return SamViscousFactor(DataOf(e)->finest, body);
-}
-
-/* Returns a body that creeps as all do, if all bodies that are not rigid do. */
-static PetscInt AnyOf(SamElasticity e)
-{
-  return SamBodyIsRigid(e->pair->body[0]) ? 1 : 0;
-}
-
 static PetscErrorCode SetUp(SamElasticity e)
 {
   SamViscous *v = DataOf(e);
+  SamPair     pair;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < 2 && !v->finest->alike; b++) {
-    const SamMaterial rigid = {INFINITY, 0, 0};
-    SamBody           base;
-    SamPair           pair;
-
-    PetscCall(SamBodyCreate(1, &rigid, &base));
-    PetscCall(SamPairCreate(b ? base : e->pair->body[0], b ? e->pair->body[1] : base, &pair));
-    PetscCall(SamElasticityCreateOfPair(e->inner, pair, &v->body[b]));
-    PetscCall(SamPairDestroy(&pair));
-    PetscCall(SamBodyDestroy(&base));
-    PetscCall(SamElasticitySetUp(v->body[b]));
-  }
+  if (!v->finest->mixes && !v->finest->pushes) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamPairCreateOther(e->pair, &pair));
+  PetscCall(SamElasticityCreateOfPair(e->inner, pair, &v->other));
+  PetscCall(SamPairDestroy(&pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Destroy(SamElasticity e)
 {
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < 2; b++) PetscCall(SamElasticityDestroy(&DataOf(e)->body[b]));
+  PetscCall(SamElasticityDestroy(&DataOf(e)->other));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- products ---- */
 
-typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
-typedef PetscErrorCode (*MethodSingle)(SamElasticity, double, const float *const[], float *const[]);
+/* Finds the factors of the products in the present step. */
+static void FindNow(SamElasticity e, double factor[SAM_VISCOUS_PRODUCTS])
+{
+  double value[SAM_PAIR_CONSTANTS];
 
-/* Adds the products of both bodies: in[] is used before out[], which may be the same, is written. */
-static PetscErrorCode AddBodies(SamElasticity e, Method method, PetscInt components, const double *const in[],
+  SamViscousGetConstants(e, value);
+  SamViscousFindFactors(e, value, factor);
+}
+
+typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
+
+/* Returns the bodies of a product. */
+static SamElasticity BodiesOf(SamElasticity e, SamViscousProductKind kind)
+{
+  const PetscBool coupling = kind == SAM_VISCOUS_PUSH || kind == SAM_VISCOUS_LIFT;
+
+  if (kind == SAM_VISCOUS_OTHER_SHEAR || (coupling && DataOf(e)->finest->pushes)) return DataOf(e)->other;
+  return e->inner;
+}
+
+/* Applies a product to arrays of this rank's cells, without a factor. */
+static PetscErrorCode ApplyKind(SamElasticity e, SamViscousProductKind kind, const double *const in[],
                                 double *const out[])
 {
-  const PetscInt n      = e->grid->cells;
-  const double   of[2]  = {FactorOf(e, 0), FactorOf(e, 1)};
-  double        *one[2] = {NULL, NULL};
+  const SamElasticity of     = BodiesOf(e, kind);
+  const Method        method = kind == SAM_VISCOUS_NORMAL ? of->ops.applynormal
+                               : kind == SAM_VISCOUS_PUSH ? of->ops.applynormaltotangential
+                               : kind == SAM_VISCOUS_LIFT ? of->ops.applytangentialtonormal
+                                                          : of->ops.applytangential;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(n, &one[0], n, &one[1]));
-  PetscCall((*method)(DataOf(e)->body[0], in, one));
-  PetscCall((*method)(DataOf(e)->body[1], in, out));
-  for (PetscInt c = 0; c < components; c++)
-    for (PetscInt k = 0; k < n; k++) out[c][k] = of[0] * one[c][k] + of[1] * out[c][k];
-  PetscCall(PetscFree2(one[0], one[1]));
+  PetscCall(SamElasticitySetUp(of));
+  PetscCall((*method)(of, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddBodiesSingle(SamElasticity e, MethodSingle method, PetscInt components, double factor,
-                                      const float *const in[], float *const out[])
+/* Applies a product with its factor in the present step, and adds that of the other bodies to the tangential one. */
+static PetscErrorCode ApplyNow(SamElasticity e, SamViscousProductKind kind, PetscInt components,
+                               const double *const in[], double *const out[])
 {
-  const PetscInt n      = e->grid->cells;
-  float         *one[2] = {NULL, NULL};
+  const PetscInt n = e->grid->cells;
+  double         factor[SAM_VISCOUS_PRODUCTS], *more[2] = {NULL, NULL}, part;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(n, &one[0], n, &one[1]));
-  PetscCall((*method)(DataOf(e)->body[0], factor * FactorOf(e, 0), in, one));
-  PetscCall((*method)(DataOf(e)->body[1], factor * FactorOf(e, 1), in, out));
+  FindNow(e, factor);
+  part = kind == SAM_VISCOUS_SHEAR ? factor[SAM_VISCOUS_OTHER_SHEAR] : 0;
+  if (part != 0) {
+    PetscCall(PetscMalloc2(n, &more[0], n, &more[1]));
+    PetscCall(ApplyKind(e, SAM_VISCOUS_OTHER_SHEAR, in, more)); /* before `out`, which may be `in`, is written */
+  }
+  PetscCall(ApplyKind(e, kind, in, out));
   for (PetscInt c = 0; c < components; c++)
-    for (PetscInt k = 0; k < n; k++) out[c][k] += one[c][k];
-  PetscCall(PetscFree2(one[0], one[1]));
+    for (PetscInt k = 0; k < n; k++) out[c][k] = factor[kind] * out[c][k] + (more[c] ? part * more[c][k] : 0);
+  PetscCall(PetscFree2(more[0], more[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#define PRODUCT(Name, method, components) \
+#define PRODUCT(Name, kind, components) \
   static PetscErrorCode Name(SamElasticity e, const double *const in[], double *const out[]) \
   { \
-    const double factor = FactorOf(e, AnyOf(e)); \
-\
     PetscFunctionBegin; \
-    if (!DataOf(e)->finest->alike) { \
-      PetscCall(AddBodies(e, e->inner->ops.method, components, in, out)); \
-      PetscFunctionReturn(PETSC_SUCCESS); \
-    } \
-    PetscCall((*e->inner->ops.method)(e->inner, in, out)); \
-    for (PetscInt c = 0; c < components; c++) \
-      for (PetscInt k = 0; k < e->grid->cells; k++) out[c][k] *= factor; \
+    PetscCall(ApplyNow(e, kind, components, in, out)); \
     PetscFunctionReturn(PETSC_SUCCESS); \
   }
-#define SINGLE(Name, method, components) \
-  static PetscErrorCode Name(SamElasticity e, double factor, const float *const in[], float *const out[]) \
-  { \
-    PetscFunctionBegin; \
-    if (!DataOf(e)->finest->alike) \
-      PetscCall(AddBodiesSingle(e, e->inner->ops.method, components, factor, in, out)); \
-    else \
-      PetscCall((*e->inner->ops.method)(e->inner, factor * FactorOf(e, AnyOf(e)), in, out)); \
-    PetscFunctionReturn(PETSC_SUCCESS); \
-  }
-PRODUCT(ApplyNormal, applynormal, 1)
-PRODUCT(ApplyTangential, applytangential, 2)
-PRODUCT(ApplyNormalToTangential, applynormaltotangential, 2)
-PRODUCT(ApplyTangentialToNormal, applytangentialtonormal, 1)
-SINGLE(ApplyNormalSingle, applynormalsingle, 1)
-SINGLE(ApplyTangentialSingle, applytangentialsingle, 2)
+PRODUCT(ApplyNormal, SAM_VISCOUS_NORMAL, 1)
+PRODUCT(ApplyTangential, SAM_VISCOUS_SHEAR, 2)
+PRODUCT(ApplyNormalToTangential, SAM_VISCOUS_PUSH, 2)
+PRODUCT(ApplyTangentialToNormal, SAM_VISCOUS_LIFT, 1)
 
-PetscErrorCode SamViscousApply(SamElasticity e, PetscInt body, double weight, Vec p, Vec q, Vec u_z, Vec u_t)
+static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const in[], float *const out[])
 {
-  const SamElasticity of    = body < 0 ? e->inner : DataOf(e)->body[body];
-  const Vec           in[4] = {p, q, q, p}, out[4] = {u_z, u_t, u_z, u_t};
-  const Method        method[4] = {of->ops.applynormal, of->ops.applytangential, of->ops.applytangentialtonormal,
-                                   of->ops.applynormaltotangential};
-  const PetscInt      n         = e->grid->cells;
+  double now[SAM_VISCOUS_PRODUCTS];
 
   PetscFunctionBegin;
-  for (int k = 0; k < (e->traits.coupled ? 4 : 2); k++) {
-    const double *x;
-    double       *y;
-    Vec           more;
+  FindNow(e, now);
+  PetscCall((*e->inner->ops.applynormalsingle)(e->inner, factor * now[SAM_VISCOUS_NORMAL], in, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    PetscCall(VecDuplicate(out[k], &more));
-    PetscCall(VecGetArrayRead(in[k], &x));
-    PetscCall(VecGetArray(more, &y));
-    PetscCall((*method[k])(of, (const double *const[]){x, x + n}, (double *const[]){y, y + n}));
-    PetscCall(VecRestoreArray(more, &y));
-    PetscCall(VecRestoreArrayRead(in[k], &x));
-    PetscCall(VecAXPY(out[k], weight, more));
-    PetscCall(VecDestroy(&more));
+static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const in[], float *const out[])
+{
+  const SamElasticity other   = DataOf(e)->other;
+  const PetscInt      n       = e->grid->cells;
+  float              *more[2] = {NULL, NULL};
+  double              now[SAM_VISCOUS_PRODUCTS];
+
+  PetscFunctionBegin;
+  FindNow(e, now);
+  if (now[SAM_VISCOUS_OTHER_SHEAR] != 0) {
+    PetscCall(SamElasticitySetUp(other));
+    PetscCall(PetscMalloc2(n, &more[0], n, &more[1]));
+    PetscCall((*other->ops.applytangentialsingle)(other, factor * now[SAM_VISCOUS_OTHER_SHEAR], in, more));
   }
+  PetscCall((*e->inner->ops.applytangentialsingle)(e->inner, factor * now[SAM_VISCOUS_SHEAR], in, out));
+  for (PetscInt c = 0; c < 2 && more[c]; c++)
+    for (PetscInt k = 0; k < n; k++) out[c][k] += more[c][k];
+  PetscCall(PetscFree2(more[0], more[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamViscousProduct(SamElasticity e, SamViscousProductKind kind, Vec in, Vec out)
+{
+  const PetscInt n = e->grid->cells;
+  const double  *x;
+  double        *y;
+  PetscReal      most;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(in, NORM_INFINITY, &most));
+  if (most == 0) { /* as without friction */
+    PetscCall(VecZeroEntries(out));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(VecGetArrayRead(in, &x));
+  PetscCall(VecGetArray(out, &y));
+  PetscCall(ApplyKind(e, kind, (const double *const[]){x, x + n}, (double *const[]){y, y + n}));
+  PetscCall(VecRestoreArray(out, &y));
+  PetscCall(VecRestoreArrayRead(in, &x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -195,52 +199,39 @@ static PetscErrorCode GetSudden(SamElasticity of, PetscReal self[2])
 
 static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
 {
-  const SamViscous *v = DataOf(e);
-  PetscReal         one[2];
+  double    factor[SAM_VISCOUS_PRODUCTS];
+  PetscReal one[2], other[2] = {0, 0};
 
   PetscFunctionBegin;
-  *normal = *tangential = 0;
-  for (PetscInt b = 0; b < 2; b++) {
-    const PetscBool all = v->finest->alike;
-
-    if (all && b != AnyOf(e)) continue;
-    PetscCall(GetSudden(all ? e->inner : v->body[b], one));
-    *normal += FactorOf(e, b) * one[0];
-    *tangential += FactorOf(e, b) * one[1];
-  }
+  FindNow(e, factor);
+  PetscCall(GetSudden(e->inner, one));
+  if (factor[SAM_VISCOUS_OTHER_SHEAR] != 0) PetscCall(GetSudden(DataOf(e)->other, other));
+  *normal     = factor[SAM_VISCOUS_NORMAL] * one[0];
+  *tangential = factor[SAM_VISCOUS_SHEAR] * one[1] + factor[SAM_VISCOUS_OTHER_SHEAR] * other[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Gets the factor of the operator's inverse: that of the self-influences. */
-static PetscErrorCode GetInverse(SamElasticity e, double *factor)
+/* Returns the factor of the operator's inverse: that of the normal one. */
+static double InverseOf(SamElasticity e)
 {
-  PetscReal sudden[2], now[2];
+  double factor[SAM_VISCOUS_PRODUCTS];
 
-  PetscFunctionBegin;
-  PetscCall(GetSudden(e->inner, sudden));
-  PetscCall(GetSelfInfluence(e, &now[0], &now[1]));
-  *factor = (double)(sudden[0] / now[0]);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  FindNow(e, factor);
+  return 1 / factor[SAM_VISCOUS_NORMAL];
 }
 
 static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const in[], float *const out[])
 {
-  double inverse = 1;
-
   PetscFunctionBegin;
-  PetscCall(GetInverse(e, &inverse));
-  PetscCall((*e->inner->ops.preconditionnormal)(e->inner, factor * inverse, in, out));
+  PetscCall((*e->inner->ops.preconditionnormal)(e->inner, factor * InverseOf(e), in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const in[],
                                              float *const out[])
 {
-  double inverse = 1;
-
   PetscFunctionBegin;
-  PetscCall(GetInverse(e, &inverse));
-  PetscCall((*e->inner->ops.preconditiontangential)(e->inner, factor * inverse, in, out));
+  PetscCall((*e->inner->ops.preconditiontangential)(e->inner, factor * InverseOf(e), in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -253,23 +244,37 @@ static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *const options[2][2] = {{"body1_relax_moduli", "body1_relax_times"},
-                                          {"body2_relax_moduli", "body2_relax_times"}};
+enum { MODULI, TIMES, KIND, OPTIONS };
+#define NAMES(body) \
+  { \
+    "body" body "_relax_moduli", "body" body "_relax_times", "body" body "_relax" \
+  }
+static const char *const options[2][OPTIONS] = {NAMES("1"), NAMES("2")};
 
+#define POISSON "constant_poisson"
+#define BULK    "constant_bulk"
 #define ROWS(body) \
   { \
     {"body" body "_relax_moduli", \
-     "parts of the modulus of body " body " that relax (constant Poisson's ratio)", \
+     "parts of the shear modulus of body " body " that relax", \
      SAM_OPTION_REAL, \
      .size  = SAM_CREEP_TERMS, \
      .range = SAM_RANGE_POSITIVE, \
      .needs = "body" body "_relax_times"}, \
+      {"body" body "_relax_times", \
+       "relaxation times of these parts", \
+       SAM_OPTION_REAL, \
+       .size  = SAM_CREEP_TERMS, \
+       .range = SAM_RANGE_POSITIVE, \
+       .unit  = "s", \
+       .needs = "body" body "_relax_moduli"}, \
     { \
-      "body" body "_relax_times", "relaxation times of these parts", SAM_OPTION_REAL, \
-        .size = SAM_CREEP_TERMS, .range = SAM_RANGE_POSITIVE, .unit = "s", .needs = "body" body "_relax_moduli" \
+      "body" body "_relax", "what stays constant: Poisson's ratio or the bulk modulus", SAM_OPTION_ENUM, \
+        .words = POISSON "," BULK, .needs = "body" body "_relax_moduli" \
     } \
   }
-static const SamOptionRow rows[2][2] = {ROWS("1"), ROWS("2")};
+static const SamOptionRow rows[2][OPTIONS] = {ROWS("1"), ROWS("2")};
+static const char *const  kinds[2]         = {POISSON, BULK};
 
 static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
 {
@@ -278,9 +283,29 @@ static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
   PetscFunctionBegin;
   for (int b = 0; b < 2; b++) {
     if (!v->relaxes[b]) continue;
-    PetscCall(SamParametersAddReals(p, options[b][0], PETSC_TRUE, v->relaxes[b], v->moduli[b]));
-    PetscCall(SamParametersAddReals(p, options[b][1], PETSC_TRUE, v->relaxes[b], v->times[b]));
+    PetscCall(SamParametersAddReals(p, options[b][MODULI], PETSC_TRUE, v->relaxes[b], v->moduli[b]));
+    PetscCall(SamParametersAddReals(p, options[b][TIMES], PETSC_TRUE, v->relaxes[b], v->times[b]));
+    PetscCall(SamParametersAddText(p, options[b][KIND], PETSC_TRUE, kinds[v->bulk[b]]));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
+                                   SamStress *stress)
+{
+  const PetscInt  b = body - 1;
+  const PetscBool without =
+    SamViscousHasBulk(e, 1 - b) || SamBodyIsRigid(e->pair->body[1 - b]) ? PETSC_TRUE : PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCheck(!SamViscousHasBulk(e, b), e->grid->comm, SAM_ERR_USER,
+             "-%s " BULK ": the stresses in body %" PetscInt_FMT
+             " are not available, as they depend on earlier tractions: run with " POISSON "%s",
+             options[b][KIND], body,
+             without ? ""
+             : b     ? ", or give -body 1"
+                     : ", or give -body 2");
+  PetscCall((*e->inner->ops.createstress)(e->inner, body, settings, stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -312,38 +337,6 @@ static PetscErrorCode Create(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the terms of a body's creep; times that both bodies have are one term. */
-static PetscErrorCode AddTerms(SamElasticity e, PetscInt body)
-{
-  SamViscous *v = DataOf(e);
-  SamCreep    creep;
-
-  PetscFunctionBegin;
-  SamCreepFromRelaxation(v->relaxes[body], v->moduli[body], v->times[body], &creep);
-  for (PetscInt k = 0; k < creep.count; k++) {
-    PetscInt j = 0;
-
-    while (j < v->terms && (double)v->term[j].time != creep.time[k]) j++;
-    v->term[j].time       = creep.time[k];
-    v->term[j].part[body] = creep.part[k];
-    v->terms              = PetscMax(v->terms, j + 1);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Finds out if all bodies that are not rigid creep alike; bodies that do not are coupled. */
-static void Compare(SamElasticity e)
-{
-  SamViscous *v = DataOf(e);
-
-  v->alike = PETSC_TRUE;
-  if (SamBodyIsRigid(e->pair->body[0]) || SamBodyIsRigid(e->pair->body[1])) return;
-  for (PetscInt j = 0; j < v->terms; j++)
-    if (v->term[j].part[0] != v->term[j].part[1]) v->alike = PETSC_FALSE;
-  for (PetscInt b = 0; b < 2 && !v->alike; b++)
-    if (v->relaxes[b] && (double)e->pair->body[b]->material[0].poisson < 0.5) e->traits.coupled = PETSC_TRUE;
-}
-
 /* Wraps the bodies of which one relaxes; `v`: the settings. */
 static PetscErrorCode Wrap(SamElasticity *elasticity, const SamViscous *settings)
 {
@@ -357,12 +350,14 @@ static PetscErrorCode Wrap(SamElasticity *elasticity, const SamViscous *settings
     v->relaxes[b] = settings->relaxes[b];
     PetscCall(PetscArraycpy(v->moduli[b], settings->moduli[b], SAM_CREEP_TERMS));
     PetscCall(PetscArraycpy(v->times[b], settings->times[b], SAM_CREEP_TERMS));
-    PetscCall(AddTerms(e, b));
+    v->bulk[b] = settings->bulk[b];
   }
-  Compare(e);
-  e->bytes          = 48 * (v->terms + 2) + (v->alike ? 0 : OPERATORS);
+  PetscCall(SamViscousSetTerms(e));
+  if (e->inner->ops.createstress && (SamViscousHasBulk(e, 0) || SamViscousHasBulk(e, 1)))
+    e->ops.createstress = CreateStress;
+  e->bytes          = 48 * (v->terms + 2) + (v->mixes || v->pushes ? OPERATORS : 0);
   e->traits.stretch = PETSC_FALSE; /* the strain by a uniform stress creeps, too */
-  e->option         = options[v->relaxes[0] ? 0 : 1][0];
+  e->option         = options[v->relaxes[0] ? 0 : 1][MODULI];
   PetscCall(SamElasticityDestroy(elasticity));
   *elasticity = e;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -382,19 +377,19 @@ static PetscErrorCode CheckBody(SamElasticity e, const SamOptions *from, const S
     sum <= 1 - LEAST, from->comm, SAM_ERR_USER,
     "-%s%s: the parts of the modulus add up to %.6g: expected less than 1, by %.6g at least, as the rest is the "
     "modulus of a relaxed body",
-    prefix, options[b][0], sum, LEAST);
+    prefix, options[b][MODULI], sum, LEAST);
   for (PetscInt k = 0; k < v->relaxes[b]; k++)
     PetscCheck(v->times[b][k] >= 1 / LONGEST && v->times[b][k] <= LONGEST, from->comm, SAM_ERR_USER,
-               "-%s%s %.6g: expected times from %.6g to %.6g s", prefix, options[b][1], (double)v->times[b][k],
+               "-%s%s %.6g: expected times from %.6g to %.6g s", prefix, options[b][TIMES], (double)v->times[b][k],
                1 / LONGEST, LONGEST);
   PetscCheck(!SamBodyIsRigid(e->pair->body[b]), from->comm, SAM_ERR_USER,
-             "-%s%s: body %" PetscInt_FMT " is rigid and does not relax: omit it", prefix, options[b][0], b + 1);
+             "-%s%s: body %" PetscInt_FMT " is rigid and does not relax: omit it", prefix, options[b][MODULI], b + 1);
   PetscCheck(SamPairIsUniform(e->pair), from->comm, SAM_ERR_USER,
              "-%s%s: not supported with layers: bodies that relax have one material: omit one of them", prefix,
-             options[b][0]);
+             options[b][MODULI]);
   PetscCheck(!e->traits.patch, from->comm, SAM_ERR_USER,
              "-%s%s: not supported with -%sbody1_compliance or -%sbody2_compliance: omit one of them", prefix,
-             options[b][0], prefix, prefix);
+             options[b][MODULI], prefix, prefix);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -405,15 +400,17 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
-    PetscCall(SamOptionsReals(from, &rows[b][0], settings.moduli[b], &counts[0]));
-    PetscCall(SamOptionsReals(from, &rows[b][1], settings.times[b], &counts[1]));
+    PetscCall(SamOptionsReals(from, &rows[b][MODULI], settings.moduli[b], &counts[0]));
+    PetscCall(SamOptionsReals(from, &rows[b][TIMES], settings.times[b], &counts[1]));
+    PetscCall(SamOptionsRead(from, NULL, 1, &rows[b][KIND], &settings.bulk[b], NULL));
     if (SamPrintHelp() || !(counts[0] || counts[1])) continue;
     PetscCheck(counts[0], from->comm, SAM_ERR_USER, "-%s%s is given without -%s%s: give both", SamOptionsPrefix(from),
-               options[b][1], SamOptionsPrefix(from), options[b][0]);
+               options[b][TIMES], SamOptionsPrefix(from), options[b][MODULI]);
     PetscCheck(counts[0] == counts[1], from->comm, SAM_ERR_USER,
                "-%s%s: %" PetscInt_FMT " times for %" PetscInt_FMT " parts of -%s%s: give one for each",
-               SamOptionsPrefix(from), options[b][1], counts[1], counts[0], SamOptionsPrefix(from), options[b][0]);
-    PetscCall(SamOptionsExclude(from, options[b][0], "slide",
+               SamOptionsPrefix(from), options[b][TIMES], counts[1], counts[0], SamOptionsPrefix(from),
+               options[b][MODULI]);
+    PetscCall(SamOptionsExclude(from, options[b][MODULI], "slide",
                                 "what the bodies remember does not slide with them: give a column roll"));
     settings.relaxes[b] = counts[0];
     PetscCall(CheckBody(*elasticity, from, &settings, b));
@@ -429,12 +426,14 @@ static PetscErrorCode AddFromParameters(SamElasticity *elasticity, const SamPara
   PetscFunctionBegin;
   (void)source;
   for (int b = 0; b < 2; b++) {
-    const SamParameter *moduli = SamParametersFind(p, options[b][0]), *times = SamParametersFind(p, options[b][1]);
+    const SamParameter *moduli = SamParametersFind(p, options[b][MODULI]),
+                       *times = SamParametersFind(p, options[b][TIMES]), *kind = SamParametersFind(p, options[b][KIND]);
 
     if (!moduli || !times) continue;
     settings.relaxes[b] = PetscMin(moduli->count, SAM_CREEP_TERMS);
     PetscCall(PetscArraycpy(settings.moduli[b], moduli->value, settings.relaxes[b]));
     PetscCall(PetscArraycpy(settings.times[b], times->value, settings.relaxes[b]));
+    settings.bulk[b] = kind && !strcmp(kind->text, BULK) ? 1 : 0;
   }
   if (settings.relaxes[0] + settings.relaxes[1] > 0) PetscCall(Wrap(elasticity, &settings));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -2,6 +2,7 @@
 #ifndef PETSAM_VISCOUS_H
 #define PETSAM_VISCOUS_H
 
+#include <petsam/private/body.h>
 #include <petsam/private/elasticityimpl.h>
 
 /*
@@ -21,44 +22,64 @@ PETSC_INTERN void SamCreepFromRelaxation(PetscInt count, const PetscReal parts[]
                                          SamCreep *creep);
 
 /*
-  SamViscous - the data of the type. A term is a time theta of one body or of both; its field of tractions c follows
-  those of the contact: theta c' + c = p. In a step p is linear in time: c_new = kept c + before p_old + now p_new.
+  SamViscous - the data of the type. A term is a time theta of a creep function, of one body or of both; its field of
+  tractions c follows those of the contact: theta c' + c = p. In a step p is linear in time: c_new = kept c + before
+  p_old + now p_new. It displaces by c what bodies of its constants would.
 */
-#define SAM_VISCOUS_TERMS (2 * SAM_CREEP_TERMS)
+#define SAM_VISCOUS_TERMS (4 * SAM_CREEP_TERMS) /* two creep functions of each body */
 typedef struct {
-  PetscReal time;              /* theta, s */
-  double    part[2];           /* of the bodies, a_j; 0: the body has no such term */
-  PetscReal kept, before, now; /* of the present step */
+  PetscReal time;                   /* theta, s */
+  double value[SAM_PAIR_CONSTANTS]; /* what it adds to the constants of the pair (body.h) if it has crept to its end */
+  PetscReal kept, before, now;      /* of the present step */
 } SamViscousTerm;
 typedef struct SamViscous SamViscous;
 struct SamViscous {
   PetscInt          relaxes[2]; /* numbers of parts of the bodies' moduli */
   PetscReal         moduli[2][SAM_CREEP_TERMS], times[2][SAM_CREEP_TERMS];
+  int               bulk[2]; /* 1: the bulk modulus is constant, 0: Poisson's ratio */
   PetscInt          terms;
   SamViscousTerm    term[SAM_VISCOUS_TERMS];
   PetscReal         duration; /* of the present step, s */
-  PetscBool         alike;    /* all bodies that are not rigid have the same creep */
-  SamElasticity     body[2];  /* unless alike, each body on a rigid one */
+  PetscBool         mixes;    /* A and B of the terms are not all proportional to those of the pair */
+  PetscBool         pushes;   /* the terms couple bodies that are not coupled under a sudden load */
+  SamElasticity     other;    /* if so: bodies of other constants */
   const SamViscous *finest;   /* that of the finest grid, whose weights count on all others */
 };
 
 /*
-  SamViscousFactor - returns the displacement of body 0 or 1 by tractions at the end of the present step, relative to
-  that by a sudden load.
+  SamViscousSetTerms - finds the terms of bodies whose moduli are set, and what they need (viscousterms.c).
+  SamViscousHasBulk - true if the bulk modulus of body 0 or 1 is constant, and not infinite.
+  SamViscousGetConstants - gets the constants of the pair at the end of the present step, on any grid.
+  SamViscousFindFactors - finds the factors of the products in what bodies of these constants displace; 0: none.
+  SamViscousProduct - applies a product, without a factor. Collective.
+
+  The products are those of the bodies under a sudden load, and `other` ones of the other bodies.
+*/
+typedef enum {
+  SAM_VISCOUS_NORMAL,      /* pressure to u_z */
+  SAM_VISCOUS_SHEAR,       /* shear to u_t */
+  SAM_VISCOUS_OTHER_SHEAR, /* likewise, of the other bodies */
+  SAM_VISCOUS_PUSH,        /* pressure to u_t */
+  SAM_VISCOUS_LIFT,        /* shear to u_z: the transposed one */
+  SAM_VISCOUS_PRODUCTS
+} SamViscousProductKind;
+PETSC_INTERN PetscErrorCode SamViscousSetTerms(SamElasticity e);
+PETSC_INTERN PetscBool      SamViscousHasBulk(SamElasticity e, PetscInt body);
+PETSC_INTERN void           SamViscousGetConstants(SamElasticity e, double value[SAM_PAIR_CONSTANTS]);
+PETSC_INTERN void           SamViscousFindFactors(SamElasticity e, const double value[SAM_PAIR_CONSTANTS],
+                                                  double factor[SAM_VISCOUS_PRODUCTS]);
+PETSC_INTERN PetscErrorCode SamViscousProduct(SamElasticity e, SamViscousProductKind kind, Vec in, Vec out);
+
+/*
   SamViscousMemoryDeclare, SamViscousMemoryBegin, SamViscousMemoryDisplace, SamViscousMemoryAdvance - the type's methods
   of these names (viscousmemory.c).
-  SamViscousApply - adds to u_z and u_t (components one after the other) `weight` times the displacements of a body
-  under a sudden traction p, q; body -1: of both.
 */
-PETSC_INTERN double         SamViscousFactor(const SamViscous *viscous, PetscInt body);
 PETSC_INTERN PetscErrorCode SamViscousMemoryDeclare(SamElasticity e, SamState state);
 PETSC_INTERN PetscErrorCode SamViscousMemoryBegin(SamElasticity e, SamState state, const SamControl *control,
                                                   PetscReal duration);
 PETSC_INTERN PetscErrorCode SamViscousMemoryDisplace(SamElasticity e, SamConditions conditions, SamState state,
                                                      const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds);
 PETSC_INTERN PetscErrorCode SamViscousMemoryAdvance(SamElasticity e, SamState state, Vec pressure, Vec shear);
-PETSC_INTERN PetscErrorCode SamViscousApply(SamElasticity e, PetscInt body, double weight, Vec p, Vec q, Vec u_z,
-                                            Vec u_t);
 
 extern PETSC_VISIBILITY_INTERNAL const SamElasticityAddition SamElasticityViscous;
 

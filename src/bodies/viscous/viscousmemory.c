@@ -5,9 +5,10 @@
   The energy is dissipated by the dashpots of the terms, w = p - c being the traction on one. With w_0 before the step
   and D = p_new - p_old, w = w_0 exp(-t/theta) + D (1 - exp(-t/theta)) theta/dt, so that for tractions linear in time
 
-      sum a_j/theta_j int w.C w dt = sum a_j (x m (1 + e)/2 w_0.C w_0 + x m^2 w_0.C D + f D.C D),
+      sum 1/theta_j int w.C_j w dt = sum (x m (1 + e)/2 w_0.C_j w_0 + x m^2 w_0.C_j D + f D.C_j D),
 
-  m = (1 - e)/x, f = (1 - 2 m + m (1 + e)/2)/x = x/3 - x^2/4 + ..., which no time makes large.
+  m = (1 - e)/x, f = (1 - 2 m + m (1 + e)/2)/x = x/3 - x^2/4 + ..., which no time makes large. C_j is a sum of products
+  with factors. The coupling of shear to u_z is the transposed of that of pressure to u_t: it counts twice.
 */
 #include "viscous.h"
 #include <petsam/private/base.h>
@@ -20,6 +21,13 @@
 #define SHORT  1e-2 /* duration over the time below which a weight is a series */
 
 enum { NORMAL, TANGENTIAL, WAYS };
+static const struct {
+  PetscInt in, out;
+} ends[SAM_VISCOUS_PRODUCTS]         = {[SAM_VISCOUS_NORMAL]      = {NORMAL, NORMAL},
+                                        [SAM_VISCOUS_SHEAR]       = {TANGENTIAL, TANGENTIAL},
+                                        [SAM_VISCOUS_OTHER_SHEAR] = {TANGENTIAL, TANGENTIAL},
+                                        [SAM_VISCOUS_PUSH]        = {NORMAL, TANGENTIAL},
+                                        [SAM_VISCOUS_LIFT]        = {TANGENTIAL, NORMAL}};
 static const char *const last[WAYS]  = {"viscous_last_pressure", "viscous_last_shear"};
 static const char *const moved[WAYS] = {"viscous_z", "viscous"};
 
@@ -88,28 +96,46 @@ static void SetWeights(SamViscousTerm *term, PetscReal duration)
   term->now    = 1 - mean;
 }
 
-/* Adds the displacement of a body (-1: both) by the terms, each as it would be without traction in the step. */
-static PetscErrorCode AddBody(SamElasticity e, SamState state, PetscInt body, const Vec u[WAYS])
+/* Returns the factor of a product in what a term displaces. */
+static double FactorOf(SamElasticity e, PetscInt j, SamViscousProductKind kind)
 {
-  const SamViscous *v = (const SamViscous *)e->data;
-  Vec               sum[WAYS];
+  double factor[SAM_VISCOUS_PRODUCTS];
+
+  SamViscousFindFactors(e, ((const SamViscous *)e->data)->term[j].value, factor);
+  return factor[kind];
+}
+
+/* True if any term displaces by a product. */
+static PetscBool HasKind(SamElasticity e, SamViscousProductKind kind)
+{
+  for (PetscInt j = 0; j < ((const SamViscous *)e->data)->terms; j++)
+    if (FactorOf(e, j, kind) != 0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Adds the displacement by a product of the terms, each as it would be without traction in the step. */
+static PetscErrorCode AddKind(SamElasticity e, SamState state, SamViscousProductKind kind, const Vec u[WAYS])
+{
+  const SamViscous *v        = (const SamViscous *)e->data;
+  const PetscInt    way      = ends[kind].in;
+  const Vec         traction = Committed(state, last[way]);
+  Vec               sum, more;
 
   PetscFunctionBegin;
-  for (PetscInt way = 0; way < WAYS; way++) {
-    const Vec traction = Committed(state, last[way]);
+  PetscCall(SamGridCreateVec(e->grid, way + 1, &sum));
+  for (PetscInt j = 0; j < v->terms; j++) {
+    const SamViscousTerm *t      = &v->term[j];
+    const double          factor = FactorOf(e, j, kind);
+    const Vec             memory = Committed(state, NameOf(way, j));
 
-    PetscCall(SamGridCreateVec(e->grid, way + 1, &sum[way]));
-    for (PetscInt j = 0; j < v->terms; j++) {
-      const SamViscousTerm *t      = &v->term[j];
-      const double          part   = body < 0 ? PetscMax(t->part[0], t->part[1]) : t->part[body];
-      const Vec             memory = Committed(state, NameOf(way, j));
-
-      if (memory) PetscCall(VecAXPY(sum[way], part * (double)t->kept, memory));
-      if (traction) PetscCall(VecAXPY(sum[way], part * (double)t->before, traction));
-    }
+    if (memory) PetscCall(VecAXPY(sum, factor * (double)t->kept, memory));
+    if (traction) PetscCall(VecAXPY(sum, factor * (double)t->before, traction));
   }
-  PetscCall(SamViscousApply(e, body, 1, sum[NORMAL], sum[TANGENTIAL], u[NORMAL], u[TANGENTIAL]));
-  for (PetscInt way = 0; way < WAYS; way++) PetscCall(VecDestroy(&sum[way]));
+  PetscCall(VecDuplicate(u[ends[kind].out], &more));
+  PetscCall(SamViscousProduct(e, kind, sum, more));
+  PetscCall(VecAXPY(u[ends[kind].out], 1, more));
+  PetscCall(VecDestroy(&more));
+  PetscCall(VecDestroy(&sum));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -124,12 +150,7 @@ PetscErrorCode SamViscousMemoryBegin(SamElasticity e, SamState state, const SamC
   for (PetscInt j = 0; j < v->terms; j++) SetWeights(&v->term[j], duration);
   for (PetscInt way = 0; way < WAYS; way++) PetscCall(Clear(state, moved[way], &u[way]));
   PetscCall(SamElasticitySetUp(e));
-  if (v->alike) {
-    PetscCall(AddBody(e, state, -1, u));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  for (PetscInt b = 0; b < 2; b++)
-    if (v->relaxes[b]) PetscCall(AddBody(e, state, b, u));
+  for (int kind = 0; kind < SAM_VISCOUS_PRODUCTS; kind++) PetscCall(AddKind(e, state, (SamViscousProductKind)kind, u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -179,43 +200,62 @@ static void GetWeights(double x, double weights[3])
   weights[2] = x < SHORT ? x * (1 / 3.0 - x * (1 / 4.0 - x * (7 / 60.0 - x / 24))) : (1 - 2 * m + m * (1 + e) / 2) / x;
 }
 
-/* Adds the energy that a term of a body (-1: of both) dissipates in the step. */
-static PetscErrorCode AddTerm(SamElasticity e, SamState state, PetscInt j, PetscInt body, const Vec traction[WAYS],
-                              double *energy)
+/* Sets `to`, which it creates, to a - b, of which each may be absent. */
+static PetscErrorCode CreateDifference(SamGrid g, PetscInt way, Vec a, Vec b, Vec *to)
 {
-  const SamViscous     *v       = (const SamViscous *)e->data;
-  const SamViscousTerm *t       = &v->term[j];
-  const double          part    = body < 0 ? PetscMax(t->part[0], t->part[1]) : t->part[body];
-  double                dots[3] = {0}, weights[3];
-  Vec                   w[2][WAYS], u[2][WAYS]; /* w_0 and D, and their displacements */
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(g, way + 1, to));
+  if (a) PetscCall(VecCopy(a, *to));
+  if (b) PetscCall(VecAXPY(*to, -1, b));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds w_0.C w_0 and w_0.C D of a term and a product to dots[0] and dots[1]; jump: D; product: C D. */
+static PetscErrorCode AddDots(SamElasticity e, SamState state, PetscInt j, SamViscousProductKind kind,
+                              const Vec jump[WAYS], Vec product, double dots[2])
+{
+  Vec w[WAYS], u;
 
   PetscFunctionBegin;
-  if (part == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt way = 0; way < WAYS; way++) {
-    const Vec before = Committed(state, last[way]), memory = Committed(state, NameOf(way, j));
+  for (PetscInt way = 0; way < WAYS; way++)
+    PetscCall(CreateDifference(e->grid, way, Committed(state, last[way]), Committed(state, NameOf(way, j)), &w[way]));
+  PetscCall(VecDuplicate(product, &u));
+  PetscCall(SamViscousProduct(e, kind, w[ends[kind].in], u));
+  PetscCall(AddDot(e->grid, ends[kind].out + 1, w[ends[kind].out], u, &dots[0]));
+  PetscCall(AddDot(e->grid, ends[kind].out + 1, jump[ends[kind].out], u, &dots[1]));
+  PetscCall(AddDot(e->grid, ends[kind].out + 1, w[ends[kind].out], product, &dots[1]));
+  dots[1] /= 2; /* twice the same number, unless it is that of the coupling, which counts twice */
+  PetscCall(VecDestroy(&u));
+  for (PetscInt way = 0; way < WAYS; way++) PetscCall(VecDestroy(&w[way]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    for (int k = 0; k < 2; k++) {
-      PetscCall(SamGridCreateVec(e->grid, way + 1, &w[k][way]));
-      PetscCall(SamGridCreateVec(e->grid, way + 1, &u[k][way]));
-    }
-    PetscCall(VecCopy(traction[way], w[1][way]));
-    if (before) PetscCall(VecAXPY(w[1][way], -1, before));
-    if (before) PetscCall(VecCopy(before, w[0][way]));
-    if (memory) PetscCall(VecAXPY(w[0][way], -1, memory));
+/* Adds the energy that the terms dissipate in the step by a product. */
+static PetscErrorCode AddEnergy(SamElasticity e, SamState state, SamViscousProductKind kind, const Vec traction[WAYS],
+                                double *energy)
+{
+  const SamViscous *v       = (const SamViscous *)e->data;
+  const PetscInt    out     = ends[kind].out;
+  double            between = 0;
+  Vec               jump[WAYS], product;
+
+  PetscFunctionBegin;
+  for (PetscInt way = 0; way < WAYS; way++)
+    PetscCall(CreateDifference(e->grid, way, traction[way], Committed(state, last[way]), &jump[way]));
+  PetscCall(VecDuplicate(jump[out], &product));
+  PetscCall(SamViscousProduct(e, kind, jump[ends[kind].in], product));
+  PetscCall(AddDot(e->grid, out + 1, jump[out], product, &between));
+  for (PetscInt j = 0; j < v->terms; j++) {
+    const double factor  = FactorOf(e, j, kind) * (kind == SAM_VISCOUS_PUSH ? 2 : 1);
+    double       dots[3] = {0, 0, between}, weights[3];
+
+    if (factor == 0) continue;
+    PetscCall(AddDots(e, state, j, kind, jump, product, dots));
+    GetWeights((double)(v->duration / v->term[j].time), weights);
+    for (int k = 0; k < 3; k++) *energy += (double)(e->grid->dx * e->grid->dy) * factor * weights[k] * dots[k];
   }
-  for (int k = 0; k < 2; k++)
-    PetscCall(SamViscousApply(e, body, 1, w[k][NORMAL], w[k][TANGENTIAL], u[k][NORMAL], u[k][TANGENTIAL]));
-  for (PetscInt way = 0; way < WAYS; way++) {
-    PetscCall(AddDot(e->grid, way + 1, w[0][way], u[0][way], &dots[0]));
-    PetscCall(AddDot(e->grid, way + 1, w[1][way], u[0][way], &dots[1]));
-    PetscCall(AddDot(e->grid, way + 1, w[1][way], u[1][way], &dots[2]));
-    for (int k = 0; k < 2; k++) {
-      PetscCall(VecDestroy(&w[k][way]));
-      PetscCall(VecDestroy(&u[k][way]));
-    }
-  }
-  GetWeights((double)(v->duration / t->time), weights);
-  for (int k = 0; k < 3; k++) *energy += (double)(e->grid->dx * e->grid->dy) * part * weights[k] * dots[k];
+  PetscCall(VecDestroy(&product));
+  for (PetscInt way = 0; way < WAYS; way++) PetscCall(VecDestroy(&jump[way]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -225,10 +265,9 @@ static PetscErrorCode FindEnergy(SamElasticity e, SamState state, const Vec trac
 
   PetscFunctionBegin;
   *energy = 0;
-  for (PetscInt j = 0; j < v->terms && v->duration > 0; j++) {
-    if (v->alike) PetscCall(AddTerm(e, state, j, -1, traction, energy));
-    for (PetscInt b = 0; b < 2 && !v->alike; b++) PetscCall(AddTerm(e, state, j, b, traction, energy));
-  }
+  for (int kind = 0; kind < SAM_VISCOUS_LIFT && v->duration > 0; kind++)
+    if (HasKind(e, (SamViscousProductKind)kind))
+      PetscCall(AddEnergy(e, state, (SamViscousProductKind)kind, traction, energy));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
