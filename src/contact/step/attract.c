@@ -30,13 +30,14 @@
 #define PASSES 1000
 #define PART   0.5  /* of the tolerance: largest error of the last pass */
 #define NEAR   1e-2 /* error below which passes are accelerated, */
-#define FALLS  0.9  /* if it falls in a pass by this factor */
+#define CALM   3    /* once it has fallen so many times in a row */
 
 typedef struct {
   SamSolve *w;
   SamMixing mixing;
   Vec       h, gap, found, change, weight;
-  PetscReal error, before; /* of the tension of the last pass and of the one before it */
+  PetscReal error; /* of the tension of the last pass */
+  PetscInt  falls; /* how many times in a row the error has fallen */
 } Passes;
 
 /* Computes the tension of the gap and the error of the last one: how far the change moves the surfaces, relative to all
@@ -56,8 +57,9 @@ static PetscErrorCode Find(Passes *p)
   PetscCall(SamElasticityApplyNormal(w->task->elasticity, p->gap, p->change));
   PetscCall(VecNorm(p->change, NORM_INFINITY, &moved));
   PetscCall(SamSolutionTensionError(w->task->problem, w->s, p->gap, &error));
-  p->before = p->error;
-  p->error  = PetscMax(error, moved > 0 ? moved / PetscMax(PetscMax(contact, pulled), moved) : 0);
+  if (moved > 0) error = PetscMax(error, moved / PetscMax(PetscMax(contact, pulled), moved));
+  p->falls = error < p->error ? p->falls + 1 : 0;
+  p->error = error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -85,7 +87,7 @@ static PetscErrorCode Proceed(Passes *p)
   SamSolve *const w = p->w;
 
   PetscFunctionBegin;
-  if (p->error < NEAR && p->error < FALLS * p->before) {
+  if (p->error < NEAR && p->falls >= CALM) {
     PetscCall(Accelerate(p));
   } else {
     PetscCall(VecCopy(p->found, w->s->tension));
