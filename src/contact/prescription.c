@@ -46,7 +46,8 @@ PetscErrorCode SamContactCheckControl(SamContact c, SamControl *control)
                (double)control->value[k], type);
     control->force[k] = PETSC_FALSE;
   }
-  PetscCheck(!control->force[SAM_COMPONENT_N] || control->value[SAM_COMPONENT_N] >= 0 || SamProblemAttracts(c->problem),
+  PetscCheck(!control->force[SAM_COMPONENT_N] || control->value[SAM_COMPONENT_N] >= 0 ||
+               SamConditionsPull(c->conditions),
              c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "load_n = %.6g: expected a number >= 0",
              (double)control->value[SAM_COMPONENT_N]);
   PetscCall(SamContactCheckConditions(c, control, ""));

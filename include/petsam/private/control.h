@@ -29,11 +29,14 @@ PETSC_EXTERN const char *SamUnitOn(SamGrid grid, const char unit[]);
   the last one dropped frees the list and its conditions.
   SamConditionsCount, SamConditionsGet - return the number of conditions, and the k-th one.
   SamConditionsFind - returns the condition of that name, NULL if there is none.
+  SamConditionsPull - returns true if N may be negative, as SamConditionsAllowPull() has set, once for the list.
   Conditions are borrowed. Not collective, but to be called on all ranks.
 */
 PETSC_INTERN PetscErrorCode      SamConditionsCreate(SamConditions *conditions);
 PETSC_INTERN PetscErrorCode      SamConditionsReference(SamConditions conditions);
 PETSC_INTERN PetscErrorCode      SamConditionsDestroy(SamConditions *conditions);
+PETSC_INTERN PetscBool           SamConditionsPull(SamConditions conditions);
+PETSC_INTERN void                SamConditionsAllowPull(SamConditions conditions);
 PETSC_INTERN PetscInt            SamConditionsCount(SamConditions conditions);
 PETSC_INTERN const SamCondition *SamConditionsGet(SamConditions conditions, PetscInt k);
 PETSC_INTERN const SamCondition *SamConditionsFind(SamConditions conditions, const char name[]);

@@ -2,6 +2,7 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/balance.h>
+#include <petsam/private/control.h>
 #include <petsam/private/problemimpl.h>
 #include <petsam/private/law.h>
 #include <petsam/private/problem.h>
@@ -170,6 +171,7 @@ PetscErrorCode SamProblemAddLaw(SamProblem p, SamLaw law)
              law->type);
   PetscCall(SamLawReference(law));
   PetscCall(SamLawAddConditions(law, p->conditions));
+  if (law->ops.attract) SamConditionsAllowPull(p->conditions);
   for (k = p->laws++; k > 0 && SamLawOrder(p->law[k - 1]->type) > SamLawOrder(law->type); k--)
     p->law[k] = p->law[k - 1];
   p->law[k] = law;

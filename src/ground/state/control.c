@@ -51,6 +51,7 @@ struct _n_SamConditions {
   SamClassId    class_id;
   PetscInt      references, count;
   SamCondition *condition[SAM_CONDITIONS]; /* pointers, so that conditions keep their addresses */
+  PetscBool     pull;                      /* N may be negative */
 };
 
 PetscErrorCode SamConditionsCreate(SamConditions *conditions)
@@ -114,6 +115,16 @@ PetscErrorCode SamConditionsAdd(SamConditions list, const SamCondition *conditio
   }
   if (own) *own = found;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamConditionsPull(SamConditions list)
+{
+  return list->pull;
+}
+
+void SamConditionsAllowPull(SamConditions list)
+{
+  list->pull = PETSC_TRUE;
 }
 
 PetscInt SamConditionsCount(SamConditions list)

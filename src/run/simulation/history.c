@@ -108,8 +108,9 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c, P
   PetscCall(SamOptionsHas(from, "elasticity " SAM_ELASTICITY_PLANE_PERIODIC, &repeated));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (), or instead %s", name->load_text, name->rigid));
   PetscCall(PetscSNPrintf(unit, sizeof(unit), "%s%s", name->load_unit, plane || repeated ? "/m" : ""));
-  PetscCall(SamOptionsReal(from, name->load, text, unit, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &value[SAM_BY_LOAD],
-                           &has[SAM_BY_LOAD]));
+  PetscCall(SamOptionsReal(from, name->load, text, unit,
+                           c || SamConditionsPull(h->conditions) ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE,
+                           &value[SAM_BY_LOAD], &has[SAM_BY_LOAD]));
   PetscCall(SamOptionsReal(from, name->rigid, name->rigid_text, name->rigid_unit, SAM_RANGE_ANY, &value[SAM_BY_RIGID],
                            &has[SAM_BY_RIGID]));
   if (name->creep) {
@@ -178,7 +179,7 @@ static PetscErrorCode ReadCondition(SamHistory h, const Reader *r, PetscInt k)
 static PetscBool IsNonnegative(SamHistory h, PetscInt k)
 {
   if (k >= SAM_COMPONENTS) return SamConditionsGet(h->conditions, k - SAM_COMPONENTS)->range == SAM_RANGE_NONNEGATIVE;
-  return k == SAM_COMPONENT_N && h->constant.force[k];
+  return k == SAM_COMPONENT_N && h->constant.force[k] && !SamConditionsPull(h->conditions);
 }
 
 /* Checks that times increase, and that nonnegative values are not negative. */
