@@ -174,7 +174,8 @@ __all__, __getattr__, __dir__ = PART.face()
         (RECORD.format('pictures={"x": ("saving",)}'), "pictures of its record: saving"),
         (RECORD.format('pictures={"x": ("backbone",)}'), "pictures of its record: backbone"),
         (RECORD.format('expressions={"x": ("life_swt",)}'), "expressions of its record: life_swt"),
-        (RECORD.format('tables=("a",)'), "tables of its record: a"),
+        (RECORD.format('tables={"a": ("b",)}'), "tables of its record: a: "),
+        (RECORD.format('names={"m": ("a",)}, tables={"a": ("pressure",)}'), "tables of its record: pressure"),
         (RECORD.format('top=("nothere",)'), "top of its record: nothere"),
     ],
 )

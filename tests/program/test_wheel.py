@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 import petsam
 from petsam import plot
+from petsam.apps.launch import code_of
 from petsam.apps.wheel import (
     Load,
     Pair,
@@ -61,7 +62,7 @@ def run(monkeypatch, capsys):
     def call(*given, check=0):
         monkeypatch.setattr(sys, "argv", ["petsam-wheel", *map(str, given)])
         try:
-            code = wheel.main()
+            code = code_of("petsam-wheel")
         except SystemExit as end:
             code = end.code
         out, err = capsys.readouterr()
@@ -1106,7 +1107,7 @@ def test_mistakes_of_places_are_named_with_their_cure(run, monkeypatch, capsys, 
         assert message in run(*given, check=code)
         return
     monkeypatch.setattr(sys, "argv", ["petsam-wheel", *given])
-    wheel.main()
+    code_of("petsam-wheel")
     assert message in "".join(capsys.readouterr())
 
 

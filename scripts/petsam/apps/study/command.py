@@ -32,7 +32,7 @@ import sys
 
 from ...core import words
 from ...core.errors import Error, counted
-from ...core.line import PERIOD, Parser, guarded, word, wrote
+from ...core.line import PERIOD, Parser, word, wrote
 from . import slurm, tables
 from .jobs import Jobs, check_files
 from .progress import Progress, standing, summary
@@ -178,4 +178,4 @@ def carry_out(options):
 def main():
     """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
     128 + the signal that ended the study."""
-    return guarded("petsam-study", lambda: carry_out(arguments()))
+    return carry_out(arguments())
