@@ -1,9 +1,13 @@
 """What users of the package meet first: examples of docstrings, signatures, checks of arguments, repr() of results."""
 
+import ast
+import builtins
 import doctest
 import inspect
 import re
 import warnings
+from collections import Counter
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -98,6 +102,21 @@ def test_creep_forces_name_what_is_no_number():
         table._forces(82e9, 0.28, "a", 0.3, 1e-3)
     with pytest.raises(petsam.Error, match=r"shapes \(2,\), \(3,\): give numbers, or arrays of one shape"):
         table._forces(82e9, 0.28, np.ones(2), 0.3, np.ones(3))
+
+
+def test_no_two_errors_have_the_same_name():
+    paths = Path(petsam.__file__).parent.rglob("*.py")
+    classes = [node for path in paths for node in ast.walk(ast.parse(path.read_text("utf-8")))
+               if isinstance(node, ast.ClassDef)]  # fmt: skip
+    errors, found = (
+        {name for name, one in vars(builtins).items() if inspect.isclass(one) and issubclass(one, Exception)},
+        [],
+    )
+    while len(found) < len(
+        found := [one for one in classes if {getattr(base, "id", "") for base in one.bases} & errors]
+    ):
+        errors |= {one.name for one in found}
+    assert len(found) > 30 and not [name for name, n in Counter(one.name for one in found).items() if n > 1]
 
 
 def test_repr_of_results_is_short():

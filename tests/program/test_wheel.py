@@ -1,5 +1,6 @@
 """petsam-wheel, wheelsets on both rails: equilibrium, symmetry, continuity, conicity, wear, mistakes of first users."""
 
+import pickle
 import re
 import sys
 import warnings
@@ -1212,3 +1213,13 @@ def test_positions_are_given_once(tmp_path, head, words, text):
         petsam.wheel.read_positions(
             tmp_path / "positions.csv", 90e3 if "--load" in given else None, 20.0 if "--speed" in given else None
         )
+
+
+def test_positions_without_an_equilibrium_end_with_the_error_of_a_contact():
+    """petsam.NoEquilibrium, with the code of the commands, also from another process."""
+    with pytest.raises(
+        petsam.NoEquilibrium, match="no position has an equilibrium; of the first one: it falls"
+    ) as caught:
+        batches.Batch([None], [batches.Found(None, "it falls")]).table()
+    sent = pickle.loads(pickle.dumps(caught.value))
+    assert caught.value.code == sent.code == 11 and str(sent) == str(caught.value)

@@ -29,6 +29,8 @@ def code_of(program: str) -> int:
     from ..core.line import guarded  # it needs libraries
 
     part = _part_of(program)
+    if part is None:
+        raise ValueError(f"{program}: no command of this name")
     return guarded(program, part.module("command").main, part.quiet)
 
 

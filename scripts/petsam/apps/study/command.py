@@ -32,7 +32,7 @@ import sys
 
 from ...core import words
 from ...core.errors import Error, counted
-from ...core.line import PERIOD, Parser, word, wrote
+from ...core.line import Parser, word, wrote
 from . import slurm, tables
 from .jobs import Jobs, check_files
 from .progress import Progress, standing, summary
@@ -47,11 +47,10 @@ POSITIVE = word(words.integer, f"an integer from 1 to {MOST}", least=1, most=MOS
 
 def _cycle_options(parser):
     of_cycles = parser.add_argument_group("energies of cycles in the table")
-    how = of_cycles.add_mutually_exclusive_group()
-    how.add_argument("--turns", metavar="NAME", help="divide cycles at the reversals of this scalar (a displacement)")
-    how.add_argument(
-        "--period", type=PERIOD, metavar="T[,START]", help="instead: duration of a cycle, and its start: 20ms,1s"
-    )
+    parser.add_cycles(
+        of_cycles, "divide cycles at the reversals of this scalar (a displacement)",
+        "instead: duration of a cycle, and its start: 20ms,1s",
+    )  # fmt: skip
     form = "integers separated by commas: from 1, or from -1 backwards"
     once = word(
         words.integers, form, lambda value: 0 < abs(value) <= MOST, to=lambda found: tuple(dict.fromkeys(found))
