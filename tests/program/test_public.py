@@ -82,6 +82,30 @@ def test_arguments_of_a_wrong_kind_are_named_with_their_cure(call, says):
     assert isinstance(caught.value, TypeError) and isinstance(caught.value, ValueError) and caught.value.code == 2
 
 
+CALLS = (
+    (lambda axle: axle.solve(1, 2), r"^Axle.solve: position 1: expected a Position of petsam \(Yaw, speeds"),
+    (lambda axle: axle.solve(petsam.wheel.Position()), r"^Axle.solve: missing .* 'load': give load \(The forces\)$"),
+    (lambda axle: axle.solve(petsam.wheel.Position(), laod=1), "^Axle.solve: .* 'laod': is load meant.* position"),
+    (lambda axle: axle.rigid(petsam.wheel.Position(), overlaps="1"), "^Axle.rigid: overlaps '1': expected 2 numbers"),
+    (lambda axle: type(axle).solve(1, 2, 3), "^Axle.solve: self 1: expected an Axle of petsam$"),
+    (lambda axle: axle.close(3), "^Axle.close: takes 1 positional argument but 2 were given; its arguments are none$"),
+    (lambda axle: petsam.conduction.Body(2.0).resistivity(), r"^Body.resistivity: missing .* 'k': give k \(Wave"),
+    (lambda axle: petsam.loads.Forces.nodes(3), "^Forces.nodes: self 3: expected a Forces of petsam$"),
+    (lambda axle: petsam.surface.Map.write("a.h5"), r"^Map.write: missing .* 'path': give path \(Name of the file\)$"),
+    (lambda axle: petsam.surface.Map.write(), "^Map.write: missing .*: call it as a method of an object$"),
+    (lambda axle: petsam.compliance.of_deck("a.inp"), r"^of_deck: missing 2 .*: give patch \(Full .*, contact \("),
+    (lambda axle: petsam.fit.ball(1, 2, {}, raduis=3), "^ball: got an unexpected keyword .* 'raduis': is radius meant"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("call, says", CALLS)
+def test_calls_that_cannot_be_are_named_with_their_arguments(call, says):
+    axle = object.__new__(petsam.wheel.Axle)
+    with pytest.raises(petsam.Error, match=says) as caught:
+        call(axle)
+    assert isinstance(caught.value, TypeError) and caught.value.code == 2
+
+
 def test_what_is_a_number_is_taken():
     for value in (1e5, 100000, np.float32(1e5), np.array(1e5), True):
         assert petsam.wheel.Load(value).vertical == value
