@@ -273,15 +273,16 @@ def sphere():
 
 @pytest.fixture
 def call(tmp_path, monkeypatch, capfd):
-    """call(name, *words): exit code and messages of a command of Python, run here in tmp_path: many quickly."""
+    """call(name, *words, main=None): exit code and messages of a command of Python, or of another main(), run here in
+    tmp_path: many quickly."""
     from petsam.apps.launch import code_of
 
     monkeypatch.chdir(tmp_path)
 
-    def run(name, *words):
+    def run(name, *words, main=None):
         monkeypatch.setattr(sys, "argv", [name, *map(str, words)])
         try:
-            code = code_of(name)
+            code = main() if main else code_of(name)
         except SystemExit as end:  # of argparse
             code = end.code
         return code, capfd.readouterr().err.splitlines()

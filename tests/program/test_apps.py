@@ -74,6 +74,9 @@ def test_one_more_application_is_a_part_of_the_package(trial):
 
 
 def test_one_more_application_has_a_command_a_table_and_a_page(trial, loop):
+    assert (
+        ask(trial, "scripts/petsam-one", "none.h5", "-o", "x", check=3) == "petsam-one: error: none.h5: no such file\n"
+    )
     ask(trial, "scripts/petsam-one", loop, "-o", "settled")
     head, *rows = (trial / "settled.csv").read_text().splitlines()
     assert head == "settling_cycle [1],ratio [1]" and len(rows) == 2 and rows[-1].endswith(",1.0")
