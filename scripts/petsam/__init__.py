@@ -177,6 +177,9 @@ def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any
     ...     round(float(results.history["load_n"][-1]), 6)
     10.0
     """
+    from .core.public import public
     from .results.stresses import open_any
 
-    return open_any(path, label)
+    found = open_any(path, label)
+    public(type(found))
+    return found

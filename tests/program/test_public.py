@@ -17,6 +17,7 @@ from petsam import plot
 from petsam.apps import records
 from petsam.core import keywords
 from petsam.core.brief import brief, shown
+from support import SPHERE
 
 PARTS = [*records(), plot.PART, petsam.contact.PART]
 NAMES = [(part.find(name), f"{part.name}.{name}") for part in PARTS for name in part.listed]
@@ -105,6 +106,23 @@ def test_calls_that_cannot_be_are_named_with_their_arguments(call, says):
     with pytest.raises(petsam.Error, match=says) as caught:
         call(axle)
     assert isinstance(caught.value, TypeError) and caught.value.code == 2
+
+
+def test_methods_of_what_functions_return_check_their_arguments(tmp_path):
+    """Of results that are opened, and of a class that is reached by a function alone; named by the object's class."""
+    with (
+        petsam.run(**{**SPHERE, "grid_n": 32}, output=tmp_path / "run.h5") as results,
+        petsam.open(tmp_path / "run.h5") as opened,
+    ):
+        for one in (results, opened):
+            with pytest.raises(
+                petsam.Error, match=r"^Results.series: missing .* 'name': give name \(Its name in /history"
+            ):
+                one.series()
+            with pytest.raises(petsam.Error, match="^Results.about: name 3: expected a text"):
+                one.about(3)
+    with pytest.raises(petsam.Error, match="^Profile.turned: .*its arguments are"):
+        petsam.wheel.s1002().turned(1, 2, 3, 4, 5, 6, 7)
 
 
 def test_what_is_a_number_is_taken():

@@ -61,11 +61,8 @@ class Part(NamedTuple):
     def find(self, name: str) -> Any:
         """Returns what a name of the public list stands for."""
         for module, names in self.names.items():
-            if name in names and module:
-                home = self.module(module)  # what a function returns has methods that check their arguments, too
-                return {one: _public(getattr(home, one)) for one in names}[name]
             if name in names:
-                return self.module(name)
+                return _public(getattr(self.module(module), name)) if module else self.module(name)
         raise AttributeError(f"module {self.package!r} has no attribute {name!r}")
 
     def pictured(self, name: str) -> bool:

@@ -1,9 +1,9 @@
 """Public functions and classes: short signatures, and an Error for arguments of a wrong kind, missing or unknown ones.
 
-The public list of a part gives its functions and classes by public(), classes with their methods. An argument is
-checked by its hint where that is of numbers, arrays of numbers, texts, functions or classes of the package, and where
-the function itself has no Error for it; values that have no such hint, and ranges, are the function's own affair. The
-message has the meaning of the argument by the docstring.
+The public list of a part gives its functions and classes by public(), classes with their methods, and so are the
+classes of what these functions return. An argument is checked by its hint where that is of numbers, arrays of numbers,
+texts, functions or classes of the package, and where the function itself has no Error for it; values that have no such
+hint, and ranges, are the function's own affair. The message has the meaning of the argument by the docstring.
 """
 
 import dataclasses
@@ -103,6 +103,8 @@ def _checked(function, owner, text, kind=None):
         texts = [value for value in (*args, *given.values()) if isinstance(value, (str, bytes))]
         if function.__name__ == "__init__" and texts and (one := call.wrong(args, given)):
             raise WrongArgument(one[1])
+        if type(found).__module__.startswith("petsam."):
+            public(type(found))
         return found
 
     checked.__code__ = checked.__code__.replace(co_filename=FRAME)
@@ -113,7 +115,7 @@ class _Call:
     """The arguments of a function with their kinds by their hints, and messages about those of a call."""
 
     def __init__(self, function, owner, text, kind):
-        self.owner, self.text, self.signature = owner, text, inspect.signature(function)
+        self.name, self.text, self.signature, self.kind = owner, text, inspect.signature(function), kind
         several = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
         single = {name: one for name, one in self.signature.parameters.items() if one.kind not in several}
         home = vars(sys.modules[function.__module__])
@@ -128,7 +130,7 @@ class _Call:
         for name, value in values.items():
             kind = self.kinds.get(name)
             if kind and not kind[0](value) and value is not self.signature.parameters[name].default:
-                return name, _message(self.owner, name, value, kind[1], self.text)
+                return name, _message(self.owner(args), name, value, kind[1], self.text)
         return None
 
     def fault(self, error, args, given):
@@ -137,10 +139,16 @@ class _Call:
         try:
             one = self.wrong(args, given)
         except TypeError:
-            return None if own else self._unfit(error)
+            return None if own else self._unfit(self.owner(args), error)
         return None if not one or own and (one[0] in str(error) or "number" not in one[1]) else one[1]
 
-    def _unfit(self, error):
+    def owner(self, args):
+        """The name of the function, of a method with the class of its object."""
+        if self.kind and args and isinstance(args[0], self.kind):
+            return f"{type(args[0]).__name__}.{self.name.rpartition('.')[2]}"
+        return self.name
+
+    def _unfit(self, owner, error):
         """The message about a call that lacks arguments, or has unknown ones or too many."""
         said, names = str(error).rpartition("() ")[2], re.findall(r"'(\w+)'", str(error))
         shown = [name for name in self.signature.parameters if name != "self"]
@@ -151,7 +159,7 @@ class _Call:
             cure = ": give " + ", ".join(f"{name} ({about})" if about else name for name, about in meant)
         else:
             cure = there_are(names[0] if names else "", shown, "its arguments are")
-        return f"{self.owner}: {said}{cure}"
+        return f"{owner}: {said}{cure}"
 
 
 def _hint(hint, home):
