@@ -96,6 +96,8 @@ CALLS = (
     (lambda axle: petsam.surface.Map.write("a.h5"), r"^Map.write: missing .* 'path': give path \(Name of the file\)$"),
     (lambda axle: petsam.surface.Map.write(), "^Map.write: missing .*: call it as a method of an object$"),
     (lambda axle: petsam.compliance.of_deck("a.inp"), r"^of_deck: missing 2 .*: give patch \(Full .*, contact \("),
+    (lambda axle: petsam.cycles.find(), r"^find: missing .* 'results': give results \(The results of a run\)$"),
+    (lambda axle: petsam.materials.find(nmae="steel"), "^find: got an unexpected keyword .* 'nmae': is name meant"),
     (lambda axle: petsam.fit.ball(1, 2, {}, raduis=3), "^ball: got an unexpected keyword .* 'raduis': is radius meant"),
 )  # fmt: skip
 
