@@ -174,8 +174,8 @@ class Comparison:
                    label="petsam, surfaces not moved")  # fmt: skip
         panel.plot(self.x, self.depth("moved", CYCLES[-1]), color=COLORS[0],
                    label=f"petsam, {self.numbers['seconds']:.1f} s")  # fmt: skip
-        frame(panel, "Scar of the flat after 18,000 cycles of $\\pm$25 µm", "$x$, mm", "worn depth, µm", (-0.38, 0.38),
-              (3.3, -0.9))  # fmt: skip
+        title = "Scar of the flat after 18,000 cycles of $\\pm$25 µm"
+        frame(panel, title, "$x$, mm", "worn depth, µm", (-0.38, 0.38), (3.3, -0.9))
         panel.legend(loc="lower left")
         save(figure, directory, "mccoll.png")
         self.draw_bodies(directory)

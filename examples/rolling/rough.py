@@ -89,7 +89,8 @@ def row(rms, rolled):
 def draw(planes, limit, directory):
     figure, axes = plt.subplots(1, 3, figsize=(10.0, 3.1), constrained_layout=True)
     for (rms, rolled), color in zip(planes.items(), COLORS):
-        axes[0].plot(rolled.distance / A, rolled.force, color=color, linewidth=1.2, label=name(rms).replace("um", "µm"))
+        text = name(rms).replace("um", "µm")
+        axes[0].plot(rolled.distance / A, rolled.force, color=color, linewidth=1.2, label=text)
         axes[1].plot(rolled.distance / A, 1e6 * rolled.approach, color=color, linewidth=1.2)
     axes[0].axhline(limit, linestyle="--", label="smooth, steady", **CLOSED)
     axes[0].legend(loc="lower right")

@@ -119,13 +119,21 @@ def _place(name):
     return ".apps." + name if application else None
 
 
+def _public(found):
+    """A function or a class that checks its arguments, which needs libraries."""
+    from .core.public import public
+
+    return public(found)
+
+
 def __getattr__(name):
     if name in _HOMES:
-        from .core.public import public
-
-        return public(getattr(importlib.import_module(_HOMES[name], __name__), name))
+        return _public(getattr(importlib.import_module(_HOMES[name], __name__), name))
     if _place(name):
-        return importlib.import_module(_place(name), __name__)
+        module = importlib.import_module(_place(name), __name__)
+        for one in vars(module).keys() & {*vars(module).get("__all__", ())}:
+            _public(vars(module)[one])
+        return module
     for one in [] if name.startswith("_") else _applications().records():
         if name in one.top:
             return one.find(name)
@@ -179,4 +187,6 @@ def open(path: "Union[str, os.PathLike]", label: "Optional[str]" = None) -> "Any
     """
     from .results.stresses import open_any
 
-    return open_any(path, label)
+    found = open_any(path, label)
+    _public(type(found))
+    return found

@@ -273,13 +273,16 @@ def sphere():
 
 @pytest.fixture
 def call(tmp_path, monkeypatch, capfd):
-    """call(name, main, *words): exit code and messages of a command of Python, run here in tmp_path: many quickly."""
+    """call(name, *words, main=None): exit code and messages of a command of Python, or of another main(), run here in
+    tmp_path: many quickly."""
+    from petsam.apps.launch import code_of
+
     monkeypatch.chdir(tmp_path)
 
-    def run(name, main, *words):
+    def run(name, *words, main=None):
         monkeypatch.setattr(sys, "argv", [name, *map(str, words)])
         try:
-            code = main()
+            code = main() if main else code_of(name)
         except SystemExit as end:  # of argparse
             code = end.code
         return code, capfd.readouterr().err.splitlines()
@@ -290,9 +293,7 @@ def call(tmp_path, monkeypatch, capfd):
 @pytest.fixture
 def draw(call):
     """draw(*words): exit code and messages of petsam-plot."""
-    from petsam.plot import command
-
-    return lambda *words: call("petsam-plot", command.main, *words)
+    return lambda *words: call("petsam-plot", *words)
 
 
 @pytest.fixture
@@ -316,14 +317,14 @@ def closing():
 @pytest.fixture
 def joint_command(tmp_path, monkeypatch, capsys):
     """joint_command(action, *words, check=0): what petsam-joint prints; its complaint where it fails."""
-    from petsam.apps.joint import command
+    from petsam.apps.launch import code_of
 
     monkeypatch.chdir(tmp_path)
 
     def run(action, *words, check=0):
         monkeypatch.setattr(sys, "argv", ["petsam-joint", action, *map(str, words)])
         try:
-            code = command.main()
+            code = code_of("petsam-joint")
         except SystemExit as error:
             code = error.code
         out, err = capsys.readouterr()

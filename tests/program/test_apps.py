@@ -74,6 +74,9 @@ def test_one_more_application_is_a_part_of_the_package(trial):
 
 
 def test_one_more_application_has_a_command_a_table_and_a_page(trial, loop):
+    assert (
+        ask(trial, "scripts/petsam-one", "none.h5", "-o", "x", check=3) == "petsam-one: error: none.h5: no such file\n"
+    )
     ask(trial, "scripts/petsam-one", loop, "-o", "settled")
     head, *rows = (trial / "settled.csv").read_text().splitlines()
     assert head == "settling_cycle [1],ratio [1]" and len(rows) == 2 and rows[-1].endswith(",1.0")
@@ -174,7 +177,8 @@ __all__, __getattr__, __dir__ = PART.face()
         (RECORD.format('pictures={"x": ("saving",)}'), "pictures of its record: saving"),
         (RECORD.format('pictures={"x": ("backbone",)}'), "pictures of its record: backbone"),
         (RECORD.format('expressions={"x": ("life_swt",)}'), "expressions of its record: life_swt"),
-        (RECORD.format('tables=("a",)'), "tables of its record: a"),
+        (RECORD.format('tables={"a": ("b",)}'), "tables of its record: a: "),
+        (RECORD.format('names={"m": ("a",)}, tables={"a": ("pressure",)}'), "tables of its record: pressure"),
         (RECORD.format('top=("nothere",)'), "top of its record: nothere"),
     ],
 )

@@ -35,14 +35,14 @@ def bricks(edges=(GRID, GRID, GRID + 2.0), sets=BOTTOM, moduli=(1.0, 0.3)):
 @pytest.fixture
 def compliance(tmp_path, monkeypatch, capfd):
     """compliance(*words, check=0): lines on stdout of petsam-compliance, or those on stderr where it fails."""
-    from petsam.apps.compliance import command
+    from petsam.apps.launch import code_of
 
     monkeypatch.chdir(tmp_path)
 
     def run(*words, check=0, warning=None):
         monkeypatch.setattr(sys, "argv", ["petsam-compliance", *map(str, words)])
         try:
-            code = command.main()
+            code = code_of("petsam-compliance")
         except SystemExit as end:  # of argparse
             code = end.code
         out, err = capfd.readouterr()

@@ -166,7 +166,10 @@ def test_limits_of_layers(periodic):
     """None, one of the body's own conductivity, one of no thickness, an endless one, one of two halves."""
     rng = np.random.default_rng(2)
     cells = rng.random((12, 10)) < 0.4
-    flux = lambda *layers, lam=2.0: conduct(cells, (1.0, 0.7), [Body(lam, layers), Body(5.0)], periodic=periodic)  # noqa: E731
+
+    def flux(*layers, lam=2.0):
+        return conduct(cells, (1.0, 0.7), [Body(lam, layers), Body(5.0)], periodic=periodic)
+
     bare = flux()
     assert bare == pytest.approx(conduct(cells, (1.0, 0.7), 0.7, periodic=periodic), rel=1e-7)
     assert flux((0.3, 2.0), (1.0, 2.0)) == pytest.approx(bare, rel=1e-7)
@@ -207,7 +210,10 @@ def test_bodies_with_names_of_materials_have_waves_and_images():
 def random_period(rng):
     """Cells, their widths, bodies and films of a small period, mirrored or not."""
     shape, mirrored = rng.integers(2, 7, 2), rng.random() < 0.5
-    fold = lambda field: np.pad(field, [(0, n) for n in field.shape], mode="symmetric") if mirrored else field  # noqa: E731
+
+    def fold(field):
+        return np.pad(field, [(0, n) for n in field.shape], mode="symmetric") if mirrored else field
+
     cells, film = rng.random(shape) < rng.uniform(0.2, 1), 10 ** rng.uniform(-4, 3, shape)
     cells[0, 0] = True
     film[rng.random(shape) < 0.3] = 0.0

@@ -242,11 +242,10 @@ def test_what_is_no_cycle_is_named(draw, path, words, code, says):
 @pytest.fixture
 def study(call, launcher, monkeypatch):
     """study(*words): exit code and messages of petsam-study in tmp_path."""
-    from petsam.apps.study import command
 
     monkeypatch.setenv("PETSAM", str(PETSAM))
     monkeypatch.setenv("MPIRUN", " ".join(launcher))
-    return lambda *words: call("petsam-study", command.main, *words)
+    return lambda *words: call("petsam-study", *words)
 
 
 def table(folder):

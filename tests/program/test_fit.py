@@ -10,11 +10,12 @@ import pytest
 
 import petsam
 import petsam as package
-from petsam.apps.fit import command, least
+from petsam.apps.fit import least
 from petsam.apps.fit import loops as model
 from petsam.apps.fit.backbone import Backbone, force_of
 from petsam.apps.fit.loop import Loop
 from petsam.apps.fit.problem import SHARED, Problem
+from petsam.apps.launch import code_of
 from petsam.core.errors import Error
 
 STEEL = {"body1_young": 210e9, "body1_poisson": 0.3, "body2_young": 210e9, "body2_poisson": 0.3}
@@ -67,7 +68,7 @@ def fit(monkeypatch, capsys):
     def run(*words, check=0):
         monkeypatch.setattr(sys, "argv", ["petsam-fit", *map(str, words)])
         try:
-            code = command.main()
+            code = code_of("petsam-fit")
         except SystemExit as end:
             code = end.code
         found = capsys.readouterr()

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import petsam
+from petsam.apps.launch import code_of
 from petsam.plot import command
 from support import ball
 
@@ -73,7 +74,7 @@ def test_step_that_a_killed_run_was_writing_does_not_count(lacking, solve, tmp_p
 def test_a_call_draws_what_the_program_does(results, tmp_path, monkeypatch, kind, options, words):
     getattr(petsam.plot, kind)(results, **options).savefig(tmp_path / "call.png", dpi=50)
     monkeypatch.setattr("sys.argv", ["petsam-plot", *words, "--dpi", "50", "-o", str(tmp_path / "p.png"), results.path])
-    assert command.main() == 0
+    assert code_of("petsam-plot") == 0
     image = [command.plt.imread(tmp_path / name) for name in ("call.png", "p.png")]
     assert image[0].shape == image[1].shape and np.array_equal(*image)
 

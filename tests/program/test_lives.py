@@ -11,6 +11,7 @@ import conftest
 import petsam
 from petsam.apps.fatigue import command, cracks, evaluation, materials, strength
 from petsam.apps.fatigue.stresses import Cycle
+from petsam.apps.launch import code_of
 from petsam.apps.study.expressions import Expander
 from petsam.core.errors import Error
 from petsam.plot import saving
@@ -179,7 +180,7 @@ def fatigue(folder, monkeypatch, capfd):
         monkeypatch.chdir(folder)
         monkeypatch.setattr(sys, "argv", ["petsam-fatigue", *map(str, words)])
         try:
-            code = command.main()
+            code = code_of("petsam-fatigue")
         except SystemExit as end:
             code = end.code
         out, err = capfd.readouterr()

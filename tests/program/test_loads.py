@@ -8,6 +8,7 @@ import pytest
 
 import petsam
 from petsam.apps.compliance import command as compliance_command
+from petsam.apps.launch import code_of
 from petsam.apps.loads import command, doubts, resultants
 from petsam.apps.loads.forces import Forces
 from petsam.core import frames
@@ -104,7 +105,7 @@ def tool(tmp_path, monkeypatch, capfd):
         monkeypatch.chdir(tmp_path)
         monkeypatch.setattr(sys, "argv", ["petsam-loads", *map(str, words)])
         try:
-            code = command.main()
+            code = code_of("petsam-loads")
         except SystemExit as end:
             code = end.code
         out, err = capfd.readouterr()

@@ -293,5 +293,5 @@ def test_what_is_asked_for_wrongly_is_told_with_the_nearest_name_and_all_names(p
 def test_figures_of_an_example_without_results_say_what_to_run(example, call, tmp_path, monkeypatch):
     figures = ROOT / "examples" / example / "figures.py"
     monkeypatch.syspath_prepend(figures.parent)
-    code, said = call(figures, lambda: runpy.run_path(str(figures), run_name="__main__"), tmp_path)
+    code, said = call(figures, tmp_path, main=lambda: runpy.run_path(str(figures), run_name="__main__"))
     assert code == 1 and len(said) == 1 and said[0].endswith(f"; run examples/{example}/run.sh first")

@@ -65,8 +65,9 @@ def test_a_label_in_a_table_has_its_unit_in_brackets(text, table):
 @pytest.mark.parametrize(
     "text, size",
     [
-        ("$x$, µm  at $y$ = 27 µm", 1e-6), ("depth $z$, mm", 1e-3), ("$T_x$, N", 1.0), ("$r$, m", 1.0), ("s, MPa", 1e6),
-        ("area, mm²", 1e-6), ("volume, µm³", 1e-18), ("way", 1.0), ("load, kN", 1e3), ("R, kJ/m²", 1e3), ("t, s", 1.0),
+        ("$x$, µm  at $y$ = 27 µm", 1e-6), ("depth $z$, mm", 1e-3), ("$T_x$, N", 1.0), ("$r$, m", 1.0),
+        ("s, MPa", 1e6), ("area, mm²", 1e-6), ("volume, µm³", 1e-18), ("way", 1.0), ("load, kN", 1e3),
+        ("R, kJ/m²", 1e3), ("t, s", 1.0),
     ],
 )  # fmt: skip
 def test_the_unit_of_a_label_has_a_size(text, size):
@@ -167,7 +168,8 @@ def test_a_picture_for_print_has_more_pixels_of_the_same_size(plot, folder):
 
 def test_a_small_number_without_a_unit_is_one_times_a_power_of_ten():
     assert on_axis("1", 2e-3) == (pytest.approx(1e3), "10⁻³") and on_axis("1", 0.5) == (1.0, "")
-    assert on_axis("m", 2e-3) == (pytest.approx(1e3), "mm") and on_axis("1", 3e-12) == (pytest.approx(1e12), "10⁻¹²")
+    assert on_axis("m", 2e-3) == (pytest.approx(1e3), "mm")
+    assert on_axis("1", 3e-12) == (pytest.approx(1e12), "10⁻¹²")
     assert size_of("creepage $\\xi$, 10⁻³") == pytest.approx(1e-3)
 
 

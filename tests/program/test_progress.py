@@ -10,6 +10,7 @@ import pytest
 import petsam
 from petsam import joint
 from petsam.apps.joint.pair import contents
+from petsam.apps.launch import code_of
 from petsam.core import progress
 from petsam.core.progress import Progress, clock
 from test_backbone import OPTIONS, PRELOAD, pair_file
@@ -141,10 +142,11 @@ def ends(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
 
     def run(command, *words, code=3):
-        monkeypatch.setattr(sys, "argv", [command.__name__, *map(str, words)])
+        program = "petsam-" + command.__name__.split(".")[2]
+        monkeypatch.setattr(sys, "argv", [program, *map(str, words)])
         start = time.monotonic()
         try:
-            found = command.main()
+            found = code_of(program)
         except SystemExit as end:  # of the parser
             found = end.code
         said = capsys.readouterr().err

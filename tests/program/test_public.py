@@ -1,9 +1,13 @@
 """What users of the package meet first: examples of docstrings, signatures, checks of arguments, repr() of results."""
 
+import ast
+import builtins
 import doctest
 import inspect
 import re
 import warnings
+from collections import Counter
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +17,7 @@ from petsam import plot
 from petsam.apps import records
 from petsam.core import keywords
 from petsam.core.brief import brief, shown
+from support import SPHERE
 
 PARTS = [*records(), plot.PART, petsam.contact.PART]
 NAMES = [(part.find(name), f"{part.name}.{name}") for part in PARTS for name in part.listed]
@@ -38,8 +43,9 @@ def test_examples_of_docstrings_run(one, name, tmp_path, monkeypatch):
 
 
 def test_main_entries_have_examples():
-    assert {name.partition(".")[0] for _, name in (one.values[:2] for one in EXAMPLES)} >= {
-        "fit", "wheel", "joint", "loads", "surface", "conduction", "study", "open",
+    assert {name for _, name in (one.values[:2] for one in EXAMPLES)} >= {
+        "compliance.of_deck", "conduction.conduct", "fatigue.lives", "fit.analyse", "heat.work", "heat.divided",
+        "joint.interface", "loads.history", "open", "plot.loop", "plot.maps", "study.run", "surface.read", "wheel.Axle",
     }  # fmt: skip
 
 
@@ -78,6 +84,49 @@ def test_arguments_of_a_wrong_kind_are_named_with_their_cure(call, says):
     assert isinstance(caught.value, TypeError) and isinstance(caught.value, ValueError) and caught.value.code == 2
 
 
+CALLS = (
+    (lambda axle: axle.solve(1, 2), r"^Axle.solve: position 1: expected a Position of petsam \(Yaw, speeds"),
+    (lambda axle: axle.solve(petsam.wheel.Position()), r"^Axle.solve: missing .* 'load': give load \(The forces\)$"),
+    (lambda axle: axle.solve(petsam.wheel.Position(), laod=1), "^Axle.solve: .* 'laod': is load meant.* position"),
+    (lambda axle: axle.rigid(petsam.wheel.Position(), overlaps="1"), "^Axle.rigid: overlaps '1': expected 2 numbers"),
+    (lambda axle: type(axle).solve(1, 2, 3), "^Axle.solve: self 1: expected an Axle of petsam$"),
+    (lambda axle: axle.close(3), "^Axle.close: takes 1 positional argument but 2 were given; its arguments are none$"),
+    (lambda axle: petsam.conduction.Body(2.0).resistivity(), r"^Body.resistivity: missing .* 'k': give k \(Wave"),
+    (lambda axle: petsam.loads.Forces.nodes(3), "^Forces.nodes: self 3: expected a Forces of petsam$"),
+    (lambda axle: petsam.surface.Map.write("a.h5"), r"^Map.write: missing .* 'path': give path \(Name of the file\)$"),
+    (lambda axle: petsam.surface.Map.write(), "^Map.write: missing .*: call it as a method of an object$"),
+    (lambda axle: petsam.compliance.of_deck("a.inp"), r"^of_deck: missing 2 .*: give patch \(Full .*, contact \("),
+    (lambda axle: petsam.cycles.find(), r"^find: missing .* 'results': give results \(The results of a run\)$"),
+    (lambda axle: petsam.materials.find(nmae="steel"), "^find: got an unexpected keyword .* 'nmae': is name meant"),
+    (lambda axle: petsam.fit.ball(1, 2, {}, raduis=3), "^ball: got an unexpected keyword .* 'raduis': is radius meant"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("call, says", CALLS)
+def test_calls_that_cannot_be_are_named_with_their_arguments(call, says):
+    axle = object.__new__(petsam.wheel.Axle)
+    with pytest.raises(petsam.Error, match=says) as caught:
+        call(axle)
+    assert isinstance(caught.value, TypeError) and caught.value.code == 2
+
+
+def test_methods_of_what_functions_return_check_their_arguments(tmp_path):
+    """Of results that are opened, and of a class that is reached by a function alone; named by the object's class."""
+    with (
+        petsam.run(**{**SPHERE, "grid_n": 32}, output=tmp_path / "run.h5") as results,
+        petsam.open(tmp_path / "run.h5") as opened,
+    ):
+        for one in (results, opened):
+            with pytest.raises(
+                petsam.Error, match=r"^Results.series: missing .* 'name': give name \(Its name in /history"
+            ):
+                one.series()
+            with pytest.raises(petsam.Error, match="^Results.about: name 3: expected a text"):
+                one.about(3)
+    with pytest.raises(petsam.Error, match="^Profile.turned: .*its arguments are"):
+        petsam.wheel.s1002().turned(1, 2, 3, 4, 5, 6, 7)
+
+
 def test_what_is_a_number_is_taken():
     for value in (1e5, 100000, np.float32(1e5), np.array(1e5), True):
         assert petsam.wheel.Load(value).vertical == value
@@ -98,6 +147,21 @@ def test_creep_forces_name_what_is_no_number():
         table._forces(82e9, 0.28, "a", 0.3, 1e-3)
     with pytest.raises(petsam.Error, match=r"shapes \(2,\), \(3,\): give numbers, or arrays of one shape"):
         table._forces(82e9, 0.28, np.ones(2), 0.3, np.ones(3))
+
+
+def test_no_two_errors_have_the_same_name():
+    paths = Path(petsam.__file__).parent.rglob("*.py")
+    classes = [node for path in paths for node in ast.walk(ast.parse(path.read_text("utf-8")))
+               if isinstance(node, ast.ClassDef)]  # fmt: skip
+    errors, found = (
+        {name for name, one in vars(builtins).items() if inspect.isclass(one) and issubclass(one, Exception)},
+        [],
+    )
+    while len(found) < len(
+        found := [one for one in classes if {getattr(base, "id", "") for base in one.bases} & errors]
+    ):
+        errors |= {one.name for one in found}
+    assert len(found) > 30 and not [name for name, n in Counter(one.name for one in found).items() if n > 1]
 
 
 def test_repr_of_results_is_short():

@@ -6,7 +6,8 @@ import h5py
 import numpy as np
 import pytest
 
-from petsam.apps.surface import command, generation, reading
+from petsam.apps.launch import code_of
+from petsam.apps.surface import generation, reading
 from petsam.apps.surface.readers.instruments import Instrument
 from petsam.apps.surface.readers.stated import Stated
 from petsam.core.errors import Error
@@ -105,7 +106,7 @@ def surface(tmp_path, monkeypatch, capfd):
     def run(*words):
         monkeypatch.setattr(sys, "argv", ["petsam-surface", *map(str, words)])
         try:
-            code = command.main()
+            code = code_of("petsam-surface")
         except SystemExit as end:
             code = end.code
         return code, *capfd.readouterr()

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import petsam
-from petsam.apps.joint import command, stiffnesses
+from petsam.apps.joint import stiffnesses
 from petsam.apps.joint.balance import RESPONSE, Response
 from petsam.apps.joint.bands import Band
 from petsam.apps.joint.properties import Interface, Outcome
 from petsam.apps.joint.wearing import Wear
-from petsam.plot import command as plot_command
+from petsam.apps.launch import code_of
 from test_plot_joints import FIRST, made
 from test_report_page import read, rows
 
@@ -115,7 +115,7 @@ def test_the_command_says_what_it_wrote(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", words)
     monkeypatch.setattr(stiffnesses, "interface", lambda *_, **__: interface())
     monkeypatch.chdir(tmp_path)
-    assert command.main() == 0
+    assert code_of("petsam-joint") == 0
     said = [line[6:] for line in capsys.readouterr().out.splitlines() if line.startswith("wrote ")]
     assert said == ["a.csv", "a.png", "c.html"] and sorted(path.name for path in tmp_path.iterdir()) == said
 
@@ -126,7 +126,7 @@ def test_the_command_writes_the_page_with_its_options(tmp_path, monkeypatch):
     monkeypatch.setattr("sys.argv", words)
     monkeypatch.setattr(stiffnesses, "interface", lambda *_, **__: interface())
     monkeypatch.chdir(tmp_path)
-    assert command.main() == 0 and [path.name for path in tmp_path.iterdir()] == ["c.html"]
+    assert code_of("petsam-joint") == 0 and [path.name for path in tmp_path.iterdir()] == ["c.html"]
     _, text = read(tmp_path / "c.html")
     given = rows(text.partition("<h2>Inputs</h2>")[2])
     shown = {name: re.sub("<.*?>", "", cell) for name, cell in given.items()}
@@ -161,7 +161,7 @@ def test_a_saved_table_has_the_page_of_its_result(tmp_path, monkeypatch, kind):
     found.to_csv(tmp_path / "t.csv")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("sys.argv", ["petsam-plot", "--report", "t.html", "t.csv"])
-    assert plot_command.main() == 0
+    assert code_of("petsam-plot") == 0
     page, text = read(tmp_path / "t.html")
     assert page.titles == ["Numbers", "Pictures", "Citation"] and len(page.all("img")) == 1
     saved = petsam.joint.read("t.csv")
@@ -221,7 +221,7 @@ def test_a_table_has_a_page_and_no_other_pictures(tmp_path, monkeypatch, capsys,
     worn().to_csv(tmp_path / "t.csv")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("sys.argv", ["petsam-plot", *given, "t.csv"])
-    assert plot_command.main() and says in capsys.readouterr().err and not (tmp_path / "t.html").exists()
+    assert code_of("petsam-plot") and says in capsys.readouterr().err and not (tmp_path / "t.html").exists()
 
 
 def test_what_cannot_be_is_refused(tmp_path, monkeypatch, capsys):
@@ -235,7 +235,7 @@ def test_what_cannot_be_is_refused(tmp_path, monkeypatch, capsys):
     for name, says in (("c.pdf", "--report: c.pdf: expected a name"), (str(tmp_path / "d.html"), "is a directory")):
         monkeypatch.setattr("sys.argv", ["petsam-joint", *given, "--report", name])
         try:
-            assert command.main() != 0
+            assert code_of("petsam-joint") != 0
         except SystemExit as error:
             assert error.code
         assert says in capsys.readouterr().err

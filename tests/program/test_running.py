@@ -18,6 +18,7 @@ import pytest
 
 import petsam as package
 from conftest import PROGRAM, environment
+from petsam.apps.compliance import stiffness
 from petsam.contact import running
 from support import ROOT, ball, slide_limit
 
@@ -340,6 +341,38 @@ def test_a_signal_that_ends_python_ends_the_run(tmp_path, ranks, number):
     finally:
         for run in filter(alive, runs):
             os.kill(run, signal.SIGKILL)
+
+
+def test_a_signal_that_ends_python_ends_calculix(tmp_path):
+    """A program that never ends stands for CalculiX; it notes its process, and its threads."""
+    program, started = tmp_path / "ccx", tmp_path / "started"
+    program.write_text(
+        f"#!/bin/sh\necho $$ $OMP_NUM_THREADS $CCX_NPROC_STIFFNESS > {started}.part\nmv {started}.part {started}\n"
+        "exec sleep 600"
+    )
+    program.chmod(0o755)
+    lines = f"from petsam.apps.compliance import stiffness; stiffness.run([], {str(tmp_path)!r}, 'a', {str(program)!r})"
+    given = dict(environment(), PYTHONPATH=str(ROOT / "scripts"), OMP_NUM_THREADS="7")
+    end = time.monotonic() + 20
+    with subprocess.Popen([sys.executable, "-c", lines], env=given) as python:
+        while not started.exists() and time.monotonic() < end:
+            time.sleep(0.02)
+        python.kill()
+    run, *threads = map(int, started.read_text().split())
+    try:
+        while alive(run) and time.monotonic() < end:
+            time.sleep(0.02)
+        assert not alive(run) and threads == [1, 1]
+    finally:
+        if alive(run):
+            os.kill(run, signal.SIGKILL)
+
+
+def test_a_solver_that_cannot_be_started_is_named(tmp_path):
+    (tmp_path / "ccx").write_bytes(b"\x7fELF no program")
+    (tmp_path / "ccx").chmod(0o755)
+    with pytest.raises(package.Error, match="ccx cannot be started: "):
+        stiffness.run([], tmp_path, "a", str(tmp_path / "ccx"))
 
 
 def alive(process):

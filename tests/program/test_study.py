@@ -19,8 +19,8 @@ import pytest
 import petsam
 from conftest import PROGRAM as PETSAM
 from conftest import environment
+from petsam.apps.launch import code_of
 from petsam.apps.study import cases as study_cases
-from petsam.apps.study import command as study_command
 from petsam.apps.study import runs as study_runs
 from petsam.apps.study.slurm import ranges
 from petsam.core.declared import PATHS
@@ -277,7 +277,7 @@ def in_process(monkeypatch, capsys, *words):
     """Exit code and messages of petsam-study, run here: many in little time."""
     monkeypatch.setattr(sys, "argv", ["petsam-study", *map(str, words)])
     try:
-        code = study_command.main()
+        code = code_of("petsam-study")
     except SystemExit as end:  # of argparse
         code = end.code
     return code, capsys.readouterr().err

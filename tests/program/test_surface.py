@@ -31,14 +31,14 @@ def surface(tmp_path, monkeypatch, capfd):
 
     warnings: whether there are some; None: that does not matter.
     """
-    from petsam.apps.surface import command
+    from petsam.apps.launch import code_of
 
     monkeypatch.chdir(tmp_path)
 
     def run(*words, check=0, warnings=False):
         monkeypatch.setattr(sys, "argv", ["petsam-surface", *map(str, words)])
         try:
-            code = command.main()
+            code = code_of("petsam-surface")
         except SystemExit as end:  # of argparse
             code = end.code
         out, err = capfd.readouterr()

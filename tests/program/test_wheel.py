@@ -1,5 +1,6 @@
 """petsam-wheel, wheelsets on both rails: equilibrium, symmetry, continuity, conicity, wear, mistakes of first users."""
 
+import pickle
 import re
 import sys
 import warnings
@@ -11,6 +12,7 @@ from scipy.integrate import solve_ivp
 
 import petsam
 from petsam import plot
+from petsam.apps.launch import code_of
 from petsam.apps.wheel import (
     Load,
     Pair,
@@ -61,7 +63,7 @@ def run(monkeypatch, capsys):
     def call(*given, check=0):
         monkeypatch.setattr(sys, "argv", ["petsam-wheel", *map(str, given)])
         try:
-            code = wheel.main()
+            code = code_of("petsam-wheel")
         except SystemExit as end:
             code = end.code
         out, err = capsys.readouterr()
@@ -1106,7 +1108,7 @@ def test_mistakes_of_places_are_named_with_their_cure(run, monkeypatch, capsys, 
         assert message in run(*given, check=code)
         return
     monkeypatch.setattr(sys, "argv", ["petsam-wheel", *given])
-    wheel.main()
+    code_of("petsam-wheel")
     assert message in "".join(capsys.readouterr())
 
 
@@ -1211,3 +1213,13 @@ def test_positions_are_given_once(tmp_path, head, words, text):
         petsam.wheel.read_positions(
             tmp_path / "positions.csv", 90e3 if "--load" in given else None, 20.0 if "--speed" in given else None
         )
+
+
+def test_positions_without_an_equilibrium_end_with_the_error_of_a_contact():
+    """petsam.NoEquilibrium, with the code of the commands, also from another process."""
+    with pytest.raises(
+        petsam.NoEquilibrium, match="no position has an equilibrium; of the first one: it falls"
+    ) as caught:
+        batches.Batch([None], [batches.Found(None, "it falls")]).table()
+    sent = pickle.loads(pickle.dumps(caught.value))
+    assert caught.value.code == sent.code == 11 and str(sent) == str(caught.value)

@@ -43,12 +43,15 @@ def _records(names):
 def _checked(record, others, known):
     """The record, if it states what is there, and nothing that another one or `known`, what plot has, stands for."""
     pictures = [name for names in record.pictures.values() for name in names]
-    tables = {name for one in others for name in one.tables}
+    tables = [*record.columns, *(column for one in others for column in one.columns)]
     functions = [name for names in record.expressions.values() for name in names]
     called = {name for one in others for names in one.expressions.values() for name in names}
     taken = {
         "top": [name for name in record.top if name not in record.listed],
-        "tables": [name for name in record.tables if "read" not in record.listed or name in tables],
+        "tables": [
+            *(name for name in record.tables if name not in record.listed),
+            *(column for column in record.columns if tables.count(column) > 1),
+        ],
         "expressions": [name for name in functions if name in called],
         "pictures": [name for name in pictures if name in known or any(one.pictured(name) for one in others)],
     }

@@ -19,9 +19,19 @@ def run(path: str) -> None:
         part = _part_of(name)
         if part:
             enter(*part.libraries)
-            sys.exit(part.module("command").main())
+            sys.exit(code_of(part.command))
     program = os.path.basename(path)
     sys.exit(f"{program}: error: no command of this name: call this file by the name of one, as petsam-plot")
+
+
+def code_of(program: str) -> int:
+    """Carries out the command whose program is petsam-NAME; returns the exit code. Errors are printed in one line."""
+    from ..core.line import guarded  # it needs libraries
+
+    part = _part_of(program)
+    if part is None:
+        raise ValueError(f"{program}: no command of this name")
+    return guarded(program, part.module("command").main, part.quiet)
 
 
 def _names_of(path):

@@ -8,9 +8,8 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from ..core.errors import Error, MissingFile
+from ..core.errors import EDGE, FILE, UNBALANCED, UNSETTLED, Error, MissingFile
 
-UNREADABLE, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 3, 10, 11, 12
 _MISSING = f": cannot be read: {os.strerror(errno.ENOENT)}"  # end of the library's message about a missing file
 
 
@@ -81,15 +80,19 @@ class NotConverged(StepError):
         See ContactError.
     """
 
+    code = UNSETTLED
+
 
 class NoEquilibrium(StepError):
-    """No equilibrium exists for a step: gross slip, or a moment that no pressure balances.
+    """No equilibrium exists: of a step by gross slip, or by a moment that no pressure balances.
 
     Parameters
     ----------
     code, message : int, str
         See ContactError.
     """
+
+    code = UNBALANCED
 
 
 class EdgeContact(ContactError):
@@ -100,6 +103,8 @@ class EdgeContact(ContactError):
     code, message : int, str
         See ContactError.
     """
+
+    code = EDGE
 
 
 class EdgeContactWarning(UserWarning):
@@ -120,7 +125,7 @@ class CycleWarning(UserWarning):
 
 def error_of(code: int, message: str) -> ContactError:
     """Returns the exception for an exit code of the library or of the program, with its message."""
-    if code == UNREADABLE and message.endswith(_MISSING):
+    if code == FILE and message.endswith(_MISSING):
         return MissingInput(code, message)
-    kinds = {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium, EDGE: EdgeContact}
+    kinds = {kind.code: kind for kind in (NotConverged, NoEquilibrium, EdgeContact)}
     return kinds.get(code, ContactError)(code, message)

@@ -14,12 +14,12 @@ import numpy as np
 
 from ..core import arrays, environment
 from ..core import options as command_line
-from ..core.errors import Error, short
+from ..core.errors import EDGE, UNBALANCED, UNSETTLED, Error, short
 from ..core.hdf5 import replacing
 from ..results.file import Results
-from .errors import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, error_of
+from .errors import AdviceWarning, error_of
 
-_SOLVED = (0, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE)  # exit codes of runs that have written results
+_SOLVED = (0, UNSETTLED, UNBALANCED, EDGE)  # exit codes of runs that have written results
 
 
 def run(
@@ -187,7 +187,7 @@ def _execute(words, report):
     with tempfile.TemporaryFile() as complaint:
         process = environment.start(
             words, stdout=subprocess.PIPE, stderr=complaint, text=True, errors="replace",
-            preexec_fn=environment.following(),
+            follows=True,
         )  # fmt: skip
         try:
             for line in process.stdout:

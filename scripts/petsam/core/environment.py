@@ -174,11 +174,13 @@ def is_local(words):
     return mpirun and alone and not any(ELSEWHERE.match(word) for word in words[1:])
 
 
-def start(words, **how):
-    """Starts a program of a run, with nothing to read; Error if it cannot be started. `how`: as subprocess.Popen takes
-    it."""
+def start(words, follows=False, variables=None, **how):
+    """Starts a program of a run, with nothing to read; Error if it cannot be started. `follows`: it ends with this
+    process, whatever ends that; `variables`: of its environment; `how`: as subprocess.Popen takes it."""
+    if follows:
+        how["preexec_fn"] = _following()
     try:
-        return subprocess.Popen(words, stdin=subprocess.DEVNULL, env=_variables(), **how)
+        return subprocess.Popen(words, stdin=subprocess.DEVNULL, env={**_variables(), **(variables or {})}, **how)
     except (OSError, ValueError) as error:  # no program for this system, or too many words
         raise Error(f"{short(words[0])} cannot be started: {getattr(error, 'strerror', None) or error}") from error
 
@@ -198,7 +200,7 @@ def end_with_parent(number):
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, number)
 
 
-def following():
+def _following():
     """Returns a function for a child process to call before its program begins: a signal that ends this process then
     ends the program."""
     parent = os.getpid()

@@ -5,8 +5,8 @@ import importlib
 import os
 import sys
 
-USAGE, FILE, UNSETTLED, UNBALANCED = 2, 3, 10, 11  # exit codes, as in petsam
-LINE = 4000  # maximum characters of a message
+USAGE, FILE, UNSETTLED, UNBALANCED, EDGE = 2, 3, 10, 11, 12  # exit codes, as in petsam
+LINE, PART = 4000, 80  # maximum characters of a message, and of a part of one that comes from a file
 
 
 class Error(Exception):
@@ -33,12 +33,6 @@ class Unsettled(Error):
     """Data that hold no numbers: nothing has converged."""
 
     code = UNSETTLED
-
-
-class NoEquilibrium(Error):
-    """Loads under which there is no equilibrium."""
-
-    code = UNBALANCED
 
 
 class Missing(Error):
@@ -83,18 +77,14 @@ def library(name, read=None):
         raise Missing(f"{lacks}: {sys.executable} -m pip install {package}") from error
 
 
-def one_line(text, most=LINE):
-    """Returns the text without line breaks and characters that a terminal cannot show; a long one is cut."""
+def short(text, most=PART):
+    """Returns a text, or a part of a message that comes from a file, without line breaks and characters that a terminal
+    cannot show; one with more characters than `most` is cut."""
     text = str(text)
     if len(text) > most:
         half = (most - 5) // 2
         text = text[:half] + " ... " + text[-half:]
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
-
-
-def short(text):
-    """Returns the same for a part of a message that comes from a file."""
-    return one_line(text, 80)
 
 
 def counted(count, noun):

@@ -7,7 +7,7 @@ import sys
 import warnings
 
 from . import words
-from .errors import FILE, USAGE, Error, nearest, one_line
+from .errors import FILE, LINE, USAGE, Error, nearest, short
 
 DPI = 150  # pixels per inch of a PNG: for the screen
 RANGE = (10, 1200)
@@ -31,13 +31,6 @@ def word(reader, /, *given, besides=(), to=None, **options):
             raise argparse.ArgumentTypeError(str(error)) from error
 
     return read
-
-
-# duration and start (or None), s
-PERIOD = word(
-    words.numbers, "a time above 0, or T,START: 20ms,1s", "s", count=(1, 2),
-    together=lambda found: found[0] > 0.0, to=lambda found: (*found, None)[:2],
-)  # fmt: skip
 
 
 class Parser(argparse.ArgumentParser):
@@ -97,6 +90,17 @@ class Parser(argparse.ArgumentParser):
         text = "pixels per inch of a PNG, {} to {} ({}); journals ask for 300".format(*RANGE, DPI)
         (group or self).add_argument("--dpi", type=kind, default=DPI, metavar="N", help=text)
 
+    def add_cycles(self, group, turns, period):
+        """Adds --turns and --period to a group of options, the two ways to find cycles, with what they say of them;
+        a period has its start, or None."""
+        how = group.add_mutually_exclusive_group()
+        how.add_argument("--turns", metavar="NAME", help=turns)
+        kind = word(
+            words.numbers, "a time above 0, or T,START: 20ms,1s", "s", count=(1, 2),
+            together=lambda found: found[0] > 0.0, to=lambda found: (*found, None)[:2],
+        )  # fmt: skip
+        how.add_argument("--period", type=kind, metavar="T[,START]", help=period)
+
     def add_choice(self, group):
         """Adds --no-picture to a group of options, and --dpi, which has no meaning beside it."""
         one = group.add_mutually_exclusive_group()
@@ -114,7 +118,7 @@ def fail(command, error, code=FILE):
     """Prints the error of a command; returns the exit code."""
     if isinstance(error, OSError) and not isinstance(error, Error):
         error = f"{error.filename or 'writing'}: {error.strerror or error}"
-    print(f"{command}: error: {one_line(error)}", file=sys.stderr)
+    print(f"{command}: error: {short(error, LINE)}", file=sys.stderr)
     for line in getattr(error, "example", ()):
         print("  " + line, file=sys.stderr)
     return code

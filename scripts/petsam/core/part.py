@@ -30,13 +30,14 @@ class Part(NamedTuple):
     about: str  # what it is for, in a few words
     names: Mapping[str, tuple[str, ...]] = {}  # what users call, by module; of an empty name modules themselves
     top: tuple[str, ...] = ()  # of these the names that petsam itself has, too
-    command: str = ""  # the program whose main() is in command.py
-    libraries: tuple[str, ...] = ()  # that the program needs
-    see: tuple[str, ...] = ()  # programs that its man page names
+    command: str = ""  # the program whose main() is in command.py: it returns the exit code, or None for 0
+    quiet: bool = False  # the program hides warnings of numbers that overflow and of letters that a font lacks
+    libraries: tuple[str, ...] = ("numpy", "h5py", "matplotlib")  # that the program needs
+    see: tuple[str, ...] = ("petsam", "petsam-plot")  # programs that its man page names
     pictures: Mapping[str, tuple[str, ...]] = {}  # functions that petsam.plot has, by module
     report: str = ""  # module with contents(found) of pages, where the usual ones of plot/founds.py lack something
     expressions: Mapping[str, tuple[str, ...]] = {}  # functions of numbers in the tables of petsam-study, by module
-    tables: tuple[str, ...] = ()  # first columns of the CSV files that read() in the public list reads
+    tables: Mapping[str, tuple[str, ...]] = {}  # first columns of CSV files, by the function or class that read them
 
     @property
     def name(self) -> str:
@@ -47,6 +48,11 @@ class Part(NamedTuple):
     def listed(self) -> list[str]:
         """The public list."""
         return sorted(name for names in self.names.values() for name in names)
+
+    @property
+    def columns(self) -> list[str]:
+        """The first columns of its tables."""
+        return [column for columns in self.tables.values() for column in columns]
 
     def module(self, name: str) -> ModuleType:
         """Imports a module of the part."""
@@ -67,6 +73,11 @@ class Part(NamedTuple):
         """Returns a picture; None of a name that is none."""
         home = next((module for module, names in self.pictures.items() if name in names), None)
         return _public(getattr(self.module(home), name)) if home else None
+
+    def reader(self, column: str) -> Any:
+        """Returns the function that reads a table by the name of its first column; None of one that is unknown."""
+        home = next((name for name, columns in self.tables.items() if column in columns), None)
+        return getattr(self.find(home), "read", self.find(home)) if home else None
 
     def face(self) -> tuple[list[str], Callable[[str], Any], Callable[[], list[str]]]:
         """Returns __all__, __getattr__ and __dir__ of the part's package."""

@@ -1,9 +1,9 @@
-"""Public functions and classes: short signatures, and an Error for arguments of a wrong kind.
+"""Public functions and classes: short signatures, and an Error for arguments of a wrong kind, missing or unknown ones.
 
-The public list of a part gives its functions and classes by public(). An argument is checked by its hint where that is
-of numbers, arrays of numbers, texts, functions or classes of the package, and where the function itself has no Error
-for it; values that have no such hint, and ranges, are the function's own affair. The message has the meaning of the
-argument by the docstring.
+The public list of a part gives its functions and classes by public(), classes with their methods, and so are the
+classes of what these functions return. An argument is checked by its hint where that is of numbers, arrays of numbers,
+texts, functions or classes of the package, and where the function itself has no Error for it; values that have no such
+hint, and ranges, are the function's own affair. The message has the meaning of the argument by the docstring.
 """
 
 import dataclasses
@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import arrays, keywords, units, words
-from .errors import Error, WrongArgument, short
+from .errors import Error, WrongArgument, short, there_are
 
 LONG = 160  # characters of a signature with its hints: beyond it they are left to the docstring
 LARGE = 40  # and of a default
@@ -49,6 +49,9 @@ def public(found: Any) -> Any:
         _show(found, inspect.signature(found))
         if "__init__" in vars(found) and "Parameters" in keywords.sections(found.__doc__)[1]:
             found.__init__ = _checked(found.__init__, found.__name__, found.__doc__)
+        for kind in found.__mro__:
+            if kind.__module__.startswith("petsam."):
+                _check_methods(kind)
     else:
         made = _checked(found, found.__name__, found.__doc__)
         _show(made, inspect.signature(found))
@@ -56,6 +59,18 @@ def public(found: Any) -> Any:
             setattr(sys.modules[found.__module__], found.__name__, made)
     _made[found] = _made[made] = made
     return made
+
+
+def _check_methods(kind):
+    """Makes the methods of a class, without a leading underscore, check their arguments."""
+    for name, one in list(vars(kind).items()):
+        binding = type(one) if isinstance(one, (classmethod, staticmethod)) else None
+        function = one.__func__ if binding else one
+        if name.startswith("_") or not inspect.isfunction(function) or function in _made:
+            continue
+        made = _checked(function, f"{kind.__name__}.{name}", function.__doc__, None if binding else kind)
+        _made[function] = _made[made] = made
+        setattr(kind, name, binding(made) if binding else made)
 
 
 def _show(found, signature):
@@ -70,29 +85,10 @@ def _show(found, signature):
         found.__signature__ = signature.replace(parameters=plain, return_annotation=signature.empty)
 
 
-def _checked(function, owner, text):
+def _checked(function, owner, text, kind=None):
     """The function with a check of its arguments: its own errors of it go first, and objects that were given texts are
-    checked once they are made."""
-    signature, home = inspect.signature(function), vars(sys.modules[function.__module__])
-    single = {
-        name: one for name, one in signature.parameters.items() if one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)
-    }
-    hints = {name: _hint(one.annotation, home) for name, one in single.items()}
-    kinds = {name: kind for name, kind in ((name, _kind(hint)) for name, hint in hints.items()) if kind}
-    if not kinds:
-        return function
-
-    def wrong(args, given):
-        """The name of an argument of a wrong kind and the message about it; None: there is none, or the call itself
-        says what lacks."""
-        try:
-            values = signature.bind(*args, **given).arguments
-        except TypeError:
-            return None
-        for name, value in values.items():
-            if name in kinds and not kinds[name][0](value) and value is not signature.parameters[name].default:
-                return name, _message(owner, name, value, kinds[name][1], text)
-        return None
+    checked once they are made. `kind`: the class of a method, whose first argument is an object of it."""
+    call = _Call(function, owner, text, kind)
 
     @functools.wraps(function)
     def checked(*args: Any, **given: Any) -> Any:
@@ -100,17 +96,70 @@ def _checked(function, owner, text):
         try:
             found = function(*args, **given)
         except (Error, *RAW) as error:
-            one = wrong(args, given)
-            if not one or (isinstance(error, Error) and (one[0] in str(error) or "number" not in one[1])):
+            said = call.fault(error, args, given)
+            if said is None:
                 raise
-            raise WrongArgument(one[1]) from error
+            raise WrongArgument(said) from error
         texts = [value for value in (*args, *given.values()) if isinstance(value, (str, bytes))]
-        if function.__name__ == "__init__" and texts and (one := wrong(args, given)):
+        if function.__name__ == "__init__" and texts and (one := call.wrong(args, given)):
             raise WrongArgument(one[1])
+        if type(found).__module__.startswith("petsam."):
+            public(type(found))
         return found
 
     checked.__code__ = checked.__code__.replace(co_filename=FRAME)
     return checked
+
+
+class _Call:
+    """The arguments of a function with their kinds by their hints, and messages about those of a call."""
+
+    def __init__(self, function, owner, text, kind):
+        self.name, self.text, self.signature, self.kind = owner, text, inspect.signature(function), kind
+        several = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+        single = {name: one for name, one in self.signature.parameters.items() if one.kind not in several}
+        home = vars(sys.modules[function.__module__])
+        hints = {name: _hint(one.annotation, home) for name, one in single.items()}
+        if kind and single:
+            hints[next(iter(single))] = kind
+        self.kinds = {name: good for name, good in ((name, _kind(hint)) for name, hint in hints.items()) if good}
+
+    def wrong(self, args, given):
+        """The name of an argument of a wrong kind and the message about it; None: there is none."""
+        values = self.signature.bind(*args, **given).arguments
+        for name, value in values.items():
+            kind = self.kinds.get(name)
+            if kind and not kind[0](value) and value is not self.signature.parameters[name].default:
+                return name, _message(self.owner(args), name, value, kind[1], self.text)
+        return None
+
+    def fault(self, error, args, given):
+        """The message about the arguments of a call that has ended with an error; None where that says it."""
+        own = isinstance(error, Error)
+        try:
+            one = self.wrong(args, given)
+        except TypeError:
+            return None if own else self._unfit(self.owner(args), error)
+        return None if not one or own and (one[0] in str(error) or "number" not in one[1]) else one[1]
+
+    def owner(self, args):
+        """The name of the function, of a method with the class of its object."""
+        if self.kind and args and isinstance(args[0], self.kind):
+            return f"{type(args[0]).__name__}.{self.name.rpartition('.')[2]}"
+        return self.name
+
+    def _unfit(self, owner, error):
+        """The message about a call that lacks arguments, or has unknown ones or too many."""
+        said, names = str(error).rpartition("() ")[2], re.findall(r"'(\w+)'", str(error))
+        shown = [name for name in self.signature.parameters if name != "self"]
+        if "self" in names:
+            cure = ": call it as a method of an object"
+        elif names and names[0] in shown:
+            meant = ((name, _about(_meaning(name, self.text))) for name in names)
+            cure = ": give " + ", ".join(f"{name} ({about})" if about else name for name, about in meant)
+        else:
+            cure = there_are(names[0] if names else "", shown, "its arguments are")
+        return f"{owner}: {said}{cure}"
 
 
 def _hint(hint, home):
@@ -185,11 +234,21 @@ def _several(value, count):
     return _numeric(value) and hasattr(value, "__len__") and (not count or len(value) == count)
 
 
+def _meaning(name, text):
+    """The meaning of an argument by a docstring; empty where it has none."""
+    entry = keywords.entries(keywords.sections(text)[1].get("Parameters", "")).get(name, "")
+    return " ".join(entry.partition("\n")[2].split())
+
+
+def _about(meaning):
+    """The first sentence of a meaning."""
+    return meaning.partition(". ")[0].rstrip(".")
+
+
 def _message(owner, name, value, kind, text):
     """Names the argument, what was given, and its meaning by the docstring, and how a text is written."""
-    entry = keywords.entries(keywords.sections(text)[1].get("Parameters", "")).get(name, "")
-    meaning = " ".join(entry.partition("\n")[2].split())
-    about = meaning.partition(". ")[0].rstrip(".")
+    meaning = _meaning(name, text)
+    about = _about(meaning)
     cure = _cure(name, value, meaning)
     return f"{owner}: {name} {short(repr(value))}: expected {kind}{f' ({about})' if about else ''}{cure}"
 

@@ -30,7 +30,7 @@ PART = Part(
         "reports": ("report", "view"),
     },
     command="petsam-plot",
-    libraries=("numpy", "h5py", "matplotlib"),
+    quiet=True,
     see=("petsam", "petsam-stress"),
 )  # fmt: skip
 

@@ -8,7 +8,7 @@ from functools import partial
 
 from ..core import words
 from ..core.errors import short
-from ..core.line import PERIOD, Parser, word
+from ..core.line import Parser, word
 from ..results.cycles import PAIRS
 from . import bodies, page
 
@@ -119,14 +119,10 @@ def _steps(parser):
         help="only these load steps in histories and loops, from 1, -1 is the last: 33: leaves out the first 32",
     )  # fmt: skip
     title = "cycles (by reversals of the displacement that does the most work)"
-    how = parser.add_argument_group(title).add_mutually_exclusive_group()
-    how.add_argument("--turns", metavar="NAME", help="by reversals of another scalar of /history")
-    how.add_argument(
-        "--period",
-        type=PERIOD,
-        metavar="T[,START]",
-        help="by time, such as 20ms (START: 0, or the first time if that is later than T)",
-    )
+    parser.add_cycles(
+        parser.add_argument_group(title), "by reversals of another scalar of /history",
+        "by time, such as 20ms (START: 0, or the first time if that is later than T)",
+    )  # fmt: skip
 
 
 def _look(parser):

@@ -35,7 +35,7 @@ import os
 from ..core.errors import Error
 from ..core.files import need_folder, need_replaceable, same
 from ..core.hdf5 import DAMAGED
-from ..core.line import guarded, wrote
+from ..core.line import wrote
 from ..core.shown import applications
 from ..core.tables import read_csv
 from ..results.file import NotSaved
@@ -208,9 +208,9 @@ def read_table(file):
     first = read_csv(file)[0].name
     known = [one for one in applications() if one.tables]
     for one in known:
-        if first in one.tables:
-            return one.find("read")(file), one
-    begin = "; ".join(f"tables of {one.command} begin with one of {', '.join(one.tables)}" for one in known)
+        if read := one.reader(first):
+            return read(file), one
+    begin = "; ".join(f"tables of {one.command} begin with one of {', '.join(one.columns)}" for one in known)
     cure = "results.h5 beside it" if first == "case" else "one of those, or results of petsam -output"
     raise Error(f"{file}: its first column is {first}: {begin}; give {cure}")
 
@@ -256,5 +256,4 @@ def draw_all(options):
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written."""
-
-    return guarded("petsam-plot", lambda: draw_all(arguments.read(__doc__)), quiet=True)
+    return draw_all(arguments.read(__doc__))

@@ -11,7 +11,7 @@ import math
 from PIL import Image
 
 from ..core import words
-from ..core.errors import one_line
+from ..core.errors import short
 from .style import STYLE, fewer, plt
 from .units import scale
 
@@ -130,7 +130,7 @@ def name(path):
 
 def text(value):
     """A text as HTML: escaped, on one line, and cut where it is long; what is HTML stays."""
-    return value if isinstance(value, Html) else Html(html.escape(one_line(value, LONG)))
+    return value if isinstance(value, Html) else Html(html.escape(short(value, LONG)))
 
 
 def element(tag, *parts, **attributes):

@@ -130,7 +130,16 @@ def profiles(
 
 @picture
 def loop(*files: Results, load: Optional[str] = None, range: StepRange = None, cycles: Cycles) -> Figure:
-    """A load over its displacement, of all steps or of some cycles."""
+    """A load over its displacement, of all steps or of some cycles.
+
+    Examples
+    --------
+    >>> import petsam
+    >>> ball = dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", body1="steel", body2="steel")
+    >>> turns = dict(time=[0, 1, 2, 3], load_n=[500] * 4, load_tx=[0, 60, -60, 60])
+    >>> run = petsam.run(ball, grid_n=32, grid_size=2.4e-3, friction=0.2, history=turns)
+    >>> petsam.plot.loop(run).savefig("loop.png")
+    """
     if not listed(cycles.cycle):
         return loops.loop(ranged(files, range), load)
     for one in files:

@@ -10,7 +10,7 @@ from typing import Any, Optional, Union
 import h5py
 import numpy as np
 
-from ..core.errors import Error, one_line, short, there_are
+from ..core.errors import Error, short, there_are
 from ..core.files import decoded, need_regular, state_of
 from ..core.hdf5 import DAMAGED, fresh
 from ..core.shown import Shown
@@ -285,5 +285,5 @@ def _reason(error):
         return "is being written by a run"
     if lacks := re.search(r"object '(\w+)' doesn't exist", text):
         return f"is not a results file of petsam: has no /{lacks[1]}; petsam -output writes one"
-    text = one_line(text or type(error).__name__, 300)
+    text = short(text or type(error).__name__, 300)
     return "cannot be read: " + text if isinstance(error, OSError) else "is not a results file of petsam: " + text

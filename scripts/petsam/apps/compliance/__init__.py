@@ -45,6 +45,7 @@ PART = Part(
         "points": ("nodes_of",),
     },
     command="petsam-compliance",
+    quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
     see=("petsam", "petsam-stress"),
     pictures={"pictures": ("compliance",)},

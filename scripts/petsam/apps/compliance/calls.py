@@ -50,6 +50,25 @@ def of_deck(
     Error
         For a deck that cannot be read, or values that do not fit it; the message names the options of
         petsam-compliance.
+
+    Examples
+    --------
+    A cube of 27 linear bricks that is held at its base, with a patch on the middle of its top.
+
+    >>> import itertools, petsam
+    >>> nodes = {x: k for k, x in enumerate(itertools.product(range(4), repeat=3), 1)}
+    >>> corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    >>> lines = ["*NODE", *(f"{k}, {x}, {y}, {z}" for (x, y, z), k in nodes.items()), "*ELEMENT, TYPE=C3D8, ELSET=ALL"]
+    >>> for k, (x, y, z) in enumerate(itertools.product(range(3), repeat=3), 1):
+    ...     brick = [nodes[x + a, y + b, z + c] for c in (0, 1) for a, b in corners]
+    ...     lines.append(", ".join(map(str, [k, *brick])))
+    >>> lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", "210000, 0.3", "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL"]
+    >>> with open("cube.inp", "w") as deck:
+    ...     print(*lines, sep="\\n", file=deck)
+    >>> top, base = ((0, 0, 3), (3, 3, 3)), ((0, 0, 0), (3, 3, 0))
+    >>> found = petsam.compliance.of_deck("cube.inp", 1e-3, top, base, units="mm", frame=((1.5, 1.5, 3),), degree=2)
+    >>> round(1e-9 * found.bodies[0].young), found.bodies[0].compliance.shape  # GPa; six functions by three components
+    (210, (18, 18))
     """
     if more.get("materials") is not None:
         raise Unusable("a deck has its own materials: use of_mesh(), or omit the materials")

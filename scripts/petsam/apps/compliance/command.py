@@ -38,7 +38,7 @@ from ...core import materials, words
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
 from ...core.hdf5 import need_own
-from ...core.line import Parser, guarded, word, wrote
+from ...core.line import Parser, word, wrote
 from ...core.units import shown
 from ...plot.saving import write
 from . import basis, model, several, writing
@@ -366,11 +366,7 @@ def carry_out(options, given):
     )
 
 
-def _run():
-    given = sys.argv[1:]
-    return carry_out(arguments(given), given)
-
-
 def main():
     """Returns the exit code: 0, 2 for bad usage, 3 for a file or a body that is rejected."""
-    return guarded(PROGRAM, _run, quiet=True)
+    given = sys.argv[1:]
+    return carry_out(arguments(given), given)

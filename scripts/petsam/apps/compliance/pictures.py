@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLORS, bar, drawn, field, frame, note, plt
+from ...plot.style import COLORS, bar, drawn, field, note, plt
 from ...plot.units import label, scale
 from .basis import LinePatch, written
 from .result import Compliance
@@ -38,12 +38,8 @@ def _mesh(axes, bodies, unit):
         axes.plot(*corners.T, color=COLORS[1], linewidth=1.6)
     axes.autoscale()
     axes.grid(False)
-    frame(
-        axes,
-        "patch on the mesh" if len(bodies) == 1 else "patches on the mesh",
-        label("x", unit[1]),
-        label("z" if line else "y", unit[1]),
-    )
+    title = "patch on the mesh" if len(bodies) == 1 else "patches on the mesh"
+    axes.set(title=title, xlabel=label("x", unit[1]), ylabel=label("z" if line else "y", unit[1]))
     axes.set_aspect("equal", adjustable="datalim")
     if line:
         axes.invert_yaxis()
@@ -67,7 +63,7 @@ def _map(axes, body, coefficients, title, unit, field_unit="m"):
     edges = [v * unit[0] for v in (x - a, x + a, y - b, y + b)]
     shown = values[largest] * size[0]
     image = field(axes, shown, edges, shown.min(), shown.max())
-    frame(axes, title, label("x", unit[1]), label("y", unit[1]))
+    axes.set(title=title, xlabel=label("x", unit[1]), ylabel=label("y", unit[1]))
     bar(axes, image, label(f"u_{'xyz'[largest]}", size[1]))
 
 
@@ -79,7 +75,7 @@ def _line(axes, body, coefficients, title, unit, field_unit):
     for axis, name in ((0, "u_x"), (2, "u_z")):
         axes.plot(x * unit[0], values[:, axis] * size[0], color=COLORS[axis], label=name)
     axes.legend()
-    frame(axes, title, label("x", unit[1]), label("u", size[1]))
+    axes.set(title=title, xlabel=label("x", unit[1]), ylabel=label("u", size[1]))
 
 
 def _unit_load(body, direction):
@@ -94,13 +90,13 @@ def _spectrum(axes, body, title):
     values = np.sort(np.abs(body.eigenvalues))[::-1]
     axes.semilogy(1 + np.arange(len(values)), np.maximum(values, 1e-300), ".", color=COLORS[0])
     axes.set_ylim(max(values[0] * 1e-12, values[-1] * 0.5, 1e-300), 2.0 * values[0])
-    frame(axes, title, "number", "magnitude")
+    axes.set(title=title, xlabel="number", ylabel="magnitude")
 
 
 def _convergence(axes, body, title):
     changes = np.maximum(body.changes, 1e-16)
     axes.semilogy(np.arange(len(changes)), changes, "o-", color=COLORS[2], markersize=4)
-    frame(axes, title, "degree", f"difference from degree {written(body.patch.degree)}")
+    axes.set(title=title, xlabel="degree", ylabel=f"difference from degree {written(body.patch.degree)}")
 
 
 def _panels(body, unit, name=""):

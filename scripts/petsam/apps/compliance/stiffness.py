@@ -4,9 +4,7 @@ CalculiX writes it in a step *FREQUENCY, SOLVER=MATRIXSTORAGE: the upper triangl
 and direction of each row (.dof). Nothing is supported in that deck; supports are applied afterwards.
 """
 
-import os
 import shutil
-import subprocess
 import tempfile
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from ...core import environment
-from ...core.errors import Error, Missing, one_line
+from ...core.errors import Error, Missing, short
 
 OWN = (  # element types that are assembled here
     "C3D20", "C3D20R", "C3D10", "C3D15", "C3D8", "C3D4", "C3D6", "CPE8", "CPE8R", "CPE6", "CPE4", "CPE3",
@@ -126,20 +124,13 @@ def run(lines, folder, name, ccx=CCX):
     (folder / f"{name}.inp").write_text("\n".join(lines) + "\n", encoding="ascii")
     threads = {"OMP_NUM_THREADS": "1", "CCX_NPROC_STIFFNESS": "1"}
     with open(folder / f"{name}.log", "w+", encoding="utf-8", errors="replace") as log:
-        done = subprocess.run(
-            [program, name],
-            cwd=folder,
-            stdout=log,
-            stderr=log,
-            stdin=subprocess.DEVNULL,
-            env={**os.environ, **threads},
-            preexec_fn=environment.following(),
-        )
+        with environment.start([program, name], True, threads, cwd=folder, stdout=log, stderr=log) as done:
+            done.wait()
         log.seek(0)
         text = log.read()
     if done.returncode or "*ERROR" in text:
         at = text.find("*ERROR")
-        raise Error(f"CalculiX failed on this mesh: {one_line(text[at:] if at >= 0 else text[-400:], 300)}")
+        raise Error(f"CalculiX failed on this mesh: {short(text[at:] if at >= 0 else text[-400:], 300)}")
     return text
 
 
@@ -150,7 +141,7 @@ def read_stored(folder, name, size):
         places = np.array([line.split(".") for line in (folder / f"{name}.dof").read_text().split()], dtype=int)
         table = np.loadtxt(folder / f"{name}.sti", ndmin=2)
     except (OSError, ValueError) as error:
-        raise Error(f"CalculiX stored no matrix that can be read: {one_line(error)}") from error
+        raise Error(f"CalculiX stored no matrix that can be read: {short(error, 300)}") from error
     place = 3 * (places[:, 0] - 1) + places[:, 1] - 1
     row, column = (place[table[:, i].astype(int) - 1] for i in range(2))
     whole = max(size, 1 + int(place.max()))

@@ -15,6 +15,7 @@ PART = Part(
     "lives, safety factors and short cracks from the stresses of a cycle",
     names={"spectrum": ("Lives", "lives"), "": ("cracks", "evaluation", "materials", "strength", "stresses")},
     command="petsam-fatigue",
+    quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "yaml"),
     see=("petsam", "petsam-stress", "petsam-plot", "petsam-study"),
     pictures={"pictures": ("lives",)},

@@ -21,7 +21,7 @@ import numpy as np
 from ...core import words
 from ...core.errors import Error, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, guarded, word, wrote
+from ...core.line import Parser, word, wrote
 from ...core.progress import Progress
 from ...plot import saving
 from ...results.stresses import Stresses
@@ -209,4 +209,4 @@ def carry_out(options):
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data."""
-    return guarded("petsam-fatigue", lambda: carry_out(arguments(sys.argv[1:])), quiet=True)
+    return carry_out(arguments(sys.argv[1:]))

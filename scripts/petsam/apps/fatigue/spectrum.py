@@ -118,6 +118,19 @@ def lives(  # noqa: PLR0913  (as the options of petsam-fatigue)
     ------
     Error
         For constants that are missing or outside their range, and for files without the data.
+
+    Examples
+    --------
+    The parameter of Smith, Watson and Topper of 1e5 cycles on the surface, which falls over the depth.
+
+    >>> import numpy as np, petsam
+    >>> steel = dict(young=210e9, poisson=0.3, sigma_f=1e9, b=-0.1, epsilon_f=0.3, c=-0.5)
+    >>> z, swt = np.linspace(0.0, 1e-3, 5), 1e18 / 210e9 * 2e5**-0.2 + 0.3e9 * 2e5**-0.6
+    >>> fields = dict(time=np.zeros(1), swt=(swt * np.exp(-z / 5e-4)).reshape(5, 1, 1))
+    >>> cycle = petsam.fatigue.stresses.Cycle(dict(x=np.zeros(1), y=np.zeros(1), z=z, **fields))
+    >>> found = petsam.fatigue.lives(cycle, steel, criteria="swt")
+    >>> round(found.least["swt"][0].value), found.least["swt"][0].z
+    (100000, 0.0)
     """
     cycles = _cycles(sources)
     criteria = [criteria] if isinstance(criteria, str) else criteria

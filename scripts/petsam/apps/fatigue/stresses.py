@@ -7,7 +7,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from ...core.errors import Error, one_line, short, there_are
+from ...core.errors import Error, short, there_are
 from ...core.files import decoded
 from ...results.stresses import FATIGUE, Stresses
 
@@ -101,7 +101,7 @@ class Cycle:
     def doubt(self) -> str:
         """Warning of petsam-stress that the steps are no closed cycle, or more than one; "" for none."""
         words = self.file.parameters.get("cycle_warning", "") if self.file else ""
-        return one_line(decoded(words) if isinstance(words, bytes) else words, 480)
+        return short(decoded(words) if isinstance(words, bytes) else words, 480)
 
     def __contains__(self, name):
         return name in self.source and name not in ("x", "y", "z", "time")

@@ -36,8 +36,8 @@ PART = Part(
         "results": ("Wear", "wear"),
     },
     command="petsam-fit",
+    quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
-    see=("petsam", "petsam-plot"),
     pictures={"pictures": ("fit", "scar_fit")},
 )
 __all__, __getattr__, __dir__ = PART.face()

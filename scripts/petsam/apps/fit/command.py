@@ -29,7 +29,7 @@ import numpy as np
 from ...core import words
 from ...core.errors import Error, Unsettled, Unusable, counted, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, guarded, word, wrote
+from ...core.line import Parser, word, wrote
 from ...plot.measured import read_profiles
 from . import cutting, peaks, planning, push, reading, results, scars, series
 from .results import plain
@@ -325,4 +325,4 @@ def carry_out(options):
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks data, 10 for no numbers."""
-    return guarded("petsam-fit", lambda: carry_out(arguments(sys.argv[1:])), quiet=True)
+    return carry_out(arguments(sys.argv[1:]))

@@ -35,13 +35,12 @@ PART = Part(
         "saved": ("Saved", "read"),
     },
     command="petsam-joint",
-    libraries=("numpy", "h5py", "matplotlib"),
     see=("petsam-surface", "petsam"),
     pictures={
         "pictures": ("backbone", "band", "conductance", "interface", "joint_wear", "response", "saved", "slip_zones")
     },
     top=("Element",),
     report="report",
-    tables=("pressure", "alpha", "assembly", "frequency", "cycles"),
+    tables={"read": ("pressure", "alpha", "assembly", "frequency", "cycles")},
 )
 __all__, __getattr__, __dir__ = PART.face()

@@ -40,7 +40,7 @@ import sys
 
 from ...core.errors import Unusable
 from ...core.files import need_replaceable
-from ...core.line import Parser, guarded, word
+from ...core.line import Parser, word
 from .options import add_stiffness, add_structure, whole
 from .stiffnesses import of_stiffness
 from .vibrations import of_backbone, of_band, of_response, of_wear
@@ -78,7 +78,8 @@ def _need(reader, args):
             setattr(args, name, usual[name])
 
 
-def _run():
+def main():
+    """Runs the command; returns its exit code."""
     reader = _parser()
     args = reader.parse_args()
     args.given = reader.joined(sys.argv[1:])
@@ -132,8 +133,3 @@ ACTIONS = {
         of_response,
     ),
 }
-
-
-def main():
-    """Runs the command; returns its exit code."""
-    return guarded("petsam-joint", _run)

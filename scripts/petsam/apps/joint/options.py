@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from ...core import materials, words
+from ...core.errors import Error
 from ...core.line import word
 from .wearing import rising
 from .words import either, file_name
@@ -14,7 +15,9 @@ BESIDE = (".h5", ".hdf5", ".txt", ".csv", ".npy")  # endings of --film
 
 def _conductivity(text):
     """A conductivity, or the name of a material that has one."""
-    if not materials.has(text):
+    try:
+        materials.find(text)
+    except Error:
         return words.number(text, above=0.0)
     materials.conductivity(text)
     return text

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...closed.materials import Bodies
-from ...core.errors import Error, MissingFile, Unusable
+from ...core.errors import Error, Missing, Unusable
 from ..surface import read_hdf5
 
 AREA = 0.01  # cells of expected contact below which a pressure is no pressure of the surface
@@ -17,7 +17,7 @@ def read_separation(path):
     """
     try:
         stated = read_hdf5(path, bare=True)
-    except MissingFile:
+    except Missing:
         raise
     except Error as error:
         reason = str(error).removeprefix(f"{path}: ")

@@ -24,6 +24,7 @@ PART = Part(
     "load histories from the contact forces of a structural analysis",
     names={"forces": ("Forces",), "resultants": ("History", "history"), "reading": ("read",)},
     command="petsam-loads",
+    quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
     see=("petsam", "petsam-compliance"),
     pictures={"pictures": ("loads", "loads_beside")},

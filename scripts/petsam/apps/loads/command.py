@@ -31,7 +31,7 @@ from ...core import words
 from ...core.decks import BOX
 from ...core.errors import Error, counted, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, guarded, word, wrote
+from ...core.line import Parser, word, wrote
 from ...core.units import shown
 from .resultants import ROUNDING
 
@@ -189,4 +189,4 @@ def carry_out(options):
 
 def main():
     """Returns the exit code: 0, 2 for bad usage, 3 for a file that is rejected."""
-    return guarded(PROGRAM, lambda: carry_out(arguments(sys.argv[1:])), quiet=True)
+    return carry_out(arguments(sys.argv[1:]))

@@ -32,7 +32,7 @@ import sys
 
 from ...core import words
 from ...core.errors import Error, counted
-from ...core.line import PERIOD, Parser, guarded, word, wrote
+from ...core.line import Parser, word, wrote
 from . import slurm, tables
 from .jobs import Jobs, check_files
 from .progress import Progress, standing, summary
@@ -47,11 +47,10 @@ POSITIVE = word(words.integer, f"an integer from 1 to {MOST}", least=1, most=MOS
 
 def _cycle_options(parser):
     of_cycles = parser.add_argument_group("energies of cycles in the table")
-    how = of_cycles.add_mutually_exclusive_group()
-    how.add_argument("--turns", metavar="NAME", help="divide cycles at the reversals of this scalar (a displacement)")
-    how.add_argument(
-        "--period", type=PERIOD, metavar="T[,START]", help="instead: duration of a cycle, and its start: 20ms,1s"
-    )
+    parser.add_cycles(
+        of_cycles, "divide cycles at the reversals of this scalar (a displacement)",
+        "instead: duration of a cycle, and its start: 20ms,1s",
+    )  # fmt: skip
     form = "integers separated by commas: from 1, or from -1 backwards"
     once = word(
         words.integers, form, lambda value: 0 < abs(value) <= MOST, to=lambda found: tuple(dict.fromkeys(found))
@@ -178,4 +177,4 @@ def carry_out(options):
 def main():
     """Exit code: 0 all cases finished, 1 some failed or have not run, 75 some stopped early, 2 usage, 3 a file,
     128 + the signal that ended the study."""
-    return guarded("petsam-study", lambda: carry_out(arguments()))
+    return carry_out(arguments())

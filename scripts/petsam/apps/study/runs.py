@@ -18,7 +18,7 @@ import threading
 import time
 
 from ...core import environment
-from ...core.errors import Error, one_line, short
+from ...core.errors import Error, short
 from ...core.files import need_regular, need_replaceable
 
 LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
@@ -98,11 +98,11 @@ def _message(log, code):
         lines = []
     own = [re.sub(r"^petsam(-stress)?: ", "", line) for line in lines if OWN.match(line) and "warning: " not in line]
     if own:
-        return one_line(own[0], WORDS)
+        return short(own[0], WORDS)
     if code < 0 or code > 128:
         number = -code if code < 0 else code - 128
         return f"ended by signal {number}"
-    return one_line(lines[-1], WORDS) if lines and code else ""
+    return short(lines[-1], WORDS) if lines and code else ""
 
 
 def _seconds(name):

@@ -29,6 +29,7 @@ PART = Part(
     "measured and random surfaces as files of petsam",
     names={"maps": ("Map", "combined"), "reading": ("read", "read_hdf5", "read_values"), "readers": ("FORMATS",)},
     command="petsam-surface",
+    quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
     see=("petsam", "petsam-joint"),
     pictures={"pictures": ("surface",)},

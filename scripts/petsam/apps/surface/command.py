@@ -26,7 +26,7 @@ from ...core import words
 from ...core.errors import Error, short
 from ...core.files import need_replaceable, same
 from ...core.hdf5 import need_own
-from ...core.line import Parser, guarded, word, wrote
+from ...core.line import Parser, word, wrote
 from ...core.roughness import self_affine
 from ...core.units import shown
 from ...plot.saving import write
@@ -354,11 +354,7 @@ def carry_out(options, words):
     print(f"options for petsam:\n  {gap}\nor, added to another gap:\n  {rough}")
 
 
-def _run():
-    words = sys.argv[1:]
-    return carry_out(arguments(words), words)
-
-
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, or lacks information."""
-    return guarded("petsam-surface", _run, quiet=True)
+    words = sys.argv[1:]
+    return carry_out(arguments(words), words)

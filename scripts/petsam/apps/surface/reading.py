@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ...core import units as unit_table
-from ...core.errors import Error, MissingFile, short
+from ...core.errors import Error, Missing, short
 from ...core.files import need_regular
 from ...core.hdf5 import DAMAGED
 from ...core.texttable import Form
@@ -190,7 +190,7 @@ def _guarded(path: str | os.PathLike, read_it: Callable[[], Read]) -> Read:
         if need_regular(path).st_size == 0:
             raise Error(f"{path}: is empty")
         return read_it()
-    except MissingFile:
+    except Missing:
         raise
     except MemoryError as error:
         raise Error(f"{path}: is too large for the memory") from error

@@ -68,7 +68,6 @@ PART = Part(
     },
     command="petsam-wheel",
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
-    see=("petsam", "petsam-plot"),
     pictures={"pictures": ("over_y", "wheels", "worn_profile")},
 )
 __all__, __getattr__, __dir__ = PART.face()

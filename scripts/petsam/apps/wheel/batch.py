@@ -11,10 +11,10 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ...contact.errors import ContactError
+from ...contact.errors import NoEquilibrium
 from ...core import processes, tables
 from ...core.brief import brief
-from ...core.errors import Error, NoEquilibrium
+from ...core.errors import Error
 from .axle import Axle
 from .contacts import Settings
 from .equilibrium import Equilibrium
@@ -113,7 +113,8 @@ class Batch(tables.Tabled):
         """A row for each patch, and one with empty cells for a position without an equilibrium."""
         solved = next((one.value for one in self.found if one.value), None)
         if solved is None:
-            raise NoEquilibrium(f"no position has an equilibrium; of the first one: {self.found[0].failure}")
+            text = f"no position has an equilibrium; of the first one: {self.found[0].failure}"
+            raise NoEquilibrium(NoEquilibrium.code, text)
         numbers: list[int] = []
         notes: list[str] = []
         rows: list[list] = [[] for _ in solved]
@@ -193,7 +194,7 @@ def _solved(vehicle, keep, states, _told):
                 try:
                     before = _near(axle, state, before)
                     failure = ""
-                except (Error, ContactError) as error:
+                except Error as error:
                     before, failure = None, str(error)
             notes = tuple(dict.fromkeys(str(one.message) for one in caught if issubclass(one.category, UserWarning)))
             found.append(Found(keep(before) if before else None, failure, notes))
@@ -207,7 +208,7 @@ def _near(axle, state, before):
     for start in starts:
         try:
             return axle.solve(state.position, state.load, start)
-        except (Error, ContactError) as error:
+        except Error as error:
             failure = error
     if before is None or state.load.lateral is not None or not _differ_little(before, state):
         raise failure
@@ -215,7 +216,7 @@ def _near(axle, state, before):
     middle = replace(there, y=0.5 * (here.y + there.y), yaw=0.5 * (here.yaw + there.yaw))
     try:
         return axle.solve(there, state.load, axle.solve(middle, state.load, before))
-    except (Error, ContactError):
+    except Error:
         raise failure from None
 
 

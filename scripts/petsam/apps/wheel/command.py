@@ -40,7 +40,7 @@ import numpy as np
 from ...core.environment import cores as all_cores
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable, same
-from ...core.line import Parser, guarded, wrote
+from ...core.line import Parser, wrote
 from ...core.progress import Progress
 from .inputs import need_ready, states_of, vehicle_of
 from .options import JUMPS, add_positions, add_profiles, check_positions, check_profiles, reworded, unlike, warn
@@ -179,4 +179,4 @@ def _wear(options, vehicle, states, cores, endings):
 
 def main():
     """Exit code: 0, 2 for bad usage, 3 for a file that cannot be read or written, 11 without any equilibrium."""
-    return guarded("petsam-wheel", lambda: carry_out(arguments(sys.argv[1:])))
+    return carry_out(arguments(sys.argv[1:]))

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from ...contact.shared import library
 from ...core import arrays
-from ...core.errors import Error
+from ...core.errors import Error, WrongArgument, short
 from ...core.files import need_regular
 
 MESSAGE, SHOWN, INVALID = 256, 150, 2  # bytes of a message and of a file's name in it, status: as the header has them
@@ -253,9 +253,24 @@ class CreepTable:
 
 def _rows(*numbers):
     """Contacts as the header has them, (m, 9), from numbers or arrays of one shape, and that shape."""
-    given = arrays.alike("creep forces", *numbers)
+    given = _alike("creep forces", *numbers)
     rows = np.stack([one.ravel() for one in given], -1)
     return np.ascontiguousarray(rows), given[0].shape
+
+
+def _alike(what, *given):
+    """Arrays of real numbers of one shape, of numbers and arrays; `what` they are for, in the message of others."""
+    found = []
+    for values in given:
+        try:
+            found.append(arrays.real(values))
+        except (TypeError, ValueError):
+            raise WrongArgument(f"{what}: {short(repr(values))}: expected a number or an array of numbers") from None
+    try:
+        return np.broadcast_arrays(*found)
+    except ValueError:
+        shapes = ", ".join(dict.fromkeys(str(one.shape) for one in found if one.ndim))
+        raise WrongArgument(f"{what}: arrays have the shapes {shapes}: give numbers, or arrays of one shape") from None
 
 
 def _addresses(array):

@@ -2,7 +2,7 @@
 
 import contextlib
 
-from ...core.errors import Error, Missing, MissingFile, Unusable, short
+from ...core.errors import Error, Missing, Unusable, short
 from .options import BUILT, JUMPS, KINDS, has_own, optioned, unlike, warn
 
 
@@ -11,7 +11,7 @@ def _named(option):
     """Errors of what an option names have the option before them; those of a file that cannot be read, too."""
     try:
         yield
-    except MissingFile as error:
+    except Missing as error:
         raise Missing(f"{option}: {error}") from error
     except OSError as error:
         raise Error(f"{option}: {error.filename or 'file'}: {error.strerror or error}") from error

@@ -20,9 +20,10 @@ from typing import Optional
 import numpy as np
 from scipy.interpolate import make_smoothing_spline
 
+from ...contact.errors import NoEquilibrium
 from ...core import tables
 from ...core.brief import brief
-from ...core.errors import Error, NoEquilibrium, Unusable
+from ...core.errors import Error, Unusable
 from . import batch
 from .equilibrium import Equilibrium
 from .profile import Profile
@@ -320,7 +321,8 @@ class _Wear:
         vehicle = replace(self.vehicle, wheel=replace(self.vehicle.wheel, profile=profile))
         found = batch.run(vehicle, self.states, self.cores, functools.partial(rows_of, law=self.law.name))
         if all(one.failure for one in found):
-            raise NoEquilibrium(f"no position of the spectrum has an equilibrium; of the first one: {found[0].failure}")
+            text = f"no position of the spectrum has an equilibrium; of the first one: {found[0].failure}"
+            raise NoEquilibrium(NoEquilibrium.code, text)
         self.failures += [f"position {k}: {one.failure}" for k, one in enumerate(found, 1) if one.failure]
         rates = np.zeros(len(profile.y))
         for one, share in zip(found, self.shares):

@@ -5,11 +5,9 @@ from ...core.part import Part
 PART = Part(
     __name__,
     "settling of a load history",
-    names={"settling": ("Settling", "read", "settling")},
+    names={"settling": ("Settling", "settling")},
     command="petsam-one",
-    libraries=("numpy", "h5py", "matplotlib"),
-    see=("petsam", "petsam-plot"),
     pictures={"pictures": ("settled",)},
-    tables=("settling_cycle",),
+    tables={"Settling": ("settling_cycle",)},
 )
 __all__, __getattr__, __dir__ = PART.face()

@@ -17,9 +17,6 @@ class Settling(Tabled):
     ratio: np.ndarray = column("1", "energy over that of the last cycle")
 
 
-read = Settling.read
-
-
 def settling(results: Results) -> Settling:
     """The settling of a run."""
     energies = cycles.find(results).energies

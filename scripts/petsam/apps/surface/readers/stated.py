@@ -7,11 +7,12 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
-from ....core.files import SAMPLE, decoded
+from ....core.files import decoded
 from ....core.texttable import Form, Text
 from .. import headers
 
 NUMPY, HDF5, ZIP = b"\x93NUMPY", b"\x89HDF\r\n\x1a\n", b"PK\x03\x04"
+START = 4096  # bytes of a file that show its format
 TEXTS = (".csv", ".txt")  # endings of texts
 OTHERS = (".tsv", ".dat", ".xyz", ".prn", ".asc", ".grd", "")  # endings that texts may have, and files of instruments
 
@@ -54,7 +55,7 @@ class Source:
         self.path, self.how, self.text = path, how, Text(path, how.form)
         self.ending = os.path.splitext(path)[1].lower()
         with open(path, "rb") as file:
-            self.start = file.read(SAMPLE)
+            self.start = file.read(START)
 
     @cached_property
     def is_text(self):
