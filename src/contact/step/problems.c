@@ -131,12 +131,13 @@ PetscErrorCode SamSolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
 /* Solves the normal problem with this separation, and with the tension of its gap. */
 static PetscErrorCode SolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
 {
+  const SamSolver normal  = SamNormalAsSolver(w->task->normal);
+  const PetscBool attract = w->pulled && normal->effort != SAM_EFFORT_RESIDUAL_ONLY ? PETSC_TRUE : PETSC_FALSE;
+
   PetscFunctionBegin;
-  if (!SamSolveIsApart(w)) {
-    PetscCall(SamSolvePressure(w, h, has_pressure));
-    if (w->pulled && SamNormalAsSolver(w->task->normal)->effort != SAM_EFFORT_RESIDUAL_ONLY)
-      PetscCall(SamSolveAttraction(w, h));
-  }
+  if (attract) SamSolverSetEffort(normal, PetscMin(normal->enough, SAM_ATTRACTS), SAM_EFFORT_FULL);
+  if (!SamSolveIsApart(w)) PetscCall(SamSolvePressure(w, h, has_pressure));
+  if (!SamSolveIsApart(w) && attract) PetscCall(SamSolveAttraction(w, h));
   if (SamSolveIsApart(w)) PetscCall(SamSolveFailApart(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -49,10 +49,12 @@ PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
 /*
   SamSolvePressure - solves the normal problem once, with this separation (m) and the tension so far. Collective.
   SamSolveAttraction - solves it again with the tension of its gap, until both belong together; changes h (attract.c).
+  SAM_ATTRACTS: largest tolerance of the pressure, whose gap the tension follows. Collective.
   SamSolveBearTension - sets the loads of contact by those given and the tension. Collective.
   SamSolveIsApart - true if contact would have to pull, so that there is no solution; SamSolveFailApart - says so in the
   step. Not collective.
 */
+#define SAM_ATTRACTS 1e-4
 PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolveAttraction(SamSolve *solve, Vec h);
 PETSC_INTERN PetscErrorCode SamSolveBearTension(SamSolve *solve);
