@@ -131,13 +131,9 @@ PetscErrorCode SamSolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
 /* Solves the normal problem with this separation, and with the tension of its gap. */
 static PetscErrorCode SolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
 {
-  const SamSolver normal  = SamNormalAsSolver(w->task->normal);
-  const PetscBool attract = w->pulled && normal->effort != SAM_EFFORT_RESIDUAL_ONLY ? PETSC_TRUE : PETSC_FALSE;
-
   PetscFunctionBegin;
-  if (attract) SamSolverSetEffort(normal, PetscMin(normal->enough, SAM_ATTRACTS), SAM_EFFORT_FULL);
-  if (!SamSolveIsApart(w)) PetscCall(SamSolvePressure(w, h, has_pressure));
-  if (!SamSolveIsApart(w) && attract) PetscCall(SamSolveAttraction(w, h));
+  if (!SamSolveIsApart(w))
+    PetscCall(w->pulled ? SamSolveAttraction(w, h, has_pressure) : SamSolvePressure(w, h, has_pressure));
   if (SamSolveIsApart(w)) PetscCall(SamSolveFailApart(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -48,15 +48,14 @@ PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_sh
 PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
 /*
   SamSolvePressure - solves the normal problem once, with this separation (m) and the tension so far. Collective.
-  SamSolveAttraction - solves it again with the tension of its gap, until both belong together; changes h (attract.c).
-  SAM_ATTRACTS: largest tolerance of the pressure, whose gap the tension follows. Collective.
+  SamSolveAttraction - solves it and finds the tension of its gap, until both belong together; changes h (attract.c). Of
+  a solve that only measures an error, it adds that of the tension.
   SamSolveBearTension - sets the loads of contact by those given and the tension. Collective.
   SamSolveIsApart - true if contact would have to pull, so that there is no solution; SamSolveFailApart - says so in the
   step. Not collective.
 */
-#define SAM_ATTRACTS 1e-4
 PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h, PetscBool has_pressure);
-PETSC_INTERN PetscErrorCode SamSolveAttraction(SamSolve *solve, Vec h);
+PETSC_INTERN PetscErrorCode SamSolveAttraction(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolveBearTension(SamSolve *solve);
 PETSC_INTERN PetscBool      SamSolveIsApart(const SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveFailApart(SamSolve *solve);
