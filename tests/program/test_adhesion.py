@@ -165,6 +165,22 @@ def test_friction_is_borne_by_the_pressure_of_contact(petsam, tmp_path):
     assert np.abs(shear) == pytest.approx(0.4 * np.maximum(contact, 0), abs=1e-5 * contact.max())
 
 
+@pytest.mark.parametrize("shape", ["sphere", "ellipsoid"])
+def test_attraction_of_coupled_bodies_with_friction_converges(petsam, tmp_path, shape):
+    """Passes of coupled bodies have rough tolerances and changing loads; the check of each step decides."""
+    size, way = 6.9 * LENGTH, WAY if shape == "ellipsoid" else None
+    rows = [0.3, 0.0, 0.2] if way else [0.02, 0.2, 0.25]
+    table = "".join(f"{k},{n * (way or FORCE):.9g},{0.01 * FORCE * (-1) ** k:.9g}\n" for k, n in enumerate(rows))
+    (tmp_path / "rows.csv").write_text(f"time,{'disp_z' if way else 'load_n'},load_tx\n{table}")
+    case = dict(BALL, **UPRIGHT, **adhesion(1.2), friction=0.3, grid_n=37, grid_size=size, history="rows.csv")
+    if way:
+        case.update(gap_type="ellipsoid", gap_radius_x=RADIUS, gap_radius_y=3 * RADIUS, adhesion_law="exponential")
+        case.update(gap_radius1=None, gap_radius2=None)
+    petsam(dict(case, elasticity="periodic", output="out.h5"))
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert len(f["history/load_n"]) == 3 and f["history/normal_residual"][:].max() < 1.1e-8
+
+
 @pytest.mark.parametrize(
     "more",
     [

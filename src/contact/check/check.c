@@ -225,16 +225,16 @@ static PetscErrorCode CheckTension(SamProblem problem, SamState state, const Sam
                                    SamCheck *check)
 {
   PetscReal     error, load;
-  Vec           separation, gap, tension;
+  Vec           h, gap, tension;
   const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
   if (!s->tension) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(grid, 1, &gap));
   PetscCall(SamGridCreateVec(grid, 1, &tension));
-  PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
-  PetscCall(SamSolutionComputeGap(problem, s, s->displacement_z, separation, gap));
-  PetscCall(SamSolutionDestroySeparation(problem, &separation));
+  PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &h));
+  PetscCall(SamSolutionComputeGap(problem, s, s->displacement_z, h, gap));
+  PetscCall(SamSolutionDestroySeparation(problem, &h));
   PetscCall(SamProblemAttract(problem, gap, tension));
   PetscCall(VecAXPY(tension, -1, s->tension));
   PetscCall(SamElasticityApplyNormal(SamProblemGetElasticity(problem), tension, gap));

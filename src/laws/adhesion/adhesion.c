@@ -23,6 +23,7 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
+#define MOST 1e12 /* Pa: tension that no solid has; of diamond it is 1e11 */
 #define ROW(name_, member_, text_, ...) \
   { \
     .name = name_, .text = text_, .kind = SAM_OPTION_REAL, .member = offsetof(SamAdhesion, member_), \
@@ -59,6 +60,10 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscFunctionBegin;
   *asked = ((SamAdhesion *)law->data)->work > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (*asked) PetscCall(Refuse(from));
+  PetscCheck(!*asked || SamAdhesionStrength((SamAdhesion *)law->data) <= MOST, from->comm, SAM_ERR_USER,
+             "-%s%s over -%s%s: expected at most %.6g Pa, got %.6g: that is the tension of surfaces in contact",
+             SamOptionsPrefix(from), rows[0].name, SamOptionsPrefix(from), rows[1].name, MOST,
+             SamAdhesionStrength((SamAdhesion *)law->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

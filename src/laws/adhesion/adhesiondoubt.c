@@ -16,7 +16,8 @@
 #define RESOLVED 0.25
 #define LEAST    2    /* cells below which the edge stays where it is, so that nothing is known */
 #define BORDER   1e-3 /* tension at the border of the grid over the largest one */
-#define TOLD     "load_n disp_z contact_area adhesion_area pressure_max pull_max"
+/* Numbers of the normal problem, besides N or the approach, whichever is found */
+#define TOLD "contact_area adhesion_area pressure_max pull_max attraction_energy"
 
 PetscErrorCode SamAdhesionDoubt(SamLaw law, SamExamination *x)
 {
@@ -26,14 +27,18 @@ PetscErrorCode SamAdhesionDoubt(SamLaw law, SamExamination *x)
   const double       length   = (double)(SamPairModulus(SamElasticityGetPair(x->elasticity)) * a->range) / strength;
   const double       cells    = length / (double)(grid->axes > 1 ? PetscMax(grid->dx, grid->dy) : grid->dx);
   const double       error    = cells < LEAST ? 1 : RESOLVED / cells;
+  const SamSolution *s;
+  const char        *told;
   double             border;
 
   PetscFunctionBegin;
-  SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, error, PetscMax(LEAST, RESOLVED / SAM_DOUBT_LARGE) / cells, TOLD,
+  PetscCall(SamContactGetSolution(x->contact, &s));
+  told = s->control.force[SAM_COMPONENT_N] ? "disp_z " TOLD : "load_n " TOLD;
+  SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, error, PetscMax(LEAST, RESOLVED / SAM_DOUBT_LARGE) / cells, told,
                "the edge of the tension, E* w/s^2 = %.3g m, is %.2g cells wide", length, cells);
   PetscCall(SamContactGetNumber(x->contact, "adhesion_border", &border));
   if (border > BORDER)
-    SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, border, 0, TOLD,
+    SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, border, 0, told,
                  "the tension at the border of the grid is %.2g of its maximum: take a larger grid", border);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
