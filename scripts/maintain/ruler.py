@@ -30,6 +30,8 @@ LIMITS = {
     "files outside of its home that name wear": (22, 22),
     "files outside of its home that name gradient": (12, 12),
     "files outside of its home that name layers": (46, 25),
+    "files outside of its home that name adhesion": (1, 1),  # its registry
+    "files outside of its home that name viscous": (1, 1),
     "files in the largest circle of C files": (3, 3),
     "modules in the largest circle of Python modules": (3, 3),
     "fitted numbers in advice that no mutant guards": (5, 0),
@@ -55,6 +57,8 @@ HOMES = {
     "wear": ("laws/wear", r"(private/)?(wear|life)", "wear"),
     "gradient": ("post/gradient", r"(private/)?(gradient|objective|backstep)", 'SamGradient|"-?gradient'),
     "layers": ("bodies", r"(private/)?layer", "layer"),
+    "adhesion": ("laws/adhesion", r"(private/)?adhesion", "adhesion"),
+    "viscous": ("bodies/viscous", r"(private/)?viscous", "viscous"),
 }
 
 
