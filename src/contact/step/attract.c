@@ -3,11 +3,11 @@
   gap g that t itself makes smaller.
 
   A given t is a load on the bodies and a displacement of their surfaces, under which the normal problem has one
-  solution, with the gap g(t). Passes t <- T(g(t)) begin with the tension of the step before. Under a given approach more
-  tension nowhere makes the gap wider, and a narrower gap has no less tension; so passes from a state with too little
-  tension rise to the least tension above it that is a solution, and those from one with too much fall to the largest
-  below. That is where a slow motion arrives, also where it jumps: of several states the one that the history leads to.
-  Each pass also lowers the energy, as that of the tension is concave in the gap.
+  solution, with the gap g(t). Passes t <- T(g(t)) begin with the tension of the step before. Under a given approach
+  more tension nowhere makes the gap wider, and a narrower gap has no less tension; so passes from a state with too
+  little tension rise to the least tension above it that is a solution, and those from one with too much fall to the
+  largest below. That is where a slow motion arrives, also where it jumps: of several states the one that the history
+  leads to. Each pass also lowers the energy, as that of the tension is concave in the gap.
 
   Passes multiply the error by the slope of T times the displacement of the zone in which the tension falls by a unit
   tension. Where they converge already, Anderson's method accelerates them (ground/grid/mixing.c); elsewhere it would
