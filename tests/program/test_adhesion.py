@@ -109,6 +109,16 @@ def test_stiff_bodies_attract_each_other_as_derjaguin_found(law, order):
     assert law == "exponential" or (off[0] / off[1] > 3).all()
 
 
+@pytest.mark.parametrize("law", ["maugis", "exponential"])
+def test_jumps_lead_to_the_states_of_a_slow_motion(law):
+    """There and back over both jumps, in steps of which the coarse ones are three fine ones."""
+    ways = np.r_[np.linspace(-1.4, 0.4, 19), np.linspace(0.3, -1.4, 18)]
+    _, fine = pulled(ways, 1, 48, 8, adhesion_law=law)
+    _, coarse = pulled(ways[::3], 1, 48, 8, adhesion_law=law)
+    assert coarse == pytest.approx(fine[::3], abs=1e-6)
+    assert coarse.min() < -1.4 and coarse[0] > -0.3 and coarse[-1] > -0.3
+
+
 def energy_at_the_fold(lam, radius=3.0, points=200_001):
     """Energy of the state of the least approach over that of bodies apart: the work of all states between them."""
     _, force, way = maugis(lam)
@@ -161,24 +171,43 @@ def test_friction_is_borne_by_the_pressure_of_contact(petsam, tmp_path):
         pressure, tension, shear = (f[name][-1] for name in ("pressure", "tension", "shear_x"))
         load = f["history/load_n"][-1]
     contact = pressure + tension
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert f["history/pressure_max"][-1] == pressure.max()
     assert load < 0 and (contact > -1e-6 * tension.max()).all()
     assert np.abs(shear) == pytest.approx(0.4 * np.maximum(contact, 0), abs=1e-5 * contact.max())
 
 
-@pytest.mark.parametrize("shape", ["sphere", "ellipsoid"])
-def test_attraction_of_coupled_bodies_with_friction_converges(petsam, tmp_path, shape):
+SOFT = dict(
+    body1_young=1e9, body1_poisson=0.3, body2_young="inf", body2_poisson=0, adhesion_law="exponential",
+    elasticity="periodic", output="out.h5",
+)  # fmt: skip
+TIGHT = dict(
+    adhesion_work=0.0138071, adhesion_range=4.00497e-09, adhesion_law="maugis", friction=0.43, grid_n=33,
+    grid_size=2.16509e-05, body1_relax_moduli=(0.3, 0.2), body1_relax_times=(0.1, 1),
+)  # fmt: skip
+OVAL = dict(
+    adhesion_work=0.0563669, adhesion_range=8.87109e-09, friction=0.14, grid_n=37, grid_size=3.46033e-05,
+    slip_direction="end", gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=1e-3,
+    gap_radius_y=3e-3,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "case, rows",
+    [
+        (TIGHT, "time,load_n,load_tx\n0.951,3.38181e-06,6.08699e-07\n1.034,2.90529e-05,-8.20143e-07\n"),
+        (
+            OVAL,
+            "time,disp_z,load_tx\n0.130955625,2.76066075e-08,-7.84661565e-07\n5.48946933,1.17866427e-08,-1.06217917e-06\n11.1575641,1.57858607e-08,-1.0438554e-06\n14.4365407,2.5649212e-08,5.95113043e-07\n15.3753657,3.62981276e-08,-1.20895369e-06\n",
+        ),
+    ],
+)
+def test_attraction_of_coupled_bodies_with_friction_converges(petsam, tmp_path, case, rows):
     """Passes of coupled bodies have rough tolerances and changing loads; the check of each step decides."""
-    size, way = 6.9 * LENGTH, WAY if shape == "ellipsoid" else None
-    rows = [0.3, 0.0, 0.2] if way else [0.02, 0.2, 0.25]
-    table = "".join(f"{k},{n * (way or FORCE):.9g},{0.01 * FORCE * (-1) ** k:.9g}\n" for k, n in enumerate(rows))
-    (tmp_path / "rows.csv").write_text(f"time,{'disp_z' if way else 'load_n'},load_tx\n{table}")
-    case = dict(BALL, **UPRIGHT, **adhesion(1.2), friction=0.3, grid_n=37, grid_size=size, history="rows.csv")
-    if way:
-        case.update(gap_type="ellipsoid", gap_radius_x=RADIUS, gap_radius_y=3 * RADIUS, adhesion_law="exponential")
-        case.update(gap_radius1=None, gap_radius2=None)
-    petsam(dict(case, elasticity="periodic", output="out.h5"))
+    (tmp_path / "rows.csv").write_text(rows)
+    petsam({**BALL, **UPRIGHT, **SOFT, "history": "rows.csv", **case})
     with h5py.File(tmp_path / "out.h5") as f:
-        assert len(f["history/load_n"]) == 3 and f["history/normal_residual"][:].max() < 1.1e-8
+        assert len(f["history/load_n"]) == rows.count("\n") - 1 and f["history/normal_residual"][:].max() < 1.1e-8
 
 
 @pytest.mark.parametrize(
