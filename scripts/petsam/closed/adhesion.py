@@ -64,7 +64,7 @@ def adhesion(a: ArrayLike, work: float, reach: float, radius: float, e_star: flo
     Adhesion
     """
     ball = work, reach, radius, e_star
-    states = _states(np.asarray(a, dtype=float), *ball)
+    load, approach, border = _states(np.asarray(a, dtype=float), *ball)
     # the pull is largest at a contact radius between 0 (long reach) and that of Johnson, Kendall and Roberts
     low, high = 0.0, 1.01 * np.cbrt(9 * np.pi * work * radius**2 / (8 * e_star))
     for _ in range(6):
@@ -72,7 +72,7 @@ def adhesion(a: ArrayLike, work: float, reach: float, radius: float, e_star: flo
         pulls = -_states(tried, *ball)[0]
         most = int(np.argmax(pulls))
         low, high = tried[max(most - 1, 0)], tried[min(most + 1, 64)]
-    return Adhesion(*states, float(pulls[most]))
+    return Adhesion(load, approach, border, float(pulls[most]))
 
 
 def _states(a, work, reach, radius, e_star):
