@@ -37,9 +37,9 @@ WAVE_RANGE = 0.05 * AMPLITUDE
 FULL = np.pi * MODULUS * AMPLITUDE / LENGTH  # mean pressure of full contact without adhesion
 PRESSURES = np.concatenate([[0, 0.1, 0.2, 0.3, 0.35], np.arange(0.38, 0.4201, 0.0025)])  # relative to FULL
 
-# a rough period: rms 0.2 um, waves of 8 um to 1 um
-SIDE, RMS, SOFT, ROUGH_WORK, ROUGH_RANGE = 16e-6, 0.2e-6, 40e6, 0.1, 40e-9
-MEAN = np.array([0.25, 0.5, 0.75, 1.0]) * 1e6  # Pa
+# a rough period: rms 0.2 um, waves of 32 um to 4 um; pressed and unloaded, Pa
+SIDE, RMS, SOFT, ROUGH_WORK, ROUGH_RANGE = 64e-6, 0.2e-6, 40e6, 0.05, 50e-9
+MEAN = np.array([0.1, 0.2, 0.3, 0.4, 0.3, 0.2, 0.1, 0.0]) * 1e6
 
 
 def rubber(modulus):
