@@ -31,7 +31,7 @@ OBTAINED = {"contact.steps": ("Step", "Cycle")}
 BEFORE = ("results.errors", "results.cycles", "results.sliding", "contact.gradient", "contact.uncertainty")
 BEHIND = (
     "core.materials", "closed.materials", "closed.sphere", "closed.ellipse", "closed.stress", "closed.loop",
-    "closed.spence", "closed.punch", "closed.plane",
+    "closed.spence", "closed.punch", "closed.plane", "closed.adhesion",
 )  # fmt: skip
 PICTURES = ("picture", "of_stress", "of_study")  # decorators of plot/pictures.py
 # decorators by core/keywords.py, with the module of the docstring COMMON to what they decorate

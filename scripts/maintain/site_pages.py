@@ -98,6 +98,7 @@ PARTS = (
             "examples/dissimilar/README.md",
             "examples/coating/README.md",
             "examples/plastic/README.md",
+            "examples/adhesion/README.md",
             "examples/body/README.md",
         ),
     ),

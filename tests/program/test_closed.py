@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipkm1
 
+from petsam.closed.adhesion import adhesion
 from petsam.closed.cattaneo import cattaneo_displacement, cattaneo_shear, cattaneo_slip, cattaneo_stick_radius
 from petsam.closed.ellipse import hertz_ellipse, hertz_radii
 from petsam.closed.loop import (
@@ -397,8 +398,33 @@ def _check_ellipse(ratio):
         yield label + f"displacement at ({x / a:g} a, {y / b:g} b)", moved / rigid - 1.0, 1e-6
 
 
+def _check_adhesion(reach, a):
+    """Errors of Maugis' load and of the gap, inside and where the tension ends, by his pressure; w = R = E* = 1."""
+    (load, approach, c, _), tension = adhesion(a, 1.0, reach, 1.0, 1.0), 1.0 / reach
+    label = f"Maugis, reach {reach:g}, a = {a:g}: "
+
+    def pressure(r):
+        inside = np.sqrt(np.clip(a**2 - r**2, 1e-300, None))
+        pull = tension * np.arctan(np.sqrt(c**2 - a**2) / inside) * 2.0 / np.pi
+        return np.where(r < a, 2.0 / np.pi * inside - pull, -tension)
+
+    r, w = segments(np.array([0.0, a, c]))
+    yield label + "load", 2.0 * np.pi * np.sum(w * r * pressure(r)) / load - 1.0, 1e-9
+
+    def traction(x, y):
+        p = pressure(np.hypot(x, y))
+        return p, np.zeros_like(p)
+
+    for at, gap in ((0.0, 0.0), (0.6 * a, 0.0), (c * (1.0 - 1e-9), reach)):
+        moved = 2.0 * _displacement(at, 0.3, c, a, traction, 0.0)[0]
+        yield label + f"gap at r = {at:.3f}", at**2 / 2.0 - approach + moved - gap, 1e-5
+
+
 def checks():
     """All checks."""
+    for reach in (0.1, 0.6, 2.0):
+        for a in (0.3, 1.4):
+            yield from _check_adhesion(reach, a)
     yield from _check_hertz()
     for ratio in (1.0, 0.7, 4.0, 60.0):
         yield from _check_ellipse(ratio)
@@ -435,3 +461,33 @@ def test_first_loading_of_spheres_is_the_displacement_at_the_stick_radius():
     assert spheres.first_loading(loads) == pytest.approx(
         [spheres.displacement(spheres.stick_radius(load)) for load in loads], rel=1e-12, abs=1e-18
     )
+
+
+# pull-off forces and least approaches over lambda, in Maugis' units
+MAUGIS = {0.1: (1.95059, -0.46935), 0.5: (1.71825, -0.91453), 1.0: (1.60073, -0.99173), 5.0: (1.50635, -0.91394)}
+
+
+@pytest.mark.parametrize("stiffness", MAUGIS)
+def test_an_adhering_ball_lies_between_its_limits(stiffness):
+    work, radius, e_star = 0.05, 1e-3, 1e6
+    k = 4 / 3 * e_star
+    reach = 2 * work / (stiffness * np.cbrt(np.pi * work * k**2 / radius))
+    unit = np.cbrt(np.pi * work * radius**2 / k)
+    found = adhesion(np.linspace(0, 2 * unit, 4001), work, reach, radius, e_star)
+    pull, least = MAUGIS[stiffness]
+    assert found.pull_off == pytest.approx(pull * np.pi * work * radius, rel=1e-5)
+    assert -np.min(found.load) == pytest.approx(found.pull_off, rel=1e-6) and np.min(found.load) >= -found.pull_off
+    assert np.min(found.approach) == pytest.approx(least * unit**2 / radius, rel=2e-5)
+
+
+@pytest.mark.parametrize("limit, near, pull", [(0.0, 1e-12, 1.5), (np.inf, 1e6, 2.0)])
+def test_limits_of_adhesion_are_those_of_short_and_long_tension(limit, near, pull):
+    ball = 0.05, 1e-3, 1e6  # without its reach
+    a = np.array([1e-5, 5e-5, 2e-4])
+    exact, close = (adhesion(a, ball[0], reach, *ball[1:]) for reach in (limit, near))
+    assert exact.pull_off == pytest.approx(pull * np.pi * ball[0] * ball[1], rel=1e-12)
+    assert close.load == pytest.approx(exact.load, rel=1e-3) and close.approach == pytest.approx(
+        exact.approach, rel=2e-3
+    )
+    assert close.pull_off == pytest.approx(exact.pull_off, rel=1e-3)
+    assert exact.border == pytest.approx(a if limit == 0 else np.inf)

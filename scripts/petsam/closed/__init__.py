@@ -15,6 +15,7 @@ loop       tangential loops of a sphere and their energy: Mindlin and Deresiewic
 spence     elastic sphere on a dissimilar flat with friction: Spence
 ellipse    Hertz's elliptic contact, forward and inverse
 punch      flat circular punch with a rounded edge under normal load
+adhesion   ball that adheres to a flat: Maugis; Johnson, Kendall and Roberts; Derjaguin, Muller and Toporov
 plane      infinitely long punch with rounded edges, upright or inclined, in partial slip
 
 tests/program/test_closed.py compares every formula with a numerical quadrature.
@@ -35,7 +36,7 @@ from .stress import HERTZ_MISES, HERTZ_MISES_DEPTH, hertz_axis, hertz_surface, s
 
 # fmt: on
 
-_PARTS = ("ellipse", "loop", "plane", "punch", "spence")
+_PARTS = ("adhesion", "ellipse", "loop", "plane", "punch", "spence")
 
 
 def __getattr__(name):

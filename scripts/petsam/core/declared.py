@@ -2,6 +2,8 @@
 
 # units of SI of options
 OPTIONS = {
+    "adhesion_range": "m",
+    "adhesion_work": "J/m2",
     "body1_bulk_temperature": "K",
     "body1_conductivity": "W/(m K)",
     "body1_expansion": "1/K",

@@ -40,7 +40,10 @@ def _open(found):
     pulls = n < -PULL * np.max(n)
     if np.any(pulls):
         first, where = _rows(found, pulls)
-        return f"the normal force turns to pull {where}, N = {n[first]:.4g} N: petsam has no adhesion: remove the rows"
+        return (
+            f"the normal force turns to pull {where}, N = {n[first]:.4g} N: remove the rows, or give petsam the "
+            "surfaces' -adhesion_work"
+        )
     return None
 
 
