@@ -22,7 +22,7 @@ FEW = dict(output_fields="none", errors="none", friction=0)
 RADIUS, YOUNG, POISSON, WORK, RANGE = 1e-6, 3e9, 0.35, 0.05, 0.7e-9
 BALL = dict(
     body1_young="inf", body1_poisson=0, body2_young=YOUNG, body2_poisson=POISSON, gap_type="sphere", gap_radius1=RADIUS,
-    gap_radius2="inf", grid_n=96, grid_size="146nm", adhesion_work=WORK, adhesion_range=RANGE, **UPRIGHT, **FEW,
+    gap_radius2="inf", grid_n=96, grid_size="146nm", adhesion_work=WORK, adhesion_stress=WORK / RANGE, **UPRIGHT, **FEW,
 )  # fmt: skip
 # approaches, m, with small steps about the jumps; rows of the table
 IN = np.concatenate([[-0.71, -0.705, -0.695], np.arange(-0.65, 1.25, 0.05)])
@@ -71,7 +71,7 @@ def push_and_pull():
     print("approach, nm       force, nN   Maugis    contact, nm   Maugis    tension to, nm   Maugis")
     for k, way in SHOWN:
         closed = [np.interp(STEPS[k], approach, column) for column in (load, radii, border)]
-        force, width, edge = run["load_n"][k], *(np.sqrt(run[f"{n}_area"][k] / np.pi) for n in ("contact", "adhesion"))
+        force, width, edge = run["load_n"][k], *(np.sqrt(run[f"{n}_area"][k] / np.pi) for n in ("contact", "adhesive"))
         told = [f"{1e9 * a:{w}.2f} {1e9 * b:8.2f}" for a, b, w in zip((force, width, edge), closed, (12, 14, 16))]
         print(f"{1e9 * STEPS[k]:9.2f} {way:4s}" + " ".join(told))
     touching = np.nan_to_num(run["contact_area"]) > 0
@@ -109,10 +109,10 @@ def wave(cells, pressures):
     x = (np.arange(cells) + 0.5) / cells
     run = petsam.run(
         **rubber(MODULUS), **FEW, elasticity="plane_periodic", gap=AMPLITUDE * (1 + np.cos(2 * np.pi * x)),
-        grid_size=LENGTH, adhesion_work=WAVE_WORK, adhesion_range=WAVE_RANGE,
+        grid_size=LENGTH, adhesion_work=WAVE_WORK, adhesion_stress=WAVE_WORK / WAVE_RANGE,
         history=dict(load_n=pressures * FULL * LENGTH),
     )  # fmt: skip
-    return run["contact_area"] / LENGTH, run["adhesion_area"] / LENGTH
+    return run["contact_area"] / LENGTH, run["adhesive_area"] / LENGTH
 
 
 def waves():
@@ -160,7 +160,10 @@ def rough():
     """Contact area of a rough period on two grids, with and without adhesion; returns those of the finer one."""
     found = []
     for cells in (128, 256):
-        found += [rough_area(cells), rough_area(cells, adhesion_work=ROUGH_WORK, adhesion_range=ROUGH_RANGE)]
+        found += [
+            rough_area(cells),
+            rough_area(cells, adhesion_work=ROUGH_WORK, adhesion_stress=ROUGH_WORK / ROUGH_RANGE),
+        ]
     print("\npressure, MPa   contact, %, 128 cells   with adhesion   256 cells   with adhesion")
     for pressure, *areas in zip(MEAN, *found):
         print(f"{1e-6 * pressure:9.2f}" + "".join(f"{100 * a:{w}.2f}" for a, w in zip(areas, (20, 19, 14, 14))))

@@ -23,7 +23,7 @@ UPRIGHT = dict(rot_x=0, rot_y=0)
 def adhesion(lam, **more):
     """The options of a tension for Maugis' lambda."""
     tension = lam / 2 * (np.pi * WORK * STIFF**2 / RADIUS) ** (1 / 3)
-    return dict(adhesion_work=WORK, adhesion_range=WORK / tension, **more)
+    return dict(adhesion_work=WORK, adhesion_stress=tension, **more)
 
 
 def maugis(lam):
@@ -100,7 +100,7 @@ def test_stiff_bodies_attract_each_other_as_derjaguin_found(law, order):
     off = []
     for cells in (32, 64):
         run = package.run(
-            **{**BALL, **UPRIGHT, "body2_young": 1e15}, adhesion_work=WORK, adhesion_range=reach, adhesion_law=law,
+            **{**BALL, **UPRIGHT, "body2_young": 1e15}, adhesion_work=WORK, adhesion_stress=WORK / reach, adhesion_law=law,
             grid_n=cells, grid_size=2 * np.sqrt(2 * RADIUS * reach * (1.3 if law == "maugis" else 12)),
             history=dict(time=np.arange(2.0), disp_z=-gaps),
         )  # fmt: skip
@@ -134,7 +134,7 @@ def energy_at_the_fold(lam, radius=3.0, points=200_001):
 def test_energy_is_lost_in_jumps_alone_and_balances_over_a_loop():
     lam = 1
     _, closed, way = maugis(lam)
-    fold, range_ = np.argmin(way), adhesion(lam)["adhesion_range"] / WAY
+    fold, range_ = np.argmin(way), WORK / adhesion(lam)["adhesion_stress"] / WAY
     there = np.r_[-1.2, -range_ + np.array([-0.005, 0.005]), np.linspace(-0.5, 1, 31)]
     back = np.r_[np.linspace(0.95, -0.95, 39), np.arange(-0.96, -1.045, -0.01), -1.2]
     ways = np.r_[there, back]
@@ -155,7 +155,7 @@ def test_energy_is_lost_in_jumps_alone_and_balances_over_a_loop():
 def test_without_work_of_adhesion_results_are_those_without_the_law(petsam, tmp_path, ranks):
     case = dict(BALL, friction=0.3, grid_n=(24, 19), grid_size=6 * LENGTH, load_n=2 * FORCE, load_tx=0.1 * FORCE)
     petsam(dict(case, output="without.h5"))
-    petsam(dict(case, adhesion_work=0, adhesion_range=1e-9, output="with.h5"), ranks=ranks)
+    petsam(dict(case, adhesion_work=0, adhesion_stress=1e7, output="with.h5"), ranks=ranks)
     with h5py.File(tmp_path / "without.h5") as f, h5py.File(tmp_path / "with.h5") as g:
         assert "tension" not in g
         for name in "pressure", "shear_x":
@@ -182,11 +182,11 @@ SOFT = dict(
     elasticity="periodic", output="out.h5",
 )  # fmt: skip
 TIGHT = dict(
-    adhesion_work=0.0138071, adhesion_range=4.00497e-09, adhesion_law="maugis", friction=0.43, grid_n=33,
+    adhesion_work=0.0138071, adhesion_stress=3.44749e+06, adhesion_law="maugis", friction=0.43, grid_n=33,
     grid_size=2.16509e-05, body1_relax_moduli=(0.3, 0.2), body1_relax_times=(0.1, 1),
 )  # fmt: skip
 OVAL = dict(
-    adhesion_work=0.0563669, adhesion_range=8.87109e-09, friction=0.14, grid_n=37, grid_size=3.46033e-05,
+    adhesion_work=0.0563669, adhesion_stress=6.354e+06, friction=0.14, grid_n=37, grid_size=3.46033e-05,
     slip_direction="end", gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=1e-3,
     gap_radius_y=3e-3,
 )  # fmt: skip
@@ -259,5 +259,5 @@ def test_a_slow_contact_of_relaxing_bodies_is_that_of_the_relaxed_ones():
     common = dict(BALL, **UPRIGHT, **adhesion(0.8), grid_n=64, grid_size=9 * LENGTH)
     slow = package.run(**common, history=held, body2_relax_moduli=0.5, body2_relax_times=1)
     soft = package.run(**{**common, **relaxed}, load_n=0)
-    assert slow["adhesion_area"][-1] == pytest.approx(soft["adhesion_area"][-1], rel=2e-3)
-    assert slow["adhesion_area"][0] < 0.9 * slow["adhesion_area"][-1]
+    assert slow["adhesive_area"][-1] == pytest.approx(soft["adhesive_area"][-1], rel=2e-3)
+    assert slow["adhesive_area"][0] < 0.9 * slow["adhesive_area"][-1]

@@ -52,7 +52,7 @@ def adhesion(a: ArrayLike, work: float, reach: float, radius: float, e_star: flo
     work : float
         Work of adhesion, J/m2.
     reach : float
-        Gap at which the tension ends, m: petsam's -adhesion_range. 0 is the limit of Johnson, Kendall and Roberts, inf
+        Gap at which the tension ends, m: -adhesion_work over -adhesion_stress. 0 is the limit of Johnson, Kendall and Roberts, inf
         that of Derjaguin, Muller and Toporov.
     radius : float
         Relative radius, m: see effective_radius().

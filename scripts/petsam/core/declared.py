@@ -2,7 +2,7 @@
 
 # units of SI of options
 OPTIONS = {
-    "adhesion_range": "m",
+    "adhesion_stress": "Pa",
     "adhesion_work": "J/m2",
     "body1_bulk_temperature": "K",
     "body1_conductivity": "W/(m K)",

@@ -29,41 +29,61 @@
     .name = name_, .text = text_, .kind = SAM_OPTION_REAL, .member = offsetof(SamAdhesion, member_), \
     .recorded = PETSC_TRUE, __VA_ARGS__ \
   }
-static const SamOptionRow rows[] = {ROW("adhesion_work", work, "work of adhesion ()", .unit = "J/m2",
-                                        .range = SAM_RANGE_NONNEGATIVE),
-                                    ROW("adhesion_range", range, "gap () at which the tension ends, or falls to 1/e",
-                                        .unit = "m", .range = SAM_RANGE_POSITIVE, .needs = "adhesion_work",
-                                        .missing = "the gap at which the tension between the surfaces ends"),
-                                    {.name   = "adhesion_law",
-                                     .text   = "tension up to its range: constant, or falling exponentially",
-                                     .kind   = SAM_OPTION_ENUM,
-                                     .member = offsetof(SamAdhesion, kind),
-                                     .words  = "maugis,exponential",
-                                     .needs  = "adhesion_work"}};
+static const SamOptionRow rows[] = {
+  ROW("adhesion_work", work, "work of adhesion ()", .unit = "J/m2", .range = SAM_RANGE_NONNEGATIVE),
+  ROW("adhesion_stress", stress, "tension () of surfaces in contact; the work over it is its range", .unit = "Pa",
+      .range = SAM_RANGE_POSITIVE, .needs = "adhesion_work", .missing = "the tension between surfaces in contact"),
+  {.name   = "adhesion_law",
+   .text   = "tension up to its range: constant, or falling exponentially",
+   .kind   = SAM_OPTION_ENUM,
+   .member = offsetof(SamAdhesion, kind),
+   .words  = "maugis,exponential",
+   .needs  = "adhesion_work"}};
 
 /* Rejects what a law that knows no tension would compute wrongly. */
 static PetscErrorCode Refuse(const SamOptions *from)
 {
-  static const char *const refused[][2] = {
-    {"body1_yield", "stresses below the surface that make it yield leave out the tension"},
-    {"body2_yield", "stresses below the surface that make it yield leave out the tension"},
-    {"pressure_limit", "surfaces that yield no longer have their work of adhesion"}};
+  static const char *const yields[] = {"body1_yield", "body2_yield"};
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(refused) / sizeof(refused[0]); k++)
-    PetscCall(SamOptionsExclude(from, rows[0].name, refused[k][0], refused[k][1]));
+  for (int b = 0; b < 2; b++)
+    PetscCall(SamOptionsExclude(from, rows[0].name, yields[b],
+                                "stresses below the surface that make it yield leave out the tension"));
+  PetscCall(SamOptionsExclude(from, rows[0].name, "pressure_limit",
+                              "surfaces that yield no longer have their work of adhesion"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds the radius of balls, from the options of the gap. */
+static PetscErrorCode FindRadius(SamAdhesion *a, const SamOptions *from)
+{
+  static const char *const names[] = {"gap_radius1", "gap_radius2"};
+  PetscReal                sum     = 0;
+  PetscBool                ball;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHas(from, "gap_type sphere", &ball));
+  for (int k = 0; k < 2 && ball; k++) {
+    PetscReal radius = INFINITY;
+
+    PetscCall(SamOptionsReal(from, names[k], "", "m", SAM_RANGE_NOT_ZERO, &radius, NULL));
+    sum += 1 / radius;
+  }
+  a->radius = sum > 0 ? 1 / sum : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
+  SamAdhesion *const a = (SamAdhesion *)law->data;
+
   PetscFunctionBegin;
-  *asked = ((SamAdhesion *)law->data)->work > 0 ? PETSC_TRUE : PETSC_FALSE;
-  if (*asked) PetscCall(Refuse(from));
-  PetscCheck(!*asked || SamAdhesionStrength((SamAdhesion *)law->data) <= MOST, from->comm, SAM_ERR_USER,
-             "-%s%s over -%s%s: expected at most %.6g Pa, got %.6g: that is the tension of surfaces in contact",
-             SamOptionsPrefix(from), rows[0].name, SamOptionsPrefix(from), rows[1].name, MOST,
-             SamAdhesionStrength((SamAdhesion *)law->data));
+  *asked = a->work > 0 ? PETSC_TRUE : PETSC_FALSE;
+  if (!*asked) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Refuse(from));
+  PetscCheck(a->stress <= MOST, from->comm, SAM_ERR_USER, "-%s%s %.6g: expected at most %.6g Pa",
+             SamOptionsPrefix(from), rows[1].name, (double)a->stress, MOST);
+  if (!SamPrintHelp()) PetscCall(FindRadius(a, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -85,10 +105,11 @@ static PetscErrorCode Attract(SamLaw law, Vec gap, Vec tension)
 
 /* ---- numbers of a step ---- */
 
-enum { AREA, ATTRACTION, LOST, STORED, BORDER, NUMBERS };
+enum { AREA, MOST_TENSION, ATTRACTION, LOST, STORED, BORDER, NUMBERS };
 static const SamStateNumber numbers[NUMBERS] = {
-  {"adhesion_area", "m2", "area under tension, by the largest one", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
-   SAM_JOIN_LAST, 1},
+  {"adhesive_area", "m2", "area under tension: its sum over that of surfaces in contact", SAM_NUMBER_REAL, 1,
+   PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 1},
+  {"tension_max", "Pa", "maximum tension", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 1},
   {"attraction_energy", "J", "energy of the tension between the surfaces, 0 far apart", SAM_NUMBER_REAL, 1, PETSC_TRUE,
    PETSC_TRUE, SAM_JOIN_LAST, 2},
   {"adhesion_energy", "J", "energy lost in jumps of the surfaces in the load step", SAM_NUMBER_REAL, 1, PETSC_FALSE,
@@ -176,21 +197,23 @@ static PetscErrorCode GetBorder(SamLaw law, Vec tension, double *most)
 
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
-  const double   strength = SamAdhesionStrength((const SamAdhesion *)law->data);
-  const PetscInt id       = SamStateFindNumber(step->state, numbers[AREA].name);
-  double *const  n        = SamStateNumbers(step->state, id, SAM_TRIED);
-  const double   before   = SamStateNumbers(step->state, id, SAM_COMMITTED)[STORED];
+  const double   stress  = (double)((const SamAdhesion *)law->data)->stress;
+  const PetscInt id      = SamStateFindNumber(step->state, numbers[AREA].name);
+  double *const  n       = SamStateNumbers(step->state, id, SAM_TRIED);
+  const double   before  = SamStateNumbers(step->state, id, SAM_COMMITTED)[STORED];
   double         tension = 0, elastic = 0, work = 0;
-  PetscReal      shear;
+  PetscReal      shear, most;
 
   PetscFunctionBegin;
   PetscCall(ComputeEnergies(law, step, &n[ATTRACTION], &elastic, &tension));
   PetscCall(ComputeWork(step, &work));
   PetscCall(GetBorder(law, step->tension, &n[BORDER]));
-  n[BORDER] /= strength;
-  n[AREA]   = tension / strength;
-  n[STORED] = elastic + n[ATTRACTION];
-  n[LOST]   = work - (n[STORED] - before);
+  PetscCall(VecMax(step->tension, NULL, &most));
+  n[BORDER] /= stress;
+  n[AREA]         = tension / stress;
+  n[MOST_TENSION] = (double)most;
+  n[STORED]       = elastic + n[ATTRACTION];
+  n[LOST]         = work - (n[STORED] - before);
   PetscCall(VecNorm(step->shear, NORM_INFINITY, &shear)); /* coupled shear and memory have energies of their own */
   if ((SamElasticityGetTraits(law->elasticity).coupled && shear > 0) || SamElasticityRemembers(law->elasticity))
     n[LOST] = NAN;
@@ -199,13 +222,18 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 
 static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
 {
-  const double *n    = SamStateReadNumbers(state, SamStateFindNumber(state, numbers[AREA].name));
-  const double  most = *SamStateReadNumbers(state, SamStateFindNumber(state, "pull_max"));
+  const SamAdhesion *a      = (const SamAdhesion *)law->data;
+  const double      *n      = SamStateReadNumbers(state, SamStateFindNumber(state, numbers[AREA].name));
+  const double       most   = *SamStateReadNumbers(state, SamStateFindNumber(state, "pull_max"));
+  const double       k      = 4. / 3 * (double)SamPairModulus(SamElasticityGetPair(law->elasticity));
+  char               of[32] = "";
 
   PetscFunctionBegin;
-  (void)law;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  tension on %.6g %s, largest pull so far %.6g %s\n", "adhesion",
-                                   n[AREA], SamStateUnitOf(state, numbers[AREA].name), most,
+  if (a->radius > 0)
+    (void)snprintf(of, sizeof(of), "lambda %.4g, ",
+                   2 * (double)a->stress * cbrt((double)(a->radius / (PETSC_PI * a->work)) / (k * k)));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %stension on %.6g %s, largest pull so far %.6g %s\n", "adhesion",
+                                   of, n[AREA], SamStateUnitOf(state, numbers[AREA].name), most,
                                    SamStateUnitOf(state, "pull_max")));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -214,20 +242,20 @@ PetscErrorCode SamLawCreate_Adhesion(SamLaw law)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew((SamAdhesion **)&law->data));
-  ((SamAdhesion *)law->data)->range = NAN;
-  law->option                       = rows[0].name;
-  law->heading                      = "Adhesion";
-  law->rows                         = rows;
-  law->row_count                    = sizeof(rows) / sizeof(rows[0]);
-  law->bytes                        = 80;
-  law->uses[SAM_USE_GAP]            = PETSC_TRUE;
-  law->forbids_jumps                = PETSC_TRUE;
-  law->ops.setfromoptions           = SetFromOptions;
-  law->ops.addparameters            = AddParameters;
-  law->ops.attract                  = Attract;
-  law->ops.declare                  = Declare;
-  law->ops.advance                  = Advance;
-  law->ops.view                     = View;
-  law->ops.doubt                    = SamAdhesionDoubt;
+  ((SamAdhesion *)law->data)->stress = NAN;
+  law->option                        = rows[0].name;
+  law->heading                       = "Adhesion";
+  law->rows                          = rows;
+  law->row_count                     = sizeof(rows) / sizeof(rows[0]);
+  law->bytes                         = 80;
+  law->uses[SAM_USE_GAP]             = PETSC_TRUE;
+  law->forbids_jumps                 = PETSC_TRUE;
+  law->ops.setfromoptions            = SetFromOptions;
+  law->ops.addparameters             = AddParameters;
+  law->ops.attract                   = Attract;
+  law->ops.declare                   = Declare;
+  law->ops.advance                   = Advance;
+  law->ops.view                      = View;
+  law->ops.doubt                     = SamAdhesionDoubt;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

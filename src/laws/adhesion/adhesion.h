@@ -10,19 +10,20 @@
 typedef enum { SAM_ADHESION_MAUGIS, SAM_ADHESION_EXPONENTIAL } SamAdhesionKind;
 typedef struct {
   SamAdhesionKind kind;
-  PetscReal       work;  /* of adhesion, J/m2 */
-  PetscReal       range; /* gap at which the tension ends (Maugis), or by which it falls to 1/e, m */
+  PetscReal       work;   /* of adhesion, J/m2 */
+  PetscReal       stress; /* tension of surfaces in contact, Pa */
+  PetscReal       radius; /* of a ball on a flat, or relative one of two balls, m; 0: of other shapes */
 } SamAdhesion;
 
 /*
-  SamAdhesionStrength - returns the tension of surfaces in contact, Pa.
+  SamAdhesionRange - returns the gap (m) at which the tension ends (Maugis), or by which it falls to 1/e.
   SamAdhesionCells - computes the tension (Pa) or, as `energy`, its energy (J/m2, not positive) in each cell, as means
   over the cells, from the gap (m); adds to `values` of one component (adhesioncells.c). Collective.
   SamAdhesionDoubt - the law's method (adhesiondoubt.c). SamLawCreate_Adhesion - creates the law, for the registry.
 */
-static inline double SamAdhesionStrength(const SamAdhesion *a)
+static inline double SamAdhesionRange(const SamAdhesion *a)
 {
-  return (double)(a->work / a->range);
+  return (double)(a->work / a->stress);
 }
 PETSC_INTERN PetscErrorCode SamAdhesionCells(SamLaw law, Vec gap, PetscBool energy, Vec values);
 PETSC_INTERN PetscErrorCode SamLawCreate_Adhesion(SamLaw law);

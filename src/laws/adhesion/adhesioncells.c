@@ -1,8 +1,8 @@
 /*
   The tension of a gap and its energy, as means over cells.
 
-    Maugis:       s = w/h for g < h, else 0;    energy -s max(h - g, 0)
-    exponential:  s = w/h exp(-g/h);            energy -w exp(-g/h)
+    Maugis:       s_0 for g < h, else 0;    energy -s_0 max(h - g, 0)
+    exponential:  s_0 exp(-g/h);            energy -w exp(-g/h),     h = w/s_0
 
   The constant tension ends within cells, at the line g = h. In a cell the gap is taken as linear, by differences from
   the cells beside it: it differs from that at the centre by u + v, each uniformly distributed, over widths A >= B. Then
@@ -56,17 +56,17 @@ static double Change(const Gap *gap, PetscInt axis, PetscInt i, PetscInt j)
 
 static double OfCell(const SamAdhesion *a, const Gap *gap, PetscBool energy, PetscInt i, PetscInt j)
 {
-  const double strength = SamAdhesionStrength(a), range = (double)a->range, g = SamHaloAt(&gap->seen, 0, i, j);
+  const double stress = (double)a->stress, range = SamAdhesionRange(a), g = SamHaloAt(&gap->seen, 0, i, j);
   double       along[2], wide, narrow, left;
 
   if (a->kind == SAM_ADHESION_EXPONENTIAL) {
     left = exp(-PetscMax(g, 0) / range);
-    return energy ? -(double)a->work * left : strength * left;
+    return energy ? -(double)a->work * left : stress * left;
   }
   for (PetscInt axis = 0; axis < 2; axis++) along[axis] = axis < gap->grid->axes ? Change(gap, axis, i, j) : 0;
   wide   = PetscMax(along[0], along[1]);
   narrow = PetscMin(along[0], along[1]);
-  return energy ? -strength * Depth(range - g, wide, narrow) : strength * Part(range - g, wide, narrow);
+  return energy ? -stress * Depth(range - g, wide, narrow) : stress * Part(range - g, wide, narrow);
 }
 
 PetscErrorCode SamAdhesionCells(SamLaw law, Vec field, PetscBool energy, Vec values)

@@ -17,16 +17,15 @@
 #define LEAST    2    /* cells below which the edge stays where it is, so that nothing is known */
 #define BORDER   1e-3 /* tension at the border of the grid over the largest one */
 /* Numbers of the normal problem, besides N or the approach, whichever is found */
-#define TOLD "contact_area adhesion_area pressure_max pull_max attraction_energy"
+#define TOLD "contact_area adhesive_area pressure_max pull_max attraction_energy"
 
 PetscErrorCode SamAdhesionDoubt(SamLaw law, SamExamination *x)
 {
-  const SamAdhesion *a        = (const SamAdhesion *)law->data;
-  const SamGrid      grid     = x->grid;
-  const double       strength = SamAdhesionStrength(a);
-  const double       length   = (double)(SamPairModulus(SamElasticityGetPair(x->elasticity)) * a->range) / strength;
-  const double       cells    = length / (double)(grid->axes > 1 ? PetscMax(grid->dx, grid->dy) : grid->dx);
-  const double       error    = cells < LEAST ? 1 : RESOLVED / cells;
+  const SamAdhesion *a    = (const SamAdhesion *)law->data;
+  const SamGrid      grid = x->grid;
+  const double length = (double)(SamPairModulus(SamElasticityGetPair(x->elasticity)) / a->stress) * SamAdhesionRange(a);
+  const double cells  = length / (double)(grid->axes > 1 ? PetscMax(grid->dx, grid->dy) : grid->dx);
+  const double error  = cells < LEAST ? 1 : RESOLVED / cells;
   const SamSolution *s;
   const char        *told;
   double             border;
