@@ -49,7 +49,7 @@ static PetscErrorCode SetUp(SamElasticity e)
   SamPair     pair;
 
   PetscFunctionBegin;
-  if (!v->finest->mixes && !v->finest->pushes) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamViscousStreams(e) || (!v->finest->mixes && !v->finest->pushes)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamPairCreateOther(e->pair, &pair));
   PetscCall(SamElasticityCreateOfPair(e->inner, pair, &v->other));
   PetscCall(SamPairDestroy(&pair));
@@ -81,7 +81,8 @@ static SamElasticity BodiesOf(SamElasticity e, SamViscousProductKind kind)
 {
   const PetscBool coupling = kind == SAM_VISCOUS_PUSH || kind == SAM_VISCOUS_LIFT;
 
-  if (kind == SAM_VISCOUS_OTHER_SHEAR || (coupling && DataOf(e)->finest->pushes)) return DataOf(e)->other;
+  if (kind == SAM_VISCOUS_OTHER_SHEAR || (coupling && DataOf(e)->finest->pushes && !SamViscousStreams(e)))
+    return DataOf(e)->other;
   return e->inner;
 }
 
@@ -287,6 +288,7 @@ static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
     PetscCall(SamParametersAddReals(p, options[b][TIMES], PETSC_TRUE, v->relaxes[b], v->times[b]));
     PetscCall(SamParametersAddText(p, options[b][KIND], PETSC_TRUE, kinds[v->bulk[b]]));
   }
+  if (v->speed > 0) PetscCall(SamParametersAddReals(p, "rolling_speed", PETSC_TRUE, 1, &v->speed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -333,7 +335,9 @@ static PetscErrorCode Create(SamElasticity e)
                                  .declare                 = SamViscousMemoryDeclare,
                                  .begin                   = SamViscousMemoryBegin,
                                  .displace                = SamViscousMemoryDisplace,
-                                 .advance                 = SamViscousMemoryAdvance};
+                                 .advance                 = SamViscousMemoryAdvance,
+                                 .stream                  = SamViscousStream,
+                                 .createsymmetric         = SamViscousCreateSymmetric};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -397,6 +401,7 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
 {
   SamViscous settings = {.terms = 0};
   PetscInt   counts[2];
+  PetscBool  speed;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
@@ -415,7 +420,10 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
     settings.relaxes[b] = counts[0];
     PetscCall(CheckBody(*elasticity, from, &settings, b));
   }
-  if (settings.relaxes[0] + settings.relaxes[1] > 0) PetscCall(Wrap(elasticity, &settings));
+  if (settings.relaxes[0] + settings.relaxes[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOptionsHas(from, "rolling_speed", &speed));
+  PetscCall(SamOptionsNeed(from, speed, "rolling_speed", "rolling steady or -friction_law falling or -heat steady"));
+  PetscCall(Wrap(elasticity, &settings));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
