@@ -19,6 +19,7 @@
   So the step is that of elastic bodies with the constants of C and the sum of (1 - m_j) C_j, which have moved before
   any traction of the step by sum C_j (e c_old + (m - e) p_old) (viscousmemory.c). It is of second order in dt; a step
   without duration is a jump. Stresses are those by the tractions, as of elastic bodies, if Poisson's ratio is constant.
+  In steady rolling nothing is remembered (viscousstream.c).
 
   A pair has three constants (SamPairConstants), to which its displacements are proportional. So those of all terms are
   products of the elastic pair with factors; and where the tangential ones, of two constants, do not keep their ratio,

@@ -14,6 +14,8 @@
 
 #define OPERATORS 150 /* memory per cell of the symmetric operator and of the parts of the other parity, bytes */
 
+_Static_assert(SAM_VISCOUS_TERMS <= SAM_STREAM_TERMS, "a stream holds all terms");
+
 PetscErrorCode SamViscousStream(SamElasticity e, const SamOptions *from)
 {
   static const SamOptionRow row = {"rolling_speed", "speed of rolling",
