@@ -195,14 +195,3 @@ def test_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path):
                     assert one[name][-1].tobytes() == other[name][-1].tobytes(), (file, name)
     said = petsam(dict(case, output="on.h5", restart="c.h5.1", rolling_speed="3e-3"), check=2).stderr
     assert "rolling_speed" in said
-
-
-def test_the_speed_belongs_to_steady_rolling(petsam):
-    case = dict(bodies(), body1_relax_moduli="0.5", body1_relax_times="0.1", friction=0, gap_type="sphere",
-                gap_radius1=0.1, gap_radius2="inf", grid_n=16, grid_size=3.4e-3, load_n=500)  # fmt: skip
-    said = petsam(dict(case, rolling="steady"), check=2).stderr
-    assert "-rolling_speed is missing: required by -rolling steady with bodies that relax" in said
-    said = petsam(dict(case, rolling_speed=1), check=2).stderr
-    assert "-rolling_speed is given without -rolling steady" in said
-    said = petsam(dict(case, rolling="steady", rolling_speed=1, elasticity="periodic"), check=2).stderr
-    assert "-elasticity periodic, whose contact has no leading edge" in said

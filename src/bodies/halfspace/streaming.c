@@ -11,8 +11,8 @@
 
       beta K(i) + (alpha + e beta) S(i+1),     S(i) = K(i) + e K(i+1) + e^2 K(i+2) + ...
 
-  S follows from high lags down. Its first one is summed over blocks of lags, each as long as its distance, in which K is
-  interpolated at a few lags; the weights contain the powers of e. The sum of all is neither even nor odd in x: it is
+  S follows from high lags down. Its first one is summed over blocks of lags, each as long as its distance, in which K
+  is interpolated at a few lags; the weights contain the powers of e. The sum of all is neither even nor odd in x: it is
   split into both.
 */
 #include "streaming.h"

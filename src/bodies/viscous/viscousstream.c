@@ -3,9 +3,9 @@
   moved by V theta in the time theta of a term. Products are those of half-spaces that contain the creep
   (halfspace/streaming.c); nothing is remembered from step to step.
 
-  The normal operator is not symmetric. For waves along x it is J(k) = 1 + sum a_j/(1 - i k V theta_j) times that under a
-  sudden load, and the one that solvers need in its place, a number m times that, should have a small |1 - J/m| for all
-  waves: with m = (1 + J(0))/2 it is (J(0) - 1)/(J(0) + 1) at most, and below 1 for any m above J(0)/2.
+  The normal operator is not symmetric. For waves along x it is J(k) = 1 + sum a_j/(1 - i k V theta_j) times that under
+  a sudden load, and the one that solvers need in its place, a number m times that, should have a small |1 - J/m| for
+  all waves: with m = (1 + J(0))/2 it is (J(0) - 1)/(J(0) + 1) at most, and it is below 1 for any m above J(0)/2.
 */
 #include "viscous.h"
 #include <petsam/private/elasticity.h>
