@@ -2,6 +2,7 @@
 #include "contactimpl.h"
 #include <petsam/private/state.h>
 #include <petsam/private/base.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/problem.h>
 #include <math.h>
 
@@ -9,7 +10,8 @@
 
 PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
 {
-  SamContact c;
+  SamContact    c;
+  SamElasticity symmetric;
 
   PetscFunctionBegin;
   SamValidHandle(problem, SamProblem, 1);
@@ -30,7 +32,8 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   c->conditions = SamProblemGetConditions(problem);
   c->traits     = SamElasticityGetTraits(c->elasticity);
   c->motion     = SamMotionOf(c->elasticity);
-  PetscCall(SamNormalCreate(c->elasticity, &c->normal));
+  PetscCall(SamElasticityGetSymmetric(c->elasticity, &symmetric));
+  PetscCall(SamNormalCreate(symmetric, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
   PetscCall(SamStepCacheCreate(c->grid, c->conditions, &c->cache));

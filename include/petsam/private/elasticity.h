@@ -132,6 +132,11 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, cons
 PETSC_INTERN PetscErrorCode SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
                                                       const SamFourierSettings *settings, SamStress *stress);
 
+/*
+  SamElasticityGetSymmetric - returns, borrowed, the bodies with a symmetric normal operator that solvers of normal
+  problems need: these bodies, or, with the trait skewed, others on the same grid. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamElasticityGetSymmetric(SamElasticity elasticity, SamElasticity *symmetric);
 /* SamElasticityRemembers - returns true if the bodies move by what they remember of earlier steps, so that their
    strains are not those of elastic ones. Not collective. */
 PETSC_INTERN PetscBool SamElasticityRemembers(SamElasticity elasticity);

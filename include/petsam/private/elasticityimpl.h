@@ -61,6 +61,11 @@ typedef struct {
   PetscErrorCode (*displace)(SamElasticity, SamConditions, SamState, const SamControl *, Vec u_z, Vec u_t,
                              PetscBool *adds);
   PetscErrorCode (*advance)(SamElasticity, SamState, Vec pressure, Vec shear);
+  /* of a type with begin(): makes the products those of a steady state in which material streams through the contact
+     towards -x, at -rolling_speed, so that no step has a memory; NULL: there are none */
+  PetscErrorCode (*stream)(SamElasticity, const SamOptions *from);
+  /* required with the trait skewed: creates bodies on the same grid as solvers of normal problems need them */
+  PetscErrorCode (*createsymmetric)(SamElasticity, SamElasticity *symmetric);
 } SamElasticityOps;
 
 /*
@@ -99,7 +104,7 @@ struct _n_SamElasticity {
   /* the place on the finest grid: cell (i, j) reaches from first[0] + i factor[0] to first[0] + (i + 1) factor[0] */
   PetscReal first[2], factor[2];
   /* derived operators */
-  SamElasticity     coarse;
+  SamElasticity     coarse, symmetric;
   SamTransfer       transfer;
   SamElasticityPart parts[2]; /* the part in use, and the one before */
   PetscInt          newest;   /* index of the part in use, or used last */

@@ -110,6 +110,7 @@ static PetscErrorCode Reset(SamElasticity e)
   PetscCall(SamFourierDestroy(&e->fourier));
   PetscCall(SamTransferDestroy(&e->transfer));
   PetscCall(SamElasticityDestroy(&e->coarse));
+  PetscCall(SamElasticityDestroy(&e->symmetric));
   PetscCall(SamElasticityDestroyParts(e));
   PetscCall(SamElasticityDestroy(&e->inner));
   PetscCall(PetscMemzero(&e->ops, sizeof(e->ops)));
@@ -288,10 +289,21 @@ SamElasticityTraits SamElasticityGetTraits(SamElasticity e)
   return traits;
 }
 
+PetscErrorCode SamElasticityGetSymmetric(SamElasticity e, SamElasticity *symmetric)
+{
+  PetscFunctionBegin;
+  *symmetric = e;
+  if (!e->traits.skewed) PetscFunctionReturn(PETSC_SUCCESS);
+  SamElasticityWith(e, createsymmetric);
+  if (!e->symmetric) PetscCall((*e->ops.createsymmetric)(e, &e->symmetric));
+  *symmetric = e->symmetric;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscBool SamElasticityRemembers(SamElasticity e)
 {
   for (; e; e = e->inner)
-    if (e->ops.begin) return PETSC_TRUE;
+    if (e->ops.begin || e->ops.stream) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 

@@ -99,11 +99,11 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
 static PetscErrorCode Create(SamElasticity e)
 {
   PetscFunctionBegin;
-  e->ops = (SamElasticityOps){.applytangential       = ApplyTangential,
-                              .applytangentialsingle = ApplyTangentialSingle,
-                              .getselfinfluence      = GetSelfInfluence};
+  e->ops = (SamElasticityOps){.applytangential         = ApplyTangential,
+                              .applytangentialsingle   = ApplyTangentialSingle,
+                              .applynormaltotangential = ApplyNormalToTangential, /* if the bodies are coupled */
+                              .getselfinfluence        = GetSelfInfluence};
   PetscCall(SamElasticitySetInner(e, NULL));
-  if (e->traits.coupled) e->ops.applynormaltotangential = ApplyNormalToTangential;
   e->traits.upwind = PETSC_TRUE;
   e->film          = 0; /* the film is a part of the operator */
   PetscFunctionReturn(PETSC_SUCCESS);

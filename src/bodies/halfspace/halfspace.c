@@ -2,7 +2,8 @@
   Two half-spaces. Tractions are constant on each cell, kernels are the closed forms for a rectangle (cellintegrals.c),
   and products are convolutions without periodic images (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243,
   101-111. On layered bodies the closed forms are those of the materials at the surfaces, to which the rest is added
-  (layered/cells.c); the preconditioner is the inverse of their symbols.
+  (layered/cells.c). Where material that creeps streams through the contact, kernels have no parity in x (streaming.c).
+  The preconditioner is the inverse of their symbols (inverse.c).
 
   In plane strain the grid is one row and the kernels are those of line loads, integrated over a cell (PlaneIntegral):
   -2 A ln(|x|/D) for u_z from p and u_x from q_x, -2 (A + B) ln(|x|/D) for u_y from q_y, pi coupling sgn(x) for u_x from
@@ -10,6 +11,8 @@
   distance D. Waves have the same symbols. Source: Johnson 1985, Contact Mechanics, sections 2.2 and 2.3.
 */
 #include "../layered/layeredwaves.h"
+#include "inverse.h"
+#include "streaming.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/halfspace.h>
@@ -19,10 +22,14 @@
 /* Kernels: row and column of the 3 x 3 operator, whose lower triangle follows by symmetry. */
 typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
 
+/* The parts of a kernel of material that streams: of the parity in x of one without creep, and of the other one */
+enum { USUAL, OTHER, PARTS };
+
 typedef struct {
-  SamKernel  kernel[KERNELS]; /* NULL until needed */
-  SamLayered layers;          /* NULL: none */
-  PetscReal  datum;           /* D in plane strain, m; 0: in three dimensions */
+  SamKernel  kernel[KERNELS][PARTS]; /* NULL until needed */
+  SamLayered layers;                 /* NULL: none */
+  SamStream *stream;                 /* NULL: no material that creeps streams */
+  PetscReal  datum;                  /* D in plane strain, m; 0: in three dimensions */
 } HalfSpace;
 
 /* A kernel is a sum of at most two integrals over the cell. */
@@ -35,7 +42,8 @@ typedef struct {
   double      datum;
 } Coefficients;
 
-static Coefficients GetCoefficients(SamElasticity e, Kind kind)
+/* Returns the coefficients for a pair of these constants. */
+static Coefficients GetCoefficientsOf(SamElasticity e, Kind kind, const double constants[SAM_PAIR_CONSTANTS])
 {
   static const SamIntegral integrals[][2] = {{SAM_INTEGRAL_R},
                                              {SAM_INTEGRAL_R, SAM_INTEGRAL_XX},
@@ -43,9 +51,8 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
                                              {SAM_INTEGRAL_XY},
                                              {SAM_INTEGRAL_X},
                                              {SAM_INTEGRAL_Y}};
-  const SamPair            p              = e->pair;
-  const double             factors[][2]   = {{p->normal},   {p->shear, p->shear_xx}, {p->shear, p->shear_xx},
-                                             {p->shear_xx}, {p->coupling},           {p->coupling}};
+  const double             a = constants[0], b = constants[1], d = constants[2];
+  const double             factors[][2] = {{a}, {a, b}, {a, b}, {b}, {d}, {d}};
 
   return (Coefficients){.dx       = e->grid->dx,
                         .dy       = e->grid->dy,
@@ -56,11 +63,19 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
                         .datum    = (double)((const HalfSpace *)e->data)->datum};
 }
 
+static Coefficients GetCoefficients(SamElasticity e, Kind kind)
+{
+  double constants[SAM_PAIR_CONSTANTS];
+
+  SamPairGetValues(e->pair, constants);
+  return GetCoefficientsOf(e, kind, constants);
+}
+
 /*
   Returns the integral of ln(|x|/D) over the cell at the lag i >= 0, m; at lags where the closed form L(i + 1/2) - L(i -
   1/2) cancels, by powers of the inverse lag.
 */
-static double PlaneIntegral(double dx, double datum, PetscInt i)
+static double PlaneIntegral(double dx, double datum, ptrdiff_t i)
 {
   const double square = 4 * (double)i * (double)i;
   double       sum = 0, power = 1;
@@ -73,17 +88,19 @@ static double PlaneIntegral(double dx, double datum, PetscInt i)
   return dx * (log((double)i * dx / datum) - sum);
 }
 
+/* Returns the kernel of half-spaces of one material in plane strain at a lag. */
+static double PlaneCell(const Coefficients *c, ptrdiff_t i)
+{
+  if (c->kind == XZ) return PETSC_PI * c->factor[0] * c->dx;
+  return -2 * (c->factor[0] + (c->kind == YY ? c->factor[1] : 0)) * PlaneIntegral(c->dx, c->datum, i);
+}
+
 static void PlaneRow(const Coefficients *c, PetscInt j, PetscInt n, double values[])
 {
   static const SamWaveSymbol symbols[] = {
     [ZZ] = SAM_WAVE_ZZ, [XX] = SAM_WAVE_RR, [YY] = SAM_WAVE_TT, [XZ] = SAM_WAVE_ZR};
-  const double more = c->kind == YY ? c->factor[1] : 0;
 
-  for (PetscInt i = 0; i < n; i++) {
-    values[i] =
-      c->kind == XZ ? PETSC_PI * c->factor[0] * c->dx : -2 * (c->factor[0] + more) * PlaneIntegral(c->dx, c->datum, i);
-    if (j) values[i] = 0;
-  }
+  for (PetscInt i = 0; i < n; i++) values[i] = j ? 0 : PlaneCell(c, i);
   if (c->layers && !j) SamLayeredAddLine(c->layers, symbols[c->kind], c->dx, c->datum, n, values);
 }
 
@@ -120,20 +137,25 @@ static PetscErrorCode PrepareLayers(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns a kernel of half-spaces of one material at a lag. */
+static double Cell(const Coefficients *c, ptrdiff_t i, PetscInt j)
+{
+  double v;
+
+  if (c->datum > 0) return j ? 0 : PlaneCell(c, i);
+  v = c->factor[0] * SamIntegralCell(c->integral[0], c->dx, c->dy, i, j);
+  if (c->factor[1] != 0) v += c->factor[1] * SamIntegralCell(c->integral[1], c->dx, c->dy, i, j);
+  return v;
+}
+
 /* Returns the influence of a cell on itself, m/Pa. */
 static double SelfInfluence(SamElasticity e, Kind kind)
 {
   const Coefficients c = GetCoefficients(e, kind);
-  double             v;
+  double             v = Cell(&c, 0, 0);
 
-  if (c.datum > 0) {
-    PlaneRow(&c, 0, 1, &v);
-    return v;
-  }
-  v = c.factor[0] * SamIntegralCell(c.integral[0], c.dx, c.dy, 0, 0);
-
-  if (c.factor[1] != 0) v += c.factor[1] * SamIntegralCell(c.integral[1], c.dx, c.dy, 0, 0);
-  if (c.layers) SamLayeredAddRow(c.layers, (SamIntegral)kind, c.dx, c.dy, 0, 1, &v);
+  if (c.layers && c.datum > 0) PlaneRow(&c, 0, 1, &v);
+  if (c.layers && c.datum == 0) SamLayeredAddRow(c.layers, (SamIntegral)kind, c.dx, c.dy, 0, 1, &v);
   return v;
 }
 
@@ -146,47 +168,97 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
+/* ---- kernels ---- */
+
+/* A kernel of material that streams */
+typedef struct {
+  SamElasticity elasticity;
+  Kind          kind;
+  PetscBool     odd;
+  SamStreamRows rows;
+} Streaming;
+
+static void StreamingRow(const void *context, const double constants[], PetscInt j, PetscInt n, double values[])
 {
-  SamKernel *kept = &((HalfSpace *)e->data)->kernel[kind];
+  const Streaming   *s = (const Streaming *)context;
+  const Coefficients c = GetCoefficientsOf(s->elasticity, s->kind, constants);
+
+  CoefficientRow(j, n, &values, &c);
+}
+
+static double StreamingCell(const void *context, const double constants[], ptrdiff_t i, PetscInt j)
+{
+  const Streaming   *s = (const Streaming *)context;
+  const Coefficients c = GetCoefficientsOf(s->elasticity, s->kind, constants);
+
+  return Cell(&c, i, j);
+}
+
+static void StreamRow(PetscInt j, PetscInt n, double *const values[], const void *context)
+{
+  const Streaming      *s      = (const Streaming *)context;
+  const SamStreamKernel kernel = {s->odd, StreamingRow, StreamingCell, context};
+
+  SamStreamRow(s->rows, &kernel, j, n, values);
+}
+
+static PetscErrorCode GetKernel(SamElasticity e, Kind kind, int part, SamKernel *kernel)
+{
+  const HalfSpace *data     = (const HalfSpace *)e->data;
+  SamKernel       *kept     = ((HalfSpace *)e->data)->kernel[kind];
+  const PetscBool  odd_x    = kind == XY || kind == XZ ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool  odd_y    = kind == XY || kind == YZ ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool  odd[][2] = {{odd_x, odd_y}, {odd_x ? PETSC_FALSE : PETSC_TRUE, odd_y}};
 
   PetscFunctionBegin;
-  if (!*kept) {
-    const Coefficients c        = GetCoefficients(e, kind);
-    const PetscBool    odd[][2] = {{kind == XY || kind == XZ, kind == XY || kind == YZ}};
+  if (!kept[part] && data->stream) {
+    Streaming s = {e, kind, odd_x, NULL};
+    PetscInt  hx, hy;
+
+    PetscCall(SamFourierGetPeriods(e->fourier, &hx, &hy));
+    PetscCall(SamStreamRowsCreate(data->stream, (double)e->grid->dx, hx + 1, &s.rows));
+    PetscCall(SamKernelsCreate(e->fourier, PARTS, odd, StreamRow, &s, kept));
+    PetscCall(SamStreamRowsDestroy(&s.rows));
+  } else if (!kept[part]) {
+    const Coefficients c = GetCoefficients(e, kind);
 
     PetscCall(PrepareLayers(e));
     PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, kept));
   }
-  *kernel = *kept;
+  *kernel = kept[part];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- products ---- */
 
-/* Fills the matrix of `scale` times these kernels, row by row. */
+/* Fills the matrix of `scale` times a part of these kernels, row by row. */
 static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
-                                SamKernelMatrix *matrix)
+                                int part, SamKernelMatrix *matrix)
 {
   PetscFunctionBegin;
   *matrix = (SamKernelMatrix){.n_in = n_in, .n_out = n_out};
   for (PetscInt o = 0; o < n_out; o++)
     for (PetscInt i = 0; i < n_in; i++) {
       matrix->scale[o][i] = scale;
-      PetscCall(GetKernel(e, kinds[o * n_in + i], &matrix->kernel[o][i]));
+      PetscCall(GetKernel(e, kinds[o * n_in + i], part, &matrix->kernel[o][i]));
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Applies the kernels in plane strain: output c depends on input c only, and is 0 without it. */
-static PetscErrorCode ApplyPlane(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
-                                 const double *const in[], double *const out[])
+/* Applies a part of the kernels; in plane strain output c depends on input c only, and is 0 without it. */
+static PetscErrorCode ApplyPart(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
+                                int part, const double *const in[], double *const out[])
 {
   SamKernelMatrix matrix;
 
   PetscFunctionBegin;
+  if (!e->traits.plane) {
+    PetscCall(GetMatrix(e, n_out, n_in, scale, kinds, part, &matrix));
+    PetscCall(SamConvolve(e->fourier, &matrix, in, out));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   for (PetscInt c = 0; c < n_out; c++) {
-    if (c < n_in) PetscCall(GetMatrix(e, 1, 1, scale, &kinds[c * n_in + c], &matrix));
+    if (c < n_in) PetscCall(GetMatrix(e, 1, 1, scale, &kinds[c * n_in + c], part, &matrix));
     if (c < n_in) PetscCall(SamConvolve(e->fourier, &matrix, &in[c], &out[c]));
     if (c >= n_in) PetscCall(PetscArrayzero(out[c], e->grid->cells));
   }
@@ -196,12 +268,37 @@ static PetscErrorCode ApplyPlane(SamElasticity e, PetscInt n_out, PetscInt n_in,
 static PetscErrorCode Apply(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
                             const double *const in[], double *const out[])
 {
-  SamKernelMatrix matrix;
+  const PetscInt n = e->grid->cells;
+  double        *other[2];
 
   PetscFunctionBegin;
-  if (e->traits.plane) PetscFunctionReturn(ApplyPlane(e, n_out, n_in, scale, kinds, in, out));
-  PetscCall(GetMatrix(e, n_out, n_in, scale, kinds, &matrix));
-  PetscCall(SamConvolve(e->fourier, &matrix, in, out));
+  if (!((const HalfSpace *)e->data)->stream)
+    PetscFunctionReturn(ApplyPart(e, n_out, n_in, scale, kinds, USUAL, in, out));
+  PetscCall(PetscMalloc2(n, &other[0], n, &other[1]));
+  PetscCall(
+    ApplyPart(e, n_out, n_in, scale, kinds, OTHER, in, other)); /* before `out`, which may be `in`, is written */
+  PetscCall(ApplyPart(e, n_out, n_in, scale, kinds, USUAL, in, out));
+  for (PetscInt c = 0; c < n_out; c++)
+    for (PetscInt k = 0; k < n; k++) out[c][k] += other[c][k];
+  PetscCall(PetscFree2(other[0], other[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Applies the kernels of material that streams, which have no parity, to fields in single precision. */
+static PetscErrorCode ApplyStreamSingle(SamElasticity e, PetscInt n, const Kind kinds[], double factor,
+                                        const float *const in[], float *const out[])
+{
+  const PetscInt cells = e->grid->cells;
+  double        *u[2];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(cells, &u[0], cells, &u[1]));
+  for (PetscInt c = 0; c < n; c++)
+    for (PetscInt k = 0; k < cells; k++) u[c][k] = (double)in[c][k];
+  PetscCall(Apply(e, n, n, 1, kinds, (const double *const *)u, u));
+  for (PetscInt c = 0; c < n; c++)
+    for (PetscInt k = 0; k < cells; k++) out[c][k] = (float)(factor * u[c][k]);
+  PetscCall(PetscFree2(u[0], u[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -211,12 +308,13 @@ static PetscErrorCode ApplySingle(SamElasticity e, PetscInt n, const Kind kinds[
   SamKernelMatrix matrix;
 
   PetscFunctionBegin;
+  if (((const HalfSpace *)e->data)->stream) PetscFunctionReturn(ApplyStreamSingle(e, n, kinds, factor, in, out));
   for (PetscInt c = 0; c < n && e->traits.plane; c++) {
-    PetscCall(GetMatrix(e, 1, 1, 1, &kinds[c * n + c], &matrix));
+    PetscCall(GetMatrix(e, 1, 1, 1, &kinds[c * n + c], USUAL, &matrix));
     PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, &in[c], &out[c]));
   }
   if (e->traits.plane) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(GetMatrix(e, n, n, 1, kinds, &matrix));
+  PetscCall(GetMatrix(e, n, n, 1, kinds, USUAL, &matrix));
   PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -253,129 +351,17 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, cons
   return ApplySingle(e, 2, tangential, factor, q, u_t);
 }
 
-/* ---- the spectral preconditioner ---- */
-
-/*
-  On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair->normal,
-  so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
-  pair->shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
-  periodic grid, which costs a quarter of a padded transform and needs as few iterations. The symbol is recomputed each
-  time. Single precision suffices for an approximation. `local`: A or A + B. Layered bodies take their symbols from
-  tables, which contain all of the gain but the factor of the transforms.
-*/
-static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, double local, SamSymbol s,
-                                   const float *const in[], float *const out[])
-{
-  const SamLayered layers = ((const HalfSpace *)e->data)->layers;
-  PetscInt         hx, hy;
-
-  PetscFunctionBegin;
-  PetscCall(SamFourierGetPeriods(e->fourier, &hx, &hy));
-  s.step[0] = 2 * PETSC_PI / (double)hx * e->grid->length / e->grid->dx;
-  s.step[1] = e->traits.plane ? s.step[0] : 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
-  s.gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
-  s.mean    = 0.5 * PetscMin(s.step[0], s.step[1]);
-  s.film    = SamPairFilm(e->pair) / (2 * PETSC_PI * local * e->grid->length);
-  if (layers) {
-    PetscCall(SamLayeredSymbolSet(layers, e->grid->length, hx, hy, &s));
-    s.gain     = factor / ((double)hx * (double)hy * e->grid->length);
-    s.film     = SamPairFilm(e->pair) / e->grid->length;
-    s.inverse  = PETSC_TRUE;
-    s.multiply = n == 1 ? SamLayeredMultiplyNormalSingle : SamLayeredMultiplyTangentialSingle;
-  }
-  PetscCall(SamSymbolApplySingle(e, &s, n, in, out));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Multiplies by B = gain |k| (I + nu kk'/|k|^2), or, with a film, by the inverse of (inverse of B, plus film). */
-SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
-{
-  const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->nu, least = mean * mean,
-              step = (float)s->step[1], kx = (float)at.kx, sign = (float)at.cross, film = (float)s->film;
-  float(*restrict x)[2] = (float(*)[2])at.x, (*restrict y)[2] = (float(*)[2])at.y;
-
-#pragma omp simd
-  for (PetscInt m = at.first; m < at.last; m++) {
-    const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least,
-                k = sqrtf(some), g = gain * k / (1 + film * k);
-    const float part = g * extra / some / (1 + film * k * (1 + extra)), cross = sign * part * kx * ky,
-                gx = g + part * kx * kx, gy = g + part * ky * ky;
-    const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
-
-    x[m][0] = gx * x0 + cross * y0;
-    x[m][1] = gx * x1 + cross * y1;
-    y[m][0] = gy * y0 + cross * x0;
-    y[m][1] = gy * y1 + cross * x1;
-  }
-}
-
-/*
-  In slip of rolling bodies, steadyoperator.c needs the inverse of h A + 1 - h with A = C (1 - S), where S is the shift
-  by a cell along x. With M = 1/C it is the inverse of 1 - h S, which steadyoperator.c applies along each row, times
-      M (1 - h S)/(h (1 - S) + (1 - h) M),
-  where h = SAM_SLIP_WEIGHT everywhere. M alone would be right for the shortest waves only.
-*/
-SAM_VECTORIZED static void DivideSlip(const SamSymbol *s, SamWaves at)
-{
-  const float h = (float)SAM_SLIP_WEIGHT, c = h * (float)cos(s->lag * at.kx), i = h * (float)sin(s->lag * at.kx),
-              unit = (1 - h) * (float)s->slip, mean = (float)s->mean, least = mean * mean, step = (float)s->step[1],
-              kx = (float)at.kx, film = (float)s->film;
-  float(*restrict x)[2] = (float(*)[2])at.x, (*restrict y)[2] = (float(*)[2])at.y;
-
-  DivideTangential(s, at);
-#pragma omp simd
-  for (PetscInt m = at.first; m < at.last; m++) {
-    const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky, k = sqrtf(k2 > least ? k2 : least),
-                below = h - c + unit * k / (1 + film * k), scale = 1 / (below * below + i * i),
-                re = scale * ((1 - c) * below + i * i), im = scale * i * (1 - c - below);
-    const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
-
-    x[m][0] = re * x0 - im * x1;
-    x[m][1] = im * x0 + re * x1;
-    y[m][0] = re * y0 - im * y1;
-    y[m][1] = im * y0 + re * y1;
-  }
-}
-
-static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
-{
-  return Precondition(e, 1, factor, e->pair->normal, (SamSymbol){.multiply = SamSymbolDivideNormal}, r, p);
-}
-
-/* A wave of pressure that takes the shear m with it lifts the surface by 1 + i beta m.k/|k| times as much. */
-static PetscErrorCode PreconditionSliding(SamElasticity e, double factor, const double slope[2], const float *const r[],
-                                          float *const p[])
-{
-  const double    beta = (double)e->pair->dundurs;
-  const SamSymbol s    = {.turn = {beta * slope[0], beta * slope[1]}, .multiply = SamSymbolDivideNormal};
-
-  return Precondition(e, 1, factor, e->pair->normal, s, r, p);
-}
-
-static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
-{
-  const SamSymbol s = {.nu = e->pair->shear_xx / e->pair->shear, .multiply = DivideTangential};
-
-  return Precondition(e, 2, factor, e->pair->shear + e->pair->shear_xx, s, r, q);
-}
-
-static PetscErrorCode PreconditionSlip(SamElasticity e, double factor, const float *const r[], float *const q[])
-{
-  const double    local = e->pair->shear + e->pair->shear_xx;
-  const SamSymbol s     = {.nu       = e->pair->shear_xx / e->pair->shear,
-                           .lag      = e->grid->dx / e->grid->length,
-                           .slip     = factor / (2 * PETSC_PI * local * e->grid->length),
-                           .multiply = DivideSlip};
-
-  return Precondition(e, 2, factor, local, s, r, q);
-}
-
 /* ---- the type ---- */
 
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
 {
-  ((HalfSpace *)child->data)->datum = ((const HalfSpace *)parent->data)->datum;
-  return SamLayeredReference(((const HalfSpace *)parent->data)->layers, &((HalfSpace *)child->data)->layers);
+  const HalfSpace *from = (const HalfSpace *)parent->data;
+
+  PetscFunctionBegin;
+  ((HalfSpace *)child->data)->datum = from->datum;
+  if (from->stream) PetscCall(SamHalfSpaceStream(child, from->stream));
+  PetscCall(SamLayeredReference(from->layers, &((HalfSpace *)child->data)->layers));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
@@ -397,7 +383,8 @@ static PetscErrorCode Destroy(SamElasticity e)
   HalfSpace *data = (HalfSpace *)e->data;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
+  for (PetscInt k = 0; k < KERNELS * PARTS; k++) PetscCall(SamKernelDestroy(&data->kernel[k / PARTS][k % PARTS]));
+  PetscCall(PetscFree(data->stream));
   PetscCall(SamLayeredDestroy(&data->layers));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -423,10 +410,10 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                  .applytangential         = ApplyTangential,
                                  .applynormalsingle       = ApplyNormalSingle,
                                  .applytangentialsingle   = ApplyTangentialSingle,
-                                 .preconditionnormal      = PreconditionNormal,
-                                 .preconditionsliding     = PreconditionSliding,
-                                 .preconditiontangential  = PreconditionTangential,
-                                 .preconditionslip        = data->layers ? NULL : PreconditionSlip,
+                                 .preconditionnormal      = SamHalfSpacePreconditionNormal,
+                                 .preconditionsliding     = SamHalfSpacePreconditionSliding,
+                                 .preconditiontangential  = SamHalfSpacePreconditionTangential,
+                                 .preconditionslip        = data->layers ? NULL : SamHalfSpacePreconditionSlip,
                                  .getselfinfluence        = GetSelfInfluence,
                                  .createstress            = CreateStress,
                                  .applynormaltotangential = ApplyNormalToTangential,
@@ -437,4 +424,22 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
 PetscReal *SamHalfSpaceDatum(SamElasticity e)
 {
   return &((HalfSpace *)e->data)->datum;
+}
+
+PetscErrorCode SamHalfSpaceStream(SamElasticity e, const SamStream *stream)
+{
+  HalfSpace *data = (HalfSpace *)e->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(data->stream));
+  if (!stream->terms) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscNew(&data->stream));
+  *data->stream = *stream;
+  SamPairGetValues(e->pair, data->stream->sudden);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamLayered SamHalfSpaceLayers(SamElasticity e)
+{
+  return ((const HalfSpace *)e->data)->layers;
 }

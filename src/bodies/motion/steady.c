@@ -27,15 +27,20 @@ static const SamMotionName names[] = {
 
 static PetscErrorCode Wrap(SamElasticity bodies, const SamOptions *from, SamElasticity *moving)
 {
+  SamElasticity inner = bodies;
+
   PetscFunctionBegin;
+  while (inner->wraps) inner = inner->inner;
   PetscCheck(!bodies->traits.periodic, from->comm, SAM_ERR_USER,
              "-%srolling steady: has no meaning with -%selasticity %s, whose contact has no leading edge",
-             SamOptionsPrefix(from), SamOptionsPrefix(from), bodies->type);
+             SamOptionsPrefix(from), SamOptionsPrefix(from), inner->type);
   PetscCheck(
     !bodies->traits.patch, from->comm, SAM_ERR_USER,
     "-%srolling steady: has no meaning with -body1_compliance or -body2_compliance, whose bodies have a place: "
     "omit one of them",
     SamOptionsPrefix(from));
+  for (SamElasticity e = bodies; e; e = e->inner)
+    if (e->ops.stream) PetscCall((*e->ops.stream)(e, from));
   PetscCall(SamElasticityCreateRolling(bodies, moving));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

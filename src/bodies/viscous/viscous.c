@@ -19,6 +19,7 @@
   So the step is that of elastic bodies with the constants of C and the sum of (1 - m_j) C_j, which have moved before
   any traction of the step by sum C_j (e c_old + (m - e) p_old) (viscousmemory.c). It is of second order in dt; a step
   without duration is a jump. Stresses are those by the tractions, as of elastic bodies, if Poisson's ratio is constant.
+  In steady rolling nothing is remembered (viscousstream.c).
 
   A pair has three constants (SamPairConstants), to which its displacements are proportional. So those of all terms are
   products of the elastic pair with factors; and where the tangential ones, of two constants, do not keep their ratio,
@@ -49,7 +50,7 @@ static PetscErrorCode SetUp(SamElasticity e)
   SamPair     pair;
 
   PetscFunctionBegin;
-  if (!v->finest->mixes && !v->finest->pushes) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamViscousStreams(e) || (!v->finest->mixes && !v->finest->pushes)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamPairCreateOther(e->pair, &pair));
   PetscCall(SamElasticityCreateOfPair(e->inner, pair, &v->other));
   PetscCall(SamPairDestroy(&pair));
@@ -81,7 +82,8 @@ static SamElasticity BodiesOf(SamElasticity e, SamViscousProductKind kind)
 {
   const PetscBool coupling = kind == SAM_VISCOUS_PUSH || kind == SAM_VISCOUS_LIFT;
 
-  if (kind == SAM_VISCOUS_OTHER_SHEAR || (coupling && DataOf(e)->finest->pushes)) return DataOf(e)->other;
+  if (kind == SAM_VISCOUS_OTHER_SHEAR || (coupling && DataOf(e)->finest->pushes && !SamViscousStreams(e)))
+    return DataOf(e)->other;
   return e->inner;
 }
 
@@ -287,6 +289,7 @@ static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
     PetscCall(SamParametersAddReals(p, options[b][TIMES], PETSC_TRUE, v->relaxes[b], v->times[b]));
     PetscCall(SamParametersAddText(p, options[b][KIND], PETSC_TRUE, kinds[v->bulk[b]]));
   }
+  if (v->speed > 0) PetscCall(SamParametersAddReals(p, "rolling_speed", PETSC_TRUE, 1, &v->speed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -333,7 +336,9 @@ static PetscErrorCode Create(SamElasticity e)
                                  .declare                 = SamViscousMemoryDeclare,
                                  .begin                   = SamViscousMemoryBegin,
                                  .displace                = SamViscousMemoryDisplace,
-                                 .advance                 = SamViscousMemoryAdvance};
+                                 .advance                 = SamViscousMemoryAdvance,
+                                 .stream                  = SamViscousStream,
+                                 .createsymmetric         = SamViscousCreateSymmetric};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -397,6 +402,7 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
 {
   SamViscous settings = {.terms = 0};
   PetscInt   counts[2];
+  PetscBool  speed;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
@@ -415,7 +421,10 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
     settings.relaxes[b] = counts[0];
     PetscCall(CheckBody(*elasticity, from, &settings, b));
   }
-  if (settings.relaxes[0] + settings.relaxes[1] > 0) PetscCall(Wrap(elasticity, &settings));
+  if (settings.relaxes[0] + settings.relaxes[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOptionsHas(from, "rolling_speed", &speed));
+  PetscCall(SamOptionsNeed(from, speed, "rolling_speed", "rolling steady or -friction_law falling or -heat steady"));
+  PetscCall(Wrap(elasticity, &settings));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -4,6 +4,7 @@
 
 #include <petsam/private/body.h>
 #include <petsam/private/elasticityimpl.h>
+#include <petsam/private/halfspace.h>
 
 /*
   SamCreep - the creep of a material relative to its displacement under a sudden load, J(t)/J(0) = 1 + sum a_j (1 -
@@ -30,7 +31,7 @@ PETSC_INTERN void SamCreepFromRelaxation(PetscInt count, const PetscReal parts[]
 typedef struct {
   PetscReal time;                   /* theta, s */
   double value[SAM_PAIR_CONSTANTS]; /* what it adds to the constants of the pair (body.h) if it has crept to its end */
-  PetscReal kept, before, now;      /* of the present step */
+  SamStreamStep step;               /* weights of the present step */
 } SamViscousTerm;
 typedef struct SamViscous SamViscous;
 struct SamViscous {
@@ -40,6 +41,7 @@ struct SamViscous {
   PetscInt          terms;
   SamViscousTerm    term[SAM_VISCOUS_TERMS];
   PetscReal         duration; /* of the present step, s */
+  PetscReal         speed;    /* of steady rolling, m/s; 0: steps in time */
   PetscBool         mixes;    /* A and B of the terms are not all proportional to those of the pair */
   PetscBool         pushes;   /* the terms couple bodies that are not coupled under a sudden load */
   SamElasticity     other;    /* if so: bodies of other constants */
@@ -49,6 +51,7 @@ struct SamViscous {
 /*
   SamViscousSetTerms - finds the terms of bodies whose moduli are set, and what they need (viscousterms.c).
   SamViscousHasBulk - true if the bulk modulus of body 0 or 1 is constant, and not infinite.
+  SamViscousStreams - true if the products are those of a steady state of rolling (viscousstream.c).
   SamViscousGetConstants - gets the constants of the pair at the end of the present step, on any grid.
   SamViscousFindFactors - finds the factors of the products in what bodies of these constants displace; 0: none.
   SamViscousProduct - applies a product, without a factor. Collective.
@@ -65,6 +68,7 @@ typedef enum {
 } SamViscousProductKind;
 PETSC_INTERN PetscErrorCode SamViscousSetTerms(SamElasticity e);
 PETSC_INTERN PetscBool      SamViscousHasBulk(SamElasticity e, PetscInt body);
+PETSC_INTERN PetscBool      SamViscousStreams(SamElasticity e);
 PETSC_INTERN void           SamViscousGetConstants(SamElasticity e, double value[SAM_PAIR_CONSTANTS]);
 PETSC_INTERN void           SamViscousFindFactors(SamElasticity e, const double value[SAM_PAIR_CONSTANTS],
                                                   double factor[SAM_VISCOUS_PRODUCTS]);
@@ -80,6 +84,10 @@ PETSC_INTERN PetscErrorCode SamViscousMemoryBegin(SamElasticity e, SamState stat
 PETSC_INTERN PetscErrorCode SamViscousMemoryDisplace(SamElasticity e, SamConditions conditions, SamState state,
                                                      const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds);
 PETSC_INTERN PetscErrorCode SamViscousMemoryAdvance(SamElasticity e, SamState state, Vec pressure, Vec shear);
+
+/* SamViscousStream, SamViscousCreateSymmetric - likewise (viscousstream.c). */
+PETSC_INTERN PetscErrorCode SamViscousStream(SamElasticity e, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamViscousCreateSymmetric(SamElasticity e, SamElasticity *symmetric);
 
 extern PETSC_VISIBILITY_INTERNAL const SamElasticityAddition SamElasticityViscous;
 

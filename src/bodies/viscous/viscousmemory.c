@@ -86,16 +86,6 @@ PetscErrorCode SamViscousMemoryDeclare(SamElasticity e, SamState state)
 
 /* ---- the beginning of a step ---- */
 
-/* Finds the weights of a term in a step of this duration, s. */
-static void SetWeights(SamViscousTerm *term, PetscReal duration)
-{
-  const double x = (double)(duration / term->time), e = exp(-x), mean = x > 0 ? -expm1(-x) / x : 1;
-
-  term->kept   = e;
-  term->before = mean - e;
-  term->now    = 1 - mean;
-}
-
 /* Returns the factor of a product in what a term displaces. */
 static double FactorOf(SamElasticity e, PetscInt j, SamViscousProductKind kind)
 {
@@ -128,8 +118,8 @@ static PetscErrorCode AddKind(SamElasticity e, SamState state, SamViscousProduct
     const double          factor = FactorOf(e, j, kind);
     const Vec             memory = Committed(state, NameOf(way, j));
 
-    if (memory) PetscCall(VecAXPY(sum, factor * (double)t->kept, memory));
-    if (traction) PetscCall(VecAXPY(sum, factor * (double)t->before, traction));
+    if (memory) PetscCall(VecAXPY(sum, factor * t->step.kept, memory));
+    if (traction) PetscCall(VecAXPY(sum, factor * t->step.before, traction));
   }
   PetscCall(VecDuplicate(u[ends[kind].out], &more));
   PetscCall(SamViscousProduct(e, kind, sum, more));
@@ -147,7 +137,7 @@ PetscErrorCode SamViscousMemoryBegin(SamElasticity e, SamState state, const SamC
   PetscFunctionBegin;
   (void)control;
   v->duration = duration;
-  for (PetscInt j = 0; j < v->terms; j++) SetWeights(&v->term[j], duration);
+  for (PetscInt j = 0; j < v->terms; j++) SamStreamWeights((double)(duration / v->term[j].time), &v->term[j].step);
   for (PetscInt way = 0; way < WAYS; way++) PetscCall(Clear(state, moved[way], &u[way]));
   PetscCall(SamElasticitySetUp(e));
   for (int kind = 0; kind < SAM_VISCOUS_PRODUCTS; kind++) PetscCall(AddKind(e, state, (SamViscousProductKind)kind, u));
@@ -286,9 +276,9 @@ PetscErrorCode SamViscousMemoryAdvance(SamElasticity e, SamState state, Vec pres
       const Vec memory = Committed(state, NameOf(way, j));
 
       PetscCall(Clear(state, NameOf(way, j), &to));
-      if (memory) PetscCall(VecAXPY(to, (double)v->term[j].kept, memory));
-      if (before) PetscCall(VecAXPY(to, (double)v->term[j].before, before));
-      PetscCall(VecAXPY(to, (double)v->term[j].now, traction[way]));
+      if (memory) PetscCall(VecAXPY(to, v->term[j].step.kept, memory));
+      if (before) PetscCall(VecAXPY(to, v->term[j].step.before, before));
+      PetscCall(VecAXPY(to, v->term[j].step.now, traction[way]));
     }
     PetscCall(Clear(state, last[way], &to));
     PetscCall(VecCopy(traction[way], to));

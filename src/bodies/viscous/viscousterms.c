@@ -78,6 +78,11 @@ static void Compare(SamElasticity e)
   if (v->pushes) e->traits.coupled = PETSC_TRUE;
 }
 
+PetscBool SamViscousStreams(SamElasticity e)
+{
+  return ((const SamViscous *)e->data)->finest->speed > 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 PetscErrorCode SamViscousSetTerms(SamElasticity e)
 {
   PetscFunctionBegin;
@@ -92,7 +97,7 @@ void SamViscousGetConstants(SamElasticity e, double value[SAM_PAIR_CONSTANTS])
 
   SamPairGetValues(e->pair, value);
   for (PetscInt j = 0; j < v->terms; j++)
-    for (int k = 0; k < SAM_PAIR_CONSTANTS; k++) value[k] += v->term[j].value[k] * (double)v->term[j].now;
+    for (int k = 0; k < SAM_PAIR_CONSTANTS; k++) value[k] += v->term[j].value[k] * v->term[j].step.now;
 }
 
 void SamViscousFindFactors(SamElasticity e, const double value[SAM_PAIR_CONSTANTS], double factor[SAM_VISCOUS_PRODUCTS])
@@ -100,6 +105,8 @@ void SamViscousFindFactors(SamElasticity e, const double value[SAM_PAIR_CONSTANT
   const SamViscous *v                          = (const SamViscous *)e->data;
   double            sudden[SAM_PAIR_CONSTANTS] = {0}, other[SAM_PAIR_CONSTANTS] = {0}, part = 0;
 
+  for (int k = 0; k < SAM_VISCOUS_PRODUCTS; k++) factor[k] = k == SAM_VISCOUS_OTHER_SHEAR ? 0 : 1;
+  if (SamViscousStreams(e)) return; /* the products of the inner bodies contain the creep */
   SamPairGetValues(e->pair, sudden);
   if (v->other) SamPairGetValues(v->other->pair, other);
   if (v->finest->mixes)

@@ -114,7 +114,7 @@ static PetscBool IsKnown(const SamSolve *w)
   return SamControlIsSame(&before, &w->s->control, SAM_BALANCE_NORMAL);
 }
 
-PetscErrorCode SamSolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
+PetscErrorCode SamSolvePressureOnce(SamSolve *w, Vec h, PetscBool has_pressure)
 {
   SamBalance balance = w->normal;
 
@@ -125,6 +125,13 @@ PetscErrorCode SamSolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
                                   w->task->coupled ? &w->pressure_product : NULL));
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
   PetscCall(Count(SamNormalAsSolver(w->task->normal), w->counts + SAM_COUNT_NORMAL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
+{
+  PetscFunctionBegin;
+  PetscCall((w->task->traits.skewed ? SamSolveSkewed : SamSolvePressureOnce)(w, h, has_pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

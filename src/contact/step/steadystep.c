@@ -22,9 +22,10 @@
 #include <petsam/private/solver.h>
 
 /* The numbers, side by side in the state: energies, then load and creepage by component */
+#define RESISTANCE "rolling_resistance"
 enum { ENERGY, LOADS, CREEPS = LOADS + 3, NUMBERS = CREEPS + 3 };
 
-PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first)
+PetscErrorCode SamStepDeclareRolling(SamElasticity bodies, SamState state, PetscInt *first)
 {
   char           name[64], text[96];
   SamStateNumber number = {"rolling_energy",
@@ -52,6 +53,16 @@ PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first)
     number.text  = text;
     PetscCall(SamStateDeclareNumber(state, &number, &id));
   }
+  number = (SamStateNumber){RESISTANCE,
+                            SamUnitOn(SamElasticityGetGrid(bodies), "N"),
+                            "force of the pressure against the rolling",
+                            SAM_NUMBER_REAL,
+                            1,
+                            PETSC_FALSE,
+                            PETSC_TRUE,
+                            SAM_JOIN_LAST,
+                            2};
+  if (SamElasticityGetTraits(bodies).skewed) PetscCall(SamStateDeclareNumber(state, &number, &id));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -147,6 +158,37 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- rolling resistance ---- */
+
+/* Computes the force of the pressure on the slopes of the separation, which is the moment of the pressure relative to
+   the radius if that is a parabola: the mean of the slopes to both sides of a cell. */
+static PetscErrorCode FindResistance(SamSolve *w, double *force)
+{
+  const SamGrid grid  = w->task->grid;
+  SamTotal      total = {0};
+  const double *p, *h;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(w->s->pressure, &p));
+  PetscCall(VecGetArrayRead(w->separation, &h));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const double *row = h + (ptrdiff_t)j * grid->nx, *of = p + (ptrdiff_t)j * grid->nx;
+    double        sum = 0;
+
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const PetscInt low = PetscMax(i - 1, 0), high = PetscMin(i + 1, grid->nx - 1);
+
+      if (of[i] > 0) sum += of[i] * (row[high] - row[low]) / (double)(high - low);
+    }
+    SamAdd(&total, sum);
+  }
+  PetscCall(VecRestoreArrayRead(w->separation, &h));
+  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
+  PetscCall(SamSumTotals(grid->comm, 1, &total, force));
+  *force *= (double)grid->dy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolveRolling(SamSolve *w)
 {
   double *const   numbers = SamStateNumbers(w->task->state, w->task->rolling, SAM_TRIED);
@@ -162,7 +204,10 @@ PetscErrorCode SamSolveRolling(SamSolve *w)
     numbers[LOADS + n] = numbers[CREEPS + n] = NAN;
   }
   if (w->step->status != SAM_STATUS_CONVERGED || w->s->load[SAM_COMPONENT_N] <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  if (w->task->traits.plane || !w->task->set->extrapolate) PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->task->traits.skewed)
+    PetscCall(
+      FindResistance(w, SamStateNumbers(w->task->state, SamStateFindNumber(w->task->state, RESISTANCE), SAM_TRIED)));
+  if (w->task->traits.plane || w->task->traits.skewed || !w->task->set->extrapolate) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamElasticityGetCoarse(w->task->elasticity, &k.elasticity, &k.transfer));
   if (!k.elasticity) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CreateCoarse(w, &k));

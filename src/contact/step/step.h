@@ -69,6 +69,6 @@ PETSC_INTERN PetscErrorCode SamStepFindTurn(SamProblem problem, SamGrid grid, co
   SamStepDeclareRolling - declares the numbers of a motion in which material streams, and returns the first
   (steadystep.c). Collective.
 */
-PETSC_INTERN PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first);
+PETSC_INTERN PetscErrorCode SamStepDeclareRolling(SamElasticity bodies, SamState state, PetscInt *first);
 
 #endif

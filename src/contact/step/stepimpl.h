@@ -47,13 +47,17 @@ PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressu
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
 PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
 /*
-  SamSolvePressure - solves the normal problem once, with this separation (m) and the tension so far. Collective.
+  SamSolvePressure - solves the normal problem with this separation (m) and the tension so far. Collective.
+  SamSolvePressureOnce - solves it once, with the operator of the solvers; SamSolveSkewed - in passes, with that of the
+  bodies, which is not symmetric (skewed.c). Collective.
   SamSolveAttraction - solves it and finds the tension of its gap, until both belong together; changes h (attract.c). Of
-  a solve that only measures an error, it adds that of the tension.
+  a solve that only measures an error, it adds that of the tension. Collective.
   SamSolveBearTension - sets the loads of contact by those given and the tension. Collective.
   SamSolveIsApart - true if contact would have to pull, so that there is no solution; SamSolveFailApart - says so in the
   step. Not collective.
 */
+PETSC_INTERN PetscErrorCode SamSolvePressureOnce(SamSolve *solve, Vec h, PetscBool has_pressure);
+PETSC_INTERN PetscErrorCode SamSolveSkewed(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolveAttraction(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolveBearTension(SamSolve *solve);
