@@ -18,11 +18,11 @@ typedef enum {
 } SamSlipRule;
 
 /*
-  SamSolution - the solution of a load step: tractions, rigid displacements and relative elastic displacements u.
-  A field has one component, or two: on each rank all of x, then all of y. With the separation h of the bodies, by their
-  shape and by the laws between them, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid. Where the
-  surfaces attract each other, bodies are loaded by the pressure of contact less the tension, and `load` contains what
-  contact bears because of the tension: the given loads are those of both.
+  SamSolution - the solution of a load step: tractions, rigid displacements and relative elastic displacements u. A
+  field has one component, or two: on each rank all of x, then all of y. With the separation h of the bodies, by their
+  shape and by the laws between them, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid. Where
+  the surfaces attract each other, bodies are loaded by the pressure of contact less the tension, and `load` contains
+  what contact bears because of the tension: the given loads are those of both.
 */
 typedef struct {
   SamControl  control;               /* prescribed values */

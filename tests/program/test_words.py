@@ -112,8 +112,10 @@ def test_words_of_a_joint_have_their_units(option, text, value, capsys):
 
 
 def test_words_of_a_cycle_have_their_units():
-    assert line.PERIOD("20ms,1s") == pytest.approx((0.02, 1.0)) and line.PERIOD("0.02") == (0.02, None)
-    assert line.PERIOD("20ms,0") == pytest.approx((0.02, 0.0))
+    parser = line.Parser(prog="petsam-plot")
+    parser.add_cycles(parser.add_argument_group(), "a", "b")
+    for text, value in (("20ms,1s", (0.02, 1.0)), ("0.02", (0.02, None)), ("20ms,0", (0.02, 0.0))):
+        assert parser.parse_args(["--period", text]).period == value
 
 
 def test_span_is_a_list_or_steps():

@@ -70,8 +70,8 @@ PETSC_INTERN PetscReal *SamHalfSpaceDatum(SamElasticity elasticity);
   the material moves in its time, and what it adds to the constants of the pair, `sudden`, if it has crept to its end.
   SamHalfSpaceStream - gives half-spaces without layers such a creep, before products are computed; a stream without
   terms: takes it away. Not collective.
-  SamStreamWeights - finds the weights of a step of duration x, in times of a term, in which the traction p is linear: c_new =
-  kept c + before p_old + now p_new. Not collective.
+  SamStreamWeights - finds the weights of a step of duration x, in times of a term, in which the traction p is linear:
+  c_new = kept c + before p_old + now p_new. Not collective.
 */
 #define SAM_STREAM_TERMS 40
 typedef struct {

@@ -55,7 +55,8 @@ PETSC_INTERN void SamRigidGap(const SamRigid *motion, SamRigidRow row, const dou
   SamSolutionCreateTotal - gets the pressure of contact less the tension (Pa), which loads the bodies. It is borrowed
   from the solution without tension, else created; SamSolutionDestroyTotal() returns or frees it.
   SamSolutionGiven - gets the loads (N, N m) of a solution without those that contact bears because of the tension, by
-  SamComponent: prescribed ones as they were prescribed. SamSolutionTake - does the reverse with the loads of a solution.
+  SamComponent: prescribed ones as they were prescribed. SamSolutionTake - does the reverse with the loads of a
+  solution.
   SamSolutionTensionError - gets the load of a change of the tension (Pa), relative to that which contact bears, or that
   of the changed tension. Collective.
 */

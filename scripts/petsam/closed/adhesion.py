@@ -52,8 +52,8 @@ def adhesion(a: ArrayLike, work: float, reach: float, radius: float, e_star: flo
     work : float
         Work of adhesion, J/m2.
     reach : float
-        Gap at which the tension ends, m: -adhesion_work over -adhesion_stress. 0 is the limit of Johnson, Kendall and Roberts, inf
-        that of Derjaguin, Muller and Toporov.
+        Gap at which the tension ends, m: -adhesion_work over -adhesion_stress. 0 is the limit of Johnson, Kendall and
+        Roberts, inf that of Derjaguin, Muller and Toporov.
     radius : float
         Relative radius, m: see effective_radius().
     e_star : float

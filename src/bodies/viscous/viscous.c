@@ -423,7 +423,7 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
   }
   if (settings.relaxes[0] + settings.relaxes[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOptionsHas(from, "rolling_speed", &speed));
-  PetscCall(SamOptionsNeed(from, speed, "rolling_speed", "rolling steady or -friction_law falling or -heat steady"));
+  PetscCall(SamOptionsNeed(from, speed, "rolling_speed", "rolling steady or -friction_law falling"));
   PetscCall(Wrap(elasticity, &settings));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -218,8 +218,8 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
 }
 
 /*
-  Checks the tension by its difference from that of the gap: its displacement relative to that by all tractions, which is
-  the scale of the gap's error, and its load.
+  Checks the tension by its difference from that of the gap: its displacement relative to that by all tractions, which
+  is the scale of the gap's error, and its load.
 */
 static PetscErrorCode CheckTension(SamProblem problem, SamState state, const SamSolution *s, PetscReal most,
                                    SamCheck *check)

@@ -4,14 +4,15 @@
   contact while the bodies approach, out of it later while they separate. The energy of both jumps is lost.
 
   The contact finds tension and pressure together (contact/step/attract.c); here is the law s(g) itself. Its range h
-  relative to the bodies' stiffness, lambda = 2 s_0 (R/(pi w K^2))^(1/3) with s_0 = w/h and K = 4/3 E*, decides between the
-  limits of balls: Derjaguin, Muller and Toporov (1975) for small lambda, Johnson, Kendall and Roberts (1971) for large.
+  relative to the bodies' stiffness, lambda = 2 s_0 (R/(pi w K^2))^(1/3) with s_0 = w/h and K = 4/3 E*, decides
+  between the limits of balls: Derjaguin, Muller and Toporov (1975) for small lambda, Johnson, Kendall and Roberts
+  (1971) for large.
 
   Friction bears mu times the pressure of contact, to which the tension adds: surfaces that are only held together by
   their adhesion have friction, as Derjaguin supposed. The work of adhesion does not depend on slip.
 
-  Numbers of a step. The energy lost in it is the work of N, M_x and M_y, by the trapezoidal rule, less the growth of the
-  elastic energy and of that of the tension: of second order in the step where nothing jumps.
+  Numbers of a step. The energy lost in it is the work of N, M_x and M_y, by the trapezoidal rule, less the growth of
+  the elastic energy and of that of the tension: of second order in the step where nothing jumps.
 
   Sources: Maugis 1992, J. Colloid Interface Sci. 150, 243-269; Derjaguin 1934, Kolloid-Z. 69, 155-164.
 */
