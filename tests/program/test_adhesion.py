@@ -101,7 +101,8 @@ def test_stiff_bodies_attract_each_other_as_derjaguin_found(law, order):
     for cells in (32, 64):
         run = package.run(
             **{**BALL, **UPRIGHT, "body2_young": 1e15}, adhesion_work=WORK, adhesion_stress=WORK / reach,
-            adhesion_law=law, grid_n=cells, grid_size=2 * np.sqrt(2 * RADIUS * reach * (1.3 if law == "maugis" else 12)),
+            adhesion_law=law, grid_n=cells,
+            grid_size=2 * np.sqrt(2 * RADIUS * reach * (1.3 if law == "maugis" else 12)),
             history=dict(time=np.arange(2.0), disp_z=-gaps),
         )  # fmt: skip
         off.append(np.abs(np.r_[run["load_n"] / (-2 * np.pi * RADIUS * energy), run["attraction_energy"] / stored] - 1))
