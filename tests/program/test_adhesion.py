@@ -91,6 +91,14 @@ def test_bodies_that_touch_jump_into_contact_and_are_pulled_off_by_a_load(petsam
     assert load[-1] < load[-2] and most[4] == pytest.approx(-0.98 * force.min() * FORCE) and f"{most[4]:.6g}" in said
 
 
+def test_bodies_that_may_tilt_roll_away_under_a_pull(petsam, tmp_path):
+    (tmp_path / "pull.csv").write_text("time,load_n\n0,0\n1,-1e-7\n2,-2e-7\n")
+    ball = dict(BALL, body2_young=3e9, body2_poisson=0.35, gap_radius1=1e-6, adhesion_work=0.05, adhesion_stress=7.14e7)
+    run = petsam(dict(ball, grid_n=96, grid_size="146nm", history="pull.csv"), check=11)
+    assert "may tilt roll away under a pull: give rot_x and rot_y" in run.stderr
+    petsam(dict(ball, **UPRIGHT, grid_n=96, grid_size="146nm", history="pull.csv"))
+
+
 @pytest.mark.parametrize("law, order", [("maugis", 2), ("exponential", 6)])
 def test_stiff_bodies_attract_each_other_as_derjaguin_found(law, order):
     """N = -2 pi R (energy of flat surfaces at that gap), and the energy of the tension its integral."""

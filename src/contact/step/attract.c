@@ -28,7 +28,8 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define PASSES 1000
+#define PASSES 1000 /* of most problems, */
+#define SPREAD 8    /* and for each cell along the grid, over which an edge of contact may move */
 #define PART   0.5  /* of the tolerance: largest error of the last pass, */
 #define FINE   0.2  /* and of the pressure of each pass, which otherwise does not follow */
 #define ROUGH  1e-4 /* largest tolerance, also in passes of coupled bodies: the gap must tell the tension */
@@ -39,6 +40,7 @@ typedef struct {
   SamSolve *w;
   SamMixing mixing;
   Vec       h, gap, found, change, weight;
+  PetscInt  most;  /* passes */
   PetscReal error; /* of the tension of the last pass */
   PetscInt  falls; /* how many times in a row the error has fallen */
 } Passes;
@@ -143,11 +145,11 @@ static PetscErrorCode FailPasses(Passes *p)
   char            message[sizeof(p->w->step->message)];
 
   PetscFunctionBegin;
-  (void)snprintf(
-    message, sizeof(message),
-    "the tension did not converge with the gap in %d passes, last change %.2g: use %sfiner cells, or smaller "
-    "load steps",
-    PASSES, (double)p->error, tilts ? "rot_x = rot_y = 0, as bodies that may tilt roll away under a pull, " : "");
+  (void)snprintf(message, sizeof(message),
+                 "the tension did not converge with the gap in %d passes, last change %.2g: use %sfiner cells, or "
+                 "smaller load steps",
+                 (int)p->most, (double)p->error,
+                 tilts ? "rot_x = rot_y = 0, as bodies that may tilt roll away under a pull, " : "");
   PetscCall(SamStepFail(p->w->step, SAM_STATUS_NOT_CONVERGED, message));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -177,7 +179,7 @@ static PetscErrorCode Iterate(Passes *p, PetscBool has_pressure)
   PetscCall(SamSolverGetTolerances(normal, &rtol, NULL));
   rtol = PetscMax(rtol, PetscMin(normal->enough, ROUGH));
   PetscCall(Solve(p, has_pressure, rtol, &solved));
-  for (PetscInt pass = 1; solved && pass <= PASSES; pass++) {
+  for (PetscInt pass = 1; solved && pass <= p->most; pass++) {
     PetscCall(Find(p));
     if (w->task->set->coupling_monitor)
       PetscCall(PetscPrintf(w->task->grid->comm, "%5" PetscInt_FMT " tension change %.6e\n", pass, (double)p->error));
@@ -210,6 +212,7 @@ PetscErrorCode SamSolveAttraction(SamSolve *w, Vec h, PetscBool has_pressure)
   const SamGrid grid      = w->task->grid;
 
   PetscFunctionBegin;
+  p.most = PetscMax(PASSES, SPREAD * PetscMax(grid->nx, grid->ny));
   for (int k = 0; k < 4; k++) PetscCall(SamGridCreateVec(grid, 1, created[k]));
   PetscCall(SamMixingCreate(grid, 1, &p.mixing));
   PetscCall(SamNormalAsSolver(w->task->normal)->effort == SAM_EFFORT_RESIDUAL_ONLY ? Measure(&p)
