@@ -45,6 +45,7 @@ SPHERE = (
     "-body1_young 210e9 -body1_poisson 0.3 -body2_young 70e9 -body2_poisson 0.3 -friction 0.3 -gap_type sphere "
     "-gap_radius1 0.2 -gap_radius2 0.2 -load_n 1000 -load_tx 60 -grid_n 24 -grid_size 3.2e-3"
 )
+BODIES = ("", "-body2_relax_moduli 0.4,0.2 -body2_relax_times 0.5,5", "-adhesion_work 10 -adhesion_stress 3e7")
 FATIGUE = "-fatigue swt,ruiz,crossland -fatigue_crossland_alpha 0.3"
 KILLED = "-history history.csv -output out.h5 -checkpoint state.h5 -checkpoint_every 1"
 
@@ -197,7 +198,7 @@ class Trials:
         return self.judge_stress(words, ranks, file_limit=chance.randint(0, 4000))
 
     def trial_options(self, chance, ranks):
-        words = mutations.spoil_words(chance, [*SPHERE.split(), "-output", "out.h5"])
+        words = mutations.spoil_words(chance, [*SPHERE.split(), *chance.choice(BODIES).split(), "-output", "out.h5"])
         if chance.random() < 0.3:
             lines = " ".join(words).replace(" -", "\n-")
             (self.folder / "study.opts").write_text(lines, errors="replace")
@@ -208,7 +209,7 @@ class Trials:
         rows = ["time, load_n, load_tx", "1, 100, 5", "2, 200.5, 10", "3,150,-20", "4, 300, 30"]
         (self.folder / "history.csv").write_text(mutations.spoil_table(chance, "\n".join(rows) + "\n"))
         words = SPHERE.replace("-load_n 1000 -load_tx 60", "-history history.csv").split()
-        return self.judge([*words, "-output", "out.h5"], ranks)
+        return self.judge([*words, *chance.choice(BODIES).split(), "-output", "out.h5"], ranks)
 
     def trial_gap(self, chance, ranks):
         path = self.folder / "gap.h5"
@@ -226,20 +227,20 @@ class Trials:
         words = SPHERE.replace("sphere -gap_radius1 0.2 -gap_radius2 0.2", "file -gap_file gap.h5").split()
         return self.judge([*words, "-output", "out.h5"], ranks)
 
-    def write_program(self, steps):
+    def write_program(self, steps, bodies=""):
         rows = [f"{k + 1}, {900 + 20 * math.sin(k)!r}, {60 * math.sin(k / 2)!r}" for k in range(steps)]
         (self.folder / "history.csv").write_text("time, load_n, load_tx\n" + "\n".join(rows) + "\n")
-        return SPHERE.replace("-load_n 1000 -load_tx 60", KILLED).split()
+        return f"{SPHERE.replace('-load_n 1000 -load_tx 60', KILLED)} {bodies}".split()
 
-    def stop(self, steps=6):
+    def stop(self, bodies, steps=6):
         """A run that was stopped half way, with its checkpoint and results."""
-        words = self.write_program(steps // 2)
+        words = self.write_program(steps // 2, bodies)
         code, _, err = self.run(words, 1)
         demand(code == 0, "exit code", code, err)
-        return self.write_program(steps)
+        return self.write_program(steps, bodies)
 
     def trial_checkpoint(self, chance, ranks):
-        words = self.stop()
+        words = self.stop(chance.choice(BODIES))
         path = self.folder / "state.h5"
         whole = path.read_bytes()
         path.write_bytes(mutations.spoil_bytes(chance, whole))
@@ -248,14 +249,14 @@ class Trials:
         return self.judge([*words, "-restart", "state.h5"], ranks, forbidden=CODES - {3})
 
     def trial_results(self, chance, ranks):
-        words = self.stop()
+        words = self.stop(chance.choice(BODIES))
         path = self.folder / "out.h5"
         path.write_bytes(mutations.spoil_bytes(chance, path.read_bytes()))
         return self.judge([*words, "-restart", "state.h5"], ranks, results="none")
 
     def trial_kill(self, chance, ranks):
         """Kills all ranks at a random moment, again and again, until the run gets to its end."""
-        words = self.write_program(12)
+        words = self.write_program(12, chance.choice(BODIES))
         others = {"out.h5": "whole.h5", "state.h5": "whole.state"}
         code, _, err = self.run([others.get(word, word) for word in words], ranks)
         demand(code == 0, "exit code", code, err)
