@@ -259,25 +259,27 @@ PetscInt SamProblemGetBytes(SamProblem p)
   return bytes;
 }
 
-PetscBool SamProblemSlides(SamProblem p)
+/* True if a law has this flag, at its place in the struct. */
+static PetscBool AnyLaw(SamProblem p, size_t flag)
 {
   for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->slides) return PETSC_TRUE;
+    if (*(const PetscBool *)(const void *)((const char *)p->law[k] + flag)) return PETSC_TRUE;
   return PETSC_FALSE;
+}
+
+PetscBool SamProblemSlides(SamProblem p)
+{
+  return AnyLaw(p, offsetof(struct _n_SamLaw, slides));
 }
 
 PetscBool SamProblemRemembers(SamProblem p)
 {
-  for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->remembers) return PETSC_TRUE;
-  return PETSC_FALSE;
+  return AnyLaw(p, offsetof(struct _n_SamLaw, remembers));
 }
 
 PetscBool SamProblemWears(SamProblem p)
 {
-  for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->wears) return PETSC_TRUE;
-  return PETSC_FALSE;
+  return AnyLaw(p, offsetof(struct _n_SamLaw, wears));
 }
 
 PetscReal SamProblemWornVolume(SamState state)
@@ -373,9 +375,7 @@ PetscErrorCode SamProblemAttract(SamProblem p, Vec gap, Vec tension)
 
 PetscBool SamProblemDisplaces(SamProblem p)
 {
-  for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->displaces) return PETSC_TRUE;
-  return PETSC_FALSE;
+  return AnyLaw(p, offsetof(struct _n_SamLaw, displaces));
 }
 
 PetscErrorCode SamProblemDisplace(SamProblem p, SamState state, const SamControl *control, Vec u_z, Vec u_t,
@@ -422,9 +422,7 @@ PetscErrorCode SamProblemComputeBound(SamProblem p, const SamBoundAt *given, con
 
 PetscBool SamProblemFollowsSlip(SamProblem p)
 {
-  for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->follows_slip) return PETSC_TRUE;
-  return PETSC_FALSE;
+  return AnyLaw(p, offsetof(struct _n_SamLaw, follows_slip));
 }
 
 /* ---- all else ---- */
