@@ -175,6 +175,7 @@ def test_a_moment_that_is_given_tilts_the_cylinder_as_the_moment_of_a_held_one()
     assert given["pressure"][-1] == pytest.approx(held["pressure"][-1], abs=1e-5)
     loose = package.run(**free, **case, rolling="steady", rolling_speed=1)
     assert loose["rot_y"][-1] != 0 and loose["load_my"][-1] == pytest.approx(0, abs=1e-8)
+    assert loose["rolling_resistance"][-1] == pytest.approx(held["rolling_resistance"][-1], rel=2e-3)
 
 
 def test_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path):

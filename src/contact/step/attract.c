@@ -125,16 +125,27 @@ PetscErrorCode SamSolveFailApart(SamSolve *w)
 {
   const SamComponentName *name = &SamComponentNames[SAM_COMPONENT_N];
   const char *const       unit = SamUnitOn(w->task->grid, name->load_unit);
-  const double most = *SamStateNumbers(w->task->state, SamStateFindNumber(w->task->state, "pull_max"), SAM_COMMITTED);
-  char         message[sizeof(w->step->message)], borne[96] = "";
+  const double            load = (double)w->s->control.value[SAM_COMPONENT_N];
+  const PetscInt          id   = SamStateFindNumber(w->task->state, "pull_max");
+  const double            most = *SamStateNumbers(w->task->state, id, SAM_COMMITTED);
+  char                    message[sizeof(w->step->message)], borne[96] = "";
+  PetscReal               tension = 0;
 
   PetscFunctionBegin;
+  if (w->task->committed && w->task->committed->tension)
+    PetscCall(VecNorm(w->task->committed->tension, NORM_INFINITY, &tension));
   if (most > 0)
     (void)snprintf(borne, sizeof(borne), " (largest pull that they have borne so far: %.6g %s)", most, unit);
-  (void)snprintf(message, sizeof(message),
-                 "%s = %.8g %s pulls the surfaces apart: their tension does not hold it%s: give %s, which follows them "
-                 "past their largest pull",
-                 name->load, (double)w->s->control.value[SAM_COMPONENT_N], unit, borne, name->rigid);
+  if (tension > 0)
+    (void)snprintf(message, sizeof(message),
+                   "%s = %.8g %s pulls the surfaces apart: their tension does not hold it%s: give %s, which follows "
+                   "them past their largest pull",
+                   name->load, load, unit, borne, name->rigid);
+  else
+    (void)snprintf(message, sizeof(message),
+                   "%s = %.8g %s pulls surfaces that do not attract each other yet: let them touch first, by a row of "
+                   "%s = 0 or by %s",
+                   name->load, load, unit, name->load, name->rigid);
   PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

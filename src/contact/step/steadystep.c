@@ -160,25 +160,29 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
 
 /* ---- rolling resistance ---- */
 
-/* Computes the force of the pressure on the slopes of the separation, which is the moment of the pressure relative to
-   the radius if that is a parabola: the mean of the slopes to both sides of a cell. */
+/* Computes the force of the pressure on the slopes of the separation of bodies that are tilted as they are, which is the
+   moment of the pressure relative to the radius if that is a parabola and nothing tilts: the mean of the slopes to both
+   sides of a cell. */
 static PetscErrorCode FindResistance(SamSolve *w, double *force)
 {
   const SamGrid grid  = w->task->grid;
   SamTotal      total = {0};
+  SamRigid      motion;
   const double *p, *h;
 
   PetscFunctionBegin;
+  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
   PetscCall(VecGetArrayRead(w->s->pressure, &p));
   PetscCall(VecGetArrayRead(w->separation, &h));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const double *row = h + (ptrdiff_t)j * grid->nx, *of = p + (ptrdiff_t)j * grid->nx;
-    double        sum = 0;
+    const double  tilt = SamRigidOfGap(&motion, j).b * (double)(grid->dx / grid->length); /* in a cell */
+    double        sum  = 0;
 
     for (PetscInt i = 0; i < grid->nx; i++) {
       const PetscInt low = PetscMax(i - 1, 0), high = PetscMin(i + 1, grid->nx - 1);
 
-      if (of[i] > 0) sum += of[i] * (row[high] - row[low]) / (double)(high - low);
+      if (of[i] > 0) sum += of[i] * ((row[high] - row[low]) / (double)(high - low) - tilt);
     }
     SamAdd(&total, sum);
   }

@@ -29,12 +29,15 @@ static void Raise(double *largest, double value)
   if (fabs(value) > *largest) *largest = fabs(value);
 }
 
+#define BORNE 1e-3 /* of the maximum pressure on all of the contact: a load, where surfaces that attract bear none */
+
 void SamErrorsRaise(SamErrorLargest *l, SamState state)
 {
   Raise(&l->load, SamErrorsGet(state, "load_n"));
   Raise(&l->approach, SamErrorsGet(state, "disp_z"));
   Raise(&l->area, SamErrorsGet(state, "contact_area"));
   Raise(&l->pressure, SamErrorsGet(state, "pressure_max"));
+  Raise(&l->load, BORNE * SamErrorsGet(state, "pressure_max") * SamErrorsGet(state, "contact_area"));
 }
 
 /* Returns the component whose displacement, rotation or creepage has this name; -1: none. */
