@@ -49,6 +49,20 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Examine(SamLaw law, SamExamination *examination)
+{
+  PetscFunctionBegin;
+  CALL(law, examine, examination);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Doubt(SamLaw law, SamExamination *examination)
+{
+  PetscFunctionBegin;
+  CALL(law, doubt, examination);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamLawCreate_Bodies(SamLaw law)
 {
   PetscFunctionBegin;
@@ -67,6 +81,8 @@ PetscErrorCode SamLawCreate_Bodies(SamLaw law)
     if (o->ops.begin) law->ops.begin = Begin;
     if (o->ops.displace) law->ops.displace = Displace;
     if (o->ops.advance) law->ops.advance = Advance;
+    if (o->ops.examine) law->ops.examine = Examine;
+    if (o->ops.doubt) law->ops.doubt = Doubt;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -239,7 +239,7 @@ for kind, function, words in (
     ("each", contact.run, (dict(time=[1], load_n=[1]), 3)),
     ("out", contact.field, ("pressure", 3)),
     ("gap", contact.set_field, ("gap", 1j)),
-    ("name of a field", contact.set_field, (5, 0.0)),
+    ("expected a text", contact.set_field, (5, 0.0)),
     ("comm", lambda: petsam.Contact(comm=3, **case), ()),
     ("friction", lambda: petsam.Contact(**dict(case, friction=1j)), ()),
 ):

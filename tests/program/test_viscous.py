@@ -468,3 +468,24 @@ def test_a_cylinder_rolls_as_that_of_hunter(growth, length, ends, cells):
     assert (places[0] - step / 2, places[-1] + step / 2) == pytest.approx(
         closed[:2], abs=0.01 * (closed[1] - closed[0])
     )
+
+
+@pytest.mark.parametrize(
+    "column, rows, steps, least, most",
+    [
+        ("disp_z", (2e-5, 2e-5), 1, 0.5, 0.9),
+        ("disp_z", (1e-7, 2e-5), 2, 0.03, 0.12),
+        ("load_n", (0.02, 0.02), 8, 0, 0.02),
+    ],
+)
+def test_energy_of_long_steps_is_told_as_wrong(column, rows, steps, least, most):
+    """An approach that is held for 10 s in one step, one that grows in 2, a load held for 0.5 s in 8, beside many steps."""
+    ball = dict(
+        BALL, gap_radius1=1e-3, body2_young=6e6, body2_poisson=0.5, grid_n=48, grid_size=1e-3, errors="companion"
+    )
+    last = {1: 10.0, 2: 1.0, 8: 0.5}[steps]
+    case = dict(ball, **RIGID, **relaxing(2, (0.5, 0.2), (0.1, 1)), history={"time": [0, last], column: list(rows)})
+    found, fine = (package.run(**case, steps=n, output_fields="none") for n in (steps, 300))
+    energy, true = (np.nansum(run["viscous_energy"]) for run in (found, fine))
+    told = found.errors["viscous_energy"].by_steps
+    assert abs(energy - true) / energy <= told + 1e-3 and least <= told <= most

@@ -9,6 +9,9 @@
 #include <petsam/private/stress.h>
 #include <petsam/state.h>
 
+/* SamExamination - the examination of a run's steps (private/examination.h). */
+typedef struct _n_SamExamination SamExamination;
+
 /*
   A type that adds something to another - a half-space and a smooth compliance, for instance - calls
   SamElasticitySetInner() in its create function, which makes an object of that type on the same grid and takes over its
@@ -61,6 +64,8 @@ typedef struct {
   PetscErrorCode (*displace)(SamElasticity, SamConditions, SamState, const SamControl *, Vec u_z, Vec u_t,
                              PetscBool *adds);
   PetscErrorCode (*advance)(SamElasticity, SamState, Vec pressure, Vec shear);
+  PetscErrorCode (*examine)(SamElasticity, SamExamination *);
+  PetscErrorCode (*doubt)(SamElasticity, SamExamination *);
   /* of a type with begin(): makes the products those of a steady state in which material streams through the contact
      towards -x, at -rolling_speed, so that no step has a memory; NULL: there are none */
   PetscErrorCode (*stream)(SamElasticity, const SamOptions *from);

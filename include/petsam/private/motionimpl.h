@@ -6,6 +6,9 @@
 #include <petsam/state.h>
 #include <petsam/private/control.h>
 
+/* SAM_NEEDS_ROLLING - options that -rolling_speed needs, in the format of SamOptionsNeed(). */
+#define SAM_NEEDS_ROLLING "rolling steady or -friction_law falling"
+
 /*
   SamMotion - the way in which the bodies move over each other in a load step, selected by -rolling. A new motion is a
   file with such a table, which SamMotionRegister() adds; if its displacements are not those of bodies at rest, it also

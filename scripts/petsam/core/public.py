@@ -46,7 +46,8 @@ def public(found: Any) -> Any:
         return _made[found]
     made = found
     if inspect.isclass(found):
-        _show(found, inspect.signature(found))
+        if "__init__" in vars(found) or not issubclass(found, (dict, list)):  # these have no signature of their own
+            _show(found, inspect.signature(found))
         if "__init__" in vars(found) and "Parameters" in keywords.sections(found.__doc__)[1]:
             found.__init__ = _checked(found.__init__, found.__name__, found.__doc__)
         for kind in found.__mro__:

@@ -31,6 +31,7 @@
 #include <petsam/private/base.h>
 #include <petsam/private/body.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/motionimpl.h>
 #include <petsam/private/parameters.h>
 #include <math.h>
 #include <string.h>
@@ -337,6 +338,8 @@ static PetscErrorCode Create(SamElasticity e)
                                  .begin                   = SamViscousMemoryBegin,
                                  .displace                = SamViscousMemoryDisplace,
                                  .advance                 = SamViscousMemoryAdvance,
+                                 .examine                 = SamViscousExamine,
+                                 .doubt                   = SamViscousDoubt,
                                  .stream                  = SamViscousStream,
                                  .createsymmetric         = SamViscousCreateSymmetric};
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -423,7 +426,7 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
   }
   if (settings.relaxes[0] + settings.relaxes[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOptionsHas(from, "rolling_speed", &speed));
-  PetscCall(SamOptionsNeed(from, speed, "rolling_speed", "rolling steady or -friction_law falling"));
+  PetscCall(SamOptionsNeed(from, speed, "rolling_speed", SAM_NEEDS_ROLLING));
   PetscCall(Wrap(elasticity, &settings));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

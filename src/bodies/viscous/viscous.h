@@ -76,13 +76,18 @@ PETSC_INTERN PetscErrorCode SamViscousProduct(SamElasticity e, SamViscousProduct
 
 /*
   SamViscousMemoryDeclare, SamViscousMemoryBegin, SamViscousMemoryDisplace, SamViscousMemoryAdvance - the type's methods
-  of these names (viscousmemory.c).
+  of these names (viscousmemory.c). SamViscousExamine, SamViscousDoubt - likewise (viscousdoubt.c), by the numbers
+  SAM_VISCOUS_ENERGY and SAM_VISCOUS_ERROR of a step, the dissipated energy and its error, J.
 */
 PETSC_INTERN PetscErrorCode SamViscousMemoryDeclare(SamElasticity e, SamState state);
 PETSC_INTERN PetscErrorCode SamViscousMemoryBegin(SamElasticity e, SamState state, const SamControl *control,
                                                   PetscReal duration);
 PETSC_INTERN PetscErrorCode SamViscousMemoryDisplace(SamElasticity e, SamConditions conditions, SamState state,
                                                      const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds);
+#define SAM_VISCOUS_ENERGY "viscous_energy"
+#define SAM_VISCOUS_ERROR  "viscous_energy_error"
+PETSC_INTERN PetscErrorCode SamViscousExamine(SamElasticity e, SamExamination *examination);
+PETSC_INTERN PetscErrorCode SamViscousDoubt(SamElasticity e, SamExamination *examination);
 PETSC_INTERN PetscErrorCode SamViscousMemoryAdvance(SamElasticity e, SamState state, Vec pressure, Vec shear);
 
 /* SamViscousStream, SamViscousCreateSymmetric - likewise (viscousstream.c). */

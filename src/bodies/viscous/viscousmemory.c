@@ -9,6 +9,12 @@
 
   m = (1 - e)/x, f = (1 - 2 m + m (1 + e)/2)/x = x/3 - x^2/4 + ..., which no time makes large. C_j is a sum of products
   with factors. The coupling of shear to u_z is the transposed of that of pressure to u_t: it counts twice.
+
+  Tractions that change at the beginning of the step instead, and then stay, dissipate W_0 (w_0 + D).C (w_0 + D), W_0
+  being the first of these weights. The true energy lies between both: nearer to this one where the step is long
+  beside the times and the tractions relax in it, so that D is about r w_0, -1 <= r < 0, and near the first one where
+  they grow. So the error is estimated as x/(1 + x) times the difference, with D = r w_0, and with GROWS times it for
+  others.
 */
 #include "viscous.h"
 #include <petsam/private/base.h>
@@ -17,8 +23,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#define ENERGY "viscous_energy"
-#define SHORT  1e-2 /* duration over the time below which a weight is a series */
+#define GROWS 0.1  /* found on balls, in 1 to 16 steps, under loads and approaches that are held, grow, or return */
+#define SHORT 1e-2 /* duration over the time below which a weight is a series */
 
 enum { NORMAL, TANGENTIAL, WAYS };
 static const struct {
@@ -59,7 +65,8 @@ PetscErrorCode SamViscousMemoryDeclare(SamElasticity e, SamState state)
   const SamViscous *v      = (const SamViscous *)e->data;
   SamStateField     one    = {.unit = "Pa", .generations = 2, .kept = PETSC_TRUE, .motion = SAM_MOVES};
   SamStateNumber    energy = {
-       ENERGY, "J", "energy dissipated in the bodies", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 2};
+       SAM_VISCOUS_ENERGY, "J", "energy dissipated in the bodies", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+       SAM_JOIN_SUM,       2};
   PetscInt id;
 
   PetscFunctionBegin;
@@ -80,6 +87,10 @@ PetscErrorCode SamViscousMemoryDeclare(SamElasticity e, SamState state)
     one.components = way + 1;
     PetscCall(SamStateDeclareField(state, &one, &id));
   }
+  PetscCall(SamStateDeclareNumber(state, &energy, &id));
+  energy.name   = SAM_VISCOUS_ERROR;
+  energy.text   = NULL;
+  energy.result = PETSC_FALSE;
   PetscCall(SamStateDeclareNumber(state, &energy, &id));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -190,6 +201,16 @@ static void GetWeights(double x, double weights[3])
   weights[2] = x < SHORT ? x * (1 / 3.0 - x * (1 / 4.0 - x * (7 / 60.0 - x / 24))) : (1 - 2 * m + m * (1 + e) / 2) / x;
 }
 
+/* Returns the error of that energy, from w_0.C w_0, w_0.C D and D.C D. */
+static double ErrorOf(double x, const double weights[3], const double dots[3])
+{
+  const double relaxes = dots[0] > 0 ? PetscMin(dots[1] / dots[0], 0) : 0, part = PetscMax(relaxes, -1);
+  const double first  = relaxes < 0 ? part * dots[0] : GROWS * dots[1],
+               second = relaxes < 0 ? part * part * dots[0] : GROWS * dots[2];
+
+  return ((2 * weights[0] - weights[1]) * first + (weights[0] - weights[2]) * second) * x / (1 + x);
+}
+
 /* Sets `to`, which it creates, to a - b, of which each may be absent. */
 static PetscErrorCode CreateDifference(SamGrid g, PetscInt way, Vec a, Vec b, Vec *to)
 {
@@ -220,9 +241,9 @@ static PetscErrorCode AddDots(SamElasticity e, SamState state, PetscInt j, SamVi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the energy that the terms dissipate in the step by a product. */
+/* Adds the energy that the terms dissipate in the step by a product, and its error. */
 static PetscErrorCode AddEnergy(SamElasticity e, SamState state, SamViscousProductKind kind, const Vec traction[WAYS],
-                                double *energy)
+                                double *energy, double *error)
 {
   const SamViscous *v       = (const SamViscous *)e->data;
   const PetscInt    out     = ends[kind].out;
@@ -236,28 +257,32 @@ static PetscErrorCode AddEnergy(SamElasticity e, SamState state, SamViscousProdu
   PetscCall(SamViscousProduct(e, kind, jump[ends[kind].in], product));
   PetscCall(AddDot(e->grid, out + 1, jump[out], product, &between));
   for (PetscInt j = 0; j < v->terms; j++) {
-    const double factor  = FactorOf(e, j, kind) * (kind == SAM_VISCOUS_PUSH ? 2 : 1);
+    const double factor = FactorOf(e, j, kind) * (kind == SAM_VISCOUS_PUSH ? 2 : 1);
+    const double x = (double)(v->duration / v->term[j].time), area = (double)(e->grid->dx * e->grid->dy);
     double       dots[3] = {0, 0, between}, weights[3];
 
     if (factor == 0) continue;
     PetscCall(AddDots(e, state, j, kind, jump, product, dots));
-    GetWeights((double)(v->duration / v->term[j].time), weights);
-    for (int k = 0; k < 3; k++) *energy += (double)(e->grid->dx * e->grid->dy) * factor * weights[k] * dots[k];
+    GetWeights(x, weights);
+    for (int k = 0; k < 3; k++) *energy += area * factor * weights[k] * dots[k];
+    *error += area * factor * ErrorOf(x, weights, dots);
   }
   PetscCall(VecDestroy(&product));
   for (PetscInt way = 0; way < WAYS; way++) PetscCall(VecDestroy(&jump[way]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FindEnergy(SamElasticity e, SamState state, const Vec traction[WAYS], double *energy)
+static PetscErrorCode FindEnergy(SamElasticity e, SamState state, const Vec traction[WAYS])
 {
-  const SamViscous *v = (const SamViscous *)e->data;
+  const SamViscous *v      = (const SamViscous *)e->data;
+  double *const     energy = SamStateNumbers(state, SamStateFindNumber(state, SAM_VISCOUS_ENERGY), SAM_TRIED);
+  double *const     error  = SamStateNumbers(state, SamStateFindNumber(state, SAM_VISCOUS_ERROR), SAM_TRIED);
 
   PetscFunctionBegin;
-  *energy = 0;
+  *energy = *error = 0;
   for (int kind = 0; kind < SAM_VISCOUS_LIFT && v->duration > 0; kind++)
     if (HasKind(e, (SamViscousProductKind)kind))
-      PetscCall(AddEnergy(e, state, (SamViscousProductKind)kind, traction, energy));
+      PetscCall(AddEnergy(e, state, (SamViscousProductKind)kind, traction, energy, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -268,7 +293,7 @@ PetscErrorCode SamViscousMemoryAdvance(SamElasticity e, SamState state, Vec pres
   Vec               to;
 
   PetscFunctionBegin;
-  PetscCall(FindEnergy(e, state, traction, SamStateNumbers(state, SamStateFindNumber(state, ENERGY), SAM_TRIED)));
+  PetscCall(FindEnergy(e, state, traction));
   for (PetscInt way = 0; way < WAYS; way++) {
     const Vec before = Committed(state, last[way]);
 

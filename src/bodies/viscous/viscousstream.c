@@ -38,6 +38,8 @@ PetscErrorCode SamViscousStream(SamElasticity e, const SamOptions *from)
   e->ops.begin     = NULL;
   e->ops.displace  = NULL;
   e->ops.advance   = NULL;
+  e->ops.examine   = NULL;
+  e->ops.doubt     = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -182,7 +182,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   *asked = h->kind == STEADY ? PETSC_TRUE : PETSC_FALSE;
   if (!*asked || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOptionsHas(from, "rolling_speed", &given));
-  PetscCall(SamOptionsNeed(from, given, "rolling_speed", "rolling steady or -friction_law falling"));
+  PetscCall(SamOptionsNeed(from, given, "rolling_speed", SAM_NEEDS_ROLLING));
   if (SamMotionOf(law->elasticity)->streams) {
     PetscCall(SamOptionsRead(from, NULL, 1, &rolling, h, NULL));
     for (int b = 0; b < 2; b++) h->speed[b] = -h->rolling;
