@@ -128,7 +128,7 @@ static const SamOptionRow rows[] = {
    .member = MEMBER(allow_edge)},
   {"edges", "reconstruct, none (count cells)", SAM_OPTION_BOOL, MEMBER(edges), .words = "none,reconstruct"},
   {"contact_spots", "number of contact spots and mean gap of each step", SAM_OPTION_BOOL, .member = MEMBER(spots)},
-  {"extrapolate", "solve steady rolling on half the cells, too, for extrapolated loads", SAM_OPTION_BOOL,
+  {"extrapolate", "solve steady rolling on half the cells, too, for extrapolated numbers", SAM_OPTION_BOOL,
    .member = MEMBER(extrapolate)},
   {"contact_check", "print the check of each step", SAM_OPTION_BOOL, .member = MEMBER(print_check)}};
 

@@ -839,6 +839,11 @@ def test_numbers_that_make_no_sense_are_refused():
         joint.Patch(contact, ["disp_x"], by_load=["disp_y"])
     with pytest.raises(petsam.Error, match="coordinates 'disp_x': expected a list of names"):
         joint.Patch(contact, "disp_x")
+    with (
+        petsam.Contact(**contact.options, body1_relax_moduli=0.5, body1_relax_times=1.0) as relaxing,
+        pytest.raises(petsam.Error, match="relax_moduli: joints are of bodies that do not relax"),
+    ):
+        joint.Patch(relaxing, ["disp_x"])
     with pytest.raises(petsam.Error, match="omega: expected frequencies above 0"):
         joint.Structure(one.patches, [np.nan], [[1.0]])
     with pytest.raises(petsam.Error, match="damping -0.1: expected a part"):

@@ -481,3 +481,13 @@ def saved(path, values):
     """The path of an array that has been written there."""
     np.save(path, values)
     return str(path)
+
+
+@pytest.mark.parametrize("more", [dict(normal_only=True), dict(friction=0.4), dict(friction=0.4, full=True)])
+def test_interfaces_of_bodies_that_relax_are_rejected(more):
+    """Their steps have no time, so that loops would be those of a sudden load."""
+    x = np.arange(16) / 16
+    waves = 1e-7 * (2 - np.cos(2 * np.pi * x) - np.cos(2 * np.pi * x[:, None]))
+    bodies = dict(body1="steel", body2="steel", body2_relax_moduli=0.5, body2_relax_times=1.0)
+    with pytest.raises(petsam.Error, match="relax_moduli: joints are of bodies that do not relax.*omit the option"):
+        petsam.joint.interface(waves, [20e6], spacing=1e-6, periodic=True, **more, **bodies)

@@ -93,6 +93,9 @@ def test_the_regime_and_the_ratios_are_those_of_the_cycle(folder):
         assert (
             (float(row["energy_ratio_cycle_last"]) > 0.2) == slides == (float(row["sliding_ratio_cycle_last"]) > 0.26)
         )
+        # load and displacement turn together: U is an eighth of the product of their ranges
+        factor = 4.0 / np.pi * float(row["energy_ratio_cycle_last"])
+        assert float(row["loss_factor_cycle_last"]) == pytest.approx(factor, rel=1e-3)
 
 
 def test_an_expression_without_a_value_in_any_case_is_an_error_after_the_tables(folder):

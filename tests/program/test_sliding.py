@@ -1,4 +1,5 @@
-"""Numbers of a fretting cycle against Mindlin and Deresiewicz's loops, slip amplitudes against Cattaneo's slip."""
+"""Numbers of a fretting cycle against Mindlin and Deresiewicz's loops, slip amplitudes against Cattaneo's slip, loss
+factors against complex moduli."""
 
 from types import SimpleNamespace
 
@@ -7,8 +8,9 @@ import pytest
 
 import petsam
 from petsam import closed, cycles, sliding
+from petsam.apps.study import tables
 from petsam.closed import loop
-from petsam.plot import fields
+from petsam.plot import fields, loops
 from support import ball, hertz, history, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
@@ -41,6 +43,8 @@ def test_ratios_of_a_cycle_are_those_of_the_closed_form(results):
     assert found.sliding_ratio == pytest.approx(half / top, rel=2e-2)
     assert found.force == pytest.approx(AMPLITUDE * LIMIT) and found.regime == "partial slip"
     assert found.displacement == pytest.approx(0.5 * np.ptp(results.history["disp_x"][10:]), rel=1e-6)
+    assert found.friction == found.energy and found.viscous == 0.0
+    assert found.loss_factor == pytest.approx(found.energy / (np.pi * found.force * found.displacement), rel=1e-8)
 
 
 def test_a_sphere_passes_the_published_ratios_on_its_way_to_gross_slip():
@@ -100,3 +104,112 @@ def test_regimes_of_several_cycles():
     assert sliding.regime(results, stick, partial) == "partial slip"
     assert sliding.regime(results, stick) == "stick" and sliding.regime(results, gross, gross) == "gross slip"
     assert sliding.regime(results, partial, gross) == sliding.regime(results, gross, stick) == "mixed"
+
+
+STEPS = 48  # of a period
+
+
+def shaken(bodies, period, count, load, friction=1.0, across="load_tx", steps=STEPS):
+    """A ball of radius 1 under N, shaken for so many periods after a rest of 40 s."""
+    t = 40.0 + period * np.arange(1, count * steps + 1) / steps
+    wave = np.sin(2.0 * np.pi * (t - 40.0) / period)
+    base = {"load_n": 1e-3, "load_tx": 0.0}
+    columns = {
+        name: np.append(value, value + (load * wave if name == across else 0 * t)) for name, value in base.items()
+    }
+    return petsam.run(
+        **bodies, friction=friction, gap_type="sphere", gap_radius1=1, gap_radius2="inf", grid_n=16, grid_size=0.45,
+        history={"time": np.append(0.0, t), **columns}, output_fields="none", errors="none", tangential_rtol=1e-9,
+        normal_rtol=1e-10,
+    )  # fmt: skip
+
+
+def modulus(w, parts, times):
+    """The complex shear modulus over that of a sudden load at an angular frequency."""
+    turned = 1j * w * np.array(times)
+    return 1.0 - sum(parts) + np.sum(np.array(parts) * turned / (1.0 + turned))
+
+
+def body(which, parts, times, young=2.6, poisson=0.3, **more):
+    names = dict(young=young, poisson=poisson, relax_moduli=parts, relax_times=times, **more)
+    return {f"body{which}_{name}": value for name, value in names.items()}
+
+
+PARTS, TIMES = (0.5, 0.3), (0.1, 1.0)
+ALIKE = {**body(1, PARTS, TIMES), **body(2, PARTS, TIMES)}
+ONE = {"body1_young": 6.0, "body1_poisson": 0.5, **body(2, (0.4,), (0.3,), 3.0, 0.5)}
+BULK = {**body(1, PARTS, TIMES, relax="constant_bulk"), **body(2, PARTS, TIMES, relax="constant_bulk")}
+
+
+def creep_of_alike(w):
+    return 1.0 / modulus(w, PARTS, TIMES)
+
+
+def creep_of_one(w):
+    return 0.5 + 1.0 / modulus(w, (0.4,), (0.3,))
+
+
+def creep_of_bulk(w):
+    """(2 - nu)/G of Mindlin is (3/G + 3/(3 K + G))/2; G = 1 and K = 2.6/(3 (1 - 0.6)) under a sudden load."""
+    g = modulus(w, PARTS, TIMES)
+    return 3.0 / g + 3.0 / (6.5 + g)
+
+
+@pytest.mark.parametrize(
+    "bodies, creep, period, count",
+    [(ALIKE, creep_of_alike, 1.0, 20), (ALIKE, creep_of_alike, 10.0, 3), (ONE, creep_of_one, 0.5, 10),
+     (BULK, creep_of_bulk, 2.0, 10)],
+    ids=["alike", "slow", "one", "bulk"],
+)  # fmt: skip
+def test_the_loss_factor_of_sticking_bodies_is_that_of_their_complex_modulus(bodies, creep, period, count):
+    """Loss over storage modulus at the frequency of T, once the start has decayed; friction dissipates nothing."""
+    run = shaken(bodies, period, count, 2e-6)
+    found = sliding.numbers(run, cycles.find(run).numbered(-1), "tx")
+    turned = creep(2.0 * np.pi / period)
+    assert found.loss_factor == pytest.approx(-turned.imag / turned.real, rel=5e-3)
+    assert abs(found.friction) < 1e-6 * found.viscous and found.energy == pytest.approx(found.viscous, rel=1e-6)
+
+
+def test_the_loss_factor_converges_in_second_order():
+    """Also where the reversal of the displacement is between two steps."""
+    turned, errors = creep_of_alike(2.0 * np.pi), []
+    for steps in (20, 40):
+        run = shaken(ALIKE, 1.0, 12, 2e-6, steps=steps)
+        found = sliding.numbers(run, cycles.find(run).numbered(-1), "tx")
+        errors.append(abs(found.loss_factor * turned.real / turned.imag + 1.0))
+    assert errors[0] < 0.02 and 3.0 < errors[0] / errors[1] < 5.5
+
+
+def test_the_energy_of_slipping_bodies_that_relax_has_both_parts():
+    """It is the area of the loop; tables and pictures have the parts."""
+    run = shaken(ALIKE, 1.0, 12, 1.6e-4, friction=0.3)
+    whole = cycles.find(run)
+    found = sliding.numbers(run, whole.numbered(-1), "tx")
+    rows = whole.numbered(-1).rows
+    drawn = sliding.area(run.series("disp_x")[rows], run.series("load_tx")[rows])
+    assert min(found.friction, found.viscous) > 0.02 * drawn
+    assert found.energy == found.friction + found.viscous == pytest.approx(drawn, rel=1e-2)
+    assert whole.energies[-1] == found.friction and whole.viscous_energies[-1] == found.viscous
+    listed = tables.of_cycles(run, tables.LAST)
+    assert listed["viscous_energy_cycle_last"] == (found.viscous, "J")
+    assert listed["dissipated_energy_cycle_last"] == (found.friction, "J")
+    assert listed["loss_factor_cycle_last"] == (found.loss_factor, "1")
+    for figure in loops.loop([run], "tx"), loops.cycle_loops([whole], "tx", [-1]):
+        assert f"loss factor {found.loss_factor:.3g}" in figure.axes[0].get_legend().get_texts()[0].get_text()
+    drawn = loops.energy([whole]).axes[0].lines[0].get_ydata()
+    assert drawn[-1] / drawn[0] == pytest.approx(found.energy / (whole.energies + whole.viscous_energies)[0])
+
+
+def test_the_work_of_a_constant_load_on_bodies_that_creep_is_none_of_the_loop():
+    """Shaken at once under N, the bodies dissipate the work of N, too: the loop of T has its area."""
+    t = 0.25 * np.arange(1, 97) / STEPS
+    wave = 5e-5 * np.sin(8.0 * np.pi * t)
+    run = petsam.run(
+        **ALIKE, friction=1, gap_type="sphere", gap_radius1=1, gap_radius2="inf", grid_n=16, grid_size=0.45,
+        history=dict(time=np.append(0, t), load_n=np.full(97, 1e-3), load_tx=np.append(0, wave)), output_fields="none",
+        errors="none",
+    )  # fmt: skip
+    cycle = cycles.find(run, "load_tx").numbered(1)
+    found = sliding.numbers(run, cycle, "tx")
+    assert found.viscous > 1.5 * found.energy
+    assert found.energy == sliding.area(run.series("disp_x")[cycle.rows], run.series("load_tx")[cycle.rows])

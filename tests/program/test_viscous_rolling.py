@@ -27,9 +27,9 @@ def rolling(speed, **more):
     "growth, length, error", [(1, 0.1, 3e-4), (1, 1, 3e-5), (10, 0.1, 6e-4), (10, 10, 1e-5), (100, 10, 1e-5)]
 )
 def test_a_cylinder_rolls_steadily_as_that_of_hunter(growth, length, error):
-    """M/N and the edges of the closed form; the error falls in second order."""
+    """M/N and the edges of the closed form; the error falls in second order, and when it is extrapolated."""
     low, high, moment = hunter(growth, length)
-    errors = []
+    errors, left = [], []
     for cells in (96, 192):
         width = 1.25 * (high - low)
         run = rolling(
@@ -41,7 +41,9 @@ def test_a_cylinder_rolls_steadily_as_that_of_hunter(growth, length, error):
         edges = (low + high - width) / 2 + (places[[0, -1]] + (-0.5, 0.5)) * width / cells
         assert edges == pytest.approx((low, high), abs=1.5 * width / cells)
         assert run["rolling_resistance"][-1] == pytest.approx(run["load_my"][-1], rel=1e-9)  # R = 1
+        left.append(run["rolling_resistance_extrapolated"][-1] / (np.pi / 4) / moment - 1)
     assert abs(errors[1]) < error and 3.5 < errors[0] / errors[1] < 4.5
+    assert np.all(np.abs(left) < 0.1 * np.abs(errors))
 
 
 @pytest.mark.parametrize(
@@ -57,7 +59,9 @@ def test_a_ball_rolls_as_an_independent_program_found(growth, length, moment, ap
             rolling="steady", rolling_speed=length, output_fields="none",
         )  # fmt: skip
         found.append(run["rolling_resistance"][-1] / (4 / 3))
-    assert (4 * found[1] - found[0]) / 3 == pytest.approx(moment, rel=5e-4)
+    extrapolated = (4 * found[1] - found[0]) / 3
+    assert extrapolated == pytest.approx(moment, rel=5e-4)
+    assert run["rolling_resistance_extrapolated"][-1] / (4 / 3) == pytest.approx(extrapolated, rel=1e-5)
     assert run["disp_z"][-1] == pytest.approx(approach, rel=2e-4)
 
 
@@ -164,6 +168,34 @@ def test_the_resistance_is_what_the_terms_dissipate():
     assert abs(rest[1]) < 1e-3 and 3 < rest[0] / rest[1] < 5
 
 
+@pytest.mark.parametrize("which", FORMS)
+@pytest.mark.parametrize("given", [{}, dict(load_n=None, disp_z=0.35), dict(rot_y=0.02)], ids=["n", "z", "tilted"])
+def test_the_extrapolated_resistance_is_that_of_grids_of_half_as_many_cells(which, given):
+    """Also of dissimilar bodies, with the lift by the fine shear; a given approach counts as the load that it finds."""
+    case = {name: value for name, value in {**PAIR, **GRID, **FORMS[which], **given}.items() if value is not None}
+    case.update(rolling="steady", rolling_speed=0.3, output_fields="none")
+    fine = package.run(**case)
+    coarse = package.run(**{name: v for name, v in case.items() if name != "disp_z"} | dict(
+        grid_n=(12, 8), load_n=fine["load_n"][-1]))  # fmt: skip
+    f, c = (run["rolling_resistance"][-1] for run in (fine, coarse))
+    assert fine["rolling_resistance_extrapolated"][-1] == pytest.approx(
+        f + (f - c) / 3, rel=1e-4 if which == "alike" else 4e-3
+    )
+    assert np.isnan(fine["load_tx_extrapolated"][-1])
+
+
+def test_odd_grids_and_bodies_apart_have_no_extrapolated_resistance():
+    case = {name: value for name, value in {**PAIR, **FORMS["one"], "rolling": "steady"}.items() if name != "rot_y"}
+    for n, apart in (((23, 16), False), ((24, 15), False), ((24, 16), True)):
+        size = {**GRID, "grid_n": n, "load_n": 0 if apart else GRID["load_n"]}
+        run = package.run(**{**case, **size, "creep_x": 0}, rolling_speed=1, output_fields="none")
+        assert np.isnan(run["rolling_resistance"][-1]) == apart and np.isnan(run["rolling_resistance_extrapolated"][-1])
+    run = package.run(**case, **GRID, rolling_speed=1, extrapolate=False, output_fields="none")
+    assert np.isnan(run["rolling_resistance_extrapolated"][-1])
+    elastic = {name: value for name, value in case.items() if "relax" not in name}
+    assert "rolling_resistance_extrapolated" not in package.run(**elastic, **GRID, output_fields="none").history
+
+
 def test_a_moment_that_is_given_tilts_the_cylinder_as_the_moment_of_a_held_one():
     """Free to tilt, it turns until the pressure is centred; given the moment of the held one, it does not turn."""
     low, high, moment = hunter(1, 1)
@@ -182,13 +214,14 @@ def test_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path):
     (tmp_path / "h.csv").write_text("time,load_n,load_tx\n0,500,0\n1,700,60\n2,700,-40\n3,600,30\n")
     case = dict(
         bodies(), body1_relax_moduli="0.5,0.2", body1_relax_times="0.1,1", friction=0.4, gap_type="sphere",
-        gap_radius1=0.1, gap_radius2="inf", grid_n=(37, 30), grid_size=3.4e-3, history="h.csv", rot_y=0,
+        gap_radius1=0.1, gap_radius2="inf", grid_n=(38, 30), grid_size=3.4e-3, history="h.csv", rot_y=0,
         rolling="steady", rolling_speed="2e-3", overwrite=True,
     )  # fmt: skip
     petsam(dict(case, output="one.h5", checkpoint="c.h5", checkpoint_every=2))
     petsam(dict(case, output="three.h5"), ranks=3)
     petsam(dict(case, output="on.h5", restart="c.h5.1"), ranks=2)
-    names = "pressure", "shear_x", "shear_y", "history/rolling_resistance", "history/creep_x"
+    names = "pressure", "shear_x", "history/rolling_resistance", "history/rolling_resistance_extrapolated"
+    names += "shear_y", "history/creep_x"
     with h5py.File(tmp_path / "one.h5") as one:
         for file in "three.h5", "on.h5":
             with h5py.File(tmp_path / file) as other:

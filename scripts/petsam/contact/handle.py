@@ -59,6 +59,7 @@ class Handle:
             if name:
                 self.prescribable[names[-1]] = unit.value.decode()
         self.has_errors = "contact_area_error" in known
+        self.relaxes = "viscous_energy" in known
         self._loads, self._displacements, creeps = names[:6], names[6:12], names[12:18]
         self._rigids = [rigid if rigid in known else creep for rigid, creep in zip(self._displacements, creeps)]
 

@@ -70,6 +70,8 @@ class Contact(Evaluations):
         {name: unit} of all that try_step() takes.
     has_errors : bool
         True if steps have errors, by companion runs.
+    relaxes : bool
+        True if a body relaxes, so that steps depend on their times.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Loops of a load over its displacement, and the energy of every cycle, of results.Results.
 
 Cycles are those of petsam.cycles, given as one Cycles per file. The energy beside a loop is that of this load on this
-displacement in one cycle; the dissipated energy of a cycle is that of all loads.
+displacement in one cycle; the dissipated energy of a cycle is that of all loads, by friction and by bodies that relax.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ..core.errors import Error
 from ..results import sliding
-from ..results.cycles import ENERGY, PAIRS, busiest, by_turns
+from ..results.cycles import ENERGY, PAIRS, VISCOUS, busiest, by_turns
 from ..results.sliding import area, cycle_energy, loop_energy
 from . import noise, symbols
 from .style import colors, curve, logarithmic, named, need_few, plt, tint
@@ -62,9 +62,19 @@ def _energy_text(results, energies):
         return None
     energy, drawn = energies
     factor, unit = scale(results.work_unit, energy)
-    of = "" if energy == drawn else " dissipated"
-    text = f"{factor * energy:.4g} {unit}{of} in the last cycle"
+    manner = "" if energy == drawn else " dissipated"
+    text = f"{factor * energy:.4g} {unit}{manner} in the last cycle"
     return text if _is_drawn(energy, drawn) else f"{text}\n(lines between steps: area {factor * drawn:.4g} {unit})"
+
+
+def _parts_text(results, of):
+    """Returns the parts of a cycle's energy by friction and by bodies that relax, and its loss factor, for a line of a
+    legend; nothing if no body relaxes."""
+    if VISCOUS not in results.history:
+        return ""
+    factor, unit = scale(results.work_unit, of.energy)
+    parts = f"friction {factor * of.friction:.3g} {unit}, bodies {factor * of.viscous:.3g} {unit}"
+    return f"\n({parts}, loss factor {of.loss_factor:.3g})"
 
 
 def _labels(axes, factors):
@@ -93,6 +103,9 @@ def loop(results, pair=None):
     for one, color in zip(results, colors(len(results))):
         x, y = (factors[name][0] * one.series(name) for name in (way, force))
         text = _energy_text(one, _last_cycle(one, tuple(factors)))
+        whole = by_turns(one.series(way).astype(float)) if text and VISCOUS in one.history else []
+        if whole:
+            text += _parts_text(one, sliding.numbers(one, whole[-1], force.removeprefix("load_")))
         if named(results):
             text = ": ".join(filter(None, (plain(one.label), text)))
         (_line if x.size <= DENSE else _cloud)(axes, x, y, color, text)
@@ -123,6 +136,7 @@ def cycle_loops(found, pair=None, numbers=None):
         x, y = (factors[name][0] * one.results.series(name)[cycle.rows] for name in (way, force))
         who = "" if len(found) == 1 else plain(one.results.label) + ", "
         text = f"{who}{cycle.number}: {joules * of.energy:.4g} {unit}, {of.energy_ratio:.3g}, {of.sliding_ratio:.3g}"
+        text += _parts_text(one.results, of)
         axes.plot(x, y, color=color, label=text, **curve(x.size))
     _labels(axes, factors)
     outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.3}
@@ -148,11 +162,11 @@ def _energies(one):
     """Returns numbers and energies (J) of a file's cycles; for a life, of the computed cycles."""
     if one.results.has_life:
         return one.results.wear["cycle"], one.results.wear[ENERGY]
-    return np.array([float(cycle.number) for cycle in one]), one.energies
+    return np.array([float(cycle.number) for cycle in one]), one.energies + one.viscous_energies
 
 
 def energy(found, logs=()):
-    """Dissipated energy of every cycle, one line per file."""
+    """Energy that friction and the bodies dissipate in every cycle, one line per file."""
     for one in found:
         if not one.results.has_life and not len(one):
             raise Error(f"{one.results.path}: --energy: has no whole cycle, by {one.manner}; see --turns and --period")

@@ -33,7 +33,8 @@ PAIRS = {
     "n": ("load_n", "disp_z"), "mx": ("load_mx", "rot_x"), "my": ("load_my", "rot_y"),
 }  # fmt: skip
 TANGENTIAL = ("tx", "ty", "mz")  # pairs that dissipate
-ENERGY = "dissipated_energy"
+ENERGY = "dissipated_energy"  # by friction
+VISCOUS = "viscous_energy"  # by bodies that relax
 REVERSAL = 1e-4  # of the range of the values: a smaller change of direction is rounding, not a reversal
 LEVEL = 1e-9  # of the range: values that differ by less are one plateau, whose end is the reversal
 CLOSED = 1e-2  # of the range: largest distance between the end of a history and the beginning of its last cycle
@@ -123,6 +124,13 @@ def by_period(times: np.ndarray, period: float, start: Optional[float] = None) -
     return [Cycle(number, int(a), int(b)) for number, (a, b) in enumerate(zip(ends[:-1], ends[1:]), 1)]
 
 
+def dissipated(results: Results, cycle: Cycle) -> tuple[float, float]:
+    """The energies, J, that friction and the bodies dissipate in a cycle; that of the bodies is 0 if none relaxes."""
+    steps = slice(cycle.first + 1, cycle.last + 1)
+    friction = float(np.sum(results.series(ENERGY)[steps]))
+    return friction, float(np.sum(results.series(VISCOUS)[steps])) if VISCOUS in results.history else 0.0
+
+
 class Cycles:
     """The cycles of one file: a sequence of Cycle.
 
@@ -150,9 +158,13 @@ class Cycles:
 
     @cached_property
     def energies(self) -> np.ndarray:
-        """Dissipated energy of every cycle, (cycles,), J; J/m in plane strain."""
-        steps = self.results.series(ENERGY)
-        return np.array([float(np.sum(steps[one.first + 1 : one.last + 1])) for one in self.found])
+        """Energy that friction dissipates in every cycle, (cycles,), J; J/m in plane strain."""
+        return np.array([dissipated(self.results, one)[0] for one in self.found])
+
+    @cached_property
+    def viscous_energies(self) -> np.ndarray:
+        """Energy that bodies that relax dissipate in every cycle, (cycles,), J; J/m in plane strain."""
+        return np.array([dissipated(self.results, one)[1] for one in self.found])
 
     @cached_property
     def pair(self) -> Optional[str]:

@@ -1,4 +1,4 @@
-"""Numbers of a fretting cycle: regime, energy ratio, sliding ratio; slip amplitude and range of each cell.
+"""Numbers of a fretting cycle: regime, energy ratio, sliding ratio, loss factor; slip amplitude and range of each cell.
 
     import petsam
     with petsam.open("strokes.h5") as results:
@@ -10,6 +10,13 @@ The energy ratio is the energy that a load spends on its displacement over a cyc
 ranges; the sliding ratio is the width of the loop at mean load relative to the range of the displacement. From partial
 slip to gross slip a sphere passes an energy ratio of 0.2 and a sliding ratio of 0.26 (S. Fouvry, P. Kapsa, L. Vincent,
 Wear 185 (1995) 35-46).
+
+The loss factor is the energy relative to 2 pi U, where U = k x^2/2 is the energy that a spring of the loop's own
+stiffness k stores at the amplitude x of the displacement: k is the secant between the points of largest and smallest
+displacement (B. J. Lazan, Damping of Materials and Members in Structural Mechanics, 1968, chapter 2; A. D. Nashif,
+D. I. G. Jones, J. P. Henderson, Vibration Damping, 1985). The loop of a linear viscoelastic body under a harmonic load
+is an ellipse, whose secant is the storage modulus and whose loss factor is the loss modulus over that, tan(delta). The
+loss factor is twice the damping as a part of critical damping of a mass on that spring.
 """
 
 from collections.abc import Callable
@@ -18,7 +25,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 import numpy as np
 
 from ..core.errors import Error
-from .cycles import ENERGY, PAIRS, Cycle, busiest, find
+from .cycles import PAIRS, VISCOUS, Cycle, busiest, dissipated, find
 from .fields import BLOCK, OPEN
 
 if TYPE_CHECKING:
@@ -26,6 +33,7 @@ if TYPE_CHECKING:
 
 REGIMES = ("stick", "partial slip", "gross slip", "mixed")  # by their codes in tables
 ALONE = 1e-3  # of a loop's area: smaller areas of the other loads' loops are rounding
+MOVES = 1e-6  # of the range of a load: a smaller change in a step is rounding
 STEPS = 3  # saved steps of a cycle at least for the path of its slip
 
 
@@ -46,6 +54,12 @@ class Numbers(NamedTuple):
         Width of the loop at mean load relative to the range of the displacement.
     regime : str
         One of REGIMES.
+    friction : float
+        Energy that friction dissipates in the cycle, of all loads, J.
+    viscous : float
+        Energy that the bodies dissipate in it, of all loads, J; 0 if none relaxes.
+    loss_factor : float
+        `energy` relative to 2 pi times the energy that a spring of the loop's secant stiffness stores.
     """
 
     force: float
@@ -54,6 +68,9 @@ class Numbers(NamedTuple):
     energy_ratio: float
     sliding_ratio: float
     regime: str
+    friction: float
+    viscous: float
+    loss_factor: float
 
 
 def area(x: np.ndarray, y: np.ndarray) -> float:
@@ -62,28 +79,35 @@ def area(x: np.ndarray, y: np.ndarray) -> float:
     return 0.5 * float(np.sum((x + np.roll(x, -1)) * (np.roll(y, -1) - y))) * -1.0
 
 
+def _work(way, force):
+    """The work of a force along an open path of points (n,)."""
+    return 0.5 * float(np.sum((force[1:] + force[:-1]) * np.diff(way)))
+
+
 def loop_energy(
     results: "Results", names: tuple[str, str], values: Callable[[str], np.ndarray], energy: float
 ) -> float:
     """The energy, J, that a load spends on its displacement over a closed loop; names: both, as in cycles.PAIRS.
 
-    values(name) are those of the loop's steps, (n,); energy is the dissipated energy of the cycle, J. Where no
-    other load and no bulk stress does work, that is the energy of the loop, which needs no fine steps; else the
-    area of the loop as it is drawn, whose sides are straight.
+    values(name) are those of the loop's steps, (n,); energy is what friction and the bodies dissipate in the cycle, J.
+    Where no other load and no bulk stress does work, that is the energy of the loop, which needs no fine steps; else
+    the area of the loop as it is drawn, whose sides are straight. In bodies that relax a load of constant size works,
+    too, while they creep under it.
     """
     force, way = names
-    areas = {pair: area(values(pair[1]), values(pair[0])) for pair in PAIRS.values()}
-    mine = areas.pop((force, way))
+    mine = area(values(way), values(force))
+    spent = _work if VISCOUS in results.history else area
+    others = [abs(spent(values(other), values(load))) for load, other in PAIRS.values() if load != force]
     bulk = any(np.ptp(values(name)) > 0.0 for name in results.history if name.startswith("bulk"))
-    if force == "load_n" or bulk or max(map(abs, areas.values())) > ALONE * abs(mine):
+    if force == "load_n" or bulk or max(others) > ALONE * abs(mine):
         return mine
     return energy
 
 
 def cycle_energy(results: "Results", names: tuple[str, str], cycle: Cycle) -> float:
     """The energy, J, that a load spends on its displacement over a cycle: see loop_energy()."""
-    friction = float(np.sum(results.series(ENERGY)[cycle.first + 1 : cycle.last + 1]))
-    return loop_energy(results, names, lambda name: results.series(name)[cycle.rows], friction)
+    energy = sum(dissipated(results, cycle))
+    return loop_energy(results, names, lambda name: results.series(name)[cycle.rows], energy)
 
 
 def _width(way, force):
@@ -95,6 +119,37 @@ def _width(way, force):
         return 0.0
     part = level[crossing] / (level[crossing] - following[crossing])
     return float(np.ptp(way[crossing] + part * (after - way)[crossing]))
+
+
+def _tip(way, force, durations, k):
+    """Displacement and load of a closed loop where its displacement is extreme, in its step k or between steps.
+
+    A load that turns in the same step has its extreme there, too. One that goes on, as the bodies follow it late, has
+    another value where the displacement turns: that of the parabola through three steps.
+    """
+    count = way.size
+    before, after = durations[k], durations[(k + 1) % count]
+    near = np.array([k - 1, k, k + 1]) % count
+    change = np.diff(force[near]) * np.sign(force[near[2]] - force[near[0]])
+    if min(before, after) <= 0.0 or min(change) <= MOVES * np.ptp(force):
+        return way[k], force[k]
+    slopes = np.array([np.diff(values[near]) / (before, after) for values in (way, force)])
+    bends = (slopes[:, 1] - slopes[:, 0]) / (before + after)
+    slopes = (slopes[:, 0] * after + slopes[:, 1] * before) / (before + after)
+    time = -0.5 * slopes[0] / bends[0] if bends[0] else 0.0
+    return np.array((way[k], force[k])) + slopes * time + bends * time**2
+
+
+def _stored(way, force, times):
+    """The energy, J, that a spring of a loop's secant stiffness stores at the amplitude of its displacement.
+
+    The first point is the beginning of the loop, which its last one closes.
+    """
+    durations, way, force = np.diff(times), way[1:], force[1:]
+    if way.size < STEPS:
+        return 0.0
+    high, low = (_tip(way, force, durations, int(find(way))) for find in (np.argmax, np.argmin))
+    return float((high[0] - low[0]) * (high[1] - low[1])) / 8.0
 
 
 def regime(results: "Results", *parts: slice) -> str:
@@ -116,7 +171,7 @@ def _regime(results, rows):
 
 
 def numbers(results: "Results", cycle: Cycle, pair: Optional[str] = None) -> Numbers:
-    """The numbers of a cycle: amplitudes, energy, ratios, regime.
+    """The numbers of a cycle: amplitudes, energy, ratios, regime, loss factor.
 
     Parameters
     ----------
@@ -145,7 +200,13 @@ def numbers(results: "Results", cycle: Cycle, pair: Optional[str] = None) -> Num
     energy = cycle_energy(results, names, cycle)
     box = float(np.ptp(force) * np.ptp(way))
     ratio, width = (energy / box, _width(way, force) / float(np.ptp(way))) if box > 0.0 else (0.0, 0.0)
-    return Numbers(0.5 * float(np.ptp(force)), 0.5 * float(np.ptp(way)), energy, ratio, width, regime(results, rows))
+    points = [way, force, results.series("time")[rows]]
+    if cycle.first < 0:  # the state before the first step, where it begins, has no row
+        points = [np.insert(one, 0, one[0]) for one in points]
+    stored = _stored(*points)
+    lost = energy / (2.0 * np.pi * stored) if stored > 0.0 else 0.0
+    amplitudes = 0.5 * float(np.ptp(force)), 0.5 * float(np.ptp(way))
+    return Numbers(*amplitudes, energy, ratio, width, regime(results, rows), *dissipated(results, cycle), lost)
 
 
 def _path_cycle(results, index):

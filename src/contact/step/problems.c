@@ -71,11 +71,7 @@ static PetscErrorCode TakePressure(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Computes the separation for the normal problem: the sum of the bodies' separation, of the offsets and, for coupled
-  bodies, of the lift, which w->h holds, less the displacement by the tension.
-*/
-static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
+PetscErrorCode SamSolveGetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
   if (w->task->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
@@ -165,7 +161,7 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
     PetscCall(SamCachedStepGetPressure(w->kept, w->task->grid, w->s, &w->known_pressure));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(GetSeparation(w, &h));
+  PetscCall(SamSolveGetSeparation(w, &h));
   if (has_shear) {
     PetscCall(SamGridCreateVec(w->task->grid, 1, &predicted));
     PetscCall(SamVecCopyNonzero(w->s->pressure, predicted));

@@ -47,6 +47,8 @@ PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressu
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
 PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
 /*
+  SamSolveGetSeparation - computes the separation (m) for the normal problem: the sum of the bodies' separation, of the
+  offsets and, for coupled bodies, of the lift, which w->h must hold, less the displacement by the tension. Collective.
   SamSolvePressure - solves the normal problem with this separation (m) and the tension so far. Collective.
   SamSolvePressureOnce - solves it once, with the operator of the solvers; SamSolveSkewed - in passes, with that of the
   bodies, which is not symmetric (skewed.c). Collective.
@@ -56,6 +58,7 @@ PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
   SamSolveIsApart - true if contact would have to pull, so that there is no solution; SamSolveFailApart - says so in the
   step. Not collective.
 */
+PETSC_INTERN PetscErrorCode SamSolveGetSeparation(SamSolve *solve, Vec *h);
 PETSC_INTERN PetscErrorCode SamSolvePressureOnce(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolveSkewed(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h, PetscBool has_pressure);

@@ -51,6 +51,15 @@ def moduli(bodies):
     return found
 
 
+def need_timeless(contact):
+    """Error for a contact of bodies that relax: the steps of joints have no time."""
+    if contact.relaxes:
+        raise Unusable(
+            "relax_moduli: joints are of bodies that do not relax, as their steps have no time: omit the option; for "
+            "the loss factor of a loop give petsam.run a history with times, and its cycle to petsam.sliding.numbers"
+        )
+
+
 def modal(name, values, count):
     """The values, a finite number for each of so many modes."""
     found = array(name, values, f"a number for each of {count} modes")

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from ...contact.errors import AdviceWarning, ContactError, EdgeContactWarning
 from ...contact.inprocess import Contact
 from ...core.errors import Unusable, short
+from .arguments import need_timeless
 from .failures import Apart, NoSolution, solved
 
 SLIDING = ("disp_x", "disp_y", "rot_z")  # displacements whose loads friction limits
@@ -46,7 +47,7 @@ class Patch:
     Raises
     ------
     Error
-        If coordinates is one name and not a list, or a name of by_load is none of them.
+        If coordinates is one name and not a list, a name of by_load is none of them, or a body of the contact relaxes.
     """
 
     def __init__(
@@ -63,6 +64,7 @@ class Patch:
         for one in by_load:
             if one not in coordinates:
                 raise Unusable(f"by_load {short(repr(one))}: is none of the coordinates {', '.join(coordinates)}")
+        need_timeless(contact)
         self.contact, self.coordinates, self.held, self.name = contact, list(coordinates), dict(held or {}), name
         self.by_load = np.array([name in by_load for name in self.coordinates])
         self.center = np.asarray(center, dtype=float)

@@ -25,6 +25,7 @@ from ...contact.errors import AdviceWarning
 from ...contact.inprocess import Contact
 from ...core.errors import Unusable
 from . import elements
+from .arguments import need_timeless
 from .conductance import Conductors
 
 HALVES = 4  # half cycles of a loop; the last two count
@@ -95,6 +96,7 @@ class Window(NamedTuple):
             elasticity="periodic", gap_type="flat", grid_n=self.separation.shape[::-1], grid_size=self._size(),
             friction=self.loop.friction if self.loop else 0.0, **self.bodies,
         )  # fmt: skip
+        need_timeless(contact)
         contact.gap = self.separation - self.separation.min()
         return contact
 

@@ -4,7 +4,8 @@ CSV: case, exit_code (empty: not run), seconds [s], ranks, the inputs as they we
 steps, the names of petsam's /history (those of the last step, with NaN for what is unknown if it has no solution;
 `dissipated_energy_sum` of all steps that have one; with -errors companion NAME_error, in the unit of NAME); message. A
 scalar that has an input's name gets `_end` added. Of histories with cycles (petsam.cycles) there are also `cycles`,
-their number, `energy_ratio_cycle_last` and `sliding_ratio_cycle_last` (petsam.sliding), `dissipated_energy_cycle_last`,
+their number, `energy_ratio_cycle_last`, `sliding_ratio_cycle_last` and `loss_factor_cycle_last` (petsam.sliding), of
+bodies that relax `viscous_energy_cycle_last`, `dissipated_energy_cycle_last`,
 and `dissipated_energy_cycle_change`, by which the last cycle differs from the one before, relative to it; and
 `dissipated_energy_cycle_K` of the chosen cycles K. `regime` is 0 where all steps stick, 1 of partial slip, 2 of gross
 slip (also where a step was rejected for it), 3 where some cycles are of gross slip and others are not. Where
@@ -33,7 +34,7 @@ from ...results.stresses import Stresses
 from .expressions import Expander
 from .runs import RESULTS, STRESSES, record, write_atomically
 
-ENERGY = cycles.ENERGY
+ENERGY, VISCOUS = cycles.ENERGY, cycles.VISCOUS
 GROSS = re.compile(r"(step \d+: )?gross slip: ")  # what petsam says of a load that cannot be balanced
 
 
@@ -74,11 +75,15 @@ def of_cycles(results, figures):
 
 
 def _ratios(results, whole):
-    """Energy ratio and sliding ratio of the last of some cycles."""
+    """Energy ratio, sliding ratio and loss factor of the last of some cycles, and the energy by bodies that relax."""
     if not len(whole) or whole.pair is None:
         return {}
     last = sliding.numbers(results, whole.numbered(-1), whole.pair)
-    return {f"{name}_cycle_last": (getattr(last, name), "1") for name in ("energy_ratio", "sliding_ratio")}
+    names = "energy_ratio", "sliding_ratio", "loss_factor"
+    found = {f"{name}_cycle_last": (getattr(last, name), "1") for name in names}
+    if VISCOUS in results.history:
+        found[f"{VISCOUS}_cycle_last"] = (last.viscous, results.units[VISCOUS])
+    return found
 
 
 def _regime(results, figures):
