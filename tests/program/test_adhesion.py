@@ -95,7 +95,7 @@ def test_bodies_that_may_tilt_roll_away_under_a_pull(petsam, tmp_path):
     (tmp_path / "pull.csv").write_text("time,load_n\n0,0\n1,-1e-7\n2,-2e-7\n")
     ball = dict(BALL, body2_young=3e9, body2_poisson=0.35, gap_radius1=1e-6, adhesion_work=0.05, adhesion_stress=7.14e7)
     run = petsam(dict(ball, grid_n=96, grid_size="146nm", history="pull.csv"), check=11)
-    assert "may tilt roll away under a pull: give rot_x and rot_y" in run.stderr
+    assert "give rot_x = rot_y = 0, as bodies that may tilt roll away under a pull" in run.stderr
     petsam(dict(ball, **UPRIGHT, grid_n=96, grid_size="146nm", history="pull.csv"))
 
 

@@ -31,19 +31,23 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, Vec to
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Subtracts the displacement by the tension, and raises its largest value. */
-static PetscErrorCode SubtractTension(SamElasticity elasticity, SamGrid grid, const SamSolution *s, PetscReal *most)
+/* Subtracts the displacement by the tension, unless u_z is known and has it; `most`: the largest displacement by the
+   tension or the pressure of contact, which cancel each other. */
+static PetscErrorCode SubtractTension(SamElasticity elasticity, SamGrid grid, PetscBool u_z_known, const SamSolution *s,
+                                      PetscReal *most)
 {
-  PetscReal pulled;
+  PetscReal pulled, pressed = 0;
   Vec       u;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(grid, 1, &u));
   PetscCall(SamElasticityApplyNormal(elasticity, s->tension, u));
   PetscCall(VecNorm(u, NORM_INFINITY, &pulled));
-  PetscCall(VecAXPY(s->displacement_z, -1, u));
+  if (!u_z_known) PetscCall(VecAXPY(s->displacement_z, -1, u));
+  if (u_z_known) PetscCall(VecAXPY(u, 1, s->displacement_z));
+  if (u_z_known) PetscCall(VecNorm(u, NORM_INFINITY, &pressed));
   PetscCall(VecDestroy(&u));
-  *most = PetscMax(*most, pulled);
+  *most = PetscMax(*most, PetscMax(pulled, pressed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -69,7 +73,7 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
   if (coupled) PetscCall(AddCoupling(elasticity, grid, total, s));
   PetscCall(SamSolutionDestroyTotal(s, &total));
   PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
-  if (s->tension && !u_z_known) PetscCall(SubtractTension(elasticity, grid, s, most));
+  if (s->tension) PetscCall(SubtractTension(elasticity, grid, u_z_known, s, most));
   PetscCall(SamProblemDisplace(problem, state, &s->control, u_z_known ? NULL : s->displacement_z, s->displacement_t,
                                NULL, NULL));
   PetscCall(SamElasticityTrim(elasticity));
@@ -353,14 +357,15 @@ static PetscErrorCode CheckTangential(SamProblem problem, SamState state, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes relative errors of the given loads of one kind; see SamCheck for their scales. */
-static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Vec traction, SamCheck *check)
+/* Computes relative errors of the given loads of one kind; see SamCheck for their scales. `borne`: what contact bears,
+   which may be more than the traction, less the tension, that carries the loads. */
+static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Vec traction, Vec borne, SamCheck *check)
 {
   PetscReal loads[3], total;
 
   PetscFunctionBegin;
   PetscCall(SamBalanceGetLoads(grid, given->kind, traction, loads));
-  PetscCall(SamGridNorm(grid, traction, NORM_1, &total));
+  PetscCall(SamGridNorm(grid, borne, NORM_1, &total));
   total *= grid->dx * grid->dy;
   for (PetscInt c = 0; c < 3; c++) {
     const PetscBool moment = given->kind == SAM_BALANCE_NORMAL ? c > 0 : c == 2;
@@ -400,9 +405,9 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   PetscCall(CheckTangential(problem, state, before, solution, check));
   for (int kind = 0; kind < 2; kind++) given[kind] = SamControlGetBalance(&solution->control, (SamBalanceKind)kind);
   PetscCall(SamSolutionCreateTotal(problem, solution, &total));
-  PetscCall(CheckEquilibrium(grid, &given[0], total, check));
+  PetscCall(CheckEquilibrium(grid, &given[0], total, solution->pressure, check));
   PetscCall(SamSolutionDestroyTotal(solution, &total));
-  PetscCall(CheckEquilibrium(grid, &given[1], solution->shear, check));
+  PetscCall(CheckEquilibrium(grid, &given[1], solution->shear, solution->shear, check));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

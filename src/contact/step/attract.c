@@ -138,9 +138,9 @@ PetscErrorCode SamSolveFailApart(SamSolve *w)
     (void)snprintf(borne, sizeof(borne), " (largest pull that they have borne so far: %.6g %s)", most, unit);
   if (tension > 0)
     (void)snprintf(message, sizeof(message),
-                   "%s = %.8g %s pulls the surfaces apart: their tension does not hold it%s: give %s, which follows "
+                   "%s = %.8g %s pulls the surfaces apart: their tension does not hold it%s: give %s%s, which follows "
                    "them past their largest pull",
-                   name->load, load, unit, borne, name->rigid);
+                   name->load, load, unit, borne, SamSolveTiltCure(w), name->rigid);
   else
     (void)snprintf(message, sizeof(message),
                    "%s = %.8g %s pulls surfaces that do not attract each other yet: let them touch first, by a row of "
@@ -152,15 +152,13 @@ PetscErrorCode SamSolveFailApart(SamSolve *w)
 
 static PetscErrorCode FailPasses(Passes *p)
 {
-  const PetscBool tilts = p->w->normal.force[1] || p->w->normal.force[2] ? PETSC_TRUE : PETSC_FALSE;
-  char            message[sizeof(p->w->step->message)];
+  char message[sizeof(p->w->step->message)];
 
   PetscFunctionBegin;
   (void)snprintf(message, sizeof(message),
                  "the tension did not converge with the gap in %d passes, last change %.2g: use %sfiner cells, or "
                  "smaller load steps",
-                 (int)p->most, (double)p->error,
-                 tilts ? "rot_x = rot_y = 0, as bodies that may tilt roll away under a pull, " : "");
+                 (int)p->most, (double)p->error, SamSolveTiltCure(p->w));
   PetscCall(SamStepFail(p->w->step, SAM_STATUS_NOT_CONVERGED, message));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

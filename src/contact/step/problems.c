@@ -30,11 +30,9 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
   PetscReal     sum, limit;
 
   PetscFunctionBegin;
-  if (w->s->tension && (w->normal.force[1] || w->normal.force[2])) {
-    PetscCall(PetscStrncpy(message,
-                           "no contact balances the tension and the given loads: bodies that may tilt roll away under "
-                           "a pull: give rot_x and rot_y",
-                           size));
+  if (w->s->tension && SamSolveTiltCure(w)[0]) {
+    PetscCall(PetscSNPrintf(message, size, "no contact balances the tension and the given loads: give %ssmaller pulls",
+                            SamSolveTiltCure(w)));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamProblemGetPressureLimit(w->task->problem, &limit));

@@ -16,7 +16,7 @@
 #include <petsam/private/solver.h>
 
 #define PASSES 1000
-#define PART   0.5 /* of the tolerance: largest error of a pass's solution, and of the last pass */
+#define PART   0.4 /* of the tolerance: largest error of a pass's solution, and of the last pass */
 
 typedef struct {
   SamSolve     *w;

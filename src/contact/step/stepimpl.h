@@ -57,8 +57,15 @@ PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
   SamSolveBearTension - sets the loads of contact by those given and the tension. Collective.
   SamSolveIsApart - true if contact would have to pull, so that there is no solution; SamSolveFailApart - says so in the
   step. Not collective.
+  SamSolveTiltCure - returns what to give where a pull acts on bodies that may tilt; else an empty text. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveGetSeparation(SamSolve *solve, Vec *h);
+static inline const char   *SamSolveTiltCure(const SamSolve *solve)
+{
+  const PetscBool tilts = solve->normal.force[1] || solve->normal.force[2] ? PETSC_TRUE : PETSC_FALSE;
+
+  return tilts ? "rot_x = rot_y = 0, as bodies that may tilt roll away under a pull, or " : "";
+}
 PETSC_INTERN PetscErrorCode SamSolvePressureOnce(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolveSkewed(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h, PetscBool has_pressure);

@@ -43,15 +43,26 @@ typedef struct {
   SamGrid grid;
 } Gap;
 
-/* Returns by how much the gap changes over a cell along an axis, from the cells beside it that the grid has. */
+/* Returns by how much the gap changes over a cell along an axis, from the cells beside it that the grid has: half of
+   their difference, at most twice the smaller change to one of them: a step of the surface beside a cell is none in
+   it. */
 static double Change(const Gap *gap, PetscInt axis, PetscInt i, PetscInt j)
 {
   const PetscInt at = axis ? j : i, n = axis ? gap->grid->ny : gap->grid->nx;
-  const PetscInt low = gap->seen.wraps || at > 0 ? 1 : 0, high = gap->seen.wraps || at < n - 1 ? 1 : 0;
-  const double   before = SamHaloAt(&gap->seen, 0, axis ? i : i - low, axis ? j - low : j),
-               after    = SamHaloAt(&gap->seen, 0, axis ? i : i + high, axis ? j + high : j);
+  const double   own = SamHaloAt(&gap->seen, 0, i, j);
+  double         change[2];
 
-  return low + high ? fabs(after - before) / (double)(low + high) : 0;
+  for (int side = 0; side < 2; side++) {
+    const PetscInt way = side ? 1 : -1, to = at + way;
+
+    change[side] = gap->seen.wraps || (to >= 0 && to < n)
+                     ? (double)way * (SamHaloAt(&gap->seen, 0, axis ? i : to, axis ? to : j) - own)
+                     : NAN;
+  }
+  if (isnan(change[0]) && isnan(change[1])) return 0;
+  for (int side = 0; side < 2; side++)
+    if (isnan(change[side])) return fabs(change[1 - side]);
+  return PetscMin(0.5 * fabs(change[0] + change[1]), 2 * PetscMin(fabs(change[0]), fabs(change[1])));
 }
 
 static double OfCell(const SamAdhesion *a, const Gap *gap, PetscBool energy, PetscInt i, PetscInt j)
