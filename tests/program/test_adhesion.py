@@ -140,6 +140,31 @@ def energy_at_the_fold(lam, radius=3.0, points=200_001):
     return np.trapezoid(pull, ways[apart] / WAY) + np.trapezoid(force[: fold + 1], way[: fold + 1])
 
 
+@pytest.mark.parametrize("away", [-0.2, -10])
+@pytest.mark.parametrize("law", ["maugis", "exponential"])
+def test_a_pillar_attracts_by_its_own_gap(law, away):
+    """A rigid square of 12 cells, 1 um above the rest: cells beside its edge have the tension of their own gap."""
+    reach, height = 1e-9, np.full((24, 24), 1e-6)
+    height[6:18, 6:18] = 0
+    run = package.run(
+        body1_young="inf", body1_poisson=0, body2_young=1e15, body2_poisson=0.3, friction=0, gap=height, grid_size=48e-8,
+        adhesion_work=WORK, adhesion_stress=WORK / reach, adhesion_law=law, disp_z=away * reach, errors="none", **UPRIGHT,
+    )  # fmt: skip
+    part = (1 if away > -1 else 0) if law == "maugis" else np.exp(away)
+    assert run["load_n"][0] == pytest.approx(-part * WORK / reach * (12 * 2e-8) ** 2, rel=1e-4, abs=1e-12)
+
+
+@pytest.mark.parametrize("rows", [(0, -0.5, -0.5, -0.5), (0.3, 0, 0)])
+def test_loads_that_stay_or_are_zero_are_balanced(petsam, tmp_path, rows):
+    """Alike bodies whose pressure stays, and a flat period: pressure and tension cancel, and are no small numbers."""
+    alike = dict(BALL, body1_young=MODULUS, body1_poisson=0.3, body2_young=MODULUS)
+    flat = dict(elasticity="periodic", gap_type="flat", gap_radius1=None, gap_radius2=None)
+    case = {**alike, **UPRIGHT} if rows[1] else {**BALL, **flat}
+    text = "".join(f"{k},{n * FORCE:.9g}\n" for k, n in enumerate(rows))
+    (tmp_path / "rows.csv").write_text(f"time,load_n\n{text}")
+    petsam({**case, **adhesion(0.8), "grid_n": 48, "grid_size": 7 * LENGTH, "history": "rows.csv"})
+
+
 def test_energy_is_lost_in_jumps_alone_and_balances_over_a_loop():
     lam = 1
     _, closed, way = maugis(lam)
