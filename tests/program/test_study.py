@@ -758,8 +758,8 @@ def test_a_stopped_case_goes_on_from_its_checkpoint(study, run, tmp_path, fake):
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=240)
     assert " ".join(runs(tmp_path)[1]).endswith("-restart checkpoint.h5")
-    # other inputs: not from this checkpoint
-    run("cases.csv", "--checkpoint", 5, "--", "-wait", "0", **fake)
+    table(tmp_path, "wait,stoppable\n0,true\n")  # other inputs: not from this checkpoint
+    run("cases.csv", "--checkpoint", 5, **fake)
     assert "-restart" not in runs(tmp_path)[2]
 
 
