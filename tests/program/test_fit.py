@@ -818,7 +818,7 @@ def test_plans_are_printed_and_written(fit, tmp_path):
         (
             ("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--rig", "20N/furlong"),
             2,
-            "units are N/m, kN/m, MN/m, N/mm, N/um, kN/mm, N/nm",
+            "units are N/m, kN/m, MN/m, N/mm, mN/m, uN/m, N/um, kN/mm, N/nm",
         ),
         (("lab.csv", "--normal", "1kN", "--shape", "ball.opts", "--width", "1mm"), 2, "not in plane strain"),
         (("lab.csv", "--normal", "1kN", "--shape", "plane.opts"), 2, "give the length of the contact, --width"),

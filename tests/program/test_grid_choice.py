@@ -224,6 +224,28 @@ def test_what_no_grid_resolves_ends_the_trials(petsam, sphere_alone):
     assert "; finer cells do not lower it; " in line and re.search(r"; \d of \d+ numbers have reached it$", line)
 
 
+ROLLS = dict(load_tx=None, rolling="steady")
+RELAXES = dict(body1_relax_moduli=0.5, body1_relax_times="1ms", rolling_speed=1, friction=None)
+
+
+@pytest.mark.parametrize("more", [dict(friction=None), dict(friction=0, creep_x=0, creep_y=0), RELAXES])
+def test_rolling_without_friction_has_no_stick_zone_to_resolve(petsam, sphere_alone, more):
+    """Loads of 0 hold the bodies, yet no cell sticks: the area is 0, without an error."""
+    run = petsam({**sphere_alone, **ROLLS, **more}, "-accuracy", "2%", "-output", "own.h5")
+    assert chosen(run.stdout)[1] <= 2 and not any("stick_area" in line for line in run.complaint)
+    told = errors("own.h5")
+    assert "stick_area" not in told and max(told.values()) < 0.02 and last("own.h5")["stick_area"] == 0
+
+
+def test_rolling_on_a_field_of_no_friction_has_no_stick_zone_to_resolve(petsam, sphere_alone, tmp_path):
+    with h5py.File(tmp_path / "mu.h5", "w") as f:
+        f["friction"] = np.where(np.hypot(*np.indices((96, 96)) - 47.5) < 40, 0.0, 0.5)  # none within the contact
+    field = dict(friction=None, friction_file=tmp_path / "mu.h5", grid_n=96, grid_size=2.2e-3)
+    run = petsam({**sphere_alone, **ROLLS, **field}, "-errors", "companion", "-output", "own.h5")
+    assert last("own.h5")["stick_area"] == 0 and last("own.h5")["contact_area"] < np.pi * (40 * 2.2e-3 / 96) ** 2
+    assert "stick_area" not in errors("own.h5") and not any("stick_area" in line for line in run.complaint)
+
+
 WEAK = dict(body1_young=116e9, body1_poisson=0.24, body2_young=39e9, body2_poisson=0.2, friction=0.66)
 WEAK |= dict(gap_type="sphere", gap_radius1=0.1, gap_radius2="inf", load_n=500)
 SINGULAR = dict(body1_young=9.96e9, body1_poisson=0.39, body2_young=8.92e9, body2_poisson=0.329, friction=0.618)

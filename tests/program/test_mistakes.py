@@ -59,6 +59,19 @@ def test_numbers_with_units_are_those_in_si(launcher, petsam, tmp_path):
         assert f["z"][:].tolist() == [0.0, 20e-6, 0.1e-3]
 
 
+SMALL = dict(load_n="1uN", grid_size="0.8um", gap_radius1="1um", adhesion_work="50mJ/m2", adhesion_stress="20MPa")
+
+
+def test_small_units_of_surfaces_that_attract_are_those_in_si(petsam, tmp_path):
+    petsam(SPHERE, dict(SMALL, body2_young="3GPa", friction=0, output="units.h5"))
+    plain = dict(load_n=1e-6, grid_size=0.8e-6, gap_radius1=1e-6, adhesion_work=50e-3, adhesion_stress=20e6)
+    petsam(SPHERE, dict(plain, body2_young=3e9, friction=0, output="si.h5"))
+    with h5py.File(tmp_path / "units.h5") as units, h5py.File(tmp_path / "si.h5") as si:
+        assert all(units.attrs[name] == si.attrs[name] for name in ("adhesion_work", "load_n") if name in si.attrs)
+        for name in ("x", "pressure", "history/load_n", "history/disp_z"):
+            assert np.array_equal(units[name][:], si[name][:]), name
+
+
 # ---------------------------------------------------------------- advice that is followed helps
 
 

@@ -254,6 +254,72 @@ def test_an_empty_cell_is_warned_of(tmp_path, monkeypatch, capsys):
     assert in_process(monkeypatch, capsys, path, "--list", "--quiet") == (0, "")
 
 
+@pytest.mark.parametrize(
+    "text, name, common, twin",
+    [
+        ("rolling_speed\n0.001\n100\n", "t.csv", "-load_n 5 -rolling_speed 1", "rolling_speed"),
+        ("load_tx,grid_n\n20,16\n60,16\n", "t.csv", "-grid_n 32", "grid_n"),
+        ("load_tx\n20\n60\n", "t.csv", "-Load_TX 10", "load_tx"),
+        ("history\na.csv\nb.csv\n", "t.csv", "-load_history c.csv", "history"),
+        ("allow_edge_contact\ntrue\nfalse\n", "t.csv", "-allow_edge_contact", "allow_edge_contact"),
+        ("options:\n  load_tx: [1, 2]\n", "t.yaml", "-load_tx 2.5", "load_tx"),
+        ("options:\n  load_tx: [1]\n", "t.yaml", "-load_tx 2.5", "load_tx"),
+        ("options:\n  Friction: 0.1\n", "t.yaml", "-friction 0.3", "Friction"),
+        ("options: {load_tx: '{friction}'}\nparameters: {friction: 3}\n", "t.yaml", "-friction 0.3", "friction"),
+    ],
+)
+def test_an_option_for_all_cases_does_not_replace_values_of_the_table(
+    tmp_path, monkeypatch, capsys, text, name, common, twin
+):
+    """Rows with the values of the table would all be those of the option."""
+    code, said = in_process(monkeypatch, capsys, table(tmp_path, text, name), "--list", "--", *common.split())
+    option = next(word for word in common.split() if word.lower().endswith(twin.lower()))
+    assert code == 2 and f"{name}: {twin} is in the table, and {option}" in refused(said)
+    assert in_process(monkeypatch, capsys, tmp_path / name, "--list", "--", "-coupling", "none")[0] == 0
+
+
+@pytest.mark.parametrize("common", ["-load_n 1 -load_n 2", "-load_n 1 -Load_N 1", "-history a -load_history a"])
+def test_an_option_given_twice_for_all_cases_is_refused(tmp_path, monkeypatch, capsys, common):
+    path = table(tmp_path, "load_tx\n1\n")
+    code, said = in_process(monkeypatch, capsys, path, "--list", "--", *common.split())
+    assert code == 2 and f"{common.split()[2]}: given twice for all cases" in refused(said)
+
+
+def test_options_of_one_name_in_python_are_refused(tmp_path):
+    with pytest.raises(petsam.study.TableError, match="load_tx is in the table, and -load_tx 2.5 is given for all"):
+        petsam.study.run({"load_tx": [1, 2]}, tmp_path / "s", options={"load_tx": 2.5})
+    assert not (tmp_path / "s" / "results.h5").exists()
+
+
+WARNS = """#!/bin/sh
+[ "$2" = 1 ] || echo "petsam: warning: contact too large: $2"
+echo "petsam: warning: and more"
+[ "$2" != 4 ] || { echo "petsam: gross slip"; exit 11; }
+"""
+
+
+def test_warnings_of_the_cases_are_counted_at_the_end(run, tmp_path, fake):
+    fake = {**fake, "PETSAM": executable(tmp_path / "bin" / "warns", WARNS)}
+    table(tmp_path, "load_tx,case\n1,a\n2,b\n3,c\n4,d\n")
+    for _ in range(2):  # finished cases are not run again, but counted
+        said = run("cases.csv", "--cores", 1, check=1, **fake)
+        assert "warning: 3 of 4 cases finished with warnings, the first a: and more; see all in petsam.log" in said
+        assert "d  exit 11: gross slip" in said
+    found = [row["message"] for row in table_of(tmp_path / "cases" / "results.csv")]
+    large = "warning: contact too large: "
+    assert found == ["warning: and more", large + "2", large + "3", "gross slip"]
+    assert "with warnings" not in run("cases.csv", "--quiet", "--skip-failed", check=1, **fake)
+
+
+def test_a_warning_of_petsam_is_one_of_the_study(run, tmp_path):
+    table(tmp_path, "load_tx\n1\n2\n")
+    large = dict(CASE, gap_radius1=CASE["gap_radius1"] / 1e3, load_tx=None)
+    said = run("cases.csv", "--", *words(large))
+    (line,) = [line for line in said.splitlines() if "2 of 2 cases finished with warnings" in line]
+    text = line.split("the first load_tx=1: ")[1].split("; see all in ")[0]
+    assert f"petsam: warning: {text}\n" in (tmp_path / "cases" / "load_tx=1" / "petsam.log").read_text()
+
+
 @pytest.mark.parametrize("text", ["parameters: {a: 1}\n", "load_tx: [30, 60]\n", "30\n", ""])
 def test_a_table_without_options_is_shown_how_they_are_written(run, tmp_path, text):
     table(tmp_path, text, "t.yaml")
@@ -692,8 +758,8 @@ def test_a_stopped_case_goes_on_from_its_checkpoint(study, run, tmp_path, fake):
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=240)
     assert " ".join(runs(tmp_path)[1]).endswith("-restart checkpoint.h5")
-    # other inputs: not from this checkpoint
-    run("cases.csv", "--checkpoint", 5, "--", "-wait", "0", **fake)
+    table(tmp_path, "wait,stoppable\n0,true\n")  # other inputs: not from this checkpoint
+    run("cases.csv", "--checkpoint", 5, **fake)
     assert "-restart" not in runs(tmp_path)[2]
 
 

@@ -146,9 +146,10 @@ def test_named_number_and_names():
         ("72km/h", "m/s", 20.0), ("1e5km", "m", 1e8), ("2 mrad", "rad", 2e-3), ("90deg", "rad", math.pi / 2.0),
         ("180 deg/s", "rad/s", math.pi), ("60rpm", "rad/s", 2.0 * math.pi), ("10mrad/s", "rad/s", 0.01),
         ("5%", "1", 0.05),
+        ("50 mJ/m2", "J/m2", 0.05), ("3\u00b5N", "N", 3e-6), ("2us", "s", 2e-6), ("4 uNm", "N m", 4e-6),
     ],
 )  # fmt: skip
-def test_units_beyond_powers_of_ten(text, unit, value):
+def test_units_of_quantities(text, unit, value):
     assert words.number(text, unit=unit) == pytest.approx(value, rel=1e-15)
     assert units.quantity("km/h") == "m/s" and units.quantity("km") == "m"
 

@@ -94,6 +94,7 @@ enum { SAM_EXAMINATION_KEPT = 8 }; /* numbers that a law keeps */
 typedef struct _n_SamExamination SamExamination;
 struct _n_SamExamination {
   SamContact       contact;
+  SamState         state; /* of the contact */
   SamGrid          grid;
   SamElasticity    elasticity;
   const SamExtent *extent; /* size of the contact at the largest load */

@@ -8,13 +8,10 @@ enum { ENERGY, ERROR }; /* sums over the steps, kept from step to step */
 
 PetscErrorCode SamViscousExamine(SamElasticity e, SamExamination *x)
 {
-  SamState state;
-
   PetscFunctionBegin;
   (void)e;
-  PetscCall(SamContactGetState(x->contact, &state));
-  x->kept[ENERGY] += *SamStateReadNumbers(state, SamStateFindNumber(state, SAM_VISCOUS_ENERGY));
-  x->kept[ERROR] += fabs(*SamStateReadNumbers(state, SamStateFindNumber(state, SAM_VISCOUS_ERROR)));
+  x->kept[ENERGY] += *SamStateReadNumbers(x->state, SamStateFindNumber(x->state, SAM_VISCOUS_ENERGY));
+  x->kept[ERROR] += fabs(*SamStateReadNumbers(x->state, SamStateFindNumber(x->state, SAM_VISCOUS_ERROR)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

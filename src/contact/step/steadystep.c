@@ -184,9 +184,9 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
 
 /* ---- rolling resistance ---- */
 
-/* Computes the force of the pressure on the slopes of the separation of bodies that are tilted as they are, which is the
-   moment of the pressure relative to the radius if that is a parabola and nothing tilts: the mean of the slopes to both
-   sides of a cell. */
+/* Computes the force of the pressure on the slopes of the separation of bodies that are tilted as they are, which is
+   the moment of the pressure relative to the radius if that is a parabola and nothing tilts: the mean of the slopes to
+   both sides of a cell. */
 static PetscErrorCode FindResistance(SamSolve *w, double *force)
 {
   const SamGrid grid  = w->task->grid;

@@ -8,7 +8,7 @@
 #include <errno.h>
 #include <stdlib.h>
 
-#define MOST 4 /* number of units that may follow */
+#define MOST 6 /* number of units that may follow */
 
 typedef struct {
   const char *si, *name[MOST];
@@ -16,13 +16,14 @@ typedef struct {
 } Kind;
 
 static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
-                             {"N", {"N", "kN", "MN", "mN"}, {0, 3, 6, -3}},
-                             {"N/m", {"N/m", "kN/m", "MN/m", "N/mm"}, {0, 3, 6, 3}},
-                             {"N m", {"Nm", "kNm", "Nmm"}, {0, 3, -3}},
-                             {"N m/m", {"N", "kN", "mN", "Nm/m"}, {0, 3, -3, 0}},
+                             {"N", {"N", "kN", "MN", "mN", "uN", "nN"}, {0, 3, 6, -3, -6, -9}},
+                             {"N/m", {"N/m", "kN/m", "MN/m", "N/mm", "mN/m", "uN/m"}, {0, 3, 6, 3, -3, -6}},
+                             {"N m", {"Nm", "kNm", "Nmm", "mNm", "uNm", "nNm"}, {0, 3, -3, -3, -6, -9}},
+                             {"N m/m", {"N", "kN", "mN", "uN", "nN", "Nm/m"}, {0, 3, -3, -6, -9, 0}},
                              {"Pa", {"Pa", "kPa", "MPa", "GPa"}, {0, 3, 6, 9}},
                              {"m/s", {"m/s", "mm/s", "um/s"}, {0, -3, -6}},
-                             {"s", {"s", "ms"}, {0, -3}},
+                             {"J/m2", {"J/m2", "mJ/m2", "uJ/m2"}, {0, -3, -6}},
+                             {"s", {"s", "ms", "us"}, {0, -3, -6}},
                              {"rad", {"rad", "mrad"}, {0, -3}},
                              {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, as it would be part of the number */
                              {"m3/J", {"m3/J", "mm3/J"}, {0, -9}},

@@ -382,6 +382,7 @@ static PetscErrorCode AskLaws(SamAdvice *a, int what)
   PetscInt        count;
 
   PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->contact, &x.state));
   PetscCall(SamProblemGetLaws(s->problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++) {
     x.kept = a->kept[k];

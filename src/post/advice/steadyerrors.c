@@ -49,11 +49,13 @@ static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if some cells must stick: loads are given, and no creepage along the surface, under which all may slip. */
-static PetscBool MustStick(const SamControl *control)
+/* True if some cells must stick: loads are given, and no creepage along the surface, under which all may slip. Without
+   any shear there is no friction, and nothing sticks. */
+static PetscBool MustStick(const SamControl *control, double shear)
 {
   PetscBool loads = control->force[SAM_COMPONENT_MZ];
 
+  if (!(shear > 0)) return PETSC_FALSE;
   for (SamComponent c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_TY; c++) {
     if (!control->force[c] && control->value[c] != 0) return PETSC_FALSE;
     if (control->force[c]) loads = PETSC_TRUE;
@@ -65,14 +67,15 @@ PetscErrorCode SamAdviceAddRolling(SamAdvice *a, PetscInt k, const SamStep *step
 {
   const SamGrid grid = a->setup->grid;
   const double  cell = (double)(grid->dx * grid->dy);
-  PetscReal     area, stick;
+  PetscReal     area, stick, shear;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetNumber(a->setup->contact, "contact_area", &area));
   PetscCall(SamContactGetNumber(a->setup->contact, "stick_area", &stick));
+  PetscCall(SamContactGetNumber(a->setup->contact, "shear_max", &shear));
   for (int load = 0; load < 2 && area > 0 && a->setup->grid->axes == 2; load++)
     PetscCall(Compare(a, k, step, load ? PETSC_TRUE : PETSC_FALSE, sqrt((double)area / PETSC_PI)));
-  a->slip.pushed = MustStick(&step->control);
+  a->slip.pushed = MustStick(&step->control, (double)shear);
   a->passed      = area > 0 ? (double)((area - stick) / (2 * sqrt(PETSC_PI * area * cell))) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -208,12 +208,20 @@ def _located(options, files, folder):
     }
 
 
+def _one_spelling(name):
+    """One spelling of all names that petsam takes for the same option."""
+    return "history" if name.lower() == "load_history" else name.lower()
+
+
 def common_options(words):
     """Options given on the command line for all cases; their files are meant relative to the present folder."""
-    options, name = {}, None
+    options, name, seen = {}, None, set()
     for word in words:
         if re.match(r"-[A-Za-z]", word):
             name = word[1:]
+            if _one_spelling(name) in seen:
+                raise TableError(f"{word}: given twice for all cases: remove one of them")
+            seen.add(_one_spelling(name))
             options[name] = None
         elif name is None or options[name] is not None:
             raise TableError(f"{word}: expected an option: it begins with a dash")
@@ -329,11 +337,24 @@ def _check_history(path, options, files):
             )
 
 
+def _check_common(path, names, options, common):
+    """Raises Error if an option for all cases has the name of a column, a list or a parameter, whose values it would
+    replace; in the same spelling it may replace a single value of a YAML table's options."""
+    given = {_one_spelling(option): option for option in common}
+    for name in names:
+        twin = given.get(_one_spelling(name))
+        if twin is not None and not (twin == name and name in options):
+            what = " ".join(filter(None, [f"-{twin}", common[twin]]))
+            raise TableError(f"{path}: {name} is in the table, and {short(what)} is given for all cases: remove one")
+
+
 def read(path, common=None, ranks=1):
-    """The cases of a table, with options common to all (which override the table's) and the default number of ranks."""
+    """The cases of a table, with options common to all (which override single values) and the default of ranks."""
     kind = _yaml_cases if path.lower().endswith((".yaml", ".yml")) else _csv_cases
     folder, common, cases, seen = os.path.dirname(os.path.abspath(path)), common or {}, [], {}
     for where, inputs, options, files, (count, place), name, rest in kind(path, common):
+        single = set(options) - set(inputs)
+        _check_common(path, {**inputs, **options, **(rest[2] if rest else {})}, single, common)
         for option in {**options, **common}:
             if option in TAKEN:
                 raise TableError(f"{where}: -{option}: {TAKEN[option]}")

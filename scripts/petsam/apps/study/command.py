@@ -20,11 +20,12 @@ Sections of a YAML table:
       time, load_tx
       1,    {0.8 * friction * load_n}
 
-Options after `--` hold for all cases. Cases run side by side as long as their ranks fit into the cores, each in
-DIRECTORY/NAME. Cases that have finished with the same inputs are not run again, so the same command resumes after an
-interruption (Ctrl-C, or the end of a job). The results of all cases are written to DIRECTORY/results.csv and
-results.h5. A study has at most 100000 cases. petsam-plot draws results.h5. For histories with cycles the table lists
-the energies of some: --turns, --period, --cycle.
+Options after `--` hold for all cases, and replace single values of a YAML table's `options`; columns, lists and
+parameters of their names are rejected. The first warning of each case is in the column `message`. Cases run side by
+side as long as their ranks fit into the cores, each in DIRECTORY/NAME. Cases that have finished with the same inputs
+are not run again, so the same command resumes after an interruption (Ctrl-C, or the end of a job). The results of all
+cases are written to DIRECTORY/results.csv and results.h5. A study has at most 100000 cases. petsam-plot draws
+results.h5. For histories with cycles the table lists the energies of some: --turns, --period, --cycle.
 """
 
 import os
@@ -35,7 +36,7 @@ from ...core.errors import Error, counted
 from ...core.line import Parser, word, wrote
 from . import slurm, tables
 from .jobs import Jobs, check_files
-from .progress import Progress, standing, summary
+from .progress import Progress, standing, summary, warn
 from .reading import TableError
 from .runs import Study
 
@@ -169,6 +170,8 @@ def carry_out(options):
     if options.case is None:
         write(options, jobs, cases)
     code = summary(jobs.directory, chosen(options, cases))
+    if not options.quiet:
+        warn(jobs.directory, chosen(options, cases))
     if ended:
         print("petsam-study: interrupted; run the same command again to resume", file=sys.stderr)
     return 128 + ended if ended else code

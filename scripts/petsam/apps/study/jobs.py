@@ -217,7 +217,7 @@ def run(
     directory : path, optional
         Folder of the cases and of results.csv, results.h5; by default the table's name, here, or `study`.
     options : dict, optional
-        petsam's options for all cases, {name without dash: value}.
+        petsam's options for all cases, {name without dash: value}; none that is a column or a list of the table.
     cores : int, optional
         Cores to use; by default all available to this process.
     report : callable, optional

@@ -6,7 +6,7 @@ import time
 
 from ...core import progress
 from ...core.errors import counted
-from .runs import LOG, MEANINGS, STOPPED, record
+from .runs import LOG, MEANINGS, STOPPED, WARNING, record
 
 
 def standing(directory, case):
@@ -65,6 +65,19 @@ class Progress(progress.Progress):
         """Leave the terminal's last line empty."""
         if self.live:
             print("\r\033[K", end="", flush=True)
+
+
+def warn(directory, cases):
+    """Print how many finished cases have warnings, and the first one."""
+    messages = [(case.name, record(directory, case).get("message", "")) for case in cases]
+    warned = [(name, text[len(WARNING) :]) for name, text in messages if text.startswith(WARNING)]
+    if warned:
+        name, text = warned[0]
+        print(
+            f"petsam-study: warning: {len(warned)} of {counted(len(cases), 'case')} finished with warnings, the first "
+            f"{name}: {text}; see all in {LOG} of each case, in {directory}",
+            file=sys.stderr,
+        )
 
 
 def summary(directory, cases):

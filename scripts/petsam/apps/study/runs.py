@@ -36,7 +36,8 @@ PATIENCE = 10.0  # seconds for runs to end when requested
 GRACE = 90.0  # seconds that they get to write a checkpoint and stop, unless a variable gives the time that is left
 RESERVE = 30.0  # seconds before the end of a Slurm job in which it is queued again
 WORDS = 1000  # maximum characters of a run's own words on its end
-OWN = re.compile("petsam(-stress)?: ")  # beginning of the programs' messages
+OWN = re.compile("^petsam(-stress)?: ")  # beginning of the programs' messages
+WARNING = "warning: "  # beginning of those of a run that goes on
 PAUSE = 0.05  # seconds between looks at the runs
 
 
@@ -90,19 +91,21 @@ def finished(directory, case):
 
 
 def _message(log, code):
-    """Returns the run's own words on its end: petsam's first message, else the last line."""
+    """Returns the run's own words on its end: petsam's first message, or its first warning, else the last line."""
     try:
         with open(log, encoding="utf-8", errors="replace") as file:
             lines = [line.strip() for line in file if line.strip()]
     except OSError:
         lines = []
-    own = [re.sub(r"^petsam(-stress)?: ", "", line) for line in lines if OWN.match(line) and "warning: " not in line]
+    said = [OWN.sub("", line) for line in lines if OWN.match(line)]
+    own = [line for line in said if not line.startswith(WARNING)]
     if own:
         return short(own[0], WORDS)
     if code < 0 or code > 128:
         number = -code if code < 0 else code - 128
         return f"ended by signal {number}"
-    return short(lines[-1], WORDS) if lines and code else ""
+    last = lines[-1:] if code else said
+    return short(last[0], WORDS) if last else ""
 
 
 def _seconds(name):

@@ -2,15 +2,15 @@
 
 CSV: case, exit_code (empty: not run), seconds [s], ranks, the inputs as they were given, and with heads `name [unit]`
 steps, the names of petsam's /history (those of the last step, with NaN for what is unknown if it has no solution;
-`dissipated_energy_sum` of all steps that have one; with -errors companion NAME_error, in the unit of NAME); message. A
-scalar that has an input's name gets `_end` added. Of histories with cycles (petsam.cycles) there are also `cycles`,
-their number, `energy_ratio_cycle_last`, `sliding_ratio_cycle_last` and `loss_factor_cycle_last` (petsam.sliding), of
-bodies that relax `viscous_energy_cycle_last`, `dissipated_energy_cycle_last`,
-and `dissipated_energy_cycle_change`, by which the last cycle differs from the one before, relative to it; and
-`dissipated_energy_cycle_K` of the chosen cycles K. `regime` is 0 where all steps stick, 1 of partial slip, 2 of gross
-slip (also where a step was rejected for it), 3 where some cycles are of gross slip and others are not. Where
-petsam-stress runs too, `mises_max` and so on are the largest of its /history, and `swt_max` and so on those of its
-fatigue parameters. Columns of the table's `results` follow.
+`dissipated_energy_sum` of all steps that have one; with -errors companion NAME_error, in the unit of NAME); message,
+the reason of a failure, or of a finished case `warning: ` and its first warning. A scalar that has an input's name gets
+`_end` added. Of histories with cycles (petsam.cycles) there are also `cycles`, their number, `energy_ratio_cycle_last`,
+`sliding_ratio_cycle_last` and `loss_factor_cycle_last` (petsam.sliding), of bodies that relax
+`viscous_energy_cycle_last`, `dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by which the last
+cycle differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the chosen cycles K. `regime` is 0
+where all steps stick, 1 of partial slip, 2 of gross slip (also where a step was rejected for it), 3 where some cycles
+are of gross slip and others are not. Where petsam-stress runs too, `mises_max` and so on are the largest of its
+/history, and `swt_max` and so on those of its fatigue parameters. Columns of the table's `results` follow.
 
 HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results,
 NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
