@@ -147,8 +147,9 @@ def test_a_pillar_attracts_by_its_own_gap(law, away):
     reach, height = 1e-9, np.full((24, 24), 1e-6)
     height[6:18, 6:18] = 0
     run = package.run(
-        body1_young="inf", body1_poisson=0, body2_young=1e15, body2_poisson=0.3, friction=0, gap=height, grid_size=48e-8,
-        adhesion_work=WORK, adhesion_stress=WORK / reach, adhesion_law=law, disp_z=away * reach, errors="none", **UPRIGHT,
+        body1_young="inf", body1_poisson=0, body2_young=1e15, body2_poisson=0.3, friction=0, gap=height,
+        grid_size=48e-8, adhesion_work=WORK, adhesion_stress=WORK / reach, adhesion_law=law, disp_z=away * reach,
+        errors="none", **UPRIGHT,
     )  # fmt: skip
     part = (1 if away > -1 else 0) if law == "maugis" else np.exp(away)
     assert run["load_n"][0] == pytest.approx(-part * WORK / reach * (12 * 2e-8) ** 2, rel=1e-4, abs=1e-12)

@@ -34,7 +34,7 @@ from ...results.stresses import Stresses
 from .expressions import Expander
 from .runs import RESULTS, STRESSES, record, write_atomically
 
-ENERGY, VISCOUS = cycles.ENERGY, cycles.VISCOUS
+ENERGY = cycles.ENERGY
 GROSS = re.compile(r"(step \d+: )?gross slip: ")  # what petsam says of a load that cannot be balanced
 
 
@@ -81,8 +81,8 @@ def _ratios(results, whole):
     last = sliding.numbers(results, whole.numbered(-1), whole.pair)
     names = "energy_ratio", "sliding_ratio", "loss_factor"
     found = {f"{name}_cycle_last": (getattr(last, name), "1") for name in names}
-    if VISCOUS in results.history:
-        found[f"{VISCOUS}_cycle_last"] = (last.viscous, results.units[VISCOUS])
+    if "viscous_energy" in results.history:
+        found["viscous_energy_cycle_last"] = (last.viscous, results.units["viscous_energy"])
     return found
 
 
