@@ -479,7 +479,7 @@ def test_a_cylinder_rolls_as_that_of_hunter(growth, length, ends, cells):
     ],
 )
 def test_energy_of_long_steps_is_told_as_wrong(column, rows, steps, least, most):
-    """An approach that is held for 10 s in one step, one that grows in 2, a load held for 0.5 s in 8, beside many steps."""
+    """Beside many steps: an approach held for 10 s in one, one that grows in two, a load held for 0.5 s in eight."""
     ball = dict(
         BALL, gap_radius1=1e-3, body2_young=6e6, body2_poisson=0.5, grid_n=48, grid_size=1e-3, errors="companion"
     )
