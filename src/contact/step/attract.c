@@ -7,7 +7,9 @@
   more tension nowhere makes the gap wider, and a narrower gap has no less tension; so passes from a state with too
   little tension rise to the least tension above it that is a solution, and those from one with too much fall to the
   largest below. That is where a slow motion arrives, also where it jumps: of several states the one that the history
-  leads to. Each pass also lowers the energy, as that of the tension is concave in the gap.
+  leads to. Each pass also lowers the energy, as that of the tension is concave in the gap. Where the tension of a
+  cell also depends on cells beside it, as the part of a cell in which a constant tension ends, all this holds up to a
+  cell: on rough surfaces, whose spots are of few cells, the state may depend on the length of the steps.
 
   Passes multiply the error by the slope of T times the displacement of the zone in which the tension falls by a unit
   tension. Where they converge already, Anderson's method accelerates them (ground/grid/mixing.c); elsewhere it would
