@@ -279,6 +279,7 @@ def test_tension_at_few_cells_and_at_the_border_is_doubted(petsam):
     case = dict(BALL, **UPRIGHT, disp_z=0, output="out.h5", overwrite=True, errors="companion")
     coarse = petsam(dict(case, **adhesion(3), grid_n=48, grid_size=7 * LENGTH)).stderr
     assert re.search(r"load_n unknown.*E\* w/s\^2 = [0-9.e-]+ m, is 0\.\d+ cells wide", coarse.replace("\n", " "))
+    assert "warning: the edge of the tension" in coarse.splitlines()[0] and "or -grid_n 1" in coarse.splitlines()[0]
     middle = petsam(dict(case, **adhesion(1), grid_n=32, grid_size=7 * LENGTH)).stderr
     assert re.search(r"load_n 5\.\d %", middle)
     small = petsam(dict(case, **adhesion(0.2), grid_n=48, grid_size=4 * LENGTH)).stderr

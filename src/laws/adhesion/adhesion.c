@@ -84,7 +84,9 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscCall(Refuse(from));
   PetscCheck(a->stress <= MOST, from->comm, SAM_ERR_USER, "-%s%s %.6g: expected at most %.6g Pa",
              SamOptionsPrefix(from), rows[1].name, (double)a->stress, MOST);
-  if (!SamPrintHelp()) PetscCall(FindRadius(a, from));
+  if (SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(FindRadius(a, from));
+  PetscCall(SamAdhesionWarn(law));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -19,6 +19,7 @@ typedef struct {
   SamAdhesionRange - returns the gap (m) at which the tension ends (Maugis), or by which it falls to 1/e.
   SamAdhesionCells - computes the tension (Pa) or, as `energy`, its energy (J/m2, not positive) in each cell, as means
   over the cells, from the gap (m); adds to `values` of one component (adhesioncells.c). Collective.
+  SamAdhesionWarn - warns before a run of an edge of the tension that is narrower than cells. Collective.
   SamAdhesionDoubt - the law's method (adhesiondoubt.c). SamLawCreate_Adhesion - creates the law, for the registry.
 */
 static inline double SamAdhesionRange(const SamAdhesion *a)
@@ -27,6 +28,7 @@ static inline double SamAdhesionRange(const SamAdhesion *a)
 }
 PETSC_INTERN PetscErrorCode SamAdhesionCells(SamLaw law, Vec gap, PetscBool energy, Vec values);
 PETSC_INTERN PetscErrorCode SamLawCreate_Adhesion(SamLaw law);
+PETSC_INTERN PetscErrorCode SamAdhesionWarn(SamLaw law);
 PETSC_INTERN PetscErrorCode SamAdhesionDoubt(SamLaw law, SamExamination *examination);
 
 #endif

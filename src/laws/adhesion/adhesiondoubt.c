@@ -19,21 +19,48 @@
 /* Numbers of the normal problem, besides N or the approach, whichever is found */
 #define TOLD "contact_area adhesive_area pressure_max pull_max attraction_energy"
 
+/* Returns the cohesive length (m), and the number of cells in it. */
+static double CohesiveLength(SamLaw law, double *cells)
+{
+  const SamAdhesion *a      = (const SamAdhesion *)law->data;
+  const SamGrid      grid   = law->grid;
+  const double       young  = (double)SamPairModulus(SamElasticityGetPair(law->elasticity));
+  const double       length = young * SamAdhesionRange(a) / (double)a->stress;
+
+  *cells = length / (double)(grid->axes > 1 ? PetscMax(grid->dx, grid->dy) : grid->dx);
+  return length;
+}
+
+PetscErrorCode SamAdhesionWarn(SamLaw law)
+{
+  const SamGrid grid = law->grid;
+  PetscMPIInt   rank;
+  double        cells;
+  const double  length = CohesiveLength(law, &cells);
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
+  if (cells < LEAST && rank == 0 && !grid->fine)
+    SamPrintMessage(
+      "petsam",
+      "warning: the edge of the tension, E* w/s^2 = %.3g m, is %.2g cells wide: below %d it stays where it "
+      "is, or the tension does not converge: use a smaller -adhesion_stress, or -grid_n %.0f",
+      length, cells, LEAST, ceil(LEAST / cells * (double)PetscMax(grid->nx, grid->ny)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamAdhesionDoubt(SamLaw law, SamExamination *x)
 {
-  const SamAdhesion *a    = (const SamAdhesion *)law->data;
-  const SamGrid      grid = x->grid;
-  const double length = (double)(SamPairModulus(SamElasticityGetPair(x->elasticity)) / a->stress) * SamAdhesionRange(a);
-  const double cells  = length / (double)(grid->axes > 1 ? PetscMax(grid->dx, grid->dy) : grid->dx);
-  const double error  = cells < LEAST ? 1 : RESOLVED / cells;
+  double             cells, border;
+  const double       length = CohesiveLength(law, &cells);
   const SamSolution *s;
   const char        *told;
-  double             border;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(x->contact, &s));
   told = s->control.force[SAM_COMPONENT_N] ? "disp_z " TOLD : "load_n " TOLD;
-  SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, error, PetscMax(LEAST, RESOLVED / SAM_DOUBT_LARGE) / cells, told,
+  SamDoubtsAdd(x->doubts, SAM_CAUSE_CELLS, cells < LEAST ? 1 : RESOLVED / cells,
+               PetscMax(LEAST, RESOLVED / SAM_DOUBT_LARGE) / cells, told,
                "the edge of the tension, E* w/s^2 = %.3g m, is %.2g cells wide", length, cells);
   PetscCall(SamContactGetNumber(x->contact, "adhesion_border", &border));
   if (border > BORDER)
