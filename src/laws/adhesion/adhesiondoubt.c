@@ -45,7 +45,7 @@ PetscErrorCode SamAdhesionWarn(SamLaw law)
       "petsam",
       "warning: the edge of the tension, E* w/s^2 = %.3g m, is %.2g cells wide: below %d it stays where it "
       "is, or the tension does not converge: use a smaller -adhesion_stress, or -grid_n %.0f",
-      length, cells, LEAST, ceil(LEAST / cells * (double)PetscMax(grid->nx, grid->ny)));
+      length, cells, (int)LEAST, ceil(LEAST / cells * (double)PetscMax(grid->nx, grid->ny)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
