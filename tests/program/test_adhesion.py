@@ -220,6 +220,10 @@ TIGHT = dict(
     adhesion_work=0.0138071, adhesion_stress=3.44749e+06, adhesion_law="maugis", friction=0.43, grid_n=33,
     grid_size=2.16509e-05, body1_relax_moduli=(0.3, 0.2), body1_relax_times=(0.1, 1),
 )  # fmt: skip
+WIDE = dict(
+    adhesion_work=0.0810973, adhesion_stress=7247575, adhesion_law="maugis", friction=0.19, grid_n=(41, 30),
+    grid_size=3.90641e-05, elasticity="halfspace",
+)  # fmt: skip
 OVAL = dict(
     adhesion_work=0.0563669, adhesion_stress=6.354e+06, friction=0.14, grid_n=37, grid_size=3.46033e-05,
     slip_direction="end", gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=1e-3,
@@ -227,22 +231,28 @@ OVAL = dict(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "case, rows",
-    [
-        (TIGHT, "time,load_n,load_tx\n0.951,3.38181e-06,6.08699e-07\n1.034,2.90529e-05,-8.20143e-07\n"),
-        (
-            OVAL,
-            "time,disp_z,load_tx\n0.130955625,2.76066075e-08,-7.84661565e-07\n5.48946933,1.17866427e-08,-1.06217917e-06\n11.1575641,1.57858607e-08,-1.0438554e-06\n14.4365407,2.5649212e-08,5.95113043e-07\n15.3753657,3.62981276e-08,-1.20895369e-06\n",
-        ),
+ROWS = {  # time, N or approach, T_x
+    "tight": [(0.951, 3.38181e-06, 6.08699e-07), (1.034, 2.90529e-05, -8.20143e-07)],
+    "wide": [
+        (0.0558, 1.934648e-04, -3.891587e-07), (3.85, 1.892235e-04, 6.798959e-07), (4.98, 1.633688e-04, -1.75367e-06),
+        (5.43, -3.008732e-05, 1.410957e-06), (5.47, 2.158493e-04, 1.589708e-07),
     ],
-)
-def test_attraction_of_coupled_bodies_with_friction_converges(petsam, tmp_path, case, rows):
+    "oval": [
+        (0.130955625, 2.76066075e-08, -7.84661565e-07), (5.48946933, 1.17866427e-08, -1.06217917e-06),
+        (11.1575641, 1.57858607e-08, -1.0438554e-06), (14.4365407, 2.5649212e-08, 5.95113043e-07),
+        (15.3753657, 3.62981276e-08, -1.20895369e-06),
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case, name", [(TIGHT, "tight"), (WIDE, "wide"), (OVAL, "oval")])
+def test_attraction_of_coupled_bodies_with_friction_converges(petsam, tmp_path, case, name):
     """Passes of coupled bodies have rough tolerances and changing loads; the check of each step decides."""
-    (tmp_path / "rows.csv").write_text(rows)
-    petsam({**BALL, **UPRIGHT, **SOFT, "history": "rows.csv", **case})
+    rows = "".join(f"{t},{n},{q}\n" for t, n, q in ROWS[name])
+    (tmp_path / "rows.csv").write_text(f"time,{'disp_z' if name == 'oval' else 'load_n'},load_tx\n{rows}")
+    petsam({**BALL, **UPRIGHT, **SOFT, "history": "rows.csv", "allow_edge_contact": True, **case})
     with h5py.File(tmp_path / "out.h5") as f:
-        assert len(f["history/load_n"]) == rows.count("\n") - 1 and f["history/normal_residual"][:].max() < 1.1e-8
+        assert len(f["history/load_n"]) == len(ROWS[name]) and f["history/normal_residual"][:].max() < 1.1e-8
 
 
 @pytest.mark.parametrize(
