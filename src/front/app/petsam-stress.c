@@ -377,7 +377,7 @@ static PetscErrorCode WriteLargest(SamStressRun *run)
       PetscCall(Warn(run, "",
                      "the contact edge is not found in %ld of %ld steps, and /history/edge_stress_xx_max is NaN there: "
                      "less than 95 %% of it is smooth and resolved: use a finer grid, which does not help dissimilar "
-                     "bodies",
+                     "bodies, nor where surfaces attract each other",
                      (long)of.missing, (long)run->steps));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

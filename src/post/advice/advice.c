@@ -129,7 +129,7 @@ static void Touch(SamAdvice *a)
   const SamControl *control = &a->step->control;
   const PetscBool   force   = control->force[SAM_COMPONENT_N];
 
-  if (a->extent.zones) return;
+  if (a->extent.zones || SamProblemAttracts(a->setup->problem)) return; /* apart they attract each other */
   SamAdviceSay(a, force ? "load_n" : "disp_z",
                "the bodies do not touch in any step: the %s is %g %s at most, and must exceed %s",
                force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N],
