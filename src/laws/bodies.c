@@ -75,9 +75,10 @@ PetscErrorCode SamLawCreate_Bodies(SamLaw law)
     if (o->ops.begin) law->any_motion = PETSC_FALSE;
     if (o->ops.begin) law->ops.back = NULL; /* what it remembers of a step acts in later ones */
     if (o->ops.begin) law->named = o->option ? o->option : "elasticity";
-    if (o->traits.skewed)
-      law->forbids_jumps = PETSC_TRUE; /* the jumps' own normal problems need a symmetric operator */
-    if (o->traits.skewed) law->named = o->option ? o->option : "elasticity";
+    if (o->traits.skewed) { /* the jumps' own normal problems need a symmetric operator */
+      law->forbids_jumps = PETSC_TRUE;
+      law->named         = o->option ? o->option : "elasticity";
+    }
     law->bytes += o->bytes;
     if (o->ops.conditions) law->ops.conditions = AddConditions;
     if (o->ops.declare) law->ops.declare = Declare;

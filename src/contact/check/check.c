@@ -43,9 +43,12 @@ static PetscErrorCode SubtractTension(SamElasticity elasticity, SamGrid grid, Pe
   PetscCall(SamGridCreateVec(grid, 1, &u));
   PetscCall(SamElasticityApplyNormal(elasticity, s->tension, u));
   PetscCall(VecNorm(u, NORM_INFINITY, &pulled));
-  if (!u_z_known) PetscCall(VecAXPY(s->displacement_z, -1, u));
-  if (u_z_known) PetscCall(VecAXPY(u, 1, s->displacement_z));
-  if (u_z_known) PetscCall(VecNorm(u, NORM_INFINITY, &pressed));
+  if (u_z_known) {
+    PetscCall(VecAXPY(u, 1, s->displacement_z));
+    PetscCall(VecNorm(u, NORM_INFINITY, &pressed));
+  } else {
+    PetscCall(VecAXPY(s->displacement_z, -1, u));
+  }
   PetscCall(VecDestroy(&u));
   *most = PetscMax(*most, PetscMax(pulled, pressed));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -41,10 +41,10 @@
 typedef struct {
   SamSolve *w;
   SamMixing mixing;
-  Vec       h, gap, found, change, weight;
-  PetscInt  most;  /* passes */
-  PetscReal error; /* of the tension of the last pass */
-  PetscInt  falls; /* how many times in a row the error has fallen */
+  Vec       h, gap, found, change; /* the gap is free once it has told the tension */
+  PetscInt  most;                  /* passes */
+  PetscReal error;                 /* of the tension of the last pass */
+  PetscInt  falls;                 /* how many times in a row the error has fallen */
 } Passes;
 
 /* Computes the tension of the gap and the error of the last one: how far the change moves the surfaces, relative to all
@@ -77,8 +77,8 @@ static PetscErrorCode Accelerate(Passes *p)
   double         *t;
 
   PetscFunctionBegin;
-  PetscCall(VecWAXPY(p->weight, 1, w->s->tension, p->found));
-  PetscCall(SamMixingNext(p->mixing, p->weight, p->found, w->s->tension));
+  PetscCall(VecWAXPY(p->gap, 1, w->s->tension, p->found));
+  PetscCall(SamMixingNext(p->mixing, p->gap, p->found, w->s->tension));
   PetscCall(VecGetArray(w->s->tension, &t));
   for (PetscInt k = 0; k < w->task->grid->cells; k++) t[k] = PetscMax(t[k], 0);
   PetscCall(VecRestoreArray(w->s->tension, &t));
@@ -219,16 +219,16 @@ static PetscErrorCode Measure(Passes *p)
 PetscErrorCode SamSolveAttraction(SamSolve *w, Vec h, PetscBool has_pressure)
 {
   Passes        p         = {.w = w, .h = h, .error = INFINITY};
-  Vec *const    created[] = {&p.gap, &p.found, &p.change, &p.weight};
+  Vec *const    created[] = {&p.gap, &p.found, &p.change};
   const SamGrid grid      = w->task->grid;
 
   PetscFunctionBegin;
   p.most = PetscMax(PASSES, SPREAD * PetscMax(grid->nx, grid->ny));
-  for (int k = 0; k < 4; k++) PetscCall(SamGridCreateVec(grid, 1, created[k]));
+  for (int k = 0; k < 3; k++) PetscCall(SamGridCreateVec(grid, 1, created[k]));
   PetscCall(SamMixingCreate(grid, 1, &p.mixing));
   PetscCall(SamNormalAsSolver(w->task->normal)->effort == SAM_EFFORT_RESIDUAL_ONLY ? Measure(&p)
                                                                                    : Iterate(&p, has_pressure));
   PetscCall(SamMixingDestroy(&p.mixing));
-  for (int k = 0; k < 4; k++) PetscCall(VecDestroy(created[k]));
+  for (int k = 0; k < 3; k++) PetscCall(VecDestroy(created[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

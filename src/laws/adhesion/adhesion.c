@@ -154,7 +154,8 @@ static PetscErrorCode ComputeWork(const SamLawStep *step, double *work)
 static PetscErrorCode ComputeEnergies(SamLaw law, const SamLawStep *step, double *attraction, double *elastic,
                                       double *tension)
 {
-  const SamGrid grid = step->grid;
+  const SamGrid grid  = step->grid;
+  const Vec     moved = SamStateReadField(step->state, SamStateFindField(step->state, "displacement_z"));
   const double *p, *u;
   Vec           energy;
   PetscReal     sums[3];
@@ -167,9 +168,9 @@ static PetscErrorCode ComputeEnergies(SamLaw law, const SamLawStep *step, double
   PetscCall(SamBalanceGetLoads(grid, SAM_BALANCE_NORMAL, step->tension, sums));
   *tension = (double)sums[0];
   PetscCall(VecGetArrayRead(step->total, &p));
-  PetscCall(VecGetArrayRead(SamStateReadField(step->state, SamStateFindField(step->state, "displacement_z")), &u));
+  PetscCall(VecGetArrayRead(moved, &u));
   PetscCall(SamGridDot(grid, 1, p, u, elastic));
-  PetscCall(VecRestoreArrayRead(SamStateReadField(step->state, SamStateFindField(step->state, "displacement_z")), &u));
+  PetscCall(VecRestoreArrayRead(moved, &u));
   PetscCall(VecRestoreArrayRead(step->total, &p));
   *elastic *= 0.5 * (double)(grid->dx * grid->dy);
   PetscCall(VecDestroy(&energy));
