@@ -39,6 +39,7 @@ typedef struct {
   PetscBool parts;  /* if only a part of the grid has traction, an operator on that part suffices */
   PetscBool upwind; /* the tangential operator takes differences along x: not symmetric, it reaches one cell behind */
   PetscBool skewed; /* the normal operator is not symmetric, as material that creeps streams through the contact */
+  PetscBool slides; /* the surfaces slide in a steady state, which is solved without friction */
   PetscBool layers; /* the bodies may have layers */
   PetscBool patch;  /* the bodies are fixed in space, and do not roll */
   PetscInt  outside[2][2]; /* columns and rows at the low and high end of x, y that lie outside of the patches */

@@ -318,7 +318,8 @@ PetscErrorCode SamContactDeclare(SamContact c)
   PetscCall(Offer(c));
   PetscCall(DeclareControl(c));
   PetscCall(SamSolutionDeclareNumbers(c->state, c->motion));
-  if (c->motion->streams) PetscCall(SamStepDeclareRolling(c->elasticity, c->state, &c->rolling));
+  if (c->motion->streams) PetscCall(SamStepDeclareRolling(c->state, &c->rolling));
+  if (c->traits.skewed) PetscCall(SamStepDeclareResistance(c->elasticity, c->state));
   PetscCall(DeclareOutcome(c));
   if (c->set.spots) PetscCall(SamSolutionDeclareSpots(c->state));
   PetscCall(SamProblemDeclare(c->problem, c->state));

@@ -130,6 +130,10 @@ PetscErrorCode SamContactSetUp(SamContact c)
     for (PetscInt j = 0; laws[k]->ops.follow && j < count; j++)
       PetscCheck((!laws[j]->ops.separation || !laws[j]->ops.limit) && (!laws[j]->ops.follow || j == k), c->grid->comm,
                  SAM_ERR_USER, "-%s: not supported with -%s", SamLawOption(laws[k]), SamLawOption(laws[j]));
+  PetscCheck(
+    !friction || !c->traits.slides, c->grid->comm, SAM_ERR_USER,
+    "-friction: not supported with bodies that relax and slide at -body1_speed or -body2_speed: omit it; it adds "
+    "the coefficient times load_n to their resistance");
   PetscCheck(isinf(limit) || SamNormalLimitsPressure(c->normal), c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
   PetscCall(SamNormalSetPressureLimit(c->normal, limit));

@@ -76,8 +76,9 @@ PetscErrorCode SamLawCreate_Bodies(SamLaw law)
     if (o->ops.begin) law->ops.back = NULL; /* what it remembers of a step acts in later ones */
     if (o->ops.begin) law->named = o->option ? o->option : "elasticity";
     if (o->traits.skewed) { /* the jumps' own normal problems need a symmetric operator */
-      law->forbids_jumps = PETSC_TRUE;
-      law->named         = o->option ? o->option : "elasticity";
+      law->always = law->forbids_jumps = law->nonlocal = PETSC_TRUE;
+      law->ops.back                                    = NULL;
+      law->named                                       = o->option ? o->option : "elasticity";
     }
     law->bytes += o->bytes;
     if (o->ops.conditions) law->ops.conditions = AddConditions;

@@ -2,6 +2,7 @@
 #ifndef PETSAM_ELASTICITYIMPL_H
 #define PETSAM_ELASTICITYIMPL_H
 
+#include <petsam/private/body.h>
 #include <petsam/private/bodyimpl.h>
 #include <petsam/elasticity.h>
 #include <petsam/private/fourier.h>
@@ -11,6 +12,17 @@
 
 /* SamExamination - the examination of a run's steps (private/examination.h). */
 typedef struct _n_SamExamination SamExamination;
+
+/*
+  SamStream - the creep of bodies whose material streams through the contact: terms, each with the length (m) by which
+  the material moves towards -x in its time, and what it adds to the constants of the pair, `sudden`, if it has crept to
+  its end. Negative lengths: towards +x.
+*/
+#define SAM_STREAM_TERMS 40
+typedef struct {
+  PetscInt terms;
+  double   length[SAM_STREAM_TERMS], value[SAM_STREAM_TERMS][SAM_PAIR_CONSTANTS], sudden[SAM_PAIR_CONSTANTS];
+} SamStream;
 
 /*
   A type that adds something to another - a half-space and a smooth compliance, for instance - calls
@@ -69,6 +81,11 @@ typedef struct {
   /* of a type with begin(): makes the products those of a steady state in which material streams through the contact
      towards -x, at -rolling_speed, so that no step has a memory; NULL: there are none */
   PetscErrorCode (*stream)(SamElasticity, const SamOptions *from);
+  /* of bodies without layers: makes their products, before any is computed, those of material that creeps while it
+     streams; without terms: takes the creep away */
+  PetscErrorCode (*setstream)(SamElasticity, const SamStream *);
+  /* differentiates fields along x, m/m; NULL: differences of neighbouring cells are as accurate */
+  PetscErrorCode (*slope)(SamElasticity, const double *const h[], double *const slope[]);
   /* required with the trait skewed: creates bodies on the same grid as solvers of normal problems need them */
   PetscErrorCode (*createsymmetric)(SamElasticity, SamElasticity *symmetric);
 } SamElasticityOps;

@@ -66,23 +66,13 @@ PETSC_INTERN PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFour
 PETSC_INTERN PetscReal *SamHalfSpaceDatum(SamElasticity elasticity);
 
 /*
-  SamStream - the creep of bodies whose material streams through the contact: terms, each with the length (m) by which
-  the material moves in its time, and what it adds to the constants of the pair, `sudden`, if it has crept to its end.
-  SamHalfSpaceStream - gives half-spaces without layers such a creep, before products are computed; a stream without
-  terms: takes it away. Not collective.
   SamStreamWeights - finds the weights of a step of duration x, in times of a term, in which the traction p is linear:
   c_new = kept c + before p_old + now p_new. Not collective.
 */
-#define SAM_STREAM_TERMS 40
-typedef struct {
-  PetscInt terms;
-  double   length[SAM_STREAM_TERMS], value[SAM_STREAM_TERMS][SAM_PAIR_CONSTANTS], sudden[SAM_PAIR_CONSTANTS];
-} SamStream;
 typedef struct {
   double kept, before, now;
 } SamStreamStep;
-PETSC_INTERN PetscErrorCode SamHalfSpaceStream(SamElasticity elasticity, const SamStream *stream);
-PETSC_INTERN void           SamStreamWeights(double x, SamStreamStep *step);
+PETSC_INTERN void SamStreamWeights(double x, SamStreamStep *step);
 /* SamHalfSpaceStressAtEdge - does the work of SamStressAtEdge() in a half-space. Collective. */
 PETSC_INTERN PetscErrorCode SamHalfSpaceStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
 

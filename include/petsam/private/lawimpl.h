@@ -188,13 +188,13 @@ struct _n_SamLaw {
   const char         *number;    /* name of the number by which back() finds the derivative; NULL: none */
   const char         *named;     /* option that messages name where the law is refused; NULL: the one that selects it */
   const char         *strained;  /* number that is above 0 once bodies have yielded by it; NULL: they do not */
-  const char         *with_shear;    /* numbers that follow the shear at the surface, separated by blanks; NULL: none */
-  PetscBool           nonlocal;      /* true: the bound of a cell depends on others in the step: no tangent stiffness */
-  PetscBool           forbids_jumps; /* true: not possible in a wear simulation with cycle jumps */
-  PetscBool           of_body[2];    /* true: adds to the separation a field at a body's own points, if they slide */
-  PetscBool           any_motion;    /* true: valid in every motion, since it uses no slip of steps */
-  PetscBool           by_passages;   /* true: in steady rolling it acts in cycles of a wear simulation only */
-  void               *data;          /* data of the type, from PetscNew(); NULL: none */
+  const char         *with_shear; /* numbers that follow the shear at the surface, separated by blanks; NULL: none */
+  PetscBool nonlocal; /* true: the bound of a cell, or a symmetric operator, is not all that a step's tangent needs */
+  PetscBool forbids_jumps; /* true: not possible in a wear simulation with cycle jumps */
+  PetscBool of_body[2];    /* true: adds to the separation a field at a body's own points, if they slide */
+  PetscBool any_motion;    /* true: valid in every motion, since it uses no slip of steps */
+  PetscBool by_passages;   /* true: in steady rolling it acts in cycles of a wear simulation only */
+  void     *data;          /* data of the type, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {
     /* reads and records options that the rows do not describe; `asked` on entry: selected by the word, on return: by

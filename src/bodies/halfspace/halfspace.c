@@ -353,13 +353,26 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, cons
 
 /* ---- the type ---- */
 
+static PetscErrorCode SetStream(SamElasticity e, const SamStream *stream)
+{
+  HalfSpace *data = (HalfSpace *)e->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(data->stream));
+  if (!stream->terms) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscNew(&data->stream));
+  *data->stream = *stream;
+  SamPairGetValues(e->pair, data->stream->sudden);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
 {
   const HalfSpace *from = (const HalfSpace *)parent->data;
 
   PetscFunctionBegin;
   ((HalfSpace *)child->data)->datum = from->datum;
-  if (from->stream) PetscCall(SamHalfSpaceStream(child, from->stream));
+  if (from->stream) PetscCall(SetStream(child, from->stream));
   PetscCall(SamLayeredReference(from->layers, &((HalfSpace *)child->data)->layers));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -417,26 +430,14 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                  .getselfinfluence        = GetSelfInfluence,
                                  .createstress            = CreateStress,
                                  .applynormaltotangential = ApplyNormalToTangential,
-                                 .applytangentialtonormal = ApplyTangentialToNormal};
+                                 .applytangentialtonormal = ApplyTangentialToNormal,
+                                 .setstream               = SetStream};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscReal *SamHalfSpaceDatum(SamElasticity e)
 {
   return &((HalfSpace *)e->data)->datum;
-}
-
-PetscErrorCode SamHalfSpaceStream(SamElasticity e, const SamStream *stream)
-{
-  HalfSpace *data = (HalfSpace *)e->data;
-
-  PetscFunctionBegin;
-  PetscCall(PetscFree(data->stream));
-  if (!stream->terms) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscNew(&data->stream));
-  *data->stream = *stream;
-  SamPairGetValues(e->pair, data->stream->sudden);
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 SamLayered SamHalfSpaceLayers(SamElasticity e)

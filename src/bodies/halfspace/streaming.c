@@ -12,8 +12,8 @@
       beta K(i) + (alpha + e beta) S(i+1),     S(i) = K(i) + e K(i+1) + e^2 K(i+2) + ...
 
   S follows from high lags down. Its first one is summed over blocks of lags, each as long as its distance, in which K
-  is interpolated at a few lags; the weights contain the powers of e. The sum of all is neither even nor odd in x: it is
-  split into both.
+  is interpolated at a few lags; the weights contain the powers of e. Material that moves towards +x has the mirror
+  image of such a kernel. The sum of all is neither even nor odd in x: it is split into both.
 */
 #include "streaming.h"
 #include <petsam/private/base.h>
@@ -104,8 +104,8 @@ PetscErrorCode SamStreamRowsCreate(const SamStream *stream, double dx, PetscInt 
   r->stream = stream;
   r->start  = lags + NEAREST;
   for (PetscInt k = 0; k < stream->terms; k++) {
-    SamStreamWeights(dx / stream->length[k], &r->step[k]);
-    FindRest(dx / stream->length[k], r->start, &r->rest[k]);
+    SamStreamWeights(dx / fabs(stream->length[k]), &r->step[k]);
+    FindRest(dx / fabs(stream->length[k]), r->start, &r->rest[k]);
   }
   PetscCall(PetscMalloc2(2 * r->start + 1, &r->row, 2 * r->start + 1, &r->total));
   *rows = r;
@@ -120,14 +120,15 @@ PetscErrorCode SamStreamRowsDestroy(SamStreamRows *rows)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the displacements by a term, whose kernel is in r->row. */
-static void AddTerm(SamStreamRows r, PetscInt k, double sum)
+/* Adds the displacements by a term, whose kernel is in r->row: even, sign 1, or odd, sign -1. */
+static void AddTerm(SamStreamRows r, PetscInt k, double sign, double sum)
 {
   const SamStreamStep s    = r->step[k];
+  const PetscBool     back = r->stream->length[k] < 0 ? PETSC_TRUE : PETSC_FALSE;
   const double        more = s.before + s.kept * s.now;
 
   for (PetscInt i = 2 * r->start - 1; i >= 0; i--) { /* `sum` is S at the lag above */
-    r->total[i] += s.now * r->row[i] + more * sum;
+    r->total[back ? 2 * r->start - i : i] += (back ? sign : 1) * (s.now * r->row[i] + more * sum);
     sum = r->row[i] + s.kept * sum;
   }
 }
@@ -153,7 +154,7 @@ void SamStreamRow(SamStreamRows r, const SamStreamKernel *kernel, PetscInt j, Pe
     for (PetscInt q = 0; q < r->rest[k].count; q++)
       sum += r->rest[k].weight[q] * kernel->cell(kernel->context, constants, r->rest[k].lag[q], j);
     middle[-start] = 0;
-    AddTerm(r, k, sum);
+    AddTerm(r, k, sign, sum);
   }
   for (PetscInt i = 0; i < n; i++) {
     const double ahead = r->total[start + i], behind = r->total[start - i];

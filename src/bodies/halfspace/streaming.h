@@ -2,6 +2,7 @@
 #ifndef PETSAM_STREAMING_H
 #define PETSAM_STREAMING_H
 
+#include <petsam/private/elasticityimpl.h>
 #include <petsam/private/halfspace.h>
 
 /*

@@ -13,6 +13,9 @@
   mean planes, and the symbols are 0. On grids of an even number of cells the wave of two cells' length is its own
   mirror image; there a symbol that is odd in its wave number, which would be the mean of both, is 0.
 
+  Of material that creeps while it streams, by the length l towards -x in the time of a term, the traction c by which
+  the term displaces follows p as c - l dc/dx = p. So 1/(1 - i k_x l) times what it adds to A is added, exactly.
+
   Source of the normal symbol: Westergaard 1939, J. Appl. Mech. 6, A49-A53; Stanley and Kato 1997, J. Tribol. 119,
   481-485.
 */
@@ -22,6 +25,7 @@
 typedef struct {
   double     normal, tangential; /* the self-influence of a cell, m/Pa */
   SamLayered layers;             /* its symbols replace 2 pi A and so on; NULL: none */
+  SamStream *stream;             /* NULL: no material that creeps streams */
 } Periodic;
 
 #define Real    double
@@ -103,6 +107,53 @@ static void FilterTangentialToNormal(const SamFourierBlock *block, const void *c
     }
 }
 
+/* ---- material that streams, and slopes ---- */
+
+/* The normal symbol of material that streams, or without a stream that of the slope along x */
+typedef struct {
+  const SamSymbol *symbol;
+  const SamStream *stream; /* NULL: the slope */
+  double           length; /* unit of the wave numbers, m */
+} AlongX;
+
+/* Returns the factor of column b of a block: of the creep, or of the slope. */
+static void FactorOf(const AlongX *a, const SamFourierBlock *block, PetscInt b, double factor[2])
+{
+  const double     k = a->symbol->step[0] * (double)(block->first + b);
+  const SamStream *s = a->stream;
+
+  factor[0] = s ? 1 : 0;
+  factor[1] = s ? 0 : k;
+  for (PetscInt j = 0; s && j < s->terms; j++) {
+    const double x = k * s->length[j] / a->length, part = s->value[j][0] / s->sudden[0] / (1 + x * x);
+
+    factor[0] += part;
+    factor[1] += part * x;
+  }
+  factor[1] *= 1 - IsOwnMirror(block->first + b, block->hx);
+}
+
+static void FilterAlongX(const SamFourierBlock *block, const void *context)
+{
+  const AlongX    *a = (const AlongX *)context;
+  const SamSymbol *s = a->symbol;
+
+  for (PetscInt b = 0; b < block->columns; b++) {
+    const double kx                   = s->step[0] * (double)(block->first + b);
+    double(*const restrict column)[2] = block->data[0] + (ptrdiff_t)b * block->stride;
+    double factor[2];
+
+    FactorOf(a, block, b, factor);
+    for (PetscInt m = 0; m < block->hy; m++) {
+      const double ky = s->step[1] * (double)(2 * m <= block->hy ? m : m - block->hy), k2 = kx * kx + ky * ky,
+                   gain = a->stream ? (k2 > 0 ? s->gain / sqrt(k2) : 0) : s->gain, re = column[m][0], im = column[m][1];
+
+      column[m][0] = gain * (factor[0] * re - factor[1] * im);
+      column[m][1] = gain * (factor[0] * im + factor[1] * re);
+    }
+  }
+}
+
 /* ---- inverses ---- */
 
 /* Multiplies by gain |k| times the inverse of (1 + film |k|) I - nu kk'/|k|^2, with its cross term times `cross`. */
@@ -167,6 +218,23 @@ static double NormalAmplitude(SamElasticity e)
   return LayersOf(e) ? 1 : 2 * PETSC_PI * e->pair->normal;
 }
 
+static PetscErrorCode ApplyAlongX(SamElasticity e, const SamStream *stream, const SamSymbol *s,
+                                  const double *const in[], double *const out[])
+{
+  const AlongX           a      = {s, stream, (double)e->grid->length};
+  const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 1, FilterAlongX, &a};
+
+  return SamFourierApply(e->fourier, &filter, in, out);
+}
+
+static PetscErrorCode Slope(SamElasticity e, const double *const h[], double *const slope[])
+{
+  SamSymbol s = SymbolOf(e, 1, 1, NULL);
+
+  s.gain /= (double)(e->grid->length * e->grid->length); /* that of the symbol has the unit of 1/|k| */
+  return ApplyAlongX(e, NULL, &s, h, slope);
+}
+
 static double TangentialAmplitude(SamElasticity e)
 {
   return LayersOf(e) ? 1 : 2 * PETSC_PI * (e->pair->shear + e->pair->shear_xx);
@@ -179,8 +247,10 @@ static double CouplingAmplitude(SamElasticity e)
 
 static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
 {
+  const SamStream *stream = ((const Periodic *)e->data)->stream;
   const SamSymbol s = SymbolOf(e, 1, NormalAmplitude(e), LayersOf(e) ? SamLayeredMultiplyNormal : MultiplyNormalDouble);
 
+  if (stream) return ApplyAlongX(e, stream, &s, p, u_z);
   return SamSymbolApply(e, &s, 1, p, u_z);
 }
 
@@ -329,14 +399,37 @@ static PetscErrorCode SetUp(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode SetStream(SamElasticity e, const SamStream *stream)
+{
+  Periodic *data = (Periodic *)e->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(data->stream));
+  if (!stream->terms) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscNew(&data->stream));
+  *data->stream = *stream;
+  SamPairGetValues(e->pair, data->stream->sudden);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
 {
-  return SamLayeredReference(LayersOf(parent), &((Periodic *)child->data)->layers);
+  const Periodic *from = (const Periodic *)parent->data;
+
+  PetscFunctionBegin;
+  if (from->stream) PetscCall(SetStream(child, from->stream));
+  PetscCall(SamLayeredReference(from->layers, &((Periodic *)child->data)->layers));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Destroy(SamElasticity e)
 {
-  return SamLayeredDestroy(&((Periodic *)e->data)->layers);
+  Periodic *data = (Periodic *)e->data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(data->stream));
+  PetscCall(SamLayeredDestroy(&data->layers));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity e)
@@ -368,6 +461,8 @@ PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
                                  .preconditiontangential  = PreconditionTangential,
                                  .getselfinfluence        = GetSelfInfluence,
                                  .applynormaltotangential = ApplyNormalToTangential,
-                                 .applytangentialtonormal = ApplyTangentialToNormal};
+                                 .applytangentialtonormal = ApplyTangentialToNormal,
+                                 .setstream               = SetStream,
+                                 .slope                   = Slope};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -19,7 +19,7 @@
   So the step is that of elastic bodies with the constants of C and the sum of (1 - m_j) C_j, which have moved before
   any traction of the step by sum C_j (e c_old + (m - e) p_old) (viscousmemory.c). It is of second order in dt; a step
   without duration is a jump. Stresses are those by the tractions, as of elastic bodies, if Poisson's ratio is constant.
-  In steady rolling nothing is remembered (viscousstream.c).
+  In steady states nothing is remembered (viscousstream.c).
 
   A pair has three constants (SamPairConstants), to which its displacements are proportional. So those of all terms are
   products of the elastic pair with factors; and where the tangential ones, of two constants, do not keep their ratio,
@@ -51,7 +51,7 @@ static PetscErrorCode SetUp(SamElasticity e)
   SamPair     pair;
 
   PetscFunctionBegin;
-  if (SamViscousStreams(e) || (!v->finest->mixes && !v->finest->pushes)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (v->finest->streams || (!v->finest->mixes && !v->finest->pushes)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamPairCreateOther(e->pair, &pair));
   PetscCall(SamElasticityCreateOfPair(e->inner, pair, &v->other));
   PetscCall(SamPairDestroy(&pair));
@@ -83,7 +83,7 @@ static SamElasticity BodiesOf(SamElasticity e, SamViscousProductKind kind)
 {
   const PetscBool coupling = kind == SAM_VISCOUS_PUSH || kind == SAM_VISCOUS_LIFT;
 
-  if (kind == SAM_VISCOUS_OTHER_SHEAR || (coupling && DataOf(e)->finest->pushes && !SamViscousStreams(e)))
+  if (kind == SAM_VISCOUS_OTHER_SHEAR || (coupling && DataOf(e)->finest->pushes && !DataOf(e)->finest->streams))
     return DataOf(e)->other;
   return e->inner;
 }
@@ -290,7 +290,14 @@ static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
     PetscCall(SamParametersAddReals(p, options[b][TIMES], PETSC_TRUE, v->relaxes[b], v->times[b]));
     PetscCall(SamParametersAddText(p, options[b][KIND], PETSC_TRUE, kinds[v->bulk[b]]));
   }
-  if (v->speed > 0) PetscCall(SamParametersAddReals(p, "rolling_speed", PETSC_TRUE, 1, &v->speed));
+  if (e->traits.slides)
+    for (int b = 0; b < 2; b++)
+      PetscCall(SamParametersAddReals(p, b ? "body2_speed" : "body1_speed", PETSC_TRUE, 1, &v->speed[b]));
+  else if (v->streams) {
+    const PetscReal speed = -v->speed[0];
+
+    PetscCall(SamParametersAddReals(p, "rolling_speed", PETSC_TRUE, 1, &speed));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -358,7 +365,8 @@ static PetscErrorCode Wrap(SamElasticity *elasticity, const SamViscous *settings
     v->relaxes[b] = settings->relaxes[b];
     PetscCall(PetscArraycpy(v->moduli[b], settings->moduli[b], SAM_CREEP_TERMS));
     PetscCall(PetscArraycpy(v->times[b], settings->times[b], SAM_CREEP_TERMS));
-    v->bulk[b] = settings->bulk[b];
+    v->bulk[b]  = settings->bulk[b];
+    v->speed[b] = settings->speed[b];
   }
   PetscCall(SamViscousSetTerms(e));
   if (e->inner->ops.createstress && (SamViscousHasBulk(e, 0) || SamViscousHasBulk(e, 1)))
@@ -403,9 +411,10 @@ static PetscErrorCode CheckBody(SamElasticity e, const SamOptions *from, const S
 
 static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions *from)
 {
-  SamViscous settings = {.terms = 0};
-  PetscInt   counts[2];
-  PetscBool  speed;
+  SamViscous  settings = {.terms = 0};
+  PetscInt    counts[2];
+  PetscBool   speed;
+  const char *slides;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
@@ -427,7 +436,9 @@ static PetscErrorCode AddFromOptions(SamElasticity *elasticity, const SamOptions
   if (settings.relaxes[0] + settings.relaxes[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOptionsHas(from, "rolling_speed", &speed));
   PetscCall(SamOptionsNeed(from, speed, "rolling_speed", SAM_NEEDS_ROLLING));
+  PetscCall(SamViscousReadSpeeds(from, settings.speed, &slides));
   PetscCall(Wrap(elasticity, &settings));
+  if (slides) PetscCall(SamViscousSlide(*elasticity, slides));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

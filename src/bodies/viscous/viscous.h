@@ -30,6 +30,7 @@ PETSC_INTERN void SamCreepFromRelaxation(PetscInt count, const PetscReal parts[]
 #define SAM_VISCOUS_TERMS (4 * SAM_CREEP_TERMS) /* two creep functions of each body */
 typedef struct {
   PetscReal time;                   /* theta, s */
+  PetscReal speed;                  /* of the body's material along x, if it streams, m/s */
   double value[SAM_PAIR_CONSTANTS]; /* what it adds to the constants of the pair (body.h) if it has crept to its end */
   SamStreamStep step;               /* weights of the present step */
 } SamViscousTerm;
@@ -41,7 +42,8 @@ struct SamViscous {
   PetscInt          terms;
   SamViscousTerm    term[SAM_VISCOUS_TERMS];
   PetscReal         duration; /* of the present step, s */
-  PetscReal         speed;    /* of steady rolling, m/s; 0: steps in time */
+  PetscReal         speed[2]; /* of the bodies' material along x, in steady states, m/s */
+  PetscBool         streams;  /* the products are those of a steady state of rolling or sliding */
   PetscBool         mixes;    /* A and B of the terms are not all proportional to those of the pair */
   PetscBool         pushes;   /* the terms couple bodies that are not coupled under a sudden load */
   SamElasticity     other;    /* if so: bodies of other constants */
@@ -51,7 +53,6 @@ struct SamViscous {
 /*
   SamViscousSetTerms - finds the terms of bodies whose moduli are set, and what they need (viscousterms.c).
   SamViscousHasBulk - true if the bulk modulus of body 0 or 1 is constant, and not infinite.
-  SamViscousStreams - true if the products are those of a steady state of rolling (viscousstream.c).
   SamViscousGetConstants - gets the constants of the pair at the end of the present step, on any grid.
   SamViscousFindFactors - finds the factors of the products in what bodies of these constants displace; 0: none.
   SamViscousProduct - applies a product, without a factor. Collective.
@@ -68,7 +69,6 @@ typedef enum {
 } SamViscousProductKind;
 PETSC_INTERN PetscErrorCode SamViscousSetTerms(SamElasticity e);
 PETSC_INTERN PetscBool      SamViscousHasBulk(SamElasticity e, PetscInt body);
-PETSC_INTERN PetscBool      SamViscousStreams(SamElasticity e);
 PETSC_INTERN void           SamViscousGetConstants(SamElasticity e, double value[SAM_PAIR_CONSTANTS]);
 PETSC_INTERN void           SamViscousFindFactors(SamElasticity e, const double value[SAM_PAIR_CONSTANTS],
                                                   double factor[SAM_VISCOUS_PRODUCTS]);
@@ -90,8 +90,14 @@ PETSC_INTERN PetscErrorCode SamViscousExamine(SamElasticity e, SamExamination *e
 PETSC_INTERN PetscErrorCode SamViscousDoubt(SamElasticity e, SamExamination *examination);
 PETSC_INTERN PetscErrorCode SamViscousMemoryAdvance(SamElasticity e, SamState state, Vec pressure, Vec shear);
 
-/* SamViscousStream, SamViscousCreateSymmetric - likewise (viscousstream.c). */
+/*
+  SamViscousStream, SamViscousCreateSymmetric - likewise (viscousstream.c).
+  SamViscousReadSpeeds - reads the speeds of bodies that slide; SamViscousSlide - makes the products those of a steady
+  state at these speeds. `named`: the option that gives one; NULL: there is none.
+*/
 PETSC_INTERN PetscErrorCode SamViscousStream(SamElasticity e, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamViscousReadSpeeds(const SamOptions *from, PetscReal speed[2], const char **named);
+PETSC_INTERN PetscErrorCode SamViscousSlide(SamElasticity e, const char named[]);
 PETSC_INTERN PetscErrorCode SamViscousCreateSymmetric(SamElasticity e, SamElasticity *symmetric);
 
 extern PETSC_VISIBILITY_INTERNAL const SamElasticityAddition SamElasticityViscous;

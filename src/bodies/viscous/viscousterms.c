@@ -16,7 +16,7 @@ PetscBool SamViscousHasBulk(SamElasticity e, PetscInt body)
 }
 
 /* Adds the terms of a creep function, whose value under a sudden load adds these constants to those of the pair, and
-   whose modulus has `scale` of the parts of G that relax; terms of one time are one term. */
+   whose modulus has `scale` of the parts of G that relax; terms of one time and one speed are one term. */
 static void AddCreep(SamViscous *v, PetscInt body, double scale, const double value[SAM_PAIR_CONSTANTS])
 {
   PetscReal moduli[SAM_CREEP_TERMS];
@@ -27,8 +27,9 @@ static void AddCreep(SamViscous *v, PetscInt body, double scale, const double va
   for (PetscInt k = 0; k < creep.count; k++) {
     PetscInt j = 0;
 
-    while (j < v->terms && (double)v->term[j].time != creep.time[k]) j++;
-    v->term[j].time = creep.time[k];
+    while (j < v->terms && ((double)v->term[j].time != creep.time[k] || v->term[j].speed != v->speed[body])) j++;
+    v->term[j].time  = creep.time[k];
+    v->term[j].speed = v->speed[body];
     for (int n = 0; n < SAM_PAIR_CONSTANTS; n++) v->term[j].value[n] += creep.part[k] * value[n];
     v->terms = PetscMax(v->terms, j + 1);
   }
@@ -78,11 +79,6 @@ static void Compare(SamElasticity e)
   if (v->pushes) e->traits.coupled = PETSC_TRUE;
 }
 
-PetscBool SamViscousStreams(SamElasticity e)
-{
-  return ((const SamViscous *)e->data)->finest->speed > 0 ? PETSC_TRUE : PETSC_FALSE;
-}
-
 PetscErrorCode SamViscousSetTerms(SamElasticity e)
 {
   PetscFunctionBegin;
@@ -106,7 +102,7 @@ void SamViscousFindFactors(SamElasticity e, const double value[SAM_PAIR_CONSTANT
   double            sudden[SAM_PAIR_CONSTANTS] = {0}, other[SAM_PAIR_CONSTANTS] = {0}, part = 0;
 
   for (int k = 0; k < SAM_VISCOUS_PRODUCTS; k++) factor[k] = k == SAM_VISCOUS_OTHER_SHEAR ? 0 : 1;
-  if (SamViscousStreams(e)) return; /* the products of the inner bodies contain the creep */
+  if (v->finest->streams) return; /* the products of the inner bodies contain the creep */
   SamPairGetValues(e->pair, sudden);
   if (v->other) SamPairGetValues(v->other->pair, other);
   if (v->finest->mixes)

@@ -313,6 +313,8 @@ PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step, PetscBool *k
   if (w.touching && w.s->aside) PetscCall(SamSolveEndTouching(&w));
   *known_pressure = task->same_pressure || w.known_pressure ? PETSC_TRUE : PETSC_FALSE;
   if (task->motion->streams) PetscCall(SamSolveRolling(&w));
+  if (task->traits.skewed && w.step->status == SAM_STATUS_CONVERGED && w.s->load[SAM_COMPONENT_N] > 0)
+    PetscCall(SamSolveResistance(&w));
   PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -67,8 +67,9 @@ PETSC_INTERN PetscErrorCode SamStepFindTurn(SamProblem problem, SamGrid grid, co
                                             const SamSolution *now, Vec turn);
 /*
   SamStepDeclareRolling - declares the numbers of a motion in which material streams, and returns the first
-  (steadystep.c). Collective.
+  (steadystep.c). SamStepDeclareResistance - declares those of bodies with the trait skewed (resistance.c). Collective.
 */
-PETSC_INTERN PetscErrorCode SamStepDeclareRolling(SamElasticity bodies, SamState state, PetscInt *first);
+PETSC_INTERN PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first);
+PETSC_INTERN PetscErrorCode SamStepDeclareResistance(SamElasticity bodies, SamState state);
 
 #endif

@@ -147,6 +147,9 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   both are solved, to the tolerance `rtol` (bound.c). Collective.
   SamSolveCoupled - solves both problems of dissimilar bodies with friction (coupling.c). Collective.
   SamSolveRolling - computes the numbers of the solved motion, in which material streams (steadystep.c). Collective.
+  SamSolveResistance - computes the resistance of bodies with the trait skewed (resistance.c). Collective.
+  SamSolveCreateCoarseNormal - creates a solver of the normal problem of coarse bodies, with the settings of the step's
+  own (steadystep.c). Collective.
 */
 #define SAM_ROUGH 100
 typedef enum { SAM_ASIDE_PREDICTED, SAM_ASIDE_KEPT, SAM_ASIDE_SOLVED } SamAsideFrom;
@@ -175,5 +178,7 @@ PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
 PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
 PETSC_INTERN PetscErrorCode SamSolveCoupled(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveRolling(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveResistance(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveCreateCoarseNormal(SamSolve *solve, SamElasticity bodies, SamNormal *normal);
 
 #endif

@@ -41,8 +41,12 @@ enum { NONE, STEADY };
         .range = SAM_RANGE_ANY), \
     ROW("body" #k "_expansion", expansion[k - 1], "thermal expansion () of body " #k ": heat displaces its surface", \
         .unit = "1/K", .range = SAM_RANGE_ANY), \
-    ROW("body" #k "_speed", speed[k - 1], "speed () of body " #k "'s material along x, as seen from the contact", \
-        .unit = "m/s", .range = SAM_RANGE_ANY, .excludes = "rolling")
+  { \
+    "body" #k "_speed", "speed () of body " #k "'s material along x, for heat or bodies that relax", SAM_OPTION_REAL, \
+      offsetof(SamHeatLaw, speed[k - 1]), .unit = "m/s", .range = SAM_RANGE_ANY, .excludes = "rolling", \
+                                          .needs    = NEEDED " or -body1_relax_moduli or -body2_relax_moduli", \
+                                          .recorded = PETSC_TRUE \
+  }
 static const SamOptionRow rows[] = {
   {"heat", "temperatures by frictional heat: of a steady state, or none", SAM_OPTION_ENUM, offsetof(SamHeatLaw, kind),
    .words = "none,steady", .recorded = PETSC_FALSE},
