@@ -7,8 +7,9 @@
 
 #include <math.h>
 
-/* Lengths by which the material moves in the times of the terms, in cells: below one, some, and beyond the grid. */
-static const double lengths[]                    = {0.3, 6, 300};
+/* Lengths by which the material moves in the times of the terms, in cells: below one, some towards +x, and beyond the
+   grid. */
+static const double lengths[]                    = {0.3, -6, 300};
 static const double values[][SAM_PAIR_CONSTANTS] = {{3e-12, 1e-12, 4e-13}, {1e-11, -2e-12, 5e-13}, {2e-11, 0, -3e-12}};
 enum { TERMS = 3, ENDS = 45 }; /* lengths after which the rest of a sum is below rounding */
 
@@ -55,22 +56,34 @@ static double Kernel(SamGrid g, int way, PetscInt in, PetscInt out, const double
 }
 
 /*
-  The same with creep: a unit traction on a cell is followed in it by c = now, behind it by (before + kept now) kept^s,
-  and displaces by them.
+  The same with creep: a unit traction on a cell is followed in it by c = now, s cells farther in the direction of the
+  material by (before + kept now) kept^(s - 1), and displaces by them.
 */
 static double Streaming(SamGrid g, int way, PetscInt in, PetscInt out, const double sudden[3], PetscInt i, PetscInt j)
 {
   double sum = Kernel(g, way, in, out, sudden, i, j);
 
   for (int k = 0; k < TERMS; k++) {
-    const double   x = 1 / lengths[k], kept = exp(-x), mean = (1 - kept) / x;
-    const PetscInt far = (PetscInt)(ENDS * lengths[k]) + 2;
-    double         c   = mean - kept + kept * (1 - mean);
+    const double   x = 1 / fabs(lengths[k]), kept = exp(-x), mean = (1 - kept) / x;
+    const PetscInt far = (PetscInt)(ENDS * fabs(lengths[k])) + 2, ahead = lengths[k] > 0 ? 1 : -1;
+    double         c = mean - kept + kept * (1 - mean);
 
     sum += (1 - mean) * Kernel(g, way, in, out, values[k], i, j);
-    for (PetscInt s = 1; s < far; s++, c *= kept) sum += c * Kernel(g, way, in, out, values[k], i + s, j);
+    for (PetscInt s = 1; s < far; s++, c *= kept) sum += c * Kernel(g, way, in, out, values[k], i + ahead * s, j);
   }
   return sum;
+}
+
+/* Gives bodies the stream of these tests, with lengths in cells of the size dx. */
+static void SetStream(SamElasticity e, PetscReal dx)
+{
+  SamStream stream = {.terms = TERMS};
+
+  for (int k = 0; k < TERMS; k++) {
+    stream.length[k] = lengths[k] * (double)dx;
+    for (int c = 0; c < SAM_PAIR_CONSTANTS; c++) stream.value[k][c] = values[k][c];
+  }
+  sam_call((*e->ops.setstream)(e, &stream));
 }
 
 /* Compares the products with a unit traction on a cell. */
@@ -100,15 +113,10 @@ static void test_products_are_sums_over_all_that_the_material_has_borne(void **s
   for (int n = 0; n < 2; n++) {
     SamGrid g =
       n ? NewGridOn(PETSC_COMM_WORLD, 13, 1, 3e-3, 1, 1e-3, 0) : NewGridOn(PETSC_COMM_WORLD, 7, 5, 3e-3, 2e-3, 0, 0);
-    SamElasticity e      = NewDissimilar(g);
-    SamStream     stream = {.terms = TERMS};
+    SamElasticity e = NewDissimilar(g);
 
-    for (int k = 0; k < TERMS; k++) {
-      stream.length[k] = lengths[k] * (double)g->dx;
-      for (int c = 0; c < SAM_PAIR_CONSTANTS; c++) stream.value[k][c] = values[k][c];
-    }
     if (n) *SamHalfSpaceDatum(e) = g->width[0];
-    sam_call((*e->ops.setstream)(e, &stream));
+    SetStream(e, g->dx);
     for (int way = 0; way < 4; way++)
       for (PetscInt in = 0; in < ways[way].n_in; in++) Compare(e, way, in);
     sam_call(SamElasticityDestroy(&e));
@@ -116,10 +124,44 @@ static void test_products_are_sums_over_all_that_the_material_has_borne(void **s
   }
 }
 
+static void test_the_coarse_grid_of_periods_has_the_same_stream(void **state)
+{
+  SamGrid       g = NewGridOn(PETSC_COMM_WORLD, 32, 24, 3e-3, 2e-3, 0, 0), half;
+  SamElasticity e = NewDissimilar(g), coarse, same;
+  SamTransfer   transfer;
+  PetscReal     most;
+  Vec           from, to, other;
+
+  (void)state;
+  sam_call(SamElasticitySetType(e, SAM_ELASTICITY_PERIODIC));
+  SetStream(e, g->dx);
+  sam_call(SamElasticityGetCoarse(e, &coarse, &transfer));
+  half = SamElasticityGetGrid(coarse);
+  same = NewDissimilar(half);
+  sam_call(SamElasticitySetType(same, SAM_ELASTICITY_PERIODIC));
+  SetStream(same, g->dx);
+  from  = NewField(half, 1);
+  to    = NewField(half, 1);
+  other = NewField(half, 1);
+  AddAt(half, 0, 5, 3, 1, from);
+  sam_call(SamElasticityApplyNormal(coarse, from, to));
+  sam_call(SamElasticityApplyNormal(same, from, other));
+  sam_call(VecNorm(other, NORM_INFINITY, &most));
+  sam_call(VecAXPY(to, -1, other));
+  sam_assert(most > 0);
+  sam_call(VecNorm(to, NORM_INFINITY, &most));
+  sam_assert(most == 0);
+  sam_destroy(&from, &to, &other);
+  sam_call(SamElasticityDestroy(&same));
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&g));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_products_are_sums_over_all_that_the_material_has_borne),
+    cmocka_unit_test(test_the_coarse_grid_of_periods_has_the_same_stream),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -130,7 +130,6 @@ static void FactorOf(const AlongX *a, const SamFourierBlock *block, PetscInt b, 
     factor[0] += part;
     factor[1] += part * x;
   }
-  factor[1] *= 1 - IsOwnMirror(block->first + b, block->hx);
 }
 
 static void FilterAlongX(const SamFourierBlock *block, const void *context)
