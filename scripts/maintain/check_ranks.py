@@ -31,7 +31,7 @@ SAME = {
     "src/laws/wear/magnified.c": {"lift"},
     "src/post/stress/section.c": {"sums"},
     "src/run/io/kept.c": {"rows"},
-    "src/run/simulation/history.c": {"rows"},
+    "src/run/steps/history.c": {"rows"},
 }
 
 

@@ -1,6 +1,6 @@
 /* The way of -accuracy from one trial to the next, for errors that are given. */
 #include "samtest.h"
-#include "../../src/run/simulation/accuracyimpl.h"
+#include "../../src/run/choice/accuracyimpl.h"
 #include <string.h>
 
 /* Trials of one number on a grid that stays where it is. */

@@ -3,6 +3,7 @@
 #define PETSAM_APP_REPORT_H
 
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/accuracy.h>
 #include <petsam/private/simulation.h>
 
 #define SAM_REPORT_FILES   8

@@ -1,5 +1,5 @@
 /* The gradients of a run, by -gradient: steps are recorded as they are committed, and what is found is written. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <petsam/private/base.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/history.h>

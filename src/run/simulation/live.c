@@ -1,5 +1,5 @@
 /* A wear simulation (life): cycles are computed and written one at a time, then some cycles are jumped over. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <petsam/private/state.h>
 #include <petsam/private/wear.h>
 #include <petsam/private/body.h>

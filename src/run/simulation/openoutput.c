@@ -1,5 +1,5 @@
 /* The results of a simulation: a new file, or the next part; and the expected size of the file. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <petsam/private/file.h>
 #include <petsam/private/parts.h>
 #include <string.h>

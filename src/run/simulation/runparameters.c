@@ -1,5 +1,5 @@
 /* The parameters that define a run, with the names of its options. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <petsam/private/parameters.h>
 
 /*

@@ -1,5 +1,5 @@
 /* Estimates, before a step is solved, how much of the grid the contact will take, for the estimate of the memory. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <math.h>
 #include <petsam/private/advice.h>
 #include <petsam/private/balance.h>

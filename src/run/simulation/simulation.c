@@ -1,5 +1,5 @@
 /* A simulation: makes the objects, solves the load steps, writes results and checkpoints. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <petsam/private/checkpoint.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/file.h>

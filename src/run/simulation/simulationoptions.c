@@ -1,5 +1,5 @@
 /* Reads the options of a simulation (contact, load history or life, files), and rejects incompatible ones. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/solutionimpl.h>
@@ -172,10 +172,25 @@ PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *fr
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Refuses the choice of a grid for a contact whose steps are given one by one. */
+static PetscErrorCode RefuseChoice(const SamOptions *from)
+{
+  PetscBool has[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHas(from, "accuracy", &has[0]));
+  PetscCall(SamOptionsHas(from, "grid auto", &has[1]));
+  PetscCheck(!has[0] && !has[1], from->comm, SAM_ERR_USER,
+             "-%s%s: a grid is chosen for all loads of a run, and here steps are given one by one: give -grid_n and "
+             "-grid_size",
+             SamOptionsPrefix(from), has[0] ? "accuracy" : "grid auto");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(SamAccuracyRefuse(from));
+  PetscCall(RefuseChoice(from));
   PetscCall(ReadContact(s, from));
   PetscCall(SamSimulationReadPieces(s, from));
   PetscCall(ReadPlan(s, PETSC_TRUE, from));

@@ -1,5 +1,5 @@
 /* Steps that another program gives one by one: they are tried, with advice and errors, then committed or rejected. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <petsam/private/contact.h>
 
 PetscErrorCode SamSimulationTrySingle(SamSimulation s, const SamControl *control, SamStep *step)
@@ -77,5 +77,14 @@ PetscErrorCode SamSimulationCommitSingle(SamSimulation s, const SamStep *step, c
   PetscCall(CommitAdvice(s, step));
   PetscCall(SamErrorsCommit(s));
   PetscCall(SamSimulationCommitStep(s, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationLoad(SamSimulation s, const char filename[], const SamParameters *parameters)
+{
+  PetscFunctionBegin;
+  PetscCall(SamErrorsLoad(s, filename, parameters));
+  SamSimulationForgetAdvice(s);
+  if (s->gradient) SamGradientForget(s->gradient);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,5 @@
 /* Checkpoints of a simulation, its stop before the end, and its continuation from a checkpoint. */
-#include "simulationimpl.h"
+#include "run.h"
 #include <petsam/private/file.h>
 #include <petsam/private/problem.h>
 #include <stdlib.h>

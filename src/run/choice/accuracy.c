@@ -417,20 +417,6 @@ static PetscErrorCode Choose(const SamOptions *from, const SamArguments *argumen
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamAccuracyRefuse(const SamOptions *from)
-{
-  PetscBool has[2];
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsHas(from, "accuracy", &has[0]));
-  PetscCall(SamOptionsHas(from, "grid auto", &has[1]));
-  PetscCheck(!has[0] && !has[1], from->comm, SAM_ERR_USER,
-             "-%s%s: a grid is chosen for all loads of a run, and here steps are given one by one: give -grid_n and "
-             "-grid_size",
-             SamOptionsPrefix(from), has[0] ? "accuracy" : "grid auto");
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamAccuracyChoose(const SamOptions *from, const SamArguments *arguments, SamAccuracy *a)
 {
   PetscBool has[2];

@@ -2,8 +2,8 @@
 #ifndef PETSAM_ACCURACYIMPL_H
 #define PETSAM_ACCURACYIMPL_H
 
-#include "simulationimpl.h"
-#include <petsam/private/errors.h>
+#include "../steps/simulationimpl.h"
+#include <petsam/private/accuracy.h>
 
 #define SAM_TRIAL_ROOM 1.2 /* ratio of the width of the grid to that of the contact */
 

@@ -2,7 +2,7 @@
 #ifndef PETSAM_COMPANION_H
 #define PETSAM_COMPANION_H
 
-#include "simulationimpl.h"
+#include "runerrors.h"
 
 /* SamCompanion - a run without results and checkpoints, which follows a simulation. The owner reads all members. */
 typedef struct {

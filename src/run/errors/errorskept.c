@@ -236,13 +236,11 @@ PetscErrorCode SamErrorsRead(SamSimulation s, const char filename[], PetscBool s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationLoad(SamSimulation s, const char filename[], const SamParameters *parameters)
+PetscErrorCode SamErrorsLoad(SamSimulation s, const char filename[], const SamParameters *parameters)
 {
   PetscFunctionBegin;
   PetscCall(SamErrorsRead(s, filename, PETSC_FALSE, parameters, 0, NULL));
   if (s->errors && !s->errors->restored)
     PetscCall(SamErrorsLose(s, "the state is that of a file without those of companion runs"));
-  SamSimulationForgetAdvice(s);
-  if (s->gradient) SamGradientForget(s->gradient);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
