@@ -62,8 +62,8 @@ def need_kind(name, given, kind, fits):
             raise Error(f"{name}: expected {kind}, not {type(one).__name__}")
 
 
-def colors(count):
-    """Returns so many colours; from a continuous sequence if there are too many to distinguish."""
+def colors(count=6):
+    """Returns so many colours, by default all of COLORS; of a continuous sequence if there are more."""
     return COLORS[:count] if count <= len(COLORS) else [plt.cm.viridis(t) for t in np.linspace(0.0, 0.9, count)]
 
 
@@ -76,11 +76,6 @@ def points(axes, x, y, color, mark="o", **style):
     """White points with a coloured edge above all lines, as computed values are drawn; "o-": joined by a line."""
     style = {"markersize": 3.6, "markerfacecolor": "white", "zorder": 3, **style}
     axes.plot(x, y, mark, color=color, **style)
-
-
-def joined(axes, x, y, color, mark, **style):
-    """The larger points of a quantity that depends on a few parameters, joined by a thin line."""
-    points(axes, x, y, color, mark, **{"markersize": 5, "linewidth": 1.0, "zorder": 2, **style})
 
 
 def cross(axes, x, y, gid=None):

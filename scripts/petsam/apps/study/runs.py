@@ -130,11 +130,12 @@ def grace():
     return GRACE if end is None else max(1.0, end - time.time() - RESERVE)
 
 
-def check_folders(directory, cases):
-    """Raises Error, before any case runs, if a result or a case would replace another file."""
+def check_folders(directory, cases, table):
+    """Raises Error, before any case runs, if a result or a case would replace another file, or the study's table."""
     for name in ("results.csv", "results.h5"):
         for path in (os.path.join(directory, name), os.path.join(directory, name + ".tmp")):
-            need_replaceable(path)
+            said = f"{table}: would be replaced by the results; choose another folder by --directory"
+            need_replaceable(path, [table], Error(said))
     for case in cases:
         folder = os.path.join(directory, case.name)
         if os.path.lexists(folder) and not os.path.isdir(folder):
