@@ -76,11 +76,6 @@ class Results(Fields, Viewed):
             self.close()
             raise
 
-    @property
-    def paths(self) -> list[str]:
-        """The file of the run, and those of the parts that restarts have written."""
-        return [source.path for source in self._sources]
-
     def _follow(self):
         """Appends the parts that restarts have written."""
         while os.path.exists(name := parts.name_of(self.path, len(self._sources) + 1)):

@@ -22,6 +22,7 @@ from ...core.errors import Error, short
 from ...core.files import need_regular, need_replaceable
 
 LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
+LATER = "results.part{}.h5"  # of a run that went on, from 2 on
 STRESSES = "stress.h5"  # of petsam-stress, if the table requests it
 STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
 MEANINGS = {
@@ -196,7 +197,7 @@ class Run:
         if checkpoint_every and record(directory, self.case) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
             return True
         for name in os.listdir(self.folder):
-            begins = (os.path.splitext(CHECKPOINT)[0], os.path.splitext(RESULTS)[0] + ".part")
+            begins = (os.path.splitext(CHECKPOINT)[0], LATER.partition("{")[0])
             if name in (RESULTS, RECORD, LOG, STRESSES) or name.startswith(begins):
                 os.remove(os.path.join(self.folder, name))
         return False

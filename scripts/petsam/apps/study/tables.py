@@ -32,7 +32,7 @@ from ...results import cycles, sliding
 from ...results.file import Results
 from ...results.stresses import Stresses
 from .expressions import Expander
-from .runs import RESULTS, STRESSES, record, write_atomically
+from .runs import LATER, RESULTS, STRESSES, record, write_atomically
 
 ENERGY = "dissipated_energy"
 GROSS = re.compile(r"(step \d+: )?gross slip: ")  # what petsam says of a load that cannot be balanced
@@ -262,10 +262,11 @@ def write_hdf5(path, found, study):
 
 def _link_parts(links, directory, case):
     """Links to the results of a case: under its name the first part, then CASE.part2, ... of a run that went on."""
-    with Results(os.path.join(directory, case, RESULTS)) as results:
-        for number, path in enumerate(results.paths, 1):
-            name = case if number == 1 else f"{case}.part{number}"
-            links[name] = h5py.ExternalLink(os.path.relpath(path, directory), "/")
+    number, file = 1, RESULTS
+    while number == 1 or os.path.exists(os.path.join(directory, case, file)):
+        links[case if number == 1 else f"{case}.part{number}"] = h5py.ExternalLink(os.path.join(case, file), "/")
+        number += 1
+        file = LATER.format(number)
 
 
 def write(directory, cases, study, figures=LAST):
