@@ -78,6 +78,11 @@ def points(axes, x, y, color, mark="o", **style):
     axes.plot(x, y, mark, color=color, **style)
 
 
+def joined(axes, x, y, color, mark, **style):
+    """The larger points of a quantity that depends on a few parameters, joined by a thin line."""
+    points(axes, x, y, color, mark, **{"markersize": 5, "linewidth": 1.0, "zorder": 2, **style})
+
+
 def cross(axes, x, y, gid=None):
     """A black cross with a white edge at a point, whole on the edge of a panel too."""
     axes.plot(x, y, "+", color="white", markersize=11, markeredgewidth=2.6, clip_on=False, zorder=5, gid=gid)
