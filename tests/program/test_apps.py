@@ -163,7 +163,7 @@ def test_an_application_that_is_deleted_leaves_no_gap(tree, loop, name):
 
 
 RECORD = """from ...core.part import Part
-PART = Part(__name__, "a trial", {0})
+PART = Part(__name__, {0})
 __all__, __getattr__, __dir__ = PART.face()
 """
 
@@ -194,7 +194,7 @@ def test_a_broken_application_is_left_out_and_named(tree, loop, text, says):
 @pytest.mark.parametrize("name", ["names", "new-one", "results", "open"])
 def test_an_application_cannot_have_a_name_that_is_taken(tree, name):
     (tree / "scripts/petsam/apps" / name).mkdir()
-    (tree / "scripts/petsam/apps" / name / "__init__.py").write_text(RECORD.format('command="petsam-plot"'))
+    (tree / "scripts/petsam/apps" / name / "__init__.py").write_text(RECORD.format(""))
     script(tree, "import petsam\nfrom petsam import apps\nassert callable(apps.names) and petsam.results.Results\n"
                  "assert petsam.open.__module__ == 'petsam' and 'new-one' not in dir(petsam)")  # fmt: skip
     assert "usage: petsam-plot" in ask(tree, "scripts/petsam-plot", "--help")

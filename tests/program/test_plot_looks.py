@@ -11,7 +11,7 @@ import petsam
 from petsam.core.tables import Column
 from petsam.plot import bodies, looks
 from petsam.plot.style import STYLE, logarithmic, plt
-from petsam.plot.units import bracketed, on_axis, size_of
+from petsam.plot.units import bracketed, scale, size_of
 from support import ball, few, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
@@ -167,9 +167,10 @@ def test_a_picture_for_print_has_more_pixels_of_the_same_size(plot, folder):
 
 
 def test_a_small_number_without_a_unit_is_one_times_a_power_of_ten():
-    assert on_axis("1", 2e-3) == (pytest.approx(1e3), "10⁻³") and on_axis("1", 0.5) == (1.0, "")
-    assert on_axis("m", 2e-3) == (pytest.approx(1e3), "mm")
-    assert on_axis("1", 3e-12) == (pytest.approx(1e12), "10⁻¹²")
+    assert scale("1", 2e-3, powers=True) == (pytest.approx(1e3), "10⁻³") and scale("1", 2e-3) == (1.0, "")
+    assert scale("1", 0.5, powers=True) == (1.0, "")
+    assert scale("m", 2e-3, powers=True) == (pytest.approx(1e3), "mm")
+    assert scale("1", 3e-12, powers=True) == (pytest.approx(1e12), "10⁻¹²")
     assert size_of("creepage $\\xi$, 10⁻³") == pytest.approx(1e-3)
 
 

@@ -15,6 +15,7 @@ from petsam.apps.joint import command as joint
 from petsam.apps.joint import words as of_joint
 from petsam.apps.wheel import words as of_wheel
 from petsam.core import errors, line, tables, texttable, units, words
+from petsam.core.frames import Frame
 
 
 @pytest.mark.parametrize(
@@ -169,10 +170,10 @@ def test_slope_is_an_angle():
 
 
 def test_points_are_numbers_between_colons():
-    assert words.frame("0,0,0:1,0,0.5") == ((0.0, 0.0, 0.0), (1.0, 0.0, 0.5))
+    assert Frame.read("0,0,0:1,0,0.5") == ((0.0, 0.0, 0.0), (1.0, 0.0, 0.5))
     for text in ("0,0", "0,0,0:", "0,0,0:1,0,0:0,0,1:1,1,1", ""):
         with pytest.raises(words.WordError, match="expected ORIGIN"):
-            words.frame(text)
+            Frame.read(text)
 
 
 def test_bounds_may_be_left_out():

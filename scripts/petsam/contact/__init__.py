@@ -14,7 +14,6 @@ from ..core.part import Part
 
 PART = Part(
     __name__,
-    "contacts in this process and as runs of the program",
     names={
         "inprocess": ("Contact",),
         "steps": ("Cycle", "Step", "Stiffness"),

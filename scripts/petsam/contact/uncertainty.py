@@ -24,13 +24,15 @@ from numpy.typing import ArrayLike
 
 from ..core.brief import brief
 from ..core.errors import Unusable
-from ..core.roughness import RESOLVED, self_affine
+from ..core.roughness import self_affine
 from ..core.units import shown, size
 from ..results.gradients import Gradient
 from .gradient import whole
 
 if TYPE_CHECKING:
     from .inprocess import Contact
+
+RESOLVED = 2.0  # cells in the shortest wavelength, more than
 
 
 @dataclass(frozen=True)

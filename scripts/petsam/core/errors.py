@@ -29,12 +29,6 @@ class WrongArgument(Unusable, TypeError, ValueError):
     """An argument that a function cannot use; it is a TypeError and a ValueError, too, as functions of Python raise."""
 
 
-class Unsettled(Error):
-    """Data that hold no numbers: nothing has converged."""
-
-    code = UNSETTLED
-
-
 class Missing(Error):
     """A missing file, program or library."""
 

@@ -2,7 +2,6 @@
 
 import codecs
 import os
-import re
 import stat
 
 from .errors import FILE, Error, MissingFile
@@ -58,13 +57,11 @@ def decoded(data):
         return data.decode("latin-1")
 
 
-def lines_of(text):
-    """Returns the lines of a text; those of `splitlines` end at letters, too: at the dots of "1 ... 9" in Latin-1."""
-    return re.split(r"\r\n|\r|\n", text)
-
-
 def text_of(path):
-    """Returns the text of a regular file; raises Error if it has bytes of 0, as no text has."""
+    """Returns the text of a regular file, with "\\n" at the ends of lines; raises Error if it has bytes of 0.
+
+    Split it by "\\n": `splitlines` ends lines at letters, too, such as the dots of "1 ... 9" in Latin-1.
+    """
     need_regular(path)
     with open(path, "rb") as file:
         start = file.read(SAMPLE)
@@ -73,14 +70,17 @@ def text_of(path):
             text = decoded(start + file.read())
     if "\0" in text:
         raise Error(f"{path}: is no text, as it has bytes of 0: save it as a text in UTF-8")
-    return text
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def need_replaceable(path):
+def need_replaceable(path, inputs=(), error=None):
     """Raises Error if the name is not that of a regular file, and Unwritable if no file can be written there.
 
-    Commands call it before their work, for each file that they will write.
+    Commands call it before their work, for each file that they will write. `inputs` are files that they read, or None:
+    where the name is that of one of them, the error is raised.
     """
+    if any(same(path, one) for one in inputs if one is not None):
+        raise error or Error(f"{path}: is an input file; choose another name by --output")
     if os.path.lexists(path) and os.path.exists(path):
         need_regular(path)
         if not os.access(path, os.W_OK):

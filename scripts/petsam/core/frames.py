@@ -4,7 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import words
 from .errors import Error
+
+FORM = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
 
 
 @dataclass(frozen=True)
@@ -13,6 +16,14 @@ class Frame:
 
     origin: np.ndarray
     axes: np.ndarray
+
+    @staticmethod
+    def read(text):
+        """Origin of a frame, and up to two directions, x and z, of a word: tuples of three numbers."""
+        points = text.split(":")
+        if len(points) > 3:
+            raise words.WordError(text, FORM)
+        return tuple(tuple(words.numbers(point, FORM, count=3)) for point in points)
 
     @classmethod
     def of(cls, origin, x, z, outward, normal=None):

@@ -17,6 +17,7 @@ import h5py
 from .errors import Error
 from .examine import need_readable
 from .files import need_folder, need_replaceable
+from .version import __version__
 
 # exceptions that h5py raises for a file that is damaged, or has another layout
 DAMAGED = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, ArithmeticError, MemoryError)
@@ -101,12 +102,15 @@ def need_own(path, sign, command):
 
 
 @contextlib.contextmanager
-def replacing(path):
-    """An open HDF5 file, which takes this name when all is written; a symbolic link stays one."""
+def replacing(path, sign=""):
+    """An open HDF5 file, which takes this name when all is written; a symbolic link stays one. `sign`: root attribute
+    by which need_own() knows it, with the version of petsam."""
     path = os.path.realpath(path)
     part = f"{path}.{os.getpid()}.tmp"
     try:
         with h5py.File(part, "w") as file:
+            if sign:
+                file.attrs[sign] = __version__
             yield file
         os.replace(part, path)
     except OSError as error:

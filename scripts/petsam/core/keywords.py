@@ -60,21 +60,10 @@ def completed(text: Optional[str], names: Iterable[str], others: Iterable[Option
     return "\n\n".join([sections(text)[0], *(f"{title}\n{'-' * len(title)}\n{found[title]}" for title in titles)])
 
 
-def explained(common: str) -> Callable[[Function], Function]:
-    """Returns a decorator of functions that have parameters and errors together: their docstrings get those which they
-    lack from `common`, and types are as written."""
-
-    def complete(function: Function) -> Function:
-        function.__doc__ = completed(function.__doc__, inspect.signature(function).parameters, [common])
-        return function
-
-    return complete
-
-
 def unfolded(function: Callable[..., Result], common: str = "") -> Callable[..., Result]:
     """Makes a function with the fields of dataclasses as keywords of one that takes the dataclasses: users do not see
     keywords without a default whose hint is a dataclass. `common`: docstring of several functions, which supplies what
-    the function's own lacks."""
+    the function's own lacks: parameters and errors. A function without such keywords gets its docstring only."""
     own, home = inspect.signature(function), vars(sys.modules[function.__module__])
     shown: list[inspect.Parameter] = []
     kinds: dict[str, Any] = {}
@@ -86,6 +75,9 @@ def unfolded(function: Callable[..., Result], common: str = "") -> Callable[...,
         else:
             shown.append(one)
 
+    if not kinds:
+        function.__doc__ = completed(function.__doc__, own.parameters, [common])
+        return function
     hidden = kinds.keys() - {one.name for one in shown}
 
     @functools.wraps(function)

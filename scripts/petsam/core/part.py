@@ -3,7 +3,7 @@
 A part is a package that users know by its name, as petsam.plot or petsam.joint. Its __init__.py has its record, and
 imports nothing that needs a library; modules are imported when one of their names is first used:
 
-    PART = Part(__name__, "joints: stiffness, damping, frequencies", names={"structure": ("Patch", "Structure")})
+    PART = Part(__name__, names={"structure": ("Patch", "Structure")})
     __all__, __getattr__, __dir__ = PART.face()
 
 Launchers, man pages, completion, the tables that petsam-plot reads, pictures, reports and the reference of the package
@@ -11,6 +11,8 @@ follow from the records.
 """
 
 import importlib
+import importlib.util
+import sys
 from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -27,10 +29,8 @@ class Part(NamedTuple):
     """The record of a part."""
 
     package: str  # its name in Python: __name__
-    about: str  # what it is for, in a few words
     names: Mapping[str, tuple[str, ...]] = {}  # what users call, by module; of an empty name modules themselves
     top: tuple[str, ...] = ()  # of these the names that petsam itself has, too
-    command: str = ""  # the program whose main() is in command.py: it returns the exit code, or None for 0
     quiet: bool = False  # the program hides warnings of numbers that overflow and of letters that a font lacks
     libraries: tuple[str, ...] = ("numpy", "h5py", "matplotlib")  # that the program needs
     see: tuple[str, ...] = ("petsam", "petsam-plot")  # programs that its man page names
@@ -43,6 +43,17 @@ class Part(NamedTuple):
     def name(self) -> str:
         """The part's name, as users know it: petsam.NAME."""
         return self.package.rpartition(".")[2]
+
+    @property
+    def about(self) -> str:
+        """Its purpose, which is the first line of its docstring."""
+        return (sys.modules[self.package].__doc__ or "").partition("\n")[0].rstrip(".")
+
+    @property
+    def command(self) -> str:
+        """The program, petsam-NAME, whose main() is in command.py: it returns the exit code, or None for 0; empty where
+        there is none."""
+        return f"petsam-{self.name}" if importlib.util.find_spec(f"{self.package}.command") else ""
 
     @property
     def listed(self) -> list[str]:

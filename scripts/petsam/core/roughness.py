@@ -2,8 +2,6 @@
 
 import numpy as np
 
-RESOLVED = 2.0  # cells in the shortest wavelength, more than
-
 
 def self_affine(hurst, longest, shortest):
     """The spectrum, without its factor, as a function of q."""

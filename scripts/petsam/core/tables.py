@@ -8,7 +8,7 @@ import re
 from typing import Any, NamedTuple, Union
 
 from .errors import Error, library
-from .files import lines_of, need_replaceable, text_of
+from .files import need_replaceable, text_of
 from .shown import Shown
 
 HEAD = re.compile(r"(.*?)(?: \[(.*)\])?", re.DOTALL)
@@ -59,7 +59,7 @@ def write_csv(path, columns, form=repr):
 
 def read_csv(path):
     """The columns of a file of write_csv(), whose meanings are empty; raises Error where it is none."""
-    reader = csv.reader(lines_of(text_of(path)))
+    reader = csv.reader(text_of(path).split("\n"))
     try:
         (first, heads), *numbered = [(reader.line_num, row) for row in reader if row] or [(1, [])]
     except csv.Error as error:

@@ -20,7 +20,7 @@ import numpy as np
 
 from . import units
 from .errors import Error, counted, short
-from .files import lines_of, text_of
+from .files import text_of
 
 COMMENTS = ("#", "%")  # of lines that never have numbers of the map
 # missing points as instruments and spreadsheets write them
@@ -51,6 +51,15 @@ class Form:
     def number(self, word):
         """A word as a number, NaN for a missing point; None for another text."""
         return number_of(word, self.missing)
+
+    def words(self, line):
+        """The words of a line, whatever separates them."""
+        return split(line, self.decimal)[0]
+
+    @staticmethod
+    def thousands(word):
+        """True if the commas of a word may be those between thousands."""
+        return THOUSANDS.fullmatch(word) is not None
 
 
 def separator_of(line):
@@ -112,7 +121,7 @@ def _decimal(rows):
             return None
         if numbers and not sure:
             return None
-        found = found or not all(THOUSANDS.fullmatch(word) for word in numbers)
+        found = found or not all(map(Form.thousands, numbers))
     return "comma" if found else None
 
 
@@ -185,7 +194,7 @@ class Text:
     @cached_property
     def lines(self):
         """All lines, the first of which has number 1."""
-        return lines_of(text_of(self.path) if self._text is None else self._text)
+        return re.split(r"\r\n|\r|\n", text_of(self.path) if self._text is None else self._text)
 
     def is_comment(self, line):
         """True if a line is a comment."""
@@ -221,6 +230,13 @@ class Text:
         signs = [split(line)[1] for _, line in self.kept]
         usual = max(dict.fromkeys(signs), key=signs.count, default=None)
         return "," if usual == '"' else usual
+
+    def heads(self, words, before=None):
+        """The Heads of the words just above rows of numbers. Where these are units, names are in the row before,
+        `before`; all are empty without one."""
+        if are_units(words):
+            return heads_of(self.path, before or [""] * len(words), words)
+        return heads_of(self.path, words)
 
     def words(self, number, line, separator):
         """The words of a line between these separators."""
@@ -371,14 +387,6 @@ def heads_of(path, words, below=None):
             raise Error(f"{path}: column {short(one.word)}: the line below states {short(unit)}: remove one")
         found[k] = Head(one.name if stated else one.word, unit, one.word)
     return found
-
-
-def heads_above(path, words, before=None):
-    """The Heads of the words just above rows of numbers. Where these are units, names are in the row before, `before`;
-    all are empty without one."""
-    if are_units(words):
-        return heads_of(path, before or [""] * len(words), words)
-    return heads_of(path, words)
 
 
 class Headed:

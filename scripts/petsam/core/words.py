@@ -16,7 +16,6 @@ from . import units
 from .errors import Error, short, there_are
 
 SIDES = "one or two lengths above 0, such as 1e-3 (m) or 1mm: X[,Y]"
-FRAME = "ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
 LARGEST_RATIO = 100.0  # of the two sides of a surface or a patch: beyond it, the comma was a decimal comma
 MOST = 10000  # numbers of a span
 
@@ -134,14 +133,6 @@ def integers(text, form="whole numbers separated by commas", allowed=None, count
         return [integer(word, form, allowed) for word in words]
     except WordError as error:
         raise WordError(text, form, error.known) from error
-
-
-def frame(text):
-    """Origin of a frame, and up to two directions, x and z, separated by colons: tuples of three numbers."""
-    words = text.split(":")
-    if len(words) > 3:
-        raise WordError(text, FRAME)
-    return tuple(tuple(numbers(word, FRAME, count=3)) for word in words)
 
 
 @_with_ends

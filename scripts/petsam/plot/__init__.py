@@ -1,5 +1,7 @@
-"""Pictures of results: by name in pictures.py, as petsam.plot.maps(results), petsam.plot.loop(results, other);
-keywords that many of them have are in keywords.py.
+"""Pictures of results, as files and as pages.
+
+They have names (pictures.py), as petsam.plot.maps(results) and petsam.plot.loop(results, other); keywords that many of
+them have are in keywords.py.
 
 fields and crossings draw fields over the surface and along x and y, gradients derivatives in each cell, series scalars
 over time or over one another, loops and wear cycles and scars, bodies stresses, tables and planes studies. Applications
@@ -21,7 +23,6 @@ if "ipykernel" not in sys.modules or "MPLBACKEND" not in os.environ:  # a notebo
 
 PART = Part(
     __name__,
-    "pictures of results, as files and as pages",
     names={
         "pictures": (
             "energy", "fatigue", "fretting_log", "gradient", "history", "life", "loop", "maps", "profiles", "regimes",
@@ -29,7 +30,6 @@ PART = Part(
         ),
         "reports": ("report", "view"),
     },
-    command="petsam-plot",
     quiet=True,
     see=("petsam", "petsam-stress"),
 )  # fmt: skip

@@ -9,7 +9,7 @@ from ..results.sliding import REGIMES
 from .colours import log_ticks
 from .style import COLORS, bar, logarithmic, need_few, plt
 from .tables import matching, need_case, numbers, titled
-from .units import label, number, on_axis, scale
+from .units import label, number, scale
 
 TINTS = ("#dfe3ee", "#8fb8d8", "#f5e0a0", "#cc79a7")  # of the regimes
 HATCHES = ("", "", "//", "xx")  # of the regimes: where they slide as a whole, for eyes and prints without colours
@@ -45,7 +45,7 @@ def _grid(study, over, name, where, option="--scalar"):
 def _factor(study, name):
     """Factor and unit of an input on its axis, the same for all columns that are drawn over it."""
     values, unit = numbers(study, name, "--against")
-    return on_axis(unit, values)
+    return scale(unit, values, powers=True)
 
 
 def _between(values, log):
@@ -120,7 +120,7 @@ def _column(panel, study, name, places, log):
     """A column over two inputs, places their values and the column's on their grid."""
     if log:
         _need_positive(study, name, places[-1], "colors")
-    factor, unit = on_axis(numbers(study, name, "--scalar")[1], places[-1])
+    factor, unit = scale(numbers(study, name, "--scalar")[1], places[-1], powers=True)
     _values(panel, *places[:2], factor * places[-1], label(titled(name), unit), log)
 
 

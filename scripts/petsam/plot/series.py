@@ -6,7 +6,7 @@ from ..core.errors import Error, Unusable, short, there_are
 from ..results.cycles import ENERGY, PAIRS
 from . import noise, symbols
 from .style import BARS, MARKED, colors, logarithmic, named, need_few, outlined, plt, scattered
-from .units import label, on_axis, plain
+from .units import label, plain, scale
 
 VOLUMES = ("wear_volume1", "wear_volume2")
 TIME = "time"
@@ -130,7 +130,7 @@ def need_numbers(results, names, option):
 def _panel(panel, results, name, other, across):
     """Draws one scalar of all files; across is the factor of the other one."""
     lines = [against(one, name, other) for one in results]
-    factor, unit = on_axis(unit_of(results[0], name), *(values for _, values in lines))
+    factor, unit = scale(unit_of(results[0], name), *(values for _, values in lines), powers=True)
     for one, (x, y), tint in zip(results, lines, colors(len(results))):
         error = errors(one, name)
         if error is not None and other != "status":
@@ -158,7 +158,7 @@ def history(results, names=None, other=None, option="--names", logs=()):
     rows = -(-len(names) // columns)
     size = (4.2 * columns, 2.6 * rows + 0.3) if len(names) > 1 else (6.4, 4.4)
     figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False, sharex=True, constrained_layout=True)
-    across, unit = on_axis(unit_of(results[0], other), *(series(one, other)[1] for one in results))
+    across, unit = scale(unit_of(results[0], other), *(series(one, other)[1] for one in results), powers=True)
     for panel, name in zip(axes.flat, names):
         _panel(panel, results, name, other, across)
         logarithmic(panel, logs)

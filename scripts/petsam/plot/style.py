@@ -62,8 +62,8 @@ def need_kind(name, given, kind, fits):
             raise Error(f"{name}: expected {kind}, not {type(one).__name__}")
 
 
-def colors(count):
-    """Returns so many colours; from a continuous sequence if there are too many to distinguish."""
+def colors(count=6):
+    """Returns so many colours, by default all of COLORS; of a continuous sequence if there are more."""
     return COLORS[:count] if count <= len(COLORS) else [plt.cm.viridis(t) for t in np.linspace(0.0, 0.9, count)]
 
 

@@ -6,7 +6,7 @@ from ..core import words
 from ..core.errors import Error, Unusable, counted, short
 from . import symbols
 from .style import BARS, MARKED, colors, logarithmic, need_few, plt
-from .units import label, largest, number, on_axis, plain, scale
+from .units import label, largest, number, plain, scale
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
 MOST = 9  # panels of a picture, unless columns are named
@@ -222,7 +222,7 @@ def _draw(panel, curves, name, other, across, logs):
     """One column over the other of all curves."""
     data = [(study.column(other)[0][cases].astype(float), numbers(study, name, "--scalar")[0][cases])
             for study, _, _, _, cases in curves]  # fmt: skip
-    factor, unit = on_axis(numbers(curves[0][0], name, "--scalar")[1], *(y for _, y in data))
+    factor, unit = scale(numbers(curves[0][0], name, "--scalar")[1], *(y for _, y in data), powers=True)
     for (study, text, color, mark, cases), (x, y) in zip(curves, data):
         order = np.argsort(x, kind="stable")
         error = f"{name.removesuffix('_end')}_error"
@@ -275,4 +275,4 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
 def _abscissa(curves, other):
     """Factor and unit of what is drawn over."""
     _, unit = numbers(curves[0][0], other, "--against")
-    return on_axis(unit, *(numbers(study, other, "--against")[0][cases] for study, _, _, _, cases in curves))
+    return scale(unit, *(numbers(study, other, "--against")[0][cases] for study, _, _, _, cases in curves), powers=True)

@@ -24,13 +24,18 @@ def written(unit):
     return re.sub(r"(?<=[\w²³]) (?=[A-Za-z])", "·", unit)
 
 
-def scale(unit, *values):
+def scale(unit, *values, powers=False):
     """Factor and unit with the prefix in which the largest of some values, numbers or arrays, has up to three digits
     before the point.
 
     Areas and volumes have more: six from µm² to mm², nine from µm³ to mm³. There 0.001 stands for its own unit.
+    `powers`: small numbers without a unit are those times a power of ten, as on an axis: 0.5 to 2, not 0.0005 to
+    0.0020, which runs into its neighbours.
     """
     first, top = BASE.match(unit), largest(values)
+    if powers and unit == "1" and 0.0 < top < 0.01:
+        power = 3 * int(np.floor(np.log10(top) / 3.0 + 1e-9))
+        return 10.0**-power, "10" + str(power).translate(RAISED)
     if not first or top == 0.0:
         return 1.0, "" if unit == "1" else written(unit)
     power, least = POWERS.get(first[0], 1), LEAST.get(first[0], 1.0)
@@ -41,16 +46,6 @@ def scale(unit, *values):
         prefixes = [(size, prefix) for size, prefix in prefixes if size < 1.0 or top >= 0.1]
     size, prefix = next((pair for pair in prefixes if top >= least * pair[0] * (1.0 - 1e-9)), prefixes[-1])
     return 1.0 / size, prefix + written(unit)
-
-
-def on_axis(unit, *values):
-    """The same for an axis, on which small numbers without a unit are those times a power of ten: 0.5 to 2, not 0.0005
-    to 0.0020, which runs into its neighbours."""
-    top = largest(values)
-    if unit != "1" or not 0.0 < top < 0.01:
-        return scale(unit, top)
-    power = 3 * int(np.floor(np.log10(top) / 3.0 + 1e-9))
-    return 10.0**-power, "10" + str(power).translate(RAISED)
 
 
 def of_label(text):

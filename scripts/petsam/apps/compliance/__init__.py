@@ -37,14 +37,12 @@ from ...core.part import Part
 
 PART = Part(
     __name__,
-    "compliance of real bodies by finite elements",
     names={
         "calls": ("of_deck", "of_mesh"),
         "settings": ("Bolt", "Settings"),
         "result": ("Compliance",),
         "points": ("nodes_of",),
     },
-    command="petsam-compliance",
     quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
     see=("petsam", "petsam-stress"),

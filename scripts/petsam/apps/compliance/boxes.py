@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...core.decks import BOX, folded, inside
+from ...core.decks import Box, folded
 
 
 def added(deck, settings):
@@ -10,11 +10,13 @@ def added(deck, settings):
     in the box."""
     mesh = deck.mesh
     sensors = [node for _, node in settings.sensors]
-    for text in filter(BOX.fullmatch, [*settings.supports, *settings.symmetry, *sensors]):
-        mesh.node_sets[folded(text)] = np.flatnonzero(inside(mesh.nodes, text))
+    for text in (*settings.supports, *settings.symmetry, *sensors):
+        if box := Box.of(text):
+            mesh.node_sets[folded(text)] = np.flatnonzero(box.inside(mesh.nodes))
     washers = [name for one in settings.bolts for name in one.surfaces]
-    for text in filter(BOX.fullmatch, [settings.contact, settings.pair or "", *washers]):
-        mesh.surfaces[folded(text)] = faces_of(mesh, inside(mesh.nodes, text))
+    for text in (settings.contact, settings.pair or "", *washers):
+        if box := Box.of(text):
+            mesh.surfaces[folded(text)] = faces_of(mesh, box.inside(mesh.nodes))
     return deck
 
 

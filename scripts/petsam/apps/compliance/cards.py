@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...core.errors import Error, short
-from ...core.files import lines_of, text_of
+from ...core.files import text_of
 
 DEPTH = 10  # depth of files that include files
 FILES = 1000  # number of included files
@@ -65,7 +65,7 @@ class Cards:
 
     def _read(self, path, text, outer):
         """Reads the text of a file, which the files `outer` include."""
-        lines = [(number, line.strip()) for number, line in enumerate(lines_of(text), 1)]
+        lines = [(number, line.strip()) for number, line in enumerate(text.split("\n"), 1)]
         lines = iter([(number, line) for number, line in lines if line and not line.startswith("**")])
         for number, line in lines:
             if line.startswith("*"):

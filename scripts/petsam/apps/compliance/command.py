@@ -35,8 +35,9 @@ import time
 from functools import partial
 
 from ...core import materials, words
-from ...core.errors import Error, Unusable, short
-from ...core.files import need_replaceable, same
+from ...core.errors import Unusable, short
+from ...core.files import need_replaceable
+from ...core.frames import Frame
 from ...core.hdf5 import need_own
 from ...core.line import Parser, word, wrote
 from ...core.units import shown
@@ -88,7 +89,7 @@ def _body_options(parser):
     body.add_argument("--units", choices=tuple(UNITS), default="m", help="m: m, N, Pa; mm: mm, N, MPa (m)")
     body.add_argument(
         "--frame",
-        type=word(words.frame),
+        type=word(Frame.read),
         default=((0.0, 0.0, 0.0),),
         metavar="ORIGIN[:X[:Z]]",
         help="of the contact in the deck's coordinates and units; Z points into the body (0,0,0:1,0,0, surface normal)",
@@ -329,13 +330,9 @@ def _joint(body):
 
 def carry_out(options, given):
     """Computes, writes, draws and prints."""
-    inputs = [name for name in (options.mesh, options.coarse_mesh) if name]
     for name in [options.output] + ([] if options.no_picture else [options.picture]):
-        if any(same(name, path) for path in inputs):
-            raise Error(f"{name}: is an input file; choose another name by --output")
+        need_replaceable(name, (options.mesh, options.coarse_mesh))
     need_own(options.output, writing.SIGN, PROGRAM)
-    if not options.no_picture:
-        need_replaceable(options.picture)
     command = shlex.join([PROGRAM, *given])
     start = time.monotonic()
 

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLORS, bar, drawn, field, note, plt
+from ...plot.style import bar, colors, drawn, field, note, plt
 from ...plot.units import label, scale
 from .basis import LinePatch, written
 from .result import Compliance
@@ -35,7 +35,7 @@ def _mesh(axes, bodies, unit):
     for body in bodies:
         (x, y), (a, b) = body.patch.center, (body.patch.half[0], 0.0 if line else body.patch.half[1])
         corners = np.array([(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]) * unit[0]
-        axes.plot(*corners.T, color=COLORS[1], linewidth=1.6)
+        axes.plot(*corners.T, color=colors()[1], linewidth=1.6)
     axes.autoscale()
     axes.grid(False)
     title = "patch on the mesh" if len(bodies) == 1 else "patches on the mesh"
@@ -73,7 +73,7 @@ def _line(axes, body, coefficients, title, unit, field_unit):
     values = body.patch.values(x, np.zeros(CELLS)) @ coefficients
     size = scale("m", values) if field_unit == "m" else (1.0, field_unit)
     for axis, name in ((0, "u_x"), (2, "u_z")):
-        axes.plot(x * unit[0], values[:, axis] * size[0], color=COLORS[axis], label=name)
+        axes.plot(x * unit[0], values[:, axis] * size[0], color=colors()[axis], label=name)
     axes.legend()
     axes.set(title=title, xlabel=label("x", unit[1]), ylabel=label("u", size[1]))
 
@@ -88,14 +88,14 @@ def _unit_load(body, direction):
 
 def _spectrum(axes, body, title):
     values = np.sort(np.abs(body.eigenvalues))[::-1]
-    axes.semilogy(1 + np.arange(len(values)), np.maximum(values, 1e-300), ".", color=COLORS[0])
+    axes.semilogy(1 + np.arange(len(values)), np.maximum(values, 1e-300), ".", color=colors()[0])
     axes.set_ylim(max(values[0] * 1e-12, values[-1] * 0.5, 1e-300), 2.0 * values[0])
     axes.set(title=title, xlabel="number", ylabel="magnitude")
 
 
 def _convergence(axes, body, title):
     changes = np.maximum(body.changes, 1e-16)
-    axes.semilogy(np.arange(len(changes)), changes, "o-", color=COLORS[2], markersize=4)
+    axes.semilogy(np.arange(len(changes)), changes, "o-", color=colors()[2], markersize=4)
     axes.set(title=title, xlabel="degree", ylabel=f"difference from degree {written(body.patch.degree)}")
 
 

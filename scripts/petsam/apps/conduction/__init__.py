@@ -8,8 +8,6 @@ shape   of(): the conductance of a contact in process, or of a step of results
 from ...core.part import Part
 
 PART = Part(
-    __name__,
-    "thermal and electrical conductance of contacts",
-    names={"layers": ("Body",), "shape": ("Conductance", "need_conducting", "of"), "spots": ("conduct",)},
+    __name__, names={"layers": ("Body",), "shape": ("Conductance", "need_conducting", "of"), "spots": ("conduct",)}
 )
 __all__, __getattr__, __dir__ = PART.face()

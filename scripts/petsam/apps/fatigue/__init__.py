@@ -1,4 +1,4 @@
-"""From the stresses of a cycle to lives, safety factors and short cracks: lives(files, constants). SI units.
+"""Lives, safety factors and short cracks from the stresses of a cycle: lives(files, constants). SI units.
 
 spectrum    lives() of one cycle or of several, Lives: all that petsam-fatigue prints and draws
 stresses    the stresses of a cycle, of a file of petsam-stress or of petsam.Contact.fatigue()
@@ -12,9 +12,7 @@ from ...core.part import Part
 
 PART = Part(
     __name__,
-    "lives, safety factors and short cracks from the stresses of a cycle",
     names={"spectrum": ("Lives", "lives"), "": ("cracks", "evaluation", "materials", "strength", "stresses")},
-    command="petsam-fatigue",
     quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "yaml"),
     see=("petsam", "petsam-stress", "petsam-plot", "petsam-study"),

@@ -20,7 +20,7 @@ import numpy as np
 
 from ...core import words
 from ...core.errors import Error, short
-from ...core.files import need_replaceable, same
+from ...core.files import need_replaceable
 from ...core.line import Parser, word, wrote
 from ...core.progress import Progress
 from ...plot import saving
@@ -161,12 +161,9 @@ def _print_crack(cycle, start, stop, from_surface):
 
 def _cycles(options):
     """The cycles of the files; Error where one is no file of petsam-stress, or an output would replace it."""
-    for name in (options.output, options.csv or ""):
-        if any(same(name, path) for path in options.files):
-            raise Error(f"{name}: would replace the results; choose another name")
     for name in [options.csv] + ([] if options.no_picture else [options.output]):
         if name:
-            need_replaceable(name)
+            need_replaceable(name, options.files, Error(f"{name}: would replace the results; choose another name"))
     labels = options.labels.split(",") if options.labels else [None] * len(options.files)
     return [Cycle(Stresses(path, label)) for path, label in zip(options.files, labels)]
 

@@ -22,7 +22,6 @@ from ...core.part import Part
 
 PART = Part(
     __name__,
-    "friction, rig stiffness and wear from measured loops",
     names={
         "reading": ("Record", "read"),
         "push": ("Push", "ball", "of_shape"),
@@ -35,7 +34,6 @@ PART = Part(
         "scars": ("Family", "Scar", "Split", "family", "fit_profile", "fit_scar", "split"),
         "results": ("Wear", "wear"),
     },
-    command="petsam-fit",
     quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
     pictures={"pictures": ("fit", "scar_fit")},

@@ -27,12 +27,12 @@ from functools import partial
 import numpy as np
 
 from ...core import words
-from ...core.errors import Error, Unsettled, Unusable, counted, short
-from ...core.files import need_replaceable, same
+from ...core.errors import Error, Unusable, counted, short
+from ...core.files import need_replaceable
 from ...core.line import Parser, word, wrote
 from ...plot.measured import read_profiles
 from . import cutting, peaks, planning, push, reading, results, scars, series
-from .results import plain
+from .results import Unsettled, plain
 
 WRITTEN = (
     ".json",
@@ -181,9 +181,8 @@ def _outputs(options):
         return
     for end in WRITTEN:
         name = options.output + end
-        if any(same(name, path) for path in [*options.files, options.shape, *filter(None, [options.scar])]):
-            raise Unusable(f"-o {short(options.output)}: {name} would replace a file that is read: choose another name")
-        need_replaceable(name)
+        said = f"-o {short(options.output)}: {name} would replace a file that is read: choose another name"
+        need_replaceable(name, (*options.files, options.shape, options.scar), Unusable(said))
 
 
 def _plan(options):

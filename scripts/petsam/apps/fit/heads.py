@@ -9,7 +9,6 @@ from typing import NamedTuple, Optional
 
 from ...core import units
 from ...core.errors import Error, short, there_are
-from ...core.texttable import heads_above
 
 QUANTITIES = {"displacement": "m", "force": "N", "time": "s", "energy": "J"}
 EXAMPLES = {"m": "Displacement (um)", "N": "Force (N)"}
@@ -88,11 +87,10 @@ def _quantity(head):
     return (si, size) if si in ("", *QUANTITIES.values()) else (None, 1.0)
 
 
-def columns(path, head, before=None):
-    """The columns of the cells of the line above the numbers, of names, which may have units, or of units; of these the
-    names are in the line before, if any."""
+def columns(path, heads):
+    """The columns of the Heads of a table."""
     found = []
-    for k, one in enumerate(heads_above(path, head, before)):
+    for k, one in enumerate(heads):
         name, unit, cell, joined = one
         si, size = _quantity(one)
         if si == "N/m":

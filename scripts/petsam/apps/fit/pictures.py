@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import BARS, colors, plt
+from ...plot.style import colors, plt
 from .scars import Scar
 from .series import Result
 
@@ -40,7 +40,8 @@ def fit(found: Result) -> Figure:
         friction = np.array([one.friction for one in each])
         deviation = np.nan_to_num([one.friction_sd for one in each])
         if np.isfinite(friction).any():
-            right.errorbar(found.numbers, friction, 2.0 * deviation, ecolor=colors(1)[0], **BARS)
+            low, high = friction - 2.0 * deviation, friction + 2.0 * deviation
+            right.vlines(found.numbers, low, high, color=colors(1)[0], linewidth=1.2, alpha=0.5)
             right.plot(found.numbers, friction, "o", color=colors(1)[0], markersize=4.0)
             right.set(xlabel="cycle", ylabel="friction, with 95 %")
         else:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core.brief import brief
 from ...core.errors import Error, counted, short
-from ...core.texttable import THOUSANDS, Form, Text
+from ...core.texttable import Form, Text
 from . import heads
 
 FORM = Form(missing=("lost",), comments=("#", "%", "//"))
@@ -88,7 +88,7 @@ def _columns(text, lines, rows):
         if not _numbers(rows[k]) or not above or not _ends(rows[k], len(above[-1])) or not _texts(above[-1]):
             continue
         named = len(above) == 2 and len(above[0]) == len(above[-1]) and _texts(above[0])
-        return heads.columns(path, above[-1], above[0] if named else None), k
+        return heads.columns(path, text.heads(above[-1], above[0] if named else None)), k
     number, width = lines[first][0], len(rows[first])
     if first and _texts(rows[first - 1]):
         raise Error(
@@ -163,7 +163,7 @@ def _check_signs(path, used):
         own = [one for one in used if one[1] == k and not np.isnan(_number(one[2]))]
         comma = [one for one in own if "," in one[2]]
         plain = next((one for one in own if "," not in one[2] and _number(one[2])), None)
-        if not all(THOUSANDS.fullmatch(cell) for _, _, cell in comma):
+        if not all(FORM.thousands(cell) for _, _, cell in comma):
             continue
         notes.append(f"the comma of {short(comma[0][2])} is taken for a decimal one")
         if plain:

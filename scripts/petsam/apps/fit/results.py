@@ -5,7 +5,7 @@ from typing import Optional
 
 import numpy as np
 
-from ...core.errors import Unsettled, counted
+from ...core.errors import Error, counted
 from .loops import CORRELATED
 from .problem import HIGHEST, LOWEST
 from .push import Push, options_of
@@ -14,6 +14,12 @@ from .series import Result
 HEAD = "# The contact of a measured loop, by petsam-fit: the rig is not part of it."
 DROPPED = ("load_", "disp_", "history", "steps", "friction", "wear_", "output", "checkpoint")  # options of a run
 WEARS = ("wear_coefficient", "wear_energy")  # but for these
+
+
+class Unsettled(Error):
+    """Loops that hold no numbers."""
+
+    code = 10  # as petsam ends where nothing has converged
 
 
 def _micro(value):

@@ -7,9 +7,5 @@ friction   the frictional work of a cycle of results, cell by cell
 
 from ...core.part import Part
 
-PART = Part(
-    __name__,
-    "temperatures by the friction of a cycle at a frequency",
-    names={"friction": ("Work", "work"), "partition": ("Body", "Temperatures", "divided")},
-)
+PART = Part(__name__, names={"friction": ("Work", "work"), "partition": ("Body", "Temperatures", "divided")})
 __all__, __getattr__, __dir__ = PART.face()

@@ -1,4 +1,4 @@
-"""Joints: what a structural analysis needs of a contact, and the structure itself.
+"""Joints: stiffness and damping of interfaces, and of vibrating structures with contacts.
 
 interface   contact stiffness, damping and real contact area of a rough interface per area (interfaces.py, by ways.py);
             its columns, elements and cards (properties.py)
@@ -17,7 +17,6 @@ from ...core.part import Part
 
 PART = Part(
     __name__,
-    "joints: stiffness and damping of interfaces, vibrating structures with contacts",
     names={
         "properties": ("Interface",),
         "interfaces": ("interface", "mirrored", "of_interface", "of_windows"),
@@ -34,7 +33,6 @@ PART = Part(
         "balance": ("Response", "forced"),
         "saved": ("Saved", "read"),
     },
-    command="petsam-joint",
     see=("petsam-surface", "petsam"),
     pictures={
         "pictures": ("backbone", "band", "conductance", "interface", "joint_wear", "response", "saved", "slip_zones")

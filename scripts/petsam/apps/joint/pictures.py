@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike
 
 from ...core.errors import Error
 from ...plot.fields import STATES
-from ...plot.style import COLORS, bar, drawn, joined, logarithmic, plt
+from ...plot.style import bar, colors, drawn, logarithmic, plt
 from ...plot.units import label as labelled
-from ...plot.units import on_axis, plain
+from ...plot.units import plain, scale
 from ...results.fields import OPEN, SLIP
 from .backbones import MODAL, Backbone
 from .balance import Response
@@ -28,6 +28,7 @@ from .wearing import Wear
 
 WHOLE = {"axes.formatter.useoffset": False}  # ticks have whole numbers, not what is beyond an offset
 THIN = {"markersize": 5.0, "linewidth": 1.0, "capsize": 3.0}
+RINGS = {"markersize": 5, "markerfacecolor": "white", "linewidth": 1.0, "zorder": 2}
 MARKS = "os^Dv"
 HATCH, HATCHED = "////", "0.25"  # of what slips
 
@@ -48,12 +49,12 @@ def interface(found: Interface) -> Figure:
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
     pressure = found.numbers["pressure"] / 1e6
     for axes, name, label, unit, color, look in (
-        (left, "k_n", "normal", 1e-12, COLORS[0], {"marker": "o"}),
-        (left, "k_n_loading", "normal, loading", 1e-12, COLORS[3], {"marker": "s"}),
+        (left, "k_n", "normal", 1e-12, colors()[0], {"marker": "o"}),
+        (left, "k_n_loading", "normal, loading", 1e-12, colors()[3], {"marker": "s"}),
         # the curves along x and y often lie on one another: the rings of x are around the crosses of y
-        (left, "k_t_x", "tangential, $x$", 1e-12, COLORS[1], {"marker": "o", "ms": 8.0}),
-        (left, "k_t_y", "tangential, $y$", 1e-12, COLORS[2], {"marker": "x", "linestyle": "--"}),
-        (right, "area", "real contact area", 100.0, COLORS[0], {"marker": "o"}),
+        (left, "k_t_x", "tangential, $x$", 1e-12, colors()[1], {"marker": "o", "ms": 8.0}),
+        (left, "k_t_y", "tangential, $y$", 1e-12, colors()[2], {"marker": "x", "linestyle": "--"}),
+        (right, "area", "real contact area", 100.0, colors()[0], {"marker": "o"}),
     ):
         if name not in found.numbers:
             continue
@@ -106,7 +107,7 @@ def backbone(found: Backbone) -> Figure:
     _changes(left, found.linear, "while all that touches sticks")
     label = "modal amplitude, 1e-6 m kg$^{1/2}$" if found.unit == MODAL else "amplitude, µm"
     for ax, values, above in ((left, _relative(found.frequency, found.linear), False), (right, damping, True)):
-        joined(ax, reach, values, COLORS[0], "o-")
+        ax.plot(reach, values, "o-", color=colors()[0], **RINGS)
         _say_last(ax, reach, values, above)
         ax.set_xlabel(label)
     logarithmic(left, "x")
@@ -147,7 +148,7 @@ def _line(left, right, x, fields, highest):
     """Pressure (MPa) and state of the cells of a section over x, mm; the states with the pressure as their height."""
     pressure, states = fields
     width = np.diff(x).mean()
-    left.step(x, pressure, where="mid", color=COLORS[0])
+    left.step(x, pressure, where="mid", color=colors()[0])
     for k, (_, tint) in STATES.items():
         chosen = (states == k) & (pressure > 0.0)
         look = {"hatch": HATCH, "edgecolor": HATCHED, "linewidth": 0.0} if k == SLIP else {}
@@ -218,7 +219,7 @@ def band(found: Band) -> Figure:
     for ax, name, (shown, factor) in zip(axes, NUMBERS, of_name):
         low, high = (shown(one) for one in found.limits(name))
         ax.fill_between(reach, low, high, color="0.85", label="all assemblies")
-        for color, mark, (assembly, one) in zip(COLORS, MARKS, found.backbones.items()):
+        for color, mark, (assembly, one) in zip(colors(), MARKS, found.backbones.items()):
             values = shown(one.numbers[name][: found.count])
             error = factor * found.deviation(name) if found.scatter and assembly == ASSEMBLED else None
             ax.errorbar(reach, values, error, color=color, label=assembly, marker=mark, markerfacecolor="none", **THIN)
@@ -245,10 +246,10 @@ def response(found: Response) -> Figure:
     matplotlib.figure.Figure
     """
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-    left.plot(found.frequency, 1e6 * found.amplitude, "o-", color=COLORS[0], markersize=4.0)
+    left.plot(found.frequency, 1e6 * found.amplitude, "o-", color=colors()[0], markersize=4.0)
     left.set(xlabel="frequency, Hz", ylabel="amplitude, µm")
     logarithmic(left, "y")
-    right.plot(found.frequency, np.degrees(found.phase), "o-", color=COLORS[0], markersize=4.0)
+    right.plot(found.frequency, np.degrees(found.phase), "o-", color=colors()[0], markersize=4.0)
     right.set(xlabel="frequency, Hz", ylabel="phase, degrees")
     return figure
 
@@ -271,7 +272,7 @@ def joint_wear(found: Wear) -> Figure:
     of_name = (_relative(found.frequency, first), 100.0 / first), (100.0 * found.damping, 100.0)
     for ax, name, (values, factor) in zip(axes, ("frequency", "damping"), of_name):
         error = factor * found.numbers[f"{name}_error"]
-        ax.errorbar(found.cycles, values, error, color=COLORS[0], marker="o", markerfacecolor="white", **THIN)
+        ax.errorbar(found.cycles, values, error, color=colors()[0], marker="o", markerfacecolor="white", **THIN)
         ax.set_xscale("symlog", linthresh=max(found.cycles[1], 1.0))
         ax.set(xlabel="cycles")
     _changes(axes[0], first, "without wear")
@@ -309,10 +310,10 @@ def saved(found: Saved) -> Figure:
     )
     figure, axes = plt.subplots(1, len(shown), figsize=(4.0 * len(shown), 3.4), layout="constrained", squeeze=False)
     for ax, column in zip(axes[0], shown):
-        for name, color, mark in zip(dict.fromkeys(curves), itertools.cycle(COLORS), itertools.cycle(MARKS)):
+        for name, color, mark in zip(dict.fromkeys(curves), itertools.cycle(colors()), itertools.cycle(MARKS)):
             x, y = (np.array(one.values)[curves == name] for one in (columns[below], column))
-            factors = [on_axis(one.unit, one.values) for one in (columns[below], column)]
-            joined(ax, factors[0][0] * x, factors[1][0] * y, color, mark + "-", label=name or None)
+            factors = [scale(one.unit, one.values, powers=True) for one in (columns[below], column)]
+            ax.plot(factors[0][0] * x, factors[1][0] * y, mark + "-", color=color, label=name or None, **RINGS)
         heads = [labelled(plain(one.name), unit) for one, (_, unit) in zip((columns[below], column), factors)]
         ax.set(xlabel=heads[0], ylabel=heads[1])
     if "assembly" in columns:
@@ -351,7 +352,7 @@ def conductance(*found: Interface) -> Figure:
             one.numbers["pressure"] / 1e6,
             one.numbers["h"],
             spread,
-            color=COLORS[k % len(COLORS)],
+            color=colors()[k % len(colors())],
             label=_conducting(one.conductors),
             **look,
         )

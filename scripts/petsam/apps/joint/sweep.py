@@ -1,5 +1,6 @@
 """The cycles of a structure that is loaded along one of its modes: Sweep."""
 
+import functools
 import warnings
 from dataclasses import dataclass
 
@@ -8,7 +9,7 @@ from numpy.linalg import norm
 
 from ...core.brief import brief
 from ...core.errors import Unusable
-from ...core.keywords import explained
+from ...core.keywords import unfolded
 from ...results.fields import SLIP
 from .arguments import integer
 from .structure import Structure
@@ -38,7 +39,7 @@ Raises
 Error
     For wrong values, and where the structure finds no equilibrium.
 """
-of_vibrations = explained(COMMON)
+of_vibrations = functools.partial(unfolded, common=COMMON)
 
 
 class BackboneWarning(UserWarning):

@@ -21,9 +21,7 @@ from ...core.part import Part
 
 PART = Part(
     __name__,
-    "load histories from the contact forces of a structural analysis",
     names={"forces": ("Forces",), "resultants": ("History", "history"), "reading": ("read",)},
-    command="petsam-loads",
     quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
     see=("petsam", "petsam-compliance"),

@@ -13,8 +13,8 @@ import numpy as np
 
 from ...core.decks import folded
 from ...core.errors import Error, counted, short, there_are
-from ...core.files import lines_of, text_of
-from ...core.texttable import split
+from ...core.files import text_of
+from ...core.texttable import Form
 from . import gathering
 from .texts import KNOWN, MOVED, NORMAL, SHEAR, STRESSES, X
 
@@ -45,7 +45,7 @@ def is_report(text):
 def is_values(text):
     """True if a text is a field output report in comma-separated values."""
     head, _, rest = text.lstrip().partition("\n")
-    words = {PLACES.get(word.lower()) for word in split(head)[0]}
+    words = {PLACES.get(word.lower()) for word in Form().words(head)}
     return {"label", "frame"} <= words and "Step Time" in rest.partition("\n")[0]
 
 
@@ -215,11 +215,11 @@ def _read_values(states, lines):
     """Reads comma-separated values into states; each field, or each frame, may have its own head."""
     places, names, count = {}, [], 0
     for k, line in enumerate(lines, 1):
-        words = split(line)[0]
+        words = Form().words(line)
         if not any(words):
             continue
         if any(PLACES.get(word.lower()) == "label" for word in words):
-            words, count = split(states.without_pairs(k, line))[0], len(words)
+            words, count = Form().words(states.without_pairs(k, line)), len(words)
             places = {PLACES.get(word.lower()): place for place, word in enumerate(words)}
             names = states.columns(k, ["" if word.lower() in PLACES else word for word in words])
             continue
@@ -237,9 +237,9 @@ def read(path, given):
     deck = gathering.of_deck(given, path) if given.deck else None
     states = _States(path, deck)
     if is_values(text):
-        _read_values(states, lines_of(text))
+        _read_values(states, text.split("\n"))
     else:
-        _Report(states, lines_of(text))
+        _Report(states, text.split("\n"))
     return _forces(states, given, deck)
 
 

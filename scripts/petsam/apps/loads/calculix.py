@@ -11,7 +11,7 @@ import re
 import numpy as np
 
 from ...core.errors import Error, short
-from ...core.files import lines_of, text_of
+from ...core.files import text_of
 from . import gathering
 
 PRINTED = re.compile(r"\s*(forces|displacements) \((?:fx,fy,fz|vx,vy,vz)\) for set (\S+) and time\s+(\S+)\s*")
@@ -110,7 +110,7 @@ class _Dat:
 
 def read_dat(path, given):
     """The Forces of a .dat."""
-    dat = _Dat(path, lines_of(text_of(path)))
+    dat = _Dat(path, text_of(path).split("\n"))
     length, force = given.size("length", path), given.size("force", path)
     if dat.pairs:
         rows, x = dat.of_pairs()
@@ -164,7 +164,7 @@ class _Frd:
 
 def read_frd(path, given):
     """The Forces of a .frd, whose mesh has the coordinates."""
-    frd = _Frd(path, lines_of(text_of(path)))
+    frd = _Frd(path, text_of(path).split("\n"))
     found = frd.tables["FORC"]
     if not found:
         raise Error(f"{path}: has no forces: write them by *NODE FILE with RF")

@@ -28,12 +28,13 @@ import sys
 import numpy as np
 
 from ...core import words
-from ...core.decks import BOX
-from ...core.errors import Error, counted, short
-from ...core.files import need_replaceable, same
+from ...core.decks import Box
+from ...core.errors import counted, short
+from ...core.files import need_replaceable
+from ...core.frames import Frame
 from ...core.line import Parser, word, wrote
 from ...core.units import shown
-from .resultants import ROUNDING
+from .resultants import ROUNDING, SYMBOLS
 
 PROGRAM = "petsam-loads"
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,59}")
@@ -45,7 +46,7 @@ def _patch(text):
     if not NAME.fullmatch(name) or equal and not where:
         raise words.WordError(text, "NAME, NAME=SET or NAME=X,Y,Z:X,Y,Z, a name of letters, digits, _, . and -")
     where = where or name
-    if ":" in where and "," in where and not BOX.fullmatch(where):
+    if ":" in where and "," in where and not Box.of(where):
         raise words.WordError(text, "a box of two corners, NAME=0,0,0:4,4,0")
     return name, where
 
@@ -71,7 +72,7 @@ def parser():
     )
     patch.add_argument(
         "--frame",
-        type=word(words.frame, besides=("auto",)),
+        type=word(Frame.read, besides=("auto",)),
         action="append",
         metavar="ORIGIN[:X[:Z]]",
         help="of the contact, or auto; one for all patches, or one for each, in their order",
@@ -132,7 +133,6 @@ def _span(values, unit, small=0.0):
 def description(found):
     """Returns lines that describe a History."""
     turns = {name: len(rows) for name, rows in found.turns().items()}
-    names = {"load_n": "N", "load_tx": "T_x", "load_ty": "T_y", "load_mx": "M_x", "load_my": "M_y", "load_mz": "M_z"}
     nodes, rows = counted(len(found.x), "node"), counted(len(found.times), "row")
     reverse = ", reversed" if found.on == "body1" else ""
     lines = [
@@ -141,7 +141,7 @@ def description(found):
     ]
     for column, small in zip(found.table()[1:7], found.rounding):
         turned = counted(turns[column.name], "reversal")
-        lines.append(f"{names[column.name]:<11} {_span(column.values, column.unit, small)}, {turned}")
+        lines.append(f"{SYMBOLS[column.name]:<11} {_span(column.values, column.unit, small)}, {turned}")
     if np.any(np.isfinite(found.friction)):
         center = found.center[np.isfinite(found.center[:, 0])]
         way, small = np.max(np.linalg.norm(center - center[0], axis=1)), ROUNDING * np.max(np.abs(found.extent))
@@ -156,16 +156,14 @@ def description(found):
 def carry_out(options):
     """Reads, sums, writes, draws and prints."""
     from ...plot.saving import write
-    from ...results.stresses import open_any as open_results
+    from ...results.file import Results
     from .. import loads
     from . import pictures
 
     for _, _, output in options.wanted:
         drawn = [] if options.no_picture else [_picture(output)]
         for name in [output, *drawn] + ([_beside(output)] if options.compare else []):
-            if any(same(name, path) for path in (options.file, options.deck, options.compare) if path):
-                raise Error(f"{name}: is an input file; choose another name by --output")
-            need_replaceable(name)
+            need_replaceable(name, (options.file, options.deck, options.compare))
     forces = loads.read(options.file, deck=options.deck, length=options.length, force=options.force)
     results = [
         (loads.history(forces, frame=axes, patch=where, on=options.on, name=name), output)
@@ -182,7 +180,7 @@ def carry_out(options):
             write(pictures.loads(found), _picture(output), options.dpi)
             wrote(_picture(output))
         if options.compare:
-            with open_results(options.compare) as results:
+            with Results(options.compare) as results:
                 write(pictures.loads_beside(found, results), _beside(output), options.dpi)
             wrote(_beside(output))
 

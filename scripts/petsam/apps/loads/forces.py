@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...core.decks import BOX, folded, inside
+from ...core.decks import Box, folded
 from ...core.errors import Error, counted, short, there_are
 
 
@@ -77,8 +77,8 @@ class Forces:
             return np.arange(len(self.labels))
         if not isinstance(patch, str):
             patch = ":".join(",".join(repr(float(value)) for value in point) for point in patch)
-        if BOX.fullmatch(patch):
-            found, what = np.flatnonzero(inside(self.start / self.length, patch)), "box"
+        if box := Box.of(patch):
+            found, what = np.flatnonzero(box.inside(self.start / self.length)), "box"
         else:
             found, what = self.sets.get(folded(patch)), "set"
         if found is None:

@@ -3,21 +3,22 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLORS, curve, drawn, note, plt
-from ...plot.symbols import scalar
+from ...plot.style import colors, curve, drawn, note, plt
 from ...plot.units import label, plain, scale
 from ...results.file import Results
-from .resultants import History
+from .resultants import SYMBOLS, History
 
 NODES = 4000  # that are drawn
 
 
 def _over_time(panel, found, names, unit):
     """Loads over time, by their columns."""
-    for name, tint in zip(names, COLORS):
+    for name, tint in zip(names, colors()):
         values = next(column.values for column in found.table() if column.name == name)
-        panel.plot(found.times, unit[0] * np.array(values), color=tint, label=scalar(name), **curve(found.times.size))
-    what = scalar(names[0]) if len(names) == 1 else "tangential force"
+        panel.plot(
+            found.times, unit[0] * np.array(values), color=tint, label=f"${SYMBOLS[name]}$", **curve(found.times.size)
+        )
+    what = f"${SYMBOLS[names[0]]}$" if len(names) == 1 else "tangential force"
     panel.set(xlabel=label("time", "s"), ylabel=label(what, unit[1]))
     if len(names) > 1:
         panel.legend()
@@ -37,7 +38,7 @@ def _center(panel, found):
     unit = scale("m", found.x[:, :2] if np.any(found.x[:, :2]) else found.center)
     few = found.x[:: max(1, len(found.x) // NODES)]
     panel.plot(unit[0] * few[:, 0], unit[0] * few[:, 1], ".", color="0.75", markersize=2.5, label="nodes")
-    _path(panel, *found.center.T, unit, COLORS[3])
+    _path(panel, *found.center.T, unit, colors()[3])
     panel.set(xlabel=label("$x$", unit[1]), ylabel=label("$y$", unit[1]), title="centre of the contact")
     panel.set_aspect("equal", adjustable="datalim")
     panel.legend()
@@ -62,8 +63,8 @@ def loads(found: History) -> Figure:
     _over_time(top, found, ["load_tx", "load_ty"], shear)
     _over_time(low, found, ["load_n"], normal)
     t_x, t_y = tangential.T
-    _path(side, t_x, t_y, shear, COLORS[2])
-    side.set(xlabel=label(scalar("load_tx"), shear[1]), ylabel=label(scalar("load_ty"), shear[1]))
+    _path(side, t_x, t_y, shear, colors()[2])
+    side.set(xlabel=label("$T_x$", shear[1]), ylabel=label("$T_y$", shear[1]))
     side.set_aspect("equal", adjustable="datalim")
     side.legend()
     _center(last, found)
@@ -93,8 +94,10 @@ def loads_beside(found: History, results: Results) -> Figure:
     figure, panels = plt.subplots(1, 2, figsize=(9.6, 4.0), layout="constrained")
     for panel, name, symbol in zip(panels, ours, ("$p$", "$|q|$")):
         unit = scale("Pa", ours[name], nodes[name])
-        panel.plot(length[0] * results.x, unit[0] * ours[name], color=COLORS[0], label="petsam")
-        panel.plot(length[0] * nodes["x"], unit[0] * nodes[name], "o", color=COLORS[1], markersize=4, label="analysis")
+        panel.plot(length[0] * results.x, unit[0] * ours[name], color=colors()[0], label="petsam")
+        panel.plot(
+            length[0] * nodes["x"], unit[0] * nodes[name], "o", color=colors()[1], markersize=4, label="analysis"
+        )
         panel.set(xlabel=label("$x$", length[1]), ylabel=label(f"{name} {symbol}", unit[1]))
         panel.legend()
     note(figure, f"{plain(found.name)}: along $y$ = 0, {plain(results.when(-1))}")

@@ -28,6 +28,7 @@ from .forces import Forces
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 UNITS = ("N", "N", "N", "N m", "N m", "N m")
+SYMBOLS = {"load_n": "N", "load_tx": "T_x", "load_ty": "T_y", "load_mx": "M_x", "load_my": "M_y", "load_mz": "M_z"}
 TEXTS = (
     "normal force, positive where it presses", "tangential force along x", "tangential force along y",
     "moment about x", "moment about y", "moment about the normal",

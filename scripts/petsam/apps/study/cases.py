@@ -22,7 +22,7 @@ from typing import NamedTuple, Optional
 
 from ...core import declared
 from ...core.errors import Error, short
-from ...core.files import decoded, lines_of, need_regular
+from ...core.files import decoded, need_regular
 from .expressions import Expander, names_in
 from .reading import TableError, read_csv, read_yaml
 
@@ -321,7 +321,7 @@ def _check_name(name, where, seen):
 
 def _columns(text):
     """Returns the names of a history's columns; none if it has no line of names."""
-    lines = (line.split("#")[0].strip() for line in lines_of(text))
+    lines = (line.split("#")[0].strip() for line in re.split(r"[\r\n]+", text))
     return re.split(r"[,;\s]+", next(filter(None, lines), ""))
 
 

@@ -14,7 +14,6 @@ import yaml
 from ...core import environment
 from ...core import options as command_line
 from ...core.errors import Error
-from ...core.files import same
 from ...results.studies import Study as Results
 from . import tables
 from .cases import Case, common_options, read
@@ -88,11 +87,7 @@ class Jobs:
         if os.path.lexists(self.directory) and not os.path.isdir(self.directory):
             raise Error(f"{self.directory}: is not a folder; choose another by --directory")
         os.makedirs(self.directory, exist_ok=True)
-        for name in ("results.csv", "results.h5"):
-            path = os.path.join(self.directory, name)
-            if same(path, self.table) or same(path + ".tmp", self.table):
-                raise Error(f"{self.table}: would be replaced by the results; choose another folder by --directory")
-        check_folders(self.directory, cases)
+        check_folders(self.directory, cases, self.table)
 
     def due(self, cases: Sequence[Case]) -> list[Case]:
         """The cases that have to be run.

@@ -22,6 +22,7 @@ from ...core.errors import Error, short
 from ...core.files import need_regular, need_replaceable
 
 LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
+LATER = "results.part{}.h5"  # of a run that went on, from 2 on
 STRESSES = "stress.h5"  # of petsam-stress, if the table requests it
 STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
 MEANINGS = {
@@ -130,11 +131,12 @@ def grace():
     return GRACE if end is None else max(1.0, end - time.time() - RESERVE)
 
 
-def check_folders(directory, cases):
-    """Raises Error, before any case runs, if a result or a case would replace another file."""
+def check_folders(directory, cases, table):
+    """Raises Error, before any case runs, if a result or a case would replace another file, or the study's table."""
     for name in ("results.csv", "results.h5"):
         for path in (os.path.join(directory, name), os.path.join(directory, name + ".tmp")):
-            need_replaceable(path)
+            said = f"{table}: would be replaced by the results; choose another folder by --directory"
+            need_replaceable(path, [table], Error(said))
     for case in cases:
         folder = os.path.join(directory, case.name)
         if os.path.lexists(folder) and not os.path.isdir(folder):
@@ -195,7 +197,7 @@ class Run:
         if checkpoint_every and record(directory, self.case) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
             return True
         for name in os.listdir(self.folder):
-            begins = (os.path.splitext(CHECKPOINT)[0], os.path.splitext(RESULTS)[0] + ".part")
+            begins = (os.path.splitext(CHECKPOINT)[0], LATER.partition("{")[0])
             if name in (RESULTS, RECORD, LOG, STRESSES) or name.startswith(begins):
                 os.remove(os.path.join(self.folder, name))
         return False

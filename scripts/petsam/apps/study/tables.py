@@ -28,13 +28,13 @@ import numpy as np
 from ...core.errors import Error
 from ...core.hdf5 import DAMAGED, replacing
 from ...core.tables import Column, csv_text
-from ...results import cycles, parts, sliding
+from ...results import cycles, sliding
 from ...results.file import Results
 from ...results.stresses import Stresses
 from .expressions import Expander
-from .runs import RESULTS, STRESSES, record, write_atomically
+from .runs import LATER, RESULTS, STRESSES, record, write_atomically
 
-ENERGY = cycles.ENERGY
+ENERGY = "dissipated_energy"
 GROSS = re.compile(r"(step \d+: )?gross slip: ")  # what petsam says of a load that cannot be balanced
 
 
@@ -266,7 +266,7 @@ def _link_parts(links, directory, case):
     while number == 1 or os.path.exists(os.path.join(directory, case, file)):
         links[case if number == 1 else f"{case}.part{number}"] = h5py.ExternalLink(os.path.join(case, file), "/")
         number += 1
-        file = parts.name_of(RESULTS, number)
+        file = LATER.format(number)
 
 
 def write(directory, cases, study, figures=LAST):

@@ -1,4 +1,4 @@
-"""Height maps for petsam: petsam-surface.
+"""Measured and random surfaces as files of petsam: petsam-surface.
 
     import petsam
     one = petsam.surface.read("rough.npy", units="um", size="1mm", body=2).fill().level("tilt").resample((512, 512))
@@ -26,9 +26,7 @@ from ...core.part import Part
 
 PART = Part(
     __name__,
-    "measured and random surfaces as files of petsam",
     names={"maps": ("Map", "combined"), "reading": ("read", "read_hdf5", "read_values"), "readers": ("FORMATS",)},
-    command="petsam-surface",
     quiet=True,
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
     see=("petsam", "petsam-joint"),

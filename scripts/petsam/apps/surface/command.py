@@ -24,7 +24,7 @@ import numpy as np
 
 from ...core import words
 from ...core.errors import Error, short
-from ...core.files import need_replaceable, same
+from ...core.files import need_replaceable
 from ...core.hdf5 import need_own
 from ...core.line import Parser, word, wrote
 from ...core.roughness import self_affine
@@ -328,13 +328,9 @@ def _both(one, name, grid):
 
 def carry_out(options, words):
     """Read, combine, write, draw and print."""
-    outputs = [options.output] + ([] if options.no_picture else [options.picture])
-    for name in outputs:
-        if any(same(name, path) for path in options.files):
-            raise Error(f"{name}: is an input file; choose another name by --output")
+    for name in [options.output] + ([] if options.no_picture else [options.picture]):
+        need_replaceable(name, options.files)
     need_own(options.output, writing.SIGN, "petsam-surface")
-    if not options.no_picture:
-        need_replaceable(options.picture)
     maps = [prepared(path, options, body) for path, body in zip(options.files, options.body or [None, None])]
     maps = maps or [random_map(options)]
     one = maps[0] if len(maps) == 1 else combined(*maps)

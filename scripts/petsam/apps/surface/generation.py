@@ -16,7 +16,6 @@ from scipy.optimize import least_squares
 from scipy.special import ndtr
 
 from ...core.errors import Error
-from ...core.roughness import RESOLVED
 from ...core.texttable import Text
 from ...core.units import shown
 
@@ -77,10 +76,10 @@ def heights(spectrum, n, size, shortest, seed=0, rms=None):
     """Heights (ny, nx), m, with mean 0, of waves down to the shortest; scaled to the rms height (m) if given."""
     counts = [int(np.floor(side / shortest * (1.0 + 1e-9))) for side in size]
     for count, cells, side in zip(counts, n, size):
-        if cells < RESOLVED * count + 1:
+        if cells < 2 * count + 1:
             raise Error(
                 f"the shortest wavelength {shown(shortest)} has {cells / side * shortest:.3g} cells of the grid; "
-                f"use more than {RESOLVED:g}: a finer --grid-n, or longer --wavelengths"
+                "use more than 2: a finer --grid-n, or longer --wavelengths"
             )
         if count > MOST:
             raise Error(f"{count} waves along a side of {shown(side)}; use at most {MOST}: longer --wavelengths")

@@ -8,7 +8,7 @@ import re
 from typing import NamedTuple, Optional
 
 from ...core.errors import Error, short
-from ...core.texttable import Form, split
+from ...core.texttable import Form
 from ...core.units import NUMBER
 from ...core.units import size as metres
 
@@ -192,7 +192,7 @@ def of_columns(path, lines, count):
     """The Header that the heads of so many columns give, x (and y) and the heights: `x [um],y [um],z [nm]`."""
     heights = 1 if count == 2 else 2  # the column of the heights, from 0
     for number, line in reversed(lines):
-        words = split(line.strip().lstrip("".join(Form.comments)).strip())[0]
+        words = Form().words(line.strip().lstrip("".join(Form.comments)).strip())
         found = OF_UNIT.findall(line)
         if len(words) == count or len(words) > count and len(found) <= heights:  # else blanks are within the heads
             found = [AT_END.search(" " + word) for word in words[:count]]

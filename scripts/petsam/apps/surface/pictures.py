@@ -6,7 +6,7 @@ from matplotlib.ticker import FixedLocator, MaxNLocator
 from mpl_toolkits.axes_grid1 import make_axes_locatable
 
 from ...core.units import shown
-from ...plot.style import COLORS, drawn, extent, field, note, plt
+from ...plot.style import colors, drawn, extent, field, note, plt
 from ...plot.units import label, scale
 from .basics import QUANTITIES
 from .maps import Map, peak_to_valley, rms_height, rms_slope
@@ -43,12 +43,12 @@ def _profiles(axes, one, lateral, height):
     texts = ("y = {}", "x = {}")
     places = (one.axis(1)[row], one.axis(0)[column])
     if one.is_profile:
-        axes.plot(one.axis(0) * lateral[0], one.values[0] * height[0], color=COLORS[0], linewidth=1.0)
+        axes.plot(one.axis(0) * lateral[0], one.values[0] * height[0], color=colors()[0], linewidth=1.0)
         axes.set(xlabel=label("x", lateral[1]), ylabel=_quantity(one, height[1]))
         return
     for d, values in enumerate((one.values[row], one.values[:, column])):
         name = f"along {'xy'[d]}, " + texts[d].format(shown(places[d])).replace(" um", " µm")
-        axes.plot(one.axis(d) * lateral[0], values * height[0], color=COLORS[d], linewidth=1.0, label=name)
+        axes.plot(one.axis(d) * lateral[0], values * height[0], color=colors()[d], linewidth=1.0, label=name)
     axes.set(xlabel=label("x or y", lateral[1]), ylabel=_quantity(one, height[1]))
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)  # where no curve can be
 

@@ -3,7 +3,6 @@
 import numpy as np
 
 from ...core.hdf5 import replacing
-from ...core.version import __version__
 from .basics import QUANTITIES
 
 SIGN = "petsam_surface"  # root attribute by which a file of this command is known
@@ -16,8 +15,7 @@ def dataset(one):
 
 def write(one, path, command):
     """The map; command: the words that made it. A file of that name is replaced when all is written."""
-    with replacing(path) as file:
-        file.attrs[SIGN] = __version__
+    with replacing(path, SIGN) as file:
         file.attrs["command"] = command
         data = file.create_dataset(dataset(one), data=np.asarray(one.values, dtype=np.float64))
         data.attrs.update(units="m", quantity=one.quantity, long_name=QUANTITIES[one.quantity])

@@ -47,7 +47,6 @@ from ...core.part import Part
 
 PART = Part(
     __name__,
-    "wheel and rail: patches, creepages, forces and wear of a wheelset",
     names={
         "profile": ("Profile", "ProfileWarning"),
         "reading": ("read",),
@@ -66,7 +65,6 @@ PART = Part(
         "wearing": ("Worn", "wear"),
         "creep": ("CreepTable", "FallingFriction"),
     },
-    command="petsam-wheel",
     libraries=("numpy", "h5py", "matplotlib", "scipy"),
     pictures={"pictures": ("over_y", "wheels", "worn_profile")},
 )

@@ -39,7 +39,7 @@ import numpy as np
 
 from ...core.environment import cores as all_cores
 from ...core.errors import Error, Unusable, short
-from ...core.files import need_replaceable, same
+from ...core.files import need_replaceable
 from ...core.line import Parser, wrote
 from ...core.progress import Progress
 from .inputs import need_ready, states_of, vehicle_of
@@ -87,9 +87,8 @@ def _outputs(options):
     if options.wear is not None:
         endings += ["-wear.csv", *(["-wear.png"] if options.distance and not options.no_picture else [])]
     for name in (options.output + ending for ending in endings):
-        if any(same(name, path) for path in (*options.wheel, *options.rail, options.table) if path):
-            raise Unusable(f"-o {short(options.output)}: {name} would replace a file that is read: choose another name")
-        need_replaceable(name)
+        said = f"-o {short(options.output)}: {name} would replace a file that is read: choose another name"
+        need_replaceable(name, (*options.wheel, *options.rail, options.table), Unusable(said))
     return endings
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core import units
 from ...core.errors import Error, Unusable, short
-from ...core.files import lines_of, text_of
+from ...core.files import text_of
 from .columns import DIRECTIONS
 from .profile import KINDS, Profile, Taken
 from .words import split_numbers
@@ -26,7 +26,7 @@ def is_one(path: str) -> bool:
     """True if a file is one of MiniProf, by its ending or its line ColumnDef."""
     if os.path.splitext(path)[1].lower() in ENDINGS:
         return True
-    return any(re.match(r"\s*ColumnDef\s*=", line, re.I) for line in lines_of(text_of(path)))
+    return any(re.match(r"\s*ColumnDef\s*=", line, re.I) for line in text_of(path).split("\n"))
 
 
 def read(path: str, kind: str, unit: str = "", z: str = "") -> Profile:
@@ -57,7 +57,7 @@ def _convex(points):
 
 def _points(path):
     """X and Y of the points, (n, 2)."""
-    lines = lines_of(text_of(path))
+    lines = text_of(path).split("\n")
     stated, first = _header(path, lines)
     count = None
     if stated.get("columndef"):

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ...core.errors import Error
-from ...plot.style import COLORS, bar, curve, drawn, field, plt
+from ...plot.style import bar, colors, curve, drawn, field, plt
 from .batch import Batch, Vehicle
 from .conicity import Geometry, equivalent_conicity
 from .equilibrium import Equilibrium
@@ -59,12 +59,12 @@ def _section(axes, vehicle, found, result, sign):
     y, z = sign * wheel.section.y, wheel.section.z + wheel.radius
     c, s = np.cos(found.position.roll), np.sin(found.position.roll)
     down = found.position.z - wheel.radius
-    axes.plot(1e3 * (c * y - s * z + found.position.y), 1e3 * (s * y + c * z + down), color=COLORS[0], label="wheel")
+    axes.plot(1e3 * (c * y - s * z + found.position.y), 1e3 * (s * y + c * z + down), color=colors()[0], label="wheel")
     for k, patch in enumerate(result.patches):
         touching = patch.grid_s[patch.pressure.max(axis=1) > 0.0]
         ends = np.array([touching.min(), touching.max()])
         along, down = patch.y + ends * np.cos(patch.angle), patch.z + ends * np.sin(patch.angle)
-        axes.plot(1e3 * along, 1e3 * down, color=COLORS[1], linewidth=4.0, label="" if k else "patch")
+        axes.plot(1e3 * along, 1e3 * down, color=colors()[1], linewidth=4.0, label="" if k else "patch")
     middle = 1e3 * sign * 0.5 * (section.first + section.last)
     axes.set(xlim=(middle - 1e3 * REACH, middle + 1e3 * REACH), ylim=(30.0, -15.0))
     vertical = result.force[2] / 1e3
@@ -113,17 +113,17 @@ def over_y(shape: Geometry, batch: Optional[Batch] = None, amplitudes: Sequence[
     (left, right), (low, last) = panels
     y = 1e3 * shape.y
     middle = 1e3 * 0.5 * float(shape.points[0].max() + shape.points[0].min())
-    for values, sign, name, color in zip(shape.points, (1.0, -1.0), ("right", "left"), COLORS):
+    for values, sign, name, color in zip(shape.points, (1.0, -1.0), ("right", "left"), colors()):
         left.plot(y, 1e3 * sign * values - middle, color=color, label=f"{name} wheel")
     left.set(ylabel=f"contact, abs($y$) - {middle:.1f} mm, mm", title="contact points")
     left.legend()
-    right.plot(y, 1e3 * shape.radius_difference, color=COLORS[0])
+    right.plot(y, 1e3 * shape.radius_difference, color=colors()[0])
     right.set(ylabel="right less left, mm", title="rolling radius difference")
     found = equivalent_conicity(shape.y, shape.radius_difference, amplitudes, shape.radius)
-    low.plot(1e3 * np.asarray(amplitudes), found, color=COLORS[0])
+    low.plot(1e3 * np.asarray(amplitudes), found, color=colors()[0])
     low.set(xlabel="amplitude, mm", ylabel=r"tan $\gamma_e$", title="equivalent conicity, EN 15302", ylim=(0.0, None))
     if batch is None:
-        last.plot(y, 1e3 * shape.roll, color=COLORS[0])
+        last.plot(y, 1e3 * shape.roll, color=colors()[0])
         last.set(ylabel="mrad", title="roll")
     else:
         _work(last, batch)
@@ -136,7 +136,7 @@ def _work(axes, batch):
     """T-gamma of both wheels over the lateral displacement."""
     at = np.array([state.position.y for state in batch.states])
     order = np.argsort(at)
-    for side, color in zip(("right", "left"), COLORS):
+    for side, color in zip(("right", "left"), colors()):
         sums = []
         for one in batch.found:
             columns = {column.name: column.values for column in one.value or ()}
@@ -165,13 +165,13 @@ def worn_profile(found: Worn) -> Figure:
     figure, (above, below) = plt.subplots(2, 1, figsize=(8.0, 5.8), sharex=True, layout="constrained")
     above.plot(1e3 * found.new.y, 1e3 * found.new.z, color="0.35", label="new")
     text = f"after {found.distance / 1e3:,.6g} km"
-    above.plot(1e3 * found.worn.y, 1e3 * found.worn.z, color=COLORS[1], label=text)
+    above.plot(1e3 * found.worn.y, 1e3 * found.worn.z, color=colors()[1], label=text)
     above.invert_yaxis()
     above.set(ylabel="$z$, mm", aspect="equal", adjustable="datalim")
     above.legend()
     y, depth, error = 1e3 * found.new.y, 1e6 * found.depth, 1e6 * found.error
-    below.fill_between(y, depth - error, depth + error, color=COLORS[0], alpha=0.3, label="error by half the jumps")
-    below.plot(y, depth, color=COLORS[0], label="worn depth")
+    below.fill_between(y, depth - error, depth + error, color=colors()[0], alpha=0.3, label="error by half the jumps")
+    below.plot(y, depth, color=colors()[0], label="worn depth")
     below.set(xlabel="$y$ of the profile, mm", ylabel="depth, µm")
     below.legend()
     return figure

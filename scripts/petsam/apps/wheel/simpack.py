@@ -13,7 +13,7 @@ import numpy as np
 
 from ...core import units
 from ...core.errors import Error, short, there_are
-from ...core.files import lines_of, text_of
+from ...core.files import text_of
 from .columns import weights_of
 from .profile import KINDS, Profile, ProfileWarning
 
@@ -48,7 +48,7 @@ def read(path: str) -> Profile:
 def _parsed(path):
     """Kind, numbers and points of a file."""
     found, section = _File(), ""
-    for number, line in enumerate(lines_of(text_of(path)), 1):
+    for number, line in enumerate(text_of(path).split("\n"), 1):
         words = _uncommented(line)
         if not words:
             continue

@@ -4,9 +4,7 @@ from ...core.part import Part
 
 PART = Part(
     __name__,
-    "settling of a load history",
     names={"settling": ("Settling", "settling")},
-    command="petsam-one",
     pictures={"pictures": ("settled",)},
     tables={"Settling": ("settling_cycle",)},
 )

@@ -6,7 +6,7 @@ Cycles begin at reversals of the displacement that does the most work.
 """
 
 from ...core.line import Parser
-from ...results.file import Results
+from ...results import Results
 from .settling import settling
 
 

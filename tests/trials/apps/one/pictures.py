@@ -1,12 +1,10 @@
 """The picture of a settling."""
 
-from matplotlib.figure import Figure
-
 from ...plot.style import plt
 from .settling import Settling
 
 
-def settled(found: Settling) -> Figure:
+def settled(found: Settling) -> plt.Figure:
     """Energies over the cycles."""
     figure, panel = plt.subplots()
     panel.plot(found.settling_cycle, found.ratio, "o")

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.tables import Tabled, column
-from ...results import cycles
-from ...results.file import Results
+from ...results import Results, cycles
 
 
 @dataclass

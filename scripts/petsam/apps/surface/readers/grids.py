@@ -3,7 +3,7 @@
 import numpy as np
 
 from ....core.errors import Error, short
-from ....core.files import lines_of, text_of
+from ....core.files import text_of
 from .stated import Reader, Stated
 
 BLANK = 1.70141e38  # of Surfer's missing points; larger ones, too
@@ -33,7 +33,7 @@ class Esri(Reader):
     def read(self, source):
         """The header's words, and the numbers after it."""
         path = source.path
-        lines = [line.split() for line in lines_of(text_of(path)) if line.strip()]
+        lines = [line.split() for line in text_of(path).split("\n") if line.strip()]
         header = {line[0].lower(): line[1] for line in lines[:8] if len(line) == 2 and line[0][0].isalpha()}
         try:
             nx, ny, cell = (kind(header[name]) for kind, name in ((int, "ncols"), (int, "nrows"), (float, "cellsize")))
