@@ -228,24 +228,7 @@ class SpencePunch:
         return fields
 
 
-def full_stick_load(beta: float) -> float:
-    """The load of a flat punch without slip over the frictionless one, ln((1 + beta)/(1 - beta))/(2 beta)
-    (Mossakovskii).
-
-    Parameters
-    ----------
-    beta : float
-        Dundurs' second constant, not 0.
-
-    Returns
-    -------
-    float
-        Ratio of the loads.
-    """
-    return np.arctanh(beta) / beta
-
-
-__all__ = ["SpencePunch", "full_stick_load", "goodman_friction", "goodman_ratio", "spence_friction", "spence_punch"]
+__all__ = ["SpencePunch", "goodman_friction", "goodman_ratio", "spence_friction", "spence_punch"]
 
 
 def __dir__():
