@@ -4,7 +4,7 @@
  */
 #include "contacts.h"
 
-#include "../../src/run/steps/simulationimpl.h"
+#include "../../src/run/simulation/run.h"
 #include <signal.h>
 #include <unistd.h>
 
