@@ -1,7 +1,7 @@
 /* Temperatures by moving heat on cells against closed solutions, and its partition between two bodies. */
 #include "fields.h"
 
-#include <petsam/private/heat.h>
+#include "../../src/laws/heat/heat.h"
 
 #include <math.h>
 

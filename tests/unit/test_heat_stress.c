@@ -1,7 +1,7 @@
 /* Thermal stress below the surface, against reference values, derivatives of a potential, and other grids. */
 #include "fields.h"
 
-#include <petsam/private/heat.h>
+#include "../../src/laws/heat/heat.h"
 #include <petsam/private/stress.h>
 
 #include <complex.h>

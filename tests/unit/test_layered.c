@@ -6,7 +6,7 @@
 #include "preconditioners.h"
 
 #include <petsam/private/elasticityimpl.h>
-#include <petsam/private/layered.h>
+#include "../../src/bodies/layered/layered.h"
 #include <petsam/private/stress.h>
 #include <petsam/private/body.h>
 

@@ -4,7 +4,7 @@
 */
 #include "fields.h"
 
-#include <petsam/private/layered.h>
+#include "../../src/bodies/layered/layered.h"
 #include <petsam/private/stressimpl.h>
 
 enum { COMPONENTS = SAM_STRESS_COMPONENTS, GROUP = SAM_STRESS_GROUP, LAGS = 40 };

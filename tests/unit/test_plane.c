@@ -2,7 +2,7 @@
 #include "elasticities.h"
 #include "preconditioners.h"
 
-#include <petsam/private/layered.h>
+#include "../../src/bodies/layered/layered.h"
 
 #include <math.h>
 

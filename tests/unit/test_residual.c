@@ -5,7 +5,7 @@
 #include "elasticities.h"
 
 #include "../../src/laws/plastic/images.h"
-#include <petsam/private/layered.h>
+#include "../../src/bodies/layered/layered.h"
 
 #define MU 1.0
 #define NU 0.3

@@ -9,7 +9,7 @@
               centres of seven cells, by central differences: (d/2)/asinh(d/2) = 1 + d^2/24 - 17 d^4/5760 + ...
   For an image, whose integral is known, the relative error is 1e-13.
 */
-#include <petsam/private/layered.h>
+#include "layered.h"
 #include <petsam/private/body.h>
 #include <petscdt.h>
 

@@ -28,7 +28,7 @@
 
   Source: O'Sullivan and King 1988, J. Tribol. 110, 235.
 */
-#include <petsam/private/layered.h>
+#include "layered.h"
 #include <petsam/private/stressimpl.h>
 #include <petsam/private/body.h>
 

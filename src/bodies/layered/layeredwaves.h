@@ -3,7 +3,7 @@
 #define PETSAM_LAYEREDWAVES_H
 
 #include "../elasticity/waves.h"
-#include <petsam/private/layered.h>
+#include "layered.h"
 
 /*
   SamLayeredSymbolSet - gives a symbol whose `step` is set the tables of layered bodies, and extends these to all waves

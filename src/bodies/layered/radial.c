@@ -16,7 +16,7 @@
   Along a line, (1/pi) int g cos kr dk and (1/pi) int g sin kr dk are such transforms of g sqrt(2 pi k) of the orders n
   - 1/2, n = 0 and 1, times sqrt(r), and use the same table. Its images are Z/(pi rho^2) and r/(pi rho^2).
 */
-#include <petsam/private/layered.h>
+#include "layered.h"
 #include <complex.h>
 #include <fftw3.h>
 

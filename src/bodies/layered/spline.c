@@ -7,7 +7,7 @@
   and are converted to powers of t, -1 <= t <= 1, for Horner's scheme: consecutive arguments of one interval are
   processed together, without roots or logarithms.
 */
-#include <petsam/private/layered.h>
+#include "layered.h"
 
 #define POINTS (SAM_SPLINE_DEGREE + 1)
 #define BITS   49 /* number of bits below the exponent and the three leading bits */

@@ -2,7 +2,7 @@
 #ifndef PETSAM_CONTACTHEAT_H
 #define PETSAM_CONTACTHEAT_H
 
-#include <petsam/private/heat.h>
+#include "heat.h"
 
 /*
   SamHeatFriction - the change of the coefficient of friction: none up to the temperature `from`, `change` above `from`

@@ -2,7 +2,7 @@
 #ifndef PETSAM_EXPANSION_H
 #define PETSAM_EXPANSION_H
 
-#include <petsam/private/heat.h>
+#include "heat.h"
 
 /*
   SamExpansionTable - displacements of the surface by unit flux on one cell, in rows of lags (receiver minus source):

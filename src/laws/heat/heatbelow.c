@@ -3,7 +3,7 @@
   body (private/stresspart.h). The temperature is that of the heat into the body, on a half-space whose material moves
   along x (heatoperator.c); the stress is that of a body that expands (thermalstress.c).
 */
-#include <petsam/private/heat.h>
+#include "heat.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/body.h>
 #include <petsam/private/grid.h>

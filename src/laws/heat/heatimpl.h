@@ -2,7 +2,7 @@
 #ifndef PETSAM_HEATIMPL_H
 #define PETSAM_HEATIMPL_H
 
-#include <petsam/private/heat.h>
+#include "heat.h"
 
 struct _n_SamConductor {
   SamGrid     grid;
