@@ -270,8 +270,3 @@ PetscErrorCode SamLevelIterated(SamSolver s, SamLevel *level, PetscReal error)
   for (PetscInt m = 0; m < s->monitors; m++) PetscCall(s->monitor[m](s, s->iterations, error, s->monitor_context[m]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-PetscBool SamLevelAtMaxIterations(SamSolver s, const SamLevel *level)
-{
-  return level->finest && s->iterations >= SamSolverMaxIterations(s);
-}

@@ -175,6 +175,11 @@ PetscInt SamSolverMaxIterations(SamSolver s)
   return s->effort == SAM_EFFORT_FEW_ITERATIONS ? PetscMin(most, BRIEF) : most;
 }
 
+PetscBool SamLevelAtMaxIterations(SamSolver s, const SamLevel *level)
+{
+  return level->finest && s->iterations >= SamSolverMaxIterations(s);
+}
+
 PetscInt SamSolverLevels(SamSolver s)
 {
   return s->levels ? s->levels : s->default_levels;

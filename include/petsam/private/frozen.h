@@ -152,8 +152,12 @@ PETSC_INTERN PetscErrorCode SamFrozenSetBorder(SamFrozen *frozen, PetscInt count
 PETSC_INTERN PetscErrorCode SamFrozenClearBorder(SamFrozen *frozen);
 PETSC_INTERN PetscErrorCode SamFrozenSolveBordered(SamFrozen *frozen, const double b[], const double given[],
                                                    double x[], double multipliers[], PetscReal *error);
-/* SamFrozenTakeColumns, SamFrozenTakeRows - take the part along the columns off a residual, and the products with the
-   rows off a direction. Collective. */
+/*
+  SamFrozenTakeColumns, SamFrozenTakeRows - take the part along the columns off a residual, and the products with the
+  rows off a direction. Collective. SamFrozenAddSpread - adds to z the combination of the spread columns whose products
+  with the rows are `times` those numbers (columns.c). Not collective.
+*/
+PETSC_INTERN void SamFrozenAddSpread(const SamFrozen *frozen, double times, const double products[], double z[]);
 PETSC_INTERN PetscErrorCode SamFrozenTakeColumns(const SamFrozen *frozen, double residual[]);
 PETSC_INTERN PetscErrorCode SamFrozenTakeRows(const SamFrozen *frozen, double direction[]);
 

@@ -9,17 +9,6 @@
 #include <petsam/private/tangential.h>
 #include <math.h>
 
-/* Adds the counts of a solver's last solve to three numbers of the step. */
-static PetscErrorCode Count(SamSolver solver, double counts[3])
-{
-  PetscInt last[3];
-
-  PetscFunctionBegin;
-  PetscCall(SamSolverGetStatistics(solver, NULL, &last[0], &last[1], &last[2]));
-  for (int k = 0; k < 3; k++) counts[k] += (double)last[k];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the normal problem ---- */
 
 /* Writes the message for loads that no pressure balances, or for an approach that is too large, with the limit. */
@@ -113,27 +102,6 @@ static PetscBool IsKnown(const SamSolve *w)
   if (!SamCachedStepHasPressure(w->kept, &w->task->of)) return PETSC_FALSE;
   SamCachedStepGetControl(w->kept, &before);
   return SamControlIsSame(&before, &w->s->control, SAM_BALANCE_NORMAL);
-}
-
-PetscErrorCode SamSolvePressureOnce(SamSolve *w, Vec h, PetscBool has_pressure)
-{
-  SamBalance balance = w->normal;
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 3; k++)
-    if (balance.force[k]) balance.rigid[k] = w->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]]; /* of the last pass */
-  PetscCall(SamNormalSolveKeeping(w->task->normal, h, &balance, has_pressure, w->s->pressure,
-                                  w->task->coupled ? &w->pressure_product : NULL));
-  SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(Count(SamNormalAsSolver(w->task->normal), w->counts + SAM_COUNT_NORMAL));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamSolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
-{
-  PetscFunctionBegin;
-  PetscCall((w->task->traits.skewed ? SamSolveSkewed : SamSolvePressureOnce)(w, h, has_pressure));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Solves the normal problem with this separation, and with the tension of its gap. */
@@ -365,7 +333,7 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset,
     PetscCall(SamTangentialSolveKeeping(task->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
     SamSolverSetEffort(solver, enough, effort);
     *solved = SamSolverGetReason(solver) > 0 ? PETSC_TRUE : PETSC_FALSE;
-    if (!*solved) PetscCall(Count(solver, w->counts + SAM_COUNT_TANGENTIAL));
+    if (!*solved) PetscCall(SamSolveCount(solver, w->counts + SAM_COUNT_TANGENTIAL));
   }
   if (*solved) PetscCall(SamVecCopyNonzero(shear, w->s->shear));
   if (*solved && w->shear_product.field) {
@@ -399,7 +367,7 @@ PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(Count(SamTangentialAsSolver(w->task->tangential), w->counts + SAM_COUNT_TANGENTIAL));
+  PetscCall(SamSolveCount(SamTangentialAsSolver(w->task->tangential), w->counts + SAM_COUNT_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

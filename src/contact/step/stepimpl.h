@@ -49,7 +49,8 @@ PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
 /*
   SamSolveGetSeparation - computes the separation (m) for the normal problem: the sum of the bodies' separation, of the
   offsets and, for coupled bodies, of the lift, which w->h must hold, less the displacement by the tension. Collective.
-  SamSolvePressure - solves the normal problem with this separation (m) and the tension so far. Collective.
+  SamSolveCount - adds the counts of a solver's last solve to three numbers of the step (pressure.c). Not collective.
+  SamSolvePressure - solves the normal problem with this separation (m) and the tension so far (pressure.c). Collective.
   SamSolvePressureOnce - solves it once, with the operator of the solvers; SamSolveSkewed - in passes, with that of the
   bodies, which is not symmetric (skewed.c). Collective.
   SamSolveAttraction - solves it and finds the tension of its gap, until both belong together; changes h (attract.c). Of
@@ -66,6 +67,7 @@ static inline const char   *SamSolveTiltCure(const SamSolve *solve)
 
   return tilts ? "rot_x = rot_y = 0, as bodies that may tilt roll away under a pull, or " : "";
 }
+PETSC_INTERN PetscErrorCode SamSolveCount(SamSolver solver, double counts[3]);
 PETSC_INTERN PetscErrorCode SamSolvePressureOnce(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolveSkewed(SamSolve *solve, Vec h, PetscBool has_pressure);
 PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h, PetscBool has_pressure);

@@ -416,6 +416,18 @@ static PetscBool HasDefault(const SamOptionRow *row, const void *member)
   return *(const char *)member ? PETSC_TRUE : PETSC_FALSE;
 }
 
+PetscErrorCode SamOptionsExclude(const SamOptions *from, const char given[], const char other[], const char reason[])
+{
+  const char *prefix = SamOptionsPrefix(from);
+  PetscBool   both;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsHas(from, other, &both));
+  PetscCheck(!both, from->comm, SAM_ERR_USER, "-%s%s does not work with -%s%s: %s", prefix, given, prefix, other,
+             reason);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const char name[], const char needs[])
 {
   static const char between[] = " or -";

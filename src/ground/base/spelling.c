@@ -127,18 +127,6 @@ PetscBool SamOptionsIsKnown(const char name[], const char **with)
   return k >= 0;
 }
 
-PetscErrorCode SamOptionsExclude(const SamOptions *from, const char given[], const char other[], const char reason[])
-{
-  const char *prefix = SamOptionsPrefix(from);
-  PetscBool   both;
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsHas(from, other, &both));
-  PetscCheck(!both, from->comm, SAM_ERR_USER, "-%s%s does not work with -%s%s: %s", prefix, given, prefix, other,
-             reason);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 const char *SamOptionsNearest(const char tried[])
 {
   const char *names[MOST + sizeof(petsc) / sizeof(petsc[0])];

@@ -19,9 +19,6 @@
 #include <petsam/private/wear.h>
 #include <math.h>
 
-#define RTOL 1e-8 /* of the partition */
-#define MOST 200  /* operator applications in it */
-
 #define MOST_RESISTANCE  1000   /* m2 K/W */
 #define MOST_TEMPERATURE 100000 /* K */
 
@@ -264,23 +261,6 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 
 /* ---- a step ---- */
 
-/* Creates the operators at their first use. */
-PetscErrorCode SamHeatLawPrepare(SamLaw law)
-{
-  SamHeatLaw *const h = (SamHeatLaw *)law->data;
-
-  PetscFunctionBegin;
-  for (int b = 0; b < 2 && !h->pair.body[b]; b++) {
-    const SamHeatBody body = {h->conductivity[b], h->capacity[b], h->speed[b]};
-
-    PetscCall(SamConductorCreate(law->grid, NULL, &body, 0, &h->pair.body[b]));
-  }
-  h->pair.resistance = h->resistance;
-  h->pair.rtol       = RTOL;
-  h->pair.most       = MOST;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
 {
   SamHeatLaw *const h = (SamHeatLaw *)law->data;
@@ -298,34 +278,6 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   h->solving   = PETSC_TRUE;
   PetscCall(VecDestroy(&h->start));
   PetscCall(SamHeatLawBeginExpansion(law));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-SamLawUse SamHeatLawUses(SamLaw law)
-{
-  if (SamMotionOf(law->elasticity)->streams) return SAM_USE_POWER;
-  return SamHeatLawExpands((const SamHeatLaw *)law->data) ? SAM_USE_PATH : SAM_USE_WORK;
-}
-
-PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec of_step, Vec bound, Vec heat)
-{
-  const SamHeatLaw *h   = (const SamHeatLaw *)law->data;
-  const SamLawUse   use = SamHeatLawUses(law);
-  const double      per = use == SAM_USE_POWER ? (double)h->rolling : h->duration > 0 ? 1 / (double)h->duration : 0;
-  const double     *p, *work, *b;
-  double           *q;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(pressure, &p));
-  PetscCall(VecGetArrayRead(of_step, &work));
-  PetscCall(VecGetArrayRead(bound, &b));
-  PetscCall(VecGetArrayWrite(heat, &q));
-  for (PetscInt k = 0; k < law->grid->cells; k++)
-    q[k] = p[k] > 0 ? per * PetscMax(work[k], 0) * (use == SAM_USE_PATH ? b[k] : 1) : 0;
-  PetscCall(VecRestoreArrayWrite(heat, &q));
-  PetscCall(VecRestoreArrayRead(bound, &b));
-  PetscCall(VecRestoreArrayRead(of_step, &work));
-  PetscCall(VecRestoreArrayRead(pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

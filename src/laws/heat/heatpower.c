@@ -9,7 +9,9 @@
 #include <petsam/private/motionimpl.h>
 #include <math.h>
 
-#define SAME 0.1 /* part by which the powers may differ: less slips as shear builds up */
+#define RTOL 1e-8 /* of the partition */
+#define MOST 200  /* operator applications in it */
+#define SAME 0.1  /* part by which the powers may differ: less slips as shear builds up */
 
 PetscErrorCode SamHeatLawKeepPowers(SamLaw law, const SamLawStep *step, PetscReal power)
 {
@@ -36,4 +38,49 @@ void SamHeatLawAdviseSpeeds(const SamHeatLaw *h, const char unit[], char text[],
     "the step, which heats, makes %.3g %s (the limit is a difference of %g %%): give a disp_x that changes "
     "by as much over the time of the step, or equal speeds",
     fabs((double)(h->speed[1] - h->speed[0])), h->power[1], unit, h->power[0], unit, 100 * SAME);
+}
+
+/* Creates the operators at their first use. */
+PetscErrorCode SamHeatLawPrepare(SamLaw law)
+{
+  SamHeatLaw *const h = (SamHeatLaw *)law->data;
+
+  PetscFunctionBegin;
+  for (int b = 0; b < 2 && !h->pair.body[b]; b++) {
+    const SamHeatBody body = {h->conductivity[b], h->capacity[b], h->speed[b]};
+
+    PetscCall(SamConductorCreate(law->grid, NULL, &body, 0, &h->pair.body[b]));
+  }
+  h->pair.resistance = h->resistance;
+  h->pair.rtol       = RTOL;
+  h->pair.most       = MOST;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamLawUse SamHeatLawUses(SamLaw law)
+{
+  if (SamMotionOf(law->elasticity)->streams) return SAM_USE_POWER;
+  return SamHeatLawExpands((const SamHeatLaw *)law->data) ? SAM_USE_PATH : SAM_USE_WORK;
+}
+
+PetscErrorCode SamHeatLawFill(SamLaw law, Vec pressure, Vec of_step, Vec bound, Vec heat)
+{
+  const SamHeatLaw *h   = (const SamHeatLaw *)law->data;
+  const SamLawUse   use = SamHeatLawUses(law);
+  const double      per = use == SAM_USE_POWER ? (double)h->rolling : h->duration > 0 ? 1 / (double)h->duration : 0;
+  const double     *p, *work, *b;
+  double           *q;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(pressure, &p));
+  PetscCall(VecGetArrayRead(of_step, &work));
+  PetscCall(VecGetArrayRead(bound, &b));
+  PetscCall(VecGetArrayWrite(heat, &q));
+  for (PetscInt k = 0; k < law->grid->cells; k++)
+    q[k] = p[k] > 0 ? per * PetscMax(work[k], 0) * (use == SAM_USE_PATH ? b[k] : 1) : 0;
+  PetscCall(VecRestoreArrayWrite(heat, &q));
+  PetscCall(VecRestoreArrayRead(bound, &b));
+  PetscCall(VecRestoreArrayRead(of_step, &work));
+  PetscCall(VecRestoreArrayRead(pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -149,30 +149,6 @@ PetscErrorCode SamLifeSetState(SamLife l, const SamLifeState *state)
 
 /* ---- jumps ---- */
 
-/* Reports a jump without solution as a failed step. */
-static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reason)
-{
-  PetscFunctionBegin;
-  l->at          = l->cycle.steps - 1;
-  l->step.status = SAM_STATUS_NOT_CONVERGED;
-  (void)snprintf(l->step.message, sizeof(l->step.message),
-                 "the normal problem of a cycle jump of %.10g cycles did not converge: %s", (double)cycles,
-                 SamSolverReasonName(reason));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamLifeSolveNormal(SamLife l, SamBalance balance, PetscReal cycles, PetscBool guess, Vec p,
-                                  PetscBool *solved)
-{
-  const SamNormal normal = SamContactGetNormal(l->contact);
-
-  PetscFunctionBegin;
-  PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, guess, p));
-  *solved = SamSolverGetReason(SamNormalAsSolver(normal)) > 0;
-  if (!*solved) PetscCall(FailJump(l, cycles, SamSolverGetReason(SamNormalAsSolver(normal))));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Computes the mean pressure l->p after `cycles` more at a rate, from the wear load `load` on. */
 static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load,
                                     PetscBool *solved)

@@ -16,6 +16,8 @@
   contact have the e of the nearest line with contact.
 */
 #include "lifeimpl.h"
+#include <petsam/private/normal.h>
+#include <petsam/private/solver.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
@@ -473,5 +475,29 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   rate->balance = SamControlGetBalance(&mean, SAM_BALANCE_NORMAL);
   PetscCall(FindShift(l, rate));
   PetscCall(FindCoefficient(l, &mean, rate));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reports a jump without solution as a failed step. */
+static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reason)
+{
+  PetscFunctionBegin;
+  l->at          = l->cycle.steps - 1;
+  l->step.status = SAM_STATUS_NOT_CONVERGED;
+  (void)snprintf(l->step.message, sizeof(l->step.message),
+                 "the normal problem of a cycle jump of %.10g cycles did not converge: %s", (double)cycles,
+                 SamSolverReasonName(reason));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeSolveNormal(SamLife l, SamBalance balance, PetscReal cycles, PetscBool guess, Vec p,
+                                  PetscBool *solved)
+{
+  const SamNormal normal = SamContactGetNormal(l->contact);
+
+  PetscFunctionBegin;
+  PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, guess, p));
+  *solved = SamSolverGetReason(SamNormalAsSolver(normal)) > 0;
+  if (!*solved) PetscCall(FailJump(l, cycles, SamSolverGetReason(SamNormalAsSolver(normal))));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -235,6 +235,24 @@ static PetscErrorCode Write(SamOutput o, const double step[], PetscReal time, Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamOutputPublish(SamOutput o)
+{
+  PetscFunctionBegin;
+  if (!o->name) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamFileBegin(o->f));
+  (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(o->f));
+  SamFileLockNoteSize(&o->hold);
+  PetscCall(SamFileLockCheck(o->grid, "output", o->f->filename, &o->hold));
+  PetscCall(SamFileCheckName(o->grid, "output", o->name, SAM_FILE_RESULTS));
+  PetscCall(SamFileReplace(o->grid, "output", o->f->filename, o->name, NULL));
+  PetscCall(PetscFree(o->f->filename));
+  o->f->filename = o->name;
+  o->name        = NULL;
+  o->hold.use    = SAM_FILE_RESULTS;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOutputFlush(SamOutput o)
 {
   PetscFunctionBegin;

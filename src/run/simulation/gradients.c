@@ -186,3 +186,14 @@ PetscErrorCode SamSimulationEndGradients(SamSimulation s)
   PetscCall(SamSimulationRecordGradient(s, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamSimulationRecordGradient(SamSimulation s, PetscBool on)
+{
+  PetscFunctionBegin;
+  PetscCheck(!on || !SamContactHasStep(s->setup.contact, SAM_COMMITTED), s->comm, PETSC_ERR_ORDER,
+             "the gradient: the contact has steps already: begin before its first step, or after a reset");
+  PetscCall(SamGradientDestroy(&s->gradient));
+  if (on) PetscCall(SamGradientCreate(s->setup.contact, s->setup.gap, &s->gradient));
+  if (on) SamGradientSetMemory(s->gradient, s->gradients.memory);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -14,45 +14,6 @@
 #define PASSES   6     /* solutions for the residual of the one before: directions are in single precision */
 #define SINGLE   1e-6  /* tolerance from which on that matters */
 
-PetscErrorCode SamFrozenTakeColumns(const SamFrozen *f, double r[])
-{
-  const SamFrozenBorder *b = &f->border;
-  const PetscInt         n = SamFrozenSize(f);
-  double                 dots[SAM_COMPONENTS];
-
-  PetscFunctionBegin;
-  if (!b->count) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamFrozenDots(f, b->count, b->unit, r, dots));
-  for (PetscInt k = 0; k < b->count; k++)
-    for (PetscInt m = 0; m < n; m++) r[m] -= dots[k] * b->unit[k][m];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Adds to z the combination of the spread columns whose products with the rows are `times` those numbers. */
-static void AddSpread(const SamFrozen *f, double times, const double products[], double z[])
-{
-  const SamFrozenBorder *b = &f->border;
-  const PetscInt         n = SamFrozenSize(f);
-
-  for (PetscInt k = 0; k < b->count; k++) {
-    double part = 0;
-
-    for (PetscInt l = 0; l < b->count; l++) part += times * b->inverse[k][l] * products[l];
-    for (PetscInt m = 0; m < n; m++) z[m] += part * b->spread[k][m];
-  }
-}
-
-PetscErrorCode SamFrozenTakeRows(const SamFrozen *f, double z[])
-{
-  double dots[SAM_COMPONENTS];
-
-  PetscFunctionBegin;
-  if (!f->border.count) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamFrozenDots(f, f->border.count, f->border.row, z, dots));
-  AddSpread(f, -1, dots, z);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Finds the orthonormal basis of the columns; false: they depend on each other. */
 static PetscErrorCode FindBasis(const SamFrozen *f, SamFrozenBorder *b, PetscBool *regular)
 {
@@ -223,7 +184,7 @@ static PetscErrorCode MeetRows(SamFrozen *f, const double given[], double x[], d
   PetscCall(SamFrozenDots(f, f->border.count, f->border.row, x, missing));
   for (PetscInt k = 0; k < f->border.count; k++) missing[k] = given[k] - missing[k];
   PetscCall(PetscCalloc1(n, &change));
-  AddSpread(f, 1, missing, change);
+  SamFrozenAddSpread(f, 1, missing, change);
   PetscCall(SamFrozenApply(f, change, work));
   PetscCall(AddDisplacements(f, 1, sums, PETSC_FALSE));
   for (PetscInt m = 0; m < n; m++) {
