@@ -155,7 +155,7 @@ PETSC_INTERN PetscErrorCode SamFrozenSolveBordered(SamFrozen *frozen, const doub
 /*
   SamFrozenTakeColumns, SamFrozenTakeRows - take the part along the columns off a residual, and the products with the
   rows off a direction. Collective. SamFrozenAddSpread - adds to z the combination of the spread columns whose products
-  with the rows are `times` those numbers (columns.c). Not collective.
+  with the rows are `times` those numbers (bordercolumns.c). Not collective.
 */
 PETSC_INTERN void SamFrozenAddSpread(const SamFrozen *frozen, double times, const double products[], double z[]);
 PETSC_INTERN PetscErrorCode SamFrozenTakeColumns(const SamFrozen *frozen, double residual[]);
