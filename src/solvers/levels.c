@@ -25,15 +25,19 @@ static PetscErrorCode DestroyFields(SamLevel *level)
 
 PetscErrorCode SamLevelSolveNested(SamSolver s, SamLevel *level, PetscInt depth, PetscBool guess)
 {
-  SamLevel    coarse = {.balance = level->balance, .rtol = PetscMax(s->rtol, s->kind->coarse_rtol)};
-  SamStart    start  = guess ? SAM_START_GUESS : SAM_START_NONE;
-  SamTransfer transfer;
+  SamLevel            coarse = {.balance = level->balance, .rtol = PetscMax(s->rtol, s->kind->coarse_rtol)};
+  SamLevelWork       *work   = &s->work[PetscMin(level->depth, SAM_NESTED - 1)];
+  const PetscLogEvent event  = SamEvents[PetscMin(SAM_EVENT_GRIDS + level->depth, SAM_EVENT_LAST_GRID)];
+  SamStart            start  = guess ? SAM_START_GUESS : SAM_START_NONE;
+  double              began;
+  SamTransfer         transfer;
 
   PetscFunctionBegin;
   if (depth > 1 && !guess && level->grid->fewest >= NESTED)
     PetscCall(SamElasticityGetCoarse(level->elasticity, &coarse.elasticity, &transfer));
   if (coarse.elasticity) {
-    coarse.grid = SamElasticityGetGrid(coarse.elasticity);
+    coarse.grid  = SamElasticityGetGrid(coarse.elasticity);
+    coarse.depth = level->depth + 1;
     PetscCall(CreateFields(s, level, &coarse));
     for (PetscInt k = 0; k < SAM_GIVEN; k++)
       if (level->given[k]) PetscCall(SamTransferRestrict(transfer, level->given[k], coarse.given[k]));
@@ -43,7 +47,13 @@ PetscErrorCode SamLevelSolveNested(SamSolver s, SamLevel *level, PetscInt depth,
     PetscCall(DestroyFields(&coarse));
     start = SAM_START_COARSE;
   }
+  began      = MPI_Wtime();
+  work->n[0] = level->grid->nx;
+  work->n[1] = level->grid->ny;
+  PetscCall(PetscLogEventBegin(event, 0, 0, 0, 0));
   PetscCall(s->kind->solvelevel(s, level, start));
+  PetscCall(PetscLogEventEnd(event, 0, 0, 0, 0));
+  work->seconds += MPI_Wtime() - began;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -124,7 +134,11 @@ static PetscErrorCode PutProduct(SamWindow window, SamProduct *part, SamProduct 
 PetscErrorCode SamLevelSolveInWindow(SamSolver s, SamLevel *whole, SamWindow window, SamElasticity part,
                                      PetscBool guess, SamLevelSolver solve)
 {
-  SamLevel   level   = {.elasticity = part, .balance = whole->balance, .rtol = whole->rtol, .finest = whole->finest};
+  SamLevel   level   = {.elasticity = part,
+                        .balance    = whole->balance,
+                        .rtol       = whole->rtol,
+                        .depth      = whole->depth,
+                        .iterations = whole->iterations};
   SamProduct product = {.rounding = 0};
 
   PetscFunctionBegin;
@@ -137,7 +151,8 @@ PetscErrorCode SamLevelSolveInWindow(SamSolver s, SamLevel *whole, SamWindow win
   PetscCall(solve(s, &level, guess));
   if (whole->product) PetscCall(PutProduct(window, &product, whole->product));
   PetscCall(SamWindowPut(window, level.traction, whole->traction));
-  whole->frame = level.frame;
+  whole->iterations = level.iterations;
+  whole->frame      = level.frame;
   for (PetscInt k = 0; k < 3; k++) whole->rigid[k] = level.rigid[k];
   PetscCall(DestroyFields(&level));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -184,6 +199,13 @@ static Vec DiagonalOf(SamSolver s, const SamLevel *level)
 YIELD(CreateYield, double)
 YIELD(CreateYieldSingle, float)
 
+/* Counts a product. */
+static void CountProduct(SamSolver s, const SamLevel *level)
+{
+  s->applies += level->depth == 0 ? 1 : 0;
+  s->work[PetscMin(level->depth, SAM_NESTED - 1)].applies++;
+}
+
 PetscErrorCode SamLevelApply(SamSolver s, SamLevel *level, Vec traction, Vec u)
 {
   const Vec     diagonal = DiagonalOf(s, level);
@@ -191,7 +213,7 @@ PetscErrorCode SamLevelApply(SamSolver s, SamLevel *level, Vec traction, Vec u)
   double       *to, *yield;
 
   PetscFunctionBegin;
-  s->applies += level->finest ? 1 : 0;
+  CountProduct(s, level);
   PetscCall(s->kind->apply(level->elasticity, traction, u));
   if (!diagonal) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(traction, &t));
@@ -211,7 +233,7 @@ PetscErrorCode SamLevelApplySingle(SamSolver s, SamLevel *level, double factor, 
   float         *more     = NULL; /* as input and output may be the same */
 
   PetscFunctionBegin;
-  s->applies += level->finest ? 1 : 0;
+  CountProduct(s, level);
   if (diagonal) PetscCall(CreateYieldSingle(level, diagonal, factor, traction, &more));
   PetscCall(s->kind->applysingle(level->elasticity, factor, traction, u));
   for (PetscInt k = 0; k < cells && more; k++) u[k] += more[k];
@@ -254,7 +276,7 @@ PetscErrorCode SamLevelPreconditionSingle(SamSolver s, SamLevel *level, double f
   const Vec diagonal = DiagonalOf(s, level);
 
   PetscFunctionBegin;
-  s->preconditions += level->finest ? 1 : 0;
+  s->preconditions += level->depth == 0 ? 1 : 0;
   if (diagonal && !SamElasticityGetTraits(level->elasticity).upwind) /* no gain for lines, of which there are few */
     PetscCall(PreconditionYielding(s, level, diagonal, factor, r, z));
   else
@@ -265,7 +287,9 @@ PetscErrorCode SamLevelPreconditionSingle(SamSolver s, SamLevel *level, double f
 PetscErrorCode SamLevelIterated(SamSolver s, SamLevel *level, PetscReal error)
 {
   PetscFunctionBegin;
-  if (!level->finest) PetscFunctionReturn(PETSC_SUCCESS);
+  level->iterations++;
+  s->work[PetscMin(level->depth, SAM_NESTED - 1)].iterations++;
+  if (level->depth > 0) PetscFunctionReturn(PETSC_SUCCESS);
   s->iterations++;
   for (PetscInt m = 0; m < s->monitors; m++) PetscCall(s->monitor[m](s, s->iterations, error, s->monitor_context[m]));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #define BRIEF 10 /* iterations of a brief solve */
+#define WORTH 10 /* iterations on the finest grid that a start for them may cost */
 
 static SamSolverKind *kinds = NULL; /* the kinds with registries in use */
 
@@ -177,7 +178,10 @@ PetscInt SamSolverMaxIterations(SamSolver s)
 
 PetscBool SamLevelAtMaxIterations(SamSolver s, const SamLevel *level)
 {
-  return level->finest && s->iterations >= SamSolverMaxIterations(s);
+  const double smaller = SamGridIsRow(level->grid) ? 2 : 4; /* cells of the next finer grid over those of a grid */
+
+  if (level->depth == 0) return s->iterations >= SamSolverMaxIterations(s);
+  return level->iterations >= WORTH * pow(smaller, (double)level->depth);
 }
 
 PetscInt SamSolverLevels(SamSolver s)
@@ -235,7 +239,7 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool gu
   s->reason                                     = SAM_SOLVER_ITERATING;
   level.elasticity                              = s->elasticity;
   level.rtol                                    = s->enough > 0 ? s->enough : s->rtol;
-  level.finest                                  = PETSC_TRUE;
+  level.depth                                   = 0;
   level.grid                                    = SamElasticityGetGrid(s->elasticity);
   if (!s->keeps_product) {
     SamLevelForgetProduct(&level);
@@ -258,6 +262,11 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool gu
              s->comm, PETSC_ERR_NOT_CONVERGED, "The %s solve did not converge due to %s", kind->name,
              SamSolverReasonName(s->reason));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const SamLevelWork *SamSolverGetWork(SamSolver s, PetscInt depth)
+{
+  return &s->work[depth];
 }
 
 SamSolverReason SamSolverGetReason(SamSolver s)

@@ -302,6 +302,9 @@ def test_summary_tells_loads_and_counts(petsam, solve):
         shown = float(re.search(rf"\b{name} +(\S+)", done.stdout).group(1))
         assert shown == pytest.approx(s[name], rel=1e-6, abs=1e-12), name
     assert f"normal {s['normal_iterations']} ({s['normal_applies']} applications)" in done.stdout
+    grids = re.findall(r"^ +(\d+) x (\d+) +normal +(\d+) .* s, tangential +(\d+) ", done.stdout, re.M)
+    assert grids[0][2:] == (f"{s['normal_applies']}", f"{s['tangential_applies']}")
+    assert all(int(fine[0]) == 2 * int(coarse[0]) for fine, coarse in zip(grids, grids[1:])) and len(grids) > 1
 
 
 @pytest.mark.parametrize("solver", ["normal", "tangential"])

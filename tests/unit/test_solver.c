@@ -423,6 +423,55 @@ static void test_help_lists_the_options_of_methods_that_are_not_chosen(void **st
   DestroySphere(&s);
 }
 
+static void test_a_coarse_grid_costs_no_more_than_it_can_save(void **state)
+{
+  Sphere    s   = NewSphere(16, 1.5, 0.3);
+  SamGrid   row = NewGridOn(PETSC_COMM_WORLD, 16, 1, 1e-3, 1, 0, 0);
+  SamNormal normal;
+
+  (void)state;
+  sam_call(SamNormalCreate(s.elasticity, &normal));
+  for (PetscInt depth = 1; depth < 4; depth++)
+    for (int plane = 0; plane < 2; plane++) {
+      const PetscInt most  = plane ? 10 << depth : 10 << (2 * depth); /* as dear as 10 iterations on the finest grid */
+      SamLevel       level = {.grid = plane ? row : s.grid, .depth = depth, .iterations = most - 1};
+
+      sam_assert(!SamLevelAtMaxIterations(SamNormalAsSolver(normal), &level));
+      level.iterations++;
+      sam_assert(SamLevelAtMaxIterations(SamNormalAsSolver(normal), &level));
+    }
+  sam_call(SamNormalDestroy(&normal));
+  sam_call(SamGridDestroy(&row));
+  DestroySphere(&s);
+}
+
+static void test_work_is_counted_on_each_nested_grid(void **state)
+{
+  Sphere    s = NewSphere(64, 1.5, 0.3);
+  Vec       p = NewField(s.grid, 1);
+  PetscInt  applies;
+  SamNormal normal;
+
+  (void)state;
+  sam_call(SamNormalCreate(s.elasticity, &normal));
+  for (PetscInt solve = 1; solve < 3; solve++) {
+    SamBalance balance = Loaded(SAM_BALANCE_NORMAL, s.N);
+
+    sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
+    sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), NULL, NULL, &applies, NULL));
+    for (PetscInt depth = 0; depth < 4; depth++) {
+      const SamLevelWork *work = SamSolverGetWork(SamNormalAsSolver(normal), depth);
+
+      sam_assert(work->n[0] == (depth < 3 ? 64 >> depth : 0) && work->n[1] == work->n[0]);
+      sam_assert((work->iterations > 0) == (depth < 3) && (work->applies > 0) == (depth < 3));
+      sam_assert(depth > 0 || work->applies == solve * applies);
+    }
+  }
+  sam_call(SamNormalDestroy(&normal));
+  sam_destroy(&p);
+  DestroySphere(&s);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -434,6 +483,8 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_not_converging_is_an_error_where_that_is_asked_for),
     cmocka_unit_test(test_solve_is_a_function_of_its_input),
     cmocka_unit_test(test_help_lists_the_options_of_methods_that_are_not_chosen),
+    cmocka_unit_test(test_a_coarse_grid_costs_no_more_than_it_can_save),
+    cmocka_unit_test(test_work_is_counted_on_each_nested_grid),
   };
 
   return SamTestMainWith(argc, argv, RegisterMethods, tests, sizeof(tests) / sizeof(tests[0]));

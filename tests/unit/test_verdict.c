@@ -140,7 +140,7 @@ static PetscErrorCode LieOfPressure(SamSolver normal, SamLevel *level)
 
   PetscFunctionBegin;
   PetscCall(solve_normal(normal, level));
-  if (!level->finest || normal->effort == SAM_EFFORT_RESIDUAL_ONLY) PetscFunctionReturn(PETSC_SUCCESS);
+  if (level->depth > 0 || normal->effort == SAM_EFFORT_RESIDUAL_ONLY) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecScale(level->traction, 1 + lie.pressure));
   PetscCall(VecNorm(level->traction, NORM_INFINITY, &most));
   if (lie.cell[0] >= 0) AddAt(level->grid, 0, lie.cell[0], lie.cell[1], lie.part * most, level->traction);
@@ -152,7 +152,7 @@ static PetscErrorCode LieOfShear(SamSolver tangential, SamLevel *level)
 {
   PetscFunctionBegin;
   PetscCall(solve_tangential(tangential, level));
-  if (level->finest) PetscCall(VecScale(level->traction, 1 + lie.shear));
+  if (level->depth == 0) PetscCall(VecScale(level->traction, 1 + lie.shear));
   tangential->reason = SAM_SOLVER_CONVERGED_RTOL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

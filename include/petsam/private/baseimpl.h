@@ -58,6 +58,8 @@ typedef enum {
   SAM_EVENT_STIFFNESS,
   SAM_EVENT_OUTPUT,
   SAM_EVENT_CHECKPOINT,
+  SAM_EVENT_GRIDS, /* solves on nested grids: the finest one, and so on; the last for all coarser ones */
+  SAM_EVENT_LAST_GRID = SAM_EVENT_GRIDS + 7,
   SAM_EVENT_COUNT
 } SamEvent;
 PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];

@@ -21,4 +21,16 @@ PETSC_INTERN PetscErrorCode SamSolverSetLevels(SamSolver solver, PetscInt levels
 */
 PETSC_INTERN PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver solver, PetscBool error);
 
+/*
+  SamLevelWork - what all solves of a solver so far did on one of the nested grids: its size, 0: it has not been solved
+  on; iterations, products with the operator, and the time on this rank, s.
+  SamSolverGetWork - returns the work on the grid whose cells are `depth` times halved, borrowed. Not collective.
+*/
+#define SAM_NESTED 16 /* nested grids whose work is counted apart */
+typedef struct {
+  PetscInt n[2], iterations, applies;
+  double   seconds;
+} SamLevelWork;
+PETSC_EXTERN const SamLevelWork *SamSolverGetWork(SamSolver solver, PetscInt depth);
+
 #endif

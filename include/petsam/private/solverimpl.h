@@ -22,6 +22,7 @@
 #include <petsam/private/balanceimpl.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/grid.h>
+#include <petsam/private/solver.h>
 #include <petsam/solver.h>
 
 #define SAM_MONITORS 5 /* most monitors of one solver */
@@ -49,8 +50,9 @@ typedef struct {
   Vec           traction;         /* the unknown: start and result */
   SamProduct   *product;          /* NULL: not to be kept */
   PetscReal     rtol;
-  PetscBool     finest; /* only work on the finest grid is counted and shown to monitors */
-  double rigid[3];      /* start and result: rigid-body displacement as a combination of the phi, fixed part included */
+  PetscInt      depth; /* of the nested grid: 0, the finest one, whose work alone is shown to monitors, 1 and so on */
+  PetscInt      iterations; /* so far on this grid */
+  double rigid[3]; /* start and result: rigid-body displacement as a combination of the phi, fixed part included */
 } SamLevel;
 
 /* SamStart - the origin of a level's traction at the start of its solve. */
@@ -142,6 +144,7 @@ struct _n_SamSolver {
   SamSolverReason reason;
   PetscReal       error;
   PetscInt        iterations, applies, preconditions;
+  SamLevelWork    work[SAM_NESTED]; /* by the depth of the grid, of all solves */
   PetscReal       limit; /* tangential: factor on the loads at which sliding begins; infinite: not computed */
 };
 
@@ -215,8 +218,8 @@ PETSC_INTERN PetscErrorCode SamLevelPreconditionSingle(SamSolver solver, SamLeve
 PETSC_EXTERN PetscErrorCode SamLevelIterated(SamSolver solver, SamLevel *level, PetscReal error);
 
 /*
-  SamLevelAtMaxIterations - returns true if this is the finest grid, and max_it iterations have been made. Not
-  collective.
+  SamLevelAtMaxIterations - returns true if max_it iterations have been made on the finest grid, or as many on a coarse
+  one that its solution, which is only a start, pays no longer. Not collective.
 */
 PETSC_INTERN PetscBool SamLevelAtMaxIterations(SamSolver solver, const SamLevel *level);
 

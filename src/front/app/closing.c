@@ -7,6 +7,8 @@
 #include "report.h"
 #include <petsam/private/contact.h>
 #include <petsam/private/edges.h>
+#include <petsam/private/normal.h>
+#include <petsam/private/solver.h>
 #include <petsam/private/state.h>
 #include <math.h>
 #include <stdio.h>
@@ -106,6 +108,29 @@ static PetscErrorCode PrintTimes(SamReport r)
   for (PetscInt p = 0; p < INNER; p++) {
     PetscCall(GetTime(r, &inner[p], &seconds));
     PetscCall(PrintRow(r, "  ", inner[p].name, seconds, total));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Prints the operator applications of both problems on each of the nested grids, and the time of their solves there. */
+static PetscErrorCode PrintGrids(SamReport r, SamContact contact)
+{
+  const SamSolver of[2] = {SamNormalAsSolver(SamContactGetNormal(contact)),
+                           SamTangentialAsSolver(SamContactGetTangential(contact))};
+
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(r->comm, "    on nested grids, operator applications and time:\n"));
+  for (PetscInt depth = 0; depth < SAM_NESTED; depth++) {
+    const SamLevelWork *work[2] = {SamSolverGetWork(of[0], depth), SamSolverGetWork(of[1], depth)},
+                       *any     = work[work[0]->n[0] ? 0 : 1];
+    double seconds[2]           = {work[0]->seconds, work[1]->seconds};
+    char   size[32];
+
+    if (!any->n[0]) continue;
+    PetscCall(SamMax(r->comm, 2, seconds));
+    (void)snprintf(size, sizeof(size), "%ld x %ld", (long)any->n[0], (long)any->n[1]);
+    PetscCall(PetscPrintf(r->comm, "      %-16s normal %6ld %8.2f s, tangential %6ld %8.2f s\n", size,
+                          (long)work[0]->applies, seconds[0], (long)work[1]->applies, seconds[1]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -256,15 +281,16 @@ static PetscErrorCode PrintResources(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportClosing(SamReport r)
+PetscErrorCode SamReportClosing(SamReport r, SamContact contact)
 {
   static const char *const names[] = {"normal", "tangential", "equilibrium"};
 
   PetscFunctionBegin;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
-  if (r->logging)
+  if (r->logging) {
     PetscCall(PrintTimes(r));
-  else
+    PetscCall(PrintGrids(r, contact));
+  } else
     PetscCall(PetscPrintf(r->comm, "\n"));
   for (PetscInt k = 0; k < 3 && r->worst[0].step && (r->profile || r->steps > 1);
        k++) { /* only steps with a solution */

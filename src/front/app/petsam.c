@@ -306,7 +306,7 @@ static PetscErrorCode Solve(void *context)
   PetscFunctionBegin;
   PetscCall(SamSimulationSetMonitor(run->simulation, Tell, run));
   PetscCall((run->dry ? SamSimulationRehearse : SamSimulationRun)(run->simulation));
-  if (!run->dry) PetscCall(SamReportClosing(run->report));
+  if (!run->dry) PetscCall(SamReportClosing(run->report, SamSimulationGetSetup(run->simulation)->contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

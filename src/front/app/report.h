@@ -114,7 +114,7 @@ PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *se
 PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, const SamSimulationEvent *news);
 /* SamReportClosing - prints times by part and largest residuals, if asked for, files written, time and memory used.
    Collective. */
-PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
+PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report, SamContact contact);
 /* SamReportKeepSummaries - keeps what laws write about a step with a solution, of each that of the greatest weight.
    Not collective. */
 PETSC_INTERN void SamReportKeepSummaries(SamReport report, SamContact contact);

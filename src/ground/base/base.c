@@ -23,9 +23,10 @@ static void MPIAPI AddTotals(void *in, void *inout, int *n, MPI_Datatype *type)
 PetscErrorCode SamBaseInitialize(void)
 {
   static const char *const names[SAM_EVENT_COUNT] = {
-    "SamInfluence", "SamFFTRows",  "SamFFTColumns", "SamFFTTranspose", "SamApplyN",    "SamApplyT",
-    "SamApplyNT",   "SamPrecondN", "SamPrecondT",   "SamNormalSolve",  "SamTangSolve", "SamPlastic",
-    "SamCheck",     "SamEdges",    "SamStiffness",  "SamOutput",       "SamCheckpoint"};
+    "SamInfluence", "SamFFTRows",  "SamFFTColumns",  "SamFFTTranspose", "SamApplyN",  "SamApplyT", "SamApplyNT",
+    "SamPrecondN",  "SamPrecondT", "SamNormalSolve", "SamTangSolve",    "SamPlastic", "SamCheck",  "SamEdges",
+    "SamStiffness", "SamOutput",   "SamCheckpoint",  "SamGrid0",        "SamGrid1",   "SamGrid2",  "SamGrid3",
+    "SamGrid4",     "SamGrid5",    "SamGrid6",       "SamGrid7"};
 
   PetscClassId id;
 

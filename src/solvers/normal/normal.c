@@ -142,11 +142,11 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
   PetscFunctionBegin;
   PetscCall(SamGridGetSupport(level->grid, level->traction, PETSC_FALSE, first, size));
   while (size[0]) {
-    PetscCall(SamElasticityChoosePart(level->elasticity, first, size, level->finest, &window, &part));
+    PetscCall(SamElasticityChoosePart(level->elasticity, first, size, level->depth == 0, &window, &part));
     if (!window) break;
     PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveHere));
     if (s->reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) break; /* the window's cells cannot carry the loads */
-    done = !level->finest || s->reason < 0;
+    done = level->depth > 0 || s->reason < 0;
     if (!done && s->effort == SAM_EFFORT_CHECK_SUPPORT)
       PetscCall(IsInside(level, window, first, size, &done));
     else if (!done)

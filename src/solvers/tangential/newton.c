@@ -82,9 +82,8 @@
 #define OPEN       2
 #define PATIENCE   10
 #define STAGNATION 100
-/* The same on a coarse grid, whose solution is only a start, and the most iterations there */
+/* The same on a coarse grid, whose solution is only a start */
 #define COARSE_STAGNATION 20
-#define COARSE_MOST       100
 /* Most times that a motion which the fit did not determine makes the errors before it meaningless */
 #define REOPENS 5
 
@@ -369,12 +368,11 @@ static PetscErrorCode Refresh(Work *w)
 static SamSolverReason Reason(const Work *w, PetscInt stagnant)
 {
   const SamStickSlip *u    = &w->base;
-  const PetscInt      most = u->level->finest ? STAGNATION : COARSE_STAGNATION;
+  const PetscInt      most = u->level->depth == 0 ? STAGNATION : COARSE_STAGNATION;
 
   if (!isfinite(u->error)) return SAM_SOLVER_DIVERGED_NAN;
   if (Error(w) <= u->level->rtol) return SAM_SOLVER_CONVERGED_RTOL;
   if (SamLevelAtMaxIterations(u->solver, u->level)) return SAM_SOLVER_DIVERGED_ITS;
-  if (!u->level->finest && w->iterations >= COARSE_MOST) return SAM_SOLVER_DIVERGED_ITS;
   return stagnant > most ? SAM_SOLVER_DIVERGED_STAGNATED : SAM_SOLVER_ITERATING;
 }
 
@@ -450,7 +448,6 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscCall(Step(w, &best));
   if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(LONGER * best, 1 / FOLLOW), FOLLOW));
   PetscCall(Refresh(w));
-  w->iterations++;
   PetscCall(SamLevelIterated(u->solver, u->level, u->error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

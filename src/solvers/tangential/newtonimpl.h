@@ -21,7 +21,6 @@ typedef struct {
   double       alpha;          /* length of the trial */
   double       turns_from;     /* |s|^2/b^2 from which a cell that does not slip turns, (m/Pa)^2 */
   PetscBool    whole;          /* the next step has length 1, as the shear is not admissible */
-  PetscInt     iterations;     /* of this solve */
   PetscInt     turned;         /* number of sweeps in which cells could turn */
   PetscInt     reopened;       /* number of times that the motion was found not to be determined by the fit */
   double       work;           /* frictional work: sum of -s.q where cells slip, m Pa */

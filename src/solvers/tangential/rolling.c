@@ -130,7 +130,7 @@ static PetscErrorCode MakeDirection(Work *w, const double *a, float z[])
   PetscCall(SamLevelPreconditionSingle(u->solver, u->level, factor, z, z));
   if (w->slipping) {
     SamStickSlipClearMargins(u, slip);
-    u->solver->preconditions += u->level->finest ? 1 : 0;
+    u->solver->preconditions += u->level->depth == 0 ? 1 : 0;
     PetscCall(SamElasticityPreconditionSlipSingle(u->level->elasticity, factor, slip, slip));
   }
   for (PetscInt j = 0; j < u->rows; j++) SamRollingSweepRow(w, SamStickSlipRow(u, j), z, a ? 0 : 1);

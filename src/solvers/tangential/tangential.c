@@ -132,8 +132,8 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
   PetscFunctionBegin;
   PetscCall(SamFrameSet(&level->frame, level->grid, level->balance));
   PetscCall(StartRigid(s, level, start));
-  if (!level->finest && start == SAM_START_NONE) PetscCall(SamVecZero(level->traction));
-  if (!level->finest || start == SAM_START_COARSE) PetscCall(MakeAdmissible(level, &found));
+  if (level->depth > 0 && start == SAM_START_NONE) PetscCall(SamVecZero(level->traction));
+  if (level->depth > 0 || start == SAM_START_COARSE) PetscCall(MakeAdmissible(level, &found));
   s->reason = SAM_SOLVER_DIVERGED_STAGNATED;
   if (found) PetscCall(s->ops.solve(s, level));
   PetscFunctionReturn(PETSC_SUCCESS);
