@@ -47,6 +47,7 @@ typedef struct {
   double    energy, error; /* energy by the sum over cells, and its estimated error, J */
   double    closed;        /* energy by the closed form, J; NaN: there is none */
   double    lag;           /* sum of the steps' errors of the energy by their length, J */
+  double    unbalanced;    /* sum of those by the work of the loads alone, J */
   double    work;          /* largest tangential work T disp of a step, J */
   double    branch, worst; /* energy of the current branch, and the largest error of any branch, J */
   PetscReal narrow[2];     /* width of the slip zone and length of the edge in the branch with that error */

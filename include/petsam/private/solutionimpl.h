@@ -209,9 +209,12 @@ static inline PetscReal SamSolutionGetNormal(const SamSolution *s)
 /*
   SAM_ENTERING - the name of a number in the state: the extra work of slip (J) of dissimilar bodies if the cells of new
   contact had touched before the step; 0 for other bodies. SAM_TOUCHING: 1 if their slip counts from when they touch.
+  SAM_UNBALANCED: the least error (J) of the step's dissipated energy by the work of the loads and what the shear
+  stores.
 */
-#define SAM_ENTERING "entering_work"
-#define SAM_TOUCHING "touching"
+#define SAM_ENTERING   "entering_work"
+#define SAM_TOUCHING   "touching"
+#define SAM_UNBALANCED "unbalanced_work"
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
 PETSC_INTERN PetscErrorCode SamSolutionDeclareClosed(SamState state);
 PETSC_INTERN PetscErrorCode SamSolutionFollowClosed(SamProblem problem, SamState state, const SamSolution *before,

@@ -2,6 +2,8 @@
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/problem.h>
 
 /*
@@ -10,7 +12,7 @@
   before and after the step that depends on how it slid (SamIncrementGetCellMotion()), which makes the sum over steps
   second order with the slip of step/direction.c.
 */
-enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, BEFORE_TOUCH, SUMS };
+enum { CONTACT, STICK, DISSIPATED, STORED, LOCKED, ERROR, TURNED, BEFORE_TOUCH, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* the last two are stored as squares */
 
 /* Returns the additional work of slip in this rank's cell k if the cell had touched before the step (TOUCHES,
@@ -28,7 +30,7 @@ static double WorkBeforeTouch(const SamIncrement *increment, ptrdiff_t k, double
 static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt span[2], double sums[SUMS],
                    double most[MOSTS])
 {
-  const SamValues *v     = &increment->at_now;
+  const SamValues *v = &increment->at_now, *v0 = &increment->at_before;
   const PetscInt   cells = increment->grid->cells;
   const ptrdiff_t  first = (ptrdiff_t)j * increment->grid->nx;
   const double    *p = v->p, *b = v->b, *q = v->q, *sx = increment->slip[0], *sy = increment->slip[1],
@@ -40,6 +42,8 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
     double             share[2];
 
     sums[DISSIPATED] += SamIncrementGetWork(increment, k, share);
+    if (increment->solutions[0])
+      sums[LOCKED] += 0.5 * (q[k] * v->u_t[k] + q[l] * v->u_t[l] - v0->q[k] * v0->u_t[k] - v0->q[l] * v0->u_t[l]);
     if (increment->solutions[1]->rule == SAM_RULE_TOUCHING)
       sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
     if (state == SAM_CELL_OPEN) continue;
@@ -149,6 +153,7 @@ enum {
   CLOSED,
   ENTERING,
   TOUCHING,
+  UNBALANCED,
   NUMBERS
 };
 #define REAL(name, unit, text, ...) \
@@ -178,7 +183,8 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("dissipated_energy_closed", "J", "the same in closed form, of alike bodies under T along a line", SAM_JOIN_SUM,
        0),
   {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0},
-  {SAM_TOUCHING, "1", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
+  {SAM_TOUCHING, "1", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0},
+  {SAM_UNBALANCED, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
 /* Numbers of the contact edge: 1 if known, area, faces and good faces; valid until the pressure changes */
 enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
@@ -197,8 +203,9 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* `locked`: the change of the elastic energy by the shear, J. */
 static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, const SamSolution *s,
-                               double numbers[NUMBERS])
+                               double numbers[NUMBERS], double *locked)
 {
   SamTotal      totals[SUMS] = {{0}};
   double        sums[SUMS], most[MOSTS] = {0}, area, *turned[2];
@@ -234,6 +241,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   numbers[STICK_AREA]        = sums[STICK] * area;
   numbers[DISSIPATED_ENERGY] = sums[DISSIPATED] * area;
   numbers[STORED_ENERGY]     = sums[STORED] * area;
+  *locked                    = sums[LOCKED] * area;
   sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(sums);
   numbers[ENERGY_ERROR] = sums[ERROR] * area;
   numbers[ENTERING]     = sums[BEFORE_TOUCH] * area;
@@ -293,25 +301,66 @@ static PetscErrorCode AddTension(SamProblem problem, const SamSolution *s, doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* True if the work of the tangential loads in a step is stored by the shear or dissipated: nothing else moves the
+   surfaces along each other. `moved`: laws do. */
+static PetscBool HasBalance(SamProblem problem, const SamSolution *before, const SamSolution *s, PetscBool moved)
+{
+  const SamElasticity bodies = SamProblemGetElasticity(problem);
+
+  if (!before || moved || s->rolled != 0 || s->tension || SamProblemSlides(problem)) return PETSC_FALSE;
+  return !SamElasticityGetTraits(bodies).coupled && !SamMotionOf(bodies)->streams && !SamElasticityRemembers(bodies);
+}
+
+/*
+  The energy that friction dissipates in a step is also the work of the tangential loads less what the shear stores. Of
+  cells that leave the contact with their shear the slip tells nothing: of a ball that is lifted off while its
+  tangential displacement is held, which loses all that the shear has stored, the sum over cells lacks up to 97 %. The
+  work is certain where the displacement is held, or the load; else it is that of a load which changes in proportion to
+  the displacement, give or take CURVED times the product of both changes. Where N stays, the sum over cells is far
+  better, and within that. Of 40 random histories of N and displacements, with 4 and 8 steps a row, the error by this or
+  by the cells, if that is larger, covers the true one in 88 and 92 % (by the cells alone in 80 and 82), against 48
+  steps a row.
+*/
+#define CURVED 0.25
+static double ErrorByBalance(const SamSolution *before, const SamSolution *s, double dissipated, double locked)
+{
+  double work = 0, unsure = 0;
+
+  for (PetscInt n = 0; n < 3; n++) {
+    const PetscInt c     = SamComponentsOf[SAM_BALANCE_TANGENTIAL][n];
+    const double   moves = (double)(s->rigid[c] - before->rigid[c]);
+
+    work += 0.5 * (double)(before->load[c] + s->load[c]) * moves;
+    unsure += CURVED * fabs((double)(s->load[c] - before->load[c]) * moves);
+  }
+  return PetscMax(fabs(work - locked - dissipated) - unsure, 0);
+}
+
 PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                          const SamSolution *s, PetscBool same_pressure, PetscBool edges)
 {
   double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
   double *const contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
   PetscBool     streams, offset, friction;
+  double        locked;
+  SamStrain     strain;
   const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
   PetscCall(SamProblemHasFriction(problem, &friction));
   streams = SamMotionOf(SamProblemGetElasticity(problem))->streams;
-  PetscCall(SumCells(problem, before, s, numbers));
+  PetscCall(SumCells(problem, before, s, numbers, &locked));
   if (s->tension) PetscCall(AddTension(problem, s, numbers));
   PetscCall(SamSolutionFollowClosed(problem, state, before, s, numbers[STICK_CELLS], &numbers[CLOSED]));
   if (streams) numbers[STORED_ENERGY] = NAN;                  /* u_t is per rolled distance */
   if (streams || s->rolled != 0) numbers[ENERGY_ERROR] = NAN; /* it is estimated elsewhere */
-  PetscCall(SamProblemDisplace(problem, state, &s->control, NULL, NULL, NULL, &offset));
+  PetscCall(SamProblemDisplace(problem, state, &s->control, NULL, NULL, &strain, &offset));
   if (offset) numbers[STORED_ENERGY] = NAN; /* the tractions alone do not cause the displacements */
   if (offset && !before) numbers[ENERGY_ERROR] = fabs(numbers[DISSIPATED_ENERGY]); /* nor in proportion to the load */
+  numbers[UNBALANCED] = 0;
+  if (HasBalance(problem, before, s, offset || strain.xx != 0 || strain.yy != 0 || strain.xy != 0))
+    numbers[UNBALANCED] = ErrorByBalance(before, s, numbers[DISSIPATED_ENERGY], locked);
+  numbers[ENERGY_ERROR] = PetscMax(numbers[ENERGY_ERROR], numbers[UNBALANCED]);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
   numbers[SLIP_WIDTH]    = NAN;

@@ -105,7 +105,8 @@ static PetscBool IsRound(SamGap gap)
 typedef struct {
   PetscReal contact, stick, width, contact_cells, stick_cells, energy, closed, unsure, accepted;
   PetscReal slip;                   /* the maximum slip */
-  double    before_touch, touching; /* SAM_ENTERING, SAM_TOUCHING */
+  double    before_touch, touching; /* SAM_ENTERING, SAM_TOUCHING, */
+  double    unbalanced;             /* SAM_UNBALANCED */
   double    known, faces;           /* known: 1 if the edge of contact is reconstructed; its faces between cells */
 } Numbers;
 
@@ -129,6 +130,7 @@ static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
   edge            = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_CONTACT_EDGE));
   n->before_touch = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_ENTERING))[0];
   n->touching     = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_TOUCHING))[0];
+  n->unbalanced   = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_UNBALANCED))[0];
   n->known        = edge[SAM_CONTACT_EDGE_KNOWN];
   n->faces        = edge[SAM_CONTACT_EDGE_FACES];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -332,10 +334,16 @@ static void Merging(SamAdvice *a)
 }
 
 /* Advises more steps if the sum of the errors of the steps' energies is large; it falls with the square of their
-   length. Of steps given one by one the sum has not ended. */
+   length. Of steps given one by one the sum has not ended. What the work of the loads tells stands beside companion
+   runs, too: where N falls all of them lack the energy that cells take along. */
 static void LongSteps(SamAdvice *a)
 {
   const SamSlip *slip = &a->slip;
+  const double   lost = slip->energy > 0 ? slip->unbalanced / slip->energy : slip->unbalanced > 0 ? 1 : 0;
+
+  if (a->increments && PetscMax(slip->energy, slip->unbalanced) > LITTLE * slip->work)
+    SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, lost, sqrt(PetscMin(lost, 1) / GOOD), "dissipated_energy",
+                 "the loads do work that is neither stored nor dissipated");
 
   if (a->increments && a->steps > 1 && PetscMax(slip->energy, slip->lag) > LITTLE * slip->work)
     SamDoubtsAdd(&a->guesses, SAM_CAUSE_STEPS, slip->energy > 0 ? slip->lag / slip->energy : 1,
@@ -454,6 +462,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   /* A first step of similar bodies that applies N, then the rest, causes no error. */
   if (slip->steps > 1 || a->cycles || n.touching > 0 || step->control.together)
     slip->lag += PetscMax((double)n.unsure, 0);
+  slip->unbalanced += n.unbalanced;
   slip->growing += n.before_touch > 0 ? 1 : 0;
   if (n.before_touch > 0) slip->grown = sticks;
   slip->sticks = sticks;
