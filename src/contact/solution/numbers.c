@@ -313,7 +313,7 @@ static PetscBool HasBalance(SamProblem problem, const SamSolution *before, const
 
 /*
   The energy that friction dissipates in a step is also the work of the tangential loads less what the shear stores. Of
-  cells that leave the contact with their shear the slip tells nothing: of a ball that is lifted off while its
+  cells that leave the contact with their shear the slip contains nothing: of a ball that is lifted off while its
   tangential displacement is held, which loses all that the shear has stored, the sum over cells lacks up to 97 %. The
   work is certain where the displacement is held, or the load; else it is that of a load which changes in proportion to
   the displacement, give or take CURVED times the product of both changes. Where N stays, the sum over cells is far
