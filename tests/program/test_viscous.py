@@ -2,6 +2,9 @@
 
 import re
 
+import re
+import warnings
+
 import h5py
 import numpy as np
 import pytest
@@ -489,3 +492,28 @@ def test_energy_of_long_steps_is_told_as_wrong(column, rows, steps, least, most)
     energy, true = (np.nansum(run["viscous_energy"]) for run in (found, fine))
     told = found.errors["viscous_energy"].by_steps
     assert abs(energy - true) / energy <= told + 1e-3 and least <= told <= most
+
+
+@pytest.mark.parametrize("elasticity, behind, told", [
+    ("plane", 2.2, 8), ("plane", 4, None), ("halfspace", 1.4, 8), ("halfspace", 3, None),
+])  # fmt: skip
+def test_a_grid_that_ends_before_the_memory_does_is_told(elasticity, behind, told):
+    """Rolling in steps until the state is steady, with a creep of 1 m behind the contact."""
+    dx, ahead, wide = 0.1, 1.8, 3.2
+    n, k = round((behind + ahead) / dx), np.arange(80)
+    place = dict(grid_n=n, grid_size=n * dx, grid_center=(ahead - behind) / 2)
+    if elasticity == "halfspace":
+        place = dict(grid_n=(n, 32), grid_size=(n * dx, wide), grid_center=((ahead - behind) / 2, 0))
+    case = dict(
+        BALL, **RIGID, **place, elasticity=elasticity, body2_young=0.91, body2_poisson=0.3, **relaxing(2, (0.5,), (0.5,)),
+        history=table(time=k * dx, load_n=(np.pi / 4 if elasticity == "plane" else 1) + 0 * k, rot_y=0 * k, roll=dx * (k > 0)),
+        output_fields="none",
+    )  # fmt: skip
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        package.run(**case)
+    found = [str(one.message) for one in said if "leaves the grid" in str(one.message)]
+    if told is None:
+        assert not found
+    else:
+        assert len(found) == 1 and abs(float(re.search(r"about (\d+) %", found[0])[1]) - told) <= 4

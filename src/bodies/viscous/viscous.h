@@ -84,6 +84,8 @@ PETSC_INTERN PetscErrorCode SamViscousMemoryBegin(SamElasticity e, SamState stat
                                                   PetscReal duration);
 PETSC_INTERN PetscErrorCode SamViscousMemoryDisplace(SamElasticity e, SamConditions conditions, SamState state,
                                                      const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds);
+/* SamViscousFieldName - returns the name of the field of what term j has of the pressure (way 0) or the shear (1). */
+PETSC_INTERN const char *SamViscousFieldName(PetscInt way, PetscInt j);
 #define SAM_VISCOUS_ENERGY "viscous_energy"
 #define SAM_VISCOUS_ERROR  "viscous_energy_error"
 PETSC_INTERN PetscErrorCode SamViscousExamine(SamElasticity e, SamExamination *examination);

@@ -37,8 +37,7 @@ static const struct {
 static const char *const last[WAYS]  = {"viscous_last_pressure", "viscous_last_shear"};
 static const char *const moved[WAYS] = {"viscous_z", "viscous"};
 
-/* Returns the name of a term's field. */
-static const char *NameOf(PetscInt way, PetscInt j)
+const char *SamViscousFieldName(PetscInt way, PetscInt j)
 {
   static char names[WAYS][SAM_VISCOUS_TERMS][32];
 
@@ -74,7 +73,7 @@ PetscErrorCode SamViscousMemoryDeclare(SamElasticity e, SamState state)
   for (PetscInt way = 0; way < WAYS; way++) {
     one.components = way + 1;
     for (PetscInt j = -1; j < v->terms; j++) {
-      one.name = j < 0 ? last[way] : NameOf(way, j);
+      one.name = j < 0 ? last[way] : SamViscousFieldName(way, j);
       one.text = j < 0 ? "traction of the last step" : "traction that a term of the creep follows";
       PetscCall(SamStateDeclareField(state, &one, &id));
     }
@@ -127,7 +126,7 @@ static PetscErrorCode AddKind(SamElasticity e, SamState state, SamViscousProduct
   for (PetscInt j = 0; j < v->terms; j++) {
     const SamViscousTerm *t      = &v->term[j];
     const double          factor = FactorOf(e, j, kind);
-    const Vec             memory = Committed(state, NameOf(way, j));
+    const Vec             memory = Committed(state, SamViscousFieldName(way, j));
 
     if (memory) PetscCall(VecAXPY(sum, factor * t->step.kept, memory));
     if (traction) PetscCall(VecAXPY(sum, factor * t->step.before, traction));
@@ -229,7 +228,8 @@ static PetscErrorCode AddDots(SamElasticity e, SamState state, PetscInt j, SamVi
 
   PetscFunctionBegin;
   for (PetscInt way = 0; way < WAYS; way++)
-    PetscCall(CreateDifference(e->grid, way, Committed(state, last[way]), Committed(state, NameOf(way, j)), &w[way]));
+    PetscCall(CreateDifference(e->grid, way, Committed(state, last[way]), Committed(state, SamViscousFieldName(way, j)),
+                               &w[way]));
   PetscCall(VecDuplicate(product, &u));
   PetscCall(SamViscousProduct(e, kind, w[ends[kind].in], u));
   PetscCall(AddDot(e->grid, ends[kind].out + 1, w[ends[kind].out], u, &dots[0]));
@@ -298,9 +298,9 @@ PetscErrorCode SamViscousMemoryAdvance(SamElasticity e, SamState state, Vec pres
     const Vec before = Committed(state, last[way]);
 
     for (PetscInt j = 0; j < v->terms; j++) {
-      const Vec memory = Committed(state, NameOf(way, j));
+      const Vec memory = Committed(state, SamViscousFieldName(way, j));
 
-      PetscCall(Clear(state, NameOf(way, j), &to));
+      PetscCall(Clear(state, SamViscousFieldName(way, j), &to));
       if (memory) PetscCall(VecAXPY(to, v->term[j].step.kept, memory));
       if (before) PetscCall(VecAXPY(to, v->term[j].step.before, before));
       PetscCall(VecAXPY(to, v->term[j].step.now, traction[way]));
