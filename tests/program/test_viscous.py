@@ -1,8 +1,6 @@
 """Bodies that relax: closed solutions, limits, balance of energy, order in the step, ranks and restarts."""
 
 import re
-
-import re
 import warnings
 
 import h5py
@@ -504,10 +502,11 @@ def test_a_grid_that_ends_before_the_memory_does_is_told(elasticity, behind, tol
     place = dict(grid_n=n, grid_size=n * dx, grid_center=(ahead - behind) / 2)
     if elasticity == "halfspace":
         place = dict(grid_n=(n, 32), grid_size=(n * dx, wide), grid_center=((ahead - behind) / 2, 0))
+    load = np.pi / 4 if elasticity == "plane" else 1
     case = dict(
-        BALL, **RIGID, **place, elasticity=elasticity, body2_young=0.91, body2_poisson=0.3, **relaxing(2, (0.5,), (0.5,)),
-        history=table(time=k * dx, load_n=(np.pi / 4 if elasticity == "plane" else 1) + 0 * k, rot_y=0 * k, roll=dx * (k > 0)),
-        output_fields="none",
+        BALL, **RIGID, **place, elasticity=elasticity, body2_young=0.91, body2_poisson=0.3,
+        **relaxing(2, (0.5,), (0.5,)), output_fields="none",
+        history=table(time=k * dx, load_n=load + 0 * k, rot_y=0 * k, roll=dx * (k > 0)),
     )  # fmt: skip
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
