@@ -160,3 +160,32 @@ def test_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path):
                     assert one[name][-1].tobytes() == other[name][-1].tobytes(), (file, name)
     said = petsam(dict(case, output="on.h5", restart="c.h5.1", body1_speed="-3e-3"), check=2).stderr
     assert "body1_speed" in said
+
+
+@pytest.mark.parametrize("elasticity", ["halfspace", "periodic"])
+@pytest.mark.parametrize("aside", [0, 0.6])
+def test_the_resistance_is_that_of_pressure_and_tension_together(elasticity, aside):
+    """It is the moment over the radius; also of periods over whose border the heights jump."""
+    case = dict(
+        BALL, **RIGID, elasticity=elasticity, grid_n=64, grid_size=4, grid_center=(aside, 0), load_n=0.1,
+        body2_young=1, body2_poisson=0.3, **creeping(0.5, 2), body2_speed=-0.5,
+        adhesion_work=2e-3, adhesion_stress=0.05,
+    )  # fmt: skip
+    if elasticity == "halfspace":
+        case["rot_y"] = 0
+    run = package.run(**case)
+    x = aside + (np.arange(64) + 0.5) / 16 - 2
+    moment = np.sum(run["pressure"][-1] * x[None, :]) / 16**2
+    assert run["tension"][-1].max() > 0 and np.isnan(run["rolling_resistance_extrapolated"][-1])
+    assert run["rolling_resistance"][-1] == pytest.approx(moment, rel=1e-6 if elasticity == "halfspace" else 3e-2)
+
+
+def test_energy_of_a_steady_state_is_not_known():
+    run = package.run(**ROUND, **RIGID, **LIKE_BODY_2, **creeping(1, 2), body2_speed=-0.3)
+    assert np.isnan(run["stored_energy"][-1])
+
+
+def test_speeds_of_zero_are_those_of_bodies_that_have_crept_to_their_end():
+    stands = package.run(**ROUND, **RIGID, **LIKE_BODY_2, **creeping(1, 2), body2_speed=0)
+    slow = package.run(**ROUND, **RIGID, **LIKE_BODY_2, **creeping(1, 2), body2_speed=1e-9)
+    assert stands["contact_area"][-1] == slow["contact_area"][-1] and abs(stands["rolling_resistance"][-1]) < 1e-9

@@ -137,6 +137,8 @@ PETSC_INTERN PetscErrorCode SamElasticityCreateStress(SamElasticity elasticity, 
   problems need: these bodies, or, with the trait skewed, others on the same grid. Collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityGetSymmetric(SamElasticity elasticity, SamElasticity *symmetric);
+/* SamElasticityKeyword - returns the type that -elasticity names, whatever is added to it. Not collective. */
+PETSC_INTERN SamElasticityType SamElasticityKeyword(SamElasticity elasticity);
 /* SamElasticityRemembers - returns true if the bodies move by what they remember of earlier steps, so that their
    strains are not those of elastic ones. Not collective. */
 PETSC_INTERN PetscBool SamElasticityRemembers(SamElasticity elasticity);

@@ -146,6 +146,12 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+SamElasticityType SamElasticityKeyword(SamElasticity e)
+{
+  while (e->wraps) e = e->inner;
+  return e->type;
+}
+
 SamElasticityType SamElasticityGetType(SamElasticity e)
 {
   return e->type;

@@ -67,12 +67,13 @@ PetscErrorCode SamViscousReadSpeeds(const SamOptions *from, PetscReal speed[2], 
       .unit = "m/s", .range = SAM_RANGE_ANY, .excludes = "rolling" \
   }
   static const SamOptionRow rows[2] = {ROW("1"), ROW("2")};
+  PetscBool                 given;
 
   PetscFunctionBegin;
   *named = NULL;
   for (int b = 0; b < 2; b++) {
-    PetscCall(SamOptionsRead(from, NULL, 1, &rows[b], &speed[b], NULL));
-    if (speed[b] != 0) *named = rows[b].name;
+    PetscCall(SamOptionsRead(from, NULL, 1, &rows[b], &speed[b], &given));
+    if (given) *named = rows[b].name;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

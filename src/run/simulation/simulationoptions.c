@@ -1,5 +1,6 @@
 /* Reads the options of a simulation (contact, load history or life, files), and rejects incompatible ones. */
 #include "run.h"
+#include <petsam/private/elasticity.h>
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/solutionimpl.h>
@@ -39,7 +40,7 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
       SETERRQ(from->comm, SAM_ERR_USER,
               "%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation", place,
               SamComponentNameOf(c, SamControlWay(&control, c)), (double)control.value[c], SamOptionsPrefix(from),
-              SamElasticityGetType(s->setup.elasticity));
+              SamElasticityKeyword(s->setup.elasticity));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
