@@ -62,7 +62,7 @@ def test_steps_are_divided_until_nothing_is_lost(energies):
 
 @pytest.mark.parametrize("returns", [False, True])
 def test_a_uniform_strain_does_work_that_is_not_counted(returns):
-    """Bulk stress moves the surfaces as well, so that the work of the loads tells nothing, nor where it goes to zero."""
+    """Bulk stress moves the surfaces as well, so that the work of the loads says nothing, nor where it ends."""
     rows = dict(load_n=(1000, 800, 1000, 600, 1000), disp_x=(0, 4e-7, -3e-7, 2e-7, -4e-7))
     if returns:
         rows = dict(load_n=(1000, 1000, 1000, 1000), bulk2_stress_xx=(0, 5e7, 0, 0))
