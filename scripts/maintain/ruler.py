@@ -41,37 +41,27 @@ LIMITS = {
     "names that applications use of each other": (6, 6),
     "names of applications that the library uses": (0, 0),
     "documented names of the package": (220, 220),
-    "blocks of docstrings that no list reaches": (
-        4,
-        4,
-    ),  # of dataclasses whose fields are keywords
+    "blocks of docstrings that no list reaches": (4, 4),  # of dataclasses whose fields are keywords
     "readers of words in commands": (6, 8),
     "docstrings that begin with What, Whether, Those, Of, Which": (0, 0),
 }
 NUMBER = r"^#define ([A-Z_0-9]+) +(\(?-?[0-9.].*)"  # fitted or chosen
-DOUBTED = (
-    "src/post/advice/*.[ch]",
-    "src/laws/*/*doubt.c",
-    "include/petsam/private/examination.h",
-)  # their files
+DOUBTED = ("src/post/advice/*.[ch]", "src/laws/*/*doubt.c", "include/petsam/private/examination.h")  # their files
 MATERIALS = r"\bSamBody(?:MaterialAt|Substrate|SubstrateTop|Count|Top|NumberAt)\("
 
 # layers of a body's materials; those of plastic strain, and of results at depths, are others
 MATERIAL_LAYERS = (
-    r"layered|layer_(?:young|poisson|thickness|file|strength)|IsUniform|substrate|with layers|"
-    r"the layers are|each layer|stop_layer|traits\.layers|AdviseWorn"
+    r"layered|layer_(?:young|poisson|thickness|file|strength)|IsUniform|substrate|with layers|the layers are|"
+    r"each layer|stop_layer|traits\.layers|AdviseWorn"
 )
+
 # a capability: its rooms, its headers, and how code names it; a gradient by the class and the option, as solvers have
 # conjugate ones
 HOMES = {
     "heat": ("laws/heat", r"(private/)?heat", "heat"),
     "plastic": ("laws/plastic", r"(private/)?plastic", "plastic"),
     "wear": ("laws/wear", r"(private/)?(wear|life)", "wear"),
-    "gradient": (
-        "post/gradient",
-        r"(private/)?(gradient|objective|backstep)",
-        'SamGradient|"-?gradient',
-    ),
+    "gradient": ("post/gradient", r"(private/)?(gradient|objective|backstep)", 'SamGradient|"-?gradient'),
     "layers of materials": ("bodies", r"(private/)?(layer|body)", MATERIAL_LAYERS),
     "adhesion": ("laws/adhesion", r"(private/)?adhesion", "adhesion"),
     "viscous": ("bodies/viscous", r"(private/)?viscous", "viscous"),
@@ -99,16 +89,11 @@ def named_outside(capability):
     """C files besides those of a capability whose code, strings included, names it."""
     room, headers, words = HOMES[capability]
     include = ROOT / "include" / "petsam"
-    files = [
-        path for path in sorted(SRC.rglob("*.[ch]")) if SRC / room not in path.parents
-    ]
+    files = [path for path in sorted(SRC.rglob("*.[ch]")) if SRC / room not in path.parents]
     files += [
         path
         for path in [*sorted(include.rglob("*.h")), ROOT / "include" / "petsam.h"]
-        if not re.match(
-            headers,
-            str(path.relative_to(include)) if include in path.parents else path.name,
-        )
+        if not re.match(headers, str(path.relative_to(include)) if include in path.parents else path.name)
     ]
     return [path for path in files if re.search(words, code(path), re.I)]
 
@@ -116,11 +101,7 @@ def named_outside(capability):
 def fitted():
     """Files and names of the fitted or chosen numbers in the advice, and in the doubts of laws."""
     files = sorted(path for pattern in DOUBTED for path in ROOT.glob(pattern))
-    return [
-        (path, match[1])
-        for path in files
-        for match in re.finditer(NUMBER, code(path), re.M)
-    ]
+    return [(path, match[1]) for path in files for match in re.finditer(NUMBER, code(path), re.M)]
 
 
 def uses(name, text):
@@ -130,10 +111,7 @@ def uses(name, text):
 
 def guards(mutant, name, total):
     """True if a mutant changes the value of a number, or takes it out of all `total` places that use it."""
-    old, new = (
-        re.search(rf"#define {name} +(.*)", re.sub(r"/\*.*", "", text))
-        for text in (mutant.old, mutant.new)
-    )
+    old, new = (re.search(rf"#define {name} +(.*)", re.sub(r"/\*.*", "", text)) for text in (mutant.old, mutant.new))
     if old:
         return bool(new) and old[1].strip() != new[1].strip()
     return uses(name, mutant.old) == total > 0 == uses(name, mutant.new)
@@ -142,15 +120,9 @@ def guards(mutant, name, total):
 def unguarded(mutants):
     """Files and names of the fitted or chosen numbers that none of these mutants guards."""
     found = []
-    sources = {
-        path: code(path)
-        for folder in (SRC, ROOT / "include")
-        for path in folder.rglob("*.[ch]")
-    }
+    sources = {path: code(path) for folder in (SRC, ROOT / "include") for path in folder.rglob("*.[ch]")}
     for path, name in fitted():
-        places = (
-            sources if path.suffix == ".h" else [path]
-        )  # where the name means this number
+        places = sources if path.suffix == ".h" else [path]  # where the name means this number
         total = sum(uses(name, sources[place]) for place in places)
         if not any(ROOT / m.file in places and guards(m, name, total) for m in mutants):
             found.append((path, name))
@@ -168,24 +140,10 @@ def shown(option, text):
 
 def options_in_no_page(build):
     """petsam's options that no example and no page shows, but for the tables made from the program."""
-    help_text = subprocess.run(
-        [build / "bin" / "petsam", "-help", "json"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    options = [
-        row["name"].lstrip("-")
-        for group in json.loads(help_text.stdout)["groups"]
-        for row in group["options"]
-    ]
-    pages = [
-        path for path in sorted((ROOT / "examples").rglob("*")) if path.suffix in PAGES
-    ]
-    pages = [path for path in pages if path.name != "OPTIONS.md"] + [
-        ROOT / "README.md",
-        ROOT / "scripts" / "README.md",
-    ]
+    help_text = subprocess.run([build / "bin" / "petsam", "-help", "json"], capture_output=True, text=True, check=True)
+    options = [row["name"].lstrip("-") for group in json.loads(help_text.stdout)["groups"] for row in group["options"]]
+    pages = [path for path in sorted((ROOT / "examples").rglob("*")) if path.suffix in PAGES]
+    pages = [path for path in pages if path.name != "OPTIONS.md"] + [ROOT / "README.md", ROOT / "scripts" / "README.md"]
     text = "\n".join(path.read_text(encoding="utf-8") for path in pages)
     return [name for name in options if not shown(name, text)]
 

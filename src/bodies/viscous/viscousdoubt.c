@@ -11,6 +11,7 @@
 #include <petsam/private/examination.h>
 #include <petsam/private/state.h>
 #include <math.h>
+#include <stdio.h>
 
 #define LOST_IN_PLANE 0.3  /* error of the moment over that part */
 #define LOST          0.12 /* likewise of contacts of all shapes */
@@ -77,15 +78,17 @@ PetscErrorCode SamViscousDoubt(SamElasticity e, SamExamination *x)
 {
   const double error = x->kept[ENERGY] > 0 ? x->kept[ERROR] / x->kept[ENERGY] : 0,
                lost  = (e->traits.plane ? LOST_IN_PLANE : LOST) * x->kept[BORDER];
+  char text[256];
 
   PetscFunctionBegin;
   SamDoubtsAdd(x->doubts, SAM_CAUSE_STEPS, error, sqrt(PetscMax(1, error / SAM_DOUBT_LARGE)), SAM_VISCOUS_ENERGY,
                "steps are long beside the times in which bodies relax");
-  if (lost > SAM_DOUBT_LARGE)
-    PetscCall(SamExaminationSay(x, "grid_size",
-                                "what the bodies remember leaves the grid, at whose border it still is %.2g of its "
-                                "maximum: load_my, rot_y and " SAM_VISCOUS_ENERGY
-                                " of rolling are about %.0f %% off: use a grid that reaches farther behind the contact",
-                                x->kept[BORDER], 100 * lost));
+  if (!(lost > SAM_DOUBT_LARGE)) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(text, sizeof(text),
+                 "what the bodies remember leaves the grid, at whose border it still is %.2g of its maximum: load_my, "
+                 "rot_y and " SAM_VISCOUS_ENERGY
+                 " of rolling are about %.0f %% off: use a grid that reaches farther behind the contact",
+                 x->kept[BORDER], 100 * lost);
+  PetscCall((*x->tell)(x->context, text, "grid_size"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

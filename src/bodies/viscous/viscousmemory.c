@@ -37,14 +37,6 @@ static const struct {
 static const char *const last[WAYS]  = {"viscous_last_pressure", "viscous_last_shear"};
 static const char *const moved[WAYS] = {"viscous_z", "viscous"};
 
-const char *SamViscousFieldName(PetscInt way, PetscInt j)
-{
-  static char names[WAYS][SAM_VISCOUS_TERMS][32];
-
-  (void)snprintf(names[way][j], sizeof(names[way][j]), "viscous_%s_%d", way ? "shear" : "pressure", (int)j + 1);
-  return names[way][j];
-}
-
 static Vec Committed(SamState state, const char name[])
 {
   return SamStateGetField(state, SamStateFindField(state, name), SAM_COMMITTED);

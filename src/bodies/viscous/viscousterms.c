@@ -4,6 +4,7 @@
 */
 #include "viscous.h"
 #include <math.h>
+#include <stdio.h>
 
 enum { A, B, D };      /* the constants of a pair */
 #define ROUNDING 1e-12 /* of the constants of a term, relative */
@@ -13,6 +14,14 @@ PetscBool SamViscousHasBulk(SamElasticity e, PetscInt body)
   return ((const SamViscous *)e->data)->bulk[body] && (double)e->pair->body[body]->material[0].poisson < 0.5
            ? PETSC_TRUE
            : PETSC_FALSE;
+}
+
+const char *SamViscousFieldName(PetscInt way, PetscInt j)
+{
+  static char names[2][SAM_VISCOUS_TERMS][32];
+
+  (void)snprintf(names[way][j], sizeof(names[way][j]), "viscous_%s_%d", way ? "shear" : "pressure", (int)j + 1);
+  return names[way][j];
 }
 
 /* Adds the terms of a creep function, whose value under a sudden load adds these constants to those of the pair, and

@@ -326,7 +326,7 @@ static PetscBool HasBalance(SamProblem problem, const SamSolution *before, const
 
   if (!before || s->rolled != 0 || s->tension || SamProblemSlides(problem)) return PETSC_FALSE;
   if (IsStrained(problem, before) || IsStrained(problem, s)) return PETSC_FALSE;
-  return !SamElasticityGetTraits(bodies).coupled && !SamMotionOf(bodies)->streams && !SamElasticityRemembers(bodies);
+  return !SamElasticityGetTraits(bodies).coupled && !SamElasticityRemembers(bodies);
 }
 
 /*
@@ -378,7 +378,7 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   if (offset) numbers[STORED_ENERGY] = NAN; /* the tractions alone do not cause the displacements */
   if (offset && !before) numbers[ENERGY_ERROR] = fabs(numbers[DISSIPATED_ENERGY]); /* nor in proportion to the load */
   numbers[UNBALANCED] = 0;
-  if (!offset && HasBalance(problem, before, s))
+  if (!offset && !streams && HasBalance(problem, before, s))
     numbers[UNBALANCED] = ErrorByBalance(before, s, numbers[DISSIPATED_ENERGY], &balance);
   numbers[ENERGY_ERROR] = PetscMax(numbers[ENERGY_ERROR], numbers[UNBALANCED]);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
