@@ -49,8 +49,8 @@ def test_lost_energy_is_an_error_of_the_run(errors):
 
 @pytest.mark.parametrize("disp_x, steps", [((0, 9e-7, -6e-7), 2), ((0, 1e-5, -1e-5, 1e-5), 1)])
 def test_a_balance_that_is_less_certain_than_the_slip_says_nothing(disp_x, steps):
-    """Where N stays, the sum over cells is far more accurate than the work of loads that change in proportion: where all
-    slides back a long way in one step, that work is zero."""
+    """Where N stays, the sum over cells is far more accurate than the work of loads that change in proportion: that is
+    zero where all slides back a long way in one step."""
     run_ = run(dict(load_n=(1000,) * len(disp_x), disp_x=disp_x), steps)
     assert run_["energy_error"].sum() < 0.04 * run_["dissipated_energy"].sum()
 
