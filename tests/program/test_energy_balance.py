@@ -74,8 +74,8 @@ def test_a_uniform_strain_does_work_that_is_not_counted(returns):
 
 def test_energy_is_told_where_the_displacement_changes_as_n_falls():
     """The work is uncertain then, and as large a part of what it lacks counts as the bounds of the shear have lost."""
-    rows = dict(load_n=(1000, 1000, 300, 1000), disp_x=(0, 5e-7, 7e-7, 7e-7))
-    few, many = run(rows, 1), run(rows, 64)
+    rows = dict(load_n=(1000, 1000, 100), disp_x=(0, 3e-7, 5e-7))
+    few, many = run(rows, 2), run(rows, 64)
     missing = many["dissipated_energy"].sum() - few["dissipated_energy"].sum()
-    assert missing > 0.2 * many["dissipated_energy"].sum()
-    assert few["energy_error"].sum() == pytest.approx(missing, rel=0.7)
+    assert missing > 0.3 * many["dissipated_energy"].sum()
+    assert 0.6 * missing < few["energy_error"].sum() < 1.2 * missing
