@@ -150,6 +150,12 @@ PETSC_INTERN PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGri
 */
 PETSC_INTERN PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type,
                                               SamElasticityCreateFunction create, SamElasticity *outer);
+/*
+  SamElasticityKeepStream - replaces the stream that a type keeps by a copy with the constants of the pair, or by NULL
+  if it has no terms; the type frees it by PetscFree(). Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamElasticityKeepStream(SamElasticity elasticity, const SamStream *stream,
+                                                    SamStream **kept);
 /* SamElasticityWith - replaces e by the object that has a method: itself, or an inner one. */
 #define SamElasticityWith(e, method) \
   while (!(e)->ops.method && (e)->inner) (e) = (e)->inner

@@ -306,6 +306,17 @@ PetscErrorCode SamElasticityGetSymmetric(SamElasticity e, SamElasticity *symmetr
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamElasticityKeepStream(SamElasticity e, const SamStream *stream, SamStream **kept)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(*kept));
+  if (!stream->terms) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscNew(kept));
+  **kept = *stream;
+  SamPairGetValues(e->pair, (*kept)->sudden);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscBool SamElasticityRemembers(SamElasticity e)
 {
   for (; e; e = e->inner)

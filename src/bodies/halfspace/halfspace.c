@@ -355,15 +355,7 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, cons
 
 static PetscErrorCode SetStream(SamElasticity e, const SamStream *stream)
 {
-  HalfSpace *data = (HalfSpace *)e->data;
-
-  PetscFunctionBegin;
-  PetscCall(PetscFree(data->stream));
-  if (!stream->terms) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscNew(&data->stream));
-  *data->stream = *stream;
-  SamPairGetValues(e->pair, data->stream->sudden);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamElasticityKeepStream(e, stream, &((HalfSpace *)e->data)->stream);
 }
 
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)

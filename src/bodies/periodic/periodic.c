@@ -13,8 +13,8 @@
   mean planes, and the symbols are 0. On grids of an even number of cells the wave of two cells' length is its own
   mirror image; there a symbol that is odd in its wave number, which would be the mean of both, is 0.
 
-  Of material that creeps while it streams, by the length l towards -x in the time of a term, the traction c by which
-  the term displaces follows p as c - l dc/dx = p. So 1/(1 - i k_x l) times what it adds to A is added, exactly.
+  Material that creeps while it streams, by the length l towards -x in the time of a term, is displaced by the term as
+  by a traction c that follows p, c - l dc/dx = p. So 1/(1 - i k_x l) times what it adds to A is added, exactly.
 
   Source of the normal symbol: Westergaard 1939, J. Appl. Mech. 6, A49-A53; Stanley and Kato 1997, J. Tribol. 119,
   481-485.
@@ -400,15 +400,7 @@ static PetscErrorCode SetUp(SamElasticity e)
 
 static PetscErrorCode SetStream(SamElasticity e, const SamStream *stream)
 {
-  Periodic *data = (Periodic *)e->data;
-
-  PetscFunctionBegin;
-  PetscCall(PetscFree(data->stream));
-  if (!stream->terms) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscNew(&data->stream));
-  *data->stream = *stream;
-  SamPairGetValues(e->pair, data->stream->sudden);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamElasticityKeepStream(e, stream, &((Periodic *)e->data)->stream);
 }
 
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)

@@ -2,10 +2,10 @@
   Doubts of bodies that relax: of the energy that they dissipate, where steps are long beside the times in which they
   relax, and of rolling in steps, where what they remember leaves the grid.
 
-  What leaves the grid behind the contact no longer displaces. Of cylinders and balls that roll until their state is
-  steady, with creeps of 0.5 to 2 widths of the contact and grids that end 0.8 to 5 of them behind it, the moment of the
-  pressure was wrong by 0.14 to 0.31 (cylinders) and 0.03 to 0.16 (balls) of the part that the tractions which terms
-  follow have at the border of the grid, of the largest.
+  The part that leaves the grid behind the contact no longer displaces. The moment of the pressure on cylinders and
+  balls that roll until their state is steady, with creeps of 0.5 to 2 widths of the contact and grids that end 0.8 to 5
+  of them behind it, was wrong by 0.14 to 0.31 (cylinders) and 0.03 to 0.16 (balls) of the part that the tractions which
+  terms follow have at the border of the grid, of the largest.
 */
 #include "viscous.h"
 #include <petsam/private/examination.h>

@@ -42,10 +42,11 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
     double             share[2];
 
     sums[DISSIPATED] += SamIncrementGetWork(increment, k, share);
-    sums[BEARS] += b[k];
-    if (increment->solutions[0]) sums[BORE] += v0->b[k];
-    if (increment->solutions[0])
+    if (increment->solutions[0]) {
+      sums[BEARS] += b[k];
+      sums[BORE] += v0->b[k];
       sums[LOCKED] += 0.5 * (q[k] * v->u_t[k] + q[l] * v->u_t[l] - v0->q[k] * v0->u_t[k] - v0->q[l] * v0->u_t[l]);
+    }
     if (increment->solutions[1]->rule == SAM_RULE_TOUCHING)
       sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
     if (state == SAM_CELL_OPEN) continue;
@@ -205,8 +206,8 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the work of the loads is compared with: the change of the elastic energy by the shear (J), and the part of the
-   bounds before the step that is left. */
+/* Terms beside the work of the loads: the change of the elastic energy by the shear (J), and the part of the bounds
+   before the step that is left. */
 typedef struct {
   double locked, left;
 } Balance;
@@ -309,24 +310,32 @@ static PetscErrorCode AddTension(SamProblem problem, const SamSolution *s, doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if a uniform strain moves the surfaces along each other in this solution. */
-static PetscBool IsStrained(SamProblem problem, const SamSolution *s)
+/* Finds out if a uniform strain moves the surfaces along each other in this solution. */
+static PetscErrorCode IsStrained(SamProblem problem, const SamSolution *s, PetscBool *strained)
 {
   SamStrain e;
 
-  (void)SamProblemDisplace(problem, NULL, &s->control, NULL, NULL, &e, NULL);
-  return e.xx != 0 || e.yy != 0 || e.xy != 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionBegin;
+  PetscCall(SamProblemDisplace(problem, NULL, &s->control, NULL, NULL, &e, NULL));
+  *strained = e.xx != 0 || e.yy != 0 || e.xy != 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if the work of the tangential loads in a step is stored by the shear or dissipated: nothing else moves the
+/* Finds out if the work of the tangential loads in a step is stored by the shear or dissipated: nothing else moves the
    surfaces along each other, if laws do not by fields. */
-static PetscBool HasBalance(SamProblem problem, const SamSolution *before, const SamSolution *s)
+static PetscErrorCode HasBalance(SamProblem problem, const SamSolution *before, const SamSolution *s, PetscBool *has)
 {
-  const SamElasticity bodies = SamProblemGetElasticity(problem);
+  const SamElasticity bodies      = SamProblemGetElasticity(problem);
+  PetscBool           strained[2] = {PETSC_FALSE, PETSC_FALSE};
 
-  if (!before || s->rolled != 0 || s->tension || SamProblemSlides(problem)) return PETSC_FALSE;
-  if (IsStrained(problem, before) || IsStrained(problem, s)) return PETSC_FALSE;
-  return !SamElasticityGetTraits(bodies).coupled && !SamElasticityRemembers(bodies);
+  PetscFunctionBegin;
+  *has = PETSC_FALSE;
+  if (!before || s->rolled != 0 || s->tension || SamProblemSlides(problem)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(IsStrained(problem, before, &strained[0]));
+  PetscCall(IsStrained(problem, s, &strained[1]));
+  if (strained[0] || strained[1]) PetscFunctionReturn(PETSC_SUCCESS);
+  *has = !SamElasticityGetTraits(bodies).coupled && !SamElasticityRemembers(bodies) ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
@@ -362,7 +371,7 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
 {
   double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
   double *const contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
-  PetscBool     streams, offset, friction;
+  PetscBool     streams, offset, friction, balances;
   Balance       balance;
   const SamGrid grid = SamProblemGetGrid(problem);
 
@@ -378,9 +387,9 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   PetscCall(SamProblemDisplace(problem, state, &s->control, NULL, NULL, NULL, &offset));
   if (offset) numbers[STORED_ENERGY] = NAN; /* the tractions alone do not cause the displacements */
   if (offset && !before) numbers[ENERGY_ERROR] = fabs(numbers[DISSIPATED_ENERGY]); /* nor in proportion to the load */
-  numbers[UNBALANCED] = 0;
-  if (!offset && !streams && HasBalance(problem, before, s))
-    numbers[UNBALANCED] = ErrorByBalance(before, s, numbers[DISSIPATED_ENERGY], &balance);
+  PetscCall(HasBalance(problem, before, s, &balances));
+  balances              = balances && !offset && !streams ? PETSC_TRUE : PETSC_FALSE;
+  numbers[UNBALANCED]   = balances ? ErrorByBalance(before, s, numbers[DISSIPATED_ENERGY], &balance) : 0;
   numbers[ENERGY_ERROR] = PetscMax(numbers[ENERGY_ERROR], numbers[UNBALANCED]);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;

@@ -51,29 +51,47 @@ static void SlopesOfRow(PetscInt n, const double h[], double slope[])
   }
 }
 
-/* Computes the slopes of the separation of the undeformed bodies along x, m a cell, in cells that bear the pressure. Of
-   bodies whose displacements are differentiated exactly it is the slope of the displacement, which has no jump. */
+/* Computes the slopes of the separation along x, m a cell, in cells that bear the pressure: those of the displacement
+   with the opposite sign, which has no jump, of bodies `of` that differentiate it. */
+static PetscErrorCode FindExactSlopes(SamSolve *w, SamElasticity of, Vec pressure, Vec slopes)
+{
+  const double *u;
+  double       *slope;
+  Vec           moved;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(w->task->grid, 1, &moved));
+  PetscCall(SamElasticityApplyNormal(w->task->elasticity, pressure, moved));
+  PetscCall(VecGetArrayRead(moved, &u));
+  PetscCall(VecGetArray(slopes, &slope));
+  PetscCall((*of->ops.slope)(of, &u, &slope));
+  PetscCall(VecRestoreArray(slopes, &slope));
+  PetscCall(VecRestoreArrayRead(moved, &u));
+  PetscCall(VecScale(slopes, -w->task->grid->dx));
+  PetscCall(VecDestroy(&moved));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the slopes of the separation of the undeformed bodies along x, m a cell, in cells that bear the pressure. */
 static PetscErrorCode FindSlopes(SamSolve *w, Vec pressure, Vec slopes)
 {
   const SamGrid grid = w->task->grid;
   SamElasticity of   = w->task->elasticity;
   const double *h;
   double       *slope;
-  Vec           u;
 
   PetscFunctionBegin;
   SamElasticityWith(of, slope);
-  PetscCall(SamGridCreateVec(grid, 1, &u));
-  if (of->ops.slope) PetscCall(SamElasticityApplyNormal(w->task->elasticity, pressure, u));
-  PetscCall(VecGetArrayRead(of->ops.slope ? u : w->separation, &h));
+  if (of->ops.slope) {
+    PetscCall(FindExactSlopes(w, of, pressure, slopes));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(VecGetArrayRead(w->separation, &h));
   PetscCall(VecGetArray(slopes, &slope));
-  if (of->ops.slope) PetscCall((*of->ops.slope)(of, &h, &slope));
-  for (PetscInt k = 0; of->ops.slope && k < grid->cells; k++) slope[k] *= -(double)grid->dx;
-  for (PetscInt j = 0; j < grid->rows && !of->ops.slope; j++)
+  for (PetscInt j = 0; j < grid->rows; j++)
     SlopesOfRow(grid->nx, h + (ptrdiff_t)j * grid->nx, slope + (ptrdiff_t)j * grid->nx);
   PetscCall(VecRestoreArray(slopes, &slope));
-  PetscCall(VecRestoreArrayRead(of->ops.slope ? u : w->separation, &h));
-  PetscCall(VecDestroy(&u));
+  PetscCall(VecRestoreArrayRead(w->separation, &h));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

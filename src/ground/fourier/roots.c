@@ -1,4 +1,4 @@
-/* What the transforms of both precisions use: the check of a plan, and roots of unity. */
+/* The check of a plan, and roots of unity, for the transforms of both precisions. */
 #include "fourierimpl.h"
 #include <petsam/private/grid.h>
 
